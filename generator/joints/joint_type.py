@@ -1,0 +1,52 @@
+"""What a joint type declares. One file in this folder is one joint type; it exports `JOINT`.
+
+As with the laws, nothing here imports SymPy at the top: the reader needs only the YAML fields.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from gudgeon.generator.units import Dimension
+
+
+@dataclass(frozen=True)
+class JointField:
+    """A key beside the joint's own, such as `axis` of a translational joint."""
+
+    name: str
+    kind: str  # "vector" (two numbers), "quantity" (one) or "option" (a word)
+    meaning: str
+    dimension: Dimension = Dimension()
+    required: bool = False
+    values: tuple[str, ...] = ()  # of an option; the first is the default
+    nonzero: bool = False  # of a vector: not both components zero
+
+
+@dataclass(frozen=True)
+class JointType:
+    """A joint type: the YAML key `kind: [first.point, second.point]`, more fields, its Φ rows."""
+
+    kind: str
+    title: str
+    fields: tuple[JointField, ...]
+    may_have_play: bool
+    row_names: tuple[str, ...]  # one short name a row of Φ: the row is called "<joint>.<row name>"
+    rows: Callable[..., list[Any]]
+
+
+@cache
+def joint_types() -> Mapping[str, JointType]:
+    """All the joint types in this folder by kind."""
+    package = importlib.import_module("gudgeon.generator.joints")
+    found = {}
+    for info in pkgutil.iter_modules(package.__path__):
+        joint = getattr(importlib.import_module(f"gudgeon.generator.joints.{info.name}"), "JOINT", None)
+        if isinstance(joint, JointType):
+            found[joint.kind] = joint
+    return found

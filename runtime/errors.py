@@ -1,0 +1,124 @@
+"""Every error that gudgeon raises on purpose, under one root.
+
+An error says where it is, what is wrong and what to do next; `exit_code` is what the
+command line returns for it (1 a run failed, 2 bad input, 130 interrupted).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, order=True)
+class Location:
+    """A place in a file; lines and columns count from 1."""
+
+    file: str
+    line: int
+    column: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+class GudgeonError(Exception):
+    """Root of all of gudgeon's errors."""
+
+    exit_code = 1
+
+
+class InputError(GudgeonError):
+    """Something in a file or a call that the user can mend.
+
+    `where` is None only when no file is involved (an argument of a Python call).
+    """
+
+    exit_code = 2
+
+    def __init__(self, message: str, where: Location | None = None, hint: str = "") -> None:
+        self.message, self.where, self.hint = message, where, hint
+        place = f"{where}: " if where else ""
+        super().__init__(f"{place}{message}" + (f"\n  {hint}" if hint else ""))
+
+
+class NotYamlError(InputError):
+    """The file is no YAML, is empty, is no mapping or is not UTF-8."""
+
+
+class LimitError(InputError):
+    """The file is larger, deeper or more aliased than a mechanism ever needs."""
+
+
+class UnknownKeyError(InputError):
+    """A key that the format does not know, or a key given twice."""
+
+
+class MissingKeyError(InputError):
+    """A key that the format needs."""
+
+
+class BadValueError(InputError):
+    """A value of the wrong kind, or outside its range (negative mass, clearance ≥ radius, …)."""
+
+
+class UnitError(InputError):
+    """An unknown unit, or a value with the wrong dimension."""
+
+
+class ExpressionError(InputError):
+    """Text that is no expression: syntax, attribute access, unknown function."""
+
+
+class UnknownNameError(InputError):
+    """A name that nothing defines: a body, point, joint, parameter, law, scene, address."""
+
+
+class BadNameError(InputError):
+    """A name that is no identifier, is reserved (C, Python, gudgeon) or is used twice."""
+
+
+class CycleError(InputError):
+    """Parameters, scenes or contacts that are defined through each other."""
+
+
+class JoinError(InputError):
+    """A joint or drive that cannot be: a body joined to itself, ground to ground."""
+
+
+class InputErrors(InputError):
+    """All the errors of one file at once, in the order of their places."""
+
+    def __init__(self, errors: Sequence[InputError]) -> None:
+        self.errors = tuple(sorted(errors, key=lambda e: (e.where is None, e.where or Location("", 0, 0))))
+        first = self.errors[0]
+        super().__init__(first.message, first.where, first.hint)
+        self.args = ("\n".join(str(e) for e in self.errors),)
+
+
+class AssemblyError(GudgeonError):
+    """The start cannot be assembled: the worst rows, their joints and the residual are named."""
+
+
+class SolverError(GudgeonError):
+    """The equations could not be solved during a run; carries the time and, if known, the pivot."""
+
+    def __init__(self, message: str, time: float, pivot: str = "") -> None:
+        self.time, self.pivot = time, pivot
+        super().__init__(message)
+
+
+class SingularError(SolverError):
+    """A pivot of the KKT system vanished: a singular position, or redundant constraints."""
+
+
+class NonFiniteError(SolverError):
+    """The state or the right-hand side is no longer finite."""
+
+
+class BuildError(GudgeonError):
+    """The C code could not be compiled or loaded (compiler or Python.h missing, …)."""
+
+
+class CacheError(GudgeonError):
+    """The cache folder cannot be used."""

@@ -1,0 +1,145 @@
+"""The expressions of a mechanism file as plain data: numbers, names, operators, functions.
+
+The parser (gudgeon.generator.expressions) makes these trees; they hold SI numbers only and
+are walked, never handed to Python's or C's own evaluator. They live in the runtime so that a
+compiled model can compute its `outputs` without importing the generator.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number in SI; `text` is what the user wrote ("80 mm"), `has_unit` whether a unit was given."""
+
+    value: float
+    text: str = ""
+    has_unit: bool = False
+    offset: int = 0
+
+
+@dataclass(frozen=True)
+class Name:
+    """A parameter, `t`, or the dotted name of something a result has ("S9.y", "A.F")."""
+
+    path: str
+    offset: int = 0
+
+
+@dataclass(frozen=True)
+class Unary:
+    operator: str  # "-" (a leading "+" is dropped by the parser)
+    operand: Expr
+    offset: int = 0
+
+
+@dataclass(frozen=True)
+class Binary:
+    operator: str  # + - * / **
+    left: Expr
+    right: Expr
+    offset: int = 0
+
+
+@dataclass(frozen=True)
+class Call:
+    function: str
+    arguments: tuple[Expr, ...]
+    offset: int = 0
+
+
+Expr: TypeAlias = Number | Name | Unary | Binary | Call
+
+
+def smooth_step(x: Any, width: Any) -> Any:
+    """0 for x ≤ 0, 1 for x ≥ width, between them the quintic 10s³ − 15s⁴ + 6s⁵ (C² at both ends)."""
+    s = np.clip(x / width, 0.0, 1.0)
+    return s**3 * (10.0 + s * (6.0 * s - 15.0))
+
+
+def ramp(x: Any, width: Any) -> Any:
+    """0 for x ≤ 0, 1 for x ≥ width, linear between them (its rate jumps at both ends)."""
+    return np.clip(x / width, 0.0, 1.0)
+
+
+# name -> (number of arguments, NumPy function)
+FUNCTIONS: Mapping[str, tuple[int, Callable[..., Any]]] = {
+    "sin": (1, np.sin), "cos": (1, np.cos), "tan": (1, np.tan),
+    "asin": (1, np.arcsin), "acos": (1, np.arccos), "atan": (1, np.arctan), "atan2": (2, np.arctan2),
+    "sinh": (1, np.sinh), "cosh": (1, np.cosh), "tanh": (1, np.tanh),
+    "exp": (1, np.exp), "log": (1, np.log), "sqrt": (1, np.sqrt), "hypot": (2, np.hypot),
+    "abs": (1, np.abs), "sign": (1, np.sign), "min": (2, np.minimum), "max": (2, np.maximum),
+    "smooth_step": (2, smooth_step), "ramp": (2, ramp),
+}  # fmt: skip
+
+_OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = {
+    "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.true_divide, "**": np.power,
+}  # fmt: skip
+
+
+def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
+    """Value of `expr`, scalars or arrays; `value_of(path)` gives the value of a name."""
+    match expr:
+        case Number(value=value):
+            return np.float64(value)
+        case Name(path=path):
+            return value_of(path)
+        case Unary(operand=operand):
+            return -evaluate(operand, value_of)
+        case Binary(operator=operator, left=left, right=right):
+            with np.errstate(all="ignore"):
+                return _OPERATORS[operator](evaluate(left, value_of), evaluate(right, value_of))
+        case Call(function=function, arguments=arguments):
+            with np.errstate(all="ignore"):
+                return FUNCTIONS[function][1](*(evaluate(a, value_of) for a in arguments))
+    raise TypeError(f"not an expression: {expr!r}")
+
+
+def names(expr: Expr) -> Iterator[Name]:
+    """Every Name in `expr`, left to right."""
+    match expr:
+        case Name():
+            yield expr
+        case Unary(operand=operand):
+            yield from names(operand)
+        case Binary(left=left, right=right):
+            yield from names(left)
+            yield from names(right)
+        case Call(arguments=arguments):
+            for argument in arguments:
+                yield from names(argument)
+
+
+def to_json(expr: Expr) -> Any:
+    """Nested lists that `from_json` reads back."""
+    match expr:
+        case Number(value=value):
+            return float(value)
+        case Name(path=path):
+            return path
+        case Unary(operand=operand):
+            return ["-", to_json(operand)]
+        case Binary(operator=operator, left=left, right=right):
+            return [operator, to_json(left), to_json(right)]
+        case Call(function=function, arguments=arguments):
+            return [function, *map(to_json, arguments)]
+
+
+def from_json(data: Any) -> Expr:
+    """The tree that `to_json` wrote."""
+    if isinstance(data, (int, float)):
+        return Number(float(data))
+    if isinstance(data, str):
+        return Name(data)
+    head, *rest = data
+    if head == "-" and len(rest) == 1:
+        return Unary("-", from_json(rest[0]))
+    if head in _OPERATORS:
+        return Binary(head, from_json(rest[0]), from_json(rest[1]))
+    return Call(head, tuple(map(from_json, rest)))

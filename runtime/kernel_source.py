@@ -1,0 +1,157 @@
+"""What the generator hands to the runtime: C text and the names of everything in it.
+
+Nothing else crosses. It is stored as JSON, so that a warm start needs neither SymPy nor Jinja.
+All numbers in it are SI; all indices count from 0.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A run-time number: `given[i]` of the C function `prepare`."""
+
+    address: str  # "bodies.L2.mass", "parameters.omega"
+    unit: str  # SI, "kg*m^2"; "" for a pure number
+    default: float  # its value when nothing is overridden
+    follows: bool  # an expression of other parameters: it follows them unless overridden itself
+    dimension: tuple[int, int, int]  # exponents of m, kg, s
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What a slot must satisfy; `bound` is a number or another slot's address."""
+
+    address: str
+    relation: str
+    bound: float | str
+    message: str
+
+
+@dataclass(frozen=True)
+class BodyInfo:
+    """`index` of x in q; y and theta follow it."""
+
+    name: str
+    index: int
+
+
+@dataclass(frozen=True)
+class PointInfo:
+    """A point in its body's centre-of-mass frame; `x`, `y` index the prepared numbers p, −1 for a zero."""
+
+    name: str  # "L1.head"
+    body: int  # index into bodies; −1: ground
+    x: int
+    y: int
+
+
+@dataclass(frozen=True)
+class RowInfo:
+    """A row of Φ (and its multiplier): "A.x" belongs to joint A."""
+
+    name: str
+    owner: str  # joint or drive
+    kind: str  # "joint" or "drive"
+    unit: str  # of the row: "m" or "rad"
+
+
+@dataclass(frozen=True)
+class JointInfo:
+    """A joint that is kept as a constraint; the reaction on the second body is at `point`."""
+
+    name: str
+    kind: str
+    first: int  # body index, −1: ground
+    second: int
+    point: str  # name of the second body's point
+    rows: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class DriveInfo:
+    name: str
+    body: int
+    reference: int
+    row: int
+
+
+@dataclass(frozen=True)
+class ClearanceInfo:
+    """A joint with play: journal on the second body, bearing on the first."""
+
+    name: str
+    first: int
+    second: int
+    point: str  # the journal's point
+    dry: bool
+    film: bool
+    clearance: int  # index into p of c
+    constants: Mapping[str, int]  # name -> index into p of what is worth printing: K, S, radius …
+
+
+@dataclass(frozen=True)
+class KernelSource:
+    """A compiled-to-be scene. `files` are C texts by name; `main` is the one to compile."""
+
+    mechanism: str
+    scene: str
+    title: str
+    sha256: str  # of the YAML bytes
+    files: Mapping[str, str]
+    main: str
+    cdef: str
+    coordinates: tuple[str, ...]  # "L1.x", "L1.y", "L1.theta", …
+    bodies: tuple[BodyInfo, ...]
+    points: tuple[PointInfo, ...]
+    rows: tuple[RowInfo, ...]
+    joints: tuple[JointInfo, ...]
+    drives: tuple[DriveInfo, ...]
+    clearances: tuple[ClearanceInfo, ...]
+    start_rows: tuple[RowInfo, ...]  # of the start's Φ: joints with play are closed there
+    start_guess: tuple[str, ...]  # coordinates in the order of the C function `start_values`
+    start_set: tuple[str, ...]
+    start_rates: tuple[str, ...]  # "L1.omega"
+    pivots: tuple[str, ...]  # names of the KKT pivots, in the order of elimination
+    slots: tuple[Slot, ...]
+    derived: tuple[str, ...]  # names of the prepared numbers that follow the slots in p
+    conditions: tuple[Condition, ...]
+    outputs: Mapping[str, Any]  # name -> expression tree as nested lists
+    simulate: Mapping[str, float]  # the scene's own t_end, step, output, if given
+    operations: Mapping[str, int]  # kernel -> operation count
+    notes: tuple[str, ...]  # what was skipped and why (check -v)
+    gravity: bool
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Coordinates less constraint rows."""
+        return len(self.coordinates) - len(self.rows)
+
+    def to_json(self) -> str:
+        """Readable JSON; the same source gives the same bytes."""
+        return json.dumps(asdict(self), indent=1, ensure_ascii=False)
+
+    @staticmethod
+    def from_json(text: str) -> KernelSource:
+        """The source that `to_json` wrote."""
+        data = json.loads(text)
+        kinds = {
+            "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
+            "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
+            "slots": Slot, "conditions": Condition,
+        }  # fmt: skip
+        for key, kind in kinds.items():
+            data[key] = tuple(kind(**_tuples(item)) for item in data[key])
+        for key in ("coordinates", "start_guess", "start_set", "start_rates", "pivots", "derived", "notes"):
+            data[key] = tuple(data[key])
+        return KernelSource(**data)
+
+
+def _tuples(item: dict[str, Any]) -> dict[str, Any]:
+    """JSON knows lists only: the fields of our values are tuples."""
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in item.items()}
