@@ -1,0 +1,87 @@
+"""What a run says about itself: its size, its cost, and how far it may be trusted."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict, dataclass
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The largest force at one joint with play, over all accepted steps (not only the stored samples)."""
+
+    joint: str
+    F: float  # N
+    t: float  # s, of F
+    e_max: float  # m, the largest eccentricity
+    first_contact: float  # s, NaN: the surfaces never touched
+    first_peak: float  # N, the peak force of the first contact; NaN: none
+
+
+@dataclass(frozen=True)
+class Diagnostics:
+    """Of one run; NaN stands for what the method does not have (the step of a kinematic scene)."""
+
+    method: str
+    step: float  # s, the largest that was used
+    steps: int
+    right_hand_sides: int
+    onsets: int
+    grazes: int
+    phi_max: float  # max |Φ| over all accepted steps, m or rad
+    phi_dot_max: float  # max |Φ̇|, m/s or rad/s
+    energy_residual: float  # max |T + V − T0 − V0 − W| over the stored samples, J
+    energy_turned_over: float  # J, what the residual is to be compared with
+    ratio_min: float  # of δ̇/δ̇⁻ while latched
+    ratio_max: float
+    ratio_outside: int  # steps with the ratio outside [−1, 1]
+    peaks: tuple[Peak, ...]  # in the order of the clearances
+    seconds: float  # wall time of the integration
+    seconds_per_simulated_second: float
+    interrupted: bool = False
+    notes: tuple[str, ...] = ()
+
+    def peak(self, joint: str) -> Peak:
+        """The peak at a joint with play; KeyError for any other."""
+        for peak in self.peaks:
+            if peak.joint == joint:
+                return peak
+        raise KeyError(joint)
+
+    def to_json(self) -> str:
+        """JSON without NaN or infinity (RFC 8259 has neither): they are the words "nan", "inf", "-inf".
+
+        A float is written with as many digits as reading it back exactly needs.
+        """
+        return json.dumps(_words(asdict(self)), ensure_ascii=False, allow_nan=False)
+
+    @staticmethod
+    def from_json(text: str) -> Diagnostics:
+        """The diagnostics that `to_json` wrote, bit for bit."""
+        data = json.loads(text)
+        data["peaks"] = tuple(Peak(**_numbers(peak, Peak)) for peak in data["peaks"])
+        data["notes"] = tuple(data["notes"])
+        return Diagnostics(**_numbers(data, Diagnostics))
+
+    def __str__(self) -> str:
+        rows = [f"{name:>30}  {value}" for name, value in asdict(self).items() if name not in ("peaks", "notes")]
+        rows += [f"{'peak at ' + p.joint:>30}  {p.F:.6g} N at {p.t:.6g} s, e ≤ {p.e_max:.6g} m" for p in self.peaks]
+        return "\n".join([*rows, *(f"{'note':>30}  {note}" for note in self.notes)])
+
+
+def _words(value: object) -> object:
+    """Numbers that JSON lacks as words, at any depth."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)
+    if isinstance(value, dict):
+        return {key: _words(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_words(item) for item in value]
+    return value.item() if hasattr(value, "item") else value  # a NumPy scalar
+
+
+def _numbers(data: dict[str, object], kind: type) -> dict[str, object]:
+    """The words of `_words` back to floats, where the field of `kind` is one."""
+    floats = {name for name, annotation in kind.__annotations__.items() if annotation == "float"}
+    return {key: float(value) if key in floats else value for key, value in data.items()}  # type: ignore[arg-type]
