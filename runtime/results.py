@@ -1,0 +1,190 @@
+"""The result of one run: what the integrator stored, and by name everything that follows from it.
+
+Stored are t, q, q̇, q̈, contact state, latched rates and work; all other series are computed on
+first access, exactly, from these (one pass of the compiled model over the samples).
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.diagnostics import Diagnostics
+from gudgeon.errors import GudgeonError, UnknownNameError
+from gudgeon.kernel_source import KernelSource
+
+if TYPE_CHECKING:
+    import xarray
+
+    from gudgeon.compiled import CompiledModel, Evaluation
+    from gudgeon.plots import Plot
+    from gudgeon.series import Series
+
+Array: TypeAlias = NDArray[Any]
+
+IMPACT_DTYPE = np.dtype(
+    [("joint", "i4"), ("t_on", "f8"), ("t_off", "f8"), ("deltadot", "f8"), ("F_peak", "f8"), ("t_peak", "f8")]
+)
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Where a run ended: what a further run needs to go on from there."""
+
+    mechanism: str
+    scene: str
+    t: float
+    q: Array  # (n,)
+    v: Array  # (n,)
+    state: Array  # (n_clearances,) 0 free, 1 impact, 2 contact
+    memory: Array  # (n_clearances,) δ̇⁻ in m/s, NaN while free
+    parameters: Mapping[str, float]  # address -> value, of what was overridden
+
+
+@dataclass(eq=False)
+class Result:
+    """One run of N samples. `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`)."""
+
+    compiled: CompiledModel | None  # None: read from a file, where every series is stored
+    source: KernelSource
+    p: Array  # (n_slots + n_derived,)
+    given: Array  # (n_slots,) values of the slots that were overridden
+    is_given: Array  # (n_slots,) bool
+    t: Array  # (N,) s
+    q: Array  # (N, n)
+    v: Array
+    a: Array
+    state: Array  # (N, n_clearances) int8
+    memory: Array  # (N, n_clearances)
+    work: Array  # (N, 3) J: drives, applied forces, clearance forces
+    impacts: Array  # IMPACT_DTYPE, one an onset
+    diagnostics: Diagnostics
+    stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
+
+    def __getitem__(self, name: str) -> Array:
+        """The series of that name, (N,), in SI, read-only. UnknownNameError names the nearest."""
+        if name == "t":
+            return self.t
+        if name not in self.stored:
+            values = self._series(name).compute(self)[:]
+            values.flags.writeable = False
+            self.stored[name] = values
+        return self.stored[name]
+
+    def __contains__(self, name: str) -> bool:
+        return name == "t" or name in self._catalogue
+
+    def __repr__(self) -> str:
+        span = f"{self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "empty"
+        return f"<Result {self.source.mechanism}/{self.source.scene}: {len(self.t)} samples, {span}>"
+
+    @cached_property
+    def names(self) -> Mapping[str, str]:
+        """Every name with its unit, in the order in which a file stores them."""
+        return MappingProxyType({name: series.unit for name, series in self._catalogue.items()})
+
+    def unit(self, name: str) -> str:
+        """SI unit of a series, "" for a pure number."""
+        return "s" if name == "t" else self._series(name).unit
+
+    def meaning(self, name: str) -> str:
+        """One line on what a series is."""
+        return "time" if name == "t" else self._series(name).meaning
+
+    @cached_property
+    def parameters(self) -> Mapping[str, float]:
+        """Values of all run-time numbers by address ("bodies.L2.mass"); parameters also by their short name."""
+        values = {slot.address: float(value) for slot, value in zip(self.source.slots, self.p, strict=False)}
+        short = {key.removeprefix("parameters."): v for key, v in values.items() if key.startswith("parameters.")}
+        return MappingProxyType(values | short)
+
+    @cached_property
+    def constants(self) -> Mapping[str, float]:
+        """What is worth printing of each joint with play: "A.c", and as the laws have them "A.K", "A.S" …"""
+        found = {}
+        for joint in self.source.clearances:
+            found[f"{joint.name}.c"] = float(self.p[joint.clearance])
+            found |= {f"{joint.name}.{name}": float(self.p[i]) for name, i in joint.constants.items()}
+        return MappingProxyType(found)
+
+    @property
+    def final(self) -> State:
+        """The last sample as a state to restart from."""
+        slots = zip(self.source.slots, self.given, self.is_given, strict=True)
+        overridden = {slot.address: float(value) for slot, value, is_given in slots if is_given}
+        last = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
+        return State(self.source.mechanism, self.source.scene, float(self.t[-1]), *last, MappingProxyType(overridden))
+
+    @cached_property
+    def evaluation(self) -> Evaluation:
+        """Accelerations, multipliers, reactions, torques, clearance forces and energies at all samples."""
+        if self.compiled is None:
+            raise GudgeonError("this result was read from a file that lacks the series; run the scene again")
+        return self.compiled.evaluate(self.t, self.q, self.v, self.memory, self.p)
+
+    @property
+    def plot(self) -> Plot:
+        """Figures of this run: `run.plot.orbit("A")`, `.forces()`, `.series("S9.y")`."""
+        from gudgeon.plots import Plot
+
+        return Plot(self)
+
+    def value_of(self, name: str) -> Any:
+        """What a name in an output's expression stands for: a series, t, or a parameter."""
+        if name in self:
+            return self[name]
+        if name in self.parameters:
+            return self.parameters[name]
+        raise self._unknown(name)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """All series as one Dataset over `time`, with units and long names; impacts over `impact`."""
+        from gudgeon import netcdf
+
+        return netcdf.dataset(self)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to a NetCDF file, aside first and then moved into place."""
+        from gudgeon import netcdf
+
+        netcdf.save(self, path)
+
+    @staticmethod
+    def load(path: str | os.PathLike[str]) -> Result:
+        """The result that `save` wrote, bit for bit; it needs no compiled library."""
+        return read(path)
+
+    @cached_property
+    def _catalogue(self) -> Mapping[str, Series]:
+        from gudgeon.series import catalogue
+
+        return catalogue(self.source)
+
+    def _series(self, name: str) -> Series:
+        try:
+            return self._catalogue[name]
+        except KeyError:
+            raise self._unknown(name) from None
+
+    def _unknown(self, name: str) -> UnknownNameError:
+        import difflib
+
+        if name in self.parameters:
+            return UnknownNameError(f"{name!r} is a parameter, no series", hint=f'see run.parameters["{name}"]')
+        nearest = difflib.get_close_matches(name, self._catalogue, n=3, cutoff=0.5)
+        hint = f"nearest: {', '.join(nearest)}" if nearest else "run.names lists all names"
+        return UnknownNameError(f"the scene {self.source.scene!r} has nothing named {name!r}", hint=hint)
+
+
+def read(path: str | os.PathLike[str]) -> Result:
+    """Read a file that `Result.save` wrote. InputError if it is none."""
+    from gudgeon import netcdf
+
+    return netcdf.read(path)
