@@ -198,9 +198,7 @@ def slider_mp(t: Any, data: PressData | None = None, digits: int = 50) -> tuple[
                 mp.mpf, (d.l1, d.l2, d.l3, d.l4, d.l5, d.l6, d.l7, d.l8, d.hx, d.hy)
             )
             a1, a4 = mp.mpf(d.theta1) + d.omega1 * time, mp.mpf(d.theta4) + d.omega4 * time
-            px, py = third(
-                l1 * mp.cos(a1), l1 * mp.sin(a1), l2, l4 * mp.cos(a4), -l5 + l4 * mp.sin(a4), l3, +1
-            )
+            px, py = third(l1 * mp.cos(a1), l1 * mp.sin(a1), l2, l4 * mp.cos(a4), -l5 + l4 * mp.sin(a4), l3, +1)
             qx, qy = third(px, py, l7, hx, hy, l6, -1)
             return qy - mp.sqrt(l8**2 - (hx - qx) ** 2)
 

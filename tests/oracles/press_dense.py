@@ -46,8 +46,7 @@ class Contact(ctypes.Structure):
     """Force on the journal (N), moments on both bodies (N·m), e, δ (m), δ̇ (m/s), δ̇/δ̇⁻."""
 
     _fields_ = [
-        (name, ctypes.c_double)
-        for name in ("fx", "fy", "moment_i", "moment_j", "e", "delta", "deltadot", "ratio")
+        (name, ctypes.c_double) for name in ("fx", "fy", "moment_i", "moment_j", "e", "delta", "deltadot", "ratio")
     ]
 
 
@@ -125,9 +124,7 @@ def _pointer(array: np.ndarray) -> Any:
 
 def _struct(press: Press) -> _Press:
     g = press.geometry
-    fields: dict[str, float] = {
-        n: float(getattr(g if hasattr(g, n) else press, n)) for n in _SCALARS
-    }
+    fields: dict[str, float] = {n: float(getattr(g if hasattr(g, n) else press, n)) for n in _SCALARS}
     length = _EIGHT(g.l1, g.l2, g.l3, g.l4, g.l6, g.l7, g.l8, 0.0)
     return _Press(length, _EIGHT(*press.mass), _EIGHT(*press.inertia), *(fields[n] for n in _SCALARS))
 
@@ -138,9 +135,9 @@ def start(press: Press, t: float = 0.0) -> np.ndarray:
     return np.concatenate([m.q[0], m.v[0]])
 
 
-def rhs(press: Press, t: float, y: np.ndarray, stored: tuple[float, float] = (0.0, 0.0)) -> tuple[
-    np.ndarray, np.ndarray, tuple[Contact, Contact]
-]:
+def rhs(
+    press: Press, t: float, y: np.ndarray, stored: tuple[float, float] = (0.0, 0.0)
+) -> tuple[np.ndarray, np.ndarray, tuple[Contact, Contact]]:
     """ẏ (48,), λ (20,) and the two contacts; `stored` are the impact velocities δ̇⁻, 0 for none."""
     y = np.ascontiguousarray(y, dtype=float)
     dy, multipliers, contacts = np.empty(48), np.empty(20), (Contact * 2)()
@@ -187,5 +184,7 @@ def seconds_per_rhs(press: Press, batch: int = 20000, repeats: int = 7) -> float
     """Least time of one right-hand side (s) over `repeats` batches, at the start of the run."""
     y = start(press)
     return float(
-        _library().press_seconds_per_rhs(ctypes.byref(_struct(press)), ctypes.c_double(0.0), _pointer(y), batch, repeats)
+        _library().press_seconds_per_rhs(
+            ctypes.byref(_struct(press)), ctypes.c_double(0.0), _pointer(y), batch, repeats
+        )
     )
