@@ -1,0 +1,94 @@
+"""What a file gives back is what was saved, to the bit."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("xarray")
+pytest.importorskip("h5netcdf")
+
+from gudgeon.errors import GudgeonError, InputError  # noqa: E402
+from gudgeon.results import Result, read  # noqa: E402
+
+
+def test_everything_comes_back_bit_for_bit(run: Result, ideal: Result, tmp_path: Path) -> None:
+    for result in (run, ideal):
+        path = tmp_path / f"{result.source.scene}.nc"
+        result.save(path)
+        back = read(path)
+        assert back.compiled is None
+        assert back.source == result.source
+        assert back.diagnostics.to_json() == result.diagnostics.to_json()
+        for name in ("p", "given", "is_given", "t", "q", "v", "a", "state", "memory", "work", "impacts"):
+            ours, theirs = getattr(result, name), getattr(back, name)
+            assert (ours.dtype, ours.shape) == (theirs.dtype, theirs.shape), name
+            assert ours.tobytes() == theirs.tobytes(), name
+        assert list(back.names) == list(result.names)
+        for name in result.names:
+            assert back[name].tobytes() == result[name].tobytes(), name
+        assert dict(back.final.parameters) == dict(result.final.parameters)
+
+
+def test_reading_does_not_need_what_can_be_computed(run: Result, tmp_path: Path) -> None:
+    """Every series is in the file: a reading library without our code finds them with their units."""
+    import xarray
+
+    run.save(tmp_path / "run.nc")
+    with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf") as file:
+        for name, unit in run.names.items():
+            assert file[name].attrs["units"] == (unit or "1")
+            np.testing.assert_array_equal(file[name].to_numpy(), run[name])
+        np.testing.assert_array_equal(file["time"].to_numpy(), run.t)
+        assert file["impact.t_on"].dims == ("impact",)
+
+
+def test_the_same_run_gives_the_same_bytes(make: object, tmp_path: Path) -> None:
+    for name in ("first", "second"):
+        make().save(tmp_path / name)  # type: ignore[operator]
+    assert (tmp_path / "first").read_bytes() == (tmp_path / "second").read_bytes()
+
+
+def test_a_failed_write_leaves_the_older_file_and_nothing_else(
+    run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import xarray
+
+    path = tmp_path / "run.nc"
+    run.save(path)
+    before = path.read_bytes()
+
+    def fail(self: object, target: Path, **_: object) -> None:
+        Path(target).write_bytes(b"half a file")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(xarray.Dataset, "to_netcdf", fail)
+    with pytest.raises(GudgeonError, match="No space left"):
+        run.save(path)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("kind", ["missing", "text", "foreign"])
+def test_what_is_no_result_is_refused(kind: str, tmp_path: Path) -> None:
+    import xarray
+
+    path = tmp_path / "file.nc"
+    if kind == "text":
+        path.write_text("no NetCDF")
+    elif kind == "foreign":
+        xarray.Dataset({"x": ("time", np.arange(3.0))}).to_netcdf(path, engine="h5netcdf")
+    with pytest.raises(InputError):
+        Result.load(path)
+
+
+def test_an_output_may_be_called_like_a_dimension(run: Result, tmp_path: Path) -> None:
+    from dataclasses import replace
+
+    odd = replace(run, source=replace(run.source, outputs={"time": ["*", 2.0, "t"], "p": 1.0}), stored={})
+    odd.save(tmp_path / "odd.nc")
+    back = read(tmp_path / "odd.nc")
+    np.testing.assert_array_equal(back["time"], 2 * run.t)
+    assert back["p"].tolist() == [1.0] * len(run.t)
