@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import asdict, dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,7 @@ class Diagnostics:
         return "\n".join([*rows, *(f"{'note':>30}  {note}" for note in self.notes)])
 
 
-def _words(value: object) -> object:
+def _words(value: Any) -> Any:
     """Numbers that JSON lacks as words, at any depth."""
     if isinstance(value, float) and not math.isfinite(value):
         return repr(value)
@@ -81,7 +82,7 @@ def _words(value: object) -> object:
     return value.item() if hasattr(value, "item") else value  # a NumPy scalar
 
 
-def _numbers(data: dict[str, object], kind: type) -> dict[str, object]:
+def _numbers(data: dict[str, Any], kind: type) -> dict[str, Any]:
     """The words of `_words` back to floats, where the field of `kind` is one."""
     floats = {name for name, annotation in kind.__annotations__.items() if annotation == "float"}
-    return {key: float(value) if key in floats else value for key, value in data.items()}  # type: ignore[arg-type]
+    return {key: float(value) if key in floats else value for key, value in data.items()}

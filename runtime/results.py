@@ -119,8 +119,9 @@ class Result:
         """The last sample as a state to restart from."""
         slots = zip(self.source.slots, self.given, self.is_given, strict=True)
         overridden = {slot.address: float(value) for slot, value, is_given in slots if is_given}
-        last = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
-        return State(self.source.mechanism, self.source.scene, float(self.t[-1]), *last, MappingProxyType(overridden))
+        q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
+        scene, t = self.source.scene, float(self.t[-1])
+        return State(self.source.mechanism, scene, t, q, v, state, memory, MappingProxyType(overridden))
 
     @cached_property
     def evaluation(self) -> Evaluation:

@@ -126,7 +126,8 @@ def _body_name(source: KernelSource, joint: JointInfo) -> str:
 
 def _evaluated(run: Result, part: str, index: tuple[int, ...]) -> Array:
     values: Array = getattr(run.evaluation, part)
-    return values[(slice(None), *index)]
+    where: Any = (slice(None), *index)
+    return values[where]
 
 
 def _magnitude(run: Result, name: str) -> Array:
