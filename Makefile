@@ -1,0 +1,45 @@
+# Each of these does its own set-up (tools/setup) and is quick when there is nothing left to do.
+GUDGEON := .venv/bin/gudgeon
+ARGS ?=
+
+.DEFAULT_GOAL := help
+.PHONY: help run test test-all lint types bench stress generated setup setup-test clean
+.NOTPARALLEL:
+
+help:  ## this list
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
+
+run: setup  ## the nine-bar press in three scenes: a table, and a picture under out/
+	@$(GUDGEON) run nine_bar_press $(ARGS)
+
+test: lint types  ## ruff, mypy and the tests
+	@.venv/bin/pytest -n 2 -q $(ARGS)
+
+test-all: lint types  ## the slow tests too
+	@.venv/bin/pytest -n 2 -q -m "slow or not slow" $(ARGS)
+
+lint: setup-test
+	@.venv/bin/ruff check .
+
+types: setup-test
+	@.venv/bin/mypy -p gudgeon
+
+bench: setup  ## run time against error
+	@$(GUDGEON) bench nine_bar_press $(ARGS)
+
+stress: setup  ## step × clearance: stable, inaccurate, diverged
+	@$(GUDGEON) stress nine_bar_press $(ARGS)
+
+generated: setup  ## derive and write generated/ anew for every shipped mechanism
+	@.venv/bin/python tools/regenerate.py
+	@sh tools/setup all
+
+setup:
+	@sh tools/setup all
+
+setup-test:
+	@sh tools/setup all,test
+
+clean:  ## remove the environment and everything built; the cache folder stays
+	rm -rf .venv build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

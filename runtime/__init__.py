@@ -1,0 +1,74 @@
+"""gudgeon: planar linkages whose joints may have play, from YAML to a compiled simulator.
+
+    >>> import gudgeon
+    >>> press = gudgeon.load("nine_bar_press", scene="dry")
+    >>> run = press.simulate(t_end=1.0, output=1000)
+
+Names are imported when they are first asked for (PEP 562): `import gudgeon` alone costs next to nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gudgeon.errors import (
+        AssemblyError,
+        BuildError,
+        CacheError,
+        GudgeonError,
+        InputError,
+        NonFiniteError,
+        SingularError,
+        SolverError,
+    )
+    from gudgeon.load import load
+    from gudgeon.results import Result
+    from gudgeon.shipped import shipped
+    from gudgeon.simulation import Simulation
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "load": "load",
+    "shipped": "shipped",
+    "Simulation": "simulation",
+    "Result": "results",
+    "GudgeonError": "errors",
+    "InputError": "errors",
+    "AssemblyError": "errors",
+    "SolverError": "errors",
+    "SingularError": "errors",
+    "NonFiniteError": "errors",
+    "BuildError": "errors",
+    "CacheError": "errors",
+}  # public name -> module of its owner
+
+__all__ = [
+    "AssemblyError",
+    "BuildError",
+    "CacheError",
+    "GudgeonError",
+    "InputError",
+    "NonFiniteError",
+    "Result",
+    "Simulation",
+    "SingularError",
+    "SolverError",
+    "__version__",
+    "load",
+    "shipped",
+]
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOME:
+        raise AttributeError(f"module 'gudgeon' has no attribute {name!r}")
+    value = getattr(import_module(f"gudgeon.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
