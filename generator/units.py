@@ -1,9 +1,19 @@
-"""Dimensions and the published list of units; pint converts the unit token and nothing else."""
+"""Dimensions and the published list of units.
+
+The list is closed, so that `t`, `c`, `k` are never tonnes, light or Boltzmann. It is a table and not
+pint's registry, which takes longer to build than a file to read; pint is the converter of record:
+a test compares every entry with it. Factors are exact fractions (times a power of π), so that
+`0.3 mm` is the binary64 number nearest to 3e-4 and not 0.3 times the one nearest to 1e-3.
+"""
 
 from __future__ import annotations
 
+import math
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 
 @dataclass(frozen=True)
@@ -14,8 +24,23 @@ class Dimension:
     mass: Fraction = Fraction(0)
     time: Fraction = Fraction(0)
 
+    def __mul__(self, other: Dimension) -> Dimension:
+        return Dimension(self.length + other.length, self.mass + other.mass, self.time + other.time)
+
+    def __truediv__(self, other: Dimension) -> Dimension:
+        return self * other**-1
+
+    def __pow__(self, exponent: int | Fraction) -> Dimension:
+        return Dimension(self.length * exponent, self.mass * exponent, self.time * exponent)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether all exponents are integers."""
+        return all(e.denominator == 1 for e in (self.length, self.mass, self.time))
+
 
 def dimension(length: int = 0, mass: int = 0, time: int = 0) -> Dimension:
+    """The dimension m^length kg^mass s^time."""
     return Dimension(Fraction(length), Fraction(mass), Fraction(time))
 
 
@@ -24,7 +49,152 @@ LENGTH = dimension(length=1)
 MASS = dimension(mass=1)
 TIME = dimension(time=1)
 INERTIA = dimension(length=2, mass=1)
-ACCELERATION = dimension(length=1, time=-2)
+RATE = dimension(time=-1)  # an angular velocity, too
+ANGULAR_ACCELERATION = dimension(time=-2)
 VELOCITY = dimension(length=1, time=-1)
+ACCELERATION = dimension(length=1, time=-2)
+FORCE = dimension(length=1, mass=1, time=-2)
+TORQUE = dimension(length=2, mass=1, time=-2)  # and energy
+POWER = dimension(length=2, mass=1, time=-3)
+STIFFNESS = dimension(mass=1, time=-2)
+DAMPING = dimension(mass=1, time=-1)
 PRESSURE = dimension(length=-1, mass=1, time=-2)
 VISCOSITY = dimension(length=-1, mass=1, time=-1)
+
+_WORDS: Mapping[Dimension, tuple[str, str]] = {
+    DIMENSIONLESS: ("a pure number or an angle", "rad"),
+    LENGTH: ("a length", "m"),
+    MASS: ("a mass", "kg"),
+    TIME: ("a time", "s"),
+    INERTIA: ("a moment of inertia", "kg*m^2"),
+    RATE: ("a rate or an angular velocity", "rad/s"),
+    ANGULAR_ACCELERATION: ("an angular acceleration", "rad/s^2"),
+    VELOCITY: ("a velocity", "m/s"),
+    ACCELERATION: ("an acceleration", "m/s^2"),
+    FORCE: ("a force", "N"),
+    TORQUE: ("a torque or an energy", "N*m"),
+    POWER: ("a power", "W"),
+    STIFFNESS: ("a stiffness", "N/m"),
+    DAMPING: ("a damping coefficient", "N*s/m"),
+    PRESSURE: ("a pressure", "Pa"),
+    VISCOSITY: ("a viscosity", "Pa*s"),
+    LENGTH**2: ("an area", "m^2"),
+    LENGTH**3: ("a volume", "m^3"),
+}
+
+
+def si_unit(of: Dimension) -> str:
+    """The SI unit of a dimension, as it may be written in a file: "m", "kg*m^2", "1/s"; "" for a number."""
+    if of == DIMENSIONLESS:
+        return ""
+    if of == RATE:
+        return "1/s"
+    if of in _WORDS:
+        return _WORDS[of][1]
+    exponents = {"kg": of.mass, "m": of.length, "s": of.time}
+    above = "*".join(_power(s, e) for s, e in exponents.items() if e > 0)
+    below = "".join("/" + _power(s, -e) for s, e in exponents.items() if e < 0)
+    return (above or "1") + below
+
+
+def _power(symbol: str, exponent: Fraction) -> str:
+    if exponent == 1:
+        return symbol
+    return f"{symbol}^{exponent}" if exponent.denominator == 1 else f"{symbol}^({exponent})"
+
+
+def describe(of: Dimension) -> str:
+    """A dimension in words: "a length (m)"."""
+    word, unit = _WORDS.get(of, ("a quantity", si_unit(of)))
+    return f"{word} ({unit})"
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit in SI: `factor` · π^`pi_power` of the SI unit of `dimension`."""
+
+    factor: Fraction
+    pi_power: int
+    dimension: Dimension
+
+    def to_si(self, number: Fraction) -> float:
+        """`number` of this unit in SI, rounded once."""
+        return float(number * self.factor * Fraction(math.pi) ** self.pi_power)
+
+
+def _unit(factor: str, of: Dimension, pi_power: int = 0) -> Unit:
+    return Unit(Fraction(factor), pi_power, of)
+
+
+# Hz is left out on purpose: read as 1/s it is 2π wrong for an angular velocity; rev/s and 1/s say which is meant.
+_SYMBOLS: Mapping[str, Unit] = {
+    "m": _unit("1", LENGTH), "km": _unit("1000", LENGTH), "cm": _unit("0.01", LENGTH), "mm": _unit("1e-3", LENGTH),
+    "um": _unit("1e-6", LENGTH), "\u00b5m": _unit("1e-6", LENGTH), "\u03bcm": _unit("1e-6", LENGTH),
+    "nm": _unit("1e-9", LENGTH), "in": _unit("0.0254", LENGTH),
+    "kg": _unit("1", MASS), "g": _unit("1e-3", MASS), "mg": _unit("1e-6", MASS),
+    "s": _unit("1", TIME), "ms": _unit("1e-3", TIME), "us": _unit("1e-6", TIME), "min": _unit("60", TIME),
+    "rad": _unit("1", DIMENSIONLESS), "mrad": _unit("1e-3", DIMENSIONLESS),
+    "deg": _unit("1/180", DIMENSIONLESS, 1), "rev": _unit("2", DIMENSIONLESS, 1),
+    "rpm": _unit("1/30", RATE, 1),
+    "N": _unit("1", FORCE), "mN": _unit("1e-3", FORCE), "kN": _unit("1000", FORCE),
+    "Pa": _unit("1", PRESSURE), "kPa": _unit("1e3", PRESSURE), "MPa": _unit("1e6", PRESSURE),
+    "GPa": _unit("1e9", PRESSURE), "bar": _unit("1e5", PRESSURE),
+    "P": _unit("0.1", VISCOSITY), "cP": _unit("1e-3", VISCOSITY),
+    "J": _unit("1", TORQUE), "mJ": _unit("1e-3", TORQUE), "kJ": _unit("1e3", TORQUE),
+    "W": _unit("1", POWER), "kW": _unit("1e3", POWER),
+}  # fmt: skip
+
+_COMPOUNDS = (
+    "1/s 1/min rad/s deg/s rev/s rev/min rad/s^2 deg/s^2 m/s mm/s m/min m/s^2 mm/s^2 m^2 mm^2 m^3 mm^3 "
+    "kg*m^2 kg*mm^2 g*mm^2 kg/m^3 N*m N*mm kN*m N/m N/mm kN/m N*m/rad N*m/deg "
+    "N*s/m N*s/mm N*m*s/rad N/m^2 N/mm^2 Pa*s"
+).split()
+
+_FACTOR = re.compile(r"([A-Za-z\u00b5\u03bc]+)(?:\^(-?[1-9]))?(?![\w^])")
+_MOST_FACTORS = 8
+
+
+def parse_unit(text: str, start: int = 0) -> tuple[Unit, int] | None:
+    """The longest unit that begins at text[start], and where it ends; None if none begins there.
+
+    A unit is a listed symbol, or a product and quotient of such with powers from −9 to 9
+    (`kg*m^2`, `N*s/m`, `1/s`). What follows a `*` or `/` and is no listed symbol is left to the
+    expression: in `3 mm*c` the unit is mm.
+    """
+    divide = text.startswith("1/", start)
+    position = start + 2 if divide else start
+    total, found = Unit(Fraction(1), 0, DIMENSIONLESS), None
+    for _ in range(_MOST_FACTORS):
+        match = _FACTOR.match(text, position)
+        if not match or match[1] not in _SYMBOLS:
+            break
+        factor, exponent = _SYMBOLS[match[1]], int(match[2] or 1) * (-1 if divide else 1)
+        total = Unit(
+            total.factor * factor.factor**exponent,
+            total.pi_power + factor.pi_power * exponent,
+            total.dimension * factor.dimension**exponent,
+        )
+        found = total, match.end()
+        operator = text[match.end() : match.end() + 1]
+        if operator not in ("*", "/"):
+            break
+        divide, position = operator == "/", match.end() + 1
+    return found
+
+
+@lru_cache(maxsize=1024)
+def unit(token: str) -> Unit | None:
+    """The unit that `token` names, all of it; None if it is not from the list."""
+    found = parse_unit(token)
+    return found[0] if found and found[1] == len(token) else None
+
+
+def _published() -> Iterator[tuple[str, tuple[float, Dimension]]]:
+    for token in (*_SYMBOLS, *_COMPOUNDS):
+        known = unit(token)
+        assert known is not None, token
+        yield token, (known.to_si(Fraction(1)), known.dimension)
+
+
+# The published list: token -> (factor to SI, dimension). Further products of the symbols are units, too.
+UNITS: Mapping[str, tuple[float, Dimension]] = dict(_published())

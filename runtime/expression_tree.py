@@ -57,15 +57,15 @@ class Call:
 Expr: TypeAlias = Number | Name | Unary | Binary | Call
 
 
-def smooth_step(x: Any, width: Any) -> Any:
-    """0 for x ≤ 0, 1 for x ≥ width, between them the quintic 10s³ − 15s⁴ + 6s⁵ (C² at both ends)."""
-    s = np.clip(x / width, 0.0, 1.0)
+def smooth_step(t: Any, start: Any, duration: Any) -> Any:
+    """0 up to `start`, 1 from `start + duration`, between them the quintic 10s³ − 15s⁴ + 6s⁵ (C² at both ends)."""
+    s = ramp(t, start, duration)
     return s**3 * (10.0 + s * (6.0 * s - 15.0))
 
 
-def ramp(x: Any, width: Any) -> Any:
-    """0 for x ≤ 0, 1 for x ≥ width, linear between them (its rate jumps at both ends)."""
-    return np.clip(x / width, 0.0, 1.0)
+def ramp(t: Any, start: Any, duration: Any) -> Any:
+    """0 up to `start`, 1 from `start + duration`, linear between them (its rate jumps at both ends)."""
+    return np.clip((t - start) / duration, 0.0, 1.0)
 
 
 # name -> (number of arguments, NumPy function)
@@ -75,7 +75,7 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., Any]]] = {
     "sinh": (1, np.sinh), "cosh": (1, np.cosh), "tanh": (1, np.tanh),
     "exp": (1, np.exp), "log": (1, np.log), "sqrt": (1, np.sqrt), "hypot": (2, np.hypot),
     "abs": (1, np.abs), "sign": (1, np.sign), "min": (2, np.minimum), "max": (2, np.maximum),
-    "smooth_step": (2, smooth_step), "ramp": (2, ramp),
+    "smooth_step": (3, smooth_step), "ramp": (3, ramp),
 }  # fmt: skip
 
 _OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = {
