@@ -31,7 +31,7 @@ def normal_force(delta: float, rate: float, stored: float, stiff: float, exponen
     if delta <= 0.0:
         return 0.0
     ratio = rate / stored if stored > 0.0 else 1.0
-    return max(0.0, stiff * delta**exponent * (1.0 + factor * ratio))
+    return max(0.0, float(stiff * delta**exponent * (1.0 + factor * ratio)))
 
 
 def friction_force(slip: float, normal: float, mu: float, v0: float, v1: float) -> float:

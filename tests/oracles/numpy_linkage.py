@@ -335,7 +335,7 @@ def _consistent_velocity(rng: np.random.Generator, linkage: Linkage, q: np.ndarr
     """A random velocity with Φ_q v = ν at t = 0."""
     r = rows(linkage, 0.0, q, np.zeros(q.size))
     v = rng.uniform(-1.0, 1.0, q.size)
-    return v - np.linalg.pinv(r.phi_q) @ (r.phi_q @ v - r.nu)
+    return np.asarray(v - np.linalg.pinv(r.phi_q) @ (r.phi_q @ v - r.nu))
 
 
 def names(linkage: Linkage) -> Sequence[str]:
