@@ -67,6 +67,18 @@ def catalogue(source: KernelSource) -> dict[str, Series]:
     return found
 
 
+def rates(name: str) -> tuple[str, str]:
+    """Names of the velocity and the acceleration that belong to a position: "S9.y" → ("S9.vy", "S9.ay").
+
+    Empty strings for a name that has none (a force, an output).
+    """
+    owner, _, last = name.rpartition(".")
+    for position, velocity, acceleration in MOTION:
+        if owner and last == position:
+            return f"{owner}.{velocity}", f"{owner}.{acceleration}"
+    return "", ""
+
+
 def _bodies(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for body in source.bodies:
         for axis in range(3):

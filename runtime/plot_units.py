@@ -1,0 +1,41 @@
+"""Units as people write them: a prefix that brings a number near one, m/s² for m/s^2."""
+
+from __future__ import annotations
+
+import math
+import re
+
+PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+_PREFIXABLE = re.compile(r"(m|N|J|W|Pa|s|rad|Hz)(?![\w^])")  # kg has its prefix already; m^2 would square it
+_SUPERSCRIPTS = str.maketrans("0123456789-./", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻·ᐟ")
+
+
+def scale(size: float, unit: str) -> tuple[float, str]:
+    """(factor, text) so that a number of that size times factor reads well in the unit `text`.
+
+    Between 0.1 and 3000 a unit stays as it is; zero, NaN and infinity too.
+    """
+    if not math.isfinite(size) or size == 0 or 0.1 <= abs(size) < 3000 or not _PREFIXABLE.match(unit):
+        return 1.0, pretty(unit)
+    exponent = 3 * math.floor((math.log10(abs(size)) + 1) / 3)
+    exponent = min(max(exponent, min(PREFIXES)), max(PREFIXES))
+    return 10.0**-exponent, PREFIXES[exponent] + pretty(unit)
+
+
+def pretty(unit: str) -> str:
+    """ "kg*m^2" as "kg·m²"."""
+    raised = re.sub(r"\^(-?[\d.]+)", lambda power: power.group(1).translate(_SUPERSCRIPTS), unit)
+    return raised.replace("*", "·")
+
+
+def label(name: str, unit: str) -> str:
+    """An axis label: "S9.y [mm]"."""
+    return f"{name} [{unit}]".strip() if unit else name
+
+
+def quantity(value: float, unit: str, digits: int = 4) -> str:
+    """A number with its unit for a table: "0.3 mm", "175 N", "–" for NaN."""
+    if math.isnan(value):
+        return "–"
+    factor, text = scale(value, unit)
+    return f"{value * factor:.{digits}g} {text}".strip()

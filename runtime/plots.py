@@ -1,0 +1,237 @@
+"""Figures of results: one run at a time (`run.plot.orbit("A")`), and several scenes in one picture.
+
+matplotlib is imported with this module, hence only when somebody draws, and never through pyplot
+unless the caller uses pyplot already: no display is needed and no figure is kept alive.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.errors import GudgeonError
+from gudgeon.plot_units import label, scale
+from gudgeon.series import rates
+
+try:
+    import matplotlib
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
+except ModuleNotFoundError as error:
+    raise GudgeonError("figures need matplotlib: pip install 'gudgeon[plot]'") from error
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from gudgeon.results import Result
+
+# Okabe and Ito's palette: told apart by readers with any of the common colour deficiencies
+COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+IDEAL = "#222222"
+STYLE = {
+    "font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "xtick.labelsize": 8, "ytick.labelsize": 8,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#888888", "axes.grid": True,
+    "grid.color": "#e4e4e4", "grid.linewidth": 0.6, "axes.axisbelow": True, "legend.frameon": False,
+    "xtick.color": "#444444", "ytick.color": "#444444", "agg.path.chunksize": 20000,
+}  # fmt: skip
+
+
+class Plot:
+    """Figures of one run; every method returns its Axes, `axes.figure.savefig(...)` stores them."""
+
+    def __init__(self, run: Result) -> None:
+        self.run = run
+
+    def series(self, *names: str, ax: Axes | None = None) -> Axes:
+        """Series of one unit over time."""
+        run = self.run
+        with matplotlib.rc_context(STYLE):
+            ax = ax or _axes(8.0, 3.6)
+            unit = run.unit(names[0])
+            factor, text = scale(max(_peak(run[name]) for name in names), unit)
+            for name, colour in zip(names, _cycle(len(names)), strict=True):
+                ax.plot(run.t, run[name] * factor, color=colour, lw=1.0, label=name)
+            ax.set(xlabel="t [s]", ylabel=label(names[0] if len(names) == 1 else "", text), title=_caption(run))
+            if len(names) > 1:
+                ax.legend()
+        return ax
+
+    def forces(self, ax: Axes | None = None) -> Axes:
+        """Magnitudes of the forces at the joints with play; in an ideal scene at all joints."""
+        joints = self.run.source.clearances or self.run.source.joints
+        return self.series(*(f"{joint.name}.F" for joint in joints), ax=ax)
+
+    def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
+        """Path of the journal's centre in its clearance circle, in units of the clearance."""
+        with matplotlib.rc_context(STYLE):
+            ax = ax or _axes(4.2, 4.4)
+            draw_orbit(ax, self.run, joint, COLOURS[1])
+        return ax
+
+
+def _axes(width: float, height: float) -> Axes:
+    """Axes of a new figure: pyplot's, if the caller has imported it, so that plt.show() shows them."""
+    if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None:
+        axes: Axes = pyplot.figure(figsize=(width, height), layout="constrained").add_subplot()
+        return axes
+    return Figure(figsize=(width, height), layout="constrained").add_subplot()
+
+
+def _cycle(count: int) -> list[str]:
+    return [COLOURS[i % len(COLOURS)] for i in range(count)]
+
+
+def _peak(values: Any) -> float:
+    """Largest magnitude, 0 for none."""
+    return float(np.nanmax(np.abs(values), initial=0.0))
+
+
+def _caption(run: Result) -> str:
+    return f"{run.source.mechanism}, {run.source.scene}"
+
+
+def draw_orbit(ax: Axes, run: Result, joint: str, colour: str) -> None:
+    """The journal's path, e/c, and the circle e = c; samples with the surfaces in contact are dotted."""
+    c = run.constants[f"{joint}.c"]
+    x, y, angle = run[f"{joint}.ex"] / c, run[f"{joint}.ey"] / c, np.linspace(0.0, 2 * np.pi, 181)
+    ax.fill(np.cos(angle), np.sin(angle), facecolor="#f6f6f6", edgecolor="#777777", lw=0.9, zorder=1)
+    ax.plot(x, y, color=colour, lw=0.5, alpha=0.75, zorder=2)
+    touching = run[f"{joint}.delta"] >= 0
+    ax.plot(x[touching], y[touching], ".", color=colour, ms=2.2, zorder=3)
+    ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=IDEAL, mew=0.9, zorder=4)
+    reach = 1.04 * max(1.0, _peak(np.hypot(x, y)))
+    ax.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal", xticks=[], yticks=[])
+    factor, text = scale(c, "m")
+    ax.set_title(f"{joint}, {run.source.scene}: c = {c * factor:.4g} {text}")
+    ax.spines[:].set_visible(False)
+
+
+def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result], watch: Sequence[str]) -> Figure:
+    """The picture of `gudgeon run`: what the play in the joints does, scene by scene.
+
+    Left: error of the first two watched names against the ideal scene, with their rates, and the forces
+    at the joints with play. Right: journal orbits. `reference` is the ideal run at the same times and
+    parameters, one for all scenes or one a scene. Scenes without play are shown as they are.
+    """
+    references = reference if isinstance(reference, Mapping) else dict.fromkeys(runs, reference)
+    played = {scene: run for scene, run in runs.items() if run.source.clearances}
+    shown = played or dict(runs)
+    colours = dict(zip(shown, _cycle(len(shown)) if played else [IDEAL, *_cycle(len(shown) - 1)], strict=True))
+    joints = list(dict.fromkeys(joint.name for run in played.values() for joint in run.source.clearances))[:4]
+    watch = list(watch)[:2]
+    with matplotlib.rc_context(STYLE):
+        picture = Figure(figsize=(12, 9), dpi=100, layout="constrained")
+        picture.get_layout_engine().set(w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)  # type: ignore[union-attr]
+        left, right = _halves(picture, len(played) if joints else 0)
+        rows = 3 + len(joints)
+        grid = left.add_gridspec(rows, max(1, len(watch)))
+        for column, name in enumerate(watch):
+            _draw_motion(left, grid, column, shown, references if played else None, name, colours)
+        forces = [left.add_subplot(grid[3 + k, :]) for k in range(len(joints))]
+        _draw_forces(forces, joints, played, references, colours)
+        left.align_ylabels()
+        if right is not None:
+            _draw_orbits(right, joints, played, colours)
+        _head(picture, shown, colours, bool(played))
+    return picture
+
+
+def _halves(picture: Figure, orbits: int) -> tuple[Any, Any]:
+    """The left part for curves over time, the right one for orbits; None where there is no orbit."""
+    if not orbits:
+        return picture.subfigures(1, 1), None
+    left, right = picture.subfigures(1, 2, width_ratios=[1.0, 0.5 if orbits == 1 else 0.9])
+    return left, right
+
+
+def _draw_motion(
+    part: Any, grid: Any, column: int, runs: Mapping[str, Result], references: Mapping[str, Result] | None, name: str,
+    colours: Mapping[str, str],
+) -> None:  # fmt: skip
+    """Three rows: a name, its velocity and its acceleration, as errors if there is something to compare with."""
+    names = [series for series in (name, *rates(name)) if series]
+    for row, series in enumerate(names):
+        ax = part.add_subplot(grid[row, column] if len(names) > 1 else grid[:3, column])
+        found = {
+            scene: (run.t, run[series] - references[scene][series] if references else run[series])
+            for scene, run in runs.items()
+        }
+        factor, text = scale(max(_peak(values) for _, values in found.values()), next(iter(runs.values())).unit(series))
+        for scene, (t, values) in found.items():
+            ax.plot(t, values * factor, color=colours[scene], lw=0.9)
+        last = row == len(names) - 1
+        _over_time(ax, label(f"error of {series}" if references else series, text), next(iter(found.values()))[0], last)
+
+
+def _draw_forces(
+    axes: Sequence[Axes], joints: Sequence[str], runs: Mapping[str, Result], references: Mapping[str, Result],
+    colours: Mapping[str, str],
+) -> None:  # fmt: skip
+    """One row a joint: the magnitude of its force in every scene, and the ideal reaction over it."""
+    for ax, joint in zip(axes, joints, strict=True):
+        name = f"{joint}.F"
+        curves = [(run.t, run[name], colours[scene], 0.8, "-") for scene, run in runs.items() if name in run]
+        ideal = next((references[scene] for scene in runs if name in references[scene]), None)
+        if ideal is not None:
+            curves.append((ideal.t, ideal[name], IDEAL, 1.0, (0, (4, 2))))  # type: ignore[arg-type]
+        factor, text = scale(max(_peak(values) for _, values, *_ in curves), "N")
+        for t, values, colour, width, dashes in curves:
+            ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
+        ax.set_ylim(bottom=0)
+        _over_time(ax, label(f"force at {joint}", text), curves[0][0], ax is axes[-1])
+
+
+def _over_time(ax: Axes, text: str, t: Any, last: bool) -> None:
+    """Only the last row of a column is labelled with the time."""
+    ax.set_ylabel(text)
+    ax.set_xlim(float(t[0]), float(t[-1]) if t[-1] > t[0] else float(t[0]) + 1.0)
+    ax.tick_params(labelbottom=last)
+    if last:
+        ax.set_xlabel("t [s]")
+    ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]))
+
+
+def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
+    """A clearance circle for each joint (down) and scene (across); more than six scenes do not fit."""
+    scenes = list(runs)[:6]
+    grid = part.add_gridspec(len(joints), len(scenes))
+    for row, joint in enumerate(joints):
+        for column, scene in enumerate(scenes):
+            if f"{joint}.e" in runs[scene]:
+                ax = part.add_subplot(grid[row, column])
+                draw_orbit(ax, runs[scene], joint, colours[scene])
+    part.supxlabel("journal in the circle e = c, ○ start", fontsize=9, color="#444444")
+
+
+def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str], compared: bool) -> None:
+    """Title from the mechanism's file and one legend for all panels."""
+    from matplotlib.lines import Line2D
+
+    run = next(iter(runs.values()))
+    picture.suptitle(run.source.title or run.source.mechanism, fontsize=13, fontweight="bold", x=0.012, ha="left")
+    handles = [Line2D([], [], color=colour, lw=2.2, label=scene) for scene, colour in colours.items()]
+    if compared:
+        handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls=(0, (4, 2)), label="ideal"))
+    picture.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
+
+
+def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
+    """Write a picture aside and move it into place; it holds neither date nor version."""
+    path = Path(path)
+    aside = path.with_name(f".{path.stem}.{os.getpid()}.{threading.get_ident()}{path.suffix}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        picture.savefig(aside, metadata={"Software": None} if path.suffix == ".png" else None)
+        os.replace(aside, path)
+    except OSError as error:
+        raise GudgeonError(f"cannot write {path}: {error.strerror or error}") from error
+    finally:
+        with suppress(OSError):
+            aside.unlink()
