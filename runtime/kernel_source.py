@@ -43,12 +43,14 @@ class BodyInfo:
 
 @dataclass(frozen=True)
 class PointInfo:
-    """A point in its body's centre-of-mass frame; `x`, `y` index the prepared numbers p, −1 for a zero."""
+    """A point in its body's centre-of-mass frame: (sign_x p[x], sign_y p[y]); an index −1 is a zero."""
 
     name: str  # "L1.head"
     body: int  # index into bodies; −1: ground
     x: int
     y: int
+    sign_x: int = 1
+    sign_y: int = 1
 
 
 @dataclass(frozen=True)
@@ -117,7 +119,8 @@ class KernelSource:
     start_guess: tuple[str, ...]  # coordinates in the order of the C function `start_values`
     start_set: tuple[str, ...]
     start_rates: tuple[str, ...]  # "L1.omega"
-    pivots: tuple[str, ...]  # names of the KKT pivots, in the order of elimination
+    pivots: tuple[str, ...]  # rows in their order of elimination: a status k > 0 names pivots[k − 1]
+    start_pivots: tuple[str, ...]  # the same for `gudgeon_project`, on the closed linkage
     slots: tuple[Slot, ...]
     derived: tuple[str, ...]  # names of the prepared numbers that follow the slots in p
     conditions: tuple[Condition, ...]
@@ -147,8 +150,9 @@ class KernelSource:
         }  # fmt: skip
         for key, kind in kinds.items():
             data[key] = tuple(kind(**_tuples(item)) for item in data[key])
-        for key in ("coordinates", "start_guess", "start_set", "start_rates", "pivots", "derived", "notes"):
-            data[key] = tuple(data[key])
+        for key, value in data.items():
+            if isinstance(value, list) and key not in kinds:
+                data[key] = tuple(value)
         return KernelSource(**data)
 
 

@@ -39,8 +39,48 @@ class LawOption:
 
 
 @dataclass(frozen=True)
+class PairSymbols:
+    """Journal j in bearing i, as SymPy symbols: radii R_i, R_j, radial clearance c, length L, E and ν."""
+
+    R_i: Any
+    R_j: Any
+    c: Any
+    L: Any
+    E_i: Any
+    nu_i: Any
+    E_j: Any
+    nu_j: Any
+
+
+@dataclass(frozen=True)
+class LawInputs:
+    """What a law's `build` may use: its own parameters, the pair, and the state variables of its role.
+
+    `derive(name, expression, meaning)` gives the symbol of a constant that is computed once a run.
+    """
+
+    parameters: Mapping[str, Any]
+    options: Mapping[str, str | bool]
+    pair: PairSymbols
+    variables: Mapping[str, Any]
+    derive: Callable[[str, Any, str], Any]
+
+
+# The state variables that a role's law is written in, and what it returns.
+VARIABLES: Mapping[str, tuple[str, ...]] = {
+    "normal": ("delta", "ratio"),  # δ > 0 (m), δ̇/δ̇⁻
+    "friction": ("F_n", "v_t"),  # normal force (N), slip (m/s)
+    "film": ("epsilon", "w_n", "w_t"),  # ε < 1, effective squeeze velocity over c (1/s)
+}
+RESULTS: Mapping[str, tuple[str, ...]] = {"normal": ("F_n",), "friction": ("F_t",), "film": ("F_r", "F_t", "T0")}
+
+
+@dataclass(frozen=True)
 class Law:
-    """A force law: its equation is `expression(...)`, whose arguments depend on the role."""
+    """A force law. `build(inputs: LawInputs)` returns the role's RESULTS by name, as SymPy.
+
+    Local abbreviations, if any, are returned first under their own names, in order of use.
+    """
 
     name: str
     role: str  # "normal", "friction" or "film": the key under a contact in the YAML

@@ -30,13 +30,18 @@ class JointField:
 
 @dataclass(frozen=True)
 class JointType:
-    """A joint type: the YAML key `kind: [first.point, second.point]`, more fields, its Φ rows."""
+    """A joint type: the YAML key `kind: [first.point, second.point]`, more fields, its Φ rows.
+
+    `rows(first, second, fields)` gets two PointFrames (generator/geometry.py) and the JointFields
+    (generator/constraints.py) and returns one SymPy expression a row name.
+    """
 
     kind: str
     title: str
     fields: tuple[JointField, ...]
     may_have_play: bool
     row_names: tuple[str, ...]  # one short name a row of Φ: the row is called "<joint>.<row name>"
+    row_units: tuple[str, ...]  # "m" or "rad", a row each
     rows: Callable[..., list[Any]]
 
 

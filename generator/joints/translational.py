@@ -16,9 +16,10 @@ from gudgeon.generator.units import DIMENSIONLESS
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
     """Two rows: the offset from the axis (m), the angle between the bodies (rad)."""
-    axis_x, axis_y = first.direction(fields["axis"])
+    axis = fields.direction("axis")
+    axis_x, axis_y = first.direction(axis)
     offset = axis_x * (second.y - first.y) - axis_y * (second.x - first.x)
-    return [offset, second.theta - first.theta - fields["angle"]]
+    return [offset, second.theta - first.theta - fields.quantity("angle", fields.angle_of("axis"))]
 
 
 JOINT = JointType(
@@ -30,5 +31,6 @@ JOINT = JointType(
     ),
     False,
     ("offset", "angle"),
+    ("m", "rad"),
     rows,
 )

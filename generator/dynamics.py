@@ -1,0 +1,122 @@
+"""The kernels of one scene: what is computed at a state, each a straight-line function."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from gudgeon.generator.constraints import Row
+from gudgeon.generator.clearance import Clearance
+from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder
+from gudgeon.generator.kkt import KKT
+from gudgeon.generator.model import Model
+
+STATE = (Argument("const double", "t"), Argument("const double *", "q"), Argument("const double *", "v"))
+PARAMETERS = Argument("const Parameters *", "p")
+ZERO = sp.Integer(0)
+
+
+def dynamics_kernel(model: Model, kkt: KKT) -> Kernel:
+    """q̈ and λ at a state, clearance forces included."""
+    build = KernelBuilder(model.symbols, "dynamics", [
+        "Accelerations a (n) and multipliers in `aside` at a state:",
+        "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
+        "Returns 0, or the number of the pivot that vanished.",
+    ])  # fmt: skip
+    forces = _gravity(model)
+    for index, clearance in enumerate(model.clearances):
+        _clearance_call(model, build, index, clearance, forces)
+    b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
+    b.update(_constraint_rhs(model, build, kkt))
+    x = kkt.solve(build, kkt.factorize(build), b)
+    build.section("results")
+    for k, _ in enumerate(model.q):
+        build.out(f"a[{k}]", x[k])
+    for r, _ in enumerate(kkt.rows):
+        build.out(f"aside->lambda[{r}]", x[kkt.n + r])
+    _powers(model, build, kkt, x)
+    build.line("return 0;")
+    latch = (Argument("const Latch *", "latch"),) if model.clearances else ()
+    arguments = (*STATE, *latch, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
+    return build.build(arguments, "int")
+
+
+def _gravity(model: Model) -> list[sp.Expr]:
+    """Generalized forces before clearances: weight, as slots of `prepare`."""
+    derive = model.slots.derive
+    forces: list[sp.Expr] = []
+    for body in model.bodies:
+        for axis, component in zip("xy", model.gravity, strict=True):
+            weight = body.mass * component
+            forces.append(ZERO if weight == 0 else derive(f"weight_{body.name}_{axis}", weight, "weight"))
+        forces.append(ZERO)
+    return forces
+
+
+def _clearance_call(
+    model: Model, build: KernelBuilder, index: int, clearance: Clearance, forces: list[sp.Expr]
+) -> None:
+    """Calls the joint's force function and spreads its result over both bodies."""
+    name, out = clearance.name, f"aside->clearance[{index}]"
+    build.section(f"clearance joint {name}")
+    e = [build.local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)]
+    edot = [
+        build.local(f"edot_{name}_{axis}", value)
+        for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
+    ]
+    omegas = (clearance.first.omega, clearance.second.omega)
+    arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in omegas)])
+    build.line(f"clearance_{name}({arguments}, &latch[{index}], p, &{out});", omegas)
+    F = [build.local(f"F_{name}_{axis}", f"{out}.F{axis}") for axis in "xy"]
+    moments = [build.local(f"M_{name}_{body}", f"{out}.moment_{body}") for body in ("first", "second")]
+    for point, sign, moment in ((clearance.first, -1, moments[0]), (clearance.second, 1, moments[1])):
+        if point.body is not None:
+            k = point.body.index
+            forces[k] += sign * F[0]
+            forces[k + 1] += sign * F[1]
+            forces[k + 2] += sign * (point.arm[0] * F[1] - point.arm[1] * F[0]) + moment
+    power = F[0] * edot[0] + F[1] * edot[1] + moments[0] * omegas[0] + moments[1] * omegas[1]
+    build.out(f"{out}.power", power)
+
+
+def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT) -> dict[int, sp.Expr]:
+    """γ − 2αΦ̇ − β²Φ a row; the residuals are kept in `aside` for the diagnostics."""
+    alpha, beta = model.baumgarte
+    two_alpha = model.slots.derive("two_alpha", 2 * alpha, "2 alpha")
+    beta_squared = model.slots.derive("beta_squared", beta**2, "beta^2")
+    rhs: dict[int, sp.Expr] = {}
+    if kkt.rows:
+        build.section("constraints: Phi, Phi_dot = Phi_q v - nu, gamma")
+    for r, row in enumerate(kkt.rows):
+        name = row.name.replace(".", "_")
+        phi = build.local(f"phi_{name}", row.phi)
+        phi_dot = build.local(f"phi_dot_{name}", row.phi_q_v - row.nu)
+        rhs[kkt.n + r] = build.local(f"rhs_{name}", row.gamma - two_alpha * phi_dot - beta_squared * phi)
+        build.out(f"aside->phi[{r}]", phi)
+        build.out(f"aside->phi_dot[{r}]", phi_dot)
+    return rhs
+
+
+def _powers(model: Model, build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
+    """Power of the drives, −λᵀν, and of the clearance forces (W)."""
+    drives = sum((-x[kkt.n + r] * row.nu for r, row in enumerate(kkt.rows) if row.nu != 0), ZERO)
+    clearances = " + ".join(f"aside->clearance[{i}].power" for i in range(len(model.clearances)))
+    build.out("aside->power[0]", drives)
+    build.out("aside->power[1]", clearances or ZERO)
+
+
+def projection_kernel(model: Model, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
+    """x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r: the smallest x, in the metric of M, with Φ_q x = r."""
+    kkt = KKT(model, rows)
+    build = KernelBuilder(model.symbols, name, [
+        "The smallest x (n), measured by M, with Phi_q x = r (m); Newton's step, velocities.",
+        "Returns 0, or the number of the pivot that vanished.",
+    ])  # fmt: skip
+    build.section("right-hand side")
+    r = {kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", f"r[{k}]") for k, row in enumerate(kkt.rows)}
+    x = kkt.solve(build, kkt.factorize(build), r, "step_")
+    build.section("results")
+    for k, _ in enumerate(model.q):
+        build.out(f"x[{k}]", x[k])
+    build.line("return 0;")
+    arguments = (*STATE[:2], Argument("const double *", "r"), PARAMETERS, Argument("double *", "x"))
+    return build.build(arguments, "int"), kkt

@@ -1,0 +1,129 @@
+"""The kernels around the dynamics: parameters, the closed linkage's Φ and its parts, the start, outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import sympy as sp
+
+from gudgeon.generator.constraints import Row
+from gudgeon.generator.dynamics import PARAMETERS, STATE, ZERO
+from gudgeon.generator.geometry import BodySymbols
+from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement
+from gudgeon.generator.mechanism import Joint
+from gudgeon.generator.model import Model
+
+
+def prepare_kernel(model: Model, print_c: Callable[[sp.Expr], str]) -> Kernel:
+    """Slots from what is given, the rest from their defaults; then everything derived from them."""
+    slots: list[Statement | str] = []
+    for i, entry in enumerate(model.slots.entries.values()):
+        name = entry.symbol.name
+        slots.append(Statement(name, f"is_given[{i}] ? given[{i}] : {print_c(entry.value)}", True, entry.address))
+        slots.append(f"p->{name} = {name};")
+    derived: list[Statement | str] = []
+    for symbol, value in model.slots.derived.items():
+        derived.append(Statement(symbol.name, value, True, model.symbols.info[symbol].meaning))
+        derived.append(f"p->{symbol.name} = {symbol.name};")
+    return Kernel(
+        "prepare",
+        ("Every number of a run: slots given or by default, then what follows from them.",),
+        (Argument("const double *", "given"), Argument("const unsigned char *", "is_given"),
+         Argument("Parameters *", "p")),
+        (Section("slots", tuple(slots)), Section("derived", tuple(derived))),
+    )  # fmt: skip
+
+
+def mass_kernel(model: Model) -> Kernel:
+    build = KernelBuilder(model.symbols, "mass_matrix", ["The diagonal of M (n)."])
+    build.section("M")
+    for k, mass in enumerate(model.masses):
+        build.out(f"m[{k}]", mass)
+    return build.build((PARAMETERS, Argument("double *", "m")))
+
+
+def row_kernels(model: Model) -> list[Kernel]:
+    """Φ, Φ_q (dense, row by row), ν and γ of the closed linkage."""
+
+    def kernel(name: str, doc: str, out: str, velocity: bool, value: Callable[[Row], sp.Expr]) -> Kernel:
+        build = KernelBuilder(model.symbols, name, [doc])
+        build.section("rows")
+        for r, row in enumerate(model.all_rows):
+            build.out(f"{out}[{r}]", value(row), row.name)
+        arguments = (*STATE, PARAMETERS, Argument("double *", out))
+        return build.build(arguments if velocity else (*STATE[:2], *arguments[3:]))
+
+    return [
+        kernel("constraints", "Phi(q, t) of the closed linkage; m and rad.", "phi", False, lambda row: row.phi),
+        _jacobian_kernel(model),
+        kernel("velocity_rhs", "nu = -Phi_t: Phi_q v = nu.", "nu", False, lambda row: row.nu),
+        kernel("acceleration_rhs", "gamma: Phi_q a = gamma.", "gamma_rows", True, lambda row: row.gamma),
+    ]
+
+
+def _jacobian_kernel(model: Model) -> Kernel:
+    build = KernelBuilder(model.symbols, "jacobian", ["Phi_q of the closed linkage, dense, row by row; zeros kept."])
+    build.section("non-zeros")
+    place = {q: k for k, q in enumerate(model.q)}
+    for r, row in enumerate(model.all_rows):
+        for q, value in row.phi_q.items():
+            build.out(f"phi_q[{r * len(model.q) + place[q]}]", value, f"d {row.name} / d {q.name}")
+    return build.build((*STATE[:2], PARAMETERS, Argument("double *", "phi_q")))
+
+
+def start_kernel(model: Model) -> Kernel:
+    """The numbers of the file's `start`."""
+    start = model.scene.mechanism.start
+    build = KernelBuilder(model.symbols, "start_values", ["Values of the start's guess, set and rates."])
+    build.section("start")
+    for key, group in (("guess", start.guess), ("set", start.set), ("rates", start.rates)):
+        for k, quantity in enumerate(group.values()):
+            build.out(f"{key}[{k}]", model.slots.use(quantity), quantity.address)
+    arguments = (PARAMETERS, *(Argument("double *", key) for key in ("guess", "set", "rates")))
+    return build.build(arguments)
+
+
+def outputs_kernel(model: Model) -> Kernel:
+    """Reactions, drive torques and energies from q, q̇ and λ."""
+    build = KernelBuilder(model.symbols, "outputs", [
+        "Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),",
+        "drive torques on the driven body, kinetic and potential energy.",
+    ])  # fmt: skip
+    multiplier: dict[str, sp.Expr] = {}
+    build.section("multipliers")
+    for r, row in enumerate(model.rows):
+        multiplier[row.name] = build.local(f"multiplier_{row.name.replace('.', '_')}", f"lambda[{r}]")
+    build.section("reactions")
+    for j, joint in enumerate(kept_joints(model)):
+        for k, value in enumerate(_reaction(model, joint, multiplier)):
+            build.out(f"reactions[{3 * j + k}]", value, f"{joint.name}.{('Fx', 'Fy', 'M')[k]}")
+    for d, name in enumerate(model.scene.mechanism.drives):
+        build.out(f"torques[{d}]", -multiplier[name], f"{name}.torque")
+    build.section("energy")
+    build.out("energy[0]", sum((m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True)), ZERO))
+    gx, gy = model.gravity
+    build.out("energy[1]", sum((-body.mass * (gx * body.x + gy * body.y) for body in model.bodies), ZERO))
+    out = (Argument("double *", name) for name in ("reactions", "torques", "energy"))
+    return build.build((*STATE, PARAMETERS, Argument("const double *", "lambda"), *out))
+
+
+def kept_joints(model: Model) -> list[Joint]:
+    """Joints that constrain the motion: those without play."""
+    return [joint for joint in model.scene.mechanism.joints.values() if joint.name not in model.scene.play]
+
+
+def _reaction(model: Model, joint: Joint, multiplier: dict[str, sp.Expr]) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """Force and moment on the second body at its point; taken from the first body if that is the ground."""
+    first, second = model.geometry.point(joint.first), model.geometry.point(joint.second)
+    rows = [row for row in model.rows if row.owner == joint.name]
+    body = second.body or first.body
+    assert body is not None  # the reader refuses ground to ground
+    share = [-sum((row.phi_q.get(q, ZERO) * multiplier[row.name] for row in rows), ZERO) for q in body.q]
+    arm = second.arm if second.body else _arm_to(second.x, second.y, body)
+    moment = sp.expand(share[2] - (arm[0] * share[1] - arm[1] * share[0]))
+    sign = 1 if second.body else -1
+    return sign * share[0], sign * share[1], sign * moment
+
+
+def _arm_to(x: sp.Expr, y: sp.Expr, body: BodySymbols) -> tuple[sp.Expr, sp.Expr]:
+    return x - body.x, y - body.y

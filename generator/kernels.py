@@ -1,0 +1,135 @@
+"""Kernels: named inputs → named temporaries → named outputs, ready to be printed in any language.
+
+A `KernelBuilder` takes the statements of one function and adds in front what they need: the
+coordinates and parameters that they read and the definitions (cosines, arms, drives) that they use.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from gudgeon.generator.symbols import Symbols
+
+
+@dataclass(frozen=True)
+class Statement:
+    """`target = value`; a `local` is declared there. `value` is SymPy, or text of the target language."""
+
+    target: str
+    value: sp.Expr | str
+    local: bool = True
+    comment: str = ""
+
+
+@dataclass(frozen=True)
+class Section:
+    title: str
+    statements: tuple[Statement | str, ...]  # a str is a line of the target language
+
+
+@dataclass(frozen=True)
+class Argument:
+    type: str  # "const double *"
+    name: str
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """One function: `returns` is its C type, `result` the expression returned at the end."""
+
+    name: str
+    doc: tuple[str, ...]
+    arguments: tuple[Argument, ...]
+    sections: tuple[Section, ...]
+    returns: str = "void"
+    result: str = ""
+    inline: bool = False
+    public: bool = False
+
+    @property
+    def operations(self) -> int:
+        """Additions, multiplications, divisions and function calls that the statements perform."""
+        return sum(
+            count_operations(s.value)
+            for section in self.sections
+            for s in section.statements
+            if isinstance(s, Statement) and isinstance(s.value, sp.Expr)
+        )
+
+
+def count_operations(expression: sp.Expr) -> int:
+    """SymPy's count, with a negation counted as nothing: it is folded into an addition."""
+    count = sp.count_ops(expression, visual=True)
+    return int(count.subs({sp.Symbol("NEG"): 0}).replace(lambda e: e.is_Symbol, lambda e: sp.Integer(1)))
+
+
+class KernelBuilder:
+    """Collects statements in sections, then resolves what they read."""
+
+    def __init__(self, symbols: Symbols, name: str, doc: Sequence[str]) -> None:
+        self._symbols, self._name, self._doc = symbols, name, tuple(doc)
+        self._sections: list[tuple[str, list[Statement | str]]] = []
+        self._needed: list[sp.Expr] = []
+
+    def section(self, title: str) -> None:
+        self._sections.append((title, []))
+
+    def line(self, text: str, reads: Iterable[sp.Expr] = ()) -> None:
+        """A line of C; `reads` are the symbols in it."""
+        self._sections[-1][1].append(text)
+        self._needed.extend(reads)
+
+    def local(self, name: str, value: sp.Expr | str, comment: str = "") -> sp.Symbol:
+        """`const double name = value;` and its symbol."""
+        unique = self._symbols.unique(name)
+        self._sections[-1][1].append(Statement(unique, value, True, comment))
+        return sp.Symbol(unique, real=True)
+
+    def line_statement(self, statement: Statement) -> None:
+        """A statement whose name is already known to be free."""
+        self._sections[-1][1].append(statement)
+
+    def out(self, target: str, value: sp.Expr | str, comment: str = "") -> None:
+        """`target = value;`"""
+        self._sections[-1][1].append(Statement(target, value, False, comment))
+
+    def build(
+        self, arguments: Sequence[Argument], returns: str = "void", result: str = "", inline: bool = False,
+        public: bool = False,
+    ) -> Kernel:  # fmt: skip
+        """The kernel, with its inputs and definitions in front."""
+        statements = [s for _, group in self._sections for s in group if isinstance(s, Statement)]
+        declared = {s.target for s in statements if s.local}
+        expressions = [s.value for s in statements if isinstance(s.value, sp.Expr)] + self._needed
+        definitions, inputs = self._resolve(expressions, declared)
+        info = self._symbols.info
+        states = [s for s in inputs if not info[s].home.startswith("p->")]
+        parameters = [s for s in inputs if info[s].home.startswith("p->")]
+        front = [
+            Section("coordinates, velocities, time", tuple(Statement(s.name, info[s].home) for s in states)),
+            Section("parameters", tuple(Statement(s.name, info[s].home) for s in parameters)),
+            Section(
+                "directions, arms, drives", tuple(Statement(s.name, self._symbols.definitions[s]) for s in definitions)
+            ),
+        ]
+        sections = front + [Section(title, tuple(group)) for title, group in self._sections]
+        kept = tuple(section for section in sections if section.statements)
+        return Kernel(self._name, self._doc, tuple(arguments), kept, returns, result, inline, public)
+
+    def _resolve(self, expressions: Iterable[sp.Expr], declared: set[str]) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
+        """Definitions to compute (in the order in which they were made) and inputs to read."""
+        info, definitions = self._symbols.info, self._symbols.definitions
+        seen: set[sp.Symbol] = set()
+        waiting = [s for e in expressions for s in e.free_symbols]
+        while waiting:
+            symbol = waiting.pop()
+            if symbol in seen or symbol.name in declared or symbol not in info:
+                continue
+            seen.add(symbol)
+            if not info[symbol].home:
+                waiting.extend(definitions[symbol].free_symbols)
+        ordered = [symbol for symbol in info if symbol in seen]
+        return [s for s in ordered if not info[s].home], [s for s in ordered if info[s].home]

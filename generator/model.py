@@ -1,0 +1,122 @@
+"""The derived equations of one scene: what the emitted code computes, and what a class reads.
+
+Every member is in the derived symbols of the geometry (cos θ, arms, drive angles) but for the
+properties Phi, Phi_q, nu, gamma, M and g, which write everything out in q, q̇, t and parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from gudgeon.generator.clearance import Clearance, make_clearance
+from gudgeon.generator.constraints import Constraints, Row
+from gudgeon.generator.geometry import BodySymbols, Geometry
+from gudgeon.generator.scene import Scene
+from gudgeon.generator.slots import Slots
+from gudgeon.generator.symbols import Symbols
+from gudgeon.generator.units import dimension
+
+BAUMGARTE = 50.0  # 1/s, both gains (physics.md, section 1)
+
+
+@dataclass(frozen=True)
+class Model:
+    """Φ(q, t) = 0 and M q̈ + Φ_qᵀ λ = g for one scene; shapes: q (n,), Φ (m,)."""
+
+    scene: Scene
+    symbols: Symbols
+    slots: Slots
+    geometry: Geometry
+    constraints: Constraints
+    all_rows: tuple[Row, ...]  # the closed linkage: joints with play closed, as the start needs it
+    rows: tuple[Row, ...]  # what constrains the motion
+    clearances: tuple[Clearance, ...]
+    gravity: tuple[sp.Expr, sp.Expr]
+    baumgarte: tuple[sp.Symbol, sp.Symbol]
+
+    @property
+    def bodies(self) -> tuple[BodySymbols, ...]:
+        return tuple(self.geometry.bodies.values())
+
+    @cached_property
+    def q(self) -> tuple[sp.Symbol, ...]:
+        """Coordinates (x, y, θ of each body's centre of mass), in the order of the file."""
+        return tuple(symbol for body in self.bodies for symbol in body.q)
+
+    @cached_property
+    def v(self) -> tuple[sp.Symbol, ...]:
+        """Velocities q̇ in the order of q."""
+        return tuple(symbol for body in self.bodies for symbol in body.v)
+
+    @property
+    def t(self) -> sp.Symbol:
+        return self.constraints.t
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        return len(self.q) - len(self.rows)
+
+    @cached_property
+    def masses(self) -> tuple[sp.Expr, ...]:
+        """The diagonal of M, in the order of q."""
+        return tuple(m for body in self.bodies for m in (body.mass, body.mass, body.inertia))
+
+    def _column(self, expressions: Iterable[sp.Expr]) -> sp.Matrix:
+        return sp.Matrix([self.symbols.explicit(e) for e in expressions])
+
+    @cached_property
+    def Phi(self) -> sp.Matrix:
+        """Φ(q, t), (m, 1); m and rad."""
+        return self._column(row.phi for row in self.rows)
+
+    @cached_property
+    def Phi_q(self) -> sp.Matrix:
+        """∂Φ/∂q, (m, n)."""
+        zero = sp.Integer(0)
+        return sp.Matrix([[self.symbols.explicit(row.phi_q.get(q, zero)) for q in self.q] for row in self.rows])
+
+    @cached_property
+    def nu(self) -> sp.Matrix:
+        """ν = −Φ_t, (m, 1): Φ_q q̇ = ν."""
+        return self._column(row.nu for row in self.rows)
+
+    @cached_property
+    def gamma(self) -> sp.Matrix:
+        """γ, (m, 1): Φ_q q̈ = γ."""
+        return self._column(row.gamma for row in self.rows)
+
+    @cached_property
+    def M(self) -> sp.Matrix:
+        """Mass matrix, (n, n), diagonal: the coordinates are those of the centres of mass."""
+        return sp.diag(*self.masses)
+
+    @cached_property
+    def g(self) -> sp.Matrix:
+        """Generalized applied forces without those of the clearance joints, (n, 1): gravity."""
+        gx, gy = self.gravity
+        return sp.Matrix([f for body in self.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))])
+
+
+def make_model(scene: Scene) -> Model:
+    """Derive one scene, joint by joint."""
+    mechanism, symbols = scene.mechanism, Symbols()
+    slots = Slots(scene, symbols)
+    geometry = Geometry(scene, symbols, slots)
+    constraints = Constraints(geometry)
+    rate = dimension(time=-1)
+    baumgarte = (
+        slots.constant("baumgarte.alpha", "alpha", BAUMGARTE, rate),
+        slots.constant("baumgarte.beta", "beta", BAUMGARTE, rate),
+    )
+    rows = [row for joint in mechanism.joints.values() for row in constraints.joint_rows(joint)]
+    rows += [row for drive in mechanism.drives.values() for row in constraints.drive_rows(drive)]
+    clearances = [make_clearance(mechanism.joints[name], play, geometry, slots) for name, play in scene.play.items()]
+    gravity = geometry.ground_vector(mechanism.gravity) if mechanism.gravity else (sp.Integer(0), sp.Integer(0))
+    kept = tuple(row for row in rows if row.owner not in scene.play)
+    return Model(
+        scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), gravity, baumgarte
+    )

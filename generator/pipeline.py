@@ -1,0 +1,24 @@
+"""The table of contents: YAML → Mechanism → Scene → Model → KernelSource, a call each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from gudgeon.generator.model import Model, make_model
+from gudgeon.generator.read_yaml import read_mechanism
+from gudgeon.generator.scene import make_scene
+from gudgeon.generator.targets.c.emit import emit
+from gudgeon.kernel_source import KernelSource
+
+
+def derive(data: bytes, file: str, scene: str, overrides: Mapping[str, str | float | bool] | None = None) -> Model:
+    """The equations of one scene of a mechanism file."""
+    mechanism = read_mechanism(data, file, overrides)
+    return make_model(make_scene(mechanism, scene))
+
+
+def generate(
+    data: bytes, file: str, scene: str, overrides: Mapping[str, str | float | bool] | None = None
+) -> KernelSource:
+    """The C of one scene of a mechanism file, with the names of everything in it."""
+    return emit(derive(data, file, scene, overrides))

@@ -1,0 +1,95 @@
+"""The run-time numbers of a scene: slots that the user may override, and what `prepare` derives.
+
+Every physical number has an address and becomes a member of the C struct `Parameters`; a literal
+zero is structural and stays a zero. Derived numbers (inverse masses, K, S, …) follow the slots.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from gudgeon.expression_tree import evaluate, names
+from gudgeon.generator.mechanism import Quantity
+from gudgeon.generator.scene import Scene
+from gudgeon.generator.symbolic import to_sympy
+from gudgeon.generator.symbols import Symbols
+from gudgeon.generator.units import DIMENSIONLESS, Dimension
+
+
+@dataclass(frozen=True)
+class SlotEntry:
+    """`value` is the default in symbols of earlier slots; a number unless it follows parameters."""
+
+    symbol: sp.Symbol
+    address: str
+    value: sp.Expr
+    default: float
+    dimension: Dimension
+
+    @property
+    def follows(self) -> bool:
+        return bool(self.value.free_symbols)
+
+
+class Slots:
+    """Collects slots in order of use; parameters come first, in dependency order."""
+
+    def __init__(self, scene: Scene, symbols: Symbols) -> None:
+        self.symbols = symbols
+        self.entries: dict[str, SlotEntry] = {}
+        self.derived: dict[sp.Symbol, sp.Expr] = {}
+        self._parameters = scene.parameters
+        for name in scene.parameters:
+            self._parameter(name)
+
+    def _parameter(self, name: str) -> sp.Symbol:
+        address = f"parameters.{name}"
+        if address not in self.entries:
+            quantity = self._parameters[name]
+            for used in names(quantity.value):
+                self._parameter(used.path)
+            self._add(address, name, quantity)
+        return self.entries[address].symbol
+
+    def _add(self, address: str, wanted: str, quantity: Quantity) -> sp.Symbol:
+        value = to_sympy(quantity.value, self._parameter)
+        default = float(evaluate(quantity.value, lambda path: self.entries[f"parameters.{path}"].default))
+        if not names_any(quantity):
+            value = sp.Float(default, 17)
+        symbol = self.symbols.new(wanted, "p->{}", address)
+        self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension)
+        return symbol
+
+    def use(self, quantity: Quantity) -> sp.Expr:
+        """The slot of a quantity; 0 for a literal zero."""
+        if quantity.is_zero:
+            return sp.Integer(0)
+        if quantity.address not in self.entries:
+            _, _, rest = quantity.address.partition(".")
+            self._add(quantity.address, rest or quantity.address, quantity)
+        return self.entries[quantity.address].symbol
+
+    def constant(self, address: str, wanted: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
+        """A slot that no file names, such as the Baumgarte gains."""
+        if address not in self.entries:
+            symbol = self.symbols.new(wanted, "p->{}", address)
+            self.entries[address] = SlotEntry(symbol, address, sp.Float(default, 17), default, dimension)
+        return self.entries[address].symbol
+
+    def derive(self, wanted: str, expression: sp.Expr, meaning: str = "") -> sp.Expr:
+        """A number that `prepare` computes once a run; numbers and slots themselves stay as they are."""
+        if expression.is_Number or (expression.is_Symbol and self.symbols.info[expression].home.startswith("p->")):
+            return expression
+        for symbol, known in self.derived.items():
+            if known == expression:
+                return symbol
+        symbol = self.symbols.define(wanted, expression, "p->{}", meaning)
+        self.derived[symbol] = expression
+        return symbol
+
+
+def names_any(quantity: Quantity) -> bool:
+    """Whether a quantity's expression has any name in it."""
+    return any(True for _ in names(quantity.value))

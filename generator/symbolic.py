@@ -1,0 +1,59 @@
+"""Expression trees of a mechanism file as SymPy expressions, function by function."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import sympy as sp
+
+from gudgeon.expression_tree import Binary, Call, Expr, Name, Number, Unary
+
+
+def smooth_step(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
+    """0 before `start`, 1 after `start + duration`, between them 10s³ − 15s⁴ + 6s⁵."""
+    s = ramp(t, start, duration)
+    return s**3 * (10 + s * (6 * s - 15))
+
+
+def ramp(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
+    """0 before `start`, 1 after `start + duration`, linear between them."""
+    return sp.Max(0, sp.Min(1, (t - start) / duration))
+
+
+_FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
+    "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
+    "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": sp.exp, "log": sp.log,
+    "sqrt": sp.sqrt, "hypot": lambda a, b: sp.sqrt(a**2 + b**2), "abs": sp.Abs, "sign": sp.sign,
+    "min": sp.Min, "max": sp.Max, "smooth_step": smooth_step, "ramp": ramp,
+}  # fmt: skip
+
+
+def to_sympy(expr: Expr, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
+    """`expr` in SymPy; `symbol_of(path)` gives the symbol of a name.
+
+    A number stays the binary64 value that the user wrote; integers stay exact, so that they fold.
+    """
+    match expr:
+        case Number(value=value):
+            return sp.Integer(int(value)) if value == int(value) and abs(value) < 1e15 else sp.Float(value, 17)
+        case Name(path=path):
+            return symbol_of(path)
+        case Unary(operand=operand):
+            return -to_sympy(operand, symbol_of)
+        case Call(function=function, arguments=arguments):
+            return _FUNCTIONS[function](*(to_sympy(a, symbol_of) for a in arguments))
+        case Binary(operator=operator, left=left, right=right):
+            return _combine(operator, to_sympy(left, symbol_of), to_sympy(right, symbol_of))
+
+
+def _combine(operator: str, a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    match operator:
+        case "+":
+            return a + b
+        case "-":
+            return a - b
+        case "*":
+            return a * b
+        case "/":
+            return a / b
+    return a**b

@@ -1,0 +1,79 @@
+"""The symbols of a model: one C name each, where the name lives, and how it is differentiated.
+
+A derived symbol (`cos_theta_L7`, the arm `arm_L7_head_x`, a drive's `crank1_angle`) stands for an
+expression and knows its derivatives. Differentiation goes by the chain rule over these symbols, so
+that Φ_q and γ come out in the words of the geometry and need no search for common subexpressions.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import sympy as sp
+
+# What emitted code itself calls its arguments and locals, and object-like macros of the C headers.
+_TAKEN = frozenset(
+    "t q v y p g f b x a dy phi nu gamma e nx ny tx ty out given is_given latch status scale "
+    "delta deltadot ratio F_n F_t v_t epsilon w_n w_t root W factor latch rows "
+    "EOF NULL NAN INFINITY HUGE_VAL errno stdin stdout stderr signgam".split()
+)
+
+
+@dataclass(frozen=True)
+class SymbolInfo:
+    """`home` is the C text that reads the symbol; empty for a local of its kernel."""
+
+    home: str
+    meaning: str
+    unit: str
+
+
+class Symbols:
+    """All the symbols of one model, in the order in which they were made."""
+
+    def __init__(self) -> None:
+        self.info: dict[sp.Symbol, SymbolInfo] = {}
+        self.definitions: dict[sp.Symbol, sp.Expr] = {}
+        self.rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
+        self._names: set[str] = set()
+
+    def unique(self, wanted: str) -> str:
+        """`wanted` as a C identifier that nothing else has."""
+        name = re.sub(r"\W", "_", wanted)
+        if name in _TAKEN or name.isupper():
+            name = f"par_{name}"
+        candidate, count = name, 1
+        while candidate in self._names:
+            count += 1
+            candidate = f"{name}_{count}"
+        self._names.add(candidate)
+        return candidate
+
+    def new(self, wanted: str, home: str = "", meaning: str = "", unit: str = "") -> sp.Symbol:
+        """A new real symbol; `{}` in `home` stands for the C name that it gets."""
+        name = self.unique(wanted)
+        symbol = sp.Symbol(name, real=True)
+        self.info[symbol] = SymbolInfo(home.replace("{}", name), meaning, unit)
+        return symbol
+
+    def define(self, wanted: str, expression: sp.Expr, home: str = "", meaning: str = "", unit: str = "") -> sp.Symbol:
+        """A new symbol that stands for `expression`."""
+        symbol = self.new(wanted, home, meaning, unit)
+        self.definitions[symbol] = expression
+        return symbol
+
+    def diff(self, expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
+        """d expression / d by, through the derived symbols."""
+        total = sp.Integer(0)
+        for symbol in sorted(expression.free_symbols, key=lambda s: s.name):
+            inner = sp.Integer(1) if symbol == by else self.rules.get(symbol, {}).get(by)
+            if inner is not None:
+                total += sp.diff(expression, symbol) * inner
+        return total
+
+    def explicit(self, expression: sp.Expr) -> sp.Expr:
+        """`expression` with every derived symbol written out."""
+        while found := {s: self.definitions[s] for s in expression.free_symbols if s in self.definitions}:
+            expression = expression.xreplace(found)
+        return expression

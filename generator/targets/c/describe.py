@@ -1,0 +1,143 @@
+"""The names of everything in the emitted C, for the runtime: a KernelSource."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import sympy as sp
+
+from gudgeon.expression_tree import to_json
+from gudgeon.generator.constraints import Row
+from gudgeon.generator.interface import kept_joints
+from gudgeon.generator.mechanism import GROUND
+from gudgeon.generator.model import Model
+from gudgeon.generator.units import Dimension
+from gudgeon.kernel_source import (
+    BodyInfo, ClearanceInfo, Condition, DriveInfo, JointInfo, KernelSource, PointInfo, RowInfo, Slot,
+)  # fmt: skip
+
+
+def describe(
+    model: Model, *, files: Mapping[str, str], main: str, cdef: str, pivots: tuple[str, ...],
+    start_pivots: tuple[str, ...], operations: Mapping[str, int],
+) -> KernelSource:  # fmt: skip
+    """Everything that the runtime must know of a scene."""
+    scene, mechanism = model.scene, model.scene.mechanism
+    place = {symbol: k for k, symbol in enumerate(_prepared(model))}
+    body_of = {name: k for k, name in enumerate(model.geometry.bodies)} | {GROUND: -1}
+    row_of = {row.name: r for r, row in enumerate(model.rows)}
+    start = mechanism.start
+    used = set(model.slots.entries)
+    return KernelSource(
+        mechanism=mechanism.name, scene=scene.name, title=mechanism.title, sha256=mechanism.sha256,
+        files=files, main=main, cdef=cdef,
+        coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
+        bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
+        points=_points(model, place, body_of),
+        rows=tuple(map(_row, model.rows)),
+        joints=tuple(
+            JointInfo(
+                joint.name, joint.kind, body_of[joint.first.body], body_of[joint.second.body],
+                f"{joint.second.body}.{joint.second.point}",
+                tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
+            )
+            for joint in kept_joints(model)
+        ),
+        drives=tuple(
+            DriveInfo(d.name, body_of[d.body], body_of[d.reference or GROUND], row_of[d.name])
+            for d in mechanism.drives.values()
+        ),
+        clearances=_clearances(model, place, body_of),
+        start_rows=tuple(map(_row, model.all_rows)),
+        start_guess=tuple(start.guess), start_set=tuple(start.set), start_rates=tuple(start.rates),
+        pivots=pivots, start_pivots=start_pivots,
+        slots=tuple(
+            Slot(e.address, _unit(e.dimension), e.default, e.follows, _exponents(e.dimension))
+            for e in model.slots.entries.values()
+        ),
+        derived=tuple(symbol.name for symbol in model.slots.derived),
+        conditions=tuple(
+            Condition(c.address, c.relation, c.bound, c.message)
+            for c in mechanism.conditions
+            if c.address in used and (not isinstance(c.bound, str) or c.bound in used)
+        ),
+        outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
+        simulate=_simulate(model),
+        operations=dict(operations), notes=_notes(model), gravity=any(c != 0 for c in model.gravity),
+    )  # fmt: skip
+
+
+def _prepared(model: Model) -> list[sp.Symbol]:
+    """The members of `Parameters` in their order."""
+    return [entry.symbol for entry in model.slots.entries.values()] + list(model.slots.derived)
+
+
+def _row(row: Row) -> RowInfo:
+    return RowInfo(row.name, row.owner, row.kind, row.unit)
+
+
+def _index(place: Mapping[sp.Symbol, int], value: sp.Expr) -> tuple[int, int]:
+    """(index into p, sign) of a number that is a symbol, its negative, or zero (−1)."""
+    if value == 0:
+        return -1, 1
+    return (place[value], 1) if value in place else (place[-value], -1)
+
+
+def _points(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[str, int]) -> tuple[PointInfo, ...]:
+    points = []
+    for (body, name), (x, y) in model.geometry.local.items():
+        (ix, sx), (iy, sy) = _index(place, x), _index(place, y)
+        points.append(PointInfo(f"{body}.{name}", body_of[body], ix, iy, sx, sy))
+    for name, vector in model.scene.mechanism.ground.items():
+        x, y = model.geometry.ground_vector(vector)
+        if all(value == 0 or value in place for value in (x, y)):
+            points.append(PointInfo(f"{GROUND}.{name}", -1, _index(place, x)[0], _index(place, y)[0], 1, 1))
+    return tuple(points)
+
+
+def _clearances(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[str, int]) -> tuple[ClearanceInfo, ...]:
+    return tuple(
+        ClearanceInfo(
+            c.name, body_of[c.joint.first.body], body_of[c.joint.second.body],
+            f"{c.joint.second.body}.{c.joint.second.point}",
+            c.normal is not None, c.film is not None, place[c.pair.c],
+            {name: place[value] for name, value in c.constants.items() if value in place},
+        )
+        for c in model.clearances
+    )  # fmt: skip
+
+
+def _simulate(model: Model) -> dict[str, float]:
+    from gudgeon.expression_tree import evaluate
+
+    defaults = {e.address: e.default for e in model.slots.entries.values()}
+    return {
+        name: float(evaluate(quantity.value, lambda path: defaults[f"parameters.{path}"]))
+        for name, quantity in model.scene.simulate.items()
+    }
+
+
+def _notes(model: Model) -> tuple[str, ...]:
+    """What this scene does not have, and so does not pay for."""
+    notes = []
+    if not model.clearances:
+        notes.append("no joint has play: no contact code, no film")
+        if model.degrees_of_freedom == 0:
+            notes.append("no degree of freedom: positions by Newton, nothing is integrated")
+    elif not any(c.film for c in model.clearances):
+        notes.append("no film: dry contact only")
+    if all(component == 0 for component in model.gravity):
+        notes.append("no gravity: no weight terms")
+    return tuple(notes)
+
+
+def _exponents(dimension: Dimension) -> tuple[int, int, int]:
+    return int(dimension.length), int(dimension.mass), int(dimension.time)
+
+
+def _unit(dimension: Dimension) -> str:
+    """SI base units, "kg*m^2/s^2"."""
+    pairs = [("kg", int(dimension.mass)), ("m", int(dimension.length)), ("s", int(dimension.time))]
+    above = "*".join(u if n == 1 else f"{u}^{n}" for u, n in pairs if n > 0)
+    below = "".join(f"/{u}" if n == -1 else f"/{u}^{-n}" for u, n in pairs if n < 0)
+    return (above or ("1" if below else "")) + below

@@ -1,0 +1,140 @@
+"""A model as C: the texts, their cffi declarations, and the names of everything in them."""
+
+from __future__ import annotations
+
+from importlib import resources
+from typing import Any
+
+import jinja2
+import sympy as sp
+
+from gudgeon.generator import interface
+from gudgeon.generator.dynamics import dynamics_kernel, projection_kernel
+from gudgeon.generator.kernels import Kernel
+from gudgeon.generator.kkt import KKT
+from gudgeon.generator.law_kernels import law_kernels
+from gudgeon.generator.model import Model
+from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.c.clearance_code import clearance_code
+from gudgeon.generator.targets.c.describe import describe
+from gudgeon.kernel_source import KernelSource
+
+COMMON_CDEF = """\
+void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p);
+void gudgeon_mass(const double *p, double *m);
+void gudgeon_phi(double t, const double *q, const double *p, double *phi);
+void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q);
+void gudgeon_nu(double t, const double *q, const double *p, double *nu);
+void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_rows);
+void gudgeon_start_values(const double *p, double *guess, double *set, double *rates);
+int gudgeon_project(double t, const double *q, const double *r, const double *p, double *x);
+int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy);
+double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p);
+int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
+    const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
+    double *energy, long *failed);
+"""
+KINEMATIC_CDEF = """\
+int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double *q, double *v, double *phi_max,
+    double *phi_dot_max, long *steps, long *done);
+"""
+RK4_CDEF = """\
+size_t gudgeon_run_size(void);
+void gudgeon_run_start(void *memory, double t, const double *y, const double *latched);
+int gudgeon_run_steps(void *memory, const double *parameters, double t0, double t1, long total, long first, long count,
+    long *taken);
+void gudgeon_run_sample(const void *memory, double *y, double *a, double *latched, signed char *state);
+int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
+void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
+"""
+
+
+def emit(model: Model) -> KernelSource:
+    """The whole scene as C text with its description."""
+    kkt = KKT(model, model.rows)
+    dynamics = dynamics_kernel(model, kkt)
+    projection, projection_kkt = projection_kernel(model, model.all_rows, "project")
+    around = [
+        interface.mass_kernel(model), *interface.row_kernels(model), interface.start_kernel(model),
+        interface.outputs_kernel(model),
+    ]  # fmt: skip
+    # rendered before `prepare`, which lists what the others derived
+    clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
+    prepare = interface.prepare_kernel(model, printer.expression)
+    kinematic = model.degrees_of_freedom == 0 and not model.clearances
+    files = {
+        "model.h": render("model.h.jinja", **_header(model)),
+        "parameters.c": _kernels(prepare),
+        "constraints.c": _kernels(*around, projection),
+        "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
+        "dynamics.c": _kernels(dynamics),
+        "system.c": render("system.c.jinja", **_counts(model), **_latches(model)),
+    }
+    method = "kinematic" if kinematic else "rk4"
+    files[f"{method}.c"] = render(f"{method}.c.jinja", **_counts(model), floors=_floors(model))
+    files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
+    operations = _operations(model, [dynamics, projection, *around, prepare])
+    return describe(
+        model, files=files, main="scene.c", cdef=COMMON_CDEF + (KINEMATIC_CDEF if kinematic else RK4_CDEF),
+        pivots=kkt.pivots, start_pivots=projection_kkt.pivots, operations=operations,
+    )  # fmt: skip
+
+
+def render(name: str, **values: Any) -> str:
+    """A template with its substitutions; an undefined one is an error."""
+    return _environment().get_template(name).render(**values) + "\n"
+
+
+def _environment() -> jinja2.Environment:
+    def load(name: str) -> str:
+        return resources.files("gudgeon.templates").joinpath("c", name).read_text(encoding="utf-8")
+
+    return jinja2.Environment(
+        loader=jinja2.FunctionLoader(load), undefined=jinja2.StrictUndefined, autoescape=False, trim_blocks=True
+    )
+
+
+def _kernels(*kernels: Kernel) -> str:
+    return render("kernels.c.jinja", kernels=[printer.kernel(kernel) for kernel in kernels])
+
+
+def _counts(model: Model) -> dict[str, int]:
+    return {
+        "n_q": len(model.q),
+        "n_rows": len(model.rows),
+        "n_all_rows": len(model.all_rows),
+        "n_joints": len(interface.kept_joints(model)),
+        "n_drives": len(model.scene.mechanism.drives),
+        "n_clearances": len(model.clearances),
+    }
+
+
+def _header(model: Model) -> dict[str, Any]:
+    mechanism, info = model.scene.mechanism, model.symbols.info
+    slots = [(entry.symbol.name, printer.comment_text(entry.address)) for entry in model.slots.entries.values()]
+    derived = [(symbol.name, printer.comment_text(info[symbol].meaning)) for symbol in model.slots.derived]
+    return {
+        "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
+        "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived, **_counts(model),
+    }  # fmt: skip
+
+
+def _latches(model: Model) -> dict[str, str]:
+    """An ideal scene's dynamics takes no latches."""
+    return {
+        "latch": "latch, " if model.clearances else "",
+        "unused_latch": "" if model.clearances else "(void)latch;",
+    }
+
+
+def _floors(model: Model) -> list[str]:
+    names = [
+        f"p->{c.velocity_floor}" if isinstance(c.velocity_floor, sp.Symbol) else printer.expression(c.velocity_floor)
+        for c in model.clearances
+    ]
+    return names or ["0.0"]
+
+
+def _operations(model: Model, kernels: list[Kernel]) -> dict[str, int]:
+    laws = [kernel for clearance in model.clearances for kernel in law_kernels(model.symbols, clearance)]
+    return {kernel.name: kernel.operations for kernel in [*kernels, *laws]}

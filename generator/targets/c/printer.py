@@ -1,0 +1,108 @@
+"""SymPy expressions and kernels as C11."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+
+import sympy as sp
+from sympy.printing.c import C99CodePrinter
+
+from gudgeon.generator.kernels import Argument, Kernel, Section, Statement
+
+WIDTH = 110
+
+
+class CPrinter(C99CodePrinter):
+    """C99 with doubles written to round-trip, small powers as products, NaN-keeping min and max."""
+
+    def _print_Float(self, expr: sp.Float) -> str:
+        return repr(float(expr))
+
+    def _print_Integer(self, expr: sp.Integer) -> str:
+        return f"{int(expr)}.0"
+
+    def _print_int(self, expr: int) -> str:
+        return f"{expr}.0"
+
+    def _print_Rational(self, expr: sp.Rational) -> str:
+        return f"{int(expr.p)}.0/{int(expr.q)}.0"
+
+    def _print_Pow(self, expr: sp.Pow) -> str:
+        base, exponent = expr.as_base_exp()
+        if exponent.is_Integer and 2 <= abs(int(exponent)) <= 4:
+            factor = self.parenthesize(base, 50)
+            product = " * ".join([factor] * abs(int(exponent)))
+            return f"({product})" if exponent > 0 else f"1.0/({product})"
+        if exponent == -1:
+            return f"1.0/{self.parenthesize(base, 60)}"
+        if exponent == sp.Rational(1, 2):
+            return f"sqrt({self._print(base)})"
+        if exponent == sp.Rational(-1, 2):
+            return f"1.0/sqrt({self._print(base)})"
+        return f"pow({self._print(base)}, {self._print(exponent)})"
+
+    def _print_Max(self, expr: sp.Max) -> str:
+        return self._nested("max_of", expr)
+
+    def _print_Min(self, expr: sp.Min) -> str:
+        return self._nested("min_of", expr)
+
+    def _nested(self, function: str, expr: sp.Expr) -> str:
+        """Numbers come last: max_of(x, 0) keeps a NaN in x."""
+        arguments = sorted(expr.args, key=lambda a: (a.is_Number, str(a)))
+        text = self._print(arguments[0])
+        for argument in arguments[1:]:
+            text = f"{function}({text}, {self._print(argument)})"
+        return text
+
+    def _print_sign(self, expr: sp.Expr) -> str:
+        return f"sign_of({self._print(expr.args[0])})"
+
+
+_printer = CPrinter()
+
+
+def expression(expr: sp.Expr | str) -> str:
+    """C text of an expression; text passes unchanged."""
+    return expr if isinstance(expr, str) else _printer.doprint(expr)
+
+
+def statement(item: Statement | str) -> str:
+    """One statement or raw line, wrapped at operators."""
+    if isinstance(item, str):
+        return f"    {item}"
+    head = f"const double {item.target}" if item.local else item.target
+    comment = f"  /* {comment_text(item.comment)} */" if item.comment else ""
+    text = f"    {head} = {expression(item.value)};"
+    if len(text) > WIDTH:
+        text = "\n".join(
+            textwrap.wrap(text, WIDTH, subsequent_indent=" " * 8, break_long_words=False, break_on_hyphens=False)
+        )
+    return text + comment
+
+
+def comment_text(text: str) -> str:
+    """Text that cannot end a C comment or continue a line, in ASCII."""
+    return re.sub(r"[^\x20-\x7e]", "?", text).replace("*/", "* /").replace("/*", "/ *").replace("\\", "/").replace("?", ".")
+
+
+def arguments(items: tuple[Argument, ...]) -> str:
+    return ", ".join(f"{a.type}{a.name}" if a.type.endswith("*") else f"{a.type} {a.name}" for a in items)
+
+
+def section(item: Section) -> str:
+    lines = [f"    /* {comment_text(item.title)} */", *(statement(s) for s in item.statements)]
+    return "\n".join(lines)
+
+
+def kernel(item: Kernel) -> str:
+    """A whole function, its doc comment in front; arguments that it does not read are voided."""
+    body = "\n\n".join(section(s) for s in item.sections)
+    unused = [a.name for a in item.arguments if not re.search(rf"\b{re.escape(a.name)}\b", body + item.result)]
+    voids = "".join(f"    (void){name};\n" for name in unused)
+    doc = "\n".join(f" * {comment_text(line)}" for line in item.doc)
+    head = f"static {'inline ' if item.inline else ''}{item.returns} {item.name}({arguments(item.arguments)})"
+    head = "\n".join(textwrap.wrap(head, WIDTH, subsequent_indent="    "))
+    end = f"\n    return {item.result};" if item.result else ""
+    return f"/*\n{doc}\n */\n{head}\n{{\n{voids}{body}{end}\n}}\n"
