@@ -11,6 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tests.oracles import dry, film, golden, ideal_press, numpy_linkage, press_dense
+from tests.oracles.journal import Journal
 from tests.oracles.numpy_linkage import Body, Drive, End, Linkage, Revolute, Translational, Wave
 
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
@@ -191,6 +192,39 @@ def test_dry_forces_leave_a_couple_unless_they_share_a_point() -> None:
         couple = a.moment_i + a.moment_j + between[0] * a.fy - between[1] * a.fx
         assert a.delta > 1e-5 and abs(a.fy) > 1.0
         assert abs(couple) == pytest.approx(a.delta * abs(a.fy) if left else 0.0, rel=1e-9, abs=1e-12)
+
+
+@needs_compiler
+@pytest.mark.parametrize("push", [0.05e-3, 0.2999e-3, 0.302e-3, 0.32e-3])
+@pytest.mark.parametrize("lubricated", [False, True])
+def test_journal_against_the_dense_press(push: float, lubricated: bool) -> None:
+    press = replace(golden.DRY, film=lubricated, common_point=True)
+    y = press_dense.start(press)
+    y[3:5] += push * np.array([0.6, -0.8])
+    y[24:] += np.random.default_rng(5).normal(0.0, 0.05, 24)
+    c = press_dense.rhs(press, 0.0, y, (0.7, 0.0))[2][0]
+    one, two = End(0, (0.04, 0.0)), End(1, (-0.125, 0.0))
+    law = Journal(viscosity=0.1 if lubricated else 0.0, stored=0.7)
+    i, j = (numpy_linkage.place(end, y[:24], y[24:]) for end in (one, two))
+    wrench = law(j.r - i.r, j.v - i.v, i.omega, j.omega)
+    assert wrench.force == pytest.approx((c.fx, c.fy), rel=1e-9)
+    moment_i = float(i.r_q[:, 2] @ -wrench.force) + wrench.moment_first
+    moment_j = float(j.r_q[:, 5] @ wrench.force) + wrench.moment_second
+    assert (moment_i, moment_j) == pytest.approx((c.moment_i, c.moment_j), rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [Journal(stored=0.1), Journal(viscosity=0.1, stored=0.1), Journal(viscosity=0.1, stored=0.1, shear=True)],
+    ids=["dry", "film", "shear"],
+)
+@pytest.mark.parametrize("size", [0.1e-3, 0.29e-3, 0.303e-3, 0.31e-3])
+def test_journal_leaves_no_couple(law: Journal, size: float) -> None:
+    """Force at the journal, −force at the bearing, and both moments: nothing is left about any point."""
+    e = size * np.array([0.28, -0.96])
+    wrench = law(e, np.array([0.02, 0.05]), 3.0, -7.0)
+    couple = e[0] * wrench.force[1] - e[1] * wrench.force[0] + wrench.moment_first + wrench.moment_second
+    assert couple == pytest.approx(0.0, abs=1e-14 * max(1.0, float(np.hypot(*wrench.force))))
 
 
 @needs_compiler

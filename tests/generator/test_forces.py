@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 import sympy as sp
-from gudgeon.generator.forces.law import RESULTS, VARIABLES, LawInputs, PairSymbols, laws
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from gudgeon.generator.forces.law import RESULTS, VARIABLES, LawInputs, PairSymbols, laws
 from tests.oracles import dry, film
 
 PAIR = PairSymbols(R_i=0.015, R_j=0.0147, c=0.3e-3, L=0.04, E_i=70e9, nu_i=0.3, E_j=206e9, nu_j=0.28)
