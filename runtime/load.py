@@ -1,0 +1,136 @@
+"""From a mechanism's name or file to a simulation: two look-ups when nothing changed, the generator when it did."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from gudgeon.build import compile_kernels
+from gudgeon.cache import Cache, default_cache, digest
+from gudgeon.errors import BadValueError, InputError
+from gudgeon.kernel_source import KernelSource
+from gudgeon.shipped import PACKAGE, committed, shipped_file
+
+if TYPE_CHECKING:
+    from gudgeon.simulation import Simulation
+
+Overrides = Mapping[str, str | float | bool]
+DEFAULT_SCENE = "ideal"  # it exists in every file
+FORMULATIONS = ("full",)
+SOURCE = "source.json"
+
+
+@dataclass(frozen=True)
+class Loading:
+    """Where a simulation's kernels came from and how long each stage took (s)."""
+
+    origin: str  # "cache", "generated" (committed, shipped) or "derived"
+    read: float
+    source: float  # from the file's bytes to C text
+    compile: float  # from C text to a loaded library
+    total: float
+
+
+def load(
+    mechanism: str | os.PathLike[str],
+    scene: str | None = None,
+    *,
+    overrides: Overrides | None = None,
+    formulation: str = "full",
+    portable: bool = False,
+    regenerate: bool = False,
+) -> Simulation:
+    """A mechanism's scene, compiled and ready to simulate.
+
+    mechanism: text with "/" or ending in ".yaml" is a path, other text the name of a shipped mechanism.
+    scene: a scene of the file; None is "ideal", which has no play and exists in every file.
+    overrides: values by address that may change the structure. portable: compile for any CPU of this
+    kind. regenerate: derive and compile even if the cache has both.
+    Raises InputError if the file is wrong, BuildError if its C cannot be compiled.
+    """
+    start = perf_counter()
+    file = find_mechanism(mechanism)
+    data = read_bytes(file)
+    read = perf_counter()
+    source, origin = kernel_source(
+        data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate
+    )
+    have_source = perf_counter()
+    module = compile_kernels(source, portable=portable, rebuild=regenerate)
+    have_module = perf_counter()
+
+    from gudgeon.compiled import CompiledModel
+    from gudgeon.simulation import Simulation
+
+    loading = Loading(origin, read - start, have_source - read, have_module - have_source, have_module - start)
+    return Simulation(CompiledModel(source, module), file=file, overrides=dict(overrides or {}), loading=loading)
+
+
+def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
+    """The YAML file that a name or path stands for. Raises UnknownNameError for an unknown name."""
+    if isinstance(mechanism, os.PathLike) or "/" in mechanism or mechanism.endswith((".yaml", ".yml")):
+        return Path(mechanism)
+    return shipped_file(mechanism)
+
+
+def read_bytes(file: Path) -> bytes:
+    """The file's bytes. Raises InputError if it cannot be read."""
+    try:
+        return file.read_bytes()
+    except OSError as error:
+        raise InputError(f"cannot read {file}: {error.strerror or error}") from error
+
+
+def kernel_source(
+    data: bytes,
+    file: Path,
+    scene: str | None = None,
+    *,
+    overrides: Overrides | None = None,
+    formulation: str = "full",
+    regenerate: bool = False,
+    cache: Cache | None = None,
+) -> tuple[KernelSource, str]:
+    """The C of a scene and where it came from: the cache, the committed files, or a derivation just made."""
+    if formulation not in FORMULATIONS:
+        raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
+    scene, overrides, cache = scene or DEFAULT_SCENE, overrides or {}, cache or default_cache()
+    key = model_key(data, scene, overrides, formulation)
+    origin = "cache"
+
+    def make(folder: Path) -> None:
+        nonlocal origin
+        source = None
+        if not (overrides or regenerate):
+            source = committed(file.stem, scene, sha256(data).hexdigest())
+        origin = "generated" if source else "derived"
+        if source is None:
+            from gudgeon.generator.pipeline import generate
+
+            source = generate(data, str(file), scene, overrides)
+        (folder / SOURCE).write_bytes(source.to_json().encode())
+
+    entry = cache.fetch("models", key, make, renew=regenerate)
+    return KernelSource.from_json((entry / SOURCE).read_bytes().decode()), origin
+
+
+def model_key(data: bytes, scene: str, overrides: Overrides, formulation: str) -> str:
+    """Everything that decides the emitted C: the file's bytes, what is asked of it, and who emits it."""
+    asked = json.dumps([scene, sorted(overrides.items()), formulation])
+    return digest(["model/1", data, asked, generator_hash()])
+
+
+def generator_hash(package: Path = PACKAGE) -> str:
+    """Hash of the generator's and the templates' contents (2 ms; times of files say nothing after a checkout)."""
+    files = [*(package / "generator").rglob("*.py"), *(package / "templates").rglob("*.jinja")]
+    files += [package / "kernel_source.py", package / "expression_tree.py"]  # what the stored form depends on
+    parts: list[str | bytes] = []
+    for file in sorted(files):
+        parts += [file.relative_to(package).as_posix(), file.read_bytes()]
+    return digest(parts)
