@@ -43,6 +43,8 @@ RESERVED: dict[str, str] = {
     "t": "it is time in expressions",
     "pi": "it is a number in expressions",
     "ground": "it is the frame",
+    "energy": "it heads names of results",
+    "work": "it heads names of results",
 }
 
 

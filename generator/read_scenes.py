@@ -1,0 +1,130 @@
+"""Scenes: which joints have play, and which parameters and run settings go with that."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from gudgeon.errors import BadValueError, CycleError, InputError, Location
+from gudgeon.expression_tree import Expr
+from gudgeon.generator.inherit import parents_first
+from gudgeon.generator.joints.joint_type import joint_types
+from gudgeon.generator.mechanism import Bearing, Contact, Joint, Play, Quantity, SceneSpec
+from gudgeon.generator.names import check_name, unknown_name
+from gudgeon.generator.parameters import dependency_order
+from gudgeon.generator.reading import Reader
+from gudgeon.generator.schema import FileShape, PlayShape, SceneShape
+from gudgeon.generator.units import DIMENSIONLESS, TIME, Dimension
+from gudgeon.generator.yaml_tree import Text
+
+IDEAL = "ideal"
+SIMULATE: Mapping[str, Dimension] = {"t_end": TIME, "output": DIMENSIONLESS, "step": TIME}
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What scenes refer to; `named` are all that the file names, also those that could not be read."""
+
+    joints: Mapping[str, Joint]
+    bearings: Mapping[str, Bearing]
+    contacts: Mapping[str, Contact]
+    parameters: Mapping[str, Quantity]
+    shape: FileShape
+
+
+@dataclass
+class _Draft:
+    """A scene as texts, `extends` followed."""
+
+    play: dict[Text, PlayShape] = field(default_factory=dict)
+    parameters: dict[Text, Text] = field(default_factory=dict)
+    simulate: dict[str, Text] = field(default_factory=dict)
+
+
+def read_scenes(reader: Reader, parts: Parts) -> dict[str, SceneSpec]:
+    """All scenes in the order of the file; `ideal` is the first and always there."""
+    section = parts.shape.scenes
+    drafts: dict[str, _Draft] = {IDEAL: _Draft()}
+    found: dict[str, SceneSpec] = {IDEAL: SceneSpec(IDEAL, {}, {}, {}, Location(reader.file, 1, 1))}
+    for name, scene in parents_first(reader, "scene", section, (IDEAL,)):
+        with reader.collect():
+            check_name(name, "scene", name.where)
+            if name == IDEAL and (scene.play or scene.parameters or scene.extends):
+                raise BadValueError("the scene ideal has no play, and the file's parameters", name.where, "expected simulate: only")
+        draft = _draft(drafts[scene.extends] if scene.extends else _Draft(), scene)
+        drafts[str(name)] = draft
+        found[str(name)] = _scene(reader, name, draft, parts)
+    return {IDEAL: found[IDEAL]} | {str(name): found[name] for name in section if name in found}
+
+
+def _draft(parent: _Draft, scene: SceneShape) -> _Draft:
+    own = {key: getattr(scene.simulate, key) for key in SIMULATE} if scene.simulate else {}
+    return _Draft(
+        {**parent.play, **scene.play},
+        {**parent.parameters, **scene.parameters},
+        {**parent.simulate, **{key: text for key, text in own.items() if text is not None}},
+    )
+
+
+def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec:
+    play = {}
+    for joint, use in draft.play.items():
+        with reader.collect():
+            if (made := _play(joint, use, parts)) is not None:
+                play[str(joint)] = made
+    parameters = {}
+    for key, text in draft.parameters.items():
+        with reader.collect():
+            if key not in parts.parameters:
+                raise unknown_name("parameter", key, parts.parameters, key.where)
+            address = f"scenes.{name}.parameters.{key}"
+            parameters[str(key)] = reader.quantity(text, address, reader.parameters[key])
+    with reader.collect():
+        _check_cycles(name, parameters, parts)
+    simulate = {}
+    for key, dimension in SIMULATE.items():
+        if key in draft.simulate:
+            simulate[key] = reader.quantity(draft.simulate[key], f"scenes.{name}.simulate.{key}", dimension)
+            if key == "output":
+                reader.require(simulate[key], ">=", 1.0, "a run has at least one interval of output")
+            else:
+                reader.require(simulate[key], ">", 0.0, "a time span is positive")
+    return SceneSpec(str(name), play, parameters, simulate, name.where)
+
+
+def _play(joint: Text, use: PlayShape, parts: Parts) -> Play | None:
+    """The play in one joint; None if what it needs was told to be wrong elsewhere."""
+    if joint not in parts.shape.joints:
+        raise unknown_name("joint", joint, parts.shape.joints, joint.where)
+    errors: list[InputError] = []
+    for what, text, known in (("bearing", use.bearing, parts.shape.bearings), ("contact", use.contact, parts.shape.contacts)):
+        if text not in known:
+            errors.append(unknown_name(what, text, known, text.where))
+    if errors:
+        raise errors[0]
+    if joint not in parts.joints or use.bearing not in parts.bearings or use.contact not in parts.contacts:
+        return None
+    kind = joint_types()[parts.joints[joint].kind]
+    if not kind.may_have_play:
+        able = [name for name, other in parts.joints.items() if joint_types()[other.kind].may_have_play]
+        hint = f"expected one of: {', '.join(able)}"
+        raise BadValueError(f"joint {joint} is a {kind.title}: it cannot have play", joint.where, hint)
+    return Play(parts.bearings[use.bearing], parts.contacts[use.contact], joint.where)
+
+
+def _check_cycles(name: Text, own: Mapping[str, Quantity], parts: Parts) -> None:
+    """A scene's values may close a cycle that the file's own do not."""
+    if not own:
+        return
+    used = {**parts.parameters, **own}
+    trees: dict[str, Expr] = {key: quantity.value for key, quantity in used.items()}
+    places = {key: own[key].where if key in own else Location("~", 0, 0) for key in used}
+    try:
+        dependency_order({key: q.value for key, q in parts.parameters.items()}, places)
+    except CycleError:
+        return  # told already
+    try:
+        dependency_order(trees, {key: quantity.where for key, quantity in used.items()})
+    except CycleError as error:
+        where = min(quantity.where for quantity in own.values())
+        raise CycleError(f"in scene {name}, {error.message}", where, error.hint) from None

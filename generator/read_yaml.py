@@ -1,0 +1,86 @@
+"""From YAML text to a frozen Mechanism: the reader's table of contents."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Mapping
+
+from gudgeon.errors import BadValueError
+from gudgeon.generator.check_values import check_values
+from gudgeon.generator.mechanism import Drive, Joint, Mechanism, Quantity
+from gudgeon.generator.names import Namespace, check_name
+from gudgeon.generator.overrides import apply_overrides
+from gudgeon.generator.parameters import read_parameters, settle
+from gudgeon.generator.read_bodies import Places, read_bodies, read_gravity, read_ground
+from gudgeon.generator.read_contacts import read_bearings, read_contacts, read_materials
+from gudgeon.generator.read_joints import read_drives, read_joints, read_start
+from gudgeon.generator.read_scenes import Parts, read_scenes
+from gudgeon.generator.reading import Reader
+from gudgeon.generator.result_names import ResultNames
+from gudgeon.generator.schema import FileShape, check_shape
+from gudgeon.generator.yaml_tree import parse_yaml
+
+_MAX_TITLE = 200
+
+
+def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float | bool] | None = None) -> Mechanism:
+    """The mechanism that a file describes.
+
+    data: the file's bytes; file: its name, for messages and for `Mechanism.file`;
+    overrides: address -> text or number that replaces what the file says there.
+    Raises an InputError at file:line:column, or InputErrors with all that are wrong.
+    """
+    root = apply_overrides(parse_yaml(data, file), overrides or {})
+    shape = check_shape(root)
+    reader, namespace = Reader(file), Namespace()
+    title = _read_title(reader, shape)
+    parameters = read_parameters(reader, shape.parameters)
+    gravity = read_gravity(reader, shape)
+    bodies, ground = read_bodies(reader, shape, namespace), read_ground(reader, shape)
+    places = Places(bodies, ground)
+    joints = read_joints(reader, shape, places, namespace)
+    drives = read_drives(reader, shape, places, namespace)
+    start = read_start(reader, shape, places)
+    bearings = read_bearings(reader, shape, read_materials(reader, shape))
+    contacts = read_contacts(reader, shape)
+    scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, shape))
+    outputs = _read_outputs(reader, shape, namespace, places, joints, drives)
+    check_values(reader, parameters, scenes)
+    reader.raise_errors()
+    return Mechanism(
+        str(shape.name), title, gravity, settle(reader, parameters), bodies, ground, joints, drives, start,
+        scenes, outputs, tuple(reader.conditions), file, hashlib.sha256(data).hexdigest(),
+    )  # fmt: skip
+
+
+def _read_title(reader: Reader, shape: FileShape) -> str:
+    """The title, which will stand in comments of emitted code; the name, if there is none."""
+    with reader.collect():
+        check_name(shape.name, "mechanism", shape.name.where)
+    title = shape.title if shape.title is not None else shape.name
+    with reader.collect():
+        bad = re.search(r"[^\x20-\x7e\u00a0-\ud7ff\ue000-\uffef\U00010000-\U0010ffff]|\\|\*/|/\*|\?\?/", title)
+        if bad or len(title) > _MAX_TITLE:
+            what = f"has {bad[0]!r}" if bad else f"has {len(title)} characters"
+            hint = f"expected one line of at most {_MAX_TITLE} characters without backslashes or comment signs"
+            raise BadValueError(f"the title {what}", title.where, hint)
+    return str(title)
+
+
+def _read_outputs(
+    reader: Reader,
+    shape: FileShape,
+    namespace: Namespace,
+    places: Places,
+    joints: Mapping[str, Joint],
+    drives: Mapping[str, Drive],
+) -> dict[str, Quantity]:
+    """Named expressions of t, parameters and anything that a result has."""
+    known = ResultNames(places, joints, drives, shape.parameters)
+    outputs = {}
+    for name, text in shape.outputs.items():
+        with reader.collect():
+            namespace.add(name, "output", name.where)
+        outputs[str(name)] = reader.quantity(text, f"outputs.{name}", None, time=True, result=known)
+    return outputs
