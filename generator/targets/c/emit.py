@@ -80,7 +80,7 @@ def emit(model: Model) -> KernelSource:
     )  # fmt: skip
 
 
-def render(name: str, **values: Any) -> str:
+def render(name: str, /, **values: Any) -> str:
     """A template with its substitutions; an undefined one is an error."""
     return _environment().get_template(name).render(**values) + "\n"
 
