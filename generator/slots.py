@@ -80,7 +80,7 @@ class Slots:
 
     def derive(self, wanted: str, expression: sp.Expr, meaning: str = "") -> sp.Expr:
         """A number that `prepare` computes once a run; numbers and slots themselves stay as they are."""
-        if expression.is_Number or (expression.is_Symbol and self.symbols.info[expression].home.startswith("p->")):
+        if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].home.startswith("p->")):
             return expression
         for symbol, known in self.derived.items():
             if known == expression:

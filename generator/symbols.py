@@ -19,6 +19,9 @@ _TAKEN = frozenset(
     "EOF NULL NAN INFINITY HUGE_VAL errno stdin stdout stderr signgam".split()
 )
 
+# Capitals without an underscore, and what the C headers' object-like macros begin with.
+_MACRO = re.compile(r"[A-Z0-9]+|(DBL|FLT|LDBL|U?INT|FP|M|MATH|HUGE|SIZE|PTRDIFF|WCHAR|WINT|SIG|EXIT|RAND)_[A-Z0-9_]+|N_[A-Z]+")
+
 
 @dataclass(frozen=True)
 class SymbolInfo:
@@ -41,7 +44,7 @@ class Symbols:
     def unique(self, wanted: str) -> str:
         """`wanted` as a C identifier that nothing else has."""
         name = re.sub(r"\W", "_", wanted)
-        if name in _TAKEN or name.isupper():
+        if name in _TAKEN or _MACRO.fullmatch(name):
             name = f"par_{name}"
         candidate, count = name, 1
         while candidate in self._names:

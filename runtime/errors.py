@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True, order=True)
@@ -101,10 +102,14 @@ class AssemblyError(GudgeonError):
 
 
 class SolverError(GudgeonError):
-    """The equations could not be solved during a run; carries the time and, if known, the pivot."""
+    """The equations could not be solved during a run; carries the time and, if known, the pivot.
+
+    `partial` is the result up to there (a gudgeon.Result), None outside `simulate`.
+    """
 
     def __init__(self, message: str, time: float, pivot: str = "") -> None:
         self.time, self.pivot = time, pivot
+        self.partial: Any = None
         super().__init__(message)
 
 

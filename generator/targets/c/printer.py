@@ -19,6 +19,11 @@ class CPrinter(C99CodePrinter):
     def _print_Float(self, expr: sp.Float) -> str:
         return repr(float(expr))
 
+    def _print_NumberSymbol(self, expr: sp.NumberSymbol) -> str:
+        return repr(float(expr))
+
+    _print_Pi = _print_Exp1 = _print_NumberSymbol
+
     def _print_Integer(self, expr: sp.Integer) -> str:
         return f"{int(expr)}.0"
 

@@ -1,0 +1,178 @@
+"""One compiled scene: the C functions with NumPy in and out.
+
+Arrays are C-contiguous float64; anything else that is handed in is copied first. Nothing here keeps
+state, so that any number of threads may use one CompiledModel; the GIL is released in every call.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gudgeon.errors import SingularError
+from gudgeon.kernel_source import KernelSource
+
+Array: TypeAlias = NDArray[np.float64]
+
+CLEARANCE_COLUMNS = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt")
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Everything that follows from N samples, SI."""
+
+    a: Array  # (N, n) q̈
+    multipliers: Array  # (N, m) λ
+    reactions: Array  # (N, n_joints, 3) Fx, Fy, M on the second body at the joint's point, ground axes
+    torques: Array  # (N, n_drives) on the driven body
+    clearance: Array  # (N, n_clearances, 9) CLEARANCE_COLUMNS: force on the journal; Fn > 0 pushes it back
+    energy: Array  # (N, 2) kinetic, potential
+
+
+def contiguous(values: ArrayLike) -> Array:
+    """Float64, C order; the same array where it already is."""
+    return np.ascontiguousarray(values, dtype=np.float64)
+
+
+class CompiledModel:
+    """The library of one scene. `p` is what `prepare` returns: slots, then derived numbers."""
+
+    def __init__(self, source: KernelSource, module: ModuleType) -> None:
+        self.source = source
+        self.lib: Any = module.lib
+        self.ffi: Any = module.ffi
+        self.n = len(source.coordinates)
+        self._kept = np.array([_index(source, row.name) for row in source.rows], dtype=int)
+
+    def pointer(self, array: NDArray[Any], kind: str = "double *") -> Any:
+        """A C pointer to an array's memory; the caller keeps the array alive."""
+        return self.ffi.cast(kind, array.ctypes.data)
+
+    def prepare(self, given: ArrayLike, is_given: ArrayLike) -> Array:
+        """Every number of a run, (n_slots + n_derived,), from overridden slots (n_slots,) and a mask."""
+        values, mask = contiguous(given), np.ascontiguousarray(is_given, dtype=np.uint8)
+        self._expect(values, len(self.source.slots), "given")
+        self._expect(mask, len(self.source.slots), "is_given")
+        p = np.empty(len(self.source.slots) + len(self.source.derived))
+        self.lib.gudgeon_prepare(self.pointer(values), self.pointer(mask, "unsigned char *"), self.pointer(p))
+        return p
+
+    def mass(self, p: Array) -> Array:
+        """Diagonal of M, (n,)."""
+        out = np.empty(self.n)
+        self.lib.gudgeon_mass(self.pointer(p), self.pointer(out))
+        return out
+
+    def closed_phi(self, t: float, q: ArrayLike, p: Array) -> Array:
+        """Φ of the closed linkage (every joint without play), in the order of source.start_rows."""
+        return self._rows("gudgeon_phi", t, p, q)
+
+    def closed_phi_q(self, t: float, q: ArrayLike, p: Array) -> Array:
+        """Φ_q of the closed linkage, (rows, n)."""
+        out = np.empty((len(self.source.start_rows), self.n))
+        state = self._state(q)
+        self.lib.gudgeon_phi_q(t, self.pointer(state), self.pointer(p), self.pointer(out))
+        return out
+
+    def closed_nu(self, t: float, q: ArrayLike, p: Array) -> Array:
+        """ν of the closed linkage."""
+        return self._rows("gudgeon_nu", t, p, q)
+
+    def phi(self, t: float, q: ArrayLike, p: Array) -> Array:
+        """Φ(q, t), (m,), rows of source.rows."""
+        return self.closed_phi(t, q, p)[self._kept]
+
+    def phi_q(self, t: float, q: ArrayLike, p: Array) -> Array:
+        """Φ_q, (m, n)."""
+        return self.closed_phi_q(t, q, p)[self._kept]
+
+    def nu(self, t: float, q: ArrayLike, p: Array) -> Array:
+        """ν = −Φ_t, (m,)."""
+        return self.closed_nu(t, q, p)[self._kept]
+
+    def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: Array) -> Array:
+        """γ, (m,)."""
+        return self._rows("gudgeon_gamma", t, p, q, v)[self._kept]
+
+    def start_values(self, p: Array) -> tuple[Array, Array, Array]:
+        """Numbers of the file's start: guess, set, rates."""
+        s = self.source
+        out = tuple(np.zeros(max(len(names), 1)) for names in (s.start_guess, s.start_set, s.start_rates))
+        self.lib.gudgeon_start_values(self.pointer(p), *(self.pointer(array) for array in out))
+        return out[0][: len(s.start_guess)], out[1][: len(s.start_set)], out[2][: len(s.start_rates)]
+
+    def rhs(self, t: float, y: ArrayLike, p: Array, memory: ArrayLike | None = None) -> Array:
+        """(q̇, q̈, power of drives, of clearance forces), (2n + 2,), at y = (q, q̇), (2n,) or longer.
+
+        `memory` (n_clearances,) holds δ̇⁻ of closed contacts, NaN for free ones (the default).
+        """
+        state = contiguous(y)
+        if state.ndim != 1 or len(state) not in (2 * self.n, 2 * self.n + 2):
+            raise ValueError(f"y has shape {state.shape}, expected ({2 * self.n},)")
+        latched = self.memory_array(memory)
+        out = np.empty(2 * self.n + 2)
+        status = self.lib.gudgeon_rhs(
+            t, self.pointer(state), self.pointer(latched), self.pointer(p), self.pointer(out)
+        )
+        self.check_pivot(status, t)
+        return out
+
+    def evaluate(self, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: Array) -> Evaluation:
+        """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances)."""
+        s, time = self.source, contiguous(t)
+        N = len(time)
+        inputs = [contiguous(a) for a in (q, v, memory)]
+        out = Evaluation(
+            np.empty((N, self.n)), np.empty((N, len(s.rows))), np.empty((N, len(s.joints), 3)),
+            np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))), np.empty((N, 2)),
+        )  # fmt: skip
+        failed = self.ffi.new("long *")
+        results = (out.a, out.multipliers, out.reactions, out.torques, out.clearance, out.energy)
+        status = self.lib.gudgeon_evaluate(
+            N, self.pointer(time), *(self.pointer(a) for a in inputs), self.pointer(p),
+            *(self.pointer(a) for a in results), failed,
+        )  # fmt: skip
+        if status:
+            self.check_pivot(status, float(time[failed[0]]))
+        return out
+
+    def memory_array(self, memory: ArrayLike | None) -> Array:
+        """δ̇⁻ a joint with play; all free when None."""
+        count = len(self.source.clearances)
+        return np.full(max(count, 1), np.nan) if memory is None else contiguous(memory)
+
+    def check_pivot(self, status: int, t: float, pivots: tuple[str, ...] | None = None) -> None:
+        """Raises SingularError for a status k > 0, with the row that the pivot belongs to."""
+        if status > 0:
+            row = (pivots or self.source.pivots)[status - 1]
+            raise SingularError(
+                f"singular or non-finite at t = {t:.9g} s: the pivot of constraint row {row} vanished\n"
+                "  the mechanism is at a singular position (dead centre), constraints are redundant,"
+                " or the state is no longer finite: check the start, or take a smaller step",
+                t,
+                row,
+            )
+
+    def _rows(self, function: str, t: float, p: Array, *states: ArrayLike) -> Array:
+        out = np.empty(len(self.source.start_rows))
+        arrays = [self._state(state) for state in states]
+        getattr(self.lib, function)(t, *(self.pointer(a) for a in arrays), self.pointer(p), self.pointer(out))
+        return out
+
+    def _state(self, values: ArrayLike) -> Array:
+        state = contiguous(values)
+        self._expect(state, self.n, "state")
+        return state
+
+    @staticmethod
+    def _expect(array: NDArray[Any], length: int, name: str) -> None:
+        if array.shape != (length,):
+            raise ValueError(f"{name} has shape {array.shape}, expected ({length},)")
+
+
+def _index(source: KernelSource, row: str) -> int:
+    return next(k for k, info in enumerate(source.start_rows) if info.name == row)

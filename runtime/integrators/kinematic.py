@@ -1,0 +1,94 @@
+"""No degree of freedom: positions by Newton from sample to sample, the rest by linear solves.
+
+Nothing is integrated but the work of the drives, for the energy check: Gauss–Legendre quadrature of
+their power inside every interval.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gudgeon.compiled import Array, Evaluation
+from gudgeon.errors import SolverError
+from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
+from gudgeon.kernel_source import KernelSource
+
+NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
+
+REACH = 0.05  # m or rad: a Newton correction beyond it halves the way, so that no branch is left
+CHUNK = 2_000  # samples between two looks of Python
+GAUSS = 4  # nodes an interval
+
+
+def run(problem: Problem) -> Trajectory:
+    """Positions and velocities at the output times, accelerations and the drives' work with them."""
+    nodes, weights = np.polynomial.legendre.leggauss(GAUSS)
+    h = np.diff(problem.t)
+    inner = problem.t[:-1, None] + 0.5 * h[:, None] * (1.0 + nodes)
+    times = np.concatenate([problem.t[:1], np.concatenate([inner, problem.t[1:, None]], axis=1).ravel()])
+    q, v, counts, interrupted, stopped = _follow(problem, times)
+    whole = (len(q) - 1) // (GAUSS + 1) + 1  # complete intervals, the start with them
+    kept = (whole - 1) * (GAUSS + 1) + 1
+    q, v, times = q[:kept], v[:kept], times[:kept]
+    evaluation = problem.compiled.evaluate(times, q, v, np.zeros((kept, 0)), problem.p)
+    power = drive_power(problem.compiled.source, evaluation, v)[1:].reshape(whole - 1, GAUSS + 1)[:, :GAUSS]
+    work = np.zeros((whole, 3))
+    work[1:, 0] = np.cumsum(0.5 * h[: whole - 1] * (power @ weights))
+    every = slice(None, None, GAUSS + 1)
+    empty = np.zeros((whole, 0))
+    from gudgeon.results import IMPACT_DTYPE
+
+    return Trajectory(
+        problem.t[:whole].copy(), q[every].copy(), v[every].copy(), evaluation.a[every].copy(), empty,
+        empty.astype(np.int8), work, np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, 3)), counts, interrupted, stopped,
+    )  # fmt: skip
+
+
+def drive_power(source: KernelSource, evaluation: Evaluation, v: Array) -> Array:
+    """Σ torque · rate over the drives, (N,), W."""
+    power = np.zeros(len(v))
+    for d, drive in enumerate(source.drives):
+        rate = v[:, source.bodies[drive.body].index + 2].copy()
+        if drive.reference >= 0:
+            rate -= v[:, source.bodies[drive.reference].index + 2]
+        power += evaluation.torques[:, d] * rate
+    return power
+
+
+def _follow(problem: Problem, times: Array) -> tuple[Array, Array, Counts, bool, SolverError | None]:
+    """Positions and velocities at all times, as far as they can be reached."""
+    compiled, pointer = problem.compiled, problem.compiled.pointer
+    q, v = np.zeros((len(times), compiled.n)), np.zeros((len(times), compiled.n))
+    q[0], v[0] = problem.q, problem.v
+    maxima, longs = np.zeros(2), np.zeros(2, dtype=np.int_)
+    first, interrupted, stopped = 0, False, None
+    try:
+        while first < len(times) - 1 and stopped is None:
+            count = min(CHUNK, len(times) - 1 - first)
+            status = compiled.lib.gudgeon_kinematic(
+                count, pointer(times[first:]), pointer(problem.p), REACH, pointer(q[first:]), pointer(v[first:]),
+                pointer(maxima), pointer(maxima[1:]), pointer(longs, "long *"), pointer(longs[1:], "long *"),
+            )  # fmt: skip
+            first += int(longs[1])
+            if status:
+                stopped = _failure(problem, status, float(times[first]))
+            if problem.progress:
+                problem.progress(first / max(len(times) - 1, 1), "following the constraints")
+    except KeyboardInterrupt:
+        interrupted = True
+    counts = Counts(int(longs[0]), 0, phi_max=float(maxima[0]), phi_dot_max=float(maxima[1]))
+    return q[: first + 1], v[: first + 1], counts, interrupted, stopped
+
+
+def _failure(problem: Problem, status: int, t: float) -> SolverError:
+    if status < 0:
+        return SolverError(
+            f"the linkage cannot follow its drives beyond t = {t:.9g} s: Newton's method finds no position there\n"
+            "  the lengths do not let the drives turn on, or the linkage passes a dead centre",
+            t,
+        )
+    try:
+        problem.compiled.check_pivot(status, t, problem.compiled.source.start_pivots)
+    except SolverError as error:
+        return error
+    raise AssertionError("a positive status raises")

@@ -1,0 +1,61 @@
+"""What a method hands back: samples at the output times, and what it counted on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from numpy.typing import NDArray
+
+from gudgeon.compiled import Array, CompiledModel
+from gudgeon.errors import SolverError
+
+Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is being done
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A scene with numbers, a start and the times at which samples are wanted (the first is the start)."""
+
+    compiled: CompiledModel
+    p: Array
+    t: Array  # (N,), increasing
+    q: Array  # (n,)
+    v: Array
+    memory: Array  # (n_clearances,) δ̇⁻ of contacts that are closed at the start
+    step: float
+    progress: Progress | None = None
+
+
+@dataclass(frozen=True)
+class Counts:
+    """Sums and maxima over all accepted steps; see Diagnostics for the meaning of each."""
+
+    steps: int
+    right_hand_sides: int
+    onsets: int = 0
+    grazes: int = 0
+    phi_max: float = 0.0
+    phi_dot_max: float = 0.0
+    ratio_min: float = float("nan")
+    ratio_max: float = float("nan")
+    ratio_outside: int = 0
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """N samples or, when `stopped` or interrupted, as many as were reached."""
+
+    t: Array
+    q: Array  # (N, n)
+    v: Array
+    a: Array
+    memory: Array  # (N, n_clearances)
+    state: NDArray[Any]  # (N, n_clearances) int8
+    work: Array  # (N, 3) J: drives, applied forces, clearance forces
+    impacts: NDArray[Any]  # results.IMPACT_DTYPE
+    peaks: Array  # (n_clearances, 3): F, t, e_max
+    counts: Counts
+    interrupted: bool = False
+    stopped: SolverError | None = None

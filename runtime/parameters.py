@@ -1,0 +1,74 @@
+"""Run-time numbers: addresses to slots, units, and the conditions that every value must satisfy."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import operator
+from collections.abc import Mapping
+
+import numpy as np
+
+from gudgeon.compiled import Array, CompiledModel
+from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.kernel_source import KernelSource, Slot
+
+_RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
+
+
+def given_slots(source: KernelSource, parameters: Mapping[str, float | str]) -> tuple[Array, Array]:
+    """Values and mask, (n_slots,) each, from {address or parameter name: float or '0.5 mm'}."""
+    place = {slot.address: k for k, slot in enumerate(source.slots)}
+    values, mask = np.zeros(len(place)), np.zeros(len(place), dtype=bool)
+    for name, value in parameters.items():
+        address = name if name in place else f"parameters.{name}"
+        if address not in place:
+            raise _unknown(name, list(place))
+        k = place[address]
+        values[k], mask[k] = number(value, source.slots[k]), True
+    return values, mask
+
+
+def number(value: float | str, slot: Slot) -> float:
+    """A float, or a text with a unit as in the YAML file; SI."""
+    if isinstance(value, str):
+        from gudgeon.generator.quantity_text import number_of_text  # no SymPy in it
+
+        value = number_of_text(value, slot.address, slot.dimension)
+    result = float(value)
+    if not math.isfinite(result):
+        raise BadValueError(f"{slot.address}: {value!r} is not a finite number")
+    return result
+
+
+def prepare(compiled: CompiledModel, parameters: Mapping[str, float | str]) -> tuple[Array, Array, Array]:
+    """(p, given, is_given), checked: see CompiledModel.prepare. Raises BadValueError, UnknownNameError."""
+    given, is_given = given_slots(compiled.source, parameters)
+    p = compiled.prepare(given, is_given)
+    check(compiled.source, p)
+    return p, given, is_given
+
+
+def check(source: KernelSource, p: Array) -> None:
+    """Every condition of the file again, on the values of this run."""
+    value = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
+    for slot in source.slots:
+        if not math.isfinite(value[slot.address]):
+            raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
+    for condition in source.conditions:
+        bound = value[condition.bound] if isinstance(condition.bound, str) else condition.bound
+        if not _RELATIONS[condition.relation](value[condition.address], bound):
+            raise BadValueError(
+                f"{condition.address} is {value[condition.address]:.6g}: {condition.message}"
+                + (f" ({condition.bound} is {bound:.6g})" if isinstance(condition.bound, str) else "")
+            )
+
+
+def _unknown(name: str, addresses: list[str]) -> UnknownNameError:
+    short = [a.removeprefix("parameters.") for a in addresses]
+    near = difflib.get_close_matches(name, addresses + short, n=3)
+    hint = f"did you mean {', '.join(dict.fromkeys(near))}?" if near else "see run.parameters for all addresses"
+    return UnknownNameError(
+        f"no run-time number has the address {name!r} in this scene", None,
+        f"{hint} Structural choices go to gudgeon.load(..., overrides={{...}}).",
+    )  # fmt: skip

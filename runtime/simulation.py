@@ -1,0 +1,230 @@
+"""A loaded scene: call it, read its equations, run it."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gudgeon.compiled import Array, CompiledModel
+from gudgeon.diagnostics import Diagnostics, Peak
+from gudgeon.errors import AssemblyError, BadValueError, SolverError
+from gudgeon.integrators import kinematic, rk4
+from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
+from gudgeon.parameters import number, prepare
+from gudgeon.start import Start, assemble
+from gudgeon.step import default_step
+
+if TYPE_CHECKING:
+    from gudgeon.generator.model import Model
+    from gudgeon.load import Loading
+    from gudgeon.results import Result, State
+
+METHODS = {"rk4": rk4.run, "kinematic": kinematic.run}
+DEFAULT_OUTPUT = 1000
+MAX_STEPS = 10**12
+
+
+class Simulation:
+    """What `gudgeon.load` returns. It holds no state: runs may go on in several threads at once."""
+
+    def __init__(
+        self, compiled: CompiledModel, file: Path | str, *, overrides: Mapping[str, Any] | None = None,
+        loading: Loading | None = None,
+    ) -> None:  # fmt: skip
+        self.compiled, self.source, self.file = compiled, compiled.source, Path(file)
+        self.loading = loading  # where the kernels came from, and how long it took
+        self._overrides = dict(overrides or {})
+        self._model: Model | None = None
+        self._p: Array | None = None
+
+    @property
+    def model(self) -> Model:
+        """The scene's equations in SymPy (derived when first asked for)."""
+        if self._model is None:
+            from gudgeon.generator.pipeline import derive
+
+            data = self.file.read_bytes()
+            self._model = derive(data, str(self.file), self.source.scene, self._overrides)
+        return self._model
+
+    @property
+    def p(self) -> Array:
+        """Every run-time number with the file's defaults: slots, then derived."""
+        if self._p is None:
+            self._p = prepare(self.compiled, {})[0]
+        return self._p
+
+    def rhs(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
+        """ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
+        return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.compiled.n]
+
+    def phi(self, t: float, q: ArrayLike) -> Array:
+        """Φ(q, t), (m,)."""
+        return self.compiled.phi(t, q, self.p)
+
+    def phi_q(self, t: float, q: ArrayLike) -> Array:
+        """Φ_q, (m, n)."""
+        return self.compiled.phi_q(t, q, self.p)
+
+    def nu(self, t: float, q: ArrayLike) -> Array:
+        """ν = −Φ_t, (m,)."""
+        return self.compiled.nu(t, q, self.p)
+
+    def gamma(self, t: float, q: ArrayLike, v: ArrayLike) -> Array:
+        """γ, (m,)."""
+        return self.compiled.gamma(t, q, v, self.p)
+
+    def mass(self) -> Array:
+        """Diagonal of M, (n,)."""
+        return self.compiled.mass(self.p)
+
+    def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
+        """The assembled start at t = 0. Raises AssemblyError."""
+        return assemble(self.compiled, prepare(self.compiled, parameters or {})[0])
+
+    def simulate(
+        self, t_end: float | str | None = None, *, output: int | ArrayLike | None = None, method: str = "auto",
+        step: float | str | None = None, parameters: Mapping[str, float | str] | None = None,
+        start: State | None = None, progress: Progress | None = None,
+    ) -> Result:  # fmt: skip
+        """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
+
+        `output`: so many equal intervals, both ends included, or an array of times (s). `method`:
+        "auto", "rk4", or "kinematic" (scenes without a degree of freedom). `step`: the longest RK4 step
+        (s); each interval between outputs is divided evenly. `parameters`: {address or parameter name:
+        float in SI or '0.5 mm'}. Ctrl-C ends the run and keeps what was computed.
+
+        Raises InputError for arguments, AssemblyError for a start that does not close, SolverError
+        when the equations cannot be solved; its `partial` is the result up to there.
+        """
+        p, given, is_given = prepare(self.compiled, parameters or {})
+        t0 = 0.0 if start is None else start.t
+        times = self._times(t0, t_end, output)
+        chosen = self._method(method)
+        h = self._step(step, chosen, p, float(times[-1] - t0))
+        if (times[-1] - t0) / h > MAX_STEPS:
+            raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
+        q, v, memory = self._begin(p, start)
+        problem = Problem(self.compiled, p, times, q, v, memory, h, progress)
+        before = time.perf_counter()
+        trajectory = METHODS[chosen](problem)
+        seconds = time.perf_counter() - before
+        result = self._result(chosen, problem, trajectory, given, is_given, seconds)
+        if trajectory.stopped is not None:
+            trajectory.stopped.partial = result
+            raise trajectory.stopped
+        return result
+
+    def _begin(self, p: Array, start: State | None) -> tuple[Array, Array, Array]:
+        count = len(self.source.clearances)
+        if start is None:
+            assembled = assemble(self.compiled, p)
+            return assembled.q, assembled.v, np.full(count, np.nan)
+        if len(start.q) != self.compiled.n or len(start.memory) != count:
+            raise BadValueError("start: this state belongs to another mechanism or scene")
+        return np.asarray(start.q, dtype=float), np.asarray(start.v, dtype=float), np.asarray(start.memory, dtype=float)
+
+    def _times(self, t0: float, t_end: float | str | None, output: int | ArrayLike | None) -> Array:
+        """Output times, increasing, the first is t0."""
+        defaults = self.source.simulate
+        if output is not None and not isinstance(output, (int, np.integer)):
+            times = np.asarray(output, dtype=float)
+            if times.ndim != 1 or not len(times) or not np.isfinite(times).all() or (np.diff(times) <= 0).any():
+                raise BadValueError("output: expected increasing, finite times (s)")
+            if times[0] < t0:
+                raise BadValueError(f"output: times begin at {t0:g} s, got {times[0]:g} s")
+            return times if times[0] == t0 else np.concatenate([[t0], times])
+        end = _seconds("t_end", defaults.get("t_end", 1.0) if t_end is None else t_end)
+        if not end > t0:
+            raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
+        intervals = int(output if output is not None else defaults.get("output", DEFAULT_OUTPUT))
+        if not 1 <= intervals <= 10**8:
+            raise BadValueError(f"output is {intervals}: expected a number of intervals, 1 to 1e8")
+        return np.linspace(t0, end, intervals + 1)
+
+    def _method(self, method: str) -> str:
+        dof = self.source.degrees_of_freedom
+        if dof < 0:
+            raise AssemblyError(
+                f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
+                "  remove a drive or a joint; `gudgeon check -v` lists the rows"
+            )
+        fitting = "rk4" if dof else "kinematic"
+        if method == "auto":
+            return fitting
+        if method not in METHODS:
+            raise BadValueError(f"method {method!r}: expected auto, {', '.join(METHODS)}")
+        if method != fitting:
+            raise BadValueError(f"method {method!r} does not fit: this scene has {dof} degrees of freedom, use {fitting}")
+        return method
+
+    def _step(self, step: float | str | None, method: str, p: Array, duration: float) -> float:
+        if method == "kinematic":
+            return math.inf
+        if step is None:
+            return float(self.source.simulate.get("step", 0.0)) or default_step(self.compiled, p, duration)
+        h = _seconds("step", step)
+        if not h > 0:
+            raise BadValueError(f"step is {h:g} s: expected a positive time")
+        return h
+
+    def _result(
+        self, method: str, problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, seconds: float
+    ) -> Result:
+        from gudgeon.results import Result
+
+        diagnostics = diagnose(self.compiled, method, problem, trajectory, seconds)
+        return Result(
+            compiled=self.compiled, source=self.source, p=problem.p, given=given, is_given=is_given, t=trajectory.t,
+            q=trajectory.q, v=trajectory.v, a=trajectory.a, state=trajectory.state, memory=trajectory.memory,
+            work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics,
+        )  # fmt: skip
+
+
+def _seconds(name: str, value: float | str) -> float:
+    from gudgeon.kernel_source import Slot
+
+    return number(value, Slot(name, "s", 0.0, False, (0, 0, 1)))
+
+
+def diagnose(
+    compiled: CompiledModel, method: str, problem: Problem, trajectory: Trajectory, seconds: float
+) -> Diagnostics:
+    """What a run says about itself, from its trajectory."""
+    x, counts = trajectory, trajectory.counts
+    try:
+        energy = compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p).energy
+        residual = energy.sum(axis=1) - energy[0].sum() - x.work.sum(axis=1)
+        turned = float(np.abs(np.diff(x.work, axis=0)).sum() + np.ptp(energy[:, 0]))
+        worst = float(np.abs(residual).max())
+    except SolverError:
+        worst = turned = math.nan
+    used = max(
+        (d / max(1, math.ceil(d / problem.step * (1 - 1e-12))) for d in np.diff(problem.t).tolist()), default=math.nan
+    )
+    simulated = float(x.t[-1] - x.t[0])
+    return Diagnostics(
+        method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
+        right_hand_sides=counts.right_hand_sides, onsets=counts.onsets, grazes=counts.grazes,
+        phi_max=counts.phi_max, phi_dot_max=counts.phi_dot_max, energy_residual=worst, energy_turned_over=turned,
+        ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
+        peaks=_peaks(compiled, x), seconds=seconds,
+        seconds_per_simulated_second=seconds / simulated if simulated > 0 else math.nan,
+        interrupted=x.interrupted, notes=(),
+    )  # fmt: skip
+
+
+def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
+    peaks = []
+    for i, joint in enumerate(compiled.source.clearances):
+        own = trajectory.impacts[trajectory.impacts["joint"] == i]
+        first = (float(own["t_on"][0]), float(own["F_peak"][0])) if len(own) else (math.nan, math.nan)
+        F, t, e_max = (float(x) for x in trajectory.peaks[i])
+        peaks.append(Peak(joint.name, F, t, e_max, *first))
+    return tuple(peaks)

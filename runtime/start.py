@@ -1,0 +1,149 @@
+"""The exact start on the branch nearest the guess: positions by Newton, then velocities.
+
+A scene with play starts from its closed linkage (e = 0, ideal velocities). Angles weigh most: a step
+moves guessed angles least, then the other angles, and positions follow.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gudgeon.compiled import Array, CompiledModel
+from gudgeon.errors import AssemblyError
+
+MAX_STEPS = 60
+CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly
+
+# Weights of a coordinate in the norm of a Newton step: a guess is held most firmly.
+GUESSED, FREE_ANGLE, FREE_POSITION = 1.0, 1e-2, 1e-4
+
+
+@dataclass(frozen=True)
+class Start:
+    """q, q̇ (n,) at time t, with the residual max |Φ| that is left."""
+
+    q: Array
+    v: Array
+    residual: float
+
+
+def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
+    """The start of a scene. Raises AssemblyError with rows, joints and residual."""
+    problem = _Assembly(compiled, p, t)
+    q = problem.positions()
+    return Start(q, problem.velocities(q), float(np.abs(problem.residual(q)).max(initial=0.0)))
+
+
+class _Assembly:
+    """Rows of the closed linkage, then those of `set`; each coordinate with its weight."""
+
+    def __init__(self, compiled: CompiledModel, p: Array, t: float) -> None:
+        source = compiled.source
+        self.compiled, self.p, self.t = compiled, p, t
+        self.place = {name: k for k, name in enumerate(source.coordinates)}
+        self.guess, self.set, self.rates = compiled.start_values(p)
+        self.set_index = [self.place[name] for name in source.start_set]
+        self.names = [row.name for row in source.start_rows] + [f"set {name}" for name in source.start_set]
+        self.owners = [row.owner for row in source.start_rows] + ["start"] * len(self.set_index)
+        self.is_angle = np.array([name.endswith(".theta") for name in source.coordinates])
+        self.size = _size(compiled, p)
+        units = [row.unit for row in source.start_rows] + ["rad" if self.is_angle[k] else "m" for k in self.set_index]
+        self.row_scale = np.array([self.size if unit == "m" else 1.0 for unit in units])
+        self.weight = np.where(self.is_angle, FREE_ANGLE, FREE_POSITION / self.size)
+        guessed = [self.place[name] for name in source.start_guess]
+        self.weight[guessed] = np.where(self.is_angle[guessed], GUESSED, GUESSED / self.size)
+
+    def residual(self, q: Array) -> Array:
+        return np.concatenate([self.compiled.closed_phi(self.t, q, self.p), q[self.set_index] - self.set])
+
+    def jacobian(self, q: Array) -> Array:
+        extra = np.zeros((len(self.set_index), len(q)))
+        extra[np.arange(len(self.set_index)), self.set_index] = 1.0
+        return np.concatenate([self.compiled.closed_phi_q(self.t, q, self.p), extra])
+
+    def _norm(self, q: Array) -> float:
+        return float(np.linalg.norm(self.residual(q) / self.row_scale))
+
+    def _step(self, q: Array, columns: Array | slice = slice(None)) -> Array:
+        """Smallest weighted step that closes the linearised rows, in some columns only."""
+        weight = self.weight[columns]
+        matrix = self.jacobian(q)[:, columns] / self.row_scale[:, None] / weight
+        solution = np.linalg.lstsq(matrix, -self.residual(q) / self.row_scale, rcond=1e-12)[0]
+        step = np.zeros_like(q)
+        step[columns] = solution / weight
+        return step
+
+    def positions(self) -> Array:
+        """Newton with line search from the guess, driven angles and positions put in first."""
+        q = np.zeros(len(self.place))
+        q[[self.place[name] for name in self.compiled.source.start_guess]] = self.guess
+        q[self.set_index] = self.set
+        q = self._place_angles(q)
+        q = q + self._step(q, ~self.is_angle)
+        norm = self._norm(q)
+        for _ in range(MAX_STEPS):
+            step, share = self._step(q), 1.0
+            while share > 1e-4 and not self._norm(q + share * step) < (1.0 - 1e-4 * share) * norm:
+                share *= 0.5
+            if share <= 1e-4:
+                break
+            q, norm = q + share * step, self._norm(q + share * step)
+        if not norm < CLOSED:
+            raise self._failure(q)
+        return q
+
+    def _place_angles(self, q: Array) -> Array:
+        """Rows in angles alone (drives, sliders) give their angles at once."""
+        rows = np.abs(self.jacobian(q)[:, ~self.is_angle]).max(axis=1, initial=0.0) == 0.0
+        matrix = self.jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
+        q = q.copy()
+        if rows.any():
+            solution = np.linalg.lstsq(matrix, -self.residual(q)[rows], rcond=1e-12)[0]
+            q[self.is_angle] += solution / self.weight[self.is_angle]
+        return q
+
+    def velocities(self, q: Array) -> Array:
+        """q̇ with Φ_q q̇ = ν and the start's rates; what nothing determines is least in the metric of M."""
+        names = {"x": "vx", "y": "vy", "theta": "omega"}
+        wanted = [f"{body}.{names[c]}" for body, c in (name.split(".") for name in self.place)]
+        index = [wanted.index(name) for name in self.compiled.source.start_rates]
+        extra = np.zeros((len(index), len(q)))
+        extra[np.arange(len(index)), index] = 1.0
+        matrix = np.concatenate([self.compiled.closed_phi_q(self.t, q, self.p), extra])
+        target = np.concatenate([self.compiled.closed_nu(self.t, q, self.p), self.rates])
+        root = np.sqrt(self.compiled.mass(self.p))
+        v = np.zeros_like(q)
+        for _ in range(2):  # once more for the rounding of the first solution
+            v += np.linalg.lstsq(matrix / root, target - matrix @ v, rcond=1e-12)[0] / root
+        left = np.abs(matrix @ v - target)
+        if left.max(initial=0.0) > 1e-8 * max(1.0, float(np.abs(target).max(initial=0.0))):
+            rows = [row.name for row in self.compiled.source.start_rows] + list(self.compiled.source.start_rates)
+            worst = rows[int(left.argmax())]
+            raise AssemblyError(
+                f"no velocities fit the start: row {worst} is left with {left.max():.3g}\n"
+                "  drives or rates contradict each other, or the start is a dead centre: move it a little"
+            )
+        return v
+
+    def _failure(self, q: Array) -> AssemblyError:
+        """Which rows stay open, by how much, and what to try."""
+        scaled = np.abs(self.residual(q) / self.row_scale)
+        if not np.isfinite(scaled).all():
+            return AssemblyError("the start cannot be assembled: the constraints are not finite at the guess")
+        worst = np.argsort(-scaled)[:6]
+        worst = worst[scaled[worst] > 1e-3 * scaled.max()]
+        rows = ", ".join(f"{self.names[k]} ({self.residual(q)[k]:.3g})" for k in worst)
+        owners = ", ".join(dict.fromkeys(self.owners[k] for k in worst))
+        return AssemblyError(
+            f"the start cannot be assembled: rows {rows} stay open (joints {owners};"
+            f" residual {np.abs(self.residual(q)).max():.3g})\n"
+            "  check lengths and ground points, or give start.guess angles nearer to the wanted branch"
+        )
+
+
+def _size(compiled: CompiledModel, p: Array) -> float:
+    """The largest distance of a point from its body's centre of mass (or of the ground's points), m."""
+    index = [k for point in compiled.source.points for k in (point.x, point.y) if k >= 0]
+    return max(float(np.abs(p[index]).max(initial=0.0)), 1e-9) if index else 1.0
