@@ -42,7 +42,7 @@ def _check_with(reader: Reader, parameters: Mapping[str, Quantity], context: str
         if all(name.path in known for name in names(quantity.value)):  # not t, not a result
             values[address] = float(evaluate(quantity.value, known.__getitem__))
             if not math.isfinite(values[address]) and not broken_is_told:
-                hint = "expected a finite number: is there a division by zero, or a root or logarithm of a negative number?"
+                hint = "expected a finite number: is there a division by zero or a root of a negative number?"
                 reader.errors.append(BadValueError(f"{address} is {values[address]}{context}", quantity.where, hint))
     for condition in reader.conditions:
         with reader.collect():
@@ -51,11 +51,15 @@ def _check_with(reader: Reader, parameters: Mapping[str, Quantity], context: str
         if all(values.get(component.address) == 0.0 for component in vector):
             owner = vector[0].address.rpartition(".")[0]
             hint = "expected a direction, such as [1, 0]"
-            reader.errors.append(BadValueError(f"{owner} has no direction{context}: it is [0, 0]", vector[0].where, hint))
+            reader.errors.append(
+                BadValueError(f"{owner} has no direction{context}: it is [0, 0]", vector[0].where, hint)
+            )
     for address, value in values.items():
         if address.endswith(".simulate.output") and math.isfinite(value) and value != int(value):
             hint = "expected a whole number of equal intervals"
-            reader.errors.append(BadValueError(f"{address} is {value:.6g}{context}", reader.quantities[address].where, hint))
+            reader.errors.append(
+                BadValueError(f"{address} is {value:.6g}{context}", reader.quantities[address].where, hint)
+            )
 
 
 def _check(condition: Condition, quantities: Mapping[str, Quantity], values: Mapping[str, float], context: str) -> None:

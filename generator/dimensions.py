@@ -143,7 +143,11 @@ class _Checker:
         if isinstance(base, _Flexible) or base == DIMENSIONLESS:
             return base
         value = float("nan") if any(True for _ in names(expr.right)) else float(evaluate(expr.right, lambda _: np.nan))
-        if not abs(value) <= _MOST or (power := Fraction(value).limit_denominator(12)) != value and abs(power - value) > 1e-12:
+        if (
+            not abs(value) <= _MOST
+            or (power := Fraction(value).limit_denominator(12)) != value
+            and abs(power - value) > 1e-12
+        ):
             message = f"the exponent of {describe(base)} is a plain number such as 2 or 1/2"
             raise UnitError(message, self._place(expr.right))
         return self._bounded(base**power, expr)

@@ -36,8 +36,10 @@ _TOKEN = re.compile(
     r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*(?:\.[A-Za-z_][A-Za-z0-9_]*)*)"
     r"|(?P<operator>\*\*|[-+*/(),])"
 )
+# words of YAML and Python that look like values or operators; nobody's parameter has such a name
 _WORDS = frozenset(
-    "true false null yes no on off inf nan True False None and or not in is if else lambda for await yield".split()
+    ("true", "false", "null", "yes", "no", "on", "off", "inf", "nan", "True", "False", "None")
+    + ("and", "or", "not", "in", "is", "if", "else", "lambda", "for", "await", "yield")
 )
 _ADVICE = {
     "^": "a power is written with **", "%": "there is no remainder", "=": "there are no comparisons",
@@ -130,7 +132,11 @@ class _Tokenizer:
     def _value(self, literal: str, start: int) -> Fraction:
         following = self.text[self.position : self.position + 1]
         if re.match(r"0[0-9]", literal) or (literal == "0" and following in ("x", "o", "b", "X", "O", "B")):
-            self.fail(f"{literal + following!r} does not begin a number", start, "expected a decimal number, such as 12 or 1e-4")
+            self.fail(
+                f"{literal + following!r} does not begin a number",
+                start,
+                "expected a decimal number, such as 12 or 1e-4",
+            )
         if following == "_":
             self.fail("'_' in a number", self.position, "expected digits without separators")
         if following.isalpha():
@@ -186,7 +192,11 @@ class _Parser:
         """The one expression that is all of the text."""
         expr = self.sum(0)
         if self.token.kind != "end":
-            self.fail(f"unexpected {self.token}", self.token.offset, "expected an operator (a product is written with '*') or the end")
+            self.fail(
+                f"unexpected {self.token}",
+                self.token.offset,
+                "expected an operator (a product is written with '*') or the end",
+            )
         return expr
 
     def fail(self, message: str, offset: int, hint: str) -> NoReturn:
@@ -203,7 +213,9 @@ class _Parser:
         self.kept.append(expr)
         self.bound(depth, expr.offset)
         if len(self.kept) > MAX_NODES:
-            raise LimitError("an expression of too many parts", at(self.where, expr.offset), f"expected at most {MAX_NODES}")
+            raise LimitError(
+                "an expression of too many parts", at(self.where, expr.offset), f"expected at most {MAX_NODES}"
+            )
         return expr
 
     def bound(self, depth: int, offset: int) -> None:
@@ -260,7 +272,9 @@ class _Parser:
             return self.name(token, level)
         if token.text != "(":
             what = f"got {token}" if token.text or token.offset else "got nothing"
-            self.fail(f"expected a number, a name or '(', {what}", token.offset, "an expression such as 80 mm or 2*pi * t")
+            self.fail(
+                f"expected a number, a name or '(', {what}", token.offset, "an expression such as 80 mm or 2*pi * t"
+            )
         self.advance()
         inner = self.sum(level + 1)
         self.close(token.offset)
@@ -291,5 +305,7 @@ class _Parser:
         wanted = FUNCTIONS[token.text][0]
         if len(arguments) != wanted:
             hint = "smooth_step(t, start, duration) goes from 0 to 1" if token.text in ("smooth_step", "ramp") else ""
-            self.fail(f"{token.text} takes {wanted} argument{'s' * (wanted > 1)}, got {len(arguments)}", token.offset, hint)
+            self.fail(
+                f"{token.text} takes {wanted} argument{'s' * (wanted > 1)}, got {len(arguments)}", token.offset, hint
+            )
         return self.make(Call(token.text, tuple(arguments), token.offset), *arguments)

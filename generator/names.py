@@ -54,7 +54,9 @@ def check_name(name: str, what: str, where: Location | None) -> None:
         hint = "expected a letter, then letters, digits or '_'"
         raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name a {what}: it is no identifier", where, hint)
     if len(name) > MAX_LENGTH:
-        raise BadNameError(f"the name of this {what} has {len(name)} characters", where, f"expected at most {MAX_LENGTH}")
+        raise BadNameError(
+            f"the name of this {what} has {len(name)} characters", where, f"expected at most {MAX_LENGTH}"
+        )
     reason = RESERVED.get(name)
     if name.startswith("gudgeon") or "__" in name:
         reason = "names that begin with 'gudgeon' or hold '__' are kept for emitted code"

@@ -29,21 +29,25 @@ def read_parameters(reader: Reader, section: Mapping[Text, Text]) -> dict[str, Q
             trees[name] = tree
     order: tuple[str, ...] = tuple(trees)
     with reader.collect():
-        order = dependency_order(trees, {name: text.where for name, text in section.items()})
-    for name in order:
+        order = dependency_order(trees, {str(name): text.where for name, text in section.items()})
+    places = {str(name): text.where for name, text in section.items()}
+    for used in order:
         with reader.collect():
-            reader.parameters[name] = _dimension(name, trees[name], section, reader)
+            reader.parameters[used] = _dimension(used, trees[used], places[used], reader)
     return {
-        name: reader.keep(Quantity(f"parameters.{name}", trees[name], reader.parameters[name] or DIMENSIONLESS, text.where))
+        str(name): reader.keep(
+            Quantity(f"parameters.{name}", trees[name], reader.parameters[name] or DIMENSIONLESS, text.where)
+        )
         for name, text in section.items()
     }
 
 
-def _dimension(name: str, tree: Expr, section: Mapping[Text, Text], reader: Reader) -> Dimension | None:
-    where = next(text.where for key, text in section.items() if key == name)
+def _dimension(name: str, tree: Expr, where: Location, reader: Reader) -> Dimension | None:
     found = check_dimension(tree, None, reader.parameters.get, where)
     if found is not None and not found.is_whole:
-        raise InputError(f"the unit of parameter {name} has a broken exponent", where, "expected whole powers of m, kg, s")
+        raise InputError(
+            f"the unit of parameter {name} has a broken exponent", where, "expected whole powers of m, kg, s"
+        )
     return found
 
 

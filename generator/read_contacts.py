@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from gudgeon.errors import BadValueError, InputError, MissingKeyError
+from gudgeon.errors import BadValueError, MissingKeyError
 from gudgeon.expression_tree import Number
 from gudgeon.generator.forces.law import Law, LawOption, laws
 from gudgeon.generator.inherit import parents_first
 from gudgeon.generator.mechanism import Bearing, Contact, LawUse, Material, Quantity
-from gudgeon.generator.names import check_name, known_hint, unknown_name
+from gudgeon.generator.names import check_name, known_hint, nearest, unknown_name
 from gudgeon.generator.reading import Reader
 from gudgeon.generator.schema import BearingShape, ContactShape, FileShape, missing_key, unknown_key
 from gudgeon.generator.units import DIMENSIONLESS, LENGTH, PRESSURE, VELOCITY
@@ -119,10 +119,14 @@ def _check_parts(name: Text, contact: ContactShape) -> None:
                 raise MissingKeyError(message, getattr(contact, part).where, "expected the key 'normal'")
     both = contact.normal is not None and contact.film is not None
     if both and contact.transition is None:
-        hint = "expected the key 'transition': the length over which the film hands over to the dry contact, such as 5 um"
+        hint = (
+            "expected the key 'transition': the length over which the film hands over to the dry contact, such as 5 um"
+        )
         raise MissingKeyError(f"contact {name} has no transition", name.where, hint)
     if contact.transition is not None and contact.film is None:
-        raise MissingKeyError(f"contact {name} has a transition but no film", contact.transition.where, "expected the key 'film'")
+        raise MissingKeyError(
+            f"contact {name} has a transition but no film", contact.transition.where, "expected the key 'film'"
+        )
 
 
 def _flag(text: Text, address: str) -> bool:
@@ -143,10 +147,9 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     if law.role != role:
         raise BadValueError(f"{law.name} is a {law.role} law", text.where, known_hint(text, fitting))
     known = ["law", *(p.name for p in law.parameters), *(o.name for o in law.options)]
-    for key in node:
-        if key not in known:
-            reader.errors.append(unknown_key(key, known, address))
-    quantities = _numbers(reader, address, law, node)
+    strange = [key for key in node.names() if key not in known]
+    reader.errors.extend(unknown_key(key, known, address) for key in strange)
+    quantities = _numbers(reader, address, law, node, {nearest(key, known) for key in strange})
     options = {}
     for option in law.options:
         with reader.collect():
@@ -154,7 +157,8 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     return LawUse(law.name, quantities, options)
 
 
-def _numbers(reader: Reader, address: str, law: Law, node: Map) -> dict[str, Quantity]:
+def _numbers(reader: Reader, address: str, law: Law, node: Map, mistyped: set[str | None]) -> dict[str, Quantity]:
+    """The law's numbers; one that is missing because its key is `mistyped` was told already."""
     quantities: dict[str, Quantity] = {}
     for parameter in law.parameters:
         own = f"{address}.{parameter.name}"
@@ -163,7 +167,8 @@ def _numbers(reader: Reader, address: str, law: Law, node: Map) -> dict[str, Qua
             number = Number(parameter.default, repr(parameter.default))
             quantities[parameter.name] = reader.keep(Quantity(own, number, parameter.dimension, node["law"].where))
         elif value is None:
-            reader.errors.append(_missing_number(law, parameter.name, node, address))
+            if parameter.name not in mistyped:
+                reader.errors.append(missing_key(parameter.name, node.where, address))
         elif not isinstance(value, Text):
             reader.errors.append(BadValueError(f"{own} is {kind_of(value)}", value.where, "expected a number"))
         else:
@@ -174,12 +179,6 @@ def _numbers(reader: Reader, address: str, law: Law, node: Map) -> dict[str, Qua
             if parameter.name in quantities and limit is not None:
                 reader.require(quantities[parameter.name], relation, limit, f"{parameter.meaning} of {law.name}")
     return quantities
-
-
-def _missing_number(law: Law, name: str, node: Map, address: str) -> InputError:
-    mistyped = next((key for key in node if key not in ("law",) and name in known_hint(key, [name]).split("?")[0]), None)
-    hint = f"did you mean it by {str(mistyped)!r}? " if mistyped and mistyped != name else ""
-    return MissingKeyError(f"{address} has no {name}", node.where, f"{hint}expected the key {name!r}: {law.name} needs it")
 
 
 def _option(option: LawOption, node: Map, address: str) -> str | bool:

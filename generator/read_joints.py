@@ -32,12 +32,12 @@ def read_joints(reader: Reader, shape: FileShape, places: Places, namespace: Nam
 
 def _kind(node: Map, known: Iterable[str], also: Iterable[str], owner: str) -> Text:
     """The key that says what kind of thing a mapping is: exactly one."""
-    found = [key for key in node if key in known]
+    found = [key for key in node.names() if key in known]
     if len(found) == 1:
         return found[0]
     if found:
         raise UnknownKeyError(f"{owner} is both {found[0]} and {found[1]}", found[1].where, "expected one kind")
-    strange = next((key for key in node if key not in also), None)
+    strange = next((key for key in node.names() if key not in also), None)
     if strange is None:
         raise MissingKeyError(f"{owner} has no kind", node.where, known_hint("", known))
     raise unknown_key(strange, known, owner)
@@ -47,7 +47,7 @@ def _joint(reader: Reader, name: Text, node: Map, places: Places) -> Joint:
     types, owner = joint_types(), f"joints.{name}"
     kind = _kind(node, types, {field.name for of in types.values() for field in of.fields}, owner)
     joint_type = types[kind]
-    for key in node:
+    for key in node.names():
         if key != kind and key not in (field.name for field in joint_type.fields):
             raise unknown_key(key, [kind, *(field.name for field in joint_type.fields)], owner)
     first, second = _points(reader, node[kind], kind, places)
@@ -141,7 +141,7 @@ def read_drives(reader: Reader, shape: FileShape, places: Places, namespace: Nam
 def _drive(reader: Reader, name: Text, node: Map, places: Places) -> Drive:
     owner = f"drives.{name}"
     kind = _kind(node, DRIVES, ("value",), owner)
-    for key in node:
+    for key in node.names():
         if key not in (kind, "value"):
             raise unknown_key(key, (kind, "value"), owner)
     if "value" not in node:
@@ -153,7 +153,9 @@ def _drive(reader: Reader, name: Text, node: Map, places: Places) -> Drive:
     for body in bodies:
         places.check_body(body, body.where)
     if bodies[0] == GROUND or len({str(body) for body in bodies}) < len(bodies):
-        message = "a drive cannot turn the ground" if bodies[0] == GROUND else f"{bodies[0]} cannot be driven against itself"
+        message = (
+            "a drive cannot turn the ground" if bodies[0] == GROUND else f"{bodies[0]} cannot be driven against itself"
+        )
         raise JoinError(message, bodies[-1].where, "expected a body, or a body and its reference")
     value = reader.quantity(_text(node["value"], node.key("value"), owner), f"{owner}.value", DRIVES[kind], time=True)
     reference = str(bodies[1]) if len(bodies) == 2 and bodies[1] != GROUND else None

@@ -50,7 +50,9 @@ def read_scenes(reader: Reader, parts: Parts) -> dict[str, SceneSpec]:
         with reader.collect():
             check_name(name, "scene", name.where)
             if name == IDEAL and (scene.play or scene.parameters or scene.extends):
-                raise BadValueError("the scene ideal has no play, and the file's parameters", name.where, "expected simulate: only")
+                raise BadValueError(
+                    "the scene ideal has no play, and the file's parameters", name.where, "expected simulate: only"
+                )
         draft = _draft(drafts[scene.extends] if scene.extends else _Draft(), scene)
         drafts[str(name)] = draft
         found[str(name)] = _scene(reader, name, draft, parts)
@@ -82,13 +84,13 @@ def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec
     with reader.collect():
         _check_cycles(name, parameters, parts)
     simulate = {}
-    for key, dimension in SIMULATE.items():
-        if key in draft.simulate:
-            simulate[key] = reader.quantity(draft.simulate[key], f"scenes.{name}.simulate.{key}", dimension)
-            if key == "output":
-                reader.require(simulate[key], ">=", 1.0, "a run has at least one interval of output")
+    for option, dimension in SIMULATE.items():
+        if option in draft.simulate:
+            simulate[option] = reader.quantity(draft.simulate[option], f"scenes.{name}.simulate.{option}", dimension)
+            if option == "output":
+                reader.require(simulate[option], ">=", 1.0, "a run has at least one interval of output")
             else:
-                reader.require(simulate[key], ">", 0.0, "a time span is positive")
+                reader.require(simulate[option], ">", 0.0, "a time span is positive")
     return SceneSpec(str(name), play, parameters, simulate, name.where)
 
 
@@ -97,7 +99,10 @@ def _play(joint: Text, use: PlayShape, parts: Parts) -> Play | None:
     if joint not in parts.shape.joints:
         raise unknown_name("joint", joint, parts.shape.joints, joint.where)
     errors: list[InputError] = []
-    for what, text, known in (("bearing", use.bearing, parts.shape.bearings), ("contact", use.contact, parts.shape.contacts)):
+    for what, text, known in (
+        ("bearing", use.bearing, parts.shape.bearings),
+        ("contact", use.contact, parts.shape.contacts),
+    ):
         if text not in known:
             errors.append(unknown_name(what, text, known, text.where))
     if errors:

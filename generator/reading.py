@@ -48,13 +48,19 @@ class Reader:
             raise InputErrors(errors)
 
     def quantity(
-        self, text: Text, address: str, expected: Dimension | None, time: bool = False, result: ResultDimension | None = None
+        self,
+        text: Text,
+        address: str,
+        expected: Dimension | None,
+        time: bool = False,
+        result: ResultDimension | None = None,
     ) -> Quantity:
         """The number at `address`; `time` and `result` say whether t and names of results may occur in it.
 
         An error is collected, and the number is then NaN.
         """
-        expr, found = broken(text), expected
+        expr: Expr = broken(text)
+        found = expected
         with self.collect():
             parsed = self.parse(text, address)
             dimensions = self.check_names(parsed, text.where, time, result)
@@ -73,7 +79,9 @@ class Reader:
         if text.is_nothing:
             raise BadValueError(f"{address} has no value", text.where, "expected a number or an expression")
         if not text.one_line:
-            raise ExpressionError(f"{address} stands on several lines", text.where, "expected an expression on one line")
+            raise ExpressionError(
+                f"{address} stands on several lines", text.where, "expected an expression on one line"
+            )
         return parse(text, text.where)
 
     def check_names(

@@ -40,7 +40,9 @@ _TOTALS: Mapping[str, Mapping[str, Dimension]] = {
 class ResultNames:
     """Dimensions of a mechanism's results. Names with play count too: a scene without it tells at run time."""
 
-    def __init__(self, places: Places, joints: Mapping[str, Joint], drives: Mapping[str, Drive], parameters: object) -> None:
+    def __init__(
+        self, places: Places, joints: Mapping[str, Joint], drives: Mapping[str, Drive], parameters: object
+    ) -> None:
         self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTALS)
         self.owners |= dict.fromkeys(places.bodies, _BODY) | dict.fromkeys(drives, _DRIVE)
         self.owners |= dict.fromkeys(places.names(), _POINT)
@@ -56,7 +58,9 @@ class ResultNames:
             known = [f"{own}.{part}" for own in self.owners for part in self.owners[own] if own == name.path]
             raise unknown_name("name", name.path, known or [*self.parameters], where)  # type: ignore[misc]
         if owner not in self.owners:
-            raise unknown_name("name", name.path, [f"{own}.{part}" for own in self.owners for part in self.owners[own]], where)
+            raise unknown_name(
+                "name", name.path, [f"{own}.{part}" for own in self.owners for part in self.owners[own]], where
+            )
         if last not in self.owners[owner]:
             place = Location(where.file, where.line, where.column + len(owner) + 1)
             raise unknown_name(f"result of {owner}", last, self.owners[owner], place)

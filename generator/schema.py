@@ -10,7 +10,15 @@ import types
 from collections.abc import Iterable
 from typing import Annotated, Any, Union, get_args, get_origin
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, ValidatorFunctionWrapHandler, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    PrivateAttr,
+    ValidationError,
+    ValidatorFunctionWrapHandler,
+    model_validator,
+)
 
 from gudgeon.errors import BadValueError, InputError, InputErrors, Location, MissingKeyError, UnknownKeyError
 from gudgeon.generator.names import known_hint, nearest, unknown_name
@@ -148,7 +156,9 @@ def _errors(found: ValidationError, document: Map) -> list[InputError]:
         for finding in found.errors(include_url=False)
     ]
     mistyped = {
-        (*path[:-1], nearest(str(path[-1]), _fields(path[:-1]))) for kind, path, _ in findings if kind == "extra_forbidden"
+        (*path[:-1], nearest(str(path[-1]), _fields(path[:-1])))
+        for kind, path, _ in findings
+        if kind == "extra_forbidden"
     }
     return [
         _translate(kind, path, str(finding.get("ctx", {}).get("class", "")), document)

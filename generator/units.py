@@ -144,11 +144,11 @@ _SYMBOLS: Mapping[str, Unit] = {
     "W": _unit("1", POWER), "kW": _unit("1e3", POWER),
 }  # fmt: skip
 
-_COMPOUNDS = (
-    "1/s 1/min rad/s deg/s rev/s rev/min rad/s^2 deg/s^2 m/s mm/s m/min m/s^2 mm/s^2 m^2 mm^2 m^3 mm^3 "
-    "kg*m^2 kg*mm^2 g*mm^2 kg/m^3 N*m N*mm kN*m N/m N/mm kN/m N*m/rad N*m/deg "
-    "N*s/m N*s/mm N*m*s/rad N/m^2 N/mm^2 Pa*s"
-).split()
+_COMPOUNDS = """
+    1/s 1/min rad/s deg/s rev/s rev/min rad/s^2 deg/s^2 m/s mm/s m/min m/s^2 mm/s^2 m^2 mm^2 m^3 mm^3
+    kg*m^2 kg*mm^2 g*mm^2 kg/m^3 N*m N*mm kN*m N/m N/mm kN/m N*m/rad N*m/deg
+    N*s/m N*s/mm N*m*s/rad N/m^2 N/mm^2 Pa*s
+"""
 
 _FACTOR = re.compile(r"([A-Za-z\u00b5\u03bc]+)(?:\^(-?[1-9]))?(?![\w^])")
 _MOST_FACTORS = 8
@@ -190,7 +190,7 @@ def unit(token: str) -> Unit | None:
 
 
 def _published() -> Iterator[tuple[str, tuple[float, Dimension]]]:
-    for token in (*_SYMBOLS, *_COMPOUNDS):
+    for token in (*_SYMBOLS, *_COMPOUNDS.split()):
         known = unit(token)
         assert known is not None, token
         yield token, (known.to_si(Fraction(1)), known.dimension)

@@ -49,8 +49,8 @@ class Text(str):
         return self.plain and self in ("", "~", "null", "Null", "NULL")
 
 
-class Map(dict[Text, Any]):
-    """A mapping; its keys are Text, so that a key has a place, too."""
+class Map(dict[str, Any]):
+    """A mapping; its keys are Text (see `names`), so that a key has a place, too."""
 
     where: Location
 
@@ -62,7 +62,11 @@ class Map(dict[Text, Any]):
 
     def key(self, name: str) -> Text:
         """The key itself, with its place."""
-        return next(key for key in self if key == name)
+        return next(key for key in self.names() if key == name)
+
+    def names(self) -> list[Text]:
+        """The keys as what they are."""
+        return [key for key in self if isinstance(key, Text)]
 
 
 class Items(list[Any]):
@@ -98,7 +102,9 @@ def parse_yaml(data: bytes, file: str) -> Map:
     if composer.duplicates:
         raise composer.duplicates[0] if len(composer.duplicates) == 1 else InputErrors(composer.duplicates)
     if root is None or isinstance(root, Text) and root.is_nothing:
-        raise NotYamlError("the file is empty", Location(file, 1, 1), "expected a mapping that begins with format: gudgeon/1")
+        raise NotYamlError(
+            "the file is empty", Location(file, 1, 1), "expected a mapping that begins with format: gudgeon/1"
+        )
     if not isinstance(root, Map):
         hint = "expected a mapping that begins with format: gudgeon/1"
         raise NotYamlError(f"the file holds {kind_of(root)}", root.where, hint)
@@ -140,7 +146,9 @@ def _translate(error: YAMLError, text: str, file: str) -> NotYamlError:
     if "'\\t'" in problem:
         return NotYamlError("a tab where YAML wants spaces", where, "indent with spaces")
     context = f" ({error.context})" if error.context and error.problem else ""
-    return NotYamlError(f"not YAML: {problem}{context}", where, "a text that holds ': ', ' #' or begins with @ % ` needs quotes")
+    return NotYamlError(
+        f"not YAML: {problem}{context}", where, "a text that holds ': ', ' #' or begins with @ % ` needs quotes"
+    )
 
 
 class _Composer:
@@ -183,7 +191,9 @@ class _Composer:
             raise LimitError("nested too deeply", self.place(event), f"expected at most {MAX_DEPTH} levels")
         tag = getattr(event, "tag", None)
         if tag is not None:
-            raise NotYamlError(f"the tag {str(tag)[:60]!r}", self.place(event), "expected plain text, lists and mappings")
+            raise NotYamlError(
+                f"the tag {str(tag)[:60]!r}", self.place(event), "expected plain text, lists and mappings"
+            )
         before = self.nodes
         self.count(1, event)
         if isinstance(event, ScalarEvent):
@@ -227,7 +237,9 @@ class _Composer:
                 raise UnknownKeyError("merge keys ('<<') are no part of the format", key.where, "use extends:")
             if key in made:
                 first = made.key(key).where
-                self.duplicates.append(UnknownKeyError(f"{str(key)!r} is given twice", key.where, f"the first is at {first}"))
+                self.duplicates.append(
+                    UnknownKeyError(f"{str(key)!r} is given twice", key.where, f"the first is at {first}")
+                )
             else:
                 made[key] = value
         return made
