@@ -120,8 +120,8 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
     at the joints with play. Right: journal orbits. `reference` is the ideal run at the same times and
     parameters, one for all scenes or one a scene. Scenes without play are shown as they are.
     """
-    references = reference if isinstance(reference, Mapping) else dict.fromkeys(runs, reference)
     played = {scene: run for scene, run in runs.items() if run.source.clearances}
+    references = dict(reference) if isinstance(reference, Mapping) else dict.fromkeys(played, reference)
     shown = played or dict(runs)
     colours = dict(zip(shown, _cycle(len(shown)) if played else [IDEAL, *_cycle(len(shown) - 1)], strict=True))
     joints = list(dict.fromkeys(joint.name for run in played.values() for joint in run.source.clearances))[:4]
@@ -133,7 +133,7 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
         rows = 3 + len(joints)
         grid = left.add_gridspec(rows, max(1, len(watch)))
         for column, name in enumerate(watch):
-            _draw_motion(left, grid, column, shown, references if played else None, name, colours)
+            _draw_motion(left, grid, column, shown, references if played else {}, name, colours)
         forces = [left.add_subplot(grid[3 + k, :]) for k in range(len(joints))]
         _draw_forces(forces, joints, played, references, colours)
         left.align_ylabels()
@@ -152,22 +152,24 @@ def _halves(picture: Figure, orbits: int) -> tuple[Any, Any]:
 
 
 def _draw_motion(
-    part: Any, grid: Any, column: int, runs: Mapping[str, Result], references: Mapping[str, Result] | None, name: str,
+    part: Any, grid: Any, column: int, runs: Mapping[str, Result], references: Mapping[str, Result], name: str,
     colours: Mapping[str, str],
 ) -> None:  # fmt: skip
-    """Three rows: a name, its velocity and its acceleration, as errors if there is something to compare with."""
+    """Three rows: a name, its velocity and its acceleration, as errors where there is something to compare with."""
     names = [series for series in (name, *rates(name)) if series]
     for row, series in enumerate(names):
+        compared = [scene for scene in runs if scene in references and series in references[scene]]
+        found = {scene: runs[scene][series] - references[scene][series] for scene in compared}
+        if not found:
+            found = {scene: run[series] for scene, run in runs.items() if series in run}
+        if not found:
+            continue
         ax = part.add_subplot(grid[row, column] if len(names) > 1 else grid[:3, column])
-        found = {
-            scene: (run.t, run[series] - references[scene][series] if references else run[series])
-            for scene, run in runs.items()
-        }
-        factor, text = scale(max(_peak(values) for _, values in found.values()), next(iter(runs.values())).unit(series))
-        for scene, (t, values) in found.items():
-            ax.plot(t, values * factor, color=colours[scene], lw=0.9)
-        last = row == len(names) - 1
-        _over_time(ax, label(f"error of {series}" if references else series, text), next(iter(found.values()))[0], last)
+        factor, text = scale(max(map(_peak, found.values())), runs[next(iter(found))].unit(series))
+        for scene, values in found.items():
+            ax.plot(runs[scene].t, values * factor, color=colours[scene], lw=0.9)
+        word = f"error of {series}" if compared else series
+        _over_time(ax, label(word, text), [runs[scene].t for scene in found], row == len(names) - 1)
 
 
 def _draw_forces(
@@ -178,20 +180,21 @@ def _draw_forces(
     for ax, joint in zip(axes, joints, strict=True):
         name = f"{joint}.F"
         curves = [(run.t, run[name], colours[scene], 0.8, "-") for scene, run in runs.items() if name in run]
-        ideal = next((references[scene] for scene in runs if name in references[scene]), None)
+        ideal = max((r for r in references.values() if name in r), key=lambda r: r.t[-1], default=None)
         if ideal is not None:
-            curves.append((ideal.t, ideal[name], IDEAL, 1.0, (0, (4, 2))))  # type: ignore[arg-type]
+            curves.append((ideal.t, ideal[name], IDEAL, 1.0, "--"))
         factor, text = scale(max(_peak(values) for _, values, *_ in curves), "N")
         for t, values, colour, width, dashes in curves:
             ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
         ax.set_ylim(bottom=0)
-        _over_time(ax, label(f"force at {joint}", text), curves[0][0], ax is axes[-1])
+        _over_time(ax, label(f"force at {joint}", text), [t for t, *_ in curves], ax is axes[-1])
 
 
-def _over_time(ax: Axes, text: str, t: Any, last: bool) -> None:
+def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
     """Only the last row of a column is labelled with the time."""
     ax.set_ylabel(text)
-    ax.set_xlim(float(t[0]), float(t[-1]) if t[-1] > t[0] else float(t[0]) + 1.0)
+    start, end = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
+    ax.set_xlim(start, end if end > start else start + 1.0)
     ax.tick_params(labelbottom=last)
     if last:
         ax.set_xlabel("t [s]")
@@ -218,7 +221,7 @@ def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str
     picture.suptitle(run.source.title or run.source.mechanism, fontsize=13, fontweight="bold", x=0.012, ha="left")
     handles = [Line2D([], [], color=colour, lw=2.2, label=scene) for scene, colour in colours.items()]
     if compared:
-        handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls=(0, (4, 2)), label="ideal"))
+        handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls="--", label="ideal"))
     picture.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
 
 

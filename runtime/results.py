@@ -143,7 +143,7 @@ class Result:
             return self[name]
         if name in self.parameters:
             return self.parameters[name]
-        raise self._unknown(name)
+        raise self.unknown(name)
 
     def to_xarray(self) -> xarray.Dataset:
         """All series as one Dataset over `time`, with units and long names; impacts over `impact`."""
@@ -172,9 +172,10 @@ class Result:
         try:
             return self._catalogue[name]
         except KeyError:
-            raise self._unknown(name) from None
+            raise self.unknown(name) from None
 
-    def _unknown(self, name: str) -> UnknownNameError:
+    def unknown(self, name: str) -> UnknownNameError:
+        """The error for a name that this result does not have; it names the nearest."""
         import difflib
 
         if name in self.parameters:

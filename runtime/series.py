@@ -107,7 +107,8 @@ def _points(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 def _point(run: Result, point: PointInfo, axis: int, order: int) -> Array:
     """r_P = r + A(θ) s, its first and second time derivatives; s = (x, y) in the body's frame."""
-    x, y = (float(run.p[i]) if i >= 0 else 0.0 for i in (point.x, point.y))
+    x = point.sign_x * float(run.p[point.x]) if point.x >= 0 else 0.0
+    y = point.sign_y * float(run.p[point.y]) if point.y >= 0 else 0.0
     if point.body < 0:
         return np.full(run.t.shape, (x, y)[axis])
     i = run.source.bodies[point.body].index

@@ -27,6 +27,7 @@ def test_a_point_moves_as_the_crank_carries_it(run: Result) -> None:
     }  # fmt: skip
     for name, values in exact.items():
         np.testing.assert_allclose(run[f"L1.head.{name}"], values, rtol=0, atol=1e-13)
+        np.testing.assert_allclose(run[f"L1.tail.{name}"], 0.0, rtol=0, atol=1e-13)
 
 
 def test_a_point_of_the_ground_rests_and_a_point_at_the_centre_of_mass_is_the_body(run: Result) -> None:

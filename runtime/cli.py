@@ -1,0 +1,191 @@
+"""The command line: how each command is called. What it does is in `gudgeon.commands`.
+
+Only typer is imported here: `gudgeon run` must start to integrate without waiting for anything that
+it may not need. Exit codes: 0 success, 1 a run failed, 2 bad input, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+import typer
+
+from gudgeon.errors import GudgeonError
+
+INTERRUPTED = 130
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+app = typer.Typer(
+    name="gudgeon",
+    help="Planar linkages whose joints may have play: from a YAML file to equations, C and a simulation.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def complain(error: GudgeonError) -> None:
+    """Write `error: …` to stderr, in red if somebody looks."""
+    red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() else ("", "")
+    print(f"{red}error:{plain} {error}", file=sys.stderr)
+
+
+def _told(command: Command) -> Command:
+    """Our own errors are told in a line, without a traceback; others are bugs and keep theirs."""
+
+    @wraps(command)
+    def wrapper(*args: Any, **kwargs: Any) -> None:
+        try:
+            code = command(*args, **kwargs)
+        except GudgeonError as error:
+            complain(error)
+            code = error.exit_code
+        except KeyboardInterrupt:
+            print("interrupted", file=sys.stderr)
+            code = INTERRUPTED
+        if code:
+            raise typer.Exit(code)
+
+    return wrapper  # type: ignore[return-value]
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from gudgeon import __version__
+
+        print(f"gudgeon {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print it.")] = False,
+) -> None:
+    pass
+
+
+File = Annotated[str, typer.Argument(metavar="FILE", help="A YAML file, or the name of a shipped mechanism.")]
+Scenes = Annotated[list[str] | None, typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
+Out = Annotated[Path, typer.Option("--out", help="Folder for what is written.")]
+
+
+@app.command()
+@_told
+def run(
+    file: File,
+    scene: Scenes = None,
+    set_: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a number: c=0.5mm, bodies.L2.mass='0.3 kg'."),
+    ] = None,
+    t_end: Annotated[
+        str | None, typer.Option("--t-end", help="Until when, in s or with a unit. [default: the scene's, or 1 s]")
+    ] = None,
+    output: Annotated[int | None, typer.Option(min=1, help="Equal output intervals. [default: the scene's]")] = None,
+    step: Annotated[str | None, typer.Option(help="Integration step, in s or with a unit: 5us.")] = None,
+    method: Annotated[str, typer.Option(help="Integration method.")] = "auto",
+    watch: Annotated[
+        list[str] | None,
+        typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
+    ] = None,
+    out: Out = Path("out"),
+    regenerate: Annotated[bool, typer.Option(help="Derive and compile again, whatever the cache has.")] = False,
+    json: Json = False,
+) -> int:
+    """Simulate scenes and compare them with the ideal one: a table, a NetCDF file a scene, one picture.
+
+    The ideal scene (no play) is always run too, at the same times and with the same parameters.
+
+    Example: gudgeon run nine_bar_press --scene dry --set c=0.5mm --t-end 0.2
+    """
+    from gudgeon.commands.run import Request, run_scenes
+
+    request = Request(
+        file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, tuple(watch or ()), out,
+        regenerate, json,
+    )  # fmt: skip
+    return run_scenes(request)
+
+
+@app.command()
+@_told
+def check(
+    file: File,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations, what was skipped.")
+    ] = False,
+    json: Json = False,
+) -> int:
+    """Is a mechanism file valid? Every mistake is told with its line, its column and what was expected.
+
+    Example: gudgeon check nine_bar_press -v
+    """
+    from gudgeon.commands.check import check_file
+
+    return check_file(file, verbose, json)
+
+
+@app.command()
+@_told
+def emit(
+    file: File,
+    folder: Annotated[Path, typer.Option("--out", "-o", help="Folder for the C files, one below it a scene.")],
+    scene: Scenes = None,
+) -> int:
+    """Write the generated C, to be read or to be built into something else.
+
+    Example: gudgeon emit nine_bar_press -o c --scene dry
+    """
+    from gudgeon.commands.emit import emit_c
+
+    return emit_c(file, folder, tuple(scene or ()))
+
+
+@app.command()
+@_told
+def equations(
+    file: File,
+    target: Annotated[Path, typer.Option("--out", "-o", help="x.tex or x.txt.")],
+    scene: Annotated[str, typer.Option("--scene", "-s", help="Which scene.")] = "ideal",
+) -> int:
+    """Write the equations of a scene as LaTeX or as text.
+
+    Example: gudgeon equations nine_bar_press -o press.tex --scene lubricated
+    """
+    from gudgeon.commands.equations import write_equations
+
+    return write_equations(file, target, scene)
+
+
+@app.command()
+@_told
+def bench(file: File = "nine_bar_press", scene: Scenes = None, out: Out = Path("out")) -> int:
+    """Run time against error over the steps, for each scene: a table and a picture.
+
+    Example: gudgeon bench nine_bar_press --scene dry
+    """
+    from gudgeon.bench import main as bench_main
+
+    return bench_main(file, tuple(scene or ()), out) or 0
+
+
+@app.command()
+@_told
+def stress(file: File = "nine_bar_press", scene: Scenes = None, out: Out = Path("out")) -> int:
+    """Step × clearance: where the integration is stable, inaccurate or diverges.
+
+    Example: gudgeon stress nine_bar_press --scene dry
+    """
+    from gudgeon.stress import main as stress_main
+
+    return stress_main(file, tuple(scene or ()), out) or 0
+
+
+def main() -> None:
+    """The entry point of the command `gudgeon`."""
+    app()

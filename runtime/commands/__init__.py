@@ -1,0 +1,1 @@
+"""What the commands do; `gudgeon.cli` says how they are called. One file a command."""

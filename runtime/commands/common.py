@@ -1,0 +1,79 @@
+"""What several commands need: a file's scenes, numbers as they are typed, files written as a whole."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from pathlib import Path
+
+from gudgeon.errors import GudgeonError, InputError, UnknownNameError
+from gudgeon.loading import find_mechanism, generator_hash, read_bytes
+
+SCENES = "scenes.json"
+# a number and a unit without the space that the file format wants between them: nothing else can be meant
+_GLUED = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµμ°].*)")
+
+
+def scene_names(mechanism: str) -> tuple[str, ...]:
+    """All scenes of a mechanism file in its order; on a warm start without reading the YAML."""
+    from gudgeon.cache import default_cache, digest
+
+    file = find_mechanism(mechanism)
+    data = read_bytes(file)
+
+    def make(folder: Path) -> None:
+        from gudgeon.generator.read_yaml import read_mechanism
+
+        names = list(read_mechanism(data, str(file)).scenes)
+        (folder / SCENES).write_text(json.dumps(names), encoding="utf-8")
+
+    entry = default_cache().fetch("scenes", digest(["scenes/1", data, generator_hash()]), make)
+    return tuple(json.loads((entry / SCENES).read_text(encoding="utf-8")))
+
+
+def chosen_scenes(mechanism: str, wanted: tuple[str, ...]) -> tuple[str, ...]:
+    """The wanted scenes, each once; all if none is named. UnknownNameError names the nearest."""
+    names = scene_names(mechanism)
+    for scene in wanted:
+        if scene not in names:
+            raise unknown(f"no scene {scene!r} in {mechanism}", scene, names)
+    return tuple(dict.fromkeys(wanted)) or names
+
+
+def unknown(message: str, name: str, known: tuple[str, ...]) -> UnknownNameError:
+    """An error for a name that does not exist; it tells the nearest ones, or all if they are few."""
+    import difflib
+
+    near = difflib.get_close_matches(name, known, n=3, cutoff=0.5)
+    if near:
+        return UnknownNameError(message, hint=f"nearest: {', '.join(near)}")
+    return UnknownNameError(message, hint=f"there are: {', '.join(known)}" if len(known) <= 12 else "")
+
+
+def value(text: str) -> float | str:
+    """A number as typed: a float if it is one (SI), else text with a space before its unit ("0.5mm", "0.5 mm")."""
+    try:
+        return float(text)
+    except ValueError:
+        glued = _GLUED.fullmatch(text.strip())
+        return f"{glued[1]} {glued[2]}" if glued else text.strip()
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a file aside and move it into place."""
+    aside = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        aside.write_text(text, encoding="utf-8")
+        os.replace(aside, path)
+    except OSError as error:
+        raise GudgeonError(f"cannot write {path}: {error.strerror or error}") from error
+    finally:
+        aside.unlink(missing_ok=True)
+
+
+def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
+    """InputError for a file whose name does not say what is to be written."""
+    if path.suffix not in suffixes:
+        raise InputError(f"{path}: expected a name that ends in {' or '.join(suffixes)}")

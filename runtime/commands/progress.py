@@ -1,0 +1,49 @@
+"""A progress bar on stderr, only where somebody looks, and imported only once there is something to show."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+Report = Callable[[float, str], None]  # fraction done, a few words
+
+
+@contextmanager
+def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]]:
+    """Gives `bar(name)`, a callable for `simulate(progress=…)`, or None where nobody looks."""
+    if quiet or not sys.stderr.isatty():
+        yield lambda name: None
+        return
+    shown: list[Any] = []  # rich's Progress, once the first piece of work is done
+
+    def bar(name: str) -> Report:
+        task: list[Any] = []
+
+        def report(fraction: float, text: str) -> None:
+            if not shown:
+                shown.append(_start())
+            if not task:
+                task.append(shown[0].add_task(name, total=1.0, text=""))
+            shown[0].update(task[0], completed=fraction, text=text)
+
+        return report
+
+    try:
+        yield bar
+    finally:
+        for progress in shown:
+            progress.stop()
+
+
+def _start() -> Any:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+    progress = Progress(
+        TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn(),
+        TextColumn("{task.fields[text]}"), console=Console(stderr=True), transient=True,
+    )  # fmt: skip
+    progress.start()
+    return progress

@@ -1,0 +1,215 @@
+"""`gudgeon run`: simulate scenes, compare each with the ideal one, write and show what came out."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from gudgeon.commands.common import chosen_scenes, unknown, value
+from gudgeon.commands.progress import progress_bar
+from gudgeon.errors import GudgeonError, InputError, SolverError
+from gudgeon.loading import load
+from gudgeon.results import Result
+
+if TYPE_CHECKING:
+    from gudgeon.report import SceneReport
+    from gudgeon.simulation import Simulation
+
+Settings: TypeAlias = Mapping[str, float | str]  # address -> SI, or text with a unit
+Files: TypeAlias = dict[str, str]  # scene, or "picture" -> path
+
+IDEAL = "ideal"
+T_END = 1.0  # s, where neither the command line nor the scene says
+
+
+@dataclass(frozen=True)
+class Request:
+    """The command line, as typed."""
+
+    file: str
+    scenes: tuple[str, ...]
+    settings: tuple[str, ...]
+    t_end: str | None
+    output: int | None
+    step: str | None
+    method: str
+    watch: tuple[str, ...]
+    out: Path
+    regenerate: bool
+    json: bool
+
+
+@dataclass
+class Session:
+    """What has been computed so far; it is complete enough to be shown at any time."""
+
+    runs: dict[str, Result] = field(default_factory=dict)
+    references: dict[str, Result] = field(default_factory=dict)
+    failures: dict[str, GudgeonError] = field(default_factory=dict)
+    interrupted: bool = False
+
+
+def run_scenes(request: Request) -> int:
+    """Run, compare, save, show; the exit code."""
+    settings = _settings(request.settings)
+    names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
+    simulations = {name: load(request.file, name, regenerate=request.regenerate) for name in names}
+    _check(request, settings, simulations)
+    session = Session()
+    try:
+        _simulate(request, settings, simulations, session)
+    except KeyboardInterrupt:
+        session.interrupted = True
+    if session.runs:
+        _hand_over(request, simulations[IDEAL], session)
+    for scene, error in session.failures.items():
+        print(f"error: scene {scene}: {error}", file=sys.stderr)
+    if session.interrupted:
+        print("interrupted: what was computed is shown and saved", file=sys.stderr)
+        return 130
+    return max((error.exit_code for error in session.failures.values()), default=0)
+
+
+def _settings(texts: tuple[str, ...]) -> dict[str, float | str]:
+    found = {}
+    for text in texts:
+        address, equals, number = text.partition("=")
+        if not (equals and address.strip() and number.strip()):
+            raise InputError(f"--set {text}: expected ADDRESS=VALUE", hint="for example --set c=0.5mm")
+        found[address.strip()] = value(number)
+    return found
+
+
+def _check(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
+    """Names that no scene has and values that are not valid are told before anything is run or written."""
+    from gudgeon.parameters import prepare
+
+    known = tuple(dict.fromkeys(address for s in simulations.values() for address in addresses(s)))
+    for address in settings:
+        if address not in known:
+            raise unknown(f"--set: no scene has a number {address!r}", address, known)
+    for simulation in simulations.values():
+        prepare(simulation.compiled, _own(settings, simulation))
+    if request.watch:
+        from gudgeon.series import catalogue
+
+        series = tuple(dict.fromkeys(name for s in simulations.values() for name in catalogue(s.source)))
+        for name in request.watch:
+            if name not in series:
+                raise unknown(f"--watch: no scene has a series {name!r}", name, series)
+
+
+def _own(settings: Settings, simulation: Simulation) -> dict[str, float | str]:
+    """The settings that a scene knows: an ideal scene has no viscosity."""
+    known = set(addresses(simulation))
+    return {address: number for address, number in settings.items() if address in known}
+
+
+def addresses(simulation: Simulation) -> list[str]:
+    """Addresses of the run-time numbers of a scene, parameters by their short names too."""
+    found = [slot.address for slot in simulation.source.slots]
+    return [address.removeprefix("parameters.") for address in found] + found
+
+
+def _simulate(
+    request: Request, settings: Settings, simulations: Mapping[str, Simulation], session: Session
+) -> None:
+    """All scenes, the ideal one last: it lasts as long as the longest, and is to be had cheaply."""
+    t_end, step = (None if text is None else value(text) for text in (request.t_end, request.step))
+    longest = max((s.source.simulate.get("t_end", T_END) for n, s in simulations.items() if n != IDEAL), default=T_END)
+    with progress_bar(quiet=request.json) as bar:
+        for name in sorted(simulations, key=lambda name: name == IDEAL):
+            simulation, until = simulations[name], t_end
+            if until is None:
+                until = simulation.source.simulate.get("t_end", longest if name == IDEAL else T_END)
+            try:
+                run = simulation.simulate(
+                    until, output=request.output, method="auto" if name == IDEAL else request.method, step=step,
+                    parameters=_own(settings, simulation), progress=bar(name),
+                )  # fmt: skip
+            except SolverError as error:
+                session.failures[name] = error
+                if error.partial is not None and len(error.partial.t) > 1:
+                    session.runs[name] = error.partial  # up to where it failed: that is where one looks
+                continue
+            session.runs[name] = run
+            if run.diagnostics.interrupted:
+                session.interrupted = True
+                return
+
+
+def _hand_over(request: Request, ideal: Simulation, session: Session) -> None:
+    """References, figures, files: everything after the integration."""
+    from gudgeon.report import as_json, compare, default_watch
+
+    for scene, run in session.runs.items():
+        if scene != IDEAL:
+            try:
+                session.references[scene] = _reference(ideal, run, session)
+            except GudgeonError as error:
+                session.failures.setdefault(IDEAL, error)
+    first = session.runs.get(IDEAL) or next(iter([*session.references.values(), *session.runs.values()]))
+    watch = request.watch or default_watch(first)
+    shown = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
+    reports = [compare(run, session.references.get(scene), watch) for scene, run in shown.items()]
+    files = _write(request.out, shown, session.references, watch)
+    if request.json:
+        import json
+
+        document = {"mechanism": first.source.mechanism, "scenes": as_json(reports), "files": files}
+        print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
+    else:
+        _print(first.source.title or first.source.mechanism, reports, files)
+
+
+def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
+    """The ideal run at the run's times and with its parameters; shared by scenes with the same ones."""
+    shared = {slot.address for slot in ideal.source.slots}
+    values = {address: number for address, number in run.parameters.items() if address in shared}
+    for other in (session.runs.get(IDEAL), *session.references.values()):
+        if other and np.array_equal(other.t, run.t) and all(other.parameters[a] == v for a, v in values.items()):
+            return other
+    return ideal.simulate(output=run.t, parameters=values)
+
+
+def _write(out: Path, runs: Mapping[str, Result], references: Mapping[str, Result], watch: Sequence[str]) -> Files:
+    """A NetCDF file a scene and one picture; a note says which optional package is missing."""
+    mechanism = next(iter(runs.values())).source.mechanism
+    files = {}
+    if _have("NetCDF files", "xarray", "h5netcdf"):
+        for scene, run in runs.items():
+            run.save(out / f"{mechanism}_{scene}.nc")
+            files[scene] = str(out / f"{mechanism}_{scene}.nc")
+    if _have("picture", "matplotlib"):
+        from gudgeon.plots import figure, save_figure
+
+        save_figure(figure(runs, references, watch), out / f"{mechanism}.png")
+        files["picture"] = str(out / f"{mechanism}.png")
+    return files
+
+
+def _have(what: str, *packages: str) -> bool:
+    missing = [package for package in packages if find_spec(package) is None]
+    if missing:
+        print(f"note: no {what}: {' and '.join(missing)} not installed", file=sys.stderr)
+    return not missing
+
+
+def _print(title: str, reports: list[SceneReport], files: Files) -> None:
+    from rich.console import Console
+
+    from gudgeon.report import tables
+
+    console = Console(width=None if sys.stdout.isatty() else 200, highlight=False)
+    for table in tables(title, reports):
+        console.print(table)
+    for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
+        console.print(f"note: {note}", markup=False)
+    for path in files.values():
+        console.print(f"wrote {path}", markup=False)
