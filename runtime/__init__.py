@@ -10,8 +10,8 @@ Names are imported when they are first asked for (PEP 562): `import gudgeon` alo
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING
 
+TYPE_CHECKING = False  # type checkers take it for true; `typing` would double the time of this import
 if TYPE_CHECKING:
     from gudgeon.errors import (
         AssemblyError,
@@ -23,16 +23,14 @@ if TYPE_CHECKING:
         SingularError,
         SolverError,
     )
-    from gudgeon.load import load
+    from gudgeon.loading import load
     from gudgeon.results import Result
-    from gudgeon.shipped import shipped
     from gudgeon.simulation import Simulation
 
 __version__ = "0.1.0"
 
 _HOME = {
-    "load": "load",
-    "shipped": "shipped",
+    "load": "loading",  # no module may be called `load`: importing it would take the function's place
     "Simulation": "simulation",
     "Result": "results",
     "GudgeonError": "errors",
@@ -58,7 +56,6 @@ __all__ = [
     "SolverError",
     "__version__",
     "load",
-    "shipped",
 ]
 
 

@@ -22,7 +22,7 @@ from gudgeon.step import default_step
 
 if TYPE_CHECKING:
     from gudgeon.generator.model import Model
-    from gudgeon.load import Loading
+    from gudgeon.loading import Loading
     from gudgeon.results import Result, State
 
 METHODS = {"rk4": rk4.run, "kinematic": kinematic.run}

@@ -1,0 +1,93 @@
+"""What is installed is what is here: packages, data, pins."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import zipfile
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+SETUPTOOLS = PROJECT["tool"]["setuptools"]
+FOLDERS = SETUPTOOLS["package-dir"]  # package -> folder at the top of the house
+
+
+def normal(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def pins() -> dict[str, str]:
+    lines = [line for line in (ROOT / "constraints.txt").read_text().splitlines() if not line.startswith("#")]
+    return {normal(name): pin for name, pin in (line.split("==") for line in lines)}
+
+
+def test_every_folder_with_python_is_listed_once() -> None:
+    found = []
+    for package, folder in FOLDERS.items():
+        for path in [ROOT / folder, *(ROOT / folder).rglob("*/")]:
+            if any(path.glob("*.py")):
+                found.append(".".join([package, *path.relative_to(ROOT / folder).parts]))
+    assert sorted(SETUPTOOLS["packages"]) == sorted(found)
+
+
+def test_every_package_has_an_init() -> None:
+    for package, folder in FOLDERS.items():
+        for listed in SETUPTOOLS["packages"]:
+            if listed == package or (listed.startswith(package + ".") and package != "gudgeon"):
+                path = ROOT / folder / Path(*listed.split(".")[len(package.split(".")) :])
+                assert (path / "__init__.py").is_file(), listed
+
+
+def test_everything_asked_for_is_pinned() -> None:
+    asked = [*PROJECT["project"]["dependencies"], *PROJECT["build-system"]["requires"]]
+    for extra in PROJECT["project"]["optional-dependencies"].values():
+        asked += extra
+    names = {normal(re.match(r"[\w.-]+", line)[0]) for line in asked} - {"gudgeon"}  # type: ignore[index]
+    assert names - set(pins()) == set()
+
+
+def test_pins_are_names_and_versions_alone() -> None:
+    text = (ROOT / "constraints.txt").read_text()
+    assert "//" not in text and "@" not in text
+    assert all(re.fullmatch(r"[0-9][0-9a-z.]*", pin) for pin in pins().values())
+
+
+def test_the_pinned_versions_are_those_in_use() -> None:
+    """Under other versions the byte-for-byte tests would speak of something else."""
+    wrong = {name: (version(name), pin) for name in ("sympy", "jinja2") if version(name) != (pin := pins()[name])}
+    assert wrong == {}
+
+
+def test_all_holds_every_extra_of_a_user() -> None:
+    extras = PROJECT["project"]["optional-dependencies"]
+    held = set(re.findall(r"[\w-]+", extras["all"][0].partition("[")[2]))
+    assert held == set(extras) - {"all", "test", "bench"}
+
+
+def test_the_wheel_holds_templates_mechanisms_and_generated(tmp_path: Path) -> None:
+    if int(version("setuptools").split(".")[0]) < 77:
+        pytest.skip("needs the pinned setuptools (make test)")
+    copy = tmp_path / "house"
+    copy.mkdir()
+    for name in ("pyproject.toml", "LICENSE", "README.md", *FOLDERS.values()):
+        path = ROOT / name
+        (shutil.copytree if path.is_dir() else shutil.copy)(path, copy / name)
+    code = f"import setuptools.build_meta as b; b.build_wheel({str(tmp_path)!r})"
+    subprocess.run([sys.executable, "-c", code], cwd=copy, check=True, capture_output=True)
+    (wheel,) = tmp_path.glob("*.whl")
+    held = set(zipfile.ZipFile(wheel).namelist())
+    wanted = {"gudgeon/py.typed"}
+    for package, folder in FOLDERS.items():
+        for path in (ROOT / folder).rglob("*"):
+            if path.suffix in (".py", ".jinja", ".yaml", ".c", ".h", ".json"):
+                wanted.add("/".join([*package.split("."), *path.relative_to(ROOT / folder).parts]))
+    assert wanted - held == set()
+    stray = {name for name in held - wanted if ".dist-info/" not in name}
+    assert stray == set()
