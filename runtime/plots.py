@@ -72,7 +72,7 @@ class Plot:
         """Path of the journal's centre in its clearance circle, in units of the clearance."""
         with matplotlib.rc_context(STYLE):
             ax = ax or _axes(4.2, 4.4)
-            draw_orbit(ax, self.run, joint, COLOURS[1])
+            draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))
         return ax
 
 
@@ -97,7 +97,12 @@ def _caption(run: Result) -> str:
     return f"{run.source.mechanism}, {run.source.scene}"
 
 
-def draw_orbit(ax: Axes, run: Result, joint: str, colour: str) -> None:
+def reach(run: Result, joint: str) -> float:
+    """Half the side of a square, in units of c, that holds the orbit and the circle."""
+    return 1.04 * max(1.0, _peak(run[f"{joint}.eps"]))
+
+
+def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half: float) -> None:
     """The journal's path, e/c, and the circle e = c; samples with the surfaces in contact are dotted."""
     c = run.constants[f"{joint}.c"]
     x, y, angle = run[f"{joint}.ex"] / c, run[f"{joint}.ey"] / c, np.linspace(0.0, 2 * np.pi, 181)
@@ -106,8 +111,7 @@ def draw_orbit(ax: Axes, run: Result, joint: str, colour: str) -> None:
     touching = run[f"{joint}.delta"] >= 0
     ax.plot(x[touching], y[touching], ".", color=colour, ms=2.2, zorder=3)
     ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=IDEAL, mew=0.9, zorder=4)
-    reach = 1.04 * max(1.0, _peak(np.hypot(x, y)))
-    ax.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal", xticks=[], yticks=[])
+    ax.set(xlim=(-half, half), ylim=(-half, half), aspect="equal", xticks=[], yticks=[])
     factor, text = scale(c, "m")
     ax.set_title(f"{joint}, {run.source.scene}: c = {c * factor:.4g} {text}")
     ax.spines[:].set_visible(False)
@@ -197,7 +201,9 @@ def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
     ax.set_xlim(start, end if end > start else start + 1.0)
     ax.tick_params(labelbottom=last)
     if last:
-        ax.set_xlabel("t [s]")
+        factor, text = scale(end, "s")
+        ax.xaxis.set_major_formatter(lambda t, _: f"{t * factor:g}")
+        ax.set_xlabel(label("t", text))
     ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]))
 
 
@@ -205,11 +211,12 @@ def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], c
     """A clearance circle for each joint (down) and scene (across); more than six scenes do not fit."""
     scenes = list(runs)[:6]
     grid = part.add_gridspec(len(joints), len(scenes))
-    for row, joint in enumerate(joints):
-        for column, scene in enumerate(scenes):
-            if f"{joint}.e" in runs[scene]:
-                ax = part.add_subplot(grid[row, column])
-                draw_orbit(ax, runs[scene], joint, colours[scene])
+    cells = [(row, column) for row in range(len(joints)) for column in range(len(scenes))]
+    found = [(r, c) for r, c in cells if f"{joints[r]}.e" in runs[scenes[c]]]
+    half = max(reach(runs[scenes[c]], joints[r]) for r, c in found)  # one scale: all circles are equally large
+    for row, column in found:
+        scene = scenes[column]
+        draw_orbit(part.add_subplot(grid[row, column]), runs[scene], joints[row], colours[scene], half)
     part.supxlabel("journal in the circle e = c, ○ start", fontsize=9, color="#444444")
 
 

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 COLUMNS = 4  # scenes beside each other in one table
-CONSTANT_UNITS = {"c": "m", "S": "N*s", "radius": "m", "R_i": "m", "R_j": "m", "length": "m"}
+# of a joint with play: name -> (unit that a table can scale, what follows the name); the rest is in --json
+CONSTANTS = {"c": ("m", ""), "K": ("", " [N/mⁿ]"), "S": ("N*s", "")}
 
 
 @dataclass(frozen=True)
@@ -187,11 +188,9 @@ def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         rows.append((f"{joint} first contact", [quantity(t, "s") for t in contacts]))
         rows.append((f"{joint} its peak force", [quantity(p.first_peak, "N", 5) if p else "–" for p in shown]))
         rows.append((f"{joint} largest e", [quantity(p.e_max, "m", 5) if p else "–" for p in shown]))
-        constants = dict.fromkeys(key for report in reports for key in report.constants if key.startswith(f"{joint}."))
-        for key in constants:
-            unit = CONSTANT_UNITS.get(key.rpartition(".")[2], "")
-            cells = [quantity(report.constants.get(key, math.nan), unit) for report in reports]
-            rows.append((f"{joint} {key.rpartition('.')[2]}" + (" [N/mⁿ]" if key.endswith(".K") else ""), cells))
+        for name, (unit, after) in CONSTANTS.items():
+            values = [report.constants.get(f"{joint}.{name}", math.nan) for report in reports]
+            rows.append((f"{joint} {name}{after}", [quantity(value, unit) for value in values]))
     return rows
 
 

@@ -182,7 +182,7 @@ def _write(out: Path, runs: Mapping[str, Result], references: Mapping[str, Resul
     """A NetCDF file a scene and one picture; a note says which optional package is missing."""
     mechanism = next(iter(runs.values())).source.mechanism
     files = {}
-    if _have("NetCDF files", "xarray", "h5netcdf"):
+    if _have("NetCDF files", "h5py"):
         for scene, run in runs.items():
             run.save(out / f"{mechanism}_{scene}.nc")
             files[scene] = str(out / f"{mechanism}_{scene}.nc")

@@ -44,7 +44,10 @@ def make_source(scene: str) -> KernelSource:
         files={"slider.c": "/* δ̇⁻ */\n" * 9000}, main="slider.c", cdef="",
         coordinates=tuple(f"{body}.{c}" for body in ("L1", "S9") for c in ("x", "y", "theta")),
         bodies=(BodyInfo("L1", 0), BodyInfo("S9", 3)),
-        points=(PointInfo("L1.head", 0, 3, -1), PointInfo("L1.tail", 0, 3, -1, sign_x=-1), PointInfo("S9.origin", 1, -1, -1), PointInfo("ground.O1", -1, 1, -1)),
+        points=(
+            PointInfo("L1.head", 0, 3, -1), PointInfo("L1.tail", 0, 3, -1, sign_x=-1),
+            PointInfo("S9.origin", 1, -1, -1), PointInfo("ground.O1", -1, 1, -1),
+        ),
         rows=tuple(rows), joints=(guide,) if play else (guide, ideal_joint), drives=(DriveInfo("crank", 0, -1, 0),),
         clearances=(ClearanceInfo("A", 0, 1, "S9.origin", True, False, 2, {"K": 4}),) if play else (),
         start_rows=(), start_guess=(), start_set=(), start_rates=(), pivots=(), start_pivots=(), slots=tuple(slots),

@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("xarray")
-pytest.importorskip("h5netcdf")
+h5py = pytest.importorskip("h5py")
 
 from gudgeon.errors import GudgeonError, InputError  # noqa: E402
 from gudgeon.results import Result, read  # noqa: E402
@@ -34,8 +33,8 @@ def test_everything_comes_back_bit_for_bit(run: Result, ideal: Result, tmp_path:
 
 def test_reading_does_not_need_what_can_be_computed(run: Result, tmp_path: Path) -> None:
     """Every series is in the file: a reading library without our code finds them with their units."""
-    import xarray
-
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
     run.save(tmp_path / "run.nc")
     with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf") as file:
         for name, unit in run.names.items():
@@ -54,32 +53,33 @@ def test_the_same_run_gives_the_same_bytes(make: object, tmp_path: Path) -> None
 def test_a_failed_write_leaves_the_older_file_and_nothing_else(
     run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import xarray
+    from gudgeon import netcdf
 
     path = tmp_path / "run.nc"
     run.save(path)
     before = path.read_bytes()
 
-    def fail(self: object, target: Path, **_: object) -> None:
-        Path(target).write_bytes(b"half a file")
+    def fail(run: Result) -> dict[str, str]:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(xarray.Dataset, "to_netcdf", fail)
+    monkeypatch.setattr(netcdf, "attributes", fail)  # the last thing that is written
     with pytest.raises(GudgeonError, match="No space left"):
         run.save(path)
     assert path.read_bytes() == before
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize("kind", ["missing", "text", "foreign"])
-def test_what_is_no_result_is_refused(kind: str, tmp_path: Path) -> None:
-    import xarray
-
+@pytest.mark.parametrize("kind", ["missing", "text", "foreign", "cut short"])
+def test_what_is_no_result_is_refused(kind: str, run: Result, tmp_path: Path) -> None:
     path = tmp_path / "file.nc"
     if kind == "text":
         path.write_text("no NetCDF")
     elif kind == "foreign":
-        xarray.Dataset({"x": ("time", np.arange(3.0))}).to_netcdf(path, engine="h5netcdf")
+        with h5py.File(path, "w") as file:
+            file["x"] = np.arange(3.0)
+    elif kind == "cut short":
+        run.save(path)
+        path.write_bytes(path.read_bytes()[:-4000])
     with pytest.raises(InputError):
         Result.load(path)
 
@@ -92,3 +92,12 @@ def test_an_output_may_be_called_like_a_dimension(run: Result, tmp_path: Path) -
     back = read(tmp_path / "odd.nc")
     np.testing.assert_array_equal(back["time"], 2 * run.t)
     assert back["p"].tolist() == [1.0] * len(run.t)
+
+
+def test_a_dataset_is_what_the_file_holds(run: Result, ideal: Result, tmp_path: Path) -> None:
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
+    for result in (run, ideal):
+        result.save(tmp_path / "run.nc")
+        with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf") as file:
+            xarray.testing.assert_identical(file.load(), result.to_xarray())
