@@ -6,7 +6,7 @@ import math
 import operator
 from collections.abc import Callable, Mapping
 
-from gudgeon.errors import BadValueError, InputError
+from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.expression_tree import evaluate, names
 from gudgeon.generator.mechanism import Condition, Quantity, SceneSpec
 from gudgeon.generator.parameters import parameter_values
@@ -21,58 +21,67 @@ RELATIONS: Mapping[str, Callable[[float, float], bool]] = {
 def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Mapping[str, SceneSpec]) -> None:
     """Collect a BadValueError at the place of each number that is not finite or breaks a condition."""
     before = len(reader.errors)
-    _check_with(reader, parameters, "", broken_is_told=before > 0)
+    _check_with(reader, parameters, None, broken_is_told=before > 0)
     if len(reader.errors) > before:
         return  # the same would be told of every scene
     for scene in scenes.values():
         if scene.parameters:
-            own = {key: scene.parameters.get(key, quantity) for key, quantity in parameters.items()}
-            _check_with(reader, own, f" in scene {scene.name}", broken_is_told=before > 0)
+            _check_with(reader, parameters, scene, broken_is_told=before > 0)
 
 
-def _check_with(reader: Reader, parameters: Mapping[str, Quantity], context: str, broken_is_told: bool) -> None:
+def _check_with(
+    reader: Reader, parameters: Mapping[str, Quantity], scene: SceneSpec | None, broken_is_told: bool
+) -> None:
+    """All checks with the file's parameters, or with a scene's."""
+    own = scene.parameters if scene else {}
+    context = f" in scene {scene.name}" if scene else ""
     try:
-        known = parameter_values(parameters)
+        known = parameter_values({**parameters, **own})
     except InputError:
         return  # a cycle, told already
-    values: dict[str, float] = {}
-    for address, quantity in reader.quantities.items():
-        if address.startswith("scenes.") and ".parameters." in address:
-            continue  # they are the parameters of their scene
-        if all(name.path in known for name in names(quantity.value)):  # not t, not a result
-            values[address] = float(evaluate(quantity.value, known.__getitem__))
-            if not math.isfinite(values[address]) and not broken_is_told:
-                hint = "expected a finite number: is there a division by zero or a root of a negative number?"
-                reader.errors.append(BadValueError(f"{address} is {values[address]}{context}", quantity.where, hint))
+    values = _values(reader, known)
+
+    def complain(address: str, message: str, hint: str) -> None:
+        reader.errors.append(BadValueError(f"{address} {message}", _place(reader.quantities[address], own), hint))
+
+    for address, value in values.items():
+        if not math.isfinite(value) and not broken_is_told:
+            hint = "expected a finite number: is there a division by zero or a root of a negative number?"
+            complain(address, f"is {value}{context}", hint)
+        elif address.endswith(".simulate.output") and value != math.floor(value):
+            complain(address, f"is {value:.6g}{context}", "expected a whole number of equal intervals")
     for condition in reader.conditions:
-        with reader.collect():
-            _check(condition, reader.quantities, values, context)
+        broken = _broken(condition, values)
+        if broken:
+            unit = si_unit(reader.quantities[condition.address].dimension)
+            found, hint = broken
+            message = f"is {found} {unit}".rstrip() + f"{context}: {condition.message}"
+            complain(condition.address, message, f"{hint} {unit}".rstrip())
     for vector in reader.vectors_not_zero:
         if all(values.get(component.address) == 0.0 for component in vector):
-            owner = vector[0].address.rpartition(".")[0]
-            hint = "expected a direction, such as [1, 0]"
-            reader.errors.append(
-                BadValueError(f"{owner} has no direction{context}: it is [0, 0]", vector[0].where, hint)
-            )
-    for address, value in values.items():
-        if address.endswith(".simulate.output") and math.isfinite(value) and value != int(value):
-            hint = "expected a whole number of equal intervals"
-            reader.errors.append(
-                BadValueError(f"{address} is {value:.6g}{context}", reader.quantities[address].where, hint)
-            )
+            complain(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
 
 
-def _check(condition: Condition, quantities: Mapping[str, Quantity], values: Mapping[str, float], context: str) -> None:
-    """Raise BadValueError if a condition does not hold; a number that is NaN was told already."""
+def _values(reader: Reader, known: Mapping[str, float]) -> dict[str, float]:
+    """Every number that parameters alone determine (SI), by address."""
+    return {
+        address: float(evaluate(quantity.value, known.__getitem__))
+        for address, quantity in reader.quantities.items()
+        if not (address.startswith("scenes.") and ".parameters." in address)  # they are parameters of their scene
+        and all(name.path in known for name in names(quantity.value))  # neither t nor a result
+    }
+
+
+def _place(quantity: Quantity, own: Mapping[str, Quantity]) -> Location:
+    """Where a wrong number comes from: from the scene, if it uses one of the scene's own parameters."""
+    return next((own[name.path].where for name in names(quantity.value) if name.path in own), quantity.where)
+
+
+def _broken(condition: Condition, values: Mapping[str, float]) -> tuple[str, str] | None:
+    """The value and what was expected, if a condition does not hold; a number that is NaN was told already."""
     value = values.get(condition.address, math.nan)
     bound = values.get(condition.bound, math.nan) if isinstance(condition.bound, str) else condition.bound
     if math.isnan(value) or math.isnan(bound) or RELATIONS[condition.relation](value, bound):
-        return
-    quantity = quantities[condition.address]
-    unit = si_unit(quantity.dimension)
+        return None
     limit = f"{condition.bound} = {bound:.6g}" if isinstance(condition.bound, str) else f"{bound:.6g}"
-    raise BadValueError(
-        f"{condition.address} is {value:.6g}{' ' if unit else ''}{unit}{context}: {condition.message}",
-        quantity.where,
-        f"expected {condition.relation} {limit}{' ' if unit else ''}{unit}",
-    )
+    return f"{value:.6g}", f"expected {condition.relation} {limit}"

@@ -38,13 +38,13 @@ def parents_first(
                 cycle = [*chain[chain.index(current) :], current]
                 where = entry.extends.where if entry.extends else by_name[current][0].where
                 message = f"{what}s that extend each other: {' → '.join(cycle)}"
-                reader.errors.append(CycleError(message, where, "one of them cannot extend another"))
+                reader.errors.append(CycleError(message, where, "expected one of them to extend none"))
                 refused.update(chain)
                 break
             chain.append(current)
             parent = entry.extends
             if parent is not None and parent not in by_name and parent not in ready:
-                reader.errors.append(unknown_name(what, parent, [*ready, *by_name], parent.where))
+                reader.errors.append(unknown_name(what, parent, dict.fromkeys([*ready, *by_name]), parent.where))
                 refused.update(chain)
                 break
             current = str(parent) if parent is not None else None

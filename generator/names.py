@@ -52,7 +52,7 @@ def check_name(name: str, what: str, where: Location | None) -> None:
     """Raise BadNameError unless `name` can name a thing: a free identifier of at most 64 characters."""
     if not IDENTIFIER.fullmatch(name):
         hint = "expected a letter, then letters, digits or '_'"
-        raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name a {what}: it is no identifier", where, hint)
+        raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {what}: it is no identifier", where, hint)
     if len(name) > MAX_LENGTH:
         raise BadNameError(
             f"the name of this {what} has {len(name)} characters", where, f"expected at most {MAX_LENGTH}"
@@ -61,7 +61,9 @@ def check_name(name: str, what: str, where: Location | None) -> None:
     if name.startswith("gudgeon") or "__" in name:
         reason = "names that begin with 'gudgeon' or hold '__' are kept for emitted code"
     if reason:
-        raise BadNameError(f"{name!r} cannot name a {what}: {reason}", where, f"expected another name, such as {name}1")
+        raise BadNameError(
+            f"{name!r} cannot name this {what}: {reason}", where, f"expected another name, such as {name}1"
+        )
 
 
 def nearest(name: str, known: Iterable[str], cutoff: float = 0.5) -> str | None:
@@ -78,6 +80,8 @@ def known_hint(name: str, known: Iterable[str], most: int = 12) -> str:
     guess = nearest(name, candidates)
     listed = ", ".join(candidates[:most]) + (", …" if len(candidates) > most else "")
     expected = f"expected one of: {listed}" if candidates else "none is defined"
+    if candidates == [guess]:
+        return f"did you mean {guess!r}?"
     return f"did you mean {guess!r}? {expected}" if guess else expected
 
 
@@ -97,6 +101,6 @@ class Namespace:
         check_name(name, what, where)
         if name in self._taken:
             other, place = self._taken[name]
-            hint = "bodies, joints, drives, forces and outputs share one namespace"
-            raise BadNameError(f"{name!r} names a {what}, but already a {other} at {place}", where, hint)
+            hint = "expected a name of its own: bodies, joints, drives, forces and outputs share one namespace"
+            raise BadNameError(f"{name!r} names two things: this {what}, and the {other} at {place}", where, hint)
         self._taken[name] = what, where

@@ -71,7 +71,7 @@ def dependency_order(trees: Mapping[str, Expr], places: Mapping[str, Location]) 
         cycle = list(reversed(error.args[1]))[:-1]  # graphlib lists users first and the first one twice
         first = min(range(len(cycle)), key=lambda i: places[cycle[i]])
         path = [*cycle[first:], *cycle[:first], cycle[first]]
-        hint = "one of them needs a value of its own"
+        hint = "expected one of them to have a value of its own"
         message = f"parameters defined through each other: {' → '.join(path)}"
         raise CycleError(message, places[cycle[first]], hint) from None
 

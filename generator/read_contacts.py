@@ -177,7 +177,7 @@ def _numbers(reader: Reader, address: str, law: Law, node: Map, mistyped: set[st
         for relation, bound in parameter.bounds:
             limit = quantities.get(bound) if isinstance(bound, str) else bound
             if parameter.name in quantities and limit is not None:
-                reader.require(quantities[parameter.name], relation, limit, f"{parameter.meaning} of {law.name}")
+                reader.require(quantities[parameter.name], relation, limit, f"{parameter.meaning} ({law.name})")
     return quantities
 
 

@@ -49,9 +49,21 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
     check_values(reader, parameters, scenes)
     reader.raise_errors()
     return Mechanism(
-        str(shape.name), title, gravity, settle(reader, parameters), bodies, ground, joints, drives, start,
-        scenes, outputs, tuple(reader.conditions), file, hashlib.sha256(data).hexdigest(),
-    )  # fmt: skip
+        name=str(shape.name),
+        title=title,
+        gravity=gravity,
+        parameters=settle(reader, parameters),
+        bodies=bodies,
+        ground=ground,
+        joints=joints,
+        drives=drives,
+        start=start,
+        scenes=scenes,
+        outputs=outputs,
+        conditions=tuple(reader.conditions),
+        file=file,
+        sha256=hashlib.sha256(data).hexdigest(),
+    )
 
 
 def _read_title(reader: Reader, shape: FileShape) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
@@ -41,7 +42,7 @@ class Reader:
 
     def raise_errors(self) -> None:
         """Raise what was collected: one error as itself, several as InputErrors."""
-        errors = list({(str(e.where), e.message): e for e in self.errors}.values())
+        errors = list({_told(e): e for e in reversed(self.errors)}.values())
         if len(errors) == 1:
             raise errors[0]
         if errors:
@@ -93,7 +94,7 @@ class Reader:
             place = at(where, name.offset)
             if name.path == "t":
                 if not time:
-                    hint = "time can stand in drives and outputs only"
+                    hint = "expected parameters; time can stand in drives and outputs only"
                     raise ExpressionError("'t' is time, and this number is constant", place, hint)
                 found["t"] = TIME
             elif name.path in self.parameters:
@@ -122,6 +123,12 @@ class Reader:
         """Note a condition, for now and for every override at run time."""
         limit = bound.address if isinstance(bound, Quantity) else bound
         self.conditions.append(Condition(quantity.address, relation, limit, message))
+
+
+def _told(error: InputError) -> tuple[str, str, str]:
+    """What makes two errors the same: what a contact or scene inherits is wrong once, where it is written."""
+    message = re.sub(r"\b(contacts\.|scenes\.|in scene )\w+", "", error.message)
+    return str(error.where), type(error).__name__, message
 
 
 def broken(text: str) -> Number:

@@ -146,6 +146,9 @@ def _translate(error: YAMLError, text: str, file: str) -> NotYamlError:
     if "'\\t'" in problem:
         return NotYamlError("a tab where YAML wants spaces", where, "indent with spaces")
     context = f" ({error.context})" if error.context and error.problem else ""
+    if context and error.context_mark and error.context_mark.line != (mark.line if mark else -1):
+        begin = Location(file, error.context_mark.line + 1, error.context_mark.column + 1)
+        context = f" ({error.context} that begins at {begin})"
     return NotYamlError(
         f"not YAML: {problem}{context}", where, "a text that holds ': ', ' #' or begins with @ % ` needs quotes"
     )
@@ -209,7 +212,7 @@ class _Composer:
 
     def alias(self, event: Any) -> Node:
         if event.anchor not in self.anchors:
-            hint = "an anchor stands before its alias, and not around it"
+            hint = "expected its anchor before it, and not around it"
             raise NotYamlError(f"the alias *{event.anchor} has no anchor", self.place(event), hint)
         node = self.anchors[event.anchor]
         self.count(self.sizes[id(node)], event)
@@ -238,7 +241,9 @@ class _Composer:
             if key in made:
                 first = made.key(key).where
                 self.duplicates.append(
-                    UnknownKeyError(f"{str(key)!r} is given twice", key.where, f"the first is at {first}")
+                    UnknownKeyError(
+                        f"{str(key)!r} is given twice", key.where, f"expected once; the first is at {first}"
+                    )
                 )
             else:
                 made[key] = value
