@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.geometry import BodySymbols, Geometry, PointFrame
+from gudgeon.generator.joint_fields import JointFields
 from gudgeon.generator.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import Drive, Joint
 from gudgeon.generator.symbolic import to_sympy
@@ -26,40 +27,6 @@ class Row:
     phi_q_v: sp.Expr  # Φ_q q̇
     nu: sp.Expr  # −Φ_t
     gamma: sp.Expr  # −(Φ_q q̇)_q q̇ − 2Φ_qt q̇ − Φ_tt
-
-
-class JointFields:
-    """A joint's own fields as a joint file asks for them."""
-
-    def __init__(self, joint: Joint, geometry: Geometry) -> None:
-        self._joint, self._slots = joint, geometry.slots
-
-    def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
-        """A vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
-        vector = self._joint.vectors[name]
-        x, y = (self._slots.use(component) for component in vector)
-        length = sp.sqrt(x**2 + y**2)
-        wanted = f"{self._joint.name}_{name}"
-        return self._component(f"{wanted}_x", x, y, length), self._component(f"{wanted}_y", y, x, length)
-
-    def _component(self, wanted: str, own: sp.Expr, other: sp.Expr, length: sp.Expr) -> sp.Expr:
-        if own == 0:
-            return sp.Integer(0)
-        if other == 0:
-            entry = next((e for e in self._slots.entries.values() if e.symbol == own), None)
-            if entry is not None and not entry.follows:  # only its sign matters, and the sign is structural
-                return sp.Integer(1 if entry.default > 0 else -1)
-        return self._slots.derive(wanted, own / length, "unit vector")
-
-    def angle_of(self, name: str) -> sp.Expr:
-        """The angle of a vector field in its body's frame (rad)."""
-        x, y = self.direction(name)
-        return self._slots.derive(f"{self._joint.name}_{name}_angle", sp.atan2(y, x), "direction of the axis")
-
-    def quantity(self, name: str, default: sp.Expr) -> sp.Expr:
-        """A number field, or `default` where the user gave none."""
-        quantity = self._joint.quantities.get(name)
-        return default if quantity is None else self._slots.use(quantity)
 
 
 class Constraints:
@@ -82,14 +49,24 @@ class Constraints:
         ]
 
     def drive_rows(self, drive: Drive) -> list[Row]:
-        """θ_body − θ_reference − f(t): one row, named as the drive."""
-        bodies = [self.geometry.bodies[name] for name in (drive.body, drive.reference) if name]
-        phi = bodies[0].theta - self._drive_angle(drive)
-        if len(bodies) > 1:
-            phi -= bodies[1].theta
-        return [self._row(drive.name, drive.name, "drive", "rad", phi, bodies)]
+        """What the drive prescribes, less f(t): one row, named as the drive."""
+        measured, bodies, unit = self._measured(drive)
+        phi = measured - self._drive_value(drive)
+        return [self._row(drive.name, drive.name, "drive", unit, phi, bodies)]
 
-    def _drive_angle(self, drive: Drive) -> sp.Symbol:
+    def _measured(self, drive: Drive) -> tuple[sp.Expr, list[BodySymbols], str]:
+        """The driven quantity with the bodies that it depends on."""
+        if drive.kind == "distance":
+            first, second = (self.geometry.point(ref) for ref in drive.points)
+            distance = sp.sqrt((second.x - first.x) ** 2 + (second.y - first.y) ** 2)
+            return distance, self._bodies(first, second), "m"
+        bodies = [self.geometry.bodies[name] for name in (drive.body, drive.reference) if name]
+        if drive.kind == "coordinate" and drive.coordinate != "theta":
+            return getattr(bodies[0], drive.coordinate), bodies, "m"
+        measured = bodies[0].theta - bodies[1].theta if len(bodies) > 1 else bodies[0].theta
+        return measured, bodies, "rad"
+
+    def _drive_value(self, drive: Drive) -> sp.Symbol:
         """f(t), f′ and f″ as symbols that know that they are each other's derivatives."""
         slots, define = self.geometry.slots, self.symbols.define
 
@@ -97,9 +74,9 @@ class Constraints:
             return self.t if path == "t" else slots.entries[f"parameters.{path}"].symbol
 
         value = to_sympy(drive.value.value, symbol_of)
-        f = define(f"{drive.name}_angle", value, "", f"drive {drive.name}", "rad")
-        rate = define(f"{drive.name}_rate", sp.diff(value, self.t), "", "its rate", "rad/s")
-        second = define(f"{drive.name}_acceleration", sp.diff(value, self.t, 2), "", "its second rate", "rad/s^2")
+        f = define(f"{drive.name}_value", value, "", f"drive {drive.name}")
+        rate = define(f"{drive.name}_rate", _rate(value, self.t), "", "its rate")
+        second = define(f"{drive.name}_acceleration", _rate(_rate(value, self.t), self.t), "", "its second rate")
         self.symbols.rules[f], self.symbols.rules[rate] = {self.t: rate}, {self.t: second}
         self.drive_angles[drive.name] = f, rate, second
         return f
@@ -116,3 +93,9 @@ class Constraints:
         phi_t = diff(phi, t)
         gamma = -sum((diff(phi_q_v, q) * v for q, v in pairs), sp.Integer(0)) - 2 * diff(phi_q_v, t) - diff(phi_t, t)
         return Row(name, owner, kind, unit, phi, phi_q, phi_q_v, -phi_t, sp.expand(gamma))
+
+
+def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
+    """d/dt with the corners of min, max, abs and sign taken from one side: no impulse at them."""
+    rate = sp.diff(value, t)
+    return rate.replace(sp.DiracDelta, lambda *_: sp.Integer(0))

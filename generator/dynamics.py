@@ -23,6 +23,8 @@ def dynamics_kernel(model: Model, kkt: KKT) -> Kernel:
         "Returns 0, or the number of the pivot that vanished.",
     ])  # fmt: skip
     forces = _gravity(model)
+    for element in model.elements.values():
+        element.add_to(forces)
     for index, clearance in enumerate(model.clearances):
         _clearance_call(model, build, index, clearance, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
@@ -97,11 +99,12 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT) -> dict[int, s
 
 
 def _powers(model: Model, build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
-    """Power of the drives, −λᵀν, and of the clearance forces (W)."""
+    """Power of the drives, −λᵀν, of the force elements that store nothing, of the clearance forces (W)."""
     drives = sum((-x[kkt.n + r] * row.nu for r, row in enumerate(kkt.rows) if row.nu != 0), ZERO)
     clearances = " + ".join(f"aside->clearance[{i}].power" for i in range(len(model.clearances)))
     build.out("aside->power[0]", drives)
-    build.out("aside->power[1]", clearances or ZERO)
+    build.out("aside->power[1]", sum((element.loads.power for element in model.elements.values()), ZERO))
+    build.out("aside->power[2]", clearances or ZERO)
 
 
 def projection_kernel(model: Model, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:

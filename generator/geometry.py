@@ -161,7 +161,8 @@ class Geometry:
     def point(self, ref: PointRef) -> PointFrame:
         """The frame of a named point."""
         if ref.body == GROUND:
-            return PointFrame(self, None, self.ground_vector(self.mechanism.ground[ref.point]))
+            at = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
+            return PointFrame(self, None, at)
         body = self.bodies[ref.body]
         arm = self.turn(body, self.local[ref.body, ref.point], f"arm_{ref.body}_{ref.point}")
         return PointFrame(self, body, arm)

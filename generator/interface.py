@@ -8,7 +8,7 @@ import sympy as sp
 
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.dynamics import PARAMETERS, STATE, ZERO
-from gudgeon.generator.geometry import BodySymbols
+from gudgeon.generator.joints.joint_type import joint_types
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement
 from gudgeon.generator.mechanism import Joint
 from gudgeon.generator.model import Model
@@ -99,12 +99,22 @@ def outputs_kernel(model: Model) -> Kernel:
             build.out(f"reactions[{3 * j + k}]", value, f"{joint.name}.{('Fx', 'Fy', 'M')[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
         build.out(f"torques[{d}]", -multiplier[name], f"{name}.torque")
+    for k, (name, (value, _)) in enumerate(element_series(model).items()):
+        build.out(f"series[{k}]", value, name)
     build.section("energy")
     build.out("energy[0]", sum((m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True)), ZERO))
     gx, gy = model.gravity
-    build.out("energy[1]", sum((-body.mass * (gx * body.x + gy * body.y) for body in model.bodies), ZERO))
-    out = (Argument("double *", name) for name in ("reactions", "torques", "energy"))
+    weights = sum((-body.mass * (gx * body.x + gy * body.y) for body in model.bodies), ZERO)
+    build.out("energy[1]", weights + sum((element.loads.potential for element in model.elements.values()), ZERO))
+    out = (Argument("double *", name) for name in ("reactions", "torques", "series", "energy"))
     return build.build((*STATE, PARAMETERS, Argument("const double *", "lambda"), *out))
+
+
+def element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
+    """Results of the force elements: "coil.F" -> (value, unit)."""
+    return {
+        f"{name}.{what}": value for name, e in model.elements.items() for what, value in e.loads.series.items()
+    }
 
 
 def kept_joints(model: Model) -> list[Joint]:
@@ -113,17 +123,14 @@ def kept_joints(model: Model) -> list[Joint]:
 
 
 def _reaction(model: Model, joint: Joint, multiplier: dict[str, sp.Expr]) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """Force and moment on the second body at its point; taken from the first body if that is the ground."""
+    """Force on the second body and moment about the joint's point; from the first body if that is the ground."""
     first, second = model.geometry.point(joint.first), model.geometry.point(joint.second)
     rows = [row for row in model.rows if row.owner == joint.name]
     body = second.body or first.body
     assert body is not None  # the reader refuses ground to ground
     share = [-sum((row.phi_q.get(q, ZERO) * multiplier[row.name] for row in rows), ZERO) for q in body.q]
-    arm = second.arm if second.body else _arm_to(second.x, second.y, body)
+    at = first if joint_types()[joint.kind].reaction_at == "first" else second
+    arm = at.arm if at.body is body else (at.x - body.x, at.y - body.y)
     moment = sp.expand(share[2] - (arm[0] * share[1] - arm[1] * share[0]))
     sign = 1 if second.body else -1
     return sign * share[0], sign * share[1], sign * moment
-
-
-def _arm_to(x: sp.Expr, y: sp.Expr, body: BodySymbols) -> tuple[sp.Expr, sp.Expr]:
-    return x - body.x, y - body.y

@@ -83,13 +83,38 @@ class Joint:
 
 @dataclass(frozen=True)
 class Drive:
-    """Prescribes an angle: of `body`, or of `body` relative to `reference`, along `value` of t."""
+    """Prescribes `value` of t: of an angle, of a coordinate, or of the distance of two points.
+
+    kind "angle": of `body`, relative to `reference` if that is not None; "coordinate": `coordinate`
+    ("x", "y" or "theta") of `body`; "distance": between the two `points` (`body` is then that of the first
+    point that is not on the ground).
+    """
 
     name: str
-    kind: str  # "angle"
+    kind: str
     body: str
     reference: str | None
     value: Quantity
+    where: Location
+    coordinate: str = "theta"
+    points: tuple[PointRef, ...] = ()
+
+
+@dataclass(frozen=True)
+class ForceElement:
+    """An entry of the section `forces`; `kind` names a file in generator/force_elements.
+
+    `targets` are the points or bodies that its own key lists (a body is a PointRef to its `com`, the
+    ground one to the point ""). Expressions (`quantities`, `vectors`) may use t and named coordinates and
+    velocities where the element's field says so.
+    """
+
+    name: str
+    kind: str
+    targets: tuple[PointRef, ...]
+    quantities: Mapping[str, Quantity]
+    vectors: Mapping[str, Vector]
+    options: Mapping[str, str]
     where: Location
 
 
@@ -190,3 +215,4 @@ class Mechanism:
     conditions: tuple[Condition, ...]
     file: str
     sha256: str  # of the file's bytes
+    forces: Mapping[str, ForceElement] = field(default_factory=dict)

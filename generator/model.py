@@ -6,7 +6,7 @@ properties Phi, Phi_q, nu, gamma, M and g, which write everything out in q, q̇,
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,6 +14,7 @@ import sympy as sp
 
 from gudgeon.generator.clearance import Clearance, make_clearance
 from gudgeon.generator.constraints import Constraints, Row
+from gudgeon.generator.elements import AppliedElement, apply_element
 from gudgeon.generator.geometry import BodySymbols, Geometry
 from gudgeon.generator.scene import Scene
 from gudgeon.generator.slots import Slots
@@ -35,6 +36,7 @@ class Model:
     all_rows: tuple[Row, ...]  # the closed linkage: joints with play closed, as the start needs it
     rows: tuple[Row, ...]  # what constrains the motion
     clearances: tuple[Clearance, ...]
+    elements: Mapping[str, AppliedElement]  # the section `forces`
     gravity: tuple[sp.Expr, sp.Expr]
     baumgarte: tuple[sp.Symbol, sp.Symbol]
 
@@ -96,9 +98,12 @@ class Model:
 
     @cached_property
     def g(self) -> sp.Matrix:
-        """Generalized applied forces without those of the clearance joints, (n, 1): gravity."""
+        """Generalized applied forces without those of the clearance joints, (n, 1): gravity, force elements."""
         gx, gy = self.gravity
-        return sp.Matrix([f for body in self.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))])
+        forces = [f for body in self.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
+        for element in self.elements.values():
+            element.add_to(forces)
+        return self._column(forces)
 
 
 def make_model(scene: Scene) -> Model:
@@ -116,7 +121,9 @@ def make_model(scene: Scene) -> Model:
     rows += [row for drive in mechanism.drives.values() for row in constraints.drive_rows(drive)]
     clearances = [make_clearance(mechanism.joints[name], play, geometry, slots) for name, play in scene.play.items()]
     gravity = geometry.ground_vector(mechanism.gravity) if mechanism.gravity else (sp.Integer(0), sp.Integer(0))
+    elements = {e.name: apply_element(e, geometry, constraints.t) for e in mechanism.forces.values()}
     kept = tuple(row for row in rows if row.owner not in scene.play)
     return Model(
-        scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), gravity, baumgarte
+        scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), elements, gravity,
+        baumgarte,
     )

@@ -18,6 +18,7 @@ from gudgeon.kernel_source import KernelSource
 
 Array: TypeAlias = NDArray[np.float64]
 
+N_WORK = 3  # works that are integrated with the motion
 CLEARANCE_COLUMNS = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt")
 
 
@@ -28,9 +29,11 @@ class Evaluation:
     a: Array  # (N, n) q̈
     multipliers: Array  # (N, m) λ
     reactions: Array  # (N, n_joints, 3) Fx, Fy, M on the second body at the joint's point, ground axes
-    torques: Array  # (N, n_drives) on the driven body
+    torques: Array  # (N, n_drives) torque (N·m) or force (N) of each drive
     clearance: Array  # (N, n_clearances, 9) CLEARANCE_COLUMNS: force on the journal; Fn > 0 pushes it back
+    series: Array  # (N, n_series) results of force elements
     energy: Array  # (N, 2) kinetic, potential
+    power: Array  # (N, 3) of drives, of force elements (but what they store), of clearance forces (W)
 
 
 def contiguous(values: ArrayLike) -> Array:
@@ -106,15 +109,15 @@ class CompiledModel:
         return out[0][: len(s.start_guess)], out[1][: len(s.start_set)], out[2][: len(s.start_rates)]
 
     def rhs(self, t: float, y: ArrayLike, p: Array, memory: ArrayLike | None = None) -> Array:
-        """(q̇, q̈, power of drives, of clearance forces), (2n + 2,), at y = (q, q̇), (2n,) or longer.
+        """(q̇, q̈, powers as in Evaluation), (2n + 3,), at y = (q, q̇), (2n,) or longer.
 
         `memory` (n_clearances,) holds δ̇⁻ of closed contacts, NaN for free ones (the default).
         """
         state = contiguous(y)
-        if state.ndim != 1 or len(state) not in (2 * self.n, 2 * self.n + 2):
+        if state.ndim != 1 or len(state) not in (2 * self.n, 2 * self.n + N_WORK):
             raise ValueError(f"y has shape {state.shape}, expected ({2 * self.n},)")
         latched = self.memory_array(memory)
-        out = np.empty(2 * self.n + 2)
+        out = np.empty(2 * self.n + N_WORK)
         status = self.lib.gudgeon_rhs(
             t, self.pointer(state), self.pointer(latched), self.pointer(p), self.pointer(out)
         )
@@ -128,10 +131,11 @@ class CompiledModel:
         inputs = [contiguous(a) for a in (q, v, memory)]
         out = Evaluation(
             np.empty((N, self.n)), np.empty((N, len(s.rows))), np.empty((N, len(s.joints), 3)),
-            np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))), np.empty((N, 2)),
+            np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))),
+            np.empty((N, len(s.series))), np.empty((N, 2)), np.empty((N, 3)),
         )  # fmt: skip
         failed = self.ffi.new("long *")
-        results = (out.a, out.multipliers, out.reactions, out.torques, out.clearance, out.energy)
+        results = (out.a, out.multipliers, out.reactions, out.torques, out.clearance, out.series, out.energy, out.power)
         status = self.lib.gudgeon_evaluate(
             N, self.pointer(time), *(self.pointer(a) for a in inputs), self.pointer(p),
             *(self.pointer(a) for a in results), failed,

@@ -77,10 +77,18 @@ class JointInfo:
 
 @dataclass(frozen=True)
 class DriveInfo:
+    """The unit of its row tells a torque (rad) from a force (m)."""
+
     name: str
-    body: int
-    reference: int
     row: int
+
+
+@dataclass(frozen=True)
+class SeriesInfo:
+    """A result of a force element, such as "coil.F"."""
+
+    name: str
+    unit: str
 
 
 @dataclass(frozen=True)
@@ -115,6 +123,7 @@ class KernelSource:
     joints: tuple[JointInfo, ...]
     drives: tuple[DriveInfo, ...]
     clearances: tuple[ClearanceInfo, ...]
+    series: tuple[SeriesInfo, ...]
     start_rows: tuple[RowInfo, ...]  # of the start's Φ: joints with play are closed there
     start_guess: tuple[str, ...]  # coordinates in the order of the C function `start_values`
     start_set: tuple[str, ...]
@@ -146,7 +155,7 @@ class KernelSource:
         kinds = {
             "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
-            "slots": Slot, "conditions": Condition,
+            "slots": Slot, "conditions": Condition, "series": SeriesInfo,
         }  # fmt: skip
         for key, kind in kinds.items():
             data[key] = tuple(kind(**_tuples(item)) for item in data[key])

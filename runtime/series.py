@@ -60,7 +60,7 @@ class Series:
 def catalogue(source: KernelSource) -> dict[str, Series]:
     """All the names of a scene in the order in which they are listed and stored."""
     found: dict[str, Series] = {}
-    for part in (_bodies, _points, _joints, _clearances, _drives, _multipliers, _balance):
+    for part in (_bodies, _points, _joints, _clearances, _drives, _elements, _multipliers, _balance):
         found.update(part(source))
     for name, tree in source.outputs.items():
         found[name] = _output(source, name, tree, found)
@@ -173,8 +173,16 @@ def _ratio(run: Result, joint: ClearanceInfo) -> Array:
 
 def _drives(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, drive in enumerate(source.drives):
-        meaning = f"torque of drive {drive.name} on {source.bodies[drive.body].name}"
-        yield f"{drive.name}.torque", Series("N*m", meaning, partial(_evaluated, part="torques", index=(k,)))
+        turns = source.rows[drive.row].unit == "rad"
+        name, unit = ("torque", "N*m") if turns else ("force", "N")
+        compute = partial(_evaluated, part="torques", index=(k,))
+        yield f"{drive.name}.{name}", Series(unit, f"{name} of drive {drive.name}", compute)
+
+
+def _elements(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    for k, series in enumerate(source.series):
+        compute = partial(_evaluated, part="series", index=(k,))
+        yield series.name, Series(series.unit, "result of a force element", compute)
 
 
 def _multipliers(source: KernelSource) -> Iterator[tuple[str, Series]]:

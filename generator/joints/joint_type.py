@@ -20,12 +20,14 @@ class JointField:
     """A key beside the joint's own, such as `axis` of a translational joint."""
 
     name: str
-    kind: str  # "vector" (two numbers), "quantity" (one) or "option" (a word)
+    kind: str  # "vector" (two numbers), "quantity" (one), "option" (a word) or "body" (a body or ground)
     meaning: str
     dimension: Dimension = Dimension()
     required: bool = False
-    values: tuple[str, ...] = ()  # of an option; the first is the default
+    values: tuple[str, ...] = ()  # of an option; the first is the default. ("false", "true") is a YAML bool
     nonzero: bool = False  # of a vector: not both components zero
+    positive: bool = False  # of a quantity, or of both components of a vector
+    default: str = ""  # of a body field
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,8 @@ class JointType:
     row_names: tuple[str, ...]  # one short name a row of Φ: the row is called "<joint>.<row name>"
     row_units: tuple[str, ...]  # "m" or "rad", a row each
     rows: Callable[..., list[Any]]
+    joins: str = "points"  # "points": [L1.head, L2.tail]; "bodies": [L1, L4]
+    reaction_at: str = "second"  # the point of which body the reaction is given at
 
 
 @cache

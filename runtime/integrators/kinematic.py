@@ -1,17 +1,16 @@
 """No degree of freedom: positions by Newton from sample to sample, the rest by linear solves.
 
-Nothing is integrated but the work of the drives, for the energy check: Gauss–Legendre quadrature of
-their power inside every interval.
+Nothing is integrated but the work of drives and force elements, for the energy check: Gauss–Legendre
+quadrature of their power inside every interval.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from gudgeon.compiled import Array, Evaluation
+from gudgeon.compiled import Array
 from gudgeon.errors import SolverError
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
-from gudgeon.kernel_source import KernelSource
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
@@ -31,9 +30,9 @@ def run(problem: Problem) -> Trajectory:
     kept = (whole - 1) * (GAUSS + 1) + 1
     q, v, times = q[:kept], v[:kept], times[:kept]
     evaluation = problem.compiled.evaluate(times, q, v, np.zeros((kept, 0)), problem.p)
-    power = drive_power(problem.compiled.source, evaluation, v)[1:].reshape(whole - 1, GAUSS + 1)[:, :GAUSS]
+    power = evaluation.power[1:].reshape(whole - 1, GAUSS + 1, 3)[:, :GAUSS]
     work = np.zeros((whole, 3))
-    work[1:, 0] = np.cumsum(0.5 * h[: whole - 1] * (power @ weights))
+    work[1:] = np.cumsum(0.5 * h[: whole - 1, None] * np.einsum("igk,g->ik", power, weights), axis=0)
     every = slice(None, None, GAUSS + 1)
     empty = np.zeros((whole, 0))
     from gudgeon.results import IMPACT_DTYPE
@@ -42,17 +41,6 @@ def run(problem: Problem) -> Trajectory:
         problem.t[:whole].copy(), q[every].copy(), v[every].copy(), evaluation.a[every].copy(), empty,
         empty.astype(np.int8), work, np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, 3)), counts, interrupted, stopped,
     )  # fmt: skip
-
-
-def drive_power(source: KernelSource, evaluation: Evaluation, v: Array) -> Array:
-    """Σ torque · rate over the drives, (N,), W."""
-    power = np.zeros(len(v))
-    for d, drive in enumerate(source.drives):
-        rate = v[:, source.bodies[drive.body].index + 2].copy()
-        if drive.reference >= 0:
-            rate -= v[:, source.bodies[drive.reference].index + 2]
-        power += evaluation.torques[:, d] * rate
-    return power
 
 
 def _follow(problem: Problem, times: Array) -> tuple[Array, Array, Counts, bool, SolverError | None]:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from gudgeon.compiled import N_WORK
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 
@@ -49,11 +50,11 @@ class _Session:
         self.lib, self.pointer = self.compiled.lib, self.compiled.pointer
         n, nc, N = self.compiled.n, len(self.compiled.source.clearances), len(problem.t)
         self.n, self.nc, self.done = n, nc, 0
-        self.y, self.a = np.zeros((N, 2 * n + 2)), np.zeros((N, n))
+        self.y, self.a = np.zeros((N, 2 * n + N_WORK)), np.zeros((N, n))
         self.memory, self.state = np.full((N, nc), np.nan), np.zeros((N, nc), dtype=np.int8)
         self.impacts = [np.zeros(0, dtype=IMPACT_DTYPE)]
         self.run = np.zeros(self.lib.gudgeon_run_size(), dtype=np.uint8)
-        start = np.concatenate([problem.q, problem.v, [0.0, 0.0]])
+        start = np.concatenate([problem.q, problem.v, np.zeros(N_WORK)])
         latched = self.compiled.memory_array(problem.memory if nc else None)
         self.lib.gudgeon_run_start(self._run, problem.t[0], self.pointer(start), self.pointer(latched))
         self._steps(float(problem.t[0]), float(problem.t[0]), 1, 0, 0)  # the first right-hand side
@@ -94,7 +95,7 @@ class _Session:
         try:
             self.compiled.check_pivot(status, t)
         except SingularError as error:
-            y = np.zeros(2 * self.n + 2)
+            y = np.zeros(2 * self.n + N_WORK)
             a, latched, state = np.zeros(self.n), np.zeros(max(self.nc, 1)), np.zeros(max(self.nc, 1), dtype=np.int8)
             self.lib.gudgeon_run_sample(
                 self._run, self.pointer(y), self.pointer(a), self.pointer(latched), self.pointer(state, "signed char *")
@@ -142,10 +143,9 @@ class _Session:
         n, y = self.n, self.y[: self.done]
         ratios = [float(x) if np.isfinite(x) else float("nan") for x in numbers[2:]]
         steps, evaluations, onsets, grazes, outside = (int(c) for c in counts)
-        work = np.column_stack([y[:, 2 * n], np.zeros(len(y)), y[:, 2 * n + 1]])
         return Trajectory(
             self.problem.t[: self.done].copy(), y[:, :n].copy(), y[:, n : 2 * n].copy(), self.a[: self.done],
-            self.memory[: self.done], self.state[: self.done], work, impacts, peaks[: self.nc],
+            self.memory[: self.done], self.state[: self.done], y[:, 2 * n :].copy(), impacts, peaks[: self.nc],
             Counts(steps, evaluations, onsets, grazes, float(numbers[0]), float(numbers[1]), *ratios, outside),
             interrupted, stopped,
         )  # fmt: skip

@@ -48,9 +48,9 @@ def make_source(scene: str) -> KernelSource:
             PointInfo("L1.head", 0, 3, -1), PointInfo("L1.tail", 0, 3, -1, sign_x=-1),
             PointInfo("S9.origin", 1, -1, -1), PointInfo("ground.O1", -1, 1, -1),
         ),
-        rows=tuple(rows), joints=(guide,) if play else (guide, ideal_joint), drives=(DriveInfo("crank", 0, -1, 0),),
+        rows=tuple(rows), joints=(guide,) if play else (guide, ideal_joint), drives=(DriveInfo("crank", 0),),
         clearances=(ClearanceInfo("A", 0, 1, "S9.origin", True, False, 2, {"K": 4}),) if play else (),
-        start_rows=(), start_guess=(), start_set=(), start_rates=(), pivots=(), start_pivots=(), slots=tuple(slots),
+        series=(), start_rows=(), start_guess=(), start_set=(), start_rates=(), pivots=(), start_pivots=(), slots=tuple(slots),
         derived=("half_L1", "A.K"), conditions=(),
         outputs={"lift": ["+", "S9.y", RADIUS], "speed": ["*", "omega", ["/", "bodies.L1.length", 2.0]]},
         simulate={}, operations={"rhs": 100}, notes=("no gravity: no potential energy",), gravity=False,
@@ -64,6 +64,7 @@ class FakeEvaluation:
     reactions: Any
     torques: Any
     clearance: Any
+    series: Any
     energy: Any
 
 
@@ -88,7 +89,7 @@ class FakeCompiled:
             clearance[:, k, 2], clearance[:, k, 7], clearance[:, k, 8] = force, waves[:, 0], waves[:, 1]
         return FakeEvaluation(
             np.zeros_like(q), waves[:, : len(s.rows)], waves[:, : 3 * len(s.joints)].reshape(n, len(s.joints), 3),
-            waves[:, : len(s.drives)], clearance, waves[:, :2] ** 2,
+            waves[:, : len(s.drives)], clearance, waves[:, :0], waves[:, :2] ** 2,
         )  # fmt: skip
 
 

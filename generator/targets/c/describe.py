@@ -8,12 +8,12 @@ import sympy as sp
 
 from gudgeon.expression_tree import to_json
 from gudgeon.generator.constraints import Row
-from gudgeon.generator.interface import kept_joints
+from gudgeon.generator.interface import element_series, kept_joints
 from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.model import Model
 from gudgeon.generator.units import Dimension
 from gudgeon.kernel_source import (
-    BodyInfo, ClearanceInfo, Condition, DriveInfo, JointInfo, KernelSource, PointInfo, RowInfo, Slot,
+    BodyInfo, ClearanceInfo, Condition, DriveInfo, JointInfo, KernelSource, PointInfo, RowInfo, SeriesInfo, Slot,
 )  # fmt: skip
 
 
@@ -44,10 +44,10 @@ def describe(
             for joint in kept_joints(model)
         ),
         drives=tuple(
-            DriveInfo(d.name, body_of[d.body], body_of[d.reference or GROUND], row_of[d.name])
-            for d in mechanism.drives.values()
+            DriveInfo(name, row_of[name]) for name in mechanism.drives
         ),
         clearances=_clearances(model, place, body_of),
+        series=tuple(SeriesInfo(name, unit) for name, (_, unit) in element_series(model).items()),
         start_rows=tuple(map(_row, model.all_rows)),
         start_guess=tuple(start.guess), start_set=tuple(start.set), start_rates=tuple(start.rates),
         pivots=pivots, start_pivots=start_pivots,

@@ -32,7 +32,7 @@ int gudgeon_rhs(double t, const double *y, const double *memory, const double *p
 double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p);
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
-    double *energy, long *failed);
+    double *series, double *energy, double *power, long *failed);
 """
 KINEMATIC_CDEF = """\
 int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double *q, double *v, double *phi_max,
@@ -106,6 +106,7 @@ def _counts(model: Model) -> dict[str, int]:
         "n_joints": len(interface.kept_joints(model)),
         "n_drives": len(model.scene.mechanism.drives),
         "n_clearances": len(model.clearances),
+        "n_series": len(interface.element_series(model)),
     }
 
 
