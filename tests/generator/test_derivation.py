@@ -109,3 +109,21 @@ def test_only_driven_rows_depend_on_time() -> None:
     driven = {r for r, value in enumerate(model.nu) if value != 0}
     assert {model.rows[r].owner for r in driven} == {"crank1", "crank4"}
     assert all(sp.simplify(model.gamma[r]) == 0 for r in driven)  # both speeds are constant
+
+
+def test_a_row_that_mixes_time_and_coordinates() -> None:
+    """A row made of a coordinate and a drive's angle has ∂²Φ/∂q∂t, which γ counts twice."""
+    model, h = press("ideal"), 1e-30
+    body, angle = model.bodies[0], model.constraints.drive_angles["crank1"][0]
+    cos, _ = model.geometry.angle(body)
+    phi = body.x * angle**2 + cos * body.y * angle
+    row = model.constraints._row("mixed", "mixed", "joint", "m", phi, [body])
+    explicit = model.symbols.explicit
+    phi_q_v, nu, gamma = (numeric(model, sp.Matrix([explicit(e)])) for e in (row.phi_q_v, row.nu, row.gamma))
+    t, q, v = random_state(model, 5)
+    later = t + 1j * h, q + 1j * h * v, v
+    rate = phi_q_v(*later) - nu(*later)
+    assert gamma(t, q, v)[0, 0] == pytest.approx(-rate[0, 0].imag / h, rel=1e-12)
+    assert nu(t, q, v)[0, 0] == pytest.approx(
+        -numeric(model, sp.Matrix([explicit(phi)]))(t + 1j * h, q, v).imag[0, 0] / h
+    )

@@ -103,5 +103,45 @@ def test_press_against_the_dense_hand_written_one(scene: str, memory: tuple[floa
             assert columns[0] == pytest.approx(contact.fx, rel=1e-8, abs=1e-9)
             assert columns[1] == pytest.approx(contact.fy, rel=1e-8, abs=1e-9)
             assert columns[6] == pytest.approx(contact.e, rel=1e-11)
+            n = columns[4:6] / columns[6]
+            assert columns[2] == pytest.approx(-columns[:2] @ n, rel=1e-9, abs=1e-9)  # Fn > 0 pushes the journal back
+            assert columns[3] == pytest.approx(columns[1] * n[0] - columns[0] * n[1], rel=1e-9, abs=1e-9)
+            assert columns[7] == pytest.approx(contact.deltadot, rel=1e-9, abs=1e-12)
             touched += contact.delta > 0.0
     assert 5 < touched < 35  # the states are of both kinds
+
+
+@pytest.mark.parametrize("seed", range(9))
+def test_reactions_and_torques_move_the_bodies(seed: int) -> None:
+    """Newton and Euler, body by body: weight, reactions at the joints' points, torques give m a and J α."""
+    case, _ = random_model(seed)
+    _, library, p = compiled(seed)
+    linkage, q, v = case.linkage, case.q, case.v
+    got = library.evaluate([0.0], q[None], v[None], np.full((1, 1), NAN), p)
+    load = numpy_linkage.forces(linkage, q, v)
+    scale = abs(got.reactions).max(initial=1.0)
+    for joint, (fx, fy, moment) in zip(linkage.joints, got.reactions[0], strict=True):
+        at = numpy_linkage.place(joint.second, q, v).r  # the second body's point; the first body feels it there too
+        for end, sign in ((joint.second, 1.0), (joint.first, -1.0)):
+            if end.body != numpy_linkage.GROUND:
+                k = 3 * end.body
+                arm = at - q[k : k + 2]
+                load[k : k + 3] += sign * np.array([fx, fy, moment + arm[0] * fy - arm[1] * fx])
+        if isinstance(joint, numpy_linkage.Revolute):
+            assert abs(moment) < 1e-12 * scale
+        else:
+            turned = np.array(joint.axis) / np.hypot(*joint.axis)
+            angle = 0.0 if joint.first.body == numpy_linkage.GROUND else q[3 * joint.first.body + 2]
+            along = numpy_linkage.rotation(angle) @ turned
+            assert abs(fx * along[0] + fy * along[1]) < 1e-12 * scale  # nothing along the slide
+    for drive, torque in zip(linkage.drives, got.torques[0], strict=True):
+        load[3 * drive.body + 2] += torque
+        if drive.reference != numpy_linkage.GROUND:
+            load[3 * drive.reference + 2] -= torque
+    assert abs(load - numpy_linkage.mass(linkage) * got.a[0]).max() < 1e-12 * max(
+        scale, abs(got.torques).max(initial=0.0)
+    )
+    energy = 0.5 * numpy_linkage.mass(linkage) @ v**2
+    assert got.energy[0, 0] == pytest.approx(energy, rel=1e-13)
+    force = numpy_linkage.forces(linkage, q, v)
+    assert got.energy[0, 1] == pytest.approx(-force @ q, rel=1e-12, abs=1e-12)

@@ -269,6 +269,7 @@ def _random_joint(
 ) -> Revolute | Translational:
     """A joint that the configuration q satisfies already."""
     world = rng.uniform(-0.3, 0.3, 2)
+    first, second = (second, first) if rng.random() < 0.3 else (first, second)  # the ground may come second
     if rng.random() >= sliding:
         return Revolute(_local(first, q, world), _local(second, q, world))
     direction = rng.uniform(0.0, 2.0 * np.pi)
