@@ -16,7 +16,7 @@ from gudgeon.generator.read_bodies import Places, read_bodies, read_gravity, rea
 from gudgeon.generator.read_contacts import read_bearings, read_contacts, read_materials
 from gudgeon.generator.read_joints import read_drives, read_joints, read_start
 from gudgeon.generator.read_scenes import Parts, read_scenes
-from gudgeon.generator.reading import Reader
+from gudgeon.generator.reading import EnoughErrors, Reader
 from gudgeon.generator.result_names import ResultNames
 from gudgeon.generator.schema import FileShape, check_shape
 from gudgeon.generator.yaml_tree import parse_yaml
@@ -33,7 +33,19 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
     """
     root = apply_overrides(parse_yaml(data, file), overrides or {})
     shape = check_shape(root)
-    reader, namespace = Reader(file), Namespace()
+    reader = Reader(file)
+    try:
+        mechanism = _read(reader, shape, hashlib.sha256(data).hexdigest())
+    except EnoughErrors:
+        mechanism = None
+    reader.raise_errors()
+    assert mechanism is not None
+    return mechanism
+
+
+def _read(reader: Reader, shape: FileShape, sha256: str) -> Mechanism:
+    """Section by section; what is wrong is collected in the reader."""
+    namespace = Namespace()
     title = _read_title(reader, shape)
     parameters = read_parameters(reader, shape.parameters)
     gravity = read_gravity(reader, shape)
@@ -47,7 +59,6 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
     scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, shape))
     outputs = _read_outputs(reader, shape, namespace, places, joints, drives)
     check_values(reader, parameters, scenes)
-    reader.raise_errors()
     return Mechanism(
         name=str(shape.name),
         title=title,
@@ -61,8 +72,8 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
         scenes=scenes,
         outputs=outputs,
         conditions=tuple(reader.conditions),
-        file=file,
-        sha256=hashlib.sha256(data).hexdigest(),
+        file=reader.file,
+        sha256=sha256,
     )
 
 

@@ -18,6 +18,13 @@ from gudgeon.generator.yaml_tree import Text
 ResultDimension = Callable[[Name, Location], Dimension]
 
 
+MOST_ERRORS = 50  # nobody reads more, and each costs a search for the nearest name
+
+
+class EnoughErrors(Exception):
+    """Ends the reading of a file with very many mistakes."""
+
+
 class Reader:
     """Collects errors instead of stopping at the first: what is broken becomes NaN and is asked no more."""
 
@@ -39,6 +46,8 @@ class Reader:
             self.errors.extend(several.errors)
         except InputError as error:
             self.errors.append(error)
+        if len(self.errors) >= MOST_ERRORS:
+            raise EnoughErrors
 
     def raise_errors(self) -> None:
         """Raise what was collected: one error as itself, several as InputErrors."""

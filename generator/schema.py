@@ -25,6 +25,7 @@ from gudgeon.generator.names import known_hint, nearest, unknown_name
 from gudgeon.generator.yaml_tree import Items, Map, Text, kind_of
 
 FORMAT = "gudgeon/1"
+MOST_FINDINGS = 50
 OVERRIDE = "override of "  # the "file" of a text that comes from an override
 
 Pair = Annotated[list[Text], Field(min_length=2, max_length=2)]
@@ -153,7 +154,7 @@ def _errors(found: ValidationError, document: Map) -> list[InputError]:
     """Our errors; a missing key is not told where a mistyped one stands in its place."""
     findings = [
         (finding["type"], tuple(part for part in finding["loc"] if part != "[key]"), finding)
-        for finding in found.errors(include_url=False)
+        for finding in found.errors(include_url=False)[:MOST_FINDINGS]
     ]
     mistyped = {
         (*path[:-1], nearest(str(path[-1]), _fields(path[:-1])))

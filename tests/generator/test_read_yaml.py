@@ -231,6 +231,13 @@ def test_all_errors_of_a_file_at_once() -> None:
     assert caught.value.exit_code == 2 and str(caught.value).count("many.yaml:") == 4
 
 
+def test_a_file_of_mistakes_is_left_after_fifty() -> None:
+    bodies = "".join(f"  B{i}: {{mass: 1 m, inertia: x{i}}}\n" for i in range(1000))
+    with pytest.raises(InputErrors) as caught:
+        read_mechanism(f"format: gudgeon/1\nname: wrong\nbodies:\n{bodies}".encode(), "f")
+    assert len(caught.value.errors) == 50
+
+
 def test_empty_sections_are_no_sections() -> None:
     text = (VALID / "double_pendulum.yaml").read_text()
     mechanism = read_mechanism(text.replace("outputs: {tip: L2.head.x}", "outputs:").encode(), "f")
