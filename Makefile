@@ -1,6 +1,8 @@
 # Each of these does its own set-up (tools/setup) and is quick when there is nothing left to do.
 GUDGEON := .venv/bin/gudgeon
 ARGS ?=
+# compiled modules are kept, or each start would compile numpy and sympy anew
+unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
 .PHONY: help run test test-all lint types bench stress generated setup setup-test clean
@@ -23,6 +25,7 @@ lint: setup-test
 
 types: setup-test
 	@.venv/bin/mypy -p gudgeon
+	@.venv/bin/mypy tests
 
 bench: setup  ## run time against error
 	@$(GUDGEON) bench nine_bar_press $(ARGS)

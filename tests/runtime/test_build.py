@@ -134,7 +134,7 @@ def test_the_key_changes_with_what_decides_the_library(changes: dict[str, object
 
 
 def test_the_key_does_not_change_with_what_does_not() -> None:
-    files = dict(reversed(tiny().files.items()))
+    files = dict(reversed(list(tiny().files.items())))
     assert key(source=tiny(title="another", notes=("a note",), files=files)) == key()
 
 
