@@ -162,6 +162,14 @@ def equations(
     return write_equations(file, target, scene)
 
 
+def _module_main(name: str) -> Callable[[str, tuple[str, ...], Path], int | None]:
+    """`main(mechanism, scenes, folder)` of a module that is a study of its own."""
+    from importlib import import_module
+
+    found: Callable[[str, tuple[str, ...], Path], int | None] = import_module(f"gudgeon.{name}").main
+    return found
+
+
 @app.command()
 @_told
 def bench(file: File = "nine_bar_press", scene: Scenes = None, out: Out = Path("out")) -> int:
@@ -169,9 +177,7 @@ def bench(file: File = "nine_bar_press", scene: Scenes = None, out: Out = Path("
 
     Example: gudgeon bench nine_bar_press --scene dry
     """
-    from gudgeon.bench import main as bench_main
-
-    return bench_main(file, tuple(scene or ()), out) or 0
+    return _module_main("bench")(file, tuple(scene or ()), out) or 0
 
 
 @app.command()
@@ -181,9 +187,7 @@ def stress(file: File = "nine_bar_press", scene: Scenes = None, out: Out = Path(
 
     Example: gudgeon stress nine_bar_press --scene dry
     """
-    from gudgeon.stress import main as stress_main
-
-    return stress_main(file, tuple(scene or ()), out) or 0
+    return _module_main("stress")(file, tuple(scene or ()), out) or 0
 
 
 def main() -> None:

@@ -131,8 +131,8 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
     joints = list(dict.fromkeys(joint.name for run in played.values() for joint in run.source.clearances))[:4]
     watch = list(watch)[:2]
     with matplotlib.rc_context(STYLE):
-        picture = Figure(figsize=(12, 9), dpi=100, layout="constrained")
-        picture.get_layout_engine().set(w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)  # type: ignore[union-attr]
+        picture = Figure(figsize=(12, 9), dpi=100)
+        picture.set_layout_engine("constrained", w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)
         left, right = _halves(picture, len(played) if joints else 0)
         rows = 3 + len(joints)
         grid = left.add_gridspec(rows, max(1, len(watch)))
@@ -151,8 +151,8 @@ def _halves(picture: Figure, orbits: int) -> tuple[Any, Any]:
     """The left part for curves over time, the right one for orbits; None where there is no orbit."""
     if not orbits:
         return picture.subfigures(1, 1), None
-    left, right = picture.subfigures(1, 2, width_ratios=[1.0, 0.5 if orbits == 1 else 0.9])
-    return left, right
+    parts: Any = picture.subfigures(1, 2, width_ratios=[1.0, 0.5 if orbits == 1 else 0.9])
+    return parts[0], parts[1]
 
 
 def _draw_motion(

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 
-from gudgeon.commands.common import chosen_scenes
+from gudgeon.commands.common import chosen_scenes, write_text
 from gudgeon.errors import GudgeonError, InputError
 from gudgeon.loading import find_mechanism, kernel_source, read_bytes
-from gudgeon.shipped import REST, read_generated, write_generated
+from gudgeon.shipped import REST
+
+LIST = "emitted.sha256"  # what was written, as `sha256sum -c` reads it
 
 
 def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
@@ -19,31 +23,48 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
     data = read_bytes(file)
     for scene in scenes:
         source, _ = kernel_source(data, file, scene)
-        try:
-            write_generated(source, folder / scene)
-        except OSError as error:
-            raise GudgeonError(f"cannot write to {folder / scene}: {error.strerror or error}") from error
-        print(f"wrote {folder / scene}: {', '.join([*source.files, REST])}")
+        texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
+        _write(folder / scene, texts)
+        print(f"wrote {folder / scene}: {', '.join(texts)}")
     return 0
 
 
+def _write(folder: Path, texts: dict[str, str]) -> None:
+    """The texts and a list of them; what an earlier version wrote and this one does not is removed."""
+    try:
+        for name in _listed(folder).keys() - texts.keys():
+            (folder / name).unlink(missing_ok=True)
+    except OSError as error:
+        raise GudgeonError(f"cannot write to {folder}: {error.strerror or error}") from error
+    sums = {name: sha256(text.encode()).hexdigest() for name, text in texts.items()}
+    for name, text in texts.items():
+        write_text(folder / name, text)
+    write_text(folder / LIST, "".join(f"{total}  {name}\n" for name, total in sums.items()))
+
+
+def _listed(folder: Path) -> dict[str, str]:
+    """Names and checksums of what an earlier `emit` wrote."""
+    try:
+        lines = (folder / LIST).read_text(encoding="utf-8").splitlines()
+    except (OSError, ValueError):
+        return {}
+    pairs = [line.split("  ", 1) for line in lines]
+    return {pair[1]: pair[0] for pair in pairs if len(pair) == 2}
+
+
 def refuse_foreign(folder: Path) -> None:
-    """InputError if the folder holds anything but what an earlier `emit` has written there."""
+    """InputError if the folder holds anything but what an earlier `emit` has written there, unchanged."""
     if not folder.exists():
         return
     if not folder.is_dir():
         raise InputError(f"{folder} is a file", hint="name another folder")
-    found = {path.name for path in folder.iterdir()}
-    ours = read_generated(folder)
-    foreign = sorted(found - {*ours.files, REST} if ours else found)
-    # read_generated takes every C text in the folder for its own: the headers tell whose it is
-    if ours:
-        foreign += sorted(name for name, text in ours.files.items() if not is_ours(text))
+    listed = _listed(folder)
+    foreign = sorted(
+        path.name
+        for path in folder.iterdir()
+        if path.name != LIST
+        and not (path.is_file() and listed.get(path.name) == sha256(path.read_bytes()).hexdigest())
+    )
     if foreign:
         hint = "move them away or name another folder"
-        raise InputError(f"{folder} holds files that gudgeon did not write: {', '.join(foreign[:5])}", hint=hint)
-
-
-def is_ours(text: str) -> bool:
-    """Whether a C text is one of ours, by its first lines."""
-    return "gudgeon" in text[:600]
+        raise InputError(f"{folder} holds files that `emit` did not write so: {', '.join(foreign[:5])}", hint=hint)
