@@ -107,7 +107,7 @@ def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half: float) -> N
     c = run.constants[f"{joint}.c"]
     x, y, angle = run[f"{joint}.ex"] / c, run[f"{joint}.ey"] / c, np.linspace(0.0, 2 * np.pi, 181)
     ax.fill(np.cos(angle), np.sin(angle), facecolor="#f6f6f6", edgecolor="#777777", lw=0.9, zorder=1)
-    ax.plot(x, y, color=colour, lw=0.5, alpha=0.75, zorder=2)
+    ax.plot(x, y, color=colour, lw=0.7, alpha=0.8, zorder=2)
     touching = run[f"{joint}.delta"] >= 0
     ax.plot(x[touching], y[touching], ".", color=colour, ms=2.2, zorder=3)
     ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=IDEAL, mew=0.9, zorder=4)
@@ -180,16 +180,19 @@ def _draw_forces(
     axes: Sequence[Axes], joints: Sequence[str], runs: Mapping[str, Result], references: Mapping[str, Result],
     colours: Mapping[str, str],
 ) -> None:  # fmt: skip
-    """One row a joint: the magnitude of its force in every scene, and the ideal reaction over it."""
+    """One row a joint: its force in every scene with the peak of all steps (▾), and the ideal reaction over it."""
     for ax, joint in zip(axes, joints, strict=True):
         name = f"{joint}.F"
         curves = [(run.t, run[name], colours[scene], 0.8, "-") for scene, run in runs.items() if name in run]
         ideal = max((r for r in references.values() if name in r), key=lambda r: r.t[-1], default=None)
         if ideal is not None:
             curves.append((ideal.t, ideal[name], IDEAL, 1.0, "--"))
-        factor, text = scale(max(_peak(values) for _, values, *_ in curves), "N")
+        factor, text = scale(max((_peak(values) for _, values, *_ in curves), default=0.0), "N")
         for t, values, colour, width, dashes in curves:
             ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
+        for scene, run in runs.items():  # the largest of all steps, which samples may miss
+            for peak in (peak for peak in run.diagnostics.peaks if peak.joint == joint):
+                ax.plot([peak.t], [peak.F * factor], "v", color=colours[scene], ms=4, clip_on=False)
         ax.set_ylim(bottom=0)
         _over_time(ax, label(f"force at {joint}", text), [t for t, *_ in curves], ax is axes[-1])
 
@@ -217,7 +220,7 @@ def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], c
     for row, column in found:
         scene = scenes[column]
         draw_orbit(part.add_subplot(grid[row, column]), runs[scene], joints[row], colours[scene], half)
-    part.supxlabel("journal in the circle e = c, ○ start", fontsize=9, color="#444444")
+    part.supxlabel("journal in the circle e = c, ○ start     forces: ▾ peak of all steps", fontsize=9, color="#444444")
 
 
 def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str], compared: bool) -> None:

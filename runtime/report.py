@@ -186,7 +186,7 @@ def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         shown = [found.get(joint) for found in peaks]
         contacts = [p.first_contact if p else math.nan for p in shown]
         rows.append((f"{joint} first contact", [quantity(t, "s") for t in contacts]))
-        rows.append((f"{joint} its peak force", [quantity(p.first_peak, "N", 5) if p else "–" for p in shown]))
+        rows.append((f"{joint} its peak", [quantity(p.first_peak, "N", 5) if p else "–" for p in shown]))
         rows.append((f"{joint} largest e", [quantity(p.e_max, "m", 5) if p else "–" for p in shown]))
         for name, (unit, after) in CONSTANTS.items():
             values = [report.constants.get(f"{joint}.{name}", math.nan) for report in reports]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -60,11 +61,22 @@ def _counts(mechanism: Mechanism) -> str:
     return f"{', '.join(words)}; scenes {', '.join(mechanism.scenes)}"
 
 
+def non_zeros(source: KernelSource) -> int:
+    """Entries of the scene's Φ_q that are not identically zero: those that its C assigns.
+
+    The C function fills Φ_q of the closed linkage, row by row; rows of joints with play are not counted.
+    """
+    entries = {int(k) for text in source.files.values() for k in re.findall(r"\bphi_q\[(\d+)\] = ", text)}
+    kept = {row.name for row in source.rows}
+    return sum(source.start_rows[k // len(source.coordinates)].name in kept for k in entries)
+
+
 def _facts(source: KernelSource) -> dict[str, int]:
     facts = {
         "unknowns": len(source.coordinates),
         "rows": len(source.rows),
         "degrees of freedom": source.degrees_of_freedom,
+        "non-zeros of Φ_q": non_zeros(source),
         "joints with play": len(source.clearances),
         "numbers that can be set": len(source.slots),
     }
@@ -102,6 +114,8 @@ def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
     for scene in scenes:
         table.add_column(scene, justify="right", no_wrap=True)
     for name in dict.fromkeys(name for found in facts.values() for name in found):
+        if name.startswith("operations") and not any(found.get(name) for found in facts.values()):
+            continue  # a kernel of zeros in every scene
         table.add_row(name, *(f"{found[name]:,}" if name in found else "–" for found in facts.values()))
     console.print(table)
     for scene, source in scenes.items():

@@ -209,6 +209,9 @@ def test_check_counts_and_verbose_tells_of_each_scene(call: Gudgeon, pump: str) 
     found = json.loads(call("check", pump, "-v", "--json").stdout)["scenes"]
     assert (found["ideal"]["unknowns"], found["ideal"]["rows"], found["ideal"]["degrees of freedom"]) == (9, 9, 0)
     assert (found["worn"]["rows"], found["worn"]["degrees of freedom"]) == (7, 2)
+    # O: x, θ and y, θ; A: x, θ, x, θ and y, θ, y, θ; B: x, θ, x and y, θ, y (the piston's pin is its origin);
+    # bore: y of the piston and its angle; motor: one angle
+    assert (found["ideal"]["non-zeros of Φ_q"], found["worn"]["non-zeros of Φ_q"]) == (4 + 8 + 6 + 2 + 1, 4 + 8 + 2 + 1)
     shown = call("check", pump, "-v").stdout
     assert "degrees of freedom" in shown and "operations" in shown
 

@@ -31,7 +31,8 @@ def test_the_picture_has_errors_forces_and_orbits(run: Result, ideal: Result, tm
     drawn = picture.get_axes()[0].lines[0].get_ydata()
     np.testing.assert_allclose(drawn, (run["S9.y"] - ideal["S9.y"]) * 1e3)
     force = picture.get_axes()[3]
-    np.testing.assert_array_equal(force.lines[-1].get_ydata(), ideal["A.F"])
+    np.testing.assert_array_equal(force.lines[1].get_ydata(), ideal["A.F"])
+    assert force.lines[2].get_xydata().tolist() == [[0.115, 40.0]]  # the peak of all steps
     plots.save_figure(picture, tmp_path / "x.png")
     header = (tmp_path / "x.png").read_bytes()[:24]
     assert (int.from_bytes(header[16:20]), int.from_bytes(header[20:24])) == (1200, 900)
