@@ -220,7 +220,7 @@ def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], c
     for row, column in found:
         scene = scenes[column]
         draw_orbit(part.add_subplot(grid[row, column]), runs[scene], joints[row], colours[scene], half)
-    part.supxlabel("journal in the circle e = c, ○ start     forces: ▾ peak of all steps", fontsize=9, color="#444444")
+    part.supxlabel("journal in the circle e = c, ○ start\nforces: ▾ peak of all steps", fontsize=9, color="#444444")
 
 
 def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str], compared: bool) -> None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,12 +21,12 @@ from gudgeon.plot_units import PREFIXES, pretty, quantity, scale  # noqa: E402
 from gudgeon.results import Result  # noqa: E402
 
 
-def labels(picture: object) -> list[str]:
-    return [ax.get_ylabel() for ax in picture.get_axes()]  # type: ignore[attr-defined]
+def labels(picture: Any) -> list[str]:
+    return [ax.get_ylabel() for ax in picture.get_axes()]
 
 
 def test_the_picture_has_errors_forces_and_orbits(run: Result, ideal: Result, tmp_path: Path) -> None:
-    picture = plots.figure({"ideal": ideal, "dry": run}, ideal, ["S9.y"])
+    picture: Any = plots.figure({"ideal": ideal, "dry": run}, ideal, ["S9.y"])
     found = labels(picture)
     assert found[:4] == ["error of S9.y [mm]", "error of S9.vy [mm/s]", "error of S9.ay [m/s²]", "force at A [N]"]
     drawn = picture.get_axes()[0].lines[0].get_ydata()
@@ -39,7 +40,7 @@ def test_the_picture_has_errors_forces_and_orbits(run: Result, ideal: Result, tm
 
 
 def test_an_orbit_is_in_units_of_the_clearance_and_stays_in_its_square(run: Result) -> None:
-    ax = run.plot.orbit("A")
+    ax: Any = run.plot.orbit("A")
     x, y = ax.lines[0].get_data()
     np.testing.assert_allclose(np.hypot(x, y), run["A.eps"])
     assert np.abs(x).max() < ax.get_xlim()[1] and np.abs(y).max() < ax.get_ylim()[1]
