@@ -17,8 +17,14 @@ run: setup  ## the nine-bar press in three scenes: a table, and a picture under 
 test: lint types  ## ruff, mypy and the tests
 	@.venv/bin/pytest -n 2 -q $(ARGS)
 
-test-all: lint types  ## the slow tests too
+test-all: lint types  ## the slow tests too, and the others under every later Python that is installed
 	@.venv/bin/pytest -n 2 -q -m "slow or not slow" $(ARGS)
+	@for python in python3.12 python3.13 python3.14; do \
+		if $$python -c "" 2>/dev/null; then \
+			VENV=.venv-$$python PYTHON=$$python sh tools/setup all,test && .venv-$$python/bin/pytest -n 2 -q $(ARGS) \
+			|| exit 1; \
+		fi; \
+	done
 
 lint: setup-test
 	@.venv/bin/ruff check .
@@ -44,5 +50,5 @@ setup-test:
 	@sh tools/setup all,test
 
 clean:  ## remove the environment and everything built; the cache folder stays
-	rm -rf .venv build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .venv-* build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

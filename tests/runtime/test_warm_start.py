@@ -1,0 +1,51 @@
+"""A warm start imports nothing that only a derivation, a compile, a file or a picture needs."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+CODE = """
+import sys
+import gudgeon
+press = gudgeon.load("nine_bar_press", scene="dry", overrides={overrides})
+run = press.simulate(t_end=1e-3, output=2)
+print(press.loading.origin, *sys.modules)
+"""
+HEAVY = {"sympy", "jinja2", "pydantic", "ruamel", "ruamel.yaml", "pint", "cffi", "pycparser", "subprocess", "filelock",
+         "xarray", "matplotlib", "scipy", "typer", "rich"}  # fmt: skip
+
+
+def start(cache: Path, overrides: str = "None") -> tuple[str, set[str]]:
+    """Where the kernels came from and what a new process had imported after a short run."""
+    done = subprocess.run(
+        [sys.executable, "-c", CODE.format(overrides=overrides)],
+        env={**os.environ, "GUDGEON_CACHE": str(cache)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    origin, *modules = done.stdout.split()
+    return origin, set(modules)
+
+
+def test_warm_start_imports_only_what_runs(tmp_path: Path) -> None:
+    assert start(tmp_path)[0] == "generated"
+    origin, modules = start(tmp_path)
+    assert origin == "cache"
+    assert modules & HEAVY == set()
+
+
+def test_a_shipped_mechanism_needs_no_sympy_even_cold(tmp_path: Path) -> None:
+    origin, modules = start(tmp_path)
+    assert origin == "generated"
+    assert modules & {"sympy", "jinja2", "pydantic", "ruamel.yaml", "pint"} == set()
+
+
+def test_a_derivation_does_import_them(tmp_path: Path) -> None:
+    """The check on the check: were the names wrong, the tests above could not fail."""
+    origin, modules = start(tmp_path, "{'parameters.c': 0.4e-3}")
+    assert origin == "derived"
+    assert modules >= {"sympy", "jinja2", "pydantic", "ruamel.yaml", "cffi", "filelock"}
