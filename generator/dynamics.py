@@ -100,7 +100,7 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT) -> dict[int, s
 
 def _powers(model: Model, build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
     """Power of the drives, −λᵀν, of the force elements that store nothing, of the clearance forces (W)."""
-    drives = sum((-x[kkt.n + r] * row.nu for r, row in enumerate(kkt.rows) if row.nu != 0), ZERO)
+    drives = sp.Add(*(-x[kkt.n + r] * row.nu for r, row in enumerate(kkt.rows) if row.nu != 0))
     clearances = " + ".join(f"aside->clearance[{i}].power" for i in range(len(model.clearances)))
     build.out("aside->power[0]", drives)
     build.out("aside->power[1]", sum((element.loads.power for element in model.elements.values()), ZERO))

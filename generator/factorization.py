@@ -7,6 +7,7 @@ negative as long as the rows are independent. The order is chosen here, once, by
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -49,8 +50,11 @@ def _eliminate(
     order: list[int] = []
     columns: dict[int, set[int]] = {}
     keys = {node: key(graph, node) for node in left if waiting[node] == 0}
+    heap = sorted((value, node) for node, value in keys.items())
     while left:
-        node = min(keys, key=lambda n: keys[n])
+        value, node = heapq.heappop(heap)
+        if keys.get(node) != value:
+            continue  # its key has changed since it was pushed
         near = graph[node]
         order.append(node)
         columns[node] = set(near)
@@ -66,6 +70,7 @@ def _eliminate(
         for a in touched & left:
             if waiting[a] == 0:
                 keys[a] = key(graph, a)
+                heapq.heappush(heap, (keys[a], a))
     place = {node: k for k, node in enumerate(order)}
     structure = {node: tuple(sorted(columns[node], key=place.__getitem__)) for node in order}
     return Elimination(tuple(order), structure, sum(len(c) * (len(c) + 3) // 2 for c in columns.values()))

@@ -119,14 +119,11 @@ class Geometry:
         else:
             com = (self.slots.use(body.length) / 2, ZERO) if body.length else (ZERO, ZERO)
         s = self._in_body(body, point, com)
-        return self._derive(f"{body.name}_{point}_x", s[0] - com[0]), self._derive(f"{body.name}_{point}_y", s[1] - com[1])
-
-    def _derive(self, wanted: str, expression: sp.Expr) -> sp.Expr:
-        """A derived length; −s is written with the symbol of s, so that opposite arms are shared."""
-        for symbol, known in self.slots.derived.items():
-            if known == -expression:
-                return -symbol
-        return self.slots.derive(wanted, expression, "point from the centre of mass")
+        x, y = (
+            self.slots.derive_signed(f"{body.name}_{point}_{axis}", value - origin, "point from the centre of mass")
+            for axis, value, origin in zip("xy", s, com, strict=True)
+        )
+        return x, y
 
     def ground_vector(self, vector: Vector) -> tuple[sp.Expr, sp.Expr]:
         return self.slots.use(vector[0]), self.slots.use(vector[1])

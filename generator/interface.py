@@ -94,18 +94,21 @@ def outputs_kernel(model: Model) -> Kernel:
     for r, row in enumerate(model.rows):
         multiplier[row.name] = build.local(f"multiplier_{row.name.replace('.', '_')}", f"lambda[{r}]")
     build.section("reactions")
+    rows_of: dict[str, list[Row]] = {}
+    for row in model.rows:
+        rows_of.setdefault(row.owner, []).append(row)
     for j, joint in enumerate(kept_joints(model)):
-        for k, value in enumerate(_reaction(model, joint, multiplier)):
+        for k, value in enumerate(_reaction(model, joint, rows_of.get(joint.name, []), multiplier)):
             build.out(f"reactions[{3 * j + k}]", value, f"{joint.name}.{('Fx', 'Fy', 'M')[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
         build.out(f"torques[{d}]", -multiplier[name], f"{name}.torque")
     for k, (name, (value, _)) in enumerate(element_series(model).items()):
         build.out(f"series[{k}]", value, name)
     build.section("energy")
-    build.out("energy[0]", sum((m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True)), ZERO))
+    build.out("energy[0]", sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True))))
     gx, gy = model.gravity
-    weights = sum((-body.mass * (gx * body.x + gy * body.y) for body in model.bodies), ZERO)
-    build.out("energy[1]", weights + sum((element.loads.potential for element in model.elements.values()), ZERO))
+    weights = (-body.mass * (gx * body.x + gy * body.y) for body in model.bodies)
+    build.out("energy[1]", sp.Add(*weights, *(element.loads.potential for element in model.elements.values())))
     out = (Argument("double *", name) for name in ("reactions", "torques", "series", "energy"))
     return build.build((*STATE, PARAMETERS, Argument("const double *", "lambda"), *out))
 
@@ -122,10 +125,11 @@ def kept_joints(model: Model) -> list[Joint]:
     return [joint for joint in model.scene.mechanism.joints.values() if joint.name not in model.scene.play]
 
 
-def _reaction(model: Model, joint: Joint, multiplier: dict[str, sp.Expr]) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+def _reaction(
+    model: Model, joint: Joint, rows: list[Row], multiplier: dict[str, sp.Expr]
+) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """Force on the second body and moment about the joint's point; from the first body if that is the ground."""
     first, second = model.geometry.point(joint.first), model.geometry.point(joint.second)
-    rows = [row for row in model.rows if row.owner == joint.name]
     body = second.body or first.body
     assert body is not None  # the reader refuses ground to ground
     share = [-sum((row.phi_q.get(q, ZERO) * multiplier[row.name] for row in rows), ZERO) for q in body.q]

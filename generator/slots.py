@@ -40,6 +40,7 @@ class Slots:
         self.symbols = symbols
         self.entries: dict[str, SlotEntry] = {}
         self.derived: dict[sp.Symbol, sp.Expr] = {}
+        self._derived_by: dict[sp.Expr, sp.Symbol] = {}
         self._parameters = scene.parameters
         for name in scene.parameters:
             self._parameter(name)
@@ -82,12 +83,16 @@ class Slots:
         """A number that `prepare` computes once a run; numbers and slots themselves stay as they are."""
         if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].home.startswith("p->")):
             return expression
-        for symbol, known in self.derived.items():
-            if known == expression:
-                return symbol
-        symbol = self.symbols.define(wanted, expression, "p->{}", meaning)
-        self.derived[symbol] = expression
-        return symbol
+        if expression not in self._derived_by:
+            symbol = self.symbols.define(wanted, expression, "p->{}", meaning)
+            self.derived[symbol] = expression
+            self._derived_by[expression] = symbol
+        return self._derived_by[expression]
+
+    def derive_signed(self, wanted: str, expression: sp.Expr, meaning: str = "") -> sp.Expr:
+        """Like `derive`, but −s is written with the symbol of s, so that opposite arms are shared."""
+        opposite = self._derived_by.get(-expression)
+        return self.derive(wanted, expression, meaning) if opposite is None else -opposite
 
 
 def names_any(quantity: Quantity) -> bool:
