@@ -1,0 +1,503 @@
+/*
+ * The diagonal of M (n).
+ */
+static void mass_matrix(const Parameters *p, double *m)
+{
+    /* parameters */
+    const double crank_mass = p->crank_mass;
+    const double crank_inertia = p->crank_inertia;
+    const double coupler_mass = p->coupler_mass;
+    const double coupler_inertia = p->coupler_inertia;
+    const double rocker_mass = p->rocker_mass;
+    const double rocker_inertia = p->rocker_inertia;
+
+    /* M */
+    m[0] = crank_mass;
+    m[1] = crank_mass;
+    m[2] = crank_inertia;
+    m[3] = coupler_mass;
+    m[4] = coupler_mass;
+    m[5] = coupler_inertia;
+    m[6] = rocker_mass;
+    m[7] = rocker_mass;
+    m[8] = rocker_inertia;
+}
+/*
+ * Phi(q, t) of the closed linkage; m and rad.
+ */
+static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+{
+    /* coordinates, velocities, time */
+    const double crank_x = q[0];
+    const double crank_y = q[1];
+    const double crank_theta = q[2];
+    const double coupler_x = q[3];
+    const double coupler_y = q[4];
+    const double coupler_theta = q[5];
+    const double rocker_x = q[6];
+    const double rocker_y = q[7];
+    const double rocker_theta = q[8];
+    const double time = t;
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_origin_x = p->crank_origin_x;
+    const double coupler_origin_x = p->coupler_origin_x;
+    const double rocker_origin_x = p->rocker_origin_x;
+    const double B0_x = p->B0_x;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
+    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double cos_theta_coupler = cos(coupler_theta);
+    const double sin_theta_coupler = sin(coupler_theta);
+    const double arm_coupler_tail_x = cos_theta_coupler*coupler_origin_x;
+    const double arm_coupler_tail_y = coupler_origin_x*sin_theta_coupler;
+    const double cos_theta_rocker = cos(rocker_theta);
+    const double sin_theta_rocker = sin(rocker_theta);
+    const double arm_rocker_head_x = -cos_theta_rocker*rocker_origin_x;
+    const double arm_rocker_head_y = -rocker_origin_x*sin_theta_rocker;
+    const double motor_value = omega*time + 1.5707963267948966;
+
+    /* rows */
+    phi[0] = -arm_crank_tail_x - crank_x;  /* A0.x */
+    phi[1] = -arm_crank_tail_y - crank_y;  /* A0.y */
+    phi[2] = -arm_coupler_tail_x - arm_crank_tail_x - coupler_x + crank_x;  /* A.x */
+    phi[3] = -arm_coupler_tail_y - arm_crank_tail_y - coupler_y + crank_y;  /* A.y */
+    phi[4] = -arm_coupler_tail_x - arm_rocker_head_x + coupler_x - rocker_x;  /* B.x */
+    phi[5] = -arm_coupler_tail_y - arm_rocker_head_y + coupler_y - rocker_y;  /* B.y */
+    phi[6] = B0_x + arm_rocker_head_x - rocker_x;  /* B0.x */
+    phi[7] = arm_rocker_head_y - rocker_y;  /* B0.y */
+    phi[8] = crank_theta - motor_value;  /* motor */
+}
+/*
+ * Phi_q of the closed linkage, dense, row by row; zeros kept.
+ */
+static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double crank_theta = q[2];
+    const double coupler_theta = q[5];
+    const double rocker_theta = q[8];
+
+    /* parameters */
+    const double crank_origin_x = p->crank_origin_x;
+    const double coupler_origin_x = p->coupler_origin_x;
+    const double rocker_origin_x = p->rocker_origin_x;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
+    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double cos_theta_coupler = cos(coupler_theta);
+    const double sin_theta_coupler = sin(coupler_theta);
+    const double arm_coupler_tail_x = cos_theta_coupler*coupler_origin_x;
+    const double arm_coupler_tail_y = coupler_origin_x*sin_theta_coupler;
+    const double cos_theta_rocker = cos(rocker_theta);
+    const double sin_theta_rocker = sin(rocker_theta);
+    const double arm_rocker_head_x = -cos_theta_rocker*rocker_origin_x;
+    const double arm_rocker_head_y = -rocker_origin_x*sin_theta_rocker;
+
+    /* non-zeros */
+    phi_q[0] = -1.0;  /* d A0.x / d crank_x */
+    phi_q[2] = arm_crank_tail_y;  /* d A0.x / d crank_theta */
+    phi_q[10] = -1.0;  /* d A0.y / d crank_y */
+    phi_q[11] = -arm_crank_tail_x;  /* d A0.y / d crank_theta */
+    phi_q[18] = 1.0;  /* d A.x / d crank_x */
+    phi_q[20] = arm_crank_tail_y;  /* d A.x / d crank_theta */
+    phi_q[21] = -1.0;  /* d A.x / d coupler_x */
+    phi_q[23] = arm_coupler_tail_y;  /* d A.x / d coupler_theta */
+    phi_q[28] = 1.0;  /* d A.y / d crank_y */
+    phi_q[29] = -arm_crank_tail_x;  /* d A.y / d crank_theta */
+    phi_q[31] = -1.0;  /* d A.y / d coupler_y */
+    phi_q[32] = -arm_coupler_tail_x;  /* d A.y / d coupler_theta */
+    phi_q[39] = 1.0;  /* d B.x / d coupler_x */
+    phi_q[41] = arm_coupler_tail_y;  /* d B.x / d coupler_theta */
+    phi_q[42] = -1.0;  /* d B.x / d rocker_x */
+    phi_q[44] = arm_rocker_head_y;  /* d B.x / d rocker_theta */
+    phi_q[49] = 1.0;  /* d B.y / d coupler_y */
+    phi_q[50] = -arm_coupler_tail_x;  /* d B.y / d coupler_theta */
+    phi_q[52] = -1.0;  /* d B.y / d rocker_y */
+    phi_q[53] = -arm_rocker_head_x;  /* d B.y / d rocker_theta */
+    phi_q[60] = -1.0;  /* d B0.x / d rocker_x */
+    phi_q[62] = -arm_rocker_head_y;  /* d B0.x / d rocker_theta */
+    phi_q[70] = -1.0;  /* d B0.y / d rocker_y */
+    phi_q[71] = arm_rocker_head_x;  /* d B0.y / d rocker_theta */
+    phi_q[74] = 1.0;  /* d motor / d crank_theta */
+}
+/*
+ * nu = -Phi_t: Phi_q v = nu.
+ */
+static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+{
+    (void)t;
+    (void)q;
+    /* parameters */
+    const double omega = p->omega;
+
+    /* directions, arms, drives */
+    const double motor_rate = omega;
+
+    /* rows */
+    nu[0] = 0.0;  /* A0.x */
+    nu[1] = 0.0;  /* A0.y */
+    nu[2] = 0.0;  /* A.x */
+    nu[3] = 0.0;  /* A.y */
+    nu[4] = 0.0;  /* B.x */
+    nu[5] = 0.0;  /* B.y */
+    nu[6] = 0.0;  /* B0.x */
+    nu[7] = 0.0;  /* B0.y */
+    nu[8] = motor_rate;  /* motor */
+}
+/*
+ * gamma: Phi_q a = gamma.
+ */
+static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double
+    *gamma_rows)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double crank_theta = q[2];
+    const double crank_omega = v[2];
+    const double coupler_theta = q[5];
+    const double coupler_omega = v[5];
+    const double rocker_theta = q[8];
+    const double rocker_omega = v[8];
+
+    /* parameters */
+    const double crank_origin_x = p->crank_origin_x;
+    const double coupler_origin_x = p->coupler_origin_x;
+    const double rocker_origin_x = p->rocker_origin_x;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
+    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double cos_theta_coupler = cos(coupler_theta);
+    const double sin_theta_coupler = sin(coupler_theta);
+    const double arm_coupler_tail_x = cos_theta_coupler*coupler_origin_x;
+    const double arm_coupler_tail_y = coupler_origin_x*sin_theta_coupler;
+    const double cos_theta_rocker = cos(rocker_theta);
+    const double sin_theta_rocker = sin(rocker_theta);
+    const double arm_rocker_head_x = -cos_theta_rocker*rocker_origin_x;
+    const double arm_rocker_head_y = -rocker_origin_x*sin_theta_rocker;
+    const double motor_acceleration = 0.0;
+
+    /* rows */
+    gamma_rows[0] = -arm_crank_tail_x*(crank_omega * crank_omega);  /* A0.x */
+    gamma_rows[1] = -arm_crank_tail_y*(crank_omega * crank_omega);  /* A0.y */
+    gamma_rows[2] = -arm_coupler_tail_x*(coupler_omega * coupler_omega) - arm_crank_tail_x*(crank_omega *
+        crank_omega);  /* A.x */
+    gamma_rows[3] = -arm_coupler_tail_y*(coupler_omega * coupler_omega) - arm_crank_tail_y*(crank_omega *
+        crank_omega);  /* A.y */
+    gamma_rows[4] = -arm_coupler_tail_x*(coupler_omega * coupler_omega) - arm_rocker_head_x*(rocker_omega *
+        rocker_omega);  /* B.x */
+    gamma_rows[5] = -arm_coupler_tail_y*(coupler_omega * coupler_omega) - arm_rocker_head_y*(rocker_omega *
+        rocker_omega);  /* B.y */
+    gamma_rows[6] = arm_rocker_head_x*(rocker_omega * rocker_omega);  /* B0.x */
+    gamma_rows[7] = arm_rocker_head_y*(rocker_omega * rocker_omega);  /* B0.y */
+    gamma_rows[8] = motor_acceleration;  /* motor */
+}
+/*
+ * Values of the start's guess, set and rates.
+ */
+static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+{
+    (void)set;
+    (void)rates;
+    /* parameters */
+    const double guess_coupler_theta = p->guess_coupler_theta;
+    const double guess_rocker_theta = p->guess_rocker_theta;
+
+    /* start */
+    guess[0] = guess_coupler_theta;  /* start.guess.coupler.theta */
+    guess[1] = guess_rocker_theta;  /* start.guess.rocker.theta */
+}
+/*
+ * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
+ * drive torques on the driven body, kinetic and potential energy.
+ */
+static void outputs(const double t, const double *q, const double *v, const Parameters *p, const double
+    *lambda, double *reactions, double *torques, double *series, double *energy)
+{
+    (void)t;
+    (void)series;
+    /* coordinates, velocities, time */
+    const double crank_y = q[1];
+    const double crank_vx = v[0];
+    const double crank_vy = v[1];
+    const double crank_omega = v[2];
+    const double coupler_y = q[4];
+    const double coupler_vx = v[3];
+    const double coupler_vy = v[4];
+    const double coupler_omega = v[5];
+    const double rocker_y = q[7];
+    const double rocker_vx = v[6];
+    const double rocker_vy = v[7];
+    const double rocker_omega = v[8];
+
+    /* parameters */
+    const double crank_mass = p->crank_mass;
+    const double crank_inertia = p->crank_inertia;
+    const double coupler_mass = p->coupler_mass;
+    const double coupler_inertia = p->coupler_inertia;
+    const double rocker_mass = p->rocker_mass;
+    const double rocker_inertia = p->rocker_inertia;
+    const double par_y = p->par_y;
+
+    /* multipliers */
+    const double multiplier_A0_x = lambda[0];
+    const double multiplier_A0_y = lambda[1];
+    const double multiplier_A_x = lambda[2];
+    const double multiplier_A_y = lambda[3];
+    const double multiplier_B_x = lambda[4];
+    const double multiplier_B_y = lambda[5];
+    const double multiplier_B0_x = lambda[6];
+    const double multiplier_B0_y = lambda[7];
+    const double multiplier_motor = lambda[8];
+
+    /* reactions */
+    reactions[0] = multiplier_A0_x;  /* A0.Fx */
+    reactions[1] = multiplier_A0_y;  /* A0.Fy */
+    reactions[2] = 0.0;  /* A0.M */
+    reactions[3] = multiplier_A_x;  /* A.Fx */
+    reactions[4] = multiplier_A_y;  /* A.Fy */
+    reactions[5] = 0.0;  /* A.M */
+    reactions[6] = multiplier_B_x;  /* B.Fx */
+    reactions[7] = multiplier_B_y;  /* B.Fy */
+    reactions[8] = 0.0;  /* B.M */
+    reactions[9] = multiplier_B0_x;  /* B0.Fx */
+    reactions[10] = multiplier_B0_y;  /* B0.Fy */
+    reactions[11] = 0.0;  /* B0.M */
+    torques[0] = -multiplier_motor;  /* motor.torque */
+
+    /* energy */
+    energy[0] = (1.0/2.0)*coupler_inertia*(coupler_omega * coupler_omega) + (1.0/2.0)*coupler_mass*(coupler_vx
+        * coupler_vx) + (1.0/2.0)*coupler_mass*(coupler_vy * coupler_vy) +
+        (1.0/2.0)*crank_inertia*(crank_omega * crank_omega) + (1.0/2.0)*crank_mass*(crank_vx * crank_vx) +
+        (1.0/2.0)*crank_mass*(crank_vy * crank_vy) + (1.0/2.0)*rocker_inertia*(rocker_omega * rocker_omega) +
+        (1.0/2.0)*rocker_mass*(rocker_vx * rocker_vx) + (1.0/2.0)*rocker_mass*(rocker_vy * rocker_vy);
+    energy[1] = -coupler_mass*coupler_y*par_y - crank_mass*crank_y*par_y - par_y*rocker_mass*rocker_y;
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r (m); Newton's step, velocities.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double crank_theta = q[2];
+    const double coupler_theta = q[5];
+    const double rocker_theta = q[8];
+
+    /* parameters */
+    const double crank_origin_x = p->crank_origin_x;
+    const double coupler_origin_x = p->coupler_origin_x;
+    const double rocker_origin_x = p->rocker_origin_x;
+    const double inverse_crank_mass = p->inverse_crank_mass;
+    const double inverse_crank_inertia = p->inverse_crank_inertia;
+    const double inverse_coupler_mass = p->inverse_coupler_mass;
+    const double inverse_coupler_inertia = p->inverse_coupler_inertia;
+    const double inverse_rocker_mass = p->inverse_rocker_mass;
+    const double inverse_rocker_inertia = p->inverse_rocker_inertia;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
+    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double cos_theta_coupler = cos(coupler_theta);
+    const double sin_theta_coupler = sin(coupler_theta);
+    const double arm_coupler_tail_x = cos_theta_coupler*coupler_origin_x;
+    const double arm_coupler_tail_y = coupler_origin_x*sin_theta_coupler;
+    const double cos_theta_rocker = cos(rocker_theta);
+    const double sin_theta_rocker = sin(rocker_theta);
+    const double arm_rocker_head_x = -cos_theta_rocker*rocker_origin_x;
+    const double arm_rocker_head_y = -rocker_origin_x*sin_theta_rocker;
+
+    /* right-hand side */
+    const double r_A0_x = r[0];
+    const double r_A0_y = r[1];
+    const double r_A_x = r[2];
+    const double r_A_y = r[3];
+    const double r_B_x = r[4];
+    const double r_B_y = r[5];
+    const double r_B0_x = r[6];
+    const double r_B0_y = r[7];
+    const double r_motor = r[8];
+
+    /* L D L^T of the KKT matrix */
+    const double l_B_x__coupler_theta_2 = arm_coupler_tail_y*inverse_coupler_inertia;
+    const double l_B_y__coupler_theta_2 = -arm_coupler_tail_x*inverse_coupler_inertia;
+    const double l_A_x__coupler_theta_2 = arm_coupler_tail_y*inverse_coupler_inertia;
+    const double l_A_y__coupler_theta_2 = -arm_coupler_tail_x*inverse_coupler_inertia;
+    const double l_B0_x__rocker_theta_2 = -arm_rocker_head_y*inverse_rocker_inertia;
+    const double l_B0_y__rocker_theta_2 = arm_rocker_head_x*inverse_rocker_inertia;
+    const double l_B_x__rocker_theta_2 = arm_rocker_head_y*inverse_rocker_inertia;
+    const double l_B_y__rocker_theta_2 = -arm_rocker_head_x*inverse_rocker_inertia;
+    const double scale_B0_x_2 = -arm_rocker_head_y*l_B0_x__rocker_theta_2 + inverse_rocker_mass;
+    if (!(scale_B0_x_2 > 1e-13 * scale_B0_x_2)) return 1;
+    const double inverse_pivot_B0_x_2 = 1.0/scale_B0_x_2;
+    const double w_B0_y__B0_x_2 = arm_rocker_head_y*l_B0_y__rocker_theta_2;
+    const double l_B0_y__B0_x_2 = -inverse_pivot_B0_x_2*w_B0_y__B0_x_2;
+    const double w_B_x__B0_x_2 = arm_rocker_head_y*l_B_x__rocker_theta_2 - inverse_rocker_mass;
+    const double l_B_x__B0_x_2 = -inverse_pivot_B0_x_2*w_B_x__B0_x_2;
+    const double w_B_y__B0_x_2 = arm_rocker_head_y*l_B_y__rocker_theta_2;
+    const double l_B_y__B0_x_2 = -inverse_pivot_B0_x_2*w_B_y__B0_x_2;
+    const double scale_B0_y_2 = arm_rocker_head_x*l_B0_y__rocker_theta_2 + inverse_rocker_mass;
+    const double pivot_B0_y_2 = l_B0_y__B0_x_2*w_B0_y__B0_x_2 + scale_B0_y_2;
+    if (!(pivot_B0_y_2 > 1e-13 * scale_B0_y_2)) return 2;
+    const double inverse_pivot_B0_y_2 = 1.0/pivot_B0_y_2;
+    const double w_B_x__B0_y_2 = -arm_rocker_head_x*l_B_x__rocker_theta_2 - l_B_x__B0_x_2*w_B0_y__B0_x_2;
+    const double l_B_x__B0_y_2 = -inverse_pivot_B0_y_2*w_B_x__B0_y_2;
+    const double w_B_y__B0_y_2 = -arm_rocker_head_x*l_B_y__rocker_theta_2 - inverse_rocker_mass -
+        l_B_y__B0_x_2*w_B0_y__B0_x_2;
+    const double l_B_y__B0_y_2 = -inverse_pivot_B0_y_2*w_B_y__B0_y_2;
+    const double scale_B_x_2 = arm_coupler_tail_y*l_B_x__coupler_theta_2 +
+        arm_rocker_head_y*l_B_x__rocker_theta_2 + inverse_coupler_mass + inverse_rocker_mass;
+    const double pivot_B_x_2 = l_B_x__B0_x_2*w_B_x__B0_x_2 + l_B_x__B0_y_2*w_B_x__B0_y_2 + scale_B_x_2;
+    if (!(pivot_B_x_2 > 1e-13 * scale_B_x_2)) return 3;
+    const double inverse_pivot_B_x_2 = 1.0/pivot_B_x_2;
+    const double w_B_y__B_x_2 = -arm_coupler_tail_y*l_B_y__coupler_theta_2 -
+        arm_rocker_head_y*l_B_y__rocker_theta_2 - l_B_y__B0_x_2*w_B_x__B0_x_2 - l_B_y__B0_y_2*w_B_x__B0_y_2;
+    const double l_B_y__B_x_2 = -inverse_pivot_B_x_2*w_B_y__B_x_2;
+    const double w_A_x__B_x_2 = -arm_coupler_tail_y*l_A_x__coupler_theta_2 + inverse_coupler_mass;
+    const double l_A_x__B_x_2 = -inverse_pivot_B_x_2*w_A_x__B_x_2;
+    const double w_A_y__B_x_2 = -arm_coupler_tail_y*l_A_y__coupler_theta_2;
+    const double l_A_y__B_x_2 = -inverse_pivot_B_x_2*w_A_y__B_x_2;
+    const double scale_B_y_2 = -arm_coupler_tail_x*l_B_y__coupler_theta_2 -
+        arm_rocker_head_x*l_B_y__rocker_theta_2 + inverse_coupler_mass + inverse_rocker_mass;
+    const double pivot_B_y_2 = l_B_y__B0_x_2*w_B_y__B0_x_2 + l_B_y__B0_y_2*w_B_y__B0_y_2 +
+        l_B_y__B_x_2*w_B_y__B_x_2 + scale_B_y_2;
+    if (!(pivot_B_y_2 > 1e-13 * scale_B_y_2)) return 4;
+    const double inverse_pivot_B_y_2 = 1.0/pivot_B_y_2;
+    const double w_A_x__B_y_2 = arm_coupler_tail_x*l_A_x__coupler_theta_2 - l_A_x__B_x_2*w_B_y__B_x_2;
+    const double l_A_x__B_y_2 = -inverse_pivot_B_y_2*w_A_x__B_y_2;
+    const double w_A_y__B_y_2 = arm_coupler_tail_x*l_A_y__coupler_theta_2 + inverse_coupler_mass -
+        l_A_y__B_x_2*w_B_y__B_x_2;
+    const double l_A_y__B_y_2 = -inverse_pivot_B_y_2*w_A_y__B_y_2;
+    const double l_A0_x__crank_theta_2 = arm_crank_tail_y*inverse_crank_inertia;
+    const double l_A0_y__crank_theta_2 = -arm_crank_tail_x*inverse_crank_inertia;
+    const double l_A_x__crank_theta_2 = arm_crank_tail_y*inverse_crank_inertia;
+    const double l_A_y__crank_theta_2 = -arm_crank_tail_x*inverse_crank_inertia;
+    const double scale_A0_x_2 = arm_crank_tail_y*l_A0_x__crank_theta_2 + inverse_crank_mass;
+    if (!(scale_A0_x_2 > 1e-13 * scale_A0_x_2)) return 5;
+    const double inverse_pivot_A0_x_2 = 1.0/scale_A0_x_2;
+    const double w_A0_y__A0_x_2 = -arm_crank_tail_y*l_A0_y__crank_theta_2;
+    const double l_A0_y__A0_x_2 = -inverse_pivot_A0_x_2*w_A0_y__A0_x_2;
+    const double w_A_x__A0_x_2 = -arm_crank_tail_y*l_A_x__crank_theta_2 + inverse_crank_mass;
+    const double l_A_x__A0_x_2 = -inverse_pivot_A0_x_2*w_A_x__A0_x_2;
+    const double w_A_y__A0_x_2 = -arm_crank_tail_y*l_A_y__crank_theta_2;
+    const double l_A_y__A0_x_2 = -inverse_pivot_A0_x_2*w_A_y__A0_x_2;
+    const double w_motor__A0_x_2 = -arm_crank_tail_y*inverse_crank_inertia;
+    const double l_motor__A0_x_2 = -inverse_pivot_A0_x_2*w_motor__A0_x_2;
+    const double scale_A0_y_2 = -arm_crank_tail_x*l_A0_y__crank_theta_2 + inverse_crank_mass;
+    const double pivot_A0_y_2 = l_A0_y__A0_x_2*w_A0_y__A0_x_2 + scale_A0_y_2;
+    if (!(pivot_A0_y_2 > 1e-13 * scale_A0_y_2)) return 6;
+    const double inverse_pivot_A0_y_2 = 1.0/pivot_A0_y_2;
+    const double w_A_x__A0_y_2 = arm_crank_tail_x*l_A_x__crank_theta_2 - l_A_x__A0_x_2*w_A0_y__A0_x_2;
+    const double l_A_x__A0_y_2 = -inverse_pivot_A0_y_2*w_A_x__A0_y_2;
+    const double w_A_y__A0_y_2 = arm_crank_tail_x*l_A_y__crank_theta_2 + inverse_crank_mass -
+        l_A_y__A0_x_2*w_A0_y__A0_x_2;
+    const double l_A_y__A0_y_2 = -inverse_pivot_A0_y_2*w_A_y__A0_y_2;
+    const double w_motor__A0_y_2 = arm_crank_tail_x*inverse_crank_inertia - l_motor__A0_x_2*w_A0_y__A0_x_2;
+    const double l_motor__A0_y_2 = -inverse_pivot_A0_y_2*w_motor__A0_y_2;
+    const double scale_A_x_2 = arm_coupler_tail_y*l_A_x__coupler_theta_2 +
+        arm_crank_tail_y*l_A_x__crank_theta_2 + inverse_coupler_mass + inverse_crank_mass;
+    const double pivot_A_x_2 = l_A_x__A0_x_2*w_A_x__A0_x_2 + l_A_x__A0_y_2*w_A_x__A0_y_2 +
+        l_A_x__B_x_2*w_A_x__B_x_2 + l_A_x__B_y_2*w_A_x__B_y_2 + scale_A_x_2;
+    if (!(pivot_A_x_2 > 1e-13 * scale_A_x_2)) return 7;
+    const double inverse_pivot_A_x_2 = 1.0/pivot_A_x_2;
+    const double w_A_y__A_x_2 = -arm_coupler_tail_y*l_A_y__coupler_theta_2 -
+        arm_crank_tail_y*l_A_y__crank_theta_2 - l_A_y__A0_x_2*w_A_x__A0_x_2 - l_A_y__A0_y_2*w_A_x__A0_y_2 -
+        l_A_y__B_x_2*w_A_x__B_x_2 - l_A_y__B_y_2*w_A_x__B_y_2;
+    const double l_A_y__A_x_2 = -inverse_pivot_A_x_2*w_A_y__A_x_2;
+    const double w_motor__A_x_2 = -arm_crank_tail_y*inverse_crank_inertia - l_motor__A0_x_2*w_A_x__A0_x_2 -
+        l_motor__A0_y_2*w_A_x__A0_y_2;
+    const double l_motor__A_x_2 = -inverse_pivot_A_x_2*w_motor__A_x_2;
+    const double scale_A_y_2 = -arm_coupler_tail_x*l_A_y__coupler_theta_2 -
+        arm_crank_tail_x*l_A_y__crank_theta_2 + inverse_coupler_mass + inverse_crank_mass;
+    const double pivot_A_y_2 = l_A_y__A0_x_2*w_A_y__A0_x_2 + l_A_y__A0_y_2*w_A_y__A0_y_2 +
+        l_A_y__A_x_2*w_A_y__A_x_2 + l_A_y__B_x_2*w_A_y__B_x_2 + l_A_y__B_y_2*w_A_y__B_y_2 + scale_A_y_2;
+    if (!(pivot_A_y_2 > 1e-13 * scale_A_y_2)) return 8;
+    const double inverse_pivot_A_y_2 = 1.0/pivot_A_y_2;
+    const double w_motor__A_y_2 = arm_crank_tail_x*inverse_crank_inertia - l_motor__A0_x_2*w_A_y__A0_x_2 -
+        l_motor__A0_y_2*w_A_y__A0_y_2 - l_motor__A_x_2*w_A_y__A_x_2;
+    const double l_motor__A_y_2 = -inverse_pivot_A_y_2*w_motor__A_y_2;
+    const double scale_motor_2 = inverse_crank_inertia;
+    const double pivot_motor_2 = l_motor__A0_x_2*w_motor__A0_x_2 + l_motor__A0_y_2*w_motor__A0_y_2 +
+        l_motor__A_x_2*w_motor__A_x_2 + l_motor__A_y_2*w_motor__A_y_2 + scale_motor_2;
+    if (!(pivot_motor_2 > 1e-13 * scale_motor_2)) return 9;
+    const double inverse_pivot_motor_2 = 1.0/pivot_motor_2;
+
+    /* forward substitution */
+    const double step_z_B0_y = -l_B0_y__B0_x_2*r_B0_x + r_B0_y;
+    const double step_z_B_x = -l_B_x__B0_x_2*r_B0_x - l_B_x__B0_y_2*step_z_B0_y + r_B_x;
+    const double step_z_B_y = -l_B_y__B0_x_2*r_B0_x - l_B_y__B0_y_2*step_z_B0_y - l_B_y__B_x_2*step_z_B_x +
+        r_B_y;
+    const double step_z_A0_y = -l_A0_y__A0_x_2*r_A0_x + r_A0_y;
+    const double step_z_A_x = -l_A_x__A0_x_2*r_A0_x - l_A_x__A0_y_2*step_z_A0_y - l_A_x__B_x_2*step_z_B_x -
+        l_A_x__B_y_2*step_z_B_y + r_A_x;
+    const double step_z_A_y = -l_A_y__A0_x_2*r_A0_x - l_A_y__A0_y_2*step_z_A0_y - l_A_y__A_x_2*step_z_A_x -
+        l_A_y__B_x_2*step_z_B_x - l_A_y__B_y_2*step_z_B_y + r_A_y;
+    const double step_z_motor = -l_motor__A0_x_2*r_A0_x - l_motor__A0_y_2*step_z_A0_y -
+        l_motor__A_x_2*step_z_A_x - l_motor__A_y_2*step_z_A_y + r_motor;
+
+    /* backward substitution */
+    const double step_lambda_motor = -inverse_pivot_motor_2*step_z_motor;
+    const double step_lambda_A_y = -inverse_pivot_A_y_2*step_z_A_y - l_motor__A_y_2*step_lambda_motor;
+    const double step_lambda_A_x = -inverse_pivot_A_x_2*step_z_A_x - l_A_y__A_x_2*step_lambda_A_y -
+        l_motor__A_x_2*step_lambda_motor;
+    const double step_lambda_A0_y = -inverse_pivot_A0_y_2*step_z_A0_y - l_A_x__A0_y_2*step_lambda_A_x -
+        l_A_y__A0_y_2*step_lambda_A_y - l_motor__A0_y_2*step_lambda_motor;
+    const double step_lambda_A0_x = -inverse_pivot_A0_x_2*r_A0_x - l_A0_y__A0_x_2*step_lambda_A0_y -
+        l_A_x__A0_x_2*step_lambda_A_x - l_A_y__A0_x_2*step_lambda_A_y - l_motor__A0_x_2*step_lambda_motor;
+    const double step_acceleration_crank_theta = -inverse_crank_inertia*step_lambda_motor -
+        l_A0_x__crank_theta_2*step_lambda_A0_x - l_A0_y__crank_theta_2*step_lambda_A0_y -
+        l_A_x__crank_theta_2*step_lambda_A_x - l_A_y__crank_theta_2*step_lambda_A_y;
+    const double step_lambda_B_y = -inverse_pivot_B_y_2*step_z_B_y - l_A_x__B_y_2*step_lambda_A_x -
+        l_A_y__B_y_2*step_lambda_A_y;
+    const double step_lambda_B_x = -inverse_pivot_B_x_2*step_z_B_x - l_A_x__B_x_2*step_lambda_A_x -
+        l_A_y__B_x_2*step_lambda_A_y - l_B_y__B_x_2*step_lambda_B_y;
+    const double step_lambda_B0_y = -inverse_pivot_B0_y_2*step_z_B0_y - l_B_x__B0_y_2*step_lambda_B_x -
+        l_B_y__B0_y_2*step_lambda_B_y;
+    const double step_lambda_B0_x = -inverse_pivot_B0_x_2*r_B0_x - l_B0_y__B0_x_2*step_lambda_B0_y -
+        l_B_x__B0_x_2*step_lambda_B_x - l_B_y__B0_x_2*step_lambda_B_y;
+    const double step_acceleration_rocker_theta = -l_B0_x__rocker_theta_2*step_lambda_B0_x -
+        l_B0_y__rocker_theta_2*step_lambda_B0_y - l_B_x__rocker_theta_2*step_lambda_B_x -
+        l_B_y__rocker_theta_2*step_lambda_B_y;
+    const double step_acceleration_coupler_theta = -l_A_x__coupler_theta_2*step_lambda_A_x -
+        l_A_y__coupler_theta_2*step_lambda_A_y - l_B_x__coupler_theta_2*step_lambda_B_x -
+        l_B_y__coupler_theta_2*step_lambda_B_y;
+    const double step_acceleration_rocker_y = inverse_rocker_mass*step_lambda_B0_y +
+        inverse_rocker_mass*step_lambda_B_y;
+    const double step_acceleration_rocker_x = inverse_rocker_mass*step_lambda_B0_x +
+        inverse_rocker_mass*step_lambda_B_x;
+    const double step_acceleration_coupler_y = inverse_coupler_mass*step_lambda_A_y -
+        inverse_coupler_mass*step_lambda_B_y;
+    const double step_acceleration_coupler_x = inverse_coupler_mass*step_lambda_A_x -
+        inverse_coupler_mass*step_lambda_B_x;
+    const double step_acceleration_crank_y = inverse_crank_mass*step_lambda_A0_y -
+        inverse_crank_mass*step_lambda_A_y;
+    const double step_acceleration_crank_x = inverse_crank_mass*step_lambda_A0_x -
+        inverse_crank_mass*step_lambda_A_x;
+
+    /* results */
+    x[0] = step_acceleration_crank_x;
+    x[1] = step_acceleration_crank_y;
+    x[2] = step_acceleration_crank_theta;
+    x[3] = step_acceleration_coupler_x;
+    x[4] = step_acceleration_coupler_y;
+    x[5] = step_acceleration_coupler_theta;
+    x[6] = step_acceleration_rocker_x;
+    x[7] = step_acceleration_rocker_y;
+    x[8] = step_acceleration_rocker_theta;
+    return 0;
+}
+

@@ -1,0 +1,296 @@
+/*
+ * Accelerations a (n) and multipliers in `aside` at a state:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int dynamics(const double t, const double *q, const double *v, const Parameters *p, double *a, Aside
+    *aside)
+{
+    /* coordinates, velocities, time */
+    const double crank_x = q[0];
+    const double crank_y = q[1];
+    const double crank_theta = q[2];
+    const double crank_vx = v[0];
+    const double crank_vy = v[1];
+    const double crank_omega = v[2];
+    const double coupler_x = q[3];
+    const double coupler_y = q[4];
+    const double coupler_theta = q[5];
+    const double coupler_vx = v[3];
+    const double coupler_vy = v[4];
+    const double coupler_omega = v[5];
+    const double rocker_x = q[6];
+    const double rocker_y = q[7];
+    const double rocker_theta = q[8];
+    const double rocker_vx = v[6];
+    const double rocker_vy = v[7];
+    const double rocker_omega = v[8];
+    const double time = t;
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_origin_x = p->crank_origin_x;
+    const double coupler_origin_x = p->coupler_origin_x;
+    const double rocker_origin_x = p->rocker_origin_x;
+    const double B0_x = p->B0_x;
+    const double inverse_crank_mass = p->inverse_crank_mass;
+    const double inverse_crank_inertia = p->inverse_crank_inertia;
+    const double inverse_coupler_mass = p->inverse_coupler_mass;
+    const double inverse_coupler_inertia = p->inverse_coupler_inertia;
+    const double inverse_rocker_mass = p->inverse_rocker_mass;
+    const double inverse_rocker_inertia = p->inverse_rocker_inertia;
+    const double weight_crank_y = p->weight_crank_y;
+    const double weight_coupler_y = p->weight_coupler_y;
+    const double weight_rocker_y = p->weight_rocker_y;
+    const double two_alpha = p->two_alpha;
+    const double beta_squared = p->beta_squared;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
+    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double cos_theta_coupler = cos(coupler_theta);
+    const double sin_theta_coupler = sin(coupler_theta);
+    const double arm_coupler_tail_x = cos_theta_coupler*coupler_origin_x;
+    const double arm_coupler_tail_y = coupler_origin_x*sin_theta_coupler;
+    const double cos_theta_rocker = cos(rocker_theta);
+    const double sin_theta_rocker = sin(rocker_theta);
+    const double arm_rocker_head_x = -cos_theta_rocker*rocker_origin_x;
+    const double arm_rocker_head_y = -rocker_origin_x*sin_theta_rocker;
+    const double motor_value = omega*time + 1.5707963267948966;
+    const double motor_rate = omega;
+    const double motor_acceleration = 0.0;
+
+    /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
+    const double phi_A0_x = -arm_crank_tail_x - crank_x;
+    const double phi_dot_A0_x = arm_crank_tail_y*crank_omega - crank_vx;
+    const double rhs_A0_x = -arm_crank_tail_x*(crank_omega * crank_omega) - beta_squared*phi_A0_x -
+        phi_dot_A0_x*two_alpha;
+    aside->phi[0] = phi_A0_x;
+    aside->phi_dot[0] = phi_dot_A0_x;
+    const double phi_A0_y = -arm_crank_tail_y - crank_y;
+    const double phi_dot_A0_y = -arm_crank_tail_x*crank_omega - crank_vy;
+    const double rhs_A0_y = -arm_crank_tail_y*(crank_omega * crank_omega) - beta_squared*phi_A0_y -
+        phi_dot_A0_y*two_alpha;
+    aside->phi[1] = phi_A0_y;
+    aside->phi_dot[1] = phi_dot_A0_y;
+    const double phi_A_x = -arm_coupler_tail_x - arm_crank_tail_x - coupler_x + crank_x;
+    const double phi_dot_A_x = arm_coupler_tail_y*coupler_omega + arm_crank_tail_y*crank_omega - coupler_vx +
+        crank_vx;
+    const double rhs_A_x = -arm_coupler_tail_x*(coupler_omega * coupler_omega) - arm_crank_tail_x*(crank_omega
+        * crank_omega) - beta_squared*phi_A_x - phi_dot_A_x*two_alpha;
+    aside->phi[2] = phi_A_x;
+    aside->phi_dot[2] = phi_dot_A_x;
+    const double phi_A_y = -arm_coupler_tail_y - arm_crank_tail_y - coupler_y + crank_y;
+    const double phi_dot_A_y = -arm_coupler_tail_x*coupler_omega - arm_crank_tail_x*crank_omega - coupler_vy +
+        crank_vy;
+    const double rhs_A_y = -arm_coupler_tail_y*(coupler_omega * coupler_omega) - arm_crank_tail_y*(crank_omega
+        * crank_omega) - beta_squared*phi_A_y - phi_dot_A_y*two_alpha;
+    aside->phi[3] = phi_A_y;
+    aside->phi_dot[3] = phi_dot_A_y;
+    const double phi_B_x = -arm_coupler_tail_x - arm_rocker_head_x + coupler_x - rocker_x;
+    const double phi_dot_B_x = arm_coupler_tail_y*coupler_omega + arm_rocker_head_y*rocker_omega + coupler_vx
+        - rocker_vx;
+    const double rhs_B_x = -arm_coupler_tail_x*(coupler_omega * coupler_omega) -
+        arm_rocker_head_x*(rocker_omega * rocker_omega) - beta_squared*phi_B_x - phi_dot_B_x*two_alpha;
+    aside->phi[4] = phi_B_x;
+    aside->phi_dot[4] = phi_dot_B_x;
+    const double phi_B_y = -arm_coupler_tail_y - arm_rocker_head_y + coupler_y - rocker_y;
+    const double phi_dot_B_y = -arm_coupler_tail_x*coupler_omega - arm_rocker_head_x*rocker_omega + coupler_vy
+        - rocker_vy;
+    const double rhs_B_y = -arm_coupler_tail_y*(coupler_omega * coupler_omega) -
+        arm_rocker_head_y*(rocker_omega * rocker_omega) - beta_squared*phi_B_y - phi_dot_B_y*two_alpha;
+    aside->phi[5] = phi_B_y;
+    aside->phi_dot[5] = phi_dot_B_y;
+    const double phi_B0_x = B0_x + arm_rocker_head_x - rocker_x;
+    const double phi_dot_B0_x = -arm_rocker_head_y*rocker_omega - rocker_vx;
+    const double rhs_B0_x = arm_rocker_head_x*(rocker_omega * rocker_omega) - beta_squared*phi_B0_x -
+        phi_dot_B0_x*two_alpha;
+    aside->phi[6] = phi_B0_x;
+    aside->phi_dot[6] = phi_dot_B0_x;
+    const double phi_B0_y = arm_rocker_head_y - rocker_y;
+    const double phi_dot_B0_y = arm_rocker_head_x*rocker_omega - rocker_vy;
+    const double rhs_B0_y = arm_rocker_head_y*(rocker_omega * rocker_omega) - beta_squared*phi_B0_y -
+        phi_dot_B0_y*two_alpha;
+    aside->phi[7] = phi_B0_y;
+    aside->phi_dot[7] = phi_dot_B0_y;
+    const double phi_motor = crank_theta - motor_value;
+    const double phi_dot_motor = crank_omega - motor_rate;
+    const double rhs_motor = -beta_squared*phi_motor + motor_acceleration - phi_dot_motor*two_alpha;
+    aside->phi[8] = phi_motor;
+    aside->phi_dot[8] = phi_dot_motor;
+
+    /* L D L^T of the KKT matrix */
+    const double l_B_x__coupler_theta = arm_coupler_tail_y*inverse_coupler_inertia;
+    const double l_B_y__coupler_theta = -arm_coupler_tail_x*inverse_coupler_inertia;
+    const double l_A_x__coupler_theta = arm_coupler_tail_y*inverse_coupler_inertia;
+    const double l_A_y__coupler_theta = -arm_coupler_tail_x*inverse_coupler_inertia;
+    const double l_B0_x__rocker_theta = -arm_rocker_head_y*inverse_rocker_inertia;
+    const double l_B0_y__rocker_theta = arm_rocker_head_x*inverse_rocker_inertia;
+    const double l_B_x__rocker_theta = arm_rocker_head_y*inverse_rocker_inertia;
+    const double l_B_y__rocker_theta = -arm_rocker_head_x*inverse_rocker_inertia;
+    const double scale_B0_x = -arm_rocker_head_y*l_B0_x__rocker_theta + inverse_rocker_mass;
+    if (!(scale_B0_x > 1e-13 * scale_B0_x)) return 1;
+    const double inverse_pivot_B0_x = 1.0/scale_B0_x;
+    const double w_B0_y__B0_x = arm_rocker_head_y*l_B0_y__rocker_theta;
+    const double l_B0_y__B0_x = -inverse_pivot_B0_x*w_B0_y__B0_x;
+    const double w_B_x__B0_x = arm_rocker_head_y*l_B_x__rocker_theta - inverse_rocker_mass;
+    const double l_B_x__B0_x = -inverse_pivot_B0_x*w_B_x__B0_x;
+    const double w_B_y__B0_x = arm_rocker_head_y*l_B_y__rocker_theta;
+    const double l_B_y__B0_x = -inverse_pivot_B0_x*w_B_y__B0_x;
+    const double scale_B0_y = arm_rocker_head_x*l_B0_y__rocker_theta + inverse_rocker_mass;
+    const double pivot_B0_y = l_B0_y__B0_x*w_B0_y__B0_x + scale_B0_y;
+    if (!(pivot_B0_y > 1e-13 * scale_B0_y)) return 2;
+    const double inverse_pivot_B0_y = 1.0/pivot_B0_y;
+    const double w_B_x__B0_y = -arm_rocker_head_x*l_B_x__rocker_theta - l_B_x__B0_x*w_B0_y__B0_x;
+    const double l_B_x__B0_y = -inverse_pivot_B0_y*w_B_x__B0_y;
+    const double w_B_y__B0_y = -arm_rocker_head_x*l_B_y__rocker_theta - inverse_rocker_mass -
+        l_B_y__B0_x*w_B0_y__B0_x;
+    const double l_B_y__B0_y = -inverse_pivot_B0_y*w_B_y__B0_y;
+    const double scale_B_x = arm_coupler_tail_y*l_B_x__coupler_theta + arm_rocker_head_y*l_B_x__rocker_theta +
+        inverse_coupler_mass + inverse_rocker_mass;
+    const double pivot_B_x = l_B_x__B0_x*w_B_x__B0_x + l_B_x__B0_y*w_B_x__B0_y + scale_B_x;
+    if (!(pivot_B_x > 1e-13 * scale_B_x)) return 3;
+    const double inverse_pivot_B_x = 1.0/pivot_B_x;
+    const double w_B_y__B_x = -arm_coupler_tail_y*l_B_y__coupler_theta - arm_rocker_head_y*l_B_y__rocker_theta
+        - l_B_y__B0_x*w_B_x__B0_x - l_B_y__B0_y*w_B_x__B0_y;
+    const double l_B_y__B_x = -inverse_pivot_B_x*w_B_y__B_x;
+    const double w_A_x__B_x = -arm_coupler_tail_y*l_A_x__coupler_theta + inverse_coupler_mass;
+    const double l_A_x__B_x = -inverse_pivot_B_x*w_A_x__B_x;
+    const double w_A_y__B_x = -arm_coupler_tail_y*l_A_y__coupler_theta;
+    const double l_A_y__B_x = -inverse_pivot_B_x*w_A_y__B_x;
+    const double scale_B_y = -arm_coupler_tail_x*l_B_y__coupler_theta - arm_rocker_head_x*l_B_y__rocker_theta
+        + inverse_coupler_mass + inverse_rocker_mass;
+    const double pivot_B_y = l_B_y__B0_x*w_B_y__B0_x + l_B_y__B0_y*w_B_y__B0_y + l_B_y__B_x*w_B_y__B_x +
+        scale_B_y;
+    if (!(pivot_B_y > 1e-13 * scale_B_y)) return 4;
+    const double inverse_pivot_B_y = 1.0/pivot_B_y;
+    const double w_A_x__B_y = arm_coupler_tail_x*l_A_x__coupler_theta - l_A_x__B_x*w_B_y__B_x;
+    const double l_A_x__B_y = -inverse_pivot_B_y*w_A_x__B_y;
+    const double w_A_y__B_y = arm_coupler_tail_x*l_A_y__coupler_theta + inverse_coupler_mass -
+        l_A_y__B_x*w_B_y__B_x;
+    const double l_A_y__B_y = -inverse_pivot_B_y*w_A_y__B_y;
+    const double l_A0_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
+    const double l_A0_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
+    const double l_A_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
+    const double l_A_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
+    const double scale_A0_x = arm_crank_tail_y*l_A0_x__crank_theta + inverse_crank_mass;
+    if (!(scale_A0_x > 1e-13 * scale_A0_x)) return 5;
+    const double inverse_pivot_A0_x = 1.0/scale_A0_x;
+    const double w_A0_y__A0_x = -arm_crank_tail_y*l_A0_y__crank_theta;
+    const double l_A0_y__A0_x = -inverse_pivot_A0_x*w_A0_y__A0_x;
+    const double w_A_x__A0_x = -arm_crank_tail_y*l_A_x__crank_theta + inverse_crank_mass;
+    const double l_A_x__A0_x = -inverse_pivot_A0_x*w_A_x__A0_x;
+    const double w_A_y__A0_x = -arm_crank_tail_y*l_A_y__crank_theta;
+    const double l_A_y__A0_x = -inverse_pivot_A0_x*w_A_y__A0_x;
+    const double w_motor__A0_x = -arm_crank_tail_y*inverse_crank_inertia;
+    const double l_motor__A0_x = -inverse_pivot_A0_x*w_motor__A0_x;
+    const double scale_A0_y = -arm_crank_tail_x*l_A0_y__crank_theta + inverse_crank_mass;
+    const double pivot_A0_y = l_A0_y__A0_x*w_A0_y__A0_x + scale_A0_y;
+    if (!(pivot_A0_y > 1e-13 * scale_A0_y)) return 6;
+    const double inverse_pivot_A0_y = 1.0/pivot_A0_y;
+    const double w_A_x__A0_y = arm_crank_tail_x*l_A_x__crank_theta - l_A_x__A0_x*w_A0_y__A0_x;
+    const double l_A_x__A0_y = -inverse_pivot_A0_y*w_A_x__A0_y;
+    const double w_A_y__A0_y = arm_crank_tail_x*l_A_y__crank_theta + inverse_crank_mass -
+        l_A_y__A0_x*w_A0_y__A0_x;
+    const double l_A_y__A0_y = -inverse_pivot_A0_y*w_A_y__A0_y;
+    const double w_motor__A0_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__A0_x*w_A0_y__A0_x;
+    const double l_motor__A0_y = -inverse_pivot_A0_y*w_motor__A0_y;
+    const double scale_A_x = arm_coupler_tail_y*l_A_x__coupler_theta + arm_crank_tail_y*l_A_x__crank_theta +
+        inverse_coupler_mass + inverse_crank_mass;
+    const double pivot_A_x = l_A_x__A0_x*w_A_x__A0_x + l_A_x__A0_y*w_A_x__A0_y + l_A_x__B_x*w_A_x__B_x +
+        l_A_x__B_y*w_A_x__B_y + scale_A_x;
+    if (!(pivot_A_x > 1e-13 * scale_A_x)) return 7;
+    const double inverse_pivot_A_x = 1.0/pivot_A_x;
+    const double w_A_y__A_x = -arm_coupler_tail_y*l_A_y__coupler_theta - arm_crank_tail_y*l_A_y__crank_theta -
+        l_A_y__A0_x*w_A_x__A0_x - l_A_y__A0_y*w_A_x__A0_y - l_A_y__B_x*w_A_x__B_x - l_A_y__B_y*w_A_x__B_y;
+    const double l_A_y__A_x = -inverse_pivot_A_x*w_A_y__A_x;
+    const double w_motor__A_x = -arm_crank_tail_y*inverse_crank_inertia - l_motor__A0_x*w_A_x__A0_x -
+        l_motor__A0_y*w_A_x__A0_y;
+    const double l_motor__A_x = -inverse_pivot_A_x*w_motor__A_x;
+    const double scale_A_y = -arm_coupler_tail_x*l_A_y__coupler_theta - arm_crank_tail_x*l_A_y__crank_theta +
+        inverse_coupler_mass + inverse_crank_mass;
+    const double pivot_A_y = l_A_y__A0_x*w_A_y__A0_x + l_A_y__A0_y*w_A_y__A0_y + l_A_y__A_x*w_A_y__A_x +
+        l_A_y__B_x*w_A_y__B_x + l_A_y__B_y*w_A_y__B_y + scale_A_y;
+    if (!(pivot_A_y > 1e-13 * scale_A_y)) return 8;
+    const double inverse_pivot_A_y = 1.0/pivot_A_y;
+    const double w_motor__A_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__A0_x*w_A_y__A0_x -
+        l_motor__A0_y*w_A_y__A0_y - l_motor__A_x*w_A_y__A_x;
+    const double l_motor__A_y = -inverse_pivot_A_y*w_motor__A_y;
+    const double scale_motor = inverse_crank_inertia;
+    const double pivot_motor = l_motor__A0_x*w_motor__A0_x + l_motor__A0_y*w_motor__A0_y +
+        l_motor__A_x*w_motor__A_x + l_motor__A_y*w_motor__A_y + scale_motor;
+    if (!(pivot_motor > 1e-13 * scale_motor)) return 9;
+    const double inverse_pivot_motor = 1.0/pivot_motor;
+
+    /* forward substitution */
+    const double z_B0_y = inverse_rocker_mass*weight_rocker_y - l_B0_y__B0_x*rhs_B0_x + rhs_B0_y;
+    const double z_B_x = -l_B_x__B0_x*rhs_B0_x - l_B_x__B0_y*z_B0_y + rhs_B_x;
+    const double z_B_y = -inverse_coupler_mass*weight_coupler_y + inverse_rocker_mass*weight_rocker_y -
+        l_B_y__B0_x*rhs_B0_x - l_B_y__B0_y*z_B0_y - l_B_y__B_x*z_B_x + rhs_B_y;
+    const double z_A0_y = inverse_crank_mass*weight_crank_y - l_A0_y__A0_x*rhs_A0_x + rhs_A0_y;
+    const double z_A_x = -l_A_x__A0_x*rhs_A0_x - l_A_x__A0_y*z_A0_y - l_A_x__B_x*z_B_x - l_A_x__B_y*z_B_y +
+        rhs_A_x;
+    const double z_A_y = inverse_coupler_mass*weight_coupler_y - inverse_crank_mass*weight_crank_y -
+        l_A_y__A0_x*rhs_A0_x - l_A_y__A0_y*z_A0_y - l_A_y__A_x*z_A_x - l_A_y__B_x*z_B_x - l_A_y__B_y*z_B_y +
+        rhs_A_y;
+    const double z_motor = -l_motor__A0_x*rhs_A0_x - l_motor__A0_y*z_A0_y - l_motor__A_x*z_A_x -
+        l_motor__A_y*z_A_y + rhs_motor;
+
+    /* backward substitution */
+    const double lambda_motor = -inverse_pivot_motor*z_motor;
+    const double lambda_A_y = -inverse_pivot_A_y*z_A_y - l_motor__A_y*lambda_motor;
+    const double lambda_A_x = -inverse_pivot_A_x*z_A_x - l_A_y__A_x*lambda_A_y - l_motor__A_x*lambda_motor;
+    const double lambda_A0_y = -inverse_pivot_A0_y*z_A0_y - l_A_x__A0_y*lambda_A_x - l_A_y__A0_y*lambda_A_y -
+        l_motor__A0_y*lambda_motor;
+    const double lambda_A0_x = -inverse_pivot_A0_x*rhs_A0_x - l_A0_y__A0_x*lambda_A0_y -
+        l_A_x__A0_x*lambda_A_x - l_A_y__A0_x*lambda_A_y - l_motor__A0_x*lambda_motor;
+    const double acceleration_crank_theta = -inverse_crank_inertia*lambda_motor -
+        l_A0_x__crank_theta*lambda_A0_x - l_A0_y__crank_theta*lambda_A0_y - l_A_x__crank_theta*lambda_A_x -
+        l_A_y__crank_theta*lambda_A_y;
+    const double lambda_B_y = -inverse_pivot_B_y*z_B_y - l_A_x__B_y*lambda_A_x - l_A_y__B_y*lambda_A_y;
+    const double lambda_B_x = -inverse_pivot_B_x*z_B_x - l_A_x__B_x*lambda_A_x - l_A_y__B_x*lambda_A_y -
+        l_B_y__B_x*lambda_B_y;
+    const double lambda_B0_y = -inverse_pivot_B0_y*z_B0_y - l_B_x__B0_y*lambda_B_x - l_B_y__B0_y*lambda_B_y;
+    const double lambda_B0_x = -inverse_pivot_B0_x*rhs_B0_x - l_B0_y__B0_x*lambda_B0_y -
+        l_B_x__B0_x*lambda_B_x - l_B_y__B0_x*lambda_B_y;
+    const double acceleration_rocker_theta = -l_B0_x__rocker_theta*lambda_B0_x -
+        l_B0_y__rocker_theta*lambda_B0_y - l_B_x__rocker_theta*lambda_B_x - l_B_y__rocker_theta*lambda_B_y;
+    const double acceleration_coupler_theta = -l_A_x__coupler_theta*lambda_A_x -
+        l_A_y__coupler_theta*lambda_A_y - l_B_x__coupler_theta*lambda_B_x - l_B_y__coupler_theta*lambda_B_y;
+    const double acceleration_rocker_y = inverse_rocker_mass*lambda_B0_y + inverse_rocker_mass*lambda_B_y +
+        inverse_rocker_mass*weight_rocker_y;
+    const double acceleration_rocker_x = inverse_rocker_mass*lambda_B0_x + inverse_rocker_mass*lambda_B_x;
+    const double acceleration_coupler_y = inverse_coupler_mass*lambda_A_y - inverse_coupler_mass*lambda_B_y +
+        inverse_coupler_mass*weight_coupler_y;
+    const double acceleration_coupler_x = inverse_coupler_mass*lambda_A_x - inverse_coupler_mass*lambda_B_x;
+    const double acceleration_crank_y = inverse_crank_mass*lambda_A0_y - inverse_crank_mass*lambda_A_y +
+        inverse_crank_mass*weight_crank_y;
+    const double acceleration_crank_x = inverse_crank_mass*lambda_A0_x - inverse_crank_mass*lambda_A_x;
+
+    /* results */
+    a[0] = acceleration_crank_x;
+    a[1] = acceleration_crank_y;
+    a[2] = acceleration_crank_theta;
+    a[3] = acceleration_coupler_x;
+    a[4] = acceleration_coupler_y;
+    a[5] = acceleration_coupler_theta;
+    a[6] = acceleration_rocker_x;
+    a[7] = acceleration_rocker_y;
+    a[8] = acceleration_rocker_theta;
+    aside->lambda[0] = lambda_A0_x;
+    aside->lambda[1] = lambda_A0_y;
+    aside->lambda[2] = lambda_A_x;
+    aside->lambda[3] = lambda_A_y;
+    aside->lambda[4] = lambda_B_x;
+    aside->lambda[5] = lambda_B_y;
+    aside->lambda[6] = lambda_B0_x;
+    aside->lambda[7] = lambda_B0_y;
+    aside->lambda[8] = lambda_motor;
+    aside->power[0] = -lambda_motor*motor_rate;
+    aside->power[1] = 0.0;
+    aside->power[2] = 0.0;
+    return 0;
+}
+

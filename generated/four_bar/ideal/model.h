@@ -1,0 +1,51 @@
+/*
+ * four-bar linkage, a crank-rocker
+ * mechanism four_bar, scene ideal, from the YAML with sha256 890fe941776a3a447d1bb36d2608867a0f47f9f4874406a96206722550bb1476
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <math.h>
+#include <stddef.h>
+
+enum {
+    N_Q = 9,                 /* coordinates */
+    N_ROWS = 9,              /* constraint rows of the motion */
+    N_ALL_ROWS = 9,          /* rows of the closed linkage */
+    N_JOINTS = 4,            /* joints without play */
+    N_DRIVES = 1,
+    N_CLEARANCES = 0,        /* joints with play */
+    N_SERIES = 0,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_Y = 2 * N_Q + N_WORK
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double omega;  /* parameters.omega */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double coupler_mass;  /* bodies.coupler.mass */    double coupler_inertia;  /* bodies.coupler.inertia */    double rocker_mass;  /* bodies.rocker.mass */    double rocker_inertia;  /* bodies.rocker.inertia */    double crank_length;  /* bodies.crank.length */    double coupler_length;  /* bodies.coupler.length */    double coupler_points_tracer_x;  /* bodies.coupler.points.tracer.x */    double coupler_points_tracer_y;  /* bodies.coupler.points.tracer.y */    double rocker_length;  /* bodies.rocker.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double B0_x;  /* ground.B0.x */    double par_y;  /* gravity.y */    double guess_coupler_theta;  /* start.guess.coupler.theta */    double guess_rocker_theta;  /* start.guess.rocker.theta */    double crank_origin_x;  /* point from the centre of mass */    double coupler_origin_x;  /* point from the centre of mass */    double coupler_tracer_x;  /* point from the centre of mass */    double rocker_origin_x;  /* point from the centre of mass */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_coupler_mass;  /* 1/M */    double inverse_coupler_inertia;  /* 1/M */    double inverse_rocker_mass;  /* 1/M */    double inverse_rocker_inertia;  /* 1/M */    double weight_crank_y;  /* weight */    double weight_coupler_y;  /* weight */    double weight_rocker_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[9];
+    double phi[9], phi_dot[9];
+    double power[N_WORK];
+    Clearance clearance[1];
+} Aside;
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }

@@ -1,0 +1,51 @@
+/*
+ * N-four-bar, N = 2 (IFToMM A02)
+ * mechanism n_four_bar, scene ideal, from the YAML with sha256 826c2d3a5019b84151898efe2e6ef086f55ee2834af23be8d7d765ceed490e94
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <math.h>
+#include <stddef.h>
+
+enum {
+    N_Q = 15,                 /* coordinates */
+    N_ROWS = 14,              /* constraint rows of the motion */
+    N_ALL_ROWS = 14,          /* rows of the closed linkage */
+    N_JOINTS = 7,            /* joints without play */
+    N_DRIVES = 0,
+    N_CLEARANCES = 0,        /* joints with play */
+    N_SERIES = 0,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_Y = 2 * N_Q + N_WORK
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double length;  /* parameters.length */    double mass;  /* parameters.mass */    double inertia;  /* parameters.inertia */    double crank0_mass;  /* bodies.crank0.mass */    double crank0_inertia;  /* bodies.crank0.inertia */    double crank1_mass;  /* bodies.crank1.mass */    double crank1_inertia;  /* bodies.crank1.inertia */    double crank2_mass;  /* bodies.crank2.mass */    double crank2_inertia;  /* bodies.crank2.inertia */    double coupler1_mass;  /* bodies.coupler1.mass */    double coupler1_inertia;  /* bodies.coupler1.inertia */    double coupler2_mass;  /* bodies.coupler2.mass */    double coupler2_inertia;  /* bodies.coupler2.inertia */    double crank0_length;  /* bodies.crank0.length */    double crank1_length;  /* bodies.crank1.length */    double crank2_length;  /* bodies.crank2.length */    double coupler1_length;  /* bodies.coupler1.length */    double coupler2_length;  /* bodies.coupler2.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O1_x;  /* ground.O1.x */    double O2_x;  /* ground.O2.x */    double par_y;  /* gravity.y */    double guess_crank1_theta;  /* start.guess.crank1.theta */    double guess_crank2_theta;  /* start.guess.crank2.theta */    double set_crank0_theta;  /* start.set.crank0.theta */    double rates_crank0_omega;  /* start.rates.crank0.omega */    double crank0_origin_x;  /* point from the centre of mass */    double crank1_origin_x;  /* point from the centre of mass */    double crank2_origin_x;  /* point from the centre of mass */    double coupler1_origin_x;  /* point from the centre of mass */    double coupler2_origin_x;  /* point from the centre of mass */    double inverse_crank0_mass;  /* 1/M */    double inverse_crank0_inertia;  /* 1/M */    double inverse_crank1_mass;  /* 1/M */    double inverse_crank1_inertia;  /* 1/M */    double inverse_crank2_mass;  /* 1/M */    double inverse_crank2_inertia;  /* 1/M */    double inverse_coupler1_mass;  /* 1/M */    double inverse_coupler1_inertia;  /* 1/M */    double inverse_coupler2_mass;  /* 1/M */    double inverse_coupler2_inertia;  /* 1/M */    double weight_crank0_y;  /* weight */    double weight_crank1_y;  /* weight */    double weight_crank2_y;  /* weight */    double weight_coupler1_y;  /* weight */    double weight_coupler2_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[14];
+    double phi[14], phi_dot[14];
+    double power[N_WORK];
+    Clearance clearance[1];
+} Aside;
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }

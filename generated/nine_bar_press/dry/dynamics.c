@@ -1,0 +1,673 @@
+/*
+ * Accelerations a (n) and multipliers in `aside` at a state:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int dynamics(const double t, const double *q, const double *v, const Latch *latch, const Parameters *p,
+    double *a, Aside *aside)
+{
+    /* coordinates, velocities, time */
+    const double L1_x = q[0];
+    const double L1_y = q[1];
+    const double L1_theta = q[2];
+    const double L1_vx = v[0];
+    const double L1_vy = v[1];
+    const double L1_omega = v[2];
+    const double L2_x = q[3];
+    const double L2_y = q[4];
+    const double L2_theta = q[5];
+    const double L2_vx = v[3];
+    const double L2_vy = v[4];
+    const double L2_omega = v[5];
+    const double L3_x = q[6];
+    const double L3_y = q[7];
+    const double L3_theta = q[8];
+    const double L3_vx = v[6];
+    const double L3_vy = v[7];
+    const double L3_omega = v[8];
+    const double L4_x = q[9];
+    const double L4_y = q[10];
+    const double L4_theta = q[11];
+    const double L4_vx = v[9];
+    const double L4_vy = v[10];
+    const double L4_omega = v[11];
+    const double L6_x = q[12];
+    const double L6_y = q[13];
+    const double L6_theta = q[14];
+    const double L6_vx = v[12];
+    const double L6_vy = v[13];
+    const double L6_omega = v[14];
+    const double L7_x = q[15];
+    const double L7_y = q[16];
+    const double L7_theta = q[17];
+    const double L7_vx = v[15];
+    const double L7_vy = v[16];
+    const double L7_omega = v[17];
+    const double L8_x = q[18];
+    const double L8_y = q[19];
+    const double L8_theta = q[20];
+    const double L8_vx = v[18];
+    const double L8_vy = v[19];
+    const double L8_omega = v[20];
+    const double S9_x = q[21];
+    const double S9_y = q[22];
+    const double S9_theta = q[23];
+    const double S9_vx = v[21];
+    const double S9_vy = v[22];
+    const double S9_omega = v[23];
+    const double time = t;
+
+    /* parameters */
+    const double omega = p->omega;
+    const double omega4 = p->omega4;
+    const double L1_origin_x = p->L1_origin_x;
+    const double L2_origin_x = p->L2_origin_x;
+    const double L3_origin_x = p->L3_origin_x;
+    const double L4_origin_x = p->L4_origin_x;
+    const double L6_origin_x = p->L6_origin_x;
+    const double L7_origin_x = p->L7_origin_x;
+    const double L8_origin_x = p->L8_origin_x;
+    const double O4_y = p->O4_y;
+    const double O6_x = p->O6_x;
+    const double inverse_L1_mass = p->inverse_L1_mass;
+    const double inverse_L1_inertia = p->inverse_L1_inertia;
+    const double inverse_L2_mass = p->inverse_L2_mass;
+    const double inverse_L2_inertia = p->inverse_L2_inertia;
+    const double inverse_L3_mass = p->inverse_L3_mass;
+    const double inverse_L3_inertia = p->inverse_L3_inertia;
+    const double inverse_L4_mass = p->inverse_L4_mass;
+    const double inverse_L4_inertia = p->inverse_L4_inertia;
+    const double inverse_L6_mass = p->inverse_L6_mass;
+    const double inverse_L6_inertia = p->inverse_L6_inertia;
+    const double inverse_L7_mass = p->inverse_L7_mass;
+    const double inverse_L7_inertia = p->inverse_L7_inertia;
+    const double inverse_L8_mass = p->inverse_L8_mass;
+    const double inverse_L8_inertia = p->inverse_L8_inertia;
+    const double inverse_S9_mass = p->inverse_S9_mass;
+    const double inverse_S9_inertia = p->inverse_S9_inertia;
+    const double weight_L1_y = p->weight_L1_y;
+    const double weight_L2_y = p->weight_L2_y;
+    const double weight_L3_y = p->weight_L3_y;
+    const double weight_L4_y = p->weight_L4_y;
+    const double weight_L6_y = p->weight_L6_y;
+    const double weight_L7_y = p->weight_L7_y;
+    const double weight_L8_y = p->weight_L8_y;
+    const double weight_S9_y = p->weight_S9_y;
+    const double two_alpha = p->two_alpha;
+    const double beta_squared = p->beta_squared;
+
+    /* directions, arms, drives */
+    const double cos_theta_L1 = cos(L1_theta);
+    const double sin_theta_L1 = sin(L1_theta);
+    const double arm_L1_tail_x = L1_origin_x*cos_theta_L1;
+    const double arm_L1_tail_y = L1_origin_x*sin_theta_L1;
+    const double cos_theta_L4 = cos(L4_theta);
+    const double sin_theta_L4 = sin(L4_theta);
+    const double arm_L4_tail_x = L4_origin_x*cos_theta_L4;
+    const double arm_L4_tail_y = L4_origin_x*sin_theta_L4;
+    const double cos_theta_L2 = cos(L2_theta);
+    const double sin_theta_L2 = sin(L2_theta);
+    const double arm_L2_tail_x = L2_origin_x*cos_theta_L2;
+    const double arm_L2_tail_y = L2_origin_x*sin_theta_L2;
+    const double cos_theta_L3 = cos(L3_theta);
+    const double sin_theta_L3 = sin(L3_theta);
+    const double arm_L3_tail_x = L3_origin_x*cos_theta_L3;
+    const double arm_L3_tail_y = L3_origin_x*sin_theta_L3;
+    const double cos_theta_L7 = cos(L7_theta);
+    const double sin_theta_L7 = sin(L7_theta);
+    const double arm_L7_tail_x = L7_origin_x*cos_theta_L7;
+    const double arm_L7_tail_y = L7_origin_x*sin_theta_L7;
+    const double cos_theta_L6 = cos(L6_theta);
+    const double sin_theta_L6 = sin(L6_theta);
+    const double arm_L6_head_x = -L6_origin_x*cos_theta_L6;
+    const double arm_L6_head_y = -L6_origin_x*sin_theta_L6;
+    const double cos_theta_L8 = cos(L8_theta);
+    const double sin_theta_L8 = sin(L8_theta);
+    const double arm_L8_tail_x = L8_origin_x*cos_theta_L8;
+    const double arm_L8_tail_y = L8_origin_x*sin_theta_L8;
+    const double crank1_value = omega*time - 0.689754120388159;
+    const double crank1_rate = omega;
+    const double crank1_acceleration = 0.0;
+    const double crank4_value = omega4*time + 3.4814082589530893;
+    const double crank4_rate = omega4;
+    const double crank4_acceleration = 0.0;
+
+    /* clearance joint A */
+    const double e_A_x = -L1_x + L2_x + arm_L1_tail_x + arm_L2_tail_x;
+    const double e_A_y = -L1_y + L2_y + arm_L1_tail_y + arm_L2_tail_y;
+    const double edot_A_x = -L1_omega*arm_L1_tail_y - L1_vx - L2_omega*arm_L2_tail_y + L2_vx;
+    const double edot_A_y = L1_omega*arm_L1_tail_x - L1_vy + L2_omega*arm_L2_tail_x + L2_vy;
+    clearance_A(e_A_x, e_A_y, edot_A_x, edot_A_y, L1_omega, L2_omega, &latch[0], p, &aside->clearance[0]);
+    const double F_A_x = aside->clearance[0].Fx;
+    const double F_A_y = aside->clearance[0].Fy;
+    const double M_A_first = aside->clearance[0].moment_first;
+    const double M_A_second = aside->clearance[0].moment_second;
+    aside->clearance[0].power = F_A_x*edot_A_x + F_A_y*edot_A_y + L1_omega*M_A_first + L2_omega*M_A_second;
+
+    /* clearance joint B */
+    const double e_B_x = L3_x - L4_x + arm_L3_tail_x + arm_L4_tail_x;
+    const double e_B_y = L3_y - L4_y + arm_L3_tail_y + arm_L4_tail_y;
+    const double edot_B_x = -L3_omega*arm_L3_tail_y + L3_vx - L4_omega*arm_L4_tail_y - L4_vx;
+    const double edot_B_y = L3_omega*arm_L3_tail_x + L3_vy + L4_omega*arm_L4_tail_x - L4_vy;
+    clearance_B(e_B_x, e_B_y, edot_B_x, edot_B_y, L4_omega, L3_omega, &latch[1], p, &aside->clearance[1]);
+    const double F_B_x = aside->clearance[1].Fx;
+    const double F_B_y = aside->clearance[1].Fy;
+    const double M_B_first = aside->clearance[1].moment_first;
+    const double M_B_second = aside->clearance[1].moment_second;
+    aside->clearance[1].power = F_B_x*edot_B_x + F_B_y*edot_B_y + L3_omega*M_B_second + L4_omega*M_B_first;
+
+    /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
+    const double phi_O1_x = -L1_x - arm_L1_tail_x;
+    const double phi_dot_O1_x = L1_omega*arm_L1_tail_y - L1_vx;
+    const double rhs_O1_x = -(L1_omega * L1_omega)*arm_L1_tail_x - beta_squared*phi_O1_x -
+        phi_dot_O1_x*two_alpha;
+    aside->phi[0] = phi_O1_x;
+    aside->phi_dot[0] = phi_dot_O1_x;
+    const double phi_O1_y = -L1_y - arm_L1_tail_y;
+    const double phi_dot_O1_y = -L1_omega*arm_L1_tail_x - L1_vy;
+    const double rhs_O1_y = -(L1_omega * L1_omega)*arm_L1_tail_y - beta_squared*phi_O1_y -
+        phi_dot_O1_y*two_alpha;
+    aside->phi[1] = phi_O1_y;
+    aside->phi_dot[1] = phi_dot_O1_y;
+    const double phi_O4_x = -L4_x - arm_L4_tail_x;
+    const double phi_dot_O4_x = L4_omega*arm_L4_tail_y - L4_vx;
+    const double rhs_O4_x = -(L4_omega * L4_omega)*arm_L4_tail_x - beta_squared*phi_O4_x -
+        phi_dot_O4_x*two_alpha;
+    aside->phi[2] = phi_O4_x;
+    aside->phi_dot[2] = phi_dot_O4_x;
+    const double phi_O4_y = -L4_y + O4_y - arm_L4_tail_y;
+    const double phi_dot_O4_y = -L4_omega*arm_L4_tail_x - L4_vy;
+    const double rhs_O4_y = -(L4_omega * L4_omega)*arm_L4_tail_y - beta_squared*phi_O4_y -
+        phi_dot_O4_y*two_alpha;
+    aside->phi[3] = phi_O4_y;
+    aside->phi_dot[3] = phi_dot_O4_y;
+    const double phi_P2_x = L2_x - L7_x - arm_L2_tail_x - arm_L7_tail_x;
+    const double phi_dot_P2_x = L2_omega*arm_L2_tail_y + L2_vx + L7_omega*arm_L7_tail_y - L7_vx;
+    const double rhs_P2_x = -(L2_omega * L2_omega)*arm_L2_tail_x - (L7_omega * L7_omega)*arm_L7_tail_x -
+        beta_squared*phi_P2_x - phi_dot_P2_x*two_alpha;
+    aside->phi[4] = phi_P2_x;
+    aside->phi_dot[4] = phi_dot_P2_x;
+    const double phi_P2_y = L2_y - L7_y - arm_L2_tail_y - arm_L7_tail_y;
+    const double phi_dot_P2_y = -L2_omega*arm_L2_tail_x + L2_vy - L7_omega*arm_L7_tail_x - L7_vy;
+    const double rhs_P2_y = -(L2_omega * L2_omega)*arm_L2_tail_y - (L7_omega * L7_omega)*arm_L7_tail_y -
+        beta_squared*phi_P2_y - phi_dot_P2_y*two_alpha;
+    aside->phi[5] = phi_P2_y;
+    aside->phi_dot[5] = phi_dot_P2_y;
+    const double phi_P3_x = L3_x - L7_x - arm_L3_tail_x - arm_L7_tail_x;
+    const double phi_dot_P3_x = L3_omega*arm_L3_tail_y + L3_vx + L7_omega*arm_L7_tail_y - L7_vx;
+    const double rhs_P3_x = -(L3_omega * L3_omega)*arm_L3_tail_x - (L7_omega * L7_omega)*arm_L7_tail_x -
+        beta_squared*phi_P3_x - phi_dot_P3_x*two_alpha;
+    aside->phi[6] = phi_P3_x;
+    aside->phi_dot[6] = phi_dot_P3_x;
+    const double phi_P3_y = L3_y - L7_y - arm_L3_tail_y - arm_L7_tail_y;
+    const double phi_dot_P3_y = -L3_omega*arm_L3_tail_x + L3_vy - L7_omega*arm_L7_tail_x - L7_vy;
+    const double rhs_P3_y = -(L3_omega * L3_omega)*arm_L3_tail_y - (L7_omega * L7_omega)*arm_L7_tail_y -
+        beta_squared*phi_P3_y - phi_dot_P3_y*two_alpha;
+    aside->phi[7] = phi_P3_y;
+    aside->phi_dot[7] = phi_dot_P3_y;
+    const double phi_Q6_x = -L6_x + L7_x - arm_L6_head_x - arm_L7_tail_x;
+    const double phi_dot_Q6_x = L6_omega*arm_L6_head_y - L6_vx + L7_omega*arm_L7_tail_y + L7_vx;
+    const double rhs_Q6_x = -(L6_omega * L6_omega)*arm_L6_head_x - (L7_omega * L7_omega)*arm_L7_tail_x -
+        beta_squared*phi_Q6_x - phi_dot_Q6_x*two_alpha;
+    aside->phi[8] = phi_Q6_x;
+    aside->phi_dot[8] = phi_dot_Q6_x;
+    const double phi_Q6_y = -L6_y + L7_y - arm_L6_head_y - arm_L7_tail_y;
+    const double phi_dot_Q6_y = -L6_omega*arm_L6_head_x - L6_vy - L7_omega*arm_L7_tail_x + L7_vy;
+    const double rhs_Q6_y = -(L6_omega * L6_omega)*arm_L6_head_y - (L7_omega * L7_omega)*arm_L7_tail_y -
+        beta_squared*phi_Q6_y - phi_dot_Q6_y*two_alpha;
+    aside->phi[9] = phi_Q6_y;
+    aside->phi_dot[9] = phi_dot_Q6_y;
+    const double phi_Q8_x = L7_x - L8_x - arm_L7_tail_x - arm_L8_tail_x;
+    const double phi_dot_Q8_x = L7_omega*arm_L7_tail_y + L7_vx + L8_omega*arm_L8_tail_y - L8_vx;
+    const double rhs_Q8_x = -(L7_omega * L7_omega)*arm_L7_tail_x - (L8_omega * L8_omega)*arm_L8_tail_x -
+        beta_squared*phi_Q8_x - phi_dot_Q8_x*two_alpha;
+    aside->phi[10] = phi_Q8_x;
+    aside->phi_dot[10] = phi_dot_Q8_x;
+    const double phi_Q8_y = L7_y - L8_y - arm_L7_tail_y - arm_L8_tail_y;
+    const double phi_dot_Q8_y = -L7_omega*arm_L7_tail_x + L7_vy - L8_omega*arm_L8_tail_x - L8_vy;
+    const double rhs_Q8_y = -(L7_omega * L7_omega)*arm_L7_tail_y - (L8_omega * L8_omega)*arm_L8_tail_y -
+        beta_squared*phi_Q8_y - phi_dot_Q8_y*two_alpha;
+    aside->phi[11] = phi_Q8_y;
+    aside->phi_dot[11] = phi_dot_Q8_y;
+    const double phi_O6_x = -L6_x + O6_x + arm_L6_head_x;
+    const double phi_dot_O6_x = -L6_omega*arm_L6_head_y - L6_vx;
+    const double rhs_O6_x = (L6_omega * L6_omega)*arm_L6_head_x - beta_squared*phi_O6_x -
+        phi_dot_O6_x*two_alpha;
+    aside->phi[12] = phi_O6_x;
+    aside->phi_dot[12] = phi_dot_O6_x;
+    const double phi_O6_y = -L6_y + arm_L6_head_y;
+    const double phi_dot_O6_y = L6_omega*arm_L6_head_x - L6_vy;
+    const double rhs_O6_y = (L6_omega * L6_omega)*arm_L6_head_y - beta_squared*phi_O6_y -
+        phi_dot_O6_y*two_alpha;
+    aside->phi[13] = phi_O6_y;
+    aside->phi_dot[13] = phi_dot_O6_y;
+    const double phi_slider_x = L8_x - S9_x - arm_L8_tail_x;
+    const double phi_dot_slider_x = L8_omega*arm_L8_tail_y + L8_vx - S9_vx;
+    const double rhs_slider_x = -(L8_omega * L8_omega)*arm_L8_tail_x - beta_squared*phi_slider_x -
+        phi_dot_slider_x*two_alpha;
+    aside->phi[14] = phi_slider_x;
+    aside->phi_dot[14] = phi_dot_slider_x;
+    const double phi_slider_y = L8_y - S9_y - arm_L8_tail_y;
+    const double phi_dot_slider_y = -L8_omega*arm_L8_tail_x + L8_vy - S9_vy;
+    const double rhs_slider_y = -(L8_omega * L8_omega)*arm_L8_tail_y - beta_squared*phi_slider_y -
+        phi_dot_slider_y*two_alpha;
+    aside->phi[15] = phi_slider_y;
+    aside->phi_dot[15] = phi_dot_slider_y;
+    const double phi_guide_offset = O6_x - S9_x;
+    const double phi_dot_guide_offset = -S9_vx;
+    const double rhs_guide_offset = -beta_squared*phi_guide_offset - phi_dot_guide_offset*two_alpha;
+    aside->phi[16] = phi_guide_offset;
+    aside->phi_dot[16] = phi_dot_guide_offset;
+    const double phi_guide_angle = S9_theta - 1.0/2.0*3.141592653589793;
+    const double phi_dot_guide_angle = S9_omega;
+    const double rhs_guide_angle = -beta_squared*phi_guide_angle - phi_dot_guide_angle*two_alpha;
+    aside->phi[17] = phi_guide_angle;
+    aside->phi_dot[17] = phi_dot_guide_angle;
+    const double phi_crank1 = L1_theta - crank1_value;
+    const double phi_dot_crank1 = L1_omega - crank1_rate;
+    const double rhs_crank1 = -beta_squared*phi_crank1 + crank1_acceleration - phi_dot_crank1*two_alpha;
+    aside->phi[18] = phi_crank1;
+    aside->phi_dot[18] = phi_dot_crank1;
+    const double phi_crank4 = L4_theta - crank4_value;
+    const double phi_dot_crank4 = L4_omega - crank4_rate;
+    const double rhs_crank4 = -beta_squared*phi_crank4 + crank4_acceleration - phi_dot_crank4*two_alpha;
+    aside->phi[19] = phi_crank4;
+    aside->phi_dot[19] = phi_dot_crank4;
+
+    /* L D L^T of the KKT matrix */
+    const double scale_guide_angle = inverse_S9_inertia;
+    if (!(scale_guide_angle > 1e-13 * scale_guide_angle)) return 1;
+    const double inverse_pivot_guide_angle = 1.0/scale_guide_angle;
+    const double l_P2_x__L2_theta = arm_L2_tail_y*inverse_L2_inertia;
+    const double l_P2_y__L2_theta = -arm_L2_tail_x*inverse_L2_inertia;
+    const double l_P3_x__L3_theta = arm_L3_tail_y*inverse_L3_inertia;
+    const double l_P3_y__L3_theta = -arm_L3_tail_x*inverse_L3_inertia;
+    const double scale_guide_offset = inverse_S9_mass;
+    if (!(scale_guide_offset > 1e-13 * scale_guide_offset)) return 2;
+    const double inverse_pivot_guide_offset = 1.0/scale_guide_offset;
+    const double l_slider_x__guide_offset = inverse_S9_mass*inverse_pivot_guide_offset;
+    const double l_O1_x__L1_theta = arm_L1_tail_y*inverse_L1_inertia;
+    const double l_O1_y__L1_theta = -arm_L1_tail_x*inverse_L1_inertia;
+    const double scale_O1_x = arm_L1_tail_y*l_O1_x__L1_theta + inverse_L1_mass;
+    if (!(scale_O1_x > 1e-13 * scale_O1_x)) return 3;
+    const double inverse_pivot_O1_x = 1.0/scale_O1_x;
+    const double w_O1_y__O1_x = -arm_L1_tail_y*l_O1_y__L1_theta;
+    const double l_O1_y__O1_x = -inverse_pivot_O1_x*w_O1_y__O1_x;
+    const double w_crank1__O1_x = -arm_L1_tail_y*inverse_L1_inertia;
+    const double l_crank1__O1_x = -inverse_pivot_O1_x*w_crank1__O1_x;
+    const double scale_O1_y = -arm_L1_tail_x*l_O1_y__L1_theta + inverse_L1_mass;
+    const double pivot_O1_y = l_O1_y__O1_x*w_O1_y__O1_x + scale_O1_y;
+    if (!(pivot_O1_y > 1e-13 * scale_O1_y)) return 4;
+    const double inverse_pivot_O1_y = 1.0/pivot_O1_y;
+    const double w_crank1__O1_y = arm_L1_tail_x*inverse_L1_inertia - l_crank1__O1_x*w_O1_y__O1_x;
+    const double l_crank1__O1_y = -inverse_pivot_O1_y*w_crank1__O1_y;
+    const double scale_crank1 = inverse_L1_inertia;
+    const double pivot_crank1 = l_crank1__O1_x*w_crank1__O1_x + l_crank1__O1_y*w_crank1__O1_y + scale_crank1;
+    if (!(pivot_crank1 > 1e-13 * scale_crank1)) return 5;
+    const double inverse_pivot_crank1 = 1.0/pivot_crank1;
+    const double l_O4_x__L4_theta = arm_L4_tail_y*inverse_L4_inertia;
+    const double l_O4_y__L4_theta = -arm_L4_tail_x*inverse_L4_inertia;
+    const double scale_O4_x = arm_L4_tail_y*l_O4_x__L4_theta + inverse_L4_mass;
+    if (!(scale_O4_x > 1e-13 * scale_O4_x)) return 6;
+    const double inverse_pivot_O4_x = 1.0/scale_O4_x;
+    const double w_O4_y__O4_x = -arm_L4_tail_y*l_O4_y__L4_theta;
+    const double l_O4_y__O4_x = -inverse_pivot_O4_x*w_O4_y__O4_x;
+    const double w_crank4__O4_x = -arm_L4_tail_y*inverse_L4_inertia;
+    const double l_crank4__O4_x = -inverse_pivot_O4_x*w_crank4__O4_x;
+    const double scale_O4_y = -arm_L4_tail_x*l_O4_y__L4_theta + inverse_L4_mass;
+    const double pivot_O4_y = l_O4_y__O4_x*w_O4_y__O4_x + scale_O4_y;
+    if (!(pivot_O4_y > 1e-13 * scale_O4_y)) return 7;
+    const double inverse_pivot_O4_y = 1.0/pivot_O4_y;
+    const double w_crank4__O4_y = arm_L4_tail_x*inverse_L4_inertia - l_crank4__O4_x*w_O4_y__O4_x;
+    const double l_crank4__O4_y = -inverse_pivot_O4_y*w_crank4__O4_y;
+    const double scale_crank4 = inverse_L4_inertia;
+    const double pivot_crank4 = l_crank4__O4_x*w_crank4__O4_x + l_crank4__O4_y*w_crank4__O4_y + scale_crank4;
+    if (!(pivot_crank4 > 1e-13 * scale_crank4)) return 8;
+    const double inverse_pivot_crank4 = 1.0/pivot_crank4;
+    const double l_O6_x__L6_theta = -arm_L6_head_y*inverse_L6_inertia;
+    const double l_O6_y__L6_theta = arm_L6_head_x*inverse_L6_inertia;
+    const double l_Q6_x__L6_theta = arm_L6_head_y*inverse_L6_inertia;
+    const double l_Q6_y__L6_theta = -arm_L6_head_x*inverse_L6_inertia;
+    const double scale_O6_x = -arm_L6_head_y*l_O6_x__L6_theta + inverse_L6_mass;
+    if (!(scale_O6_x > 1e-13 * scale_O6_x)) return 9;
+    const double inverse_pivot_O6_x = 1.0/scale_O6_x;
+    const double w_O6_y__O6_x = arm_L6_head_y*l_O6_y__L6_theta;
+    const double l_O6_y__O6_x = -inverse_pivot_O6_x*w_O6_y__O6_x;
+    const double w_Q6_x__O6_x = arm_L6_head_y*l_Q6_x__L6_theta - inverse_L6_mass;
+    const double l_Q6_x__O6_x = -inverse_pivot_O6_x*w_Q6_x__O6_x;
+    const double w_Q6_y__O6_x = arm_L6_head_y*l_Q6_y__L6_theta;
+    const double l_Q6_y__O6_x = -inverse_pivot_O6_x*w_Q6_y__O6_x;
+    const double scale_O6_y = arm_L6_head_x*l_O6_y__L6_theta + inverse_L6_mass;
+    const double pivot_O6_y = l_O6_y__O6_x*w_O6_y__O6_x + scale_O6_y;
+    if (!(pivot_O6_y > 1e-13 * scale_O6_y)) return 10;
+    const double inverse_pivot_O6_y = 1.0/pivot_O6_y;
+    const double w_Q6_x__O6_y = -arm_L6_head_x*l_Q6_x__L6_theta - l_Q6_x__O6_x*w_O6_y__O6_x;
+    const double l_Q6_x__O6_y = -inverse_pivot_O6_y*w_Q6_x__O6_y;
+    const double w_Q6_y__O6_y = -arm_L6_head_x*l_Q6_y__L6_theta - inverse_L6_mass - l_Q6_y__O6_x*w_O6_y__O6_x;
+    const double l_Q6_y__O6_y = -inverse_pivot_O6_y*w_Q6_y__O6_y;
+    const double l_slider_x__L8_theta = arm_L8_tail_y*inverse_L8_inertia;
+    const double l_slider_y__L8_theta = -arm_L8_tail_x*inverse_L8_inertia;
+    const double l_Q8_x__L8_theta = arm_L8_tail_y*inverse_L8_inertia;
+    const double l_Q8_y__L8_theta = -arm_L8_tail_x*inverse_L8_inertia;
+    const double scale_slider_x = arm_L8_tail_y*l_slider_x__L8_theta + inverse_L8_mass + inverse_S9_mass;
+    const double pivot_slider_x = -inverse_S9_mass*l_slider_x__guide_offset + scale_slider_x;
+    if (!(pivot_slider_x > 1e-13 * scale_slider_x)) return 11;
+    const double inverse_pivot_slider_x = 1.0/pivot_slider_x;
+    const double w_slider_y__slider_x = -arm_L8_tail_y*l_slider_y__L8_theta;
+    const double l_slider_y__slider_x = -inverse_pivot_slider_x*w_slider_y__slider_x;
+    const double w_Q8_x__slider_x = -arm_L8_tail_y*l_Q8_x__L8_theta + inverse_L8_mass;
+    const double l_Q8_x__slider_x = -inverse_pivot_slider_x*w_Q8_x__slider_x;
+    const double w_Q8_y__slider_x = -arm_L8_tail_y*l_Q8_y__L8_theta;
+    const double l_Q8_y__slider_x = -inverse_pivot_slider_x*w_Q8_y__slider_x;
+    const double scale_slider_y = -arm_L8_tail_x*l_slider_y__L8_theta + inverse_L8_mass + inverse_S9_mass;
+    const double pivot_slider_y = l_slider_y__slider_x*w_slider_y__slider_x + scale_slider_y;
+    if (!(pivot_slider_y > 1e-13 * scale_slider_y)) return 12;
+    const double inverse_pivot_slider_y = 1.0/pivot_slider_y;
+    const double w_Q8_x__slider_y = arm_L8_tail_x*l_Q8_x__L8_theta - l_Q8_x__slider_x*w_slider_y__slider_x;
+    const double l_Q8_x__slider_y = -inverse_pivot_slider_y*w_Q8_x__slider_y;
+    const double w_Q8_y__slider_y = arm_L8_tail_x*l_Q8_y__L8_theta + inverse_L8_mass -
+        l_Q8_y__slider_x*w_slider_y__slider_x;
+    const double l_Q8_y__slider_y = -inverse_pivot_slider_y*w_Q8_y__slider_y;
+    const double l_P2_x__L7_theta = arm_L7_tail_y*inverse_L7_inertia;
+    const double l_P2_y__L7_theta = -arm_L7_tail_x*inverse_L7_inertia;
+    const double l_P3_x__L7_theta = arm_L7_tail_y*inverse_L7_inertia;
+    const double l_P3_y__L7_theta = -arm_L7_tail_x*inverse_L7_inertia;
+    const double l_Q6_x__L7_theta = arm_L7_tail_y*inverse_L7_inertia;
+    const double l_Q6_y__L7_theta = -arm_L7_tail_x*inverse_L7_inertia;
+    const double l_Q8_x__L7_theta = arm_L7_tail_y*inverse_L7_inertia;
+    const double l_Q8_y__L7_theta = -arm_L7_tail_x*inverse_L7_inertia;
+    const double scale_P2_x = arm_L2_tail_y*l_P2_x__L2_theta + arm_L7_tail_y*l_P2_x__L7_theta +
+        inverse_L2_mass + inverse_L7_mass;
+    if (!(scale_P2_x > 1e-13 * scale_P2_x)) return 13;
+    const double inverse_pivot_P2_x = 1.0/scale_P2_x;
+    const double w_P2_y__P2_x = -arm_L2_tail_y*l_P2_y__L2_theta - arm_L7_tail_y*l_P2_y__L7_theta;
+    const double l_P2_y__P2_x = -inverse_pivot_P2_x*w_P2_y__P2_x;
+    const double w_P3_x__P2_x = -arm_L7_tail_y*l_P3_x__L7_theta - inverse_L7_mass;
+    const double l_P3_x__P2_x = -inverse_pivot_P2_x*w_P3_x__P2_x;
+    const double w_P3_y__P2_x = -arm_L7_tail_y*l_P3_y__L7_theta;
+    const double l_P3_y__P2_x = -inverse_pivot_P2_x*w_P3_y__P2_x;
+    const double w_Q6_x__P2_x = -arm_L7_tail_y*l_Q6_x__L7_theta + inverse_L7_mass;
+    const double l_Q6_x__P2_x = -inverse_pivot_P2_x*w_Q6_x__P2_x;
+    const double w_Q6_y__P2_x = -arm_L7_tail_y*l_Q6_y__L7_theta;
+    const double l_Q6_y__P2_x = -inverse_pivot_P2_x*w_Q6_y__P2_x;
+    const double w_Q8_x__P2_x = -arm_L7_tail_y*l_Q8_x__L7_theta + inverse_L7_mass;
+    const double l_Q8_x__P2_x = -inverse_pivot_P2_x*w_Q8_x__P2_x;
+    const double w_Q8_y__P2_x = -arm_L7_tail_y*l_Q8_y__L7_theta;
+    const double l_Q8_y__P2_x = -inverse_pivot_P2_x*w_Q8_y__P2_x;
+    const double scale_P2_y = -arm_L2_tail_x*l_P2_y__L2_theta - arm_L7_tail_x*l_P2_y__L7_theta +
+        inverse_L2_mass + inverse_L7_mass;
+    const double pivot_P2_y = l_P2_y__P2_x*w_P2_y__P2_x + scale_P2_y;
+    if (!(pivot_P2_y > 1e-13 * scale_P2_y)) return 14;
+    const double inverse_pivot_P2_y = 1.0/pivot_P2_y;
+    const double w_P3_x__P2_y = arm_L7_tail_x*l_P3_x__L7_theta - l_P3_x__P2_x*w_P2_y__P2_x;
+    const double l_P3_x__P2_y = -inverse_pivot_P2_y*w_P3_x__P2_y;
+    const double w_P3_y__P2_y = arm_L7_tail_x*l_P3_y__L7_theta - inverse_L7_mass - l_P3_y__P2_x*w_P2_y__P2_x;
+    const double l_P3_y__P2_y = -inverse_pivot_P2_y*w_P3_y__P2_y;
+    const double w_Q6_x__P2_y = arm_L7_tail_x*l_Q6_x__L7_theta - l_Q6_x__P2_x*w_P2_y__P2_x;
+    const double l_Q6_x__P2_y = -inverse_pivot_P2_y*w_Q6_x__P2_y;
+    const double w_Q6_y__P2_y = arm_L7_tail_x*l_Q6_y__L7_theta + inverse_L7_mass - l_Q6_y__P2_x*w_P2_y__P2_x;
+    const double l_Q6_y__P2_y = -inverse_pivot_P2_y*w_Q6_y__P2_y;
+    const double w_Q8_x__P2_y = arm_L7_tail_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_P2_y__P2_x;
+    const double l_Q8_x__P2_y = -inverse_pivot_P2_y*w_Q8_x__P2_y;
+    const double w_Q8_y__P2_y = arm_L7_tail_x*l_Q8_y__L7_theta + inverse_L7_mass - l_Q8_y__P2_x*w_P2_y__P2_x;
+    const double l_Q8_y__P2_y = -inverse_pivot_P2_y*w_Q8_y__P2_y;
+    const double scale_P3_x = arm_L3_tail_y*l_P3_x__L3_theta + arm_L7_tail_y*l_P3_x__L7_theta +
+        inverse_L3_mass + inverse_L7_mass;
+    const double pivot_P3_x = l_P3_x__P2_x*w_P3_x__P2_x + l_P3_x__P2_y*w_P3_x__P2_y + scale_P3_x;
+    if (!(pivot_P3_x > 1e-13 * scale_P3_x)) return 15;
+    const double inverse_pivot_P3_x = 1.0/pivot_P3_x;
+    const double w_P3_y__P3_x = -arm_L3_tail_y*l_P3_y__L3_theta - arm_L7_tail_y*l_P3_y__L7_theta -
+        l_P3_y__P2_x*w_P3_x__P2_x - l_P3_y__P2_y*w_P3_x__P2_y;
+    const double l_P3_y__P3_x = -inverse_pivot_P3_x*w_P3_y__P3_x;
+    const double w_Q6_x__P3_x = -arm_L7_tail_y*l_Q6_x__L7_theta + inverse_L7_mass - l_Q6_x__P2_x*w_P3_x__P2_x
+        - l_Q6_x__P2_y*w_P3_x__P2_y;
+    const double l_Q6_x__P3_x = -inverse_pivot_P3_x*w_Q6_x__P3_x;
+    const double w_Q6_y__P3_x = -arm_L7_tail_y*l_Q6_y__L7_theta - l_Q6_y__P2_x*w_P3_x__P2_x -
+        l_Q6_y__P2_y*w_P3_x__P2_y;
+    const double l_Q6_y__P3_x = -inverse_pivot_P3_x*w_Q6_y__P3_x;
+    const double w_Q8_x__P3_x = -arm_L7_tail_y*l_Q8_x__L7_theta + inverse_L7_mass - l_Q8_x__P2_x*w_P3_x__P2_x
+        - l_Q8_x__P2_y*w_P3_x__P2_y;
+    const double l_Q8_x__P3_x = -inverse_pivot_P3_x*w_Q8_x__P3_x;
+    const double w_Q8_y__P3_x = -arm_L7_tail_y*l_Q8_y__L7_theta - l_Q8_y__P2_x*w_P3_x__P2_x -
+        l_Q8_y__P2_y*w_P3_x__P2_y;
+    const double l_Q8_y__P3_x = -inverse_pivot_P3_x*w_Q8_y__P3_x;
+    const double scale_P3_y = -arm_L3_tail_x*l_P3_y__L3_theta - arm_L7_tail_x*l_P3_y__L7_theta +
+        inverse_L3_mass + inverse_L7_mass;
+    const double pivot_P3_y = l_P3_y__P2_x*w_P3_y__P2_x + l_P3_y__P2_y*w_P3_y__P2_y +
+        l_P3_y__P3_x*w_P3_y__P3_x + scale_P3_y;
+    if (!(pivot_P3_y > 1e-13 * scale_P3_y)) return 16;
+    const double inverse_pivot_P3_y = 1.0/pivot_P3_y;
+    const double w_Q6_x__P3_y = arm_L7_tail_x*l_Q6_x__L7_theta - l_Q6_x__P2_x*w_P3_y__P2_x -
+        l_Q6_x__P2_y*w_P3_y__P2_y - l_Q6_x__P3_x*w_P3_y__P3_x;
+    const double l_Q6_x__P3_y = -inverse_pivot_P3_y*w_Q6_x__P3_y;
+    const double w_Q6_y__P3_y = arm_L7_tail_x*l_Q6_y__L7_theta + inverse_L7_mass - l_Q6_y__P2_x*w_P3_y__P2_x -
+        l_Q6_y__P2_y*w_P3_y__P2_y - l_Q6_y__P3_x*w_P3_y__P3_x;
+    const double l_Q6_y__P3_y = -inverse_pivot_P3_y*w_Q6_y__P3_y;
+    const double w_Q8_x__P3_y = arm_L7_tail_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_P3_y__P2_x -
+        l_Q8_x__P2_y*w_P3_y__P2_y - l_Q8_x__P3_x*w_P3_y__P3_x;
+    const double l_Q8_x__P3_y = -inverse_pivot_P3_y*w_Q8_x__P3_y;
+    const double w_Q8_y__P3_y = arm_L7_tail_x*l_Q8_y__L7_theta + inverse_L7_mass - l_Q8_y__P2_x*w_P3_y__P2_x -
+        l_Q8_y__P2_y*w_P3_y__P2_y - l_Q8_y__P3_x*w_P3_y__P3_x;
+    const double l_Q8_y__P3_y = -inverse_pivot_P3_y*w_Q8_y__P3_y;
+    const double scale_Q6_x = arm_L6_head_y*l_Q6_x__L6_theta + arm_L7_tail_y*l_Q6_x__L7_theta +
+        inverse_L6_mass + inverse_L7_mass;
+    const double pivot_Q6_x = l_Q6_x__O6_x*w_Q6_x__O6_x + l_Q6_x__O6_y*w_Q6_x__O6_y +
+        l_Q6_x__P2_x*w_Q6_x__P2_x + l_Q6_x__P2_y*w_Q6_x__P2_y + l_Q6_x__P3_x*w_Q6_x__P3_x +
+        l_Q6_x__P3_y*w_Q6_x__P3_y + scale_Q6_x;
+    if (!(pivot_Q6_x > 1e-13 * scale_Q6_x)) return 17;
+    const double inverse_pivot_Q6_x = 1.0/pivot_Q6_x;
+    const double w_Q6_y__Q6_x = -arm_L6_head_y*l_Q6_y__L6_theta - arm_L7_tail_y*l_Q6_y__L7_theta -
+        l_Q6_y__O6_x*w_Q6_x__O6_x - l_Q6_y__O6_y*w_Q6_x__O6_y - l_Q6_y__P2_x*w_Q6_x__P2_x -
+        l_Q6_y__P2_y*w_Q6_x__P2_y - l_Q6_y__P3_x*w_Q6_x__P3_x - l_Q6_y__P3_y*w_Q6_x__P3_y;
+    const double l_Q6_y__Q6_x = -inverse_pivot_Q6_x*w_Q6_y__Q6_x;
+    const double w_Q8_x__Q6_x = -arm_L7_tail_y*l_Q8_x__L7_theta - inverse_L7_mass - l_Q8_x__P2_x*w_Q6_x__P2_x
+        - l_Q8_x__P2_y*w_Q6_x__P2_y - l_Q8_x__P3_x*w_Q6_x__P3_x - l_Q8_x__P3_y*w_Q6_x__P3_y;
+    const double l_Q8_x__Q6_x = -inverse_pivot_Q6_x*w_Q8_x__Q6_x;
+    const double w_Q8_y__Q6_x = -arm_L7_tail_y*l_Q8_y__L7_theta - l_Q8_y__P2_x*w_Q6_x__P2_x -
+        l_Q8_y__P2_y*w_Q6_x__P2_y - l_Q8_y__P3_x*w_Q6_x__P3_x - l_Q8_y__P3_y*w_Q6_x__P3_y;
+    const double l_Q8_y__Q6_x = -inverse_pivot_Q6_x*w_Q8_y__Q6_x;
+    const double scale_Q6_y = -arm_L6_head_x*l_Q6_y__L6_theta - arm_L7_tail_x*l_Q6_y__L7_theta +
+        inverse_L6_mass + inverse_L7_mass;
+    const double pivot_Q6_y = l_Q6_y__O6_x*w_Q6_y__O6_x + l_Q6_y__O6_y*w_Q6_y__O6_y +
+        l_Q6_y__P2_x*w_Q6_y__P2_x + l_Q6_y__P2_y*w_Q6_y__P2_y + l_Q6_y__P3_x*w_Q6_y__P3_x +
+        l_Q6_y__P3_y*w_Q6_y__P3_y + l_Q6_y__Q6_x*w_Q6_y__Q6_x + scale_Q6_y;
+    if (!(pivot_Q6_y > 1e-13 * scale_Q6_y)) return 18;
+    const double inverse_pivot_Q6_y = 1.0/pivot_Q6_y;
+    const double w_Q8_x__Q6_y = arm_L7_tail_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_Q6_y__P2_x -
+        l_Q8_x__P2_y*w_Q6_y__P2_y - l_Q8_x__P3_x*w_Q6_y__P3_x - l_Q8_x__P3_y*w_Q6_y__P3_y -
+        l_Q8_x__Q6_x*w_Q6_y__Q6_x;
+    const double l_Q8_x__Q6_y = -inverse_pivot_Q6_y*w_Q8_x__Q6_y;
+    const double w_Q8_y__Q6_y = arm_L7_tail_x*l_Q8_y__L7_theta - inverse_L7_mass - l_Q8_y__P2_x*w_Q6_y__P2_x -
+        l_Q8_y__P2_y*w_Q6_y__P2_y - l_Q8_y__P3_x*w_Q6_y__P3_x - l_Q8_y__P3_y*w_Q6_y__P3_y -
+        l_Q8_y__Q6_x*w_Q6_y__Q6_x;
+    const double l_Q8_y__Q6_y = -inverse_pivot_Q6_y*w_Q8_y__Q6_y;
+    const double scale_Q8_x = arm_L7_tail_y*l_Q8_x__L7_theta + arm_L8_tail_y*l_Q8_x__L8_theta +
+        inverse_L7_mass + inverse_L8_mass;
+    const double pivot_Q8_x = l_Q8_x__P2_x*w_Q8_x__P2_x + l_Q8_x__P2_y*w_Q8_x__P2_y +
+        l_Q8_x__P3_x*w_Q8_x__P3_x + l_Q8_x__P3_y*w_Q8_x__P3_y + l_Q8_x__Q6_x*w_Q8_x__Q6_x +
+        l_Q8_x__Q6_y*w_Q8_x__Q6_y + l_Q8_x__slider_x*w_Q8_x__slider_x + l_Q8_x__slider_y*w_Q8_x__slider_y +
+        scale_Q8_x;
+    if (!(pivot_Q8_x > 1e-13 * scale_Q8_x)) return 19;
+    const double inverse_pivot_Q8_x = 1.0/pivot_Q8_x;
+    const double w_Q8_y__Q8_x = -arm_L7_tail_y*l_Q8_y__L7_theta - arm_L8_tail_y*l_Q8_y__L8_theta -
+        l_Q8_y__P2_x*w_Q8_x__P2_x - l_Q8_y__P2_y*w_Q8_x__P2_y - l_Q8_y__P3_x*w_Q8_x__P3_x -
+        l_Q8_y__P3_y*w_Q8_x__P3_y - l_Q8_y__Q6_x*w_Q8_x__Q6_x - l_Q8_y__Q6_y*w_Q8_x__Q6_y -
+        l_Q8_y__slider_x*w_Q8_x__slider_x - l_Q8_y__slider_y*w_Q8_x__slider_y;
+    const double l_Q8_y__Q8_x = -inverse_pivot_Q8_x*w_Q8_y__Q8_x;
+    const double scale_Q8_y = -arm_L7_tail_x*l_Q8_y__L7_theta - arm_L8_tail_x*l_Q8_y__L8_theta +
+        inverse_L7_mass + inverse_L8_mass;
+    const double pivot_Q8_y = l_Q8_y__P2_x*w_Q8_y__P2_x + l_Q8_y__P2_y*w_Q8_y__P2_y +
+        l_Q8_y__P3_x*w_Q8_y__P3_x + l_Q8_y__P3_y*w_Q8_y__P3_y + l_Q8_y__Q6_x*w_Q8_y__Q6_x +
+        l_Q8_y__Q6_y*w_Q8_y__Q6_y + l_Q8_y__Q8_x*w_Q8_y__Q8_x + l_Q8_y__slider_x*w_Q8_y__slider_x +
+        l_Q8_y__slider_y*w_Q8_y__slider_y + scale_Q8_y;
+    if (!(pivot_Q8_y > 1e-13 * scale_Q8_y)) return 20;
+    const double inverse_pivot_Q8_y = 1.0/pivot_Q8_y;
+
+    /* forward substitution */
+    const double z_L1_y = -F_A_y + weight_L1_y;
+    const double z_L2_y = F_A_y + weight_L2_y;
+    const double z_L3_y = F_B_y + weight_L3_y;
+    const double z_L4_y = -F_B_y + weight_L4_y;
+    const double z_L2_theta = -F_A_x*arm_L2_tail_y + F_A_y*arm_L2_tail_x + M_A_second;
+    const double z_L3_theta = -F_B_x*arm_L3_tail_y + F_B_y*arm_L3_tail_x + M_B_second;
+    const double z_L1_theta = -F_A_x*arm_L1_tail_y + F_A_y*arm_L1_tail_x + M_A_first;
+    const double z_O1_x = -F_A_x*inverse_L1_mass - l_O1_x__L1_theta*z_L1_theta + rhs_O1_x;
+    const double z_O1_y = inverse_L1_mass*z_L1_y - l_O1_y__L1_theta*z_L1_theta - l_O1_y__O1_x*z_O1_x +
+        rhs_O1_y;
+    const double z_crank1 = -inverse_L1_inertia*z_L1_theta - l_crank1__O1_x*z_O1_x - l_crank1__O1_y*z_O1_y +
+        rhs_crank1;
+    const double z_L4_theta = -F_B_x*arm_L4_tail_y + F_B_y*arm_L4_tail_x + M_B_first;
+    const double z_O4_x = -F_B_x*inverse_L4_mass - l_O4_x__L4_theta*z_L4_theta + rhs_O4_x;
+    const double z_O4_y = inverse_L4_mass*z_L4_y - l_O4_y__L4_theta*z_L4_theta - l_O4_y__O4_x*z_O4_x +
+        rhs_O4_y;
+    const double z_crank4 = -inverse_L4_inertia*z_L4_theta - l_crank4__O4_x*z_O4_x - l_crank4__O4_y*z_O4_y +
+        rhs_crank4;
+    const double z_O6_y = inverse_L6_mass*weight_L6_y - l_O6_y__O6_x*rhs_O6_x + rhs_O6_y;
+    const double z_slider_x = -l_slider_x__guide_offset*rhs_guide_offset + rhs_slider_x;
+    const double z_slider_y = -inverse_L8_mass*weight_L8_y + inverse_S9_mass*weight_S9_y -
+        l_slider_y__slider_x*z_slider_x + rhs_slider_y;
+    const double z_P2_x = -F_A_x*inverse_L2_mass - l_P2_x__L2_theta*z_L2_theta + rhs_P2_x;
+    const double z_P2_y = -inverse_L2_mass*z_L2_y + inverse_L7_mass*weight_L7_y - l_P2_y__L2_theta*z_L2_theta
+        - l_P2_y__P2_x*z_P2_x + rhs_P2_y;
+    const double z_P3_x = -F_B_x*inverse_L3_mass - l_P3_x__L3_theta*z_L3_theta - l_P3_x__P2_x*z_P2_x -
+        l_P3_x__P2_y*z_P2_y + rhs_P3_x;
+    const double z_P3_y = -inverse_L3_mass*z_L3_y + inverse_L7_mass*weight_L7_y - l_P3_y__L3_theta*z_L3_theta
+        - l_P3_y__P2_x*z_P2_x - l_P3_y__P2_y*z_P2_y - l_P3_y__P3_x*z_P3_x + rhs_P3_y;
+    const double z_Q6_x = -l_Q6_x__O6_x*rhs_O6_x - l_Q6_x__O6_y*z_O6_y - l_Q6_x__P2_x*z_P2_x -
+        l_Q6_x__P2_y*z_P2_y - l_Q6_x__P3_x*z_P3_x - l_Q6_x__P3_y*z_P3_y + rhs_Q6_x;
+    const double z_Q6_y = inverse_L6_mass*weight_L6_y - inverse_L7_mass*weight_L7_y - l_Q6_y__O6_x*rhs_O6_x -
+        l_Q6_y__O6_y*z_O6_y - l_Q6_y__P2_x*z_P2_x - l_Q6_y__P2_y*z_P2_y - l_Q6_y__P3_x*z_P3_x -
+        l_Q6_y__P3_y*z_P3_y - l_Q6_y__Q6_x*z_Q6_x + rhs_Q6_y;
+    const double z_Q8_x = -l_Q8_x__P2_x*z_P2_x - l_Q8_x__P2_y*z_P2_y - l_Q8_x__P3_x*z_P3_x -
+        l_Q8_x__P3_y*z_P3_y - l_Q8_x__Q6_x*z_Q6_x - l_Q8_x__Q6_y*z_Q6_y - l_Q8_x__slider_x*z_slider_x -
+        l_Q8_x__slider_y*z_slider_y + rhs_Q8_x;
+    const double z_Q8_y = -inverse_L7_mass*weight_L7_y + inverse_L8_mass*weight_L8_y - l_Q8_y__P2_x*z_P2_x -
+        l_Q8_y__P2_y*z_P2_y - l_Q8_y__P3_x*z_P3_x - l_Q8_y__P3_y*z_P3_y - l_Q8_y__Q6_x*z_Q6_x -
+        l_Q8_y__Q6_y*z_Q6_y - l_Q8_y__Q8_x*z_Q8_x - l_Q8_y__slider_x*z_slider_x - l_Q8_y__slider_y*z_slider_y
+        + rhs_Q8_y;
+
+    /* backward substitution */
+    const double lambda_Q8_y = -inverse_pivot_Q8_y*z_Q8_y;
+    const double lambda_Q8_x = -inverse_pivot_Q8_x*z_Q8_x - l_Q8_y__Q8_x*lambda_Q8_y;
+    const double lambda_Q6_y = -inverse_pivot_Q6_y*z_Q6_y - l_Q8_x__Q6_y*lambda_Q8_x -
+        l_Q8_y__Q6_y*lambda_Q8_y;
+    const double lambda_Q6_x = -inverse_pivot_Q6_x*z_Q6_x - l_Q6_y__Q6_x*lambda_Q6_y -
+        l_Q8_x__Q6_x*lambda_Q8_x - l_Q8_y__Q6_x*lambda_Q8_y;
+    const double lambda_P3_y = -inverse_pivot_P3_y*z_P3_y - l_Q6_x__P3_y*lambda_Q6_x -
+        l_Q6_y__P3_y*lambda_Q6_y - l_Q8_x__P3_y*lambda_Q8_x - l_Q8_y__P3_y*lambda_Q8_y;
+    const double lambda_P3_x = -inverse_pivot_P3_x*z_P3_x - l_P3_y__P3_x*lambda_P3_y -
+        l_Q6_x__P3_x*lambda_Q6_x - l_Q6_y__P3_x*lambda_Q6_y - l_Q8_x__P3_x*lambda_Q8_x -
+        l_Q8_y__P3_x*lambda_Q8_y;
+    const double lambda_P2_y = -inverse_pivot_P2_y*z_P2_y - l_P3_x__P2_y*lambda_P3_x -
+        l_P3_y__P2_y*lambda_P3_y - l_Q6_x__P2_y*lambda_Q6_x - l_Q6_y__P2_y*lambda_Q6_y -
+        l_Q8_x__P2_y*lambda_Q8_x - l_Q8_y__P2_y*lambda_Q8_y;
+    const double lambda_P2_x = -inverse_pivot_P2_x*z_P2_x - l_P2_y__P2_x*lambda_P2_y -
+        l_P3_x__P2_x*lambda_P3_x - l_P3_y__P2_x*lambda_P3_y - l_Q6_x__P2_x*lambda_Q6_x -
+        l_Q6_y__P2_x*lambda_Q6_y - l_Q8_x__P2_x*lambda_Q8_x - l_Q8_y__P2_x*lambda_Q8_y;
+    const double acceleration_L7_theta = -l_P2_x__L7_theta*lambda_P2_x - l_P2_y__L7_theta*lambda_P2_y -
+        l_P3_x__L7_theta*lambda_P3_x - l_P3_y__L7_theta*lambda_P3_y - l_Q6_x__L7_theta*lambda_Q6_x -
+        l_Q6_y__L7_theta*lambda_Q6_y - l_Q8_x__L7_theta*lambda_Q8_x - l_Q8_y__L7_theta*lambda_Q8_y;
+    const double lambda_slider_y = -inverse_pivot_slider_y*z_slider_y - l_Q8_x__slider_y*lambda_Q8_x -
+        l_Q8_y__slider_y*lambda_Q8_y;
+    const double lambda_slider_x = -inverse_pivot_slider_x*z_slider_x - l_Q8_x__slider_x*lambda_Q8_x -
+        l_Q8_y__slider_x*lambda_Q8_y - l_slider_y__slider_x*lambda_slider_y;
+    const double acceleration_L8_theta = -l_Q8_x__L8_theta*lambda_Q8_x - l_Q8_y__L8_theta*lambda_Q8_y -
+        l_slider_x__L8_theta*lambda_slider_x - l_slider_y__L8_theta*lambda_slider_y;
+    const double acceleration_L7_y = inverse_L7_mass*lambda_P2_y + inverse_L7_mass*lambda_P3_y -
+        inverse_L7_mass*lambda_Q6_y - inverse_L7_mass*lambda_Q8_y + inverse_L7_mass*weight_L7_y;
+    const double acceleration_L7_x = inverse_L7_mass*lambda_P2_x + inverse_L7_mass*lambda_P3_x -
+        inverse_L7_mass*lambda_Q6_x - inverse_L7_mass*lambda_Q8_x;
+    const double lambda_O6_y = -inverse_pivot_O6_y*z_O6_y - l_Q6_x__O6_y*lambda_Q6_x -
+        l_Q6_y__O6_y*lambda_Q6_y;
+    const double lambda_O6_x = -inverse_pivot_O6_x*rhs_O6_x - l_O6_y__O6_x*lambda_O6_y -
+        l_Q6_x__O6_x*lambda_Q6_x - l_Q6_y__O6_x*lambda_Q6_y;
+    const double acceleration_L6_theta = -l_O6_x__L6_theta*lambda_O6_x - l_O6_y__L6_theta*lambda_O6_y -
+        l_Q6_x__L6_theta*lambda_Q6_x - l_Q6_y__L6_theta*lambda_Q6_y;
+    const double lambda_crank4 = -inverse_pivot_crank4*z_crank4;
+    const double lambda_O4_y = -inverse_pivot_O4_y*z_O4_y - l_crank4__O4_y*lambda_crank4;
+    const double lambda_O4_x = -inverse_pivot_O4_x*z_O4_x - l_O4_y__O4_x*lambda_O4_y -
+        l_crank4__O4_x*lambda_crank4;
+    const double acceleration_L4_theta = -inverse_L4_inertia*lambda_crank4 + inverse_L4_inertia*z_L4_theta -
+        l_O4_x__L4_theta*lambda_O4_x - l_O4_y__L4_theta*lambda_O4_y;
+    const double lambda_crank1 = -inverse_pivot_crank1*z_crank1;
+    const double lambda_O1_y = -inverse_pivot_O1_y*z_O1_y - l_crank1__O1_y*lambda_crank1;
+    const double lambda_O1_x = -inverse_pivot_O1_x*z_O1_x - l_O1_y__O1_x*lambda_O1_y -
+        l_crank1__O1_x*lambda_crank1;
+    const double acceleration_L1_theta = -inverse_L1_inertia*lambda_crank1 + inverse_L1_inertia*z_L1_theta -
+        l_O1_x__L1_theta*lambda_O1_x - l_O1_y__L1_theta*lambda_O1_y;
+    const double lambda_guide_offset = -inverse_pivot_guide_offset*rhs_guide_offset -
+        l_slider_x__guide_offset*lambda_slider_x;
+    const double acceleration_S9_x = inverse_S9_mass*lambda_guide_offset + inverse_S9_mass*lambda_slider_x;
+    const double acceleration_L8_y = inverse_L8_mass*lambda_Q8_y - inverse_L8_mass*lambda_slider_y +
+        inverse_L8_mass*weight_L8_y;
+    const double acceleration_L8_x = inverse_L8_mass*lambda_Q8_x - inverse_L8_mass*lambda_slider_x;
+    const double acceleration_L6_y = inverse_L6_mass*lambda_O6_y + inverse_L6_mass*lambda_Q6_y +
+        inverse_L6_mass*weight_L6_y;
+    const double acceleration_L6_x = inverse_L6_mass*lambda_O6_x + inverse_L6_mass*lambda_Q6_x;
+    const double acceleration_L3_theta = inverse_L3_inertia*z_L3_theta - l_P3_x__L3_theta*lambda_P3_x -
+        l_P3_y__L3_theta*lambda_P3_y;
+    const double acceleration_L2_theta = inverse_L2_inertia*z_L2_theta - l_P2_x__L2_theta*lambda_P2_x -
+        l_P2_y__L2_theta*lambda_P2_y;
+    const double lambda_guide_angle = -inverse_pivot_guide_angle*rhs_guide_angle;
+    const double acceleration_S9_theta = -inverse_S9_inertia*lambda_guide_angle;
+    const double acceleration_S9_y = inverse_S9_mass*lambda_slider_y + inverse_S9_mass*weight_S9_y;
+    const double acceleration_L4_y = inverse_L4_mass*lambda_O4_y + inverse_L4_mass*z_L4_y;
+    const double acceleration_L4_x = -F_B_x*inverse_L4_mass + inverse_L4_mass*lambda_O4_x;
+    const double acceleration_L3_y = -inverse_L3_mass*lambda_P3_y + inverse_L3_mass*z_L3_y;
+    const double acceleration_L3_x = F_B_x*inverse_L3_mass - inverse_L3_mass*lambda_P3_x;
+    const double acceleration_L2_y = -inverse_L2_mass*lambda_P2_y + inverse_L2_mass*z_L2_y;
+    const double acceleration_L2_x = F_A_x*inverse_L2_mass - inverse_L2_mass*lambda_P2_x;
+    const double acceleration_L1_y = inverse_L1_mass*lambda_O1_y + inverse_L1_mass*z_L1_y;
+    const double acceleration_L1_x = -F_A_x*inverse_L1_mass + inverse_L1_mass*lambda_O1_x;
+
+    /* results */
+    a[0] = acceleration_L1_x;
+    a[1] = acceleration_L1_y;
+    a[2] = acceleration_L1_theta;
+    a[3] = acceleration_L2_x;
+    a[4] = acceleration_L2_y;
+    a[5] = acceleration_L2_theta;
+    a[6] = acceleration_L3_x;
+    a[7] = acceleration_L3_y;
+    a[8] = acceleration_L3_theta;
+    a[9] = acceleration_L4_x;
+    a[10] = acceleration_L4_y;
+    a[11] = acceleration_L4_theta;
+    a[12] = acceleration_L6_x;
+    a[13] = acceleration_L6_y;
+    a[14] = acceleration_L6_theta;
+    a[15] = acceleration_L7_x;
+    a[16] = acceleration_L7_y;
+    a[17] = acceleration_L7_theta;
+    a[18] = acceleration_L8_x;
+    a[19] = acceleration_L8_y;
+    a[20] = acceleration_L8_theta;
+    a[21] = acceleration_S9_x;
+    a[22] = acceleration_S9_y;
+    a[23] = acceleration_S9_theta;
+    aside->lambda[0] = lambda_O1_x;
+    aside->lambda[1] = lambda_O1_y;
+    aside->lambda[2] = lambda_O4_x;
+    aside->lambda[3] = lambda_O4_y;
+    aside->lambda[4] = lambda_P2_x;
+    aside->lambda[5] = lambda_P2_y;
+    aside->lambda[6] = lambda_P3_x;
+    aside->lambda[7] = lambda_P3_y;
+    aside->lambda[8] = lambda_Q6_x;
+    aside->lambda[9] = lambda_Q6_y;
+    aside->lambda[10] = lambda_Q8_x;
+    aside->lambda[11] = lambda_Q8_y;
+    aside->lambda[12] = lambda_O6_x;
+    aside->lambda[13] = lambda_O6_y;
+    aside->lambda[14] = lambda_slider_x;
+    aside->lambda[15] = lambda_slider_y;
+    aside->lambda[16] = lambda_guide_offset;
+    aside->lambda[17] = lambda_guide_angle;
+    aside->lambda[18] = lambda_crank1;
+    aside->lambda[19] = lambda_crank4;
+    aside->power[0] = -crank1_rate*lambda_crank1 - crank4_rate*lambda_crank4;
+    aside->power[1] = 0.0;
+    aside->power[2] = aside->clearance[0].power + aside->clearance[1].power;
+    return 0;
+}
+

@@ -1,0 +1,51 @@
+/*
+ * 2-DOF nine-bar press with play in joints A and B
+ * mechanism nine_bar_press, scene ideal, from the YAML with sha256 febebffbc57d813ee64233a43860a86e87c2f0ecff80a72653d127fbfd0f9a36
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <math.h>
+#include <stddef.h>
+
+enum {
+    N_Q = 24,                 /* coordinates */
+    N_ROWS = 24,              /* constraint rows of the motion */
+    N_ALL_ROWS = 24,          /* rows of the closed linkage */
+    N_JOINTS = 11,            /* joints without play */
+    N_DRIVES = 2,
+    N_CLEARANCES = 0,        /* joints with play */
+    N_SERIES = 0,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_Y = 2 * N_Q + N_WORK
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double omega;  /* parameters.omega */    double omega4;  /* parameters.omega4 */    double l5;  /* parameters.l5 */    double c;  /* parameters.c */    double L1_mass;  /* bodies.L1.mass */    double L1_inertia;  /* bodies.L1.inertia */    double L2_mass;  /* bodies.L2.mass */    double L2_inertia;  /* bodies.L2.inertia */    double L3_mass;  /* bodies.L3.mass */    double L3_inertia;  /* bodies.L3.inertia */    double L4_mass;  /* bodies.L4.mass */    double L4_inertia;  /* bodies.L4.inertia */    double L6_mass;  /* bodies.L6.mass */    double L6_inertia;  /* bodies.L6.inertia */    double L7_mass;  /* bodies.L7.mass */    double L7_inertia;  /* bodies.L7.inertia */    double L8_mass;  /* bodies.L8.mass */    double L8_inertia;  /* bodies.L8.inertia */    double S9_mass;  /* bodies.S9.mass */    double S9_inertia;  /* bodies.S9.inertia */    double L1_length;  /* bodies.L1.length */    double L2_length;  /* bodies.L2.length */    double L3_length;  /* bodies.L3.length */    double L4_length;  /* bodies.L4.length */    double L6_length;  /* bodies.L6.length */    double L7_length;  /* bodies.L7.length */    double L8_length;  /* bodies.L8.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O4_y;  /* ground.O4.y */    double O6_x;  /* ground.O6.x */    double guide_axis_y;  /* joints.guide.axis.y */    double par_y;  /* gravity.y */    double guess_L2_theta;  /* start.guess.L2.theta */    double guess_L3_theta;  /* start.guess.L3.theta */    double guess_L6_theta;  /* start.guess.L6.theta */    double guess_L7_theta;  /* start.guess.L7.theta */    double guess_L8_theta;  /* start.guess.L8.theta */    double L1_origin_x;  /* point from the centre of mass */    double L2_origin_x;  /* point from the centre of mass */    double L3_origin_x;  /* point from the centre of mass */    double L4_origin_x;  /* point from the centre of mass */    double L6_origin_x;  /* point from the centre of mass */    double L7_origin_x;  /* point from the centre of mass */    double L8_origin_x;  /* point from the centre of mass */    double inverse_L1_mass;  /* 1/M */    double inverse_L1_inertia;  /* 1/M */    double inverse_L2_mass;  /* 1/M */    double inverse_L2_inertia;  /* 1/M */    double inverse_L3_mass;  /* 1/M */    double inverse_L3_inertia;  /* 1/M */    double inverse_L4_mass;  /* 1/M */    double inverse_L4_inertia;  /* 1/M */    double inverse_L6_mass;  /* 1/M */    double inverse_L6_inertia;  /* 1/M */    double inverse_L7_mass;  /* 1/M */    double inverse_L7_inertia;  /* 1/M */    double inverse_L8_mass;  /* 1/M */    double inverse_L8_inertia;  /* 1/M */    double inverse_S9_mass;  /* 1/M */    double inverse_S9_inertia;  /* 1/M */    double weight_L1_y;  /* weight */    double weight_L2_y;  /* weight */    double weight_L3_y;  /* weight */    double weight_L4_y;  /* weight */    double weight_L6_y;  /* weight */    double weight_L7_y;  /* weight */    double weight_L8_y;  /* weight */    double weight_S9_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[24];
+    double phi[24], phi_dot[24];
+    double power[N_WORK];
+    Clearance clearance[1];
+} Aside;
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }

@@ -1,0 +1,170 @@
+/*
+ * The diagonal of M (n).
+ */
+static void mass_matrix(const Parameters *p, double *m)
+{
+    /* parameters */
+    const double bob_mass = p->bob_mass;
+    const double bob_inertia = p->bob_inertia;
+
+    /* M */
+    m[0] = bob_mass;
+    m[1] = bob_mass;
+    m[2] = bob_inertia;
+}
+/*
+ * Phi(q, t) of the closed linkage; m and rad.
+ */
+static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_y = q[1];
+
+    /* parameters */
+    const double rod_length = p->rod_length;
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+
+    /* rows */
+    phi[0] = (bob_x * bob_x)*rod_half_inverse_length + (bob_y * bob_y)*rod_half_inverse_length -
+        1.0/2.0*rod_length;  /* rod.length */
+}
+/*
+ * Phi_q of the closed linkage, dense, row by row; zeros kept.
+ */
+static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_y = q[1];
+
+    /* parameters */
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+
+    /* non-zeros */
+    phi_q[0] = 2.0*bob_x*rod_half_inverse_length;  /* d rod.length / d bob_x */
+    phi_q[1] = 2.0*bob_y*rod_half_inverse_length;  /* d rod.length / d bob_y */
+}
+/*
+ * nu = -Phi_t: Phi_q v = nu.
+ */
+static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+{
+    (void)t;
+    (void)q;
+    (void)p;
+    /* rows */
+    nu[0] = 0.0;  /* rod.length */
+}
+/*
+ * gamma: Phi_q a = gamma.
+ */
+static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double
+    *gamma_rows)
+{
+    (void)t;
+    (void)q;
+    /* coordinates, velocities, time */
+    const double bob_vx = v[0];
+    const double bob_vy = v[1];
+
+    /* parameters */
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+
+    /* rows */
+    gamma_rows[0] = -2.0*(bob_vx * bob_vx)*rod_half_inverse_length - 2.0*(bob_vy *
+        bob_vy)*rod_half_inverse_length;  /* rod.length */
+}
+/*
+ * Values of the start's guess, set and rates.
+ */
+static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+{
+    (void)guess;
+    /* parameters */
+    const double set_bob_x = p->set_bob_x;
+
+    /* start */
+    set[0] = set_bob_x;  /* start.set.bob.x */
+    set[1] = 0.0;  /* start.set.bob.theta */
+    rates[0] = 0.0;  /* start.rates.bob.omega */
+}
+/*
+ * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
+ * drive torques on the driven body, kinetic and potential energy.
+ */
+static void outputs(const double t, const double *q, const double *v, const Parameters *p, const double
+    *lambda, double *reactions, double *torques, double *series, double *energy)
+{
+    (void)t;
+    (void)torques;
+    (void)series;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_y = q[1];
+    const double bob_vx = v[0];
+    const double bob_vy = v[1];
+    const double bob_omega = v[2];
+
+    /* parameters */
+    const double bob_mass = p->bob_mass;
+    const double bob_inertia = p->bob_inertia;
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+    const double par_y = p->par_y;
+
+    /* multipliers */
+    const double multiplier_rod_length = lambda[0];
+
+    /* reactions */
+    reactions[0] = -2.0*bob_x*multiplier_rod_length*rod_half_inverse_length;  /* rod.Fx */
+    reactions[1] = -2.0*bob_y*multiplier_rod_length*rod_half_inverse_length;  /* rod.Fy */
+    reactions[2] = 0.0;  /* rod.M */
+
+    /* energy */
+    energy[0] = (1.0/2.0)*bob_inertia*(bob_omega * bob_omega) + (1.0/2.0)*bob_mass*(bob_vx * bob_vx) +
+        (1.0/2.0)*bob_mass*(bob_vy * bob_vy);
+    energy[1] = -bob_mass*bob_y*par_y;
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r (m); Newton's step, velocities.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_y = q[1];
+
+    /* parameters */
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+    const double inverse_bob_mass = p->inverse_bob_mass;
+
+    /* right-hand side */
+    const double r_rod_length = r[0];
+
+    /* L D L^T of the KKT matrix */
+    const double w_rod_length__bob_x_2 = 2.0*bob_x*rod_half_inverse_length;
+    const double l_rod_length__bob_x_2 = inverse_bob_mass*w_rod_length__bob_x_2;
+    const double w_rod_length__bob_y_2 = 2.0*bob_y*rod_half_inverse_length;
+    const double l_rod_length__bob_y_2 = inverse_bob_mass*w_rod_length__bob_y_2;
+    const double scale_rod_length_2 = l_rod_length__bob_x_2*w_rod_length__bob_x_2 +
+        l_rod_length__bob_y_2*w_rod_length__bob_y_2;
+    if (!(scale_rod_length_2 > 1e-13 * scale_rod_length_2)) return 1;
+    const double inverse_pivot_rod_length_2 = 1.0/scale_rod_length_2;
+
+    /* backward substitution */
+    const double step_lambda_rod_length = -inverse_pivot_rod_length_2*r_rod_length;
+    const double step_acceleration_bob_y = -l_rod_length__bob_y_2*step_lambda_rod_length;
+    const double step_acceleration_bob_x = -l_rod_length__bob_x_2*step_lambda_rod_length;
+    const double step_acceleration_bob_theta = 0.0;
+
+    /* results */
+    x[0] = step_acceleration_bob_x;
+    x[1] = step_acceleration_bob_y;
+    x[2] = step_acceleration_bob_theta;
+    return 0;
+}
+

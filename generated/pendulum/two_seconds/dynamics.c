@@ -1,0 +1,63 @@
+/*
+ * Accelerations a (n) and multipliers in `aside` at a state:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int dynamics(const double t, const double *q, const double *v, const Parameters *p, double *a, Aside
+    *aside)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_y = q[1];
+    const double bob_vx = v[0];
+    const double bob_vy = v[1];
+
+    /* parameters */
+    const double rod_length = p->rod_length;
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+    const double inverse_bob_mass = p->inverse_bob_mass;
+    const double weight_bob_y = p->weight_bob_y;
+    const double two_alpha = p->two_alpha;
+    const double beta_squared = p->beta_squared;
+
+    /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
+    const double phi_rod_length = (bob_x * bob_x)*rod_half_inverse_length + (bob_y *
+        bob_y)*rod_half_inverse_length - 1.0/2.0*rod_length;
+    const double phi_dot_rod_length = 2.0*bob_vx*bob_x*rod_half_inverse_length +
+        2.0*bob_vy*bob_y*rod_half_inverse_length;
+    const double rhs_rod_length = -beta_squared*phi_rod_length - 2.0*(bob_vx * bob_vx)*rod_half_inverse_length
+        - 2.0*(bob_vy * bob_vy)*rod_half_inverse_length - phi_dot_rod_length*two_alpha;
+    aside->phi[0] = phi_rod_length;
+    aside->phi_dot[0] = phi_dot_rod_length;
+
+    /* L D L^T of the KKT matrix */
+    const double w_rod_length__bob_x = 2.0*bob_x*rod_half_inverse_length;
+    const double l_rod_length__bob_x = inverse_bob_mass*w_rod_length__bob_x;
+    const double w_rod_length__bob_y = 2.0*bob_y*rod_half_inverse_length;
+    const double l_rod_length__bob_y = inverse_bob_mass*w_rod_length__bob_y;
+    const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x +
+        l_rod_length__bob_y*w_rod_length__bob_y;
+    if (!(scale_rod_length > 1e-13 * scale_rod_length)) return 1;
+    const double inverse_pivot_rod_length = 1.0/scale_rod_length;
+
+    /* forward substitution */
+    const double z_rod_length = -l_rod_length__bob_y*weight_bob_y + rhs_rod_length;
+
+    /* backward substitution */
+    const double lambda_rod_length = -inverse_pivot_rod_length*z_rod_length;
+    const double acceleration_bob_y = inverse_bob_mass*weight_bob_y - l_rod_length__bob_y*lambda_rod_length;
+    const double acceleration_bob_x = -l_rod_length__bob_x*lambda_rod_length;
+    const double acceleration_bob_theta = 0.0;
+
+    /* results */
+    a[0] = acceleration_bob_x;
+    a[1] = acceleration_bob_y;
+    a[2] = acceleration_bob_theta;
+    aside->lambda[0] = lambda_rod_length;
+    aside->power[0] = 0.0;
+    aside->power[1] = 0.0;
+    aside->power[2] = 0.0;
+    return 0;
+}
+

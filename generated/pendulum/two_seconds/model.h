@@ -1,0 +1,51 @@
+/*
+ * simple pendulum (IFToMM A01)
+ * mechanism pendulum, scene two_seconds, from the YAML with sha256 cffac5b14bb71839656f5fba5f5c861a4419ab0d638c7e3e96405a19a3d70ae6
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <math.h>
+#include <stddef.h>
+
+enum {
+    N_Q = 3,                 /* coordinates */
+    N_ROWS = 1,              /* constraint rows of the motion */
+    N_ALL_ROWS = 1,          /* rows of the closed linkage */
+    N_JOINTS = 1,            /* joints without play */
+    N_DRIVES = 0,
+    N_CLEARANCES = 0,        /* joints with play */
+    N_SERIES = 0,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_Y = 2 * N_Q + N_WORK
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double par_g;  /* parameters.g */    double length;  /* parameters.length */    double bob_mass;  /* bodies.bob.mass */    double bob_inertia;  /* bodies.bob.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double rod_length;  /* joints.rod.length */    double par_y;  /* gravity.y */    double set_bob_x;  /* start.set.bob.x */    double rod_half_inverse_length;  /* of joint rod */    double inverse_bob_mass;  /* 1/M */    double inverse_bob_inertia;  /* 1/M */    double weight_bob_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[1];
+    double phi[1], phi_dot[1];
+    double power[N_WORK];
+    Clearance clearance[1];
+} Aside;
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }

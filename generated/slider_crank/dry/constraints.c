@@ -1,0 +1,452 @@
+/*
+ * The diagonal of M (n).
+ */
+static void mass_matrix(const Parameters *p, double *m)
+{
+    /* parameters */
+    const double crank_mass = p->crank_mass;
+    const double crank_inertia = p->crank_inertia;
+    const double rod_mass = p->rod_mass;
+    const double rod_inertia = p->rod_inertia;
+    const double slider_mass = p->slider_mass;
+    const double slider_inertia = p->slider_inertia;
+
+    /* M */
+    m[0] = crank_mass;
+    m[1] = crank_mass;
+    m[2] = crank_inertia;
+    m[3] = rod_mass;
+    m[4] = rod_mass;
+    m[5] = rod_inertia;
+    m[6] = slider_mass;
+    m[7] = slider_mass;
+    m[8] = slider_inertia;
+}
+/*
+ * Phi(q, t) of the closed linkage; m and rad.
+ */
+static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+{
+    /* coordinates, velocities, time */
+    const double crank_x = q[0];
+    const double crank_y = q[1];
+    const double crank_theta = q[2];
+    const double rod_x = q[3];
+    const double rod_y = q[4];
+    const double rod_theta = q[5];
+    const double slider_x = q[6];
+    const double slider_y = q[7];
+    const double slider_theta = q[8];
+    const double time = t;
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_origin_x = p->crank_origin_x;
+    const double rod_origin_x = p->rod_origin_x;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
+    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
+    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+    const double motor_value = omega*time;
+
+    /* rows */
+    phi[0] = -arm_crank_tail_x - crank_x;  /* O.x */
+    phi[1] = -arm_crank_tail_y - crank_y;  /* O.y */
+    phi[2] = -arm_crank_tail_x - arm_rod_tail_x + crank_x - rod_x;  /* crankpin.x */
+    phi[3] = -arm_crank_tail_y - arm_rod_tail_y + crank_y - rod_y;  /* crankpin.y */
+    phi[4] = -arm_rod_tail_x + rod_x - slider_x;  /* wristpin.x */
+    phi[5] = -arm_rod_tail_y + rod_y - slider_y;  /* wristpin.y */
+    phi[6] = slider_y;  /* cylinder.offset */
+    phi[7] = slider_theta;  /* cylinder.angle */
+    phi[8] = crank_theta - motor_value;  /* motor */
+}
+/*
+ * Phi_q of the closed linkage, dense, row by row; zeros kept.
+ */
+static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double crank_theta = q[2];
+    const double rod_theta = q[5];
+
+    /* parameters */
+    const double crank_origin_x = p->crank_origin_x;
+    const double rod_origin_x = p->rod_origin_x;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
+    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
+    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+
+    /* non-zeros */
+    phi_q[0] = -1.0;  /* d O.x / d crank_x */
+    phi_q[2] = arm_crank_tail_y;  /* d O.x / d crank_theta */
+    phi_q[10] = -1.0;  /* d O.y / d crank_y */
+    phi_q[11] = -arm_crank_tail_x;  /* d O.y / d crank_theta */
+    phi_q[18] = 1.0;  /* d crankpin.x / d crank_x */
+    phi_q[20] = arm_crank_tail_y;  /* d crankpin.x / d crank_theta */
+    phi_q[21] = -1.0;  /* d crankpin.x / d rod_x */
+    phi_q[23] = arm_rod_tail_y;  /* d crankpin.x / d rod_theta */
+    phi_q[28] = 1.0;  /* d crankpin.y / d crank_y */
+    phi_q[29] = -arm_crank_tail_x;  /* d crankpin.y / d crank_theta */
+    phi_q[31] = -1.0;  /* d crankpin.y / d rod_y */
+    phi_q[32] = -arm_rod_tail_x;  /* d crankpin.y / d rod_theta */
+    phi_q[39] = 1.0;  /* d wristpin.x / d rod_x */
+    phi_q[41] = arm_rod_tail_y;  /* d wristpin.x / d rod_theta */
+    phi_q[42] = -1.0;  /* d wristpin.x / d slider_x */
+    phi_q[49] = 1.0;  /* d wristpin.y / d rod_y */
+    phi_q[50] = -arm_rod_tail_x;  /* d wristpin.y / d rod_theta */
+    phi_q[52] = -1.0;  /* d wristpin.y / d slider_y */
+    phi_q[61] = 1.0;  /* d cylinder.offset / d slider_y */
+    phi_q[71] = 1.0;  /* d cylinder.angle / d slider_theta */
+    phi_q[74] = 1.0;  /* d motor / d crank_theta */
+}
+/*
+ * nu = -Phi_t: Phi_q v = nu.
+ */
+static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+{
+    (void)t;
+    (void)q;
+    /* parameters */
+    const double omega = p->omega;
+
+    /* directions, arms, drives */
+    const double motor_rate = omega;
+
+    /* rows */
+    nu[0] = 0.0;  /* O.x */
+    nu[1] = 0.0;  /* O.y */
+    nu[2] = 0.0;  /* crankpin.x */
+    nu[3] = 0.0;  /* crankpin.y */
+    nu[4] = 0.0;  /* wristpin.x */
+    nu[5] = 0.0;  /* wristpin.y */
+    nu[6] = 0.0;  /* cylinder.offset */
+    nu[7] = 0.0;  /* cylinder.angle */
+    nu[8] = motor_rate;  /* motor */
+}
+/*
+ * gamma: Phi_q a = gamma.
+ */
+static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double
+    *gamma_rows)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double crank_theta = q[2];
+    const double crank_omega = v[2];
+    const double rod_theta = q[5];
+    const double rod_omega = v[5];
+
+    /* parameters */
+    const double crank_origin_x = p->crank_origin_x;
+    const double rod_origin_x = p->rod_origin_x;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
+    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
+    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+    const double motor_acceleration = 0.0;
+
+    /* rows */
+    gamma_rows[0] = -arm_crank_tail_x*(crank_omega * crank_omega);  /* O.x */
+    gamma_rows[1] = -arm_crank_tail_y*(crank_omega * crank_omega);  /* O.y */
+    gamma_rows[2] = -arm_crank_tail_x*(crank_omega * crank_omega) - arm_rod_tail_x*(rod_omega * rod_omega);  /* crankpin.x */
+    gamma_rows[3] = -arm_crank_tail_y*(crank_omega * crank_omega) - arm_rod_tail_y*(rod_omega * rod_omega);  /* crankpin.y */
+    gamma_rows[4] = -arm_rod_tail_x*(rod_omega * rod_omega);  /* wristpin.x */
+    gamma_rows[5] = -arm_rod_tail_y*(rod_omega * rod_omega);  /* wristpin.y */
+    gamma_rows[6] = 0.0;  /* cylinder.offset */
+    gamma_rows[7] = 0.0;  /* cylinder.angle */
+    gamma_rows[8] = motor_acceleration;  /* motor */
+}
+/*
+ * Values of the start's guess, set and rates.
+ */
+static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+{
+    (void)set;
+    (void)rates;
+    /* parameters */
+    const double guess_slider_x = p->guess_slider_x;
+
+    /* start */
+    guess[0] = 0.0;  /* start.guess.rod.theta */
+    guess[1] = guess_slider_x;  /* start.guess.slider.x */
+}
+/*
+ * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
+ * drive torques on the driven body, kinetic and potential energy.
+ */
+static void outputs(const double t, const double *q, const double *v, const Parameters *p, const double
+    *lambda, double *reactions, double *torques, double *series, double *energy)
+{
+    (void)t;
+    (void)q;
+    (void)series;
+    /* coordinates, velocities, time */
+    const double crank_vx = v[0];
+    const double crank_vy = v[1];
+    const double crank_omega = v[2];
+    const double rod_vx = v[3];
+    const double rod_vy = v[4];
+    const double rod_omega = v[5];
+    const double slider_vx = v[6];
+    const double slider_vy = v[7];
+    const double slider_omega = v[8];
+
+    /* parameters */
+    const double crank_mass = p->crank_mass;
+    const double crank_inertia = p->crank_inertia;
+    const double rod_mass = p->rod_mass;
+    const double rod_inertia = p->rod_inertia;
+    const double slider_mass = p->slider_mass;
+    const double slider_inertia = p->slider_inertia;
+
+    /* multipliers */
+    const double multiplier_O_x = lambda[0];
+    const double multiplier_O_y = lambda[1];
+    const double multiplier_crankpin_x = lambda[2];
+    const double multiplier_crankpin_y = lambda[3];
+    const double multiplier_cylinder_offset = lambda[4];
+    const double multiplier_cylinder_angle = lambda[5];
+    const double multiplier_motor = lambda[6];
+
+    /* reactions */
+    reactions[0] = multiplier_O_x;  /* O.Fx */
+    reactions[1] = multiplier_O_y;  /* O.Fy */
+    reactions[2] = 0.0;  /* O.M */
+    reactions[3] = multiplier_crankpin_x;  /* crankpin.Fx */
+    reactions[4] = multiplier_crankpin_y;  /* crankpin.Fy */
+    reactions[5] = 0.0;  /* crankpin.M */
+    reactions[6] = 0.0;  /* cylinder.Fx */
+    reactions[7] = -multiplier_cylinder_offset;  /* cylinder.Fy */
+    reactions[8] = -multiplier_cylinder_angle;  /* cylinder.M */
+    torques[0] = -multiplier_motor;  /* motor.torque */
+
+    /* energy */
+    energy[0] = (1.0/2.0)*crank_inertia*(crank_omega * crank_omega) + (1.0/2.0)*crank_mass*(crank_vx *
+        crank_vx) + (1.0/2.0)*crank_mass*(crank_vy * crank_vy) + (1.0/2.0)*rod_inertia*(rod_omega * rod_omega)
+        + (1.0/2.0)*rod_mass*(rod_vx * rod_vx) + (1.0/2.0)*rod_mass*(rod_vy * rod_vy) +
+        (1.0/2.0)*slider_inertia*(slider_omega * slider_omega) + (1.0/2.0)*slider_mass*(slider_vx * slider_vx)
+        + (1.0/2.0)*slider_mass*(slider_vy * slider_vy);
+    energy[1] = 0.0;
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r (m); Newton's step, velocities.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double crank_theta = q[2];
+    const double rod_theta = q[5];
+
+    /* parameters */
+    const double crank_origin_x = p->crank_origin_x;
+    const double rod_origin_x = p->rod_origin_x;
+    const double inverse_crank_mass = p->inverse_crank_mass;
+    const double inverse_crank_inertia = p->inverse_crank_inertia;
+    const double inverse_rod_mass = p->inverse_rod_mass;
+    const double inverse_rod_inertia = p->inverse_rod_inertia;
+    const double inverse_slider_mass = p->inverse_slider_mass;
+    const double inverse_slider_inertia = p->inverse_slider_inertia;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
+    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
+    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+
+    /* right-hand side */
+    const double r_O_x = r[0];
+    const double r_O_y = r[1];
+    const double r_crankpin_x = r[2];
+    const double r_crankpin_y = r[3];
+    const double r_wristpin_x = r[4];
+    const double r_wristpin_y = r[5];
+    const double r_cylinder_offset = r[6];
+    const double r_cylinder_angle = r[7];
+    const double r_motor = r[8];
+
+    /* L D L^T of the KKT matrix */
+    const double scale_cylinder_angle_2 = inverse_slider_inertia;
+    if (!(scale_cylinder_angle_2 > 1e-13 * scale_cylinder_angle_2)) return 1;
+    const double inverse_pivot_cylinder_angle_2 = 1.0/scale_cylinder_angle_2;
+    const double scale_cylinder_offset_2 = inverse_slider_mass;
+    if (!(scale_cylinder_offset_2 > 1e-13 * scale_cylinder_offset_2)) return 2;
+    const double inverse_pivot_cylinder_offset_2 = 1.0/scale_cylinder_offset_2;
+    const double l_wristpin_y__cylinder_offset = -inverse_pivot_cylinder_offset_2*inverse_slider_mass;
+    const double l_wristpin_x__rod_theta = arm_rod_tail_y*inverse_rod_inertia;
+    const double l_wristpin_y__rod_theta = -arm_rod_tail_x*inverse_rod_inertia;
+    const double l_crankpin_x__rod_theta_2 = arm_rod_tail_y*inverse_rod_inertia;
+    const double l_crankpin_y__rod_theta_2 = -arm_rod_tail_x*inverse_rod_inertia;
+    const double scale_wristpin_x = arm_rod_tail_y*l_wristpin_x__rod_theta + inverse_rod_mass +
+        inverse_slider_mass;
+    if (!(scale_wristpin_x > 1e-13 * scale_wristpin_x)) return 3;
+    const double inverse_pivot_wristpin_x = 1.0/scale_wristpin_x;
+    const double w_wristpin_y__wristpin_x = -arm_rod_tail_y*l_wristpin_y__rod_theta;
+    const double l_wristpin_y__wristpin_x = -inverse_pivot_wristpin_x*w_wristpin_y__wristpin_x;
+    const double w_crankpin_x__wristpin_x = -arm_rod_tail_y*l_crankpin_x__rod_theta_2 + inverse_rod_mass;
+    const double l_crankpin_x__wristpin_x = -inverse_pivot_wristpin_x*w_crankpin_x__wristpin_x;
+    const double w_crankpin_y__wristpin_x = -arm_rod_tail_y*l_crankpin_y__rod_theta_2;
+    const double l_crankpin_y__wristpin_x = -inverse_pivot_wristpin_x*w_crankpin_y__wristpin_x;
+    const double scale_wristpin_y = -arm_rod_tail_x*l_wristpin_y__rod_theta + inverse_rod_mass +
+        inverse_slider_mass;
+    const double pivot_wristpin_y = inverse_slider_mass*l_wristpin_y__cylinder_offset +
+        l_wristpin_y__wristpin_x*w_wristpin_y__wristpin_x + scale_wristpin_y;
+    if (!(pivot_wristpin_y > 1e-13 * scale_wristpin_y)) return 4;
+    const double inverse_pivot_wristpin_y = 1.0/pivot_wristpin_y;
+    const double w_crankpin_x__wristpin_y = arm_rod_tail_x*l_crankpin_x__rod_theta_2 -
+        l_crankpin_x__wristpin_x*w_wristpin_y__wristpin_x;
+    const double l_crankpin_x__wristpin_y = -inverse_pivot_wristpin_y*w_crankpin_x__wristpin_y;
+    const double w_crankpin_y__wristpin_y = arm_rod_tail_x*l_crankpin_y__rod_theta_2 + inverse_rod_mass -
+        l_crankpin_y__wristpin_x*w_wristpin_y__wristpin_x;
+    const double l_crankpin_y__wristpin_y = -inverse_pivot_wristpin_y*w_crankpin_y__wristpin_y;
+    const double l_O_x__crank_theta_2 = arm_crank_tail_y*inverse_crank_inertia;
+    const double l_O_y__crank_theta_2 = -arm_crank_tail_x*inverse_crank_inertia;
+    const double l_crankpin_x__crank_theta_2 = arm_crank_tail_y*inverse_crank_inertia;
+    const double l_crankpin_y__crank_theta_2 = -arm_crank_tail_x*inverse_crank_inertia;
+    const double scale_O_x_2 = arm_crank_tail_y*l_O_x__crank_theta_2 + inverse_crank_mass;
+    if (!(scale_O_x_2 > 1e-13 * scale_O_x_2)) return 5;
+    const double inverse_pivot_O_x_2 = 1.0/scale_O_x_2;
+    const double w_O_y__O_x_2 = -arm_crank_tail_y*l_O_y__crank_theta_2;
+    const double l_O_y__O_x_2 = -inverse_pivot_O_x_2*w_O_y__O_x_2;
+    const double w_crankpin_x__O_x_2 = -arm_crank_tail_y*l_crankpin_x__crank_theta_2 + inverse_crank_mass;
+    const double l_crankpin_x__O_x_2 = -inverse_pivot_O_x_2*w_crankpin_x__O_x_2;
+    const double w_crankpin_y__O_x_2 = -arm_crank_tail_y*l_crankpin_y__crank_theta_2;
+    const double l_crankpin_y__O_x_2 = -inverse_pivot_O_x_2*w_crankpin_y__O_x_2;
+    const double w_motor__O_x_2 = -arm_crank_tail_y*inverse_crank_inertia;
+    const double l_motor__O_x_2 = -inverse_pivot_O_x_2*w_motor__O_x_2;
+    const double scale_O_y_2 = -arm_crank_tail_x*l_O_y__crank_theta_2 + inverse_crank_mass;
+    const double pivot_O_y_2 = l_O_y__O_x_2*w_O_y__O_x_2 + scale_O_y_2;
+    if (!(pivot_O_y_2 > 1e-13 * scale_O_y_2)) return 6;
+    const double inverse_pivot_O_y_2 = 1.0/pivot_O_y_2;
+    const double w_crankpin_x__O_y_2 = arm_crank_tail_x*l_crankpin_x__crank_theta_2 -
+        l_crankpin_x__O_x_2*w_O_y__O_x_2;
+    const double l_crankpin_x__O_y_2 = -inverse_pivot_O_y_2*w_crankpin_x__O_y_2;
+    const double w_crankpin_y__O_y_2 = arm_crank_tail_x*l_crankpin_y__crank_theta_2 + inverse_crank_mass -
+        l_crankpin_y__O_x_2*w_O_y__O_x_2;
+    const double l_crankpin_y__O_y_2 = -inverse_pivot_O_y_2*w_crankpin_y__O_y_2;
+    const double w_motor__O_y_2 = arm_crank_tail_x*inverse_crank_inertia - l_motor__O_x_2*w_O_y__O_x_2;
+    const double l_motor__O_y_2 = -inverse_pivot_O_y_2*w_motor__O_y_2;
+    const double scale_crankpin_x_2 = arm_crank_tail_y*l_crankpin_x__crank_theta_2 +
+        arm_rod_tail_y*l_crankpin_x__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
+    const double pivot_crankpin_x_2 = l_crankpin_x__O_x_2*w_crankpin_x__O_x_2 +
+        l_crankpin_x__O_y_2*w_crankpin_x__O_y_2 + l_crankpin_x__wristpin_x*w_crankpin_x__wristpin_x +
+        l_crankpin_x__wristpin_y*w_crankpin_x__wristpin_y + scale_crankpin_x_2;
+    if (!(pivot_crankpin_x_2 > 1e-13 * scale_crankpin_x_2)) return 7;
+    const double inverse_pivot_crankpin_x_2 = 1.0/pivot_crankpin_x_2;
+    const double w_crankpin_y__crankpin_x_2 = -arm_crank_tail_y*l_crankpin_y__crank_theta_2 -
+        arm_rod_tail_y*l_crankpin_y__rod_theta_2 - l_crankpin_y__O_x_2*w_crankpin_x__O_x_2 -
+        l_crankpin_y__O_y_2*w_crankpin_x__O_y_2 - l_crankpin_y__wristpin_x*w_crankpin_x__wristpin_x -
+        l_crankpin_y__wristpin_y*w_crankpin_x__wristpin_y;
+    const double l_crankpin_y__crankpin_x_2 = -inverse_pivot_crankpin_x_2*w_crankpin_y__crankpin_x_2;
+    const double w_motor__crankpin_x_2 = -arm_crank_tail_y*inverse_crank_inertia -
+        l_motor__O_x_2*w_crankpin_x__O_x_2 - l_motor__O_y_2*w_crankpin_x__O_y_2;
+    const double l_motor__crankpin_x_2 = -inverse_pivot_crankpin_x_2*w_motor__crankpin_x_2;
+    const double scale_crankpin_y_2 = -arm_crank_tail_x*l_crankpin_y__crank_theta_2 -
+        arm_rod_tail_x*l_crankpin_y__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
+    const double pivot_crankpin_y_2 = l_crankpin_y__O_x_2*w_crankpin_y__O_x_2 +
+        l_crankpin_y__O_y_2*w_crankpin_y__O_y_2 + l_crankpin_y__crankpin_x_2*w_crankpin_y__crankpin_x_2 +
+        l_crankpin_y__wristpin_x*w_crankpin_y__wristpin_x + l_crankpin_y__wristpin_y*w_crankpin_y__wristpin_y
+        + scale_crankpin_y_2;
+    if (!(pivot_crankpin_y_2 > 1e-13 * scale_crankpin_y_2)) return 8;
+    const double inverse_pivot_crankpin_y_2 = 1.0/pivot_crankpin_y_2;
+    const double w_motor__crankpin_y_2 = arm_crank_tail_x*inverse_crank_inertia -
+        l_motor__O_x_2*w_crankpin_y__O_x_2 - l_motor__O_y_2*w_crankpin_y__O_y_2 -
+        l_motor__crankpin_x_2*w_crankpin_y__crankpin_x_2;
+    const double l_motor__crankpin_y_2 = -inverse_pivot_crankpin_y_2*w_motor__crankpin_y_2;
+    const double scale_motor_2 = inverse_crank_inertia;
+    const double pivot_motor_2 = l_motor__O_x_2*w_motor__O_x_2 + l_motor__O_y_2*w_motor__O_y_2 +
+        l_motor__crankpin_x_2*w_motor__crankpin_x_2 + l_motor__crankpin_y_2*w_motor__crankpin_y_2 +
+        scale_motor_2;
+    if (!(pivot_motor_2 > 1e-13 * scale_motor_2)) return 9;
+    const double inverse_pivot_motor_2 = 1.0/pivot_motor_2;
+
+    /* forward substitution */
+    const double step_z_wristpin_y = -l_wristpin_y__cylinder_offset*r_cylinder_offset -
+        l_wristpin_y__wristpin_x*r_wristpin_x + r_wristpin_y;
+    const double step_z_O_y = -l_O_y__O_x_2*r_O_x + r_O_y;
+    const double step_z_crankpin_x = -l_crankpin_x__O_x_2*r_O_x - l_crankpin_x__O_y_2*step_z_O_y -
+        l_crankpin_x__wristpin_x*r_wristpin_x - l_crankpin_x__wristpin_y*step_z_wristpin_y + r_crankpin_x;
+    const double step_z_crankpin_y = -l_crankpin_y__O_x_2*r_O_x - l_crankpin_y__O_y_2*step_z_O_y -
+        l_crankpin_y__crankpin_x_2*step_z_crankpin_x - l_crankpin_y__wristpin_x*r_wristpin_x -
+        l_crankpin_y__wristpin_y*step_z_wristpin_y + r_crankpin_y;
+    const double step_z_motor = -l_motor__O_x_2*r_O_x - l_motor__O_y_2*step_z_O_y -
+        l_motor__crankpin_x_2*step_z_crankpin_x - l_motor__crankpin_y_2*step_z_crankpin_y + r_motor;
+
+    /* backward substitution */
+    const double step_lambda_motor = -inverse_pivot_motor_2*step_z_motor;
+    const double step_lambda_crankpin_y = -inverse_pivot_crankpin_y_2*step_z_crankpin_y -
+        l_motor__crankpin_y_2*step_lambda_motor;
+    const double step_lambda_crankpin_x = -inverse_pivot_crankpin_x_2*step_z_crankpin_x -
+        l_crankpin_y__crankpin_x_2*step_lambda_crankpin_y - l_motor__crankpin_x_2*step_lambda_motor;
+    const double step_lambda_O_y = -inverse_pivot_O_y_2*step_z_O_y -
+        l_crankpin_x__O_y_2*step_lambda_crankpin_x - l_crankpin_y__O_y_2*step_lambda_crankpin_y -
+        l_motor__O_y_2*step_lambda_motor;
+    const double step_lambda_O_x = -inverse_pivot_O_x_2*r_O_x - l_O_y__O_x_2*step_lambda_O_y -
+        l_crankpin_x__O_x_2*step_lambda_crankpin_x - l_crankpin_y__O_x_2*step_lambda_crankpin_y -
+        l_motor__O_x_2*step_lambda_motor;
+    const double step_acceleration_crank_theta = -inverse_crank_inertia*step_lambda_motor -
+        l_O_x__crank_theta_2*step_lambda_O_x - l_O_y__crank_theta_2*step_lambda_O_y -
+        l_crankpin_x__crank_theta_2*step_lambda_crankpin_x -
+        l_crankpin_y__crank_theta_2*step_lambda_crankpin_y;
+    const double step_lambda_wristpin_y = -inverse_pivot_wristpin_y*step_z_wristpin_y -
+        l_crankpin_x__wristpin_y*step_lambda_crankpin_x - l_crankpin_y__wristpin_y*step_lambda_crankpin_y;
+    const double step_lambda_wristpin_x = -inverse_pivot_wristpin_x*r_wristpin_x -
+        l_crankpin_x__wristpin_x*step_lambda_crankpin_x - l_crankpin_y__wristpin_x*step_lambda_crankpin_y -
+        l_wristpin_y__wristpin_x*step_lambda_wristpin_y;
+    const double step_acceleration_rod_theta = -l_crankpin_x__rod_theta_2*step_lambda_crankpin_x -
+        l_crankpin_y__rod_theta_2*step_lambda_crankpin_y - l_wristpin_x__rod_theta*step_lambda_wristpin_x -
+        l_wristpin_y__rod_theta*step_lambda_wristpin_y;
+    const double step_lambda_cylinder_offset = -inverse_pivot_cylinder_offset_2*r_cylinder_offset -
+        l_wristpin_y__cylinder_offset*step_lambda_wristpin_y;
+    const double step_acceleration_slider_y = -inverse_slider_mass*step_lambda_cylinder_offset +
+        inverse_slider_mass*step_lambda_wristpin_y;
+    const double step_acceleration_rod_y = inverse_rod_mass*step_lambda_crankpin_y -
+        inverse_rod_mass*step_lambda_wristpin_y;
+    const double step_acceleration_rod_x = inverse_rod_mass*step_lambda_crankpin_x -
+        inverse_rod_mass*step_lambda_wristpin_x;
+    const double step_acceleration_crank_y = inverse_crank_mass*step_lambda_O_y -
+        inverse_crank_mass*step_lambda_crankpin_y;
+    const double step_acceleration_crank_x = inverse_crank_mass*step_lambda_O_x -
+        inverse_crank_mass*step_lambda_crankpin_x;
+    const double step_lambda_cylinder_angle = -inverse_pivot_cylinder_angle_2*r_cylinder_angle;
+    const double step_acceleration_slider_theta = -inverse_slider_inertia*step_lambda_cylinder_angle;
+    const double step_acceleration_slider_x = inverse_slider_mass*step_lambda_wristpin_x;
+
+    /* results */
+    x[0] = step_acceleration_crank_x;
+    x[1] = step_acceleration_crank_y;
+    x[2] = step_acceleration_crank_theta;
+    x[3] = step_acceleration_rod_x;
+    x[4] = step_acceleration_rod_y;
+    x[5] = step_acceleration_rod_theta;
+    x[6] = step_acceleration_slider_x;
+    x[7] = step_acceleration_slider_y;
+    x[8] = step_acceleration_slider_theta;
+    return 0;
+}
+

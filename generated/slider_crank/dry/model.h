@@ -1,0 +1,51 @@
+/*
+ * slider-crank mechanism with play in the slider's pin
+ * mechanism slider_crank, scene dry, from the YAML with sha256 7d0ee75732fc8db361d73dbcc9252363a5631ed216b7197196ca1cd59efe75c0
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <math.h>
+#include <stddef.h>
+
+enum {
+    N_Q = 9,                 /* coordinates */
+    N_ROWS = 7,              /* constraint rows of the motion */
+    N_ALL_ROWS = 9,          /* rows of the closed linkage */
+    N_JOINTS = 3,            /* joints without play */
+    N_DRIVES = 1,
+    N_CLEARANCES = 1,        /* joints with play */
+    N_SERIES = 0,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_Y = 2 * N_Q + N_WORK
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double omega;  /* parameters.omega */    double c;  /* parameters.c */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double slider_mass;  /* bodies.slider.mass */    double slider_inertia;  /* bodies.slider.inertia */    double crank_length;  /* bodies.crank.length */    double rod_length;  /* bodies.rod.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double cylinder_axis_x;  /* joints.cylinder.axis.x */    double pin_radius;  /* bearings.pin.radius */    double pin_clearance;  /* bearings.pin.clearance */    double pin_length;  /* bearings.pin.length */    double steel_E;  /* materials.steel.E */    double steel_nu;  /* materials.steel.nu */    double dry_normal_restitution;  /* contacts.dry.normal.restitution */    double dry_normal_exponent;  /* contacts.dry.normal.exponent */    double dry_friction_mu;  /* contacts.dry.friction.mu */    double dry_friction_v0;  /* contacts.dry.friction.v0 */    double dry_friction_v1;  /* contacts.dry.friction.v1 */    double velocity_floor;  /* contacts.dry.velocity_floor */    double guess_slider_x;  /* start.guess.slider.x */    double crank_origin_x;  /* point from the centre of mass */    double rod_origin_x;  /* point from the centre of mass */    double R_j_pin;  /* journal radius */    double wristpin_K;  /* contact stiffness */    double wristpin_hysteresis;  /* hysteresis damping factor, 3(1 - c_e^2)/4 */    double wristpin_friction_slope;  /* 1/(v1 - v0) */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double inverse_slider_mass;  /* 1/M */    double inverse_slider_inertia;  /* 1/M */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[7];
+    double phi[7], phi_dot[7];
+    double power[N_WORK];
+    Clearance clearance[1];
+} Aside;
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }

@@ -1,0 +1,273 @@
+/*
+ * Accelerations a (n) and multipliers in `aside` at a state:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int dynamics(const double t, const double *q, const double *v, const Parameters *p, double *a, Aside
+    *aside)
+{
+    /* coordinates, velocities, time */
+    const double crank_x = q[0];
+    const double crank_y = q[1];
+    const double crank_theta = q[2];
+    const double crank_vx = v[0];
+    const double crank_vy = v[1];
+    const double crank_omega = v[2];
+    const double rod_x = q[3];
+    const double rod_y = q[4];
+    const double rod_theta = q[5];
+    const double rod_vx = v[3];
+    const double rod_vy = v[4];
+    const double rod_omega = v[5];
+    const double slider_x = q[6];
+    const double slider_y = q[7];
+    const double slider_theta = q[8];
+    const double slider_vx = v[6];
+    const double slider_vy = v[7];
+    const double slider_omega = v[8];
+    const double time = t;
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_origin_x = p->crank_origin_x;
+    const double rod_origin_x = p->rod_origin_x;
+    const double inverse_crank_mass = p->inverse_crank_mass;
+    const double inverse_crank_inertia = p->inverse_crank_inertia;
+    const double inverse_rod_mass = p->inverse_rod_mass;
+    const double inverse_rod_inertia = p->inverse_rod_inertia;
+    const double inverse_slider_mass = p->inverse_slider_mass;
+    const double inverse_slider_inertia = p->inverse_slider_inertia;
+    const double two_alpha = p->two_alpha;
+    const double beta_squared = p->beta_squared;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
+    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
+    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+    const double motor_value = omega*time;
+    const double motor_rate = omega;
+    const double motor_acceleration = 0.0;
+
+    /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
+    const double phi_O_x = -arm_crank_tail_x - crank_x;
+    const double phi_dot_O_x = arm_crank_tail_y*crank_omega - crank_vx;
+    const double rhs_O_x = -arm_crank_tail_x*(crank_omega * crank_omega) - beta_squared*phi_O_x -
+        phi_dot_O_x*two_alpha;
+    aside->phi[0] = phi_O_x;
+    aside->phi_dot[0] = phi_dot_O_x;
+    const double phi_O_y = -arm_crank_tail_y - crank_y;
+    const double phi_dot_O_y = -arm_crank_tail_x*crank_omega - crank_vy;
+    const double rhs_O_y = -arm_crank_tail_y*(crank_omega * crank_omega) - beta_squared*phi_O_y -
+        phi_dot_O_y*two_alpha;
+    aside->phi[1] = phi_O_y;
+    aside->phi_dot[1] = phi_dot_O_y;
+    const double phi_crankpin_x = -arm_crank_tail_x - arm_rod_tail_x + crank_x - rod_x;
+    const double phi_dot_crankpin_x = arm_crank_tail_y*crank_omega + arm_rod_tail_y*rod_omega + crank_vx -
+        rod_vx;
+    const double rhs_crankpin_x = -arm_crank_tail_x*(crank_omega * crank_omega) - arm_rod_tail_x*(rod_omega *
+        rod_omega) - beta_squared*phi_crankpin_x - phi_dot_crankpin_x*two_alpha;
+    aside->phi[2] = phi_crankpin_x;
+    aside->phi_dot[2] = phi_dot_crankpin_x;
+    const double phi_crankpin_y = -arm_crank_tail_y - arm_rod_tail_y + crank_y - rod_y;
+    const double phi_dot_crankpin_y = -arm_crank_tail_x*crank_omega - arm_rod_tail_x*rod_omega + crank_vy -
+        rod_vy;
+    const double rhs_crankpin_y = -arm_crank_tail_y*(crank_omega * crank_omega) - arm_rod_tail_y*(rod_omega *
+        rod_omega) - beta_squared*phi_crankpin_y - phi_dot_crankpin_y*two_alpha;
+    aside->phi[3] = phi_crankpin_y;
+    aside->phi_dot[3] = phi_dot_crankpin_y;
+    const double phi_wristpin_x = -arm_rod_tail_x + rod_x - slider_x;
+    const double phi_dot_wristpin_x = arm_rod_tail_y*rod_omega + rod_vx - slider_vx;
+    const double rhs_wristpin_x = -arm_rod_tail_x*(rod_omega * rod_omega) - beta_squared*phi_wristpin_x -
+        phi_dot_wristpin_x*two_alpha;
+    aside->phi[4] = phi_wristpin_x;
+    aside->phi_dot[4] = phi_dot_wristpin_x;
+    const double phi_wristpin_y = -arm_rod_tail_y + rod_y - slider_y;
+    const double phi_dot_wristpin_y = -arm_rod_tail_x*rod_omega + rod_vy - slider_vy;
+    const double rhs_wristpin_y = -arm_rod_tail_y*(rod_omega * rod_omega) - beta_squared*phi_wristpin_y -
+        phi_dot_wristpin_y*two_alpha;
+    aside->phi[5] = phi_wristpin_y;
+    aside->phi_dot[5] = phi_dot_wristpin_y;
+    const double phi_cylinder_offset = slider_y;
+    const double phi_dot_cylinder_offset = slider_vy;
+    const double rhs_cylinder_offset = -beta_squared*phi_cylinder_offset - phi_dot_cylinder_offset*two_alpha;
+    aside->phi[6] = phi_cylinder_offset;
+    aside->phi_dot[6] = phi_dot_cylinder_offset;
+    const double phi_cylinder_angle = slider_theta;
+    const double phi_dot_cylinder_angle = slider_omega;
+    const double rhs_cylinder_angle = -beta_squared*phi_cylinder_angle - phi_dot_cylinder_angle*two_alpha;
+    aside->phi[7] = phi_cylinder_angle;
+    aside->phi_dot[7] = phi_dot_cylinder_angle;
+    const double phi_motor = crank_theta - motor_value;
+    const double phi_dot_motor = crank_omega - motor_rate;
+    const double rhs_motor = -beta_squared*phi_motor + motor_acceleration - phi_dot_motor*two_alpha;
+    aside->phi[8] = phi_motor;
+    aside->phi_dot[8] = phi_dot_motor;
+
+    /* L D L^T of the KKT matrix */
+    const double scale_cylinder_angle = inverse_slider_inertia;
+    if (!(scale_cylinder_angle > 1e-13 * scale_cylinder_angle)) return 1;
+    const double inverse_pivot_cylinder_angle = 1.0/scale_cylinder_angle;
+    const double scale_cylinder_offset = inverse_slider_mass;
+    if (!(scale_cylinder_offset > 1e-13 * scale_cylinder_offset)) return 2;
+    const double inverse_pivot_cylinder_offset = 1.0/scale_cylinder_offset;
+    const double l_wristpin_y__cylinder_offset = -inverse_pivot_cylinder_offset*inverse_slider_mass;
+    const double l_wristpin_x__rod_theta = arm_rod_tail_y*inverse_rod_inertia;
+    const double l_wristpin_y__rod_theta = -arm_rod_tail_x*inverse_rod_inertia;
+    const double l_crankpin_x__rod_theta = arm_rod_tail_y*inverse_rod_inertia;
+    const double l_crankpin_y__rod_theta = -arm_rod_tail_x*inverse_rod_inertia;
+    const double scale_wristpin_x = arm_rod_tail_y*l_wristpin_x__rod_theta + inverse_rod_mass +
+        inverse_slider_mass;
+    if (!(scale_wristpin_x > 1e-13 * scale_wristpin_x)) return 3;
+    const double inverse_pivot_wristpin_x = 1.0/scale_wristpin_x;
+    const double w_wristpin_y__wristpin_x = -arm_rod_tail_y*l_wristpin_y__rod_theta;
+    const double l_wristpin_y__wristpin_x = -inverse_pivot_wristpin_x*w_wristpin_y__wristpin_x;
+    const double w_crankpin_x__wristpin_x = -arm_rod_tail_y*l_crankpin_x__rod_theta + inverse_rod_mass;
+    const double l_crankpin_x__wristpin_x = -inverse_pivot_wristpin_x*w_crankpin_x__wristpin_x;
+    const double w_crankpin_y__wristpin_x = -arm_rod_tail_y*l_crankpin_y__rod_theta;
+    const double l_crankpin_y__wristpin_x = -inverse_pivot_wristpin_x*w_crankpin_y__wristpin_x;
+    const double scale_wristpin_y = -arm_rod_tail_x*l_wristpin_y__rod_theta + inverse_rod_mass +
+        inverse_slider_mass;
+    const double pivot_wristpin_y = inverse_slider_mass*l_wristpin_y__cylinder_offset +
+        l_wristpin_y__wristpin_x*w_wristpin_y__wristpin_x + scale_wristpin_y;
+    if (!(pivot_wristpin_y > 1e-13 * scale_wristpin_y)) return 4;
+    const double inverse_pivot_wristpin_y = 1.0/pivot_wristpin_y;
+    const double w_crankpin_x__wristpin_y = arm_rod_tail_x*l_crankpin_x__rod_theta -
+        l_crankpin_x__wristpin_x*w_wristpin_y__wristpin_x;
+    const double l_crankpin_x__wristpin_y = -inverse_pivot_wristpin_y*w_crankpin_x__wristpin_y;
+    const double w_crankpin_y__wristpin_y = arm_rod_tail_x*l_crankpin_y__rod_theta + inverse_rod_mass -
+        l_crankpin_y__wristpin_x*w_wristpin_y__wristpin_x;
+    const double l_crankpin_y__wristpin_y = -inverse_pivot_wristpin_y*w_crankpin_y__wristpin_y;
+    const double l_O_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
+    const double l_O_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
+    const double l_crankpin_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
+    const double l_crankpin_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
+    const double scale_O_x = arm_crank_tail_y*l_O_x__crank_theta + inverse_crank_mass;
+    if (!(scale_O_x > 1e-13 * scale_O_x)) return 5;
+    const double inverse_pivot_O_x = 1.0/scale_O_x;
+    const double w_O_y__O_x = -arm_crank_tail_y*l_O_y__crank_theta;
+    const double l_O_y__O_x = -inverse_pivot_O_x*w_O_y__O_x;
+    const double w_crankpin_x__O_x = -arm_crank_tail_y*l_crankpin_x__crank_theta + inverse_crank_mass;
+    const double l_crankpin_x__O_x = -inverse_pivot_O_x*w_crankpin_x__O_x;
+    const double w_crankpin_y__O_x = -arm_crank_tail_y*l_crankpin_y__crank_theta;
+    const double l_crankpin_y__O_x = -inverse_pivot_O_x*w_crankpin_y__O_x;
+    const double w_motor__O_x = -arm_crank_tail_y*inverse_crank_inertia;
+    const double l_motor__O_x = -inverse_pivot_O_x*w_motor__O_x;
+    const double scale_O_y = -arm_crank_tail_x*l_O_y__crank_theta + inverse_crank_mass;
+    const double pivot_O_y = l_O_y__O_x*w_O_y__O_x + scale_O_y;
+    if (!(pivot_O_y > 1e-13 * scale_O_y)) return 6;
+    const double inverse_pivot_O_y = 1.0/pivot_O_y;
+    const double w_crankpin_x__O_y = arm_crank_tail_x*l_crankpin_x__crank_theta -
+        l_crankpin_x__O_x*w_O_y__O_x;
+    const double l_crankpin_x__O_y = -inverse_pivot_O_y*w_crankpin_x__O_y;
+    const double w_crankpin_y__O_y = arm_crank_tail_x*l_crankpin_y__crank_theta + inverse_crank_mass -
+        l_crankpin_y__O_x*w_O_y__O_x;
+    const double l_crankpin_y__O_y = -inverse_pivot_O_y*w_crankpin_y__O_y;
+    const double w_motor__O_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__O_x*w_O_y__O_x;
+    const double l_motor__O_y = -inverse_pivot_O_y*w_motor__O_y;
+    const double scale_crankpin_x = arm_crank_tail_y*l_crankpin_x__crank_theta +
+        arm_rod_tail_y*l_crankpin_x__rod_theta + inverse_crank_mass + inverse_rod_mass;
+    const double pivot_crankpin_x = l_crankpin_x__O_x*w_crankpin_x__O_x + l_crankpin_x__O_y*w_crankpin_x__O_y
+        + l_crankpin_x__wristpin_x*w_crankpin_x__wristpin_x +
+        l_crankpin_x__wristpin_y*w_crankpin_x__wristpin_y + scale_crankpin_x;
+    if (!(pivot_crankpin_x > 1e-13 * scale_crankpin_x)) return 7;
+    const double inverse_pivot_crankpin_x = 1.0/pivot_crankpin_x;
+    const double w_crankpin_y__crankpin_x = -arm_crank_tail_y*l_crankpin_y__crank_theta -
+        arm_rod_tail_y*l_crankpin_y__rod_theta - l_crankpin_y__O_x*w_crankpin_x__O_x -
+        l_crankpin_y__O_y*w_crankpin_x__O_y - l_crankpin_y__wristpin_x*w_crankpin_x__wristpin_x -
+        l_crankpin_y__wristpin_y*w_crankpin_x__wristpin_y;
+    const double l_crankpin_y__crankpin_x = -inverse_pivot_crankpin_x*w_crankpin_y__crankpin_x;
+    const double w_motor__crankpin_x = -arm_crank_tail_y*inverse_crank_inertia -
+        l_motor__O_x*w_crankpin_x__O_x - l_motor__O_y*w_crankpin_x__O_y;
+    const double l_motor__crankpin_x = -inverse_pivot_crankpin_x*w_motor__crankpin_x;
+    const double scale_crankpin_y = -arm_crank_tail_x*l_crankpin_y__crank_theta -
+        arm_rod_tail_x*l_crankpin_y__rod_theta + inverse_crank_mass + inverse_rod_mass;
+    const double pivot_crankpin_y = l_crankpin_y__O_x*w_crankpin_y__O_x + l_crankpin_y__O_y*w_crankpin_y__O_y
+        + l_crankpin_y__crankpin_x*w_crankpin_y__crankpin_x +
+        l_crankpin_y__wristpin_x*w_crankpin_y__wristpin_x + l_crankpin_y__wristpin_y*w_crankpin_y__wristpin_y
+        + scale_crankpin_y;
+    if (!(pivot_crankpin_y > 1e-13 * scale_crankpin_y)) return 8;
+    const double inverse_pivot_crankpin_y = 1.0/pivot_crankpin_y;
+    const double w_motor__crankpin_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__O_x*w_crankpin_y__O_x
+        - l_motor__O_y*w_crankpin_y__O_y - l_motor__crankpin_x*w_crankpin_y__crankpin_x;
+    const double l_motor__crankpin_y = -inverse_pivot_crankpin_y*w_motor__crankpin_y;
+    const double scale_motor = inverse_crank_inertia;
+    const double pivot_motor = l_motor__O_x*w_motor__O_x + l_motor__O_y*w_motor__O_y +
+        l_motor__crankpin_x*w_motor__crankpin_x + l_motor__crankpin_y*w_motor__crankpin_y + scale_motor;
+    if (!(pivot_motor > 1e-13 * scale_motor)) return 9;
+    const double inverse_pivot_motor = 1.0/pivot_motor;
+
+    /* forward substitution */
+    const double z_wristpin_y = -l_wristpin_y__cylinder_offset*rhs_cylinder_offset -
+        l_wristpin_y__wristpin_x*rhs_wristpin_x + rhs_wristpin_y;
+    const double z_O_y = -l_O_y__O_x*rhs_O_x + rhs_O_y;
+    const double z_crankpin_x = -l_crankpin_x__O_x*rhs_O_x - l_crankpin_x__O_y*z_O_y -
+        l_crankpin_x__wristpin_x*rhs_wristpin_x - l_crankpin_x__wristpin_y*z_wristpin_y + rhs_crankpin_x;
+    const double z_crankpin_y = -l_crankpin_y__O_x*rhs_O_x - l_crankpin_y__O_y*z_O_y -
+        l_crankpin_y__crankpin_x*z_crankpin_x - l_crankpin_y__wristpin_x*rhs_wristpin_x -
+        l_crankpin_y__wristpin_y*z_wristpin_y + rhs_crankpin_y;
+    const double z_motor = -l_motor__O_x*rhs_O_x - l_motor__O_y*z_O_y - l_motor__crankpin_x*z_crankpin_x -
+        l_motor__crankpin_y*z_crankpin_y + rhs_motor;
+
+    /* backward substitution */
+    const double lambda_motor = -inverse_pivot_motor*z_motor;
+    const double lambda_crankpin_y = -inverse_pivot_crankpin_y*z_crankpin_y -
+        l_motor__crankpin_y*lambda_motor;
+    const double lambda_crankpin_x = -inverse_pivot_crankpin_x*z_crankpin_x -
+        l_crankpin_y__crankpin_x*lambda_crankpin_y - l_motor__crankpin_x*lambda_motor;
+    const double lambda_O_y = -inverse_pivot_O_y*z_O_y - l_crankpin_x__O_y*lambda_crankpin_x -
+        l_crankpin_y__O_y*lambda_crankpin_y - l_motor__O_y*lambda_motor;
+    const double lambda_O_x = -inverse_pivot_O_x*rhs_O_x - l_O_y__O_x*lambda_O_y -
+        l_crankpin_x__O_x*lambda_crankpin_x - l_crankpin_y__O_x*lambda_crankpin_y - l_motor__O_x*lambda_motor;
+    const double acceleration_crank_theta = -inverse_crank_inertia*lambda_motor -
+        l_O_x__crank_theta*lambda_O_x - l_O_y__crank_theta*lambda_O_y -
+        l_crankpin_x__crank_theta*lambda_crankpin_x - l_crankpin_y__crank_theta*lambda_crankpin_y;
+    const double lambda_wristpin_y = -inverse_pivot_wristpin_y*z_wristpin_y -
+        l_crankpin_x__wristpin_y*lambda_crankpin_x - l_crankpin_y__wristpin_y*lambda_crankpin_y;
+    const double lambda_wristpin_x = -inverse_pivot_wristpin_x*rhs_wristpin_x -
+        l_crankpin_x__wristpin_x*lambda_crankpin_x - l_crankpin_y__wristpin_x*lambda_crankpin_y -
+        l_wristpin_y__wristpin_x*lambda_wristpin_y;
+    const double acceleration_rod_theta = -l_crankpin_x__rod_theta*lambda_crankpin_x -
+        l_crankpin_y__rod_theta*lambda_crankpin_y - l_wristpin_x__rod_theta*lambda_wristpin_x -
+        l_wristpin_y__rod_theta*lambda_wristpin_y;
+    const double lambda_cylinder_offset = -inverse_pivot_cylinder_offset*rhs_cylinder_offset -
+        l_wristpin_y__cylinder_offset*lambda_wristpin_y;
+    const double acceleration_slider_y = -inverse_slider_mass*lambda_cylinder_offset +
+        inverse_slider_mass*lambda_wristpin_y;
+    const double acceleration_rod_y = inverse_rod_mass*lambda_crankpin_y - inverse_rod_mass*lambda_wristpin_y;
+    const double acceleration_rod_x = inverse_rod_mass*lambda_crankpin_x - inverse_rod_mass*lambda_wristpin_x;
+    const double acceleration_crank_y = inverse_crank_mass*lambda_O_y - inverse_crank_mass*lambda_crankpin_y;
+    const double acceleration_crank_x = inverse_crank_mass*lambda_O_x - inverse_crank_mass*lambda_crankpin_x;
+    const double lambda_cylinder_angle = -inverse_pivot_cylinder_angle*rhs_cylinder_angle;
+    const double acceleration_slider_theta = -inverse_slider_inertia*lambda_cylinder_angle;
+    const double acceleration_slider_x = inverse_slider_mass*lambda_wristpin_x;
+
+    /* results */
+    a[0] = acceleration_crank_x;
+    a[1] = acceleration_crank_y;
+    a[2] = acceleration_crank_theta;
+    a[3] = acceleration_rod_x;
+    a[4] = acceleration_rod_y;
+    a[5] = acceleration_rod_theta;
+    a[6] = acceleration_slider_x;
+    a[7] = acceleration_slider_y;
+    a[8] = acceleration_slider_theta;
+    aside->lambda[0] = lambda_O_x;
+    aside->lambda[1] = lambda_O_y;
+    aside->lambda[2] = lambda_crankpin_x;
+    aside->lambda[3] = lambda_crankpin_y;
+    aside->lambda[4] = lambda_wristpin_x;
+    aside->lambda[5] = lambda_wristpin_y;
+    aside->lambda[6] = lambda_cylinder_offset;
+    aside->lambda[7] = lambda_cylinder_angle;
+    aside->lambda[8] = lambda_motor;
+    aside->power[0] = -lambda_motor*motor_rate;
+    aside->power[1] = 0.0;
+    aside->power[2] = 0.0;
+    return 0;
+}
+

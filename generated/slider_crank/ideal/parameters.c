@@ -1,0 +1,58 @@
+/*
+ * Every number of a run: slots given or by default, then what follows from them.
+ */
+static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+{
+    /* slots */
+    const double omega = is_given[0] ? given[0] : 62.83185307179586;  /* parameters.omega */
+    p->omega = omega;
+    const double c = is_given[1] ? given[1] : 0.0002;  /* parameters.c */
+    p->c = c;
+    const double crank_mass = is_given[2] ? given[2] : 0.3;  /* bodies.crank.mass */
+    p->crank_mass = crank_mass;
+    const double crank_inertia = is_given[3] ? given[3] : 0.0001;  /* bodies.crank.inertia */
+    p->crank_inertia = crank_inertia;
+    const double rod_mass = is_given[4] ? given[4] : 0.21;  /* bodies.rod.mass */
+    p->rod_mass = rod_mass;
+    const double rod_inertia = is_given[5] ? given[5] : 0.00025;  /* bodies.rod.inertia */
+    p->rod_inertia = rod_inertia;
+    const double slider_mass = is_given[6] ? given[6] : 0.14;  /* bodies.slider.mass */
+    p->slider_mass = slider_mass;
+    const double slider_inertia = is_given[7] ? given[7] : 0.0001;  /* bodies.slider.inertia */
+    p->slider_inertia = slider_inertia;
+    const double crank_length = is_given[8] ? given[8] : 0.05;  /* bodies.crank.length */
+    p->crank_length = crank_length;
+    const double rod_length = is_given[9] ? given[9] : 0.12;  /* bodies.rod.length */
+    p->rod_length = rod_length;
+    const double alpha = is_given[10] ? given[10] : 50.0;  /* baumgarte.alpha */
+    p->alpha = alpha;
+    const double beta = is_given[11] ? given[11] : 50.0;  /* baumgarte.beta */
+    p->beta = beta;
+    const double cylinder_axis_x = is_given[12] ? given[12] : 1.0;  /* joints.cylinder.axis.x */
+    p->cylinder_axis_x = cylinder_axis_x;
+    const double guess_slider_x = is_given[13] ? given[13] : 0.17;  /* start.guess.slider.x */
+    p->guess_slider_x = guess_slider_x;
+
+    /* derived */
+    const double crank_origin_x = -1.0/2.0*crank_length;  /* point from the centre of mass */
+    p->crank_origin_x = crank_origin_x;
+    const double rod_origin_x = -1.0/2.0*rod_length;  /* point from the centre of mass */
+    p->rod_origin_x = rod_origin_x;
+    const double inverse_crank_mass = 1.0/crank_mass;  /* 1/M */
+    p->inverse_crank_mass = inverse_crank_mass;
+    const double inverse_crank_inertia = 1.0/crank_inertia;  /* 1/M */
+    p->inverse_crank_inertia = inverse_crank_inertia;
+    const double inverse_rod_mass = 1.0/rod_mass;  /* 1/M */
+    p->inverse_rod_mass = inverse_rod_mass;
+    const double inverse_rod_inertia = 1.0/rod_inertia;  /* 1/M */
+    p->inverse_rod_inertia = inverse_rod_inertia;
+    const double inverse_slider_mass = 1.0/slider_mass;  /* 1/M */
+    p->inverse_slider_mass = inverse_slider_mass;
+    const double inverse_slider_inertia = 1.0/slider_inertia;  /* 1/M */
+    p->inverse_slider_inertia = inverse_slider_inertia;
+    const double two_alpha = 2.0*alpha;  /* 2 alpha */
+    p->two_alpha = two_alpha;
+    const double beta_squared = (beta * beta);  /* beta^2 */
+    p->beta_squared = beta_squared;
+}
+
