@@ -50,19 +50,27 @@ RESERVED: dict[str, str] = {
 
 def check_name(name: str, what: str, where: Location | None) -> None:
     """Raise BadNameError unless `name` can name a thing: a free identifier of at most 64 characters."""
-    if not IDENTIFIER.fullmatch(name):
-        hint = "expected a letter, then letters, digits or '_'"
-        raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {what}: it is no identifier", where, hint)
-    if len(name) > MAX_LENGTH:
-        raise BadNameError(
-            f"the name of this {what} has {len(name)} characters", where, f"expected at most {MAX_LENGTH}"
-        )
+    check_label(name, what, where)
     reason = RESERVED.get(name)
     if name.startswith("gudgeon") or "__" in name:
         reason = "names that begin with 'gudgeon' or hold '__' are kept for emitted code"
     if reason:
         raise BadNameError(
             f"{name!r} cannot name this {what}: {reason}", where, f"expected another name, such as {name}1"
+        )
+
+
+def check_label(name: str, what: str, where: Location | None) -> None:
+    """Raise BadNameError unless `name` is an identifier of at most 64 characters.
+
+    It is enough for what no expression and no C identifier is called by alone: scenes, materials, bearings, contacts.
+    """
+    if not IDENTIFIER.fullmatch(name):
+        hint = "expected a letter, then letters, digits or '_'"
+        raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {what}: it is no identifier", where, hint)
+    if len(name) > MAX_LENGTH:
+        raise BadNameError(
+            f"the name of this {what} has {len(name)} characters", where, f"expected at most {MAX_LENGTH}"
         )
 
 

@@ -12,7 +12,8 @@ from gudgeon.generator.yaml_tree import Items, Map, Text, kind_of
 
 # What the file must name itself: an override changes it and makes no new one.
 _COLLECTIONS = frozenset(
-    ("parameters", "materials", "bodies", "ground", "joints") + ("drives", "bearings", "contacts", "scenes", "outputs")
+    ("parameters", "materials", "bodies", "ground", "joints", "drives")
+    + ("forces", "bearings", "contacts", "scenes", "outputs")
 )
 _AXES = {"x": 0, "y": 1}
 

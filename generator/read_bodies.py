@@ -7,7 +7,7 @@ from contextlib import suppress
 
 from gudgeon.errors import BadNameError, BadValueError, InputError, Location
 from gudgeon.generator.mechanism import GROUND, Body, PointRef, Vector
-from gudgeon.generator.names import Namespace, check_name, unknown_name
+from gudgeon.generator.names import Namespace, check_name, known_hint, unknown_name
 from gudgeon.generator.reading import Reader
 from gudgeon.generator.schema import BodyShape, FileShape
 from gudgeon.generator.units import ACCELERATION, INERTIA, LENGTH, MASS
@@ -86,7 +86,7 @@ class Places:
         """The name of a body or `ground`. Raises UnknownNameError."""
         if name not in self.bodies and name != GROUND:
             raise unknown_name("body", name, (*self.bodies, GROUND), where)
-        return name
+        return str(name)
 
     def point(self, text: object, where: Location) -> PointRef:
         """`L1.head` as a reference. Raises BadValueError or UnknownNameError at the part that is wrong."""
@@ -103,6 +103,13 @@ class Places:
             place = Location(text.where.file, text.where.line, text.where.column + len(body) + 1)
             raise unknown_name(f"point of {body}", point, known, place)
         return PointRef(body, point, text.where)
+
+    def body(self, text: object, where: Location) -> PointRef:
+        """A body as a reference to its centre of mass, the ground as one to no point in particular."""
+        if not isinstance(text, Text):
+            raise BadValueError(f"{kind_of(text)} is no body", where, known_hint("", (*self.bodies, GROUND)))
+        name = self.check_body(text, where)
+        return PointRef(str(name), "" if name == GROUND else "com", where)
 
     def names(self) -> Iterator[str]:
         """Every point: "L1.head"."""

@@ -9,7 +9,7 @@ from gudgeon.expression_tree import Number
 from gudgeon.generator.forces.law import Law, LawOption, laws
 from gudgeon.generator.inherit import parents_first
 from gudgeon.generator.mechanism import Bearing, Contact, LawUse, Material, Quantity
-from gudgeon.generator.names import check_name, known_hint, nearest, unknown_name
+from gudgeon.generator.names import check_label, known_hint, nearest, unknown_name
 from gudgeon.generator.reading import Reader
 from gudgeon.generator.schema import BearingShape, ContactShape, FileShape, missing_key, unknown_key
 from gudgeon.generator.units import DIMENSIONLESS, LENGTH, PRESSURE, VELOCITY
@@ -23,7 +23,7 @@ def read_materials(reader: Reader, shape: FileShape) -> dict[str, Material]:
     found = {}
     for name, material in shape.materials.items():
         with reader.collect():
-            check_name(name, "material", name.where)
+            check_label(name, "material", name.where)
         modulus = reader.quantity(material.E, f"materials.{name}.E", PRESSURE)
         poisson = reader.quantity(material.nu, f"materials.{name}.nu", DIMENSIONLESS)
         reader.require(modulus, ">", 0.0, "Young's modulus is positive")
@@ -38,7 +38,7 @@ def read_bearings(reader: Reader, shape: FileShape, materials: Mapping[str, Mate
     found = {}
     for name, bearing in shape.bearings.items():
         with reader.collect():
-            check_name(name, "bearing", name.where)
+            check_label(name, "bearing", name.where)
         with reader.collect():
             found[str(name)] = _bearing(reader, name, bearing, materials)
     return found
@@ -72,7 +72,7 @@ def read_contacts(reader: Reader, shape: FileShape) -> dict[str, Contact]:
             contact = _merge(merged[contact.extends], contact)
         merged[str(name)] = contact
         with reader.collect():
-            check_name(name, "contact", name.where)
+            check_label(name, "contact", name.where)
         with reader.collect():
             found[str(name)] = _contact(reader, name, contact)
     return {str(name): found[name] for name in shape.contacts if name in found}

@@ -10,7 +10,7 @@ from gudgeon.expression_tree import Expr
 from gudgeon.generator.inherit import parents_first
 from gudgeon.generator.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import Bearing, Contact, Joint, Play, Quantity, SceneSpec
-from gudgeon.generator.names import check_name, unknown_name
+from gudgeon.generator.names import check_label, unknown_name
 from gudgeon.generator.parameters import dependency_order
 from gudgeon.generator.reading import Reader
 from gudgeon.generator.schema import FileShape, PlayShape, SceneShape
@@ -48,7 +48,7 @@ def read_scenes(reader: Reader, parts: Parts) -> dict[str, SceneSpec]:
     found: dict[str, SceneSpec] = {IDEAL: SceneSpec(IDEAL, {}, {}, {}, Location(reader.file, 1, 1))}
     for name, scene in parents_first(reader, "scene", section, (IDEAL,)):
         with reader.collect():
-            check_name(name, "scene", name.where)
+            check_label(name, "scene", name.where)
             if name == IDEAL and (scene.play or scene.parameters or scene.extends):
                 raise BadValueError(
                     "the scene ideal has no play, and the file's parameters", name.where, "expected simulate: only"
@@ -112,7 +112,7 @@ def _play(joint: Text, use: PlayShape, parts: Parts) -> Play | None:
     kind = joint_types()[parts.joints[joint].kind]
     if not kind.may_have_play:
         able = [name for name, other in parts.joints.items() if joint_types()[other.kind].may_have_play]
-        hint = f"expected one of: {', '.join(able)}"
+        hint = f"expected one of: {', '.join(able)}" if able else "there are no joints here that can"
         raise BadValueError(f"joint {joint} is a {kind.title}: it cannot have play", joint.where, hint)
     return Play(parts.bearings[use.bearing], parts.contacts[use.contact], joint.where)
 

@@ -8,16 +8,19 @@ from collections.abc import Mapping
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.check_values import check_values
-from gudgeon.generator.mechanism import Drive, Joint, Mechanism, Quantity
+from gudgeon.generator.mechanism import Mechanism, Quantity
 from gudgeon.generator.names import Namespace, check_name
 from gudgeon.generator.overrides import apply_overrides
 from gudgeon.generator.parameters import read_parameters, settle
 from gudgeon.generator.read_bodies import Places, read_bodies, read_gravity, read_ground
 from gudgeon.generator.read_contacts import read_bearings, read_contacts, read_materials
-from gudgeon.generator.read_joints import read_drives, read_joints, read_start
+from gudgeon.generator.read_drives import read_drives
+from gudgeon.generator.read_forces import read_forces
+from gudgeon.generator.read_joints import read_joints
 from gudgeon.generator.read_scenes import Parts, read_scenes
-from gudgeon.generator.reading import EnoughErrors, Reader
-from gudgeon.generator.result_names import ResultNames
+from gudgeon.generator.read_start import read_start
+from gudgeon.generator.reading import EnoughErrors, Reader, ResultDimension
+from gudgeon.generator.result_names import MotionNames, ResultNames
 from gudgeon.generator.schema import FileShape, check_shape
 from gudgeon.generator.yaml_tree import parse_yaml
 
@@ -53,11 +56,13 @@ def _read(reader: Reader, shape: FileShape, sha256: str) -> Mechanism:
     places = Places(bodies, ground)
     joints = read_joints(reader, shape, places, namespace)
     drives = read_drives(reader, shape, places, namespace)
+    motion = MotionNames(places, (*shape.joints, *shape.forces), drives, shape.parameters)
+    forces = read_forces(reader, shape, places, namespace, motion)
     start = read_start(reader, shape, places)
     bearings = read_bearings(reader, shape, read_materials(reader, shape))
     contacts = read_contacts(reader, shape)
     scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, shape))
-    outputs = _read_outputs(reader, shape, namespace, places, joints, drives)
+    outputs = _read_outputs(reader, shape, namespace, ResultNames(places, joints, drives, forces, shape.parameters))
     check_values(reader, parameters, scenes)
     return Mechanism(
         name=str(shape.name),
@@ -74,6 +79,7 @@ def _read(reader: Reader, shape: FileShape, sha256: str) -> Mechanism:
         conditions=tuple(reader.conditions),
         file=reader.file,
         sha256=sha256,
+        forces=forces,
     )
 
 
@@ -92,15 +98,9 @@ def _read_title(reader: Reader, shape: FileShape) -> str:
 
 
 def _read_outputs(
-    reader: Reader,
-    shape: FileShape,
-    namespace: Namespace,
-    places: Places,
-    joints: Mapping[str, Joint],
-    drives: Mapping[str, Drive],
+    reader: Reader, shape: FileShape, namespace: Namespace, known: ResultDimension
 ) -> dict[str, Quantity]:
     """Named expressions of t, parameters and anything that a result has."""
-    known = ResultNames(places, joints, drives, shape.parameters)
     outputs = {}
     for name, text in shape.outputs.items():
         with reader.collect():

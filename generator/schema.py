@@ -118,6 +118,7 @@ class FileShape(Shape):
     ground: dict[Text, Pair] = {}
     joints: dict[Text, Map] = {}
     drives: dict[Text, Map] = {}
+    forces: dict[Text, Map] = {}
     start: StartShape | None = None
     bearings: dict[Text, BearingShape] = {}
     contacts: dict[Text, ContactShape] = {}

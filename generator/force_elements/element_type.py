@@ -62,6 +62,7 @@ class ElementType:
     targets: str  # "points" or "bodies"; the ground is one of either
     counts: tuple[int, ...]  # how many targets there may be
     fields: tuple[ElementField, ...]
+    results: tuple[tuple[str, Dimension], ...]  # names of `Loads.series`, for outputs
     build: Callable[..., Loads]
 
 

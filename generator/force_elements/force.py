@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.force_elements.element_type import ElementField, ElementType, Load, Loads
-from gudgeon.generator.units import dimension
+from gudgeon.generator.units import FORCE, dimension
 
 
 def build(targets: Any, fields: Any) -> Loads:
@@ -36,5 +36,6 @@ ELEMENT = ElementType(
         ElementField("value", "vector", "components", dimension(mass=1, length=1, time=-2), True, variable=True),
         ElementField("axes", "option", "in which axes the components are", values=("ground", "body")),
     ),
+    (("Fx", FORCE), ("Fy", FORCE), ("F", FORCE)),
     build,
 )

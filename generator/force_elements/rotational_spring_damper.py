@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.force_elements.element_type import ElementField, ElementType, Load, Loads
-from gudgeon.generator.units import DIMENSIONLESS, dimension
+from gudgeon.generator.units import DIMENSIONLESS, TORQUE, dimension
 
 
 def build(targets: Any, fields: Any) -> Loads:
@@ -34,5 +34,6 @@ ELEMENT = ElementType(
         ElementField("free_angle", "quantity", "θ_0", DIMENSIONLESS),
         ElementField("damping", "quantity", "d", dimension(mass=1, length=2, time=-1), not_negative=True),
     ),
+    (("M", TORQUE),),
     build,
 )

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.force_elements.element_type import ElementField, ElementType, Load, Loads
-from gudgeon.generator.units import LENGTH, dimension
+from gudgeon.generator.units import FORCE, LENGTH, dimension
 
 
 def build(targets: Any, fields: Any) -> Loads:
@@ -47,5 +47,6 @@ ELEMENT = ElementType(
         ElementField("free_length", "quantity", "l_0", LENGTH, not_negative=True),
         ElementField("damping", "quantity", "d", dimension(mass=1, time=-1), not_negative=True),
     ),
+    (("F", FORCE), ("length", LENGTH)),
     build,
 )

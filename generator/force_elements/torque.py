@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.force_elements.element_type import ElementField, ElementType, Load, Loads
-from gudgeon.generator.units import dimension
+from gudgeon.generator.units import TORQUE, dimension
 
 
 def build(targets: Any, fields: Any) -> Loads:
@@ -32,5 +32,6 @@ ELEMENT = ElementType(
     "bodies",
     (1, 2),
     (ElementField("value", "quantity", "on the first", dimension(mass=1, length=2, time=-2), True, variable=True),),
+    (("M", TORQUE),),
     build,
 )
