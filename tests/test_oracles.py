@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tests.oracles import dry, film, golden, ideal_press, numpy_linkage, press_dense
+from tests.oracles import dry, film, golden, ideal_press, numpy_linkage, press_dense, random_linkage
 from tests.oracles.journal import Journal
 from tests.oracles.numpy_linkage import Body, Drive, End, Linkage, Revolute, Translational, Wave
 
@@ -75,7 +75,7 @@ def test_general_oracle_moves_the_ideal_press_as_its_closed_form() -> None:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_general_oracle_differentiates_its_own_rows(seed: int) -> None:
-    case = numpy_linkage.random_case(seed, bodies=2 + seed % 4, loops=seed % 3, drives=seed % 3)
+    case = random_linkage.random_case(seed, bodies=2 + seed % 4, loops=seed % 3, drives=seed % 3)
     linkage, q, v, h = case.linkage, case.q, case.v, 1e-6
     r = numpy_linkage.rows(linkage, 0.0, q, v)
     assert abs(r.phi).max() < 1e-14
@@ -94,7 +94,7 @@ def test_general_oracle_differentiates_its_own_rows(seed: int) -> None:
 
 
 def test_random_linkages_are_reproducible() -> None:
-    first, second = (numpy_linkage.random_case(7, bodies=5, loops=2, drives=2) for _ in range(2))
+    first, second = (random_linkage.random_case(7, bodies=5, loops=2, drives=2) for _ in range(2))
     assert first.linkage == second.linkage
     assert np.array_equal(first.q, second.q) and np.array_equal(first.v, second.v)
 

@@ -12,7 +12,7 @@ import sympy as sp
 from gudgeon.generator.model import Model
 from gudgeon.generator.pipeline import derive
 from tests.oracles.linkage_yaml import to_yaml
-from tests.oracles.numpy_linkage import Case, random_case
+from tests.oracles.random_linkage import Case, random_case
 
 Function = Callable[[float, np.ndarray, np.ndarray], np.ndarray]
 

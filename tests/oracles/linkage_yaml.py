@@ -10,7 +10,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .numpy_linkage import GROUND, Case, Drive, End, Revolute, Wave
+from .numpy_linkage import GROUND, Drive, End, Revolute, Wave
+from .random_linkage import Case
 
 
 class _Writer:
