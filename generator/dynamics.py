@@ -20,8 +20,11 @@ def dynamics_kernel(model: Model, kkt: KKT) -> Kernel:
     build = KernelBuilder(model.symbols, "dynamics", [
         "Accelerations a (n) and multipliers in `aside` at a state:",
         "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
-        "Returns 0, or the number of the pivot that vanished.",
+        "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
     ])  # fmt: skip
+    if kkt.rows:
+        build.section("status")
+        build.line("int pivot = 0;")
     forces = _gravity(model)
     for element in model.elements.values():
         element.add_to(forces)
@@ -29,14 +32,16 @@ def dynamics_kernel(model: Model, kkt: KKT) -> Kernel:
         _clearance_call(model, build, index, clearance, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
     b.update(_constraint_rhs(model, build, kkt))
-    x = kkt.solve(build, kkt.factorize(build), b)
+    x = kkt.solve(build, kkt.factorize(build, "{{ pivot = {}; goto dependent; }}"), b)
     build.section("results")
     for k, _ in enumerate(model.q):
         build.out(f"a[{k}]", x[k])
     for r, _ in enumerate(kkt.rows):
         build.out(f"aside->lambda[{r}]", x[kkt.n + r])
-    _powers(model, build, kkt, x)
-    build.line("return 0;")
+    if kkt.rows:
+        _dependent_rows(build, kkt, b)
+    _powers(model, build, kkt)
+    build.line("return pivot;" if kkt.rows else "return 0;")
     latch = (Argument("const Latch *", "latch"),) if model.clearances else ()
     arguments = (*STATE, *latch, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
     return build.build(arguments, "int")
@@ -98,9 +103,25 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT) -> dict[int, s
     return rhs
 
 
-def _powers(model: Model, build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
+def _dependent_rows(build: KernelBuilder, kkt: KKT, b: dict[int, sp.Expr]) -> None:
+    """The way out when a pivot vanishes (templates/c/singular.c.jinja)."""
+    build.line("goto powers;")
+    build.section("a pivot vanished: rows depend on each other here")
+    build.line("dependent: {")
+    build.line("    double force[N_Q], rhs[N_ROWS];")
+    for k in range(kkt.n):
+        build.out(f"    force[{k}]", b.get(k, ZERO))
+    for r in range(len(kkt.rows)):
+        build.out(f"    rhs[{r}]", b.get(kkt.n + r, ZERO))
+    build.line("    pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);")
+    build.line("}")
+    build.line("powers:")
+
+
+def _powers(model: Model, build: KernelBuilder, kkt: KKT) -> None:
     """Power of the drives, −λᵀν, of the force elements that store nothing, of the clearance forces (W)."""
-    drives = sp.Add(*(-x[kkt.n + r] * row.nu for r, row in enumerate(kkt.rows) if row.nu != 0))
+    multipliers = {r: sp.Symbol(f"aside->lambda[{r}]") for r, row in enumerate(kkt.rows) if row.nu != 0}
+    drives = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
     clearances = " + ".join(f"aside->clearance[{i}].power" for i in range(len(model.clearances)))
     build.out("aside->power[0]", drives)
     build.out("aside->power[1]", sum((element.loads.power for element in model.elements.values()), ZERO))
@@ -111,11 +132,16 @@ def projection_kernel(model: Model, rows: tuple[Row, ...], name: str) -> tuple[K
     """x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r: the smallest x, in the metric of M, with Φ_q x = r."""
     kkt = KKT(model, rows)
     build = KernelBuilder(model.symbols, name, [
-        "The smallest x (n), measured by M, with Phi_q x = r (m); Newton's step, velocities.",
+        "The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of",
+        "the closed linkage, redundant ones are not looked at.",
         "Returns 0, or the number of the pivot that vanished.",
     ])  # fmt: skip
     build.section("right-hand side")
-    r = {kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", f"r[{k}]") for k, row in enumerate(kkt.rows)}
+    place = {row.name: k for k, row in enumerate(model.all_rows)}
+    r = {
+        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", f"r[{place[row.name]}]")
+        for k, row in enumerate(kkt.rows)
+    }
     x = kkt.solve(build, kkt.factorize(build), r, "step_")
     build.section("results")
     for k, _ in enumerate(model.q):

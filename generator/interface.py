@@ -101,7 +101,7 @@ def outputs_kernel(model: Model) -> Kernel:
         for k, value in enumerate(_reaction(model, joint, rows_of.get(joint.name, []), multiplier)):
             build.out(f"reactions[{3 * j + k}]", value, f"{joint.name}.{('Fx', 'Fy', 'M')[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
-        build.out(f"torques[{d}]", -multiplier[name], f"{name}.torque")
+        build.out(f"torques[{d}]", -multiplier.get(name, ZERO), f"{name}")
     for k, (name, (value, _)) in enumerate(element_series(model).items()):
         build.out(f"series[{k}]", value, name)
     build.section("energy")

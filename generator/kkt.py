@@ -50,8 +50,8 @@ class KKT:
         ]
         self.pivots = tuple(self.rows[k - self.n].name for k in self.elimination.order if k >= self.n)
 
-    def factorize(self, build: KernelBuilder, failed: str = "return") -> Factor:
-        """Statements for L and 1/D; a vanishing pivot returns its number, from 1, in order of elimination."""
+    def factorize(self, build: KernelBuilder, failed: str = "return {}") -> Factor:
+        """Statements for L and 1/D; `failed` is what a vanishing pivot does, with its number, from 1, for {}."""
         build.section("L D L^T of the KKT matrix")
         L: dict[tuple[int, int], sp.Expr] = {}
         W: dict[tuple[int, int], sp.Expr] = {}  # entries before the division by their pivot
@@ -63,7 +63,7 @@ class KKT:
                 inverse[k] = self.inverse_masses[k]
             else:
                 count += 1
-                inverse[k] = self._row_pivot(build, k, earlier[k], L, W, f"{failed} {count}")
+                inverse[k] = self._row_pivot(build, k, earlier[k], L, W, failed.format(count))
             for i in self.elimination.structure[k]:
                 shared = [j for j in earlier[k] if (i, j) in L]
                 value = self.entry.get((i, k), self.entry.get((k, i), sp.Integer(0)))

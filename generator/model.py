@@ -7,7 +7,7 @@ properties Phi, Phi_q, nu, gamma, M and g, which write everything out in q, q̇,
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import sympy as sp
@@ -20,6 +20,16 @@ from gudgeon.generator.scene import Scene
 from gudgeon.generator.slots import Slots
 from gudgeon.generator.symbols import Symbols
 from gudgeon.generator.units import dimension
+
+
+
+@dataclass(frozen=True)
+class Redundancy:
+    """Names of rows to leave out, and of joints or drives whose multipliers are not determined."""
+
+    dropped: tuple[str, ...] = ()
+    indeterminate: tuple[str, ...] = ()
+
 
 BAUMGARTE = 50.0  # 1/s, both gains (physics.md, section 1)
 
@@ -37,8 +47,14 @@ class Model:
     rows: tuple[Row, ...]  # what constrains the motion
     clearances: tuple[Clearance, ...]
     elements: Mapping[str, AppliedElement]  # the section `forces`
+    redundancy: Redundancy  # rows that were left out
     gravity: tuple[sp.Expr, sp.Expr]
     baumgarte: tuple[sp.Symbol, sp.Symbol]
+
+    def without(self, redundancy: Redundancy) -> Model:
+        """The same scene without the rows that say nothing new."""
+        kept = tuple(row for row in self.rows if row.name not in redundancy.dropped)
+        return replace(self, rows=kept, redundancy=redundancy)
 
     @property
     def bodies(self) -> tuple[BodySymbols, ...]:
@@ -124,6 +140,6 @@ def make_model(scene: Scene) -> Model:
     elements = {e.name: apply_element(e, geometry, constraints.t) for e in mechanism.forces.values()}
     kept = tuple(row for row in rows if row.owner not in scene.play)
     return Model(
-        scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), elements, gravity,
+        scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), elements, Redundancy(), gravity,
         baumgarte,
     )

@@ -142,7 +142,16 @@ class CompiledModel:
         )  # fmt: skip
         if status:
             self.check_pivot(status, float(time[failed[0]]))
+        self._mark_indeterminate(out)
         return out
+
+    def _mark_indeterminate(self, out: Evaluation) -> None:
+        """NaN where redundant constraints leave a reaction open: rigid bodies cannot tell it."""
+        s = self.source
+        for owner in s.indeterminate:
+            out.multipliers[:, [k for k, row in enumerate(s.rows) if row.owner == owner]] = np.nan
+            out.reactions[:, [k for k, joint in enumerate(s.joints) if joint.name == owner]] = np.nan
+            out.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
 
     def memory_array(self, memory: ArrayLike | None) -> Array:
         """δ̇⁻ a joint with play; all free when None."""

@@ -77,10 +77,11 @@ class JointInfo:
 
 @dataclass(frozen=True)
 class DriveInfo:
-    """The unit of its row tells a torque (rad) from a force (m)."""
+    """Its row (−1: redundant, left out); the row's unit tells a torque ("rad") from a force ("m")."""
 
     name: str
     row: int
+    unit: str
 
 
 @dataclass(frozen=True)
@@ -130,6 +131,7 @@ class KernelSource:
     start_rates: tuple[str, ...]  # "L1.omega"
     pivots: tuple[str, ...]  # rows in their order of elimination: a status k > 0 names pivots[k − 1]
     start_pivots: tuple[str, ...]  # the same for `gudgeon_project`, on the closed linkage
+    indeterminate: tuple[str, ...]  # joints and drives whose multipliers redundancy leaves open
     slots: tuple[Slot, ...]
     derived: tuple[str, ...]  # names of the prepared numbers that follow the slots in p
     conditions: tuple[Condition, ...]

@@ -173,7 +173,7 @@ def _ratio(run: Result, joint: ClearanceInfo) -> Array:
 
 def _drives(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, drive in enumerate(source.drives):
-        turns = source.rows[drive.row].unit == "rad"
+        turns = drive.unit == "rad"
         name, unit = ("torque", "N*m") if turns else ("force", "N")
         compute = partial(_evaluated, part="torques", index=(k,))
         yield f"{drive.name}.{name}", Series(unit, f"{name} of drive {drive.name}", compute)

@@ -48,7 +48,7 @@ class _Assembly:
         self.names = [row.name for row in source.start_rows] + [f"set {name}" for name in source.start_set]
         self.owners = [row.owner for row in source.start_rows] + ["start"] * len(self.set_index)
         self.is_angle = np.array([name.endswith(".theta") for name in source.coordinates])
-        self.size = _size(compiled, p)
+        self.size = mechanism_size(compiled, p)
         units = [row.unit for row in source.start_rows] + ["rad" if self.is_angle[k] else "m" for k in self.set_index]
         self.row_scale = np.array([self.size if unit == "m" else 1.0 for unit in units])
         self.weight = np.where(self.is_angle, FREE_ANGLE, FREE_POSITION / self.size)
@@ -119,13 +119,27 @@ class _Assembly:
             v += np.linalg.lstsq(matrix / root, target - matrix @ v, rcond=1e-12)[0] / root
         left = np.abs(matrix @ v - target)
         if left.max(initial=0.0) > 1e-8 * max(1.0, float(np.abs(target).max(initial=0.0))):
-            rows = [row.name for row in self.compiled.source.start_rows] + list(self.compiled.source.start_rates)
-            worst = rows[int(left.argmax())]
-            raise AssemblyError(
-                f"no velocities fit the start: row {worst} is left with {left.max():.3g}\n"
-                "  drives or rates contradict each other, or the start is a dead centre: move it a little"
-            )
+            raise self._stuck(matrix / root, left)
         return v
+
+    def _stuck(self, matrix: Array, left: Array) -> AssemblyError:
+        """Velocities that do not fit: the rows whose combination vanishes, drives and rates among them."""
+        source = self.compiled.source
+        rows = [row.name for row in source.start_rows] + list(source.start_rates)
+        moving = {row.name for row in source.start_rows if row.kind == "drive"} | set(source.start_rates)
+        _, values, _ = np.linalg.svd(matrix)
+        vectors = np.linalg.svd(matrix.T)[2][int((values > 1e-9 * values[0]).sum()) :]
+        share = np.abs(vectors).max(axis=0, initial=0.0)
+        stuck = [name for name, size in zip(rows, share, strict=True) if size > 1e-6]
+        movers = [name for name in stuck if name in moving]
+        if movers:
+            return AssemblyError(
+                f"the start is a dead centre: {', '.join(movers)} cannot move the linkage from here (rows"
+                f" {', '.join(name for name in stuck if name not in moving)} stand against it)\n"
+                "  start from another angle, or drive another body"
+            )
+        worst = rows[int(left.argmax())]
+        return AssemblyError(f"no velocities fit the start: row {worst} is left with {left.max():.3g}")
 
     def _failure(self, q: Array) -> AssemblyError:
         """Which rows stay open, by how much, and what to try."""
@@ -143,7 +157,7 @@ class _Assembly:
         )
 
 
-def _size(compiled: CompiledModel, p: Array) -> float:
+def mechanism_size(compiled: CompiledModel, p: Array) -> float:
     """The largest distance of a point from its body's centre of mass (or of the ground's points), m."""
     index = [k for point in compiled.source.points for k in (point.x, point.y) if k >= 0]
     return max(float(np.abs(p[index]).max(initial=0.0)), 1e-9) if index else 1.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import MappingProxyType
 
 import sympy as sp
 
@@ -18,14 +19,15 @@ from gudgeon.kernel_source import (
 
 
 def describe(
-    model: Model, *, files: Mapping[str, str], main: str, cdef: str, pivots: tuple[str, ...],
-    start_pivots: tuple[str, ...], operations: Mapping[str, int],
+    model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "", cdef: str = "",
+    pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (), operations: Mapping[str, int] = MappingProxyType({}),
 ) -> KernelSource:  # fmt: skip
-    """Everything that the runtime must know of a scene."""
+    """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
     scene, mechanism = model.scene, model.scene.mechanism
     place = {symbol: k for k, symbol in enumerate(_prepared(model))}
     body_of = {name: k for k, name in enumerate(model.geometry.bodies)} | {GROUND: -1}
     row_of = {row.name: r for r, row in enumerate(model.rows)}
+    unit_of = {row.name: row.unit for row in model.all_rows}
     start = mechanism.start
     used = set(model.slots.entries)
     return KernelSource(
@@ -44,13 +46,13 @@ def describe(
             for joint in kept_joints(model)
         ),
         drives=tuple(
-            DriveInfo(name, row_of[name]) for name in mechanism.drives
+            DriveInfo(name, row_of.get(name, -1), unit_of[name]) for name in mechanism.drives
         ),
         clearances=_clearances(model, place, body_of),
         series=tuple(SeriesInfo(name, unit) for name, (_, unit) in element_series(model).items()),
         start_rows=tuple(map(_row, model.all_rows)),
         start_guess=tuple(start.guess), start_set=tuple(start.set), start_rates=tuple(start.rates),
-        pivots=pivots, start_pivots=start_pivots,
+        pivots=pivots, start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
         slots=tuple(
             Slot(e.address, _unit(e.dimension), e.default, e.follows, _exponents(e.dimension))
             for e in model.slots.entries.values()
@@ -120,6 +122,11 @@ def _simulate(model: Model) -> dict[str, float]:
 def _notes(model: Model) -> tuple[str, ...]:
     """What this scene does not have, and so does not pay for."""
     notes = []
+    if model.redundancy.dropped:
+        notes.append(
+            f"redundant rows left out: {', '.join(model.redundancy.dropped)}; reactions not determined by"
+            f" rigid bodies: {', '.join(model.redundancy.indeterminate)}"
+        )
     if not model.clearances:
         notes.append("no joint has play: no contact code, no film")
         if model.degrees_of_freedom == 0:

@@ -11,9 +11,10 @@ import sympy as sp
 from gudgeon.generator import interface
 from gudgeon.generator.dynamics import dynamics_kernel, projection_kernel
 from gudgeon.generator.kernels import Kernel
-from gudgeon.generator.kkt import KKT
+from gudgeon.generator.kkt import KKT, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
+from gudgeon.generator.redundancy import find_redundancy
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
@@ -50,10 +51,12 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 
 
 def emit(model: Model) -> KernelSource:
-    """The whole scene as C text with its description."""
+    """The whole scene as C text with its description; redundant rows are left out first."""
+    model = model.without(find_redundancy(model, describe(model)))
+    kinematic = model.degrees_of_freedom == 0 and not model.clearances
     kkt = KKT(model, model.rows)
     dynamics = dynamics_kernel(model, kkt)
-    projection, projection_kkt = projection_kernel(model, model.all_rows, "project")
+    projection, projection_kkt = projection_kernel(model, model.rows if kinematic else model.all_rows, "project")
     around = [
         interface.mass_kernel(model), *interface.row_kernels(model), interface.start_kernel(model),
         interface.outputs_kernel(model),
@@ -61,12 +64,12 @@ def emit(model: Model) -> KernelSource:
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
     prepare = interface.prepare_kernel(model, printer.expression)
-    kinematic = model.degrees_of_freedom == 0 and not model.clearances
     files = {
         "model.h": render("model.h.jinja", **_header(model)),
         "parameters.c": _kernels(prepare),
         "constraints.c": _kernels(*around, projection),
         "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
+        **({"singular.c": _singular(model)} if model.rows else {}),
         "dynamics.c": _kernels(dynamics),
         "system.c": render("system.c.jinja", **_counts(model), **_latches(model)),
     }
@@ -126,6 +129,13 @@ def _latches(model: Model) -> dict[str, str]:
         "latch": "latch, " if model.clearances else "",
         "unused_latch": "" if model.clearances else "(void)latch;",
     }
+
+
+def _singular(model: Model) -> str:
+    place = {row.name: r for r, row in enumerate(model.all_rows)}
+    return render(
+        "singular.c.jinja", kept=[place[row.name] for row in model.rows], singular=SINGULAR, **_counts(model)
+    )
 
 
 def _floors(model: Model) -> list[str]:
