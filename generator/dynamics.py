@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sympy as sp
 
-from gudgeon.generator.constraints import Row
 from gudgeon.generator.clearance import Clearance
+from gudgeon.generator.constraints import Row
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.kkt import KKT
 from gudgeon.generator.model import Model
@@ -67,8 +67,7 @@ def _clearance_call(
     build.section(f"clearance joint {name}")
     e = [build.local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)]
     edot = [
-        build.local(f"edot_{name}_{axis}", value)
-        for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
+        build.local(f"edot_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
     ]
     omegas = (clearance.first.omega, clearance.second.omega)
     arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in omegas)])

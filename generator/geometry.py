@@ -94,9 +94,10 @@ class Geometry:
 
     def _body(self, number: int, body: Body) -> BodySymbols:
         new, index, name = self.symbols.new, 3 * number, body.name
-        q = [new(f"{name}_{c}", f"q[{index + k}]", f"{name}.{c}") for k, c in enumerate(("x", "y", "theta"))]
-        v = [new(f"{name}_{c}", f"v[{index + k}]", f"{name}.{c}") for k, c in enumerate(("vx", "vy", "omega"))]
-        return BodySymbols(name, index, *q, *v, self.slots.use(body.mass), self.slots.use(body.inertia))
+        x, y, theta = (new(f"{name}_{c}", f"q[{index + k}]", f"{name}.{c}") for k, c in enumerate(("x", "y", "theta")))
+        vx, vy, omega = (new(f"{name}_{c}", f"v[{index + k}]", f"{name}.{c}") for k, c in enumerate(("vx", "vy", "omega")))
+        mass, inertia = self.slots.use(body.mass), self.slots.use(body.inertia)
+        return BodySymbols(name, index, x, y, theta, vx, vy, omega, mass, inertia)
 
     @staticmethod
     def point_names(body: Body) -> list[str]:

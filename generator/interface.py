@@ -115,9 +115,7 @@ def outputs_kernel(model: Model) -> Kernel:
 
 def element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
     """Results of the force elements: "coil.F" -> (value, unit)."""
-    return {
-        f"{name}.{what}": value for name, e in model.elements.items() for what, value in e.loads.series.items()
-    }
+    return {f"{name}.{what}": value for name, e in model.elements.items() for what, value in e.loads.series.items()}
 
 
 def kept_joints(model: Model) -> list[Joint]:

@@ -98,7 +98,9 @@ class ElementFields:
         """A temporary of the emitted code; numbers stay as they are."""
         if value.is_number or value.is_Symbol:
             return value
-        return self._geometry.symbols.define(f"{self._element.name}_{name}", value, "", f"{name} of {self._element.name}")
+        return self._geometry.symbols.define(
+            f"{self._element.name}_{name}", value, "", f"{name} of {self._element.name}"
+        )
 
     def named_vector(self, name: str, value: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
         return self.named(f"{name}_x", value[0]), self.named(f"{name}_y", value[1])
@@ -127,7 +129,7 @@ class VariableNames:
             return self._geometry.slots.entries[f"parameters.{path}"].symbol
         owner, _, what = path.rpartition(".")
         if owner in self._geometry.bodies:
-            return getattr(self._geometry.bodies[owner], what)  # type: ignore[no-any-return]
+            return getattr(self._geometry.bodies[owner], what)
         body, _, point = owner.partition(".")
         return _OF_POINT[what](self._geometry.point(PointRef(body, point, _NOWHERE)))
 

@@ -45,9 +45,7 @@ class KKT:
             near[c].add(r)
         self.elimination: Elimination = choose_elimination(tuple(map(frozenset, near)), self.n)
         self.names = [q.name for q in model.q] + [row.name.replace(".", "_") for row in self.rows]
-        self.inverse_masses = [
-            model.slots.derive(f"inverse_{mass.name}", 1 / mass, "1/M") for mass in model.masses
-        ]
+        self.inverse_masses = [model.slots.derive(f"inverse_{mass.name}", 1 / mass, "1/M") for mass in model.masses]
         self.pivots = tuple(self.rows[k - self.n].name for k in self.elimination.order if k >= self.n)
 
     def factorize(self, build: KernelBuilder, failed: str = "return {}") -> Factor:

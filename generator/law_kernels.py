@@ -17,7 +17,9 @@ def law_kernels(symbols: Symbols, clearance: Clearance) -> list[Kernel]:
     if clearance.normal is not None:
         kernels.append(_law_kernel(symbols, clearance, clearance.normal))
         kernels.append(
-            _no_friction(clearance) if clearance.friction is None else _law_kernel(symbols, clearance, clearance.friction)
+            _no_friction(clearance)
+            if clearance.friction is None
+            else _law_kernel(symbols, clearance, clearance.friction)
         )
     if clearance.film is not None:
         kernels.append(_law_kernel(symbols, clearance, clearance.film))

@@ -22,7 +22,6 @@ from gudgeon.generator.symbols import Symbols
 from gudgeon.generator.units import dimension
 
 
-
 @dataclass(frozen=True)
 class Redundancy:
     """Names of rows to leave out, and of joints or drives whose multipliers are not determined."""
@@ -140,6 +139,16 @@ def make_model(scene: Scene) -> Model:
     elements = {e.name: apply_element(e, geometry, constraints.t) for e in mechanism.forces.values()}
     kept = tuple(row for row in rows if row.owner not in scene.play)
     return Model(
-        scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), elements, Redundancy(), gravity,
+        scene,
+        symbols,
+        slots,
+        geometry,
+        constraints,
+        tuple(rows),
+        kept,
+        tuple(clearances),
+        elements,
+        Redundancy(),
+        gravity,
         baumgarte,
     )

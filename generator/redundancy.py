@@ -14,6 +14,7 @@ import sympy as sp
 
 from gudgeon.compiled import Array
 from gudgeon.errors import GudgeonError
+from gudgeon.generator.constraints import Row
 from gudgeon.generator.model import Model, Redundancy
 from gudgeon.kernel_source import KernelSource
 from gudgeon.start import assemble
@@ -128,7 +129,7 @@ def _configurations(numeric: NumericModel, q: Array, kept: list[int]) -> list[Ar
     return found
 
 
-def _name_rows(rows: Sequence, matrix: Array, rank: int) -> Redundancy:  # type: ignore[type-arg]
+def _name_rows(rows: Sequence[Row], matrix: Array, rank: int) -> Redundancy:
     """Drives are kept first, then rows in the order of the file; a dependent one is dropped."""
     order = sorted(range(len(rows)), key=lambda r: (rows[r].kind != "drive", r))
     basis = np.zeros((0, matrix.shape[1]))

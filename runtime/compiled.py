@@ -118,9 +118,7 @@ class CompiledModel:
             raise ValueError(f"y has shape {state.shape}, expected ({2 * self.n},)")
         latched = self.memory_array(memory)
         out = np.empty(2 * self.n + N_WORK)
-        status = self.lib.gudgeon_rhs(
-            t, self.pointer(state), self.pointer(latched), self.pointer(p), self.pointer(out)
-        )
+        status = self.lib.gudgeon_rhs(t, self.pointer(state), self.pointer(latched), self.pointer(p), self.pointer(out))
         self.check_pivot(status, t)
         return out
 

@@ -161,7 +161,9 @@ class Simulation:
         if method not in METHODS:
             raise BadValueError(f"method {method!r}: expected auto, {', '.join(METHODS)}")
         if method != fitting:
-            raise BadValueError(f"method {method!r} does not fit: this scene has {dof} degrees of freedom, use {fitting}")
+            raise BadValueError(
+                f"method {method!r} does not fit: this scene has {dof} degrees of freedom, use {fitting}"
+            )
         return method
 
     def _step(self, step: float | str | None, method: str, p: Array, duration: float) -> float:

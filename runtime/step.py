@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from gudgeon.compiled import Array, CompiledModel
 
 SMOOTH = 2e-4  # of the run's length, at most
@@ -40,5 +38,5 @@ def _arm(compiled: CompiledModel, p: Array, index: int) -> float:
     """The longest arm of a body's points, m."""
     body = next(k for k, info in enumerate(compiled.source.bodies) if info.index == index)
     points = [point for point in compiled.source.points if point.body == body]
-    lengths = [np.hypot(*(p[k] if k >= 0 else 0.0 for k in (point.x, point.y))) for point in points]
-    return float(max(lengths, default=0.0))
+    lengths = [math.hypot(*(float(p[k]) if k >= 0 else 0.0 for k in (point.x, point.y))) for point in points]
+    return max(lengths, default=0.0)

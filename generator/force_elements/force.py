@@ -1,7 +1,7 @@
 r"""A force at a point of a body, in ground or body axes; its components may vary with time and motion.
 
-      body  o------>  value
-          point
+body  o------>  value
+    point
 """
 
 from __future__ import annotations

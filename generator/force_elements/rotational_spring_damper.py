@@ -1,6 +1,6 @@
 r"""Rotational spring and damper between two bodies (or the ground and a body).
 
-     first )~~~( second        M = k (θ − θ_0) + d ω     θ = θ_second − θ_first; it acts to close θ − θ_0
+first )~~~( second        M = k (θ − θ_0) + d ω     θ = θ_second − θ_first; it acts to close θ − θ_0
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 r"""A torque on a body, or between two bodies (on the first, and its opposite on the second).
 
-      ( value
-       body
+( value
+ body
 """
 
 from __future__ import annotations

@@ -54,7 +54,9 @@ LAW = Law(
         LawParameter("extra_clearance", "e_t", "added to c in the film alone", LENGTH, 0.0, ((">=", 0.0),)),
     ),
     options=(
-        LawOption("as_printed", (False, True), False, "the radial force's sign as the paper's Eq. 12 prints it (wrong)"),
+        LawOption(
+            "as_printed", (False, True), False, "the radial force's sign as the paper's Eq. 12 prints it (wrong)"
+        ),
         LawOption("shear", (False, True), False, "shear torque, and the film's resultant at each pin centre"),
         LawOption(
             "angular_velocity",

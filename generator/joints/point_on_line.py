@@ -1,8 +1,8 @@
 r"""Point on line (pin in slot): a point of the first body stays on a line fixed in the second.
 
-      second  ====o=================>  direction (in the second body's frame, through its point)
-                  |
-                first                  Φ = n · (r_P − r_Q),  n: the direction's unit vector turned +90°
+second  ====o=================>  direction (in the second body's frame, through its point)
+            |
+          first                  Φ = n · (r_P − r_Q),  n: the direction's unit vector turned +90°
 """
 
 from __future__ import annotations

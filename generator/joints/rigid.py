@@ -1,6 +1,6 @@
 r"""Rigid joint (weld): two points coincide and the bodies keep their angle.
 
-      [ first ]=#=[ second ]      Φ = ( r_P − r_Q,  θ_second − θ_first − angle )
+[ first ]=#=[ second ]      Φ = ( r_P − r_Q,  θ_second − θ_first − angle )
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 r"""Translational joint: the second body slides along an axis of the first and does not turn to it.
 
-     ====[  second  ]====>  axis (fixed in the first body, through its point)
-        first
+  ====[  second  ]====>  axis (fixed in the first body, through its point)
+     first
 
-   Φ = ( n · (r_Q − r_P),  θ_second − θ_first − angle )     n: the axis' unit vector turned +90°
+Φ = ( n · (r_Q − r_P),  θ_second − θ_first − angle )     n: the axis' unit vector turned +90°
 """
 
 from __future__ import annotations
@@ -26,7 +26,9 @@ JOINT = JointType(
     "translational",
     "translational joint",
     (
-        JointField("axis", "vector", "direction of sliding in the first body's frame", DIMENSIONLESS, True, nonzero=True),
+        JointField(
+            "axis", "vector", "direction of sliding in the first body's frame", DIMENSIONLESS, True, nonzero=True
+        ),
         JointField("angle", "quantity", "θ_second − θ_first; default: the axis' direction", DIMENSIONLESS),
     ),
     False,

@@ -121,9 +121,7 @@ class _Session:
 
     def _fetch_impacts(self, last: bool) -> None:
         numbers, joints = np.zeros((N_EVENTS, 5)), np.zeros(N_EVENTS, dtype=np.intc)
-        count = self.lib.gudgeon_run_impacts(
-            self._run, int(last), self.pointer(numbers), self.pointer(joints, "int *")
-        )
+        count = self.lib.gudgeon_run_impacts(self._run, int(last), self.pointer(numbers), self.pointer(joints, "int *"))
         fetched = np.zeros(count, dtype=self.impacts[0].dtype)
         fetched["joint"] = joints[:count]
         for column, name in enumerate(("t_on", "t_off", "deltadot", "F_peak", "t_peak")):
@@ -141,11 +139,11 @@ class _Session:
         impacts = np.concatenate(self.impacts)
         impacts = impacts[np.argsort(impacts["t_on"], kind="stable")]
         n, y = self.n, self.y[: self.done]
-        ratios = [float(x) if np.isfinite(x) else float("nan") for x in numbers[2:]]
+        phi, phi_dot, least, most = (float(x) if np.isfinite(x) else math.nan for x in numbers)
         steps, evaluations, onsets, grazes, outside = (int(c) for c in counts)
         return Trajectory(
             self.problem.t[: self.done].copy(), y[:, :n].copy(), y[:, n : 2 * n].copy(), self.a[: self.done],
             self.memory[: self.done], self.state[: self.done], y[:, 2 * n :].copy(), impacts, peaks[: self.nc],
-            Counts(steps, evaluations, onsets, grazes, float(numbers[0]), float(numbers[1]), *ratios, outside),
+            Counts(steps, evaluations, onsets, grazes, phi, phi_dot, least, most, outside),
             interrupted, stopped,
         )  # fmt: skip

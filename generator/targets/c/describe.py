@@ -14,13 +14,23 @@ from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.model import Model
 from gudgeon.generator.units import Dimension
 from gudgeon.kernel_source import (
-    BodyInfo, ClearanceInfo, Condition, DriveInfo, JointInfo, KernelSource, PointInfo, RowInfo, SeriesInfo, Slot,
+    BodyInfo,
+    ClearanceInfo,
+    Condition,
+    DriveInfo,
+    JointInfo,
+    KernelSource,
+    PointInfo,
+    RowInfo,
+    SeriesInfo,
+    Slot,
 )  # fmt: skip
 
 
 def describe(
     model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "", cdef: str = "",
-    pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (), operations: Mapping[str, int] = MappingProxyType({}),
+    pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
+    operations: Mapping[str, int] = MappingProxyType({}),
 ) -> KernelSource:  # fmt: skip
     """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
     scene, mechanism = model.scene, model.scene.mechanism

@@ -133,9 +133,7 @@ def _latches(model: Model) -> dict[str, str]:
 
 def _singular(model: Model) -> str:
     place = {row.name: r for r, row in enumerate(model.all_rows)}
-    return render(
-        "singular.c.jinja", kept=[place[row.name] for row in model.rows], singular=SINGULAR, **_counts(model)
-    )
+    return render("singular.c.jinja", kept=[place[row.name] for row in model.rows], singular=SINGULAR, **_counts(model))
 
 
 def _floors(model: Model) -> list[str]:

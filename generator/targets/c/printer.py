@@ -89,7 +89,13 @@ def statement(item: Statement | str) -> str:
 
 def comment_text(text: str) -> str:
     """Text that cannot end a C comment or continue a line, in ASCII."""
-    return re.sub(r"[^\x20-\x7e]", "?", text).replace("*/", "* /").replace("/*", "/ *").replace("\\", "/").replace("?", ".")
+    return (
+        re.sub(r"[^\x20-\x7e]", "?", text)
+        .replace("*/", "* /")
+        .replace("/*", "/ *")
+        .replace("\\", "/")
+        .replace("?", ".")
+    )
 
 
 def arguments(items: tuple[Argument, ...]) -> str:
