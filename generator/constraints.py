@@ -10,7 +10,7 @@ import sympy as sp
 from gudgeon.generator.geometry import BodySymbols, Geometry, PointFrame
 from gudgeon.generator.joint_fields import JointFields
 from gudgeon.generator.joints.joint_type import joint_types
-from gudgeon.generator.mechanism import Drive, Joint
+from gudgeon.generator.mechanism import GROUND, Drive, Joint
 from gudgeon.generator.symbolic import to_sympy
 
 
@@ -43,8 +43,10 @@ class Constraints:
         first, second = self.geometry.point(joint.first), self.geometry.point(joint.second)
         expressions = kind.rows(first, second, JointFields(joint, self.geometry))
         named = zip(kind.row_names, kind.row_units, expressions, strict=True)
+        others = [joint.options[field.name] for field in kind.fields if field.kind == "body"]  # a gear's carrier
+        bodies = self._bodies(first, second) + [self.geometry.bodies[name] for name in others if name != GROUND]
         return [
-            self._row(f"{joint.name}.{name}", joint.name, "joint", unit, sp.expand(phi), self._bodies(first, second))
+            self._row(f"{joint.name}.{name}", joint.name, "joint", unit, sp.expand(phi), bodies)
             for name, unit, phi in named
         ]
 

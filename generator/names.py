@@ -39,7 +39,6 @@ RESERVED: dict[str, str] = {
     **dict.fromkeys(_C_LIBRARY.split(), "it is a name of the C library"),
     **dict.fromkeys(_C_KEYWORDS.split(), "it is a C keyword"),
     **dict.fromkeys(keyword.kwlist, "it is a Python keyword"),
-    **dict.fromkeys(FUNCTIONS, "it is a function of expressions"),
     "t": "it is time in expressions",
     "pi": "it is a number in expressions",
     "ground": "it is the frame",
@@ -52,6 +51,8 @@ def check_name(name: str, what: str, where: Location | None) -> None:
     """Raise BadNameError unless `name` can name a thing: a free identifier of at most 64 characters."""
     check_label(name, what, where)
     reason = RESERVED.get(name)
+    if name in FUNCTIONS and what in ("parameter", "output"):  # the others stand in expressions with a dot only
+        reason = "it is a function of expressions"
     if name.startswith("gudgeon") or "__" in name:
         reason = "names that begin with 'gudgeon' or hold '__' are kept for emitted code"
     if reason:

@@ -7,7 +7,6 @@ user wrote: `1e-4`, `on` and `012` mean what our expressions say, not what YAML 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any, TypeAlias
 
 from ruamel.yaml import YAML
@@ -24,6 +23,7 @@ from ruamel.yaml.events import (
 from ruamel.yaml.reader import ReaderError
 
 from gudgeon.errors import InputError, InputErrors, LimitError, Location, NotYamlError, UnknownKeyError
+from gudgeon.generator.yaml_commas import Events
 
 MAX_BYTES = 1 << 20
 MAX_DEPTH = 24
@@ -158,7 +158,7 @@ class _Composer:
     """Builds the tree from ruamel's events and counts as it goes."""
 
     def __init__(self, text: str, file: str) -> None:
-        self.events: Iterator[Any] = YAML(typ="safe", pure=True).parse(text)
+        self.events = Events(YAML(typ="safe", pure=True).parse(text), text)
         self.file = file
         self.anchors: dict[str, Node] = {}
         self.sizes: dict[int, int] = {}  # id of an anchored node -> nodes in it, aliases expanded
@@ -226,7 +226,7 @@ class _Composer:
     def sequence(self, event: Any, depth: int) -> Items:
         items = Items.make((), self.place(event))
         while not isinstance(inner := next(self.events), SequenceEndEvent):
-            items.append(self.node(inner, depth + 1))
+            items.append(self.node(self.events.whole(inner, False) if event.flow_style else inner, depth + 1))
         return items
 
     def mapping(self, event: Any, depth: int) -> Map:
@@ -235,7 +235,8 @@ class _Composer:
             key = self.node(inner, depth + 1)
             if not isinstance(key, Text):
                 raise NotYamlError(f"{kind_of(key)} as a key", key.where, "expected a name as the key")
-            value = self.node(next(self.events), depth + 1)
+            below = next(self.events)
+            value = self.node(self.events.whole(below, True) if event.flow_style else below, depth + 1)
             if key == "<<":
                 raise UnknownKeyError("merge keys ('<<') are no part of the format", key.where, "use extends:")
             if key in made:

@@ -64,6 +64,10 @@ class CPrinter(C99CodePrinter):
     def _print_sign(self, expr: sp.Expr) -> str:
         return f"sign_of({self._print(expr.args[0])})"
 
+    def _print_Heaviside(self, expr: sp.Expr) -> str:
+        """From the rates of ramps and corners; 1 at 0, so that a ramp that begins at the start moves at once."""
+        return f"({self._print(expr.args[0])} >= 0.0 ? 1.0 : 0.0)"
+
 
 _printer = CPrinter()
 
