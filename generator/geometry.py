@@ -95,7 +95,8 @@ class Geometry:
     def _body(self, number: int, body: Body) -> BodySymbols:
         new, index, name = self.symbols.new, 3 * number, body.name
         x, y, theta = (new(f"{name}_{c}", f"q[{index + k}]", f"{name}.{c}") for k, c in enumerate(("x", "y", "theta")))
-        vx, vy, omega = (new(f"{name}_{c}", f"v[{index + k}]", f"{name}.{c}") for k, c in enumerate(("vx", "vy", "omega")))
+        rates = ("vx", "vy", "omega")
+        vx, vy, omega = (new(f"{name}_{c}", f"v[{index + k}]", f"{name}.{c}") for k, c in enumerate(rates))
         mass, inertia = self.slots.use(body.mass), self.slots.use(body.inertia)
         return BodySymbols(name, index, x, y, theta, vx, vy, omega, mass, inertia)
 

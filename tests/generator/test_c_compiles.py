@@ -1,0 +1,133 @@
+"""The emitted C: no warning under gcc and clang, clean under the address and undefined-behaviour sanitizers."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.generator.pipeline import generate
+from gudgeon.generator.read_yaml import read_mechanism
+from gudgeon.kernel_source import KernelSource
+from gudgeon.shipped import shipped, shipped_file
+
+FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror"]
+COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
+SCENES = [
+    (name, scene)
+    for name in shipped()
+    for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
+]
+
+# Reads p, then t, q, v of a start; prints how a short run went. The scene is included, not linked.
+INTEGRATE = r"""
+#include <stdio.h>
+static int go(const double *p, const double *y)
+{
+    void *run = calloc(1, gudgeon_run_size());
+    double latched[N_CLEARANCES + 1], now[N_Y], a[N_Q], numbers[5 * 256];
+    signed char state[N_CLEARANCES + 1];
+    int joints[256], status = 0;
+    long taken = 0;
+    for (int i = 0; i <= N_CLEARANCES; i++)
+        latched[i] = NAN;
+    gudgeon_run_start(run, 0.0, y, latched);
+    for (long first = 0; first < 4000 && !status; first += taken) {
+        status = gudgeon_run_steps(run, p, 0.0, 4000 * STEP, 4000, first, 4000 - first, &taken);
+        if (status == EVENTS_FULL)
+            status = gudgeon_run_impacts(run, 0, numbers, joints) < 0;
+    }
+    gudgeon_run_impacts(run, 1, numbers, joints);
+    gudgeon_run_sample(run, now, a, latched, state);
+    free(run);
+    return status;
+}
+"""
+FOLLOW = r"""
+#include <stdio.h>
+static int go(const double *p, const double *y)
+{
+    double t[101], q[101 * N_Q], v[101 * N_Q], phi = 0.0, phi_dot = 0.0;
+    long steps = 0, done = 0;
+    for (int i = 0; i <= 100; i++)
+        t[i] = 0.01 * i;
+    for (int k = 0; k < N_Q; k++) {
+        q[k] = y[k];
+        v[k] = y[N_Q + k];
+    }
+    return gudgeon_kinematic(100, t, p, 0.05, q, v, &phi, &phi_dot, &steps, &done);
+}
+"""
+MAIN = r"""
+int main(int argc, char **argv)
+{
+    static double p[sizeof(Parameters) / sizeof(double)], y[N_Y];
+    FILE *file = argc > 1 ? fopen(argv[1], "rb") : NULL;
+    if (!file || fread(p, sizeof p, 1, file) != 1 || fread(y, sizeof y, 1, file) != 1)
+        return 99;
+    fclose(file);
+    return go(p, y);
+}
+"""
+
+
+def write(source: KernelSource, folder: Path) -> Path:
+    for name, text in source.files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder / source.main
+
+
+def compile_c(compiler: str, file: Path, flags: Sequence[str], libraries: Sequence[str] = ()) -> None:
+    done = subprocess.run([compiler, *flags, file.name, *libraries], cwd=file.parent, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[:4000]
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize(("name", "scene"), SCENES)
+def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> None:
+    source = gudgeon.load(name, scene).source
+    main = write(source, tmp_path)
+    compile_c(compiler, main, [*FLAGS, "-c", "-o", "scene.o"])
+
+
+# Structure that no shipped scene has: each option of each law once.
+OPTIONS = {
+    "as_printed": {"contacts.oil.film.as_printed": True},
+    "shear": {"contacts.oil.film.shear": True},
+    "relative": {"contacts.oil.film.angular_velocity": "relative"},
+    "internal": {"contacts.oil.normal.geometry": "internal"},
+    "clipped": {"contacts.oil.clip_ratio": True},
+}
+
+
+@pytest.mark.parametrize("option", OPTIONS)
+def test_no_warning_under_any_option(option: str, tmp_path: Path) -> None:
+    file = shipped_file("nine_bar_press")
+    source = generate(file.read_bytes(), file.name, "lubricated", OPTIONS[option])
+    main = write(source, tmp_path)
+    compile_c(COMPILERS[0], main, [*FLAGS, "-c", "-o", "scene.o"])
+
+
+@pytest.mark.parametrize(("name", "scene"), SCENES)
+def test_clean_under_the_sanitizers(name: str, scene: str, tmp_path: Path) -> None:
+    simulation = gudgeon.load(name, scene)
+    start = simulation.start()
+    state = np.concatenate([simulation.p, start.q, start.v, np.zeros(3)])
+    (tmp_path / "start.bin").write_bytes(state.tobytes())
+    write(simulation.source, tmp_path)
+    go = FOLLOW if "kinematic.c" in simulation.source.files else INTEGRATE
+    driver = tmp_path / "driver.c"
+    driver.write_text(f'#include "scene.c"\n#define STEP 2e-6\n{go}{MAIN}', encoding="utf-8")
+    sanitize = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"]
+    probe = tmp_path / "probe.c"
+    probe.write_text("int main(void) { return 0; }\n")
+    if subprocess.run(["gcc", *sanitize, "probe.c", "-o", "probe"], cwd=tmp_path, capture_output=True).returncode:
+        pytest.skip("this compiler has no sanitizer libraries")
+    compile_c("gcc", driver, [*FLAGS, *sanitize, "-o", "driver"], ["-lm"])
+    done = subprocess.run(["./driver", "start.bin"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[:4000]
