@@ -170,24 +170,34 @@ def _module_main(name: str) -> Callable[[str, tuple[str, ...], Path], int | None
     return found
 
 
-@app.command()
-@_told
-def bench(file: File = "nine_bar_press", scene: Scenes = None, out: Out = Path("out")) -> int:
-    """Run time against error over the steps, for each scene: a table and a picture.
-
-    Example: gudgeon bench nine_bar_press --scene dry
-    """
-    return _module_main("bench")(file, tuple(scene or ()), out) or 0
+Quick = Annotated[bool, typer.Option("--quick", help="Fewer steps and a shorter window: seconds, not minutes.")]
+Mark = Annotated[
+    str | None, typer.Option("--mark-step", metavar="STEP", help="Show and tell what becomes of this step: 0.1ms.")
+]
 
 
 @app.command()
 @_told
-def stress(file: File = "nine_bar_press", scene: Scenes = None, out: Out = Path("out")) -> int:
-    """Step × clearance: where the integration is stable, inaccurate or diverges.
+def bench(file: File, scene: Scenes = None, out: Out = Path("out"), quick: Quick = False, mark: Mark = None) -> int:
+    """Run time against error over the steps, for each scene: a table, a CSV file, a picture.
 
-    Example: gudgeon stress nine_bar_press --scene dry
+    Example: gudgeon bench nine_bar_press --scene dry --mark-step 0.1ms
     """
-    return _module_main("stress")(file, tuple(scene or ()), out) or 0
+    from gudgeon.commands.measure import bench_file
+
+    return bench_file(file, tuple(scene or ()), out, quick, mark)
+
+
+@app.command()
+@_told
+def stress(file: File, scene: Scenes = None, out: Out = Path("out"), quick: Quick = False, mark: Mark = None) -> int:
+    """Step × clearance: stable, inaccurate, diverged or outside the model, each with its reason.
+
+    Example: gudgeon stress nine_bar_press --scene lubricated --mark-step 0.1ms
+    """
+    from gudgeon.commands.measure import stress_file
+
+    return stress_file(file, tuple(scene or ()), out, quick, mark)
 
 
 def main() -> None:

@@ -19,6 +19,7 @@ import ctypes
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -180,11 +181,13 @@ def rk4(press: Press, t_end: float, step: float, every: int = 1, y: np.ndarray |
     )  # fmt: skip
 
 
-def seconds_per_rhs(press: Press, batch: int = 20000, repeats: int = 7) -> float:
-    """Least time of one right-hand side (s) over `repeats` batches, at the start of the run."""
-    y = start(press)
+def seconds_per_rhs(
+    press: Press, batch: int = 20000, repeats: int = 7, t: float = 0.0, y: Sequence[float] | None = None
+) -> float:
+    """Least time of one right-hand side (s) over `repeats` batches, at y (48,) or at the start of the run."""
+    state = start(press) if y is None else np.array(y, dtype=float)
     return float(
         _library().press_seconds_per_rhs(
-            ctypes.byref(_struct(press)), ctypes.c_double(0.0), _pointer(y), batch, repeats
+            ctypes.byref(_struct(press)), ctypes.c_double(t), _pointer(state), batch, repeats
         )
     )
