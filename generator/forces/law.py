@@ -26,6 +26,7 @@ class LawParameter:
     dimension: Dimension
     default: float | None = None  # None: the user must give it
     bounds: tuple[tuple[str, float | str], ...] = ()  # (relation, number or name of another parameter)
+    any_dimension: bool = False  # its unit depends on other numbers: not checked
 
 
 @dataclass(frozen=True)

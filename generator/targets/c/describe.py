@@ -149,12 +149,16 @@ def _notes(model: Model) -> tuple[str, ...]:
 
 
 def _exponents(dimension: Dimension) -> tuple[int, int, int]:
-    return int(dimension.length), int(dimension.mass), int(dimension.time)
+    """Whole exponents; a number with a broken one (N/m^1.5) takes bare numbers only."""
+    exponents = (dimension.length, dimension.mass, dimension.time)
+    whole = all(x.denominator == 1 for x in exponents)
+    return (int(exponents[0]), int(exponents[1]), int(exponents[2])) if whole else (0, 0, 0)
 
 
 def _unit(dimension: Dimension) -> str:
     """SI base units, "kg*m^2/s^2"."""
-    pairs = [("kg", int(dimension.mass)), ("m", int(dimension.length)), ("s", int(dimension.time))]
+    length, mass, time = _exponents(dimension)
+    pairs = [("kg", mass), ("m", length), ("s", time)]
     above = "*".join(u if n == 1 else f"{u}^{n}" for u, n in pairs if n > 0)
     below = "".join(f"/{u}" if n == -1 else f"/{u}^{-n}" for u, n in pairs if n < 0)
     return (above or ("1" if below else "")) + below
