@@ -121,7 +121,7 @@ class _Checker:
         if isinstance(found, Dimension) and found != DIMENSIONLESS:
             message = f"{call.function} expected {describe(DIMENSIONLESS)}, got {describe(found)}"
             raise UnitError(message, self._place(argument))
-        return DIMENSIONLESS if isinstance(found, Dimension) else found
+        return DIMENSIONLESS if isinstance(found, Dimension) else _BARE  # `0.1 * sin(2*pi*t)` may still be a length
 
     def _product(self, expr: Binary) -> _Found:
         left, right = self.of(expr.left), self.of(expr.right)

@@ -104,12 +104,14 @@ class Namespace:
 
     def __init__(self) -> None:
         self._taken: dict[str, tuple[str, Location]] = {}
+        self.twice: set[str] = set()
 
     def add(self, name: str, what: str, where: Location) -> None:
         """Raise BadNameError if the name cannot be, or if something else has it."""
         check_name(name, what, where)
         if name in self._taken:
             other, place = self._taken[name]
+            self.twice.add(str(name))
             hint = "expected a name of its own: bodies, joints, drives, forces and outputs share one namespace"
             raise BadNameError(f"{name!r} names two things: this {what}, and the {other} at {place}", where, hint)
         self._taken[name] = what, where

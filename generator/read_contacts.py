@@ -172,7 +172,9 @@ def _numbers(reader: Reader, address: str, law: Law, node: Map, mistyped: set[st
         elif not isinstance(value, Text):
             reader.errors.append(BadValueError(f"{own} is {kind_of(value)}", value.where, "expected a number"))
         else:
-            quantities[parameter.name] = reader.quantity(value, own, None if parameter.any_dimension else parameter.dimension)
+            quantities[parameter.name] = reader.quantity(
+                value, own, None if parameter.any_dimension else parameter.dimension
+            )
     for parameter in law.parameters:
         for relation, bound in parameter.bounds:
             limit = quantities.get(bound) if isinstance(bound, str) else bound

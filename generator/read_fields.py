@@ -141,9 +141,7 @@ def _read_field(
         _bound(reader, wanted, values.quantities[wanted.name])
 
 
-def _number(
-    reader: Reader, text: Text, wanted: Field, address: str, motion: ResultDimension | None
-) -> Quantity:
+def _number(reader: Reader, text: Text, wanted: Field, address: str, motion: ResultDimension | None) -> Quantity:
     if isinstance(wanted, ElementField) and wanted.variable:
         return reader.quantity(text, address, wanted.dimension, time=True, result=motion)
     return reader.quantity(text, address, wanted.dimension)

@@ -41,6 +41,4 @@ def _force(reader: Reader, name: Text, node: Map, places: Places, motion: Result
     targets = places_of(reader, node, kind, element.targets, element.counts, places)
     refuse_same_body(kind, targets)
     values = read_fields(reader, node, element.fields, owner, places, mistyped, motion)
-    return ForceElement(
-        str(name), str(kind), targets, values.quantities, values.vectors, values.options, name.where
-    )
+    return ForceElement(str(name), str(kind), targets, values.quantities, values.vectors, values.options, name.where)

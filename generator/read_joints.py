@@ -45,6 +45,4 @@ def _joint(reader: Reader, name: Text, node: Map, places: Places) -> Joint:
             body = values.options[field.name]
             place = node[field.name].where if field.name in node else kind.where
             raise JoinError(f"{body} is one of the two bodies and their {field.name}", place, "expected a third one")
-    return Joint(
-        str(name), str(kind), first, second, values.quantities, values.vectors, values.options, name.where
-    )
+    return Joint(str(name), str(kind), first, second, values.quantities, values.vectors, values.options, name.where)

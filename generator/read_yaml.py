@@ -62,7 +62,9 @@ def _read(reader: Reader, shape: FileShape, sha256: str) -> Mechanism:
     bearings = read_bearings(reader, shape, read_materials(reader, shape))
     contacts = read_contacts(reader, shape)
     scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, shape))
-    outputs = _read_outputs(reader, shape, namespace, ResultNames(places, joints, drives, forces, shape.parameters))
+    unread = {*shape.joints, *shape.drives, *shape.forces} - {*joints, *drives, *forces} | namespace.twice
+    known = ResultNames(places, joints, drives, forces, shape.parameters, unread)
+    outputs = _read_outputs(reader, shape, namespace, known)
     check_values(reader, parameters, scenes)
     return Mechanism(
         name=str(shape.name),

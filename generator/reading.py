@@ -15,7 +15,7 @@ from gudgeon.generator.names import unknown_name
 from gudgeon.generator.units import DIMENSIONLESS, TIME, Dimension
 from gudgeon.generator.yaml_tree import Text
 
-ResultDimension = Callable[[Name, Location], Dimension]
+ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
 
 
 MOST_ERRORS = 50  # nobody reads more, and each costs a search for the nearest name

@@ -39,7 +39,10 @@ _ACCELERATIONS = ("ax", "ay", "alpha")
 
 
 class ResultNames:
-    """Dimensions of a mechanism's results. Names with play count too: a scene without it tells at run time."""
+    """Dimensions of a mechanism's results. Names with play count too: a scene without it tells at run time.
+
+    `unread` are joints, drives and forces whose own errors were told: their results are taken as they come.
+    """
 
     def __init__(
         self,
@@ -48,7 +51,9 @@ class ResultNames:
         drives: Mapping[str, Drive],
         forces: Mapping[str, ForceElement],
         parameters: Iterable[str],
+        unread: Iterable[str] = (),
     ) -> None:
+        self._unread = frozenset(unread)
         self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTALS)
         self.owners |= dict.fromkeys(places.bodies, _BODY)
         self.owners |= {name: _of_drive(drive) for name, drive in drives.items()}
@@ -59,9 +64,11 @@ class ResultNames:
         self.owners |= dict.fromkeys(joints, {**_JOINT, **_PLAY})
         self.parameters = parameters
 
-    def __call__(self, name: Name, where: Location) -> Dimension:
-        """The dimension of a name. Raises UnknownNameError at the part that is wrong."""
+    def __call__(self, name: Name, where: Location) -> Dimension | None:
+        """The dimension of a name; None for one that fits any. Raises UnknownNameError at the part that is wrong."""
         owner, dot, last = name.path.rpartition(".")
+        if owner in self._unread:
+            return None
         if not dot:
             known = [path for path in self.paths() if path.partition(".")[0] == name.path]
             raise unknown_name("name", name.path, known or self.parameters, where)
@@ -92,7 +99,7 @@ class MotionNames(ResultNames):
         }
         self._later = frozenset((*_TOTALS, *drives, *others))
 
-    def __call__(self, name: Name, where: Location) -> Dimension:
+    def __call__(self, name: Name, where: Location) -> Dimension | None:
         """The dimension of a name. Raises ExpressionError for what is known only once the forces are."""
         owner, _, last = name.path.rpartition(".")
         if owner in self._later or owner in self.owners and last in _ACCELERATIONS and last not in self.owners[owner]:

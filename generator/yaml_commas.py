@@ -2,6 +2,7 @@
 
 In a mapping or list in brackets YAML ends a plain text at every comma. An expression leaves no parenthesis open,
 so a text that does is put together with those behind it, as they stand in the source, until its parentheses match.
+(In a mapping the pieces behind it are keys without values, which the format never has.)
 """
 
 from __future__ import annotations
@@ -29,18 +30,18 @@ class Events:
         return self._ahead.popleft() if self._ahead else next(self._events)
 
     def whole(self, event: Any, in_mapping: bool) -> Any:
-        """`event`, a value in brackets, with the pieces behind it if together they close its parentheses."""
+        """`event`, a value in brackets, with the pieces behind it that belong into its parentheses."""
         if not _is_plain(event) or _open(event.value) <= 0:
             return event
         still_open, taken, last = _open(event.value), 0, event
         for _ in range(MOST_PIECES):
             piece = self._peek(taken)
             if not _is_plain(piece) or in_mapping and not _is_nothing(self._peek(taken + 1)):
-                return event
+                break
             still_open, last, taken = still_open + _open(piece.value), piece, taken + 1 + in_mapping
             if still_open <= 0:
                 break
-        if still_open != 0:
+        if still_open > 0 and not in_mapping:  # these may be the components of a vector, one of them broken
             return event
         for _ in range(taken):
             self._ahead.popleft()

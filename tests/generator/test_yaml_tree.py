@@ -31,6 +31,36 @@ def test_byte_order_mark_is_no_character() -> None:
     assert parse_yaml(b"\xef\xbb\xbfa: 1", "f").key("a").where == Location("f", 1, 1)
 
 
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("{a: f(t, 0, 0) * 2, b: 1}", {"a": "f(t, 0, 0) * 2", "b": "1"}),
+        ("{a: f(t,0 , g(1, 2) ), b: 1}", {"a": "f(t,0 , g(1, 2) )", "b": "1"}),
+        ("{a: [max(1, 2), min(3, 4)]}", {"a": ["max(1, 2)", "min(3, 4)"]}),
+        ("{a: [(1, 2]}", {"a": ["(1", "2"]}),  # a vector with a broken component
+        ("{a: (1, 2, b: 3}", {"a": "(1, 2", "b": "3"}),
+        ("{a: f(1, 2)), b: 3}", {"a": "f(1, 2))", "b": "3"}),
+        ("{a: 'f(1', b: 2}", {"a": "f(1", "b": "2"}),
+        ('{a: "f(1, 2)", b: 2}', {"a": "f(1, 2)", "b": "2"}),
+        ("{a: &x f(1, b): 2}", {"a": "f(1", "b)": "2"}),
+        ("{a: (1, [2]: 3, b: 1}", None),
+    ],
+)
+def test_commas_in_parentheses(text: str, value: object) -> None:
+    """One value for an expression's reader, where YAML sees several."""
+    if value is None:
+        with pytest.raises(NotYamlError):
+            parse_yaml(f"k: {text}\n".encode(), "f")
+    else:
+        assert parse_yaml(f"k: {text}\n".encode(), "f")["k"] == value
+
+
+def test_commas_keep_their_place_in_the_source() -> None:
+    tree = parse_yaml("k: {\u00fc: 1, a: f(t,  0 , 1 s), b: x}\n".encode(), "f")
+    assert (tree["k"]["a"], tree["k"]["a"].where) == ("f(t,  0 , 1 s)", Location("f", 1, 14))
+    assert tree["k"].key("b").where == Location("f", 1, 30)
+
+
 def test_alias_is_its_anchor() -> None:
     tree = parse_yaml(b"a: &x {k: 1}\nb: *x\n", "f")
     assert tree["b"] is tree["a"]
