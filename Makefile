@@ -33,11 +33,12 @@ types: setup-test
 	@.venv/bin/mypy -p gudgeon
 	@.venv/bin/mypy tests
 
-bench: setup  ## run time against error
-	@$(GUDGEON) bench nine_bar_press $(ARGS)
+bench: setup  ## run time against error; one right-hand side beside the hand-written C
+	@$(GUDGEON) bench nine_bar_press --mark-step 0.1ms $(ARGS)
+	@.venv/bin/python -m benchmarks.rhs
 
 stress: setup  ## step × clearance: stable, inaccurate, diverged
-	@$(GUDGEON) stress nine_bar_press $(ARGS)
+	@$(GUDGEON) stress nine_bar_press --mark-step 0.1ms $(ARGS)
 
 generated: setup  ## derive and write generated/ anew for every shipped mechanism
 	@.venv/bin/python tools/regenerate.py

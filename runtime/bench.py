@@ -8,7 +8,7 @@ the least of several runs on one thread.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +16,7 @@ import numpy as np
 from gudgeon.errors import BadValueError
 from gudgeon.measure import work as measured
 from gudgeon.measure.rhs import RhsTime, time_rhs
-from gudgeon.measure.work import NAN, Attempt, Error, Work, difference, natural_step, size
+from gudgeon.measure.work import NAN, Attempt, Error, Parameters, Work, difference, natural_step, size
 from gudgeon.simulation import Simulation
 
 FINEST, COARSEST = 1 / 5, 200  # steps that are tested, of the step that a plain run takes
@@ -71,7 +71,7 @@ Report = Callable[[float, str], None]
 
 def bench(
     simulation: Simulation, steps: Sequence[float] | None = None, *, t_end: float | None = None,
-    parameters: Mapping[str, float] | None = None, quick: bool = False, progress: Report | None = None,
+    parameters: Parameters | None = None, quick: bool = False, progress: Report | None = None,
 ) -> SceneBench:  # fmt: skip
     """Measure one scene. `steps` (s) default to 1, 2, 5 · 10^k around the step of a plain run.
 
@@ -131,7 +131,7 @@ def _row(work: Work, found: Attempt, reference: Attempt) -> Row:
 
 
 def _kinematic(
-    simulation: Simulation, parameters: Mapping[str, float], counts: Sequence[int], t_end: float | None,
+    simulation: Simulation, parameters: Parameters, counts: Sequence[int], t_end: float | None,
     progress: Report | None,
 ) -> SceneBench:  # fmt: skip
     """No step and no reference: the error is what Newton's method leaves open of the constraints."""

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from gudgeon.errors import BadValueError
 from gudgeon.measure.cells import Cell, Limits, Status, judge
-from gudgeon.measure.work import NAN, Attempt, Work, natural_end, natural_step, round_numbers, window
+from gudgeon.measure.work import NAN, Attempt, Parameters, Work, natural_end, natural_step, round_numbers, window
 from gudgeon.parameters import prepare
 from gudgeon.simulation import Simulation
 
@@ -66,24 +66,27 @@ class StressMap:
 
 def stress(
     simulation: Simulation, steps: Sequence[float] | None = None, clearances: Sequence[float] | None = None, *,
-    t_long: float | None = None, limits: Limits | None = None, quick: bool = False, progress: Report | None = None,
+    t_long: float | None = None, t_short: float | None = None, parameters: Parameters | None = None,
+    limits: Limits | None = None, quick: bool = False, progress: Report | None = None,
 ) -> StressMap:  # fmt: skip
     """Judge every pair. `clearances` (m) are the first joint's with play; the others keep their ratio to it.
 
-    `t_long` (s) is the run over which a step has to stay stable. `quick` takes a few pairs.
+    `t_long` (s) is the run over which a step has to stay stable, `t_short` bounds the window in which it
+    is compared with a tenth of itself (see `window`); `parameters` as in `simulate`; `quick` takes a few
+    pairs. Raises BadValueError for a scene in which nothing is integrated.
     """
     if simulation.source.degrees_of_freedom == 0:
         raise BadValueError(
             f"scene {simulation.source.scene!r} has no degree of freedom: there is no step to choose"
         )
     limits, report = limits or Limits(), progress or (lambda fraction, text: None)
-    usual = natural_step(simulation)
+    usual = natural_step(simulation, parameters)
     steps = tuple(sorted(steps or default_steps([simulation], quick)))
     if not steps or not steps[0] > 0:
         raise BadValueError("steps: expected positive times (s)")
-    columns = _columns(simulation, clearances, quick)
+    columns = _columns(simulation, clearances, parameters or {}, quick)
     t_long = t_long or min(natural_end(simulation), LONG * steps[0] / (10 if quick else 1))
-    longest = SHORT * steps[0] / FINER / (10 if quick else 1)
+    longest = t_short or SHORT * steps[0] / FINER / (10 if quick else 1)
     with _Pool(report, len(columns)) as pool:
         found = pool.map(
             lambda column, tick: _column(simulation, column, steps, usual, t_long, longest, limits, tick), columns
@@ -109,20 +112,22 @@ def default_clearances(c: float, quick: bool = False) -> tuple[float, ...]:
 @dataclass(frozen=True)
 class _Column:
     clearance: float
-    parameters: dict[str, float]
+    parameters: dict[str, float | str]
 
 
-def _columns(simulation: Simulation, clearances: Sequence[float] | None, quick: bool) -> list[_Column]:
+def _columns(
+    simulation: Simulation, clearances: Sequence[float] | None, parameters: Parameters, quick: bool
+) -> list[_Column]:
     """The values that the file's conditions allow (a clearance stays below its bearing's radius)."""
-    source, p = simulation.source, simulation.p
+    source, p = simulation.source, prepare(simulation.compiled, parameters)[0]
     joints = source.clearances
     if not joints:
-        return [_Column(NAN, {})]
+        return [_Column(NAN, dict(parameters))]
     own = {source.slots[j.clearance].address: float(p[j.clearance]) for j in joints if j.clearance < len(source.slots)}
     usual = float(p[joints[0].clearance])
     found = []
     for c in clearances or default_clearances(usual, quick):
-        column = _Column(c, {address: value * c / usual for address, value in own.items()})
+        column = _Column(c, {**parameters, **{address: value * c / usual for address, value in own.items()}})
         try:
             prepare(simulation.compiled, column.parameters)
         except BadValueError:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from gudgeon.start import mechanism_size
 from gudgeon.step import default_step
 
 NAN = math.nan
+Parameters: TypeAlias = Mapping[str, float | str]  # as in `simulate`
 ONSETS = 4  # contacts that a window holds: after more of them dry motion is chaotic
 PILOTS = 6  # the first pilot run is 2^-6 of the longest window
 SAMPLES = 100  # at least so many in a window
@@ -51,7 +52,7 @@ class Work:
 
     simulation: Simulation
     t_end: float
-    parameters: Mapping[str, float] = field(default_factory=dict)
+    parameters: Parameters = field(default_factory=dict)
     why: str = ""  # this window
 
     @property
@@ -83,7 +84,7 @@ class Work:
 
 
 def attempt(
-    simulation: Simulation, times: Array, step: float, parameters: Mapping[str, float], progress: Progress | None = None
+    simulation: Simulation, times: Array, step: float, parameters: Parameters, progress: Progress | None = None
 ) -> Attempt:
     """A run that may fail. Ctrl-C is passed on, unlike in `simulate`: half a comparison is none."""
     try:
@@ -102,7 +103,7 @@ def round_numbers(low: float, high: float) -> tuple[float, ...]:
     return tuple(x for x in every if low * (1 - 1e-9) <= x <= high * (1 + 1e-9))
 
 
-def natural_step(simulation: Simulation, parameters: Mapping[str, float] | None = None) -> float:
+def natural_step(simulation: Simulation, parameters: Parameters | None = None) -> float:
     """The step (s) that a plain run would take: the scene's, or the default."""
     p = prepare(simulation.compiled, parameters or {})[0]
     given = float(simulation.source.simulate.get("step", 0.0))
@@ -114,7 +115,7 @@ def natural_end(simulation: Simulation) -> float:
     return float(simulation.source.simulate.get("t_end", T_END))
 
 
-def window(simulation: Simulation, longest: float, step: float, parameters: Mapping[str, float] | None = None) -> Work:
+def window(simulation: Simulation, longest: float, step: float, parameters: Parameters | None = None) -> Work:
     """The work over the first few contacts, or over `longest` (s) where there are not so many.
 
     Two runs of a scene with dry contacts differ by any amount once an error has gone through many
