@@ -60,13 +60,31 @@ class Constraints:
         """The driven quantity with the bodies that it depends on."""
         if drive.kind == "distance":
             first, second = (self.geometry.point(ref) for ref in drive.points)
-            distance = sp.sqrt((second.x - first.x) ** 2 + (second.y - first.y) ** 2)
-            return distance, self._bodies(first, second), "m"
+            return self._distance(drive.name, first, second), self._bodies(first, second), "m"
         bodies = [self.geometry.bodies[name] for name in (drive.body, drive.reference) if name]
         if drive.kind == "coordinate" and drive.coordinate != "theta":
             return getattr(bodies[0], drive.coordinate), bodies, "m"
         measured = bodies[0].theta - bodies[1].theta if len(bodies) > 1 else bodies[0].theta
         return measured, bodies, "rad"
+
+    def _distance(self, name: str, first: PointFrame, second: PointFrame) -> sp.Symbol:
+        """‖r_Q − r_P‖ as a symbol, with u its direction: d length = u · dr, du = (ẑ × u)(ẑ × u · dr)/length.
+
+        Written out, the second derivatives of the root would be thousands of terms.
+        """
+        define, rules = self.symbols.define, self.symbols.rules
+        span = (second.x - first.x, second.y - first.y)
+        x, y = (define(f"{name}_span_{axis}", value, "", "span") for axis, value in zip("xy", span, strict=True))
+        length = define(f"{name}_length", sp.sqrt(x**2 + y**2), "", "its length")
+        u_x, u_y = (define(f"{name}_along_{axis}", value / length, "", "its direction")
+                    for axis, value in zip("xy", (x, y), strict=True))  # fmt: skip
+        rules[length], rules[u_x], rules[u_y] = {}, {}, {}
+        for q in [q for body in self._bodies(first, second) for q in body.q]:
+            dx, dy = (self.symbols.diff(value, q) for value in span)
+            rules[length][q] = u_x * dx + u_y * dy
+            turn = (u_x * dy - u_y * dx) / length
+            rules[u_x][q], rules[u_y][q] = -u_y * turn, u_x * turn
+        return length
 
     def _drive_value(self, drive: Drive) -> sp.Symbol:
         """f(t), f′ and f″ as symbols that know that they are each other's derivatives."""
@@ -94,7 +112,8 @@ class Constraints:
         phi_q_v = sum((phi_q[q] * v for q, v in pairs if q in phi_q), sp.Integer(0))
         phi_t = diff(phi, t)
         gamma = -sum((diff(phi_q_v, q) * v for q, v in pairs), sp.Integer(0)) - 2 * diff(phi_q_v, t) - diff(phi_t, t)
-        return Row(name, owner, kind, unit, phi, phi_q, phi_q_v, -phi_t, sp.expand(gamma))
+        gamma = min(sp.expand(gamma), gamma, key=sp.count_ops)
+        return Row(name, owner, kind, unit, phi, phi_q, phi_q_v, -phi_t, gamma)
 
 
 def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
