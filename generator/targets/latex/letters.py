@@ -1,0 +1,73 @@
+r"""Names of symbols as a class writes them: \theta_{\text{L7}} for LaTeX, θ_L7 for text."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
+    "theta": "θ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π",
+    "rho": "ρ", "sigma": "σ", "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
+    "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ",
+    "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
+}  # fmt: skip
+_VARIANT = {"epsilon": r"\varepsilon", "phi": r"\varphi"}
+_DOTS = {0: ("", ""), 1: (r"\dot", "\u0307"), 2: (r"\ddot", "\u0308")}
+
+
+@dataclass(frozen=True)
+class Name:
+    """A symbol, or any formula, in LaTeX and in plain text."""
+
+    latex: str
+    text: str
+
+
+def letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, raised: str = "") -> Name:
+    """A letter or word (a Greek one by its English name) with dots or a hat, subscripts and a raised 0."""
+    latex = greek(base) if base in GREEK else base if len(base) == 1 else rf"\mathit{{{_escaped(base)}}}"
+    text = GREEK.get(base, base)
+    accent, mark = (r"\hat", "\u0302") if hat else _DOTS[dots]
+    if accent:
+        latex, text = f"{accent}{{{latex}}}", text + mark
+    if subscripts:
+        latex += f"_{{{','.join(map(_subscript, subscripts))}}}"
+        text += "_" + ".".join(GREEK.get(s, s) for s in subscripts)
+    return Name(latex + (f"^{{{raised}}}" if raised else ""), text + {"": "", "0": "⁰"}[raised])
+
+
+def greek(word: str) -> str:
+    """The LaTeX command of a Greek letter."""
+    return _VARIANT.get(word, f"\\{word}")
+
+
+def word(name: str) -> Name:
+    """A user's own name: omega4 is ω with the subscript 4, v_max is v with max, speed stays a word."""
+    head, _, rest = name.partition("_")
+    numbered = re.fullmatch(r"([A-Za-z]+?)(\d+)", head)
+    if numbered and (len(numbered[1]) == 1 or numbered[1] in GREEK):
+        head, rest = numbered[1], f"{numbered[2]}_{rest}" if rest else numbered[2]
+    if rest and (len(head) == 1 or head in GREEK):
+        return letter(head, rest)
+    return letter(name)
+
+
+def of_latex(latex: str) -> Name:
+    r"""A name that is given in LaTeX ("c_e", "\mu", "\sigma_{0}"), with its plain text."""
+    known = {**{f"\\{name}": sign for name, sign in GREEK.items()}, **{v: GREEK[k] for k, v in _VARIANT.items()}}
+    text = re.sub(r"\\[A-Za-z]+", lambda m: known.get(m[0], "" if m[0] in _FONTS else m[0][1:]), latex)
+    return Name(latex, re.sub(r"[{}\s]", "", text))
+
+
+_FONTS = {r"\mathrm", r"\text", r"\mathit", r"\operatorname", r"\bar", r"\hat", r"\tilde"}
+
+
+def _subscript(text: str) -> str:
+    if text in GREEK:
+        return greek(text)
+    return text if text.isdigit() or len(text) == 1 else rf"\text{{{_escaped(text)}}}"
+
+
+def _escaped(name: str) -> str:
+    return name.replace("_", r"\_")

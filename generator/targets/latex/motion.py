@@ -1,0 +1,125 @@
+"""The third part: masses, force elements, generalized forces, the equation of motion."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from gudgeon.generator.force_elements.element_type import element_types
+from gudgeon.generator.model import Model
+from gudgeon.generator.targets.latex.document import Block, Equation, Section, Sketch, cells, paragraph, table
+from gudgeon.generator.targets.latex.kinematics import equation, indexed
+from gudgeon.generator.targets.latex.letters import Name, letter
+from gudgeon.generator.targets.latex.notation import Notation, temporaries
+from gudgeon.generator.targets.latex.parts import place, sketch_of
+
+KKT = Equation(
+    Name(
+        r"\begin{bmatrix} M & \Phi_{q}^{\mathsf{T}} \\ \Phi_{q} & 0 \end{bmatrix}"
+        r"\begin{bmatrix} \ddot{q} \\ \lambda \end{bmatrix}",
+        "[M, Φ_qᵀ; Φ_q, 0]·[q̈; λ]",
+    ),
+    (
+        Name(
+            r"\begin{bmatrix} g \\ \gamma - 2 \alpha \dot{\Phi} - \beta^{2} \Phi \end{bmatrix}",
+            "[g; γ - 2·α·Φ̇ - β^2·Φ]",
+        ),
+    ),
+)
+FREE = Equation(Name(r"M \ddot{q}", "M·q̈"), (Name("g", "g"),))
+PHI_DOT = Name(r"\dot{\Phi} = \Phi_{q} \dot{q} - \nu", "Φ̇ = Φ_q·q̇ - ν")
+
+
+def motion_sections(model: Model, notation: Notation) -> list[Section]:
+    """M, force elements, g, the equation of motion."""
+    sections = [Section("Masses", tuple(_masses(model, notation)))]
+    if model.elements:
+        sections.append(Section("Force elements", tuple(_elements(model, notation))))
+    return [
+        *sections,
+        Section("Generalized forces", tuple(_forces(model, notation))),
+        Section("Equation of motion", tuple(_equation_of_motion(model, notation))),
+    ]
+
+
+def _masses(model: Model, notation: Notation) -> list[Block]:
+    rows = [
+        cells(body.name, *map(notation.math, model.masses[body.index : body.index + 3])) for body in model.bodies
+    ]
+    lead = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
+    return [paragraph(lead), *table(cells("body", "x", "y", "angle"), rows)]
+
+
+def _elements(model: Model, notation: Notation) -> list[Block]:
+    """Each element's own quantities; their share in g stands in the next section."""
+    blocks: list[Block] = []
+    locals_of = temporaries(model)
+    for name, applied in model.elements.items():
+        own_type = element_types()[applied.element.kind]
+        targets = " and ".join(place(target, own_type.targets) for target in applied.element.targets)
+        blocks.append(paragraph(f"{name}: {own_type.title} ({targets})."))
+        blocks += [
+            equation(symbol, notation.expand(model.symbols.definitions[symbol]), notation)
+            for symbol in locals_of
+            if model.symbols.info[symbol].meaning.endswith(f" of {name}")
+        ]
+        if applied.loads.potential != 0:
+            blocks.append(equation(letter("V", name), notation.expand(applied.loads.potential), notation))
+    for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
+        summary, *lines = sketch_of("force_elements", kind)
+        blocks += [paragraph(summary), Sketch(tuple(lines))]
+    return blocks
+
+
+def _forces(model: Model, notation: Notation) -> list[Block]:
+    """The components of g that are not zero, with the letters of the force elements."""
+    gx, gy = model.gravity
+    forces = [f for body in model.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
+    for element in model.elements.values():
+        element.add_to(forces)
+    of = Name("g", "g")
+    blocks: list[Block] = [
+        equation(indexed(of, k), notation.expand(force), notation) for k, force in enumerate(forces, 1) if force != 0
+    ]
+    lead = [paragraph("Gravity and force elements, by the numbers of the coordinates:")] if blocks else []
+    rest = "All other components are zero." if blocks else "No gravity and no force element acts: g is zero."
+    blocks = [*lead, *blocks, *([paragraph(rest)] if len(blocks) < len(forces) else [])]
+    if model.clearances:
+        blocks.append(paragraph("The joints with play add their forces to g; see there."))
+    return blocks
+
+
+def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
+    n, m = len(model.q), len(model.rows)
+    freedom = paragraph(
+        f"Degrees of freedom: {n} coordinates less {m} rows leave ",
+        Name(f"{n} - {m} = {n - m}", f"{n} - {m} = {n - m}"), ".",
+    )  # fmt: skip
+    if not model.rows:
+        return [FREE, freedom]
+    alpha, beta = model.baumgarte
+    gains = [
+        part
+        for symbol in (alpha, beta)
+        for part in (notation.math(symbol), f" = {_default(model, symbol)} 1/s, ")
+    ]
+    blocks: list[Block] = [
+        KKT,
+        paragraph(
+            "with ", PHI_DOT, ", ", *gains, "which draw a drifting ", Name(r"\Phi", "Φ"), " back to zero (Baumgarte). ",
+            Name(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ"), " holds the forces of joints and drives.",
+        ),
+        freedom,
+    ]  # fmt: skip
+    if n == m and not model.clearances:
+        blocks.append(
+            paragraph(
+                "The drives alone determine the motion: ", Name(r"\Phi = 0", "Φ = 0"), " gives the positions, ",
+                Name(r"\Phi_{q} \dot{q} = \nu", "Φ_q·q̇ = ν"), " the velocities, and nothing is integrated.",
+            )
+        )  # fmt: skip
+    return blocks
+
+
+def _default(model: Model, symbol: sp.Symbol) -> str:
+    (entry,) = (e for e in model.slots.entries.values() if e.symbol == symbol)
+    return f"{entry.default:g}"

@@ -1,0 +1,217 @@
+"""The letters of one model: what each of its symbols is called, and which of them are written out."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import sympy as sp
+
+from gudgeon.generator.model import Model
+from gudgeon.generator.symbols import Symbols
+from gudgeon.generator.targets.latex.letters import Name, letter, word
+from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
+
+LONG_DRIVE = 8  # operations beyond which a drive's value keeps a letter of its own
+LONG_CONSTANT = 4  # the same for what is computed once a run
+
+_ONE_LETTER = {
+    "mass": "m", "inertia": "I", "length": "l", "radius": "R", "clearance": "c", "stiffness": "k", "damping": "d",
+    "angle": "phi", "axis": "a", "direction": "u", "radii": "r",
+}  # fmt: skip
+_FREE = {"free_length": "l", "free_angle": "theta"}
+_TEMPORARY = {
+    "span": ("Delta", 0), "span_rate": ("Delta", 1), "length": ("l", 0), "length_rate": ("l", 1), "force": ("F", 0),
+    "moment": ("M", 0), "torque": ("M", 0),
+}  # fmt: skip
+_RATES = {"vx": ("x", 1), "vy": ("y", 1), "omega": ("theta", 1)}
+
+
+@dataclass(frozen=True)
+class Notation:
+    """Names of symbols; `kept` are the derived ones that equations show by their own letter."""
+
+    symbols: Symbols
+    names: Mapping[sp.Symbol, Name]
+    kept: frozenset[sp.Symbol]
+    order: Mapping[sp.Symbol, int]  # coordinates and velocities by body: the order of a sum's terms
+
+    def called(self, names: Mapping[sp.Symbol, Name]) -> Notation:
+        """The same with some symbols called otherwise, as inside the section of a joint."""
+        return replace(self, names={**self.names, **names})
+
+    def expand(self, expression: sp.Expr) -> sp.Expr:
+        """`expression` with the derived symbols written out but for those that are kept."""
+        definitions = self.symbols.definitions
+        while found := {s: definitions[s] for s in expression.free_symbols if s in definitions and s not in self.kept}:
+            expression = expression.xreplace(found)
+        return expression
+
+    def math(self, expression: sp.Expr) -> Name:
+        """An expression as a formula."""
+        expression = sp.sympify(expression)
+        return Name(self._latex.doprint(expression), self._text.doprint(expression))
+
+    def terms(self, expression: sp.Expr) -> tuple[Name, ...]:
+        """The terms of a sum, each with its sign: a line may break between them."""
+        expression = sp.sympify(expression)
+        signs = self._text.signed_terms(expression)
+        return tuple(
+            Name(sign + self._latex.long(term), sign.replace("{}", "") + self._text.doprint(term))
+            for sign, term in signs
+        )
+
+    @cached_property
+    def _latex(self) -> TexPrinter:
+        return TexPrinter({symbol: name.latex for symbol, name in self.names.items()}, self.order)
+
+    @cached_property
+    def _text(self) -> TextPrinter:
+        return TextPrinter({symbol: name.text for symbol, name in self.names.items()}, self.order)
+
+
+def make_notation(model: Model) -> Notation:
+    """The letters of physics.md for every symbol of a model; no two symbols share a name."""
+    order = {s: body.index for body in model.bodies for s in (*body.q, *body.v)}
+    for symbol in turned(model):  # behind the coordinates of their body
+        order[symbol] = 1 + min(order[q] for q in model.symbols.rules[symbol])
+    return Notation(model.symbols, distinct(_names(model)), frozenset(_kept(model)), order)
+
+
+def distinct(wanted: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
+    """A name of its own for each symbol: who comes first has the letter, others the name of their symbol in C."""
+    names: dict[sp.Symbol, Name] = {}
+    used: set[str] = set()
+    for symbol, name in wanted:
+        if not isinstance(symbol, sp.Symbol) or symbol in names:
+            continue
+        if name.text in used:
+            name = letter(symbol.name)
+        while name.text in used:
+            name = Name(f"{{{name.latex}}}'", f"{name.text}'")
+        used.add(name.text)
+        names[symbol] = name
+    return names
+
+
+def _names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
+    """What has a fixed letter comes first, so that a user's own names give way."""
+    yield model.t, letter("t")
+    for body in model.bodies:
+        for what, symbol in zip(("x", "y", "theta", "vx", "vy", "omega"), (*body.q, *body.v), strict=True):
+            base, dots = _RATES.get(what, (what, 0))
+            yield symbol, letter(base, body.name, dots=dots)
+    for drive, symbols in model.constraints.drive_angles.items():
+        for dots, symbol in enumerate(symbols):
+            yield symbol, letter("f", drive, dots=dots)
+    entries = [*model.slots.entries.values()]
+    for entry in sorted(entries, key=lambda e: e.address.startswith("parameters.")):
+        yield entry.symbol, of_address(entry.address)
+    for symbol in model.slots.derived:
+        yield symbol, _constant(model, symbol)
+    for symbol in temporaries(model):
+        yield symbol, _temporary(model.symbols.info[symbol].meaning)
+    arms = {f"arm_{body}_{point}": (body, point) for body, point in model.geometry.local}
+    for symbol in turned(model):
+        wanted, _, axis = symbol.name.rpartition("_")
+        if wanted in arms:
+            yield symbol, letter("s", axis, *arms[wanted])
+        elif wanted.startswith("axis_"):
+            yield symbol, letter("u", axis, wanted.removeprefix("axis_"))
+        else:
+            yield symbol, letter(symbol.name)
+
+
+def of_address(address: str) -> Name:
+    """The letter of a number by its place in the file: "bodies.L1.length" is l with the subscript L1."""
+    match address.split("."):
+        case ["parameters", name]:
+            return word(name)
+        case ["baumgarte", gain]:
+            return letter(gain)
+        case ["gravity", axis]:
+            return letter("g", axis)
+        case ["ground", point, axis]:
+            return letter(axis, point)
+        case ["bodies", body, "com", axis]:
+            return letter({"x": "xi", "y": "eta"}[axis], body, "com")
+        case ["bodies", body, "points", point, axis]:
+            return letter({"x": "xi", "y": "eta"}[axis], body, point)
+        case ["materials", material, constant]:
+            return letter(constant, material)
+        case ["bearings", bearing, "length"]:
+            return letter("L", bearing)
+        case ["contacts", contact, *rest]:
+            return letter(rest[-1], contact)
+        case ["start", _, body, coordinate]:
+            base, dots = _RATES.get(coordinate, (coordinate, 0))
+            return letter(base, body, dots=dots, raised="0")
+        case [_, owner, field]:
+            return letter(_FREE[field], owner, raised="0") if field in _FREE else letter(_letter_of(field), owner)
+        case [_, owner, field, axis]:
+            axis = {"x": "1", "y": "2"}[axis] if field == "radii" else axis
+            return letter(_letter_of(field), axis, owner)
+    return letter(address.replace(".", "_"))
+
+
+def _letter_of(field: str) -> str:
+    return _ONE_LETTER.get(field, field)
+
+
+def _constant(model: Model, symbol: sp.Symbol) -> Name:
+    """A number that is computed once a run, by the joint, drive or element in whose name it was made."""
+    mechanism = model.scene.mechanism
+    for owner in (*mechanism.joints, *mechanism.forces):
+        if symbol.name.startswith(f"{owner}_"):
+            what = re.sub(r"_\d+$", "", symbol.name.removeprefix(f"{owner}_"))
+            base, _, axis = what.rpartition("_")
+            if axis in ("x", "y") and base:
+                return letter(_letter_of(base), axis, owner, hat=model.symbols.info[symbol].meaning == "unit vector")
+            return letter(_letter_of(what), owner)
+    return letter(symbol.name)
+
+
+def _temporary(meaning: str) -> Name:
+    """A temporary of a force element, "span_x of coil"."""
+    what, _, owner = meaning.partition(" of ")
+    base, _, axis = what.rpartition("_")
+    if axis not in ("x", "y"):
+        base, axis = what, ""
+    sign, dots = _TEMPORARY.get(base, (base, 0))
+    return letter(sign, *([axis] if axis else []), owner, dots=dots)
+
+
+def temporaries(model: Model) -> list[sp.Symbol]:
+    """Symbols by which a force element calls its parts: they are locals, and neither angle, arm nor drive."""
+    drives = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
+    return [
+        symbol
+        for symbol in model.symbols.definitions
+        if not model.symbols.info[symbol].home and symbol not in model.symbols.rules and symbol not in drives
+    ]
+
+
+def turned(model: Model) -> list[sp.Symbol]:
+    """Components of arms and directions that turn with a body."""
+    drives = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
+    return [
+        symbol
+        for symbol, value in model.symbols.definitions.items()
+        if symbol in model.symbols.rules and symbol not in drives and not isinstance(value, (sp.cos, sp.sin))
+    ]
+
+
+def _kept(model: Model) -> Iterator[sp.Symbol]:
+    definitions = model.symbols.definitions
+    yield from (symbol for symbol in turned(model) if definitions[symbol].is_Add or definitions[symbol].is_Pow)
+    for symbols in model.constraints.drive_angles.values():
+        if sp.count_ops(definitions[symbols[0]]) > LONG_DRIVE:
+            yield from symbols
+    for clearance in model.clearances:
+        yield from (value for value in clearance.constants.values() if value in definitions)
+    for symbol, value in model.slots.derived.items():
+        if sp.count_ops(value) > LONG_CONSTANT:
+            yield symbol
+    yield from temporaries(model)

@@ -1,0 +1,228 @@
+"""The fourth part: each joint with play, its geometry, its force laws and their numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from gudgeon.generator.clearance import Clearance, LawEquations
+from gudgeon.generator.forces.law import RESULTS
+from gudgeon.generator.mechanism import LawUse, Play, Quantity
+from gudgeon.generator.model import Model
+from gudgeon.generator.targets.latex import contact
+from gudgeon.generator.targets.latex.contact import Step
+from gudgeon.generator.targets.latex.document import Block, Section, Text, cells, paragraph, sentence, table
+from gudgeon.generator.targets.latex.kinematics import equation
+from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
+from gudgeon.generator.targets.latex.notation import Notation, distinct
+from gudgeon.generator.targets.latex.parts import as_written
+from gudgeon.generator.units import si_unit
+
+# What the laws call their abbreviations and constants, in the paper's letters.
+_LAW_LETTERS = {
+    "root": letter("s"), "factor": letter("f"), "hysteresis": letter("a"), "film_clearance": letter("c", "film"),
+    "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"),
+}  # fmt: skip
+_PAIR = (
+    ("radius", "R_i", "bearing radius"),
+    ("clearance", "c", "radial clearance"),
+    ("length", "L", "length of the bearing"),
+)
+
+
+class JointWithPlay:
+    """One joint's equations in its own letters: c, R_i, K, c_e stand for this joint's alone."""
+
+    def __init__(self, model: Model, clearance: Clearance, notation: Notation) -> None:
+        self.model, self.clearance = model, clearance
+        self.play = model.scene.play[clearance.name]
+        self.notation = notation.called(distinct(self._names()))
+        self.numbers = list(self._numbers())
+
+    def laws(self) -> Iterator[tuple[LawEquations, LawUse]]:
+        """The laws that this joint has, with their place in the file."""
+        contact_of, own = self.play.contact, self.clearance
+        for equations, use in ((own.normal, contact_of.normal), (own.friction, contact_of.friction),
+                               (own.film, contact_of.film)):  # fmt: skip
+            if equations is not None and use is not None:
+                yield equations, use
+
+    def _names(self) -> Iterator[tuple[sp.Symbol, Name]]:
+        pair, constants = self.clearance.pair, self.clearance.constants
+        yield from contact.names(self.clearance).items()
+        for symbol, sign in ((pair.c, "c"), (pair.R_i, "R_i"), (pair.R_j, "R_j"), (pair.L, "L")):
+            yield symbol, of_latex(sign)
+        for constant in ("E", "nu"):
+            i, j = getattr(pair, f"{constant}_i"), getattr(pair, f"{constant}_j")
+            yield from [(i, letter(constant))] if i == j else [(i, letter(constant, "i")), (j, letter(constant, "j"))]
+        if self.clearance.transition is not None:
+            yield self.clearance.transition, letter("e", "0")
+        for equations, use in self.laws():
+            for parameter in equations.law.parameters:
+                yield self._slot(use.quantities[parameter.name]), of_latex(parameter.symbol)
+        for name, value in constants.items():
+            yield value, _LAW_LETTERS.get(name) or word(name)
+        for equations, _ in self.laws():
+            for name in equations.steps:
+                yield self.result(equations, name), _LAW_LETTERS.get(name) or word(name)
+
+    def _slot(self, quantity: Quantity) -> sp.Expr:
+        entry = self.model.slots.entries.get(quantity.address)
+        return sp.Integer(0) if entry is None else entry.symbol
+
+    def _numbers(self) -> Iterator[tuple[Quantity, str, str]]:
+        """Every number of this joint: quantity, letter if it has no slot, meaning."""
+        bearing = self.play.bearing
+        for field, sign, meaning in _PAIR:
+            yield getattr(bearing, field), sign, meaning
+        i, j = bearing.bearing_material, bearing.journal_material
+        pieces = [(i, "", "both")] if i == j else [(i, "_i", "bearing"), (j, "_j", "journal")]
+        for material, index, what in pieces if self.clearance.normal is not None else []:
+            yield material.E, f"E{index}", f"modulus of elasticity of {material.name} ({what})"
+            yield material.nu, rf"\nu{index}", f"Poisson's ratio of {material.name} ({what})"
+        for equations, use in self.laws():
+            for parameter in equations.law.parameters:
+                yield use.quantities[parameter.name], parameter.symbol, parameter.meaning
+        if self.play.contact.transition is not None:
+            yield self.play.contact.transition, "e_0", "width of the transition from film to dry contact"
+
+    @staticmethod
+    def result(equations: LawEquations, name: str) -> sp.Symbol:
+        """The symbol of a law's step; its tangential force belongs to its part of the joint."""
+        if name == "F_t" and name in RESULTS[equations.law.role]:
+            return contact.of_part(contact.F_q, "film" if equations.law.role == "film" else "dry")
+        return sp.Symbol(name, real=True)
+
+    def steps(self, equations: LawEquations) -> list[Step]:
+        """The law's own equations; a result that is the number zero is left out."""
+        own = {sp.Symbol(name, real=True): self.result(equations, name) for name in equations.steps}
+        return [
+            Step(self.result(equations, name), sp.sympify(value).xreplace(own))
+            for name, value in equations.steps.items()
+            if value != 0
+        ]
+
+    def shown(self, steps: list[Step]) -> list[Block]:
+        return [equation(step.symbol, self.notation.expand(step.value), self.notation) for step in steps]
+
+
+def play_sections(model: Model, notation: Notation) -> list[Section]:
+    """For each joint with play where its bodies are, what its laws say, and what they do to both bodies."""
+    sections: list[Section] = []
+    done: dict[str, Play] = {}
+    for clearance in model.clearances:
+        joint = JointWithPlay(model, clearance, notation)
+        twin = next((name for name, play in done.items() if _alike(play, joint.play)), None)
+        sections.append(Section(f"Joint {clearance.name} with play", tuple(_geometry(joint, twin is None))))
+        if twin is None:
+            done[clearance.name] = joint.play
+            sections += _contact_sections(joint)
+        else:
+            text = f"Bearing and contact are those of joint {twin}; so are letters, laws and numbers."
+            sections.append(Section(f"Joint {clearance.name}: force", (paragraph(text),), 2))
+        sections.append(Section(f"Joint {clearance.name}: share in g", tuple(_share_in_g(joint)), 2))
+    return sections
+
+
+def _alike(a: Play, b: Play) -> bool:
+    return a.bearing == b.bearing and a.contact == b.contact
+
+
+def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
+    """Eccentricity and its rate, in the coordinates; what follows from them where it is the first of its kind."""
+    clearance, expand, notation = joint.clearance, joint.notation.expand, joint.notation
+    ref = clearance.joint
+    steps = [
+        *zip((contact.e_x, contact.e_y), clearance.eccentricity, strict=True),
+        *zip((contact.de_x, contact.de_y), clearance.eccentricity_rate, strict=True),
+        (contact.omega_i, clearance.first.omega),
+        (contact.omega_j, clearance.second.omega),
+    ]
+    lead = paragraph(
+        f"Bearing i is {ref.first.body}.{ref.first.point}, journal j is {ref.second.body}.{ref.second.point}; "
+        "the eccentricity goes from the bearing's centre to the journal's."
+    )
+    own: list[Block] = [equation(symbol, expand(value), notation) for symbol, value in steps]
+    return [lead, *own, *(joint.shown(contact.gap(clearance)) if first else [])]
+
+
+def _contact_sections(joint: JointWithPlay) -> list[Section]:
+    clearance, name = joint.clearance, joint.clearance.name
+    sections = [Section(f"Joint {name}: numbers", tuple(_numbers(joint)), 2)]
+    if clearance.normal is not None:
+        sections.append(Section(f"Joint {name}: dry contact", tuple(_dry(joint)), 2))
+    if clearance.film is not None:
+        blocks = [*joint.shown(contact.before_film(clearance, clearance.film)), *_law(joint, "film"),
+                  *joint.shown(contact.after_film(clearance.film))]  # fmt: skip
+        sections.append(Section(f"Joint {name}: film", tuple(blocks), 2))
+    lead = "At the centre any direction serves as n. Force on the journal, in ground axes"
+    if clearance.normal is not None and clearance.film is not None:
+        lead += "; d marks the dry part, f the film, b goes from 0 to 1 over the transition"
+    blocks = [paragraph(lead + ":"), *joint.shown(contact.resultant(clearance))]
+    return [*sections, Section(f"Joint {name}: force", tuple(blocks), 2)]
+
+
+def _numbers(joint: JointWithPlay) -> list[Block]:
+    """The letters of this joint, and what follows from them once a run."""
+    slots, rows = joint.model.slots, []
+    for quantity, sign, meaning in joint.numbers:
+        entry = slots.entries.get(quantity.address)
+        written = f"{as_written(quantity.value)} = " if entry is not None and entry.follows else ""
+        value: Text = ("0",) if entry is None else (written, joint.notation.math(sp.Float(entry.default, 17)))
+        called = of_latex(sign) if entry is None else joint.notation.math(entry.symbol)
+        rows.append(cells(called, meaning, quantity.address, value, si_unit(quantity.dimension) or "-"))
+    definitions = joint.model.symbols.definitions
+    constants = dict.fromkeys([joint.clearance.pair.R_j, *joint.clearance.constants.values()])
+    follow = [equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions]
+    header = cells("", "meaning", "address", "value", "unit")
+    return [*table(header, rows, (1,)), paragraph("From these follow once a run:"), *follow]
+
+
+def _dry(joint: JointWithPlay) -> list[Block]:
+    clearance, stored = joint.clearance, joint.notation.math(contact.stored)
+    floor = joint.model.slots.entries[f"contacts.{joint.play.contact.name}.velocity_floor"].default
+    impact = paragraph(
+        "It acts while ", Name(r"\delta > 0", "δ > 0"), ". ", stored, " is the speed of approach at the onset, "
+        f"at least {floor:g} m/s, kept until separation; before an onset is accepted ",
+        Name(r"\dot{\delta} / ", "δ̇ / "), stored, " counts as 1.",
+    )  # fmt: skip
+    friction = _law(joint, "friction") if clearance.friction else [
+        paragraph("There is no friction:"), equation(contact.of_part(contact.F_q, "dry"), sp.Integer(0), joint.notation)
+    ]  # fmt: skip
+    return [impact, *joint.shown(contact.before_dry(clearance)), *_law(joint, "normal"), *friction,
+            *joint.shown(contact.after_dry())]  # fmt: skip
+
+
+def _law(joint: JointWithPlay, role: str) -> list[Block]:
+    """A law's equations with its source, validity and options."""
+    equations = next(equations for equations, _ in joint.laws() if equations.law.role == role)
+    law = equations.law
+    blocks: list[Block] = [paragraph(f"{sentence(law.title)} Source: {law.source}. Valid: {law.validity}.")]
+    blocks += [
+        paragraph(f"Option {option.name}: {_word(equations.options[option.name])} ({option.meaning}).")
+        for option in law.options
+    ]
+    return [*blocks, *joint.shown(joint.steps(equations))]
+
+
+def _word(value: str | bool) -> str:
+    return str(value).lower() if isinstance(value, bool) else value
+
+
+def _share_in_g(joint: JointWithPlay) -> list[Block]:
+    """Force and moment on both bodies, as what they add to g."""
+    clearance, notation = joint.clearance, joint.notation
+    blocks: list[Block] = [paragraph("The joint adds to g, by the numbers of the coordinates:")]
+    # which letter holds the moment depends on the parts that the joint has
+    moments = contact.moments(clearance)
+    for point, sign, moment in ((clearance.first, -1, moments[0]), (clearance.second, 1, moments[1])):
+        if point.body is None:
+            continue
+        x, y = point.arm
+        shares = (
+            sign * contact.F_x, sign * contact.F_y, sign * (x * contact.F_y - y * contact.F_x) + moment
+        )  # fmt: skip
+        for k, share in enumerate(shares, point.body.index + 1):
+            blocks.append(equation(Name(rf"\Delta g_{{{k}}}", f"Δg_{k}"), sp.expand(notation.expand(share)), notation))
+    return blocks

@@ -1,0 +1,158 @@
+"""SymPy's LaTeX and text printers with the names of a notation and the terms of a sum in the order of the bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from decimal import Decimal
+from typing import Any
+
+import sympy as sp
+from sympy.printing.latex import LatexPrinter
+from sympy.printing.precedence import PRECEDENCE
+from sympy.printing.str import StrPrinter
+
+LONG = 70  # characters of text beyond which a term is written so that a line may break inside it
+_NO_BODY = 1 << 30
+
+
+class _InOrder:
+    """Sums go from body to body, coordinates in front of what turns with them; other sums begin with a plus."""
+
+    _order: Mapping[sp.Symbol, int]
+
+    def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
+        terms = super()._as_ordered_terms(expr, order=order)  # type: ignore[misc]
+        return sorted(terms, key=self._place)
+
+    def _place(self, term: sp.Expr) -> tuple[int, bool]:
+        found = [self._order[s] for s in term.free_symbols if s in self._order]
+        if found:
+            return min(found), not term.as_coeff_Mul()[1].is_Symbol
+        return _NO_BODY, term.could_extract_minus_sign()
+
+
+class TextPrinter(_InOrder, StrPrinter):
+    """One line of plain text: a·b, a^b, √(a), |a|, names in Unicode."""
+
+    def __init__(self, names: Mapping[sp.Symbol, str], order: Mapping[sp.Symbol, int]) -> None:
+        super().__init__()
+        self._names, self._order = names, order
+
+    def doprint(self, expr: sp.Expr) -> str:
+        return str(super().doprint(expr)).replace("*", "·")
+
+    def signed_terms(self, expr: sp.Expr) -> list[tuple[str, sp.Expr]]:
+        """The terms of a sum with the signs between them; "{} " is LaTeX's empty left operand."""
+        first, *rest = self._as_ordered_terms(expr) if expr.is_Add else [expr]
+        return [("", first)] + [
+            ("{} - ", -term) if term.could_extract_minus_sign() else ("{} + ", term) for term in rest
+        ]
+
+    def _print_Symbol(self, expr: sp.Symbol) -> str:
+        return self._names.get(expr, expr.name)
+
+    def _print_Float(self, expr: sp.Float) -> str:
+        return number_text(float(expr))
+
+    def _print_Pi(self, expr: sp.Expr) -> str:
+        return "π"
+
+    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        base, exponent = expr.base, expr.exp
+        if exponent == sp.Rational(1, 2):
+            return f"√({self._print(base)})"
+        if exponent.is_Rational and exponent < 0:
+            below = base if exponent == -1 else sp.Pow(base, -exponent, evaluate=False)
+            return f"1/{self.parenthesize(below, PRECEDENCE['Mul'], strict=True)}"
+        return f"{self.parenthesize(base, PRECEDENCE['Pow'])}^{self.parenthesize(exponent, PRECEDENCE['Pow'])}"
+
+    def _print_Abs(self, expr: sp.Expr) -> str:
+        return f"|{self._print(expr.args[0])}|"
+
+    def _print_sign(self, expr: sp.Expr) -> str:
+        return f"sgn({self._print(expr.args[0])})"
+
+    def _print_Heaviside(self, expr: sp.Expr) -> str:
+        return f"H({self._print(expr.args[0])})"
+
+    def _print_Max(self, expr: sp.Expr) -> str:
+        return f"max({self.stringify(sorted(expr.args, key=_number_last), ', ')})"
+
+    def _print_Min(self, expr: sp.Expr) -> str:
+        return f"min({self.stringify(sorted(expr.args, key=_number_last), ', ')})"
+
+
+class TexPrinter(_InOrder, LatexPrinter):
+    """LaTeX for amsmath. `long` prints a term that does not fit on a line so that it can break at its signs."""
+
+    def __init__(self, names: Mapping[sp.Symbol, str], order: Mapping[sp.Symbol, int], breakable: bool = False) -> None:
+        settings: dict[str, Any] = {
+            "symbol_names": dict(names), "fold_func_brackets": True, "inv_trig_style": "full",
+            "root_notation": not breakable, "mul_symbol": r" \, ",
+        }  # fmt: skip
+        super().__init__(settings)
+        self._order, self._breakable, self._names = order, breakable, names
+        self._text = TextPrinter({symbol: "xx" for symbol in names}, order)  # a subscript takes little room
+
+    def long(self, expr: sp.Expr) -> str:
+        """`expr`, if it is long with brackets and fractions that a line may break in."""
+        if len(self._text.doprint(expr)) <= LONG:
+            return str(self.doprint(expr))
+        loose = str(TexPrinter(self._names, self._order, True).doprint(expr))
+        return loose.replace(r"\left(", r"\bigl(").replace(r"\right)", r"\bigr)")
+
+    def _print_Mul(self, expr: sp.Expr) -> str:
+        """A number over a number stands in front, small; the rest as SymPy has it, or breakable."""
+        number, rest = expr.as_coeff_Mul()
+        above, below = sp.fraction(expr)
+        if number.is_Rational and number.q != 1 and sp.fraction(rest)[1] == 1:
+            sign = "- " if number.p < 0 else ""
+            inside = self.parenthesize(rest, PRECEDENCE["Mul"], strict=True)
+            return rf"{sign}{self._print(abs(number))} \, {inside}"
+        if not self._breakable or below.is_Number:
+            return str(super()._print_Mul(expr))
+        return rf"{self.parenthesize(above, PRECEDENCE['Mul'])} / \left({self._print(below)}\right)"
+
+    def _print_Rational(self, expr: sp.Rational) -> str:
+        return rf"{'- ' if expr.p < 0 else ''}\tfrac{{{abs(expr.p)}}}{{{expr.q}}}"
+
+    def _print_Float(self, expr: sp.Float) -> str:
+        mantissa, _, exponent = number_text(float(expr)).partition("e")
+        if not exponent:
+            return mantissa
+        power = f"10^{{{int(exponent)}}}"
+        return power if mantissa == "1" else rf"{mantissa} \cdot {power}"
+
+    def _print_sign(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._function(r"\operatorname{sgn}", expr, exp)
+
+    def _print_Heaviside(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._function("H", expr, exp)
+
+    def _print_atan2(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._function(r"\mathrm{atan2}", expr, exp)
+
+    def _print_Max(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._function(r"\operatorname{max}", expr, exp)
+
+    def _print_Min(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._function(r"\operatorname{min}", expr, exp)
+
+    def _function(self, name: str, expr: sp.Expr, exp: str | None) -> str:
+        arguments = expr.args[:1] if isinstance(expr, sp.Heaviside) else expr.args
+        if isinstance(expr, (sp.Max, sp.Min)):
+            arguments = sorted(arguments, key=_number_last)
+        inside = ", ".join(self._print(argument) for argument in arguments)
+        return rf"{name}{f'^{{{exp}}}' if exp else ''}\left({inside}\right)"
+
+
+def number_text(value: float) -> str:
+    """The shortest decimal number that is read back as `value`: "0.0003", "7e10", "5e-06"."""
+    text = repr(value).removesuffix(".0")
+    if "e" not in text and abs(value) >= 1e6:
+        text = f"{Decimal(text).normalize():e}".replace("e+", "e")
+    return text
+
+
+def _number_last(argument: sp.Expr) -> tuple[bool, str]:
+    return bool(argument.is_Number), str(argument)

@@ -1,0 +1,136 @@
+"""A document as LaTeX, plain text or HTML: layout and escaping; templates/latex holds the frames."""
+
+from __future__ import annotations
+
+import html
+import re
+import textwrap
+import unicodedata
+from functools import cache
+from importlib import resources
+
+import jinja2
+
+from gudgeon.errors import GudgeonError
+from gudgeon.generator.targets.latex.document import Document, Equation, Paragraph, Sketch, Table, Text
+from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.tex_text import sketch_line, tex
+
+WIDTH = 100  # characters of a line of text
+WIDE = 44  # characters of a column with running text
+
+
+def render(document: Document, suffix: str) -> str:
+    """The document in the format of a file's suffix: "tex", "txt" or "html"."""
+    text = _environment().get_template(f"equations.{suffix}.jinja").render(document=document)
+    return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n") + "\n"
+
+
+@cache
+def _environment() -> jinja2.Environment:
+    def load(name: str) -> str:
+        return resources.files("gudgeon.templates").joinpath("latex", name).read_text(encoding="utf-8")
+
+    environment = jinja2.Environment(
+        loader=jinja2.FunctionLoader(load), undefined=jinja2.StrictUndefined, autoescape=False,
+        trim_blocks=True, lstrip_blocks=True,
+        # LaTeX is full of braces
+        variable_start_string="<<", variable_end_string=">>", block_start_string="<%", block_end_string="%>",
+        comment_start_string="<#", comment_end_string="#>",
+    )  # fmt: skip
+    environment.filters.update(
+        tex=tex, tex_line=_tex_line, tex_terms=_tex_terms, tex_sketch=sketch_line, tex_columns=_tex_columns,
+        tex_row=_tex_row, tex_size=_tex_size,
+        html=html.escape, html_line=_html_line, mathml=_mathml,
+        plain_line=_plain_line, plain_paragraph=_plain_paragraph, plain_equation=_plain_equation,
+        plain_table=_plain_table, underline=_underline,
+    )  # fmt: skip
+    return environment
+
+
+def _tex_line(text: Text) -> str:
+    return "".join(f"${part.latex}$" if isinstance(part, Name) else tex(part) for part in text)
+
+
+def _tex_row(row: tuple[Text, ...], wide: tuple[int, ...]) -> str:
+    cells = [rf"\raggedright {_tex_line(cell)}" if k in wide else _tex_line(cell) for k, cell in enumerate(row)]
+    return " & ".join(cells) + r" \tabularnewline"
+
+
+def _tex_terms(equation: Equation) -> str:
+    return "\n  ".join(term.latex for term in equation.terms)
+
+
+def _tex_columns(table: Table) -> str:
+    """Running text gets what the page leaves for it."""
+    share = 0.34 / max(1, len(table.wide))
+    return "".join(
+        rf"p{{{share:.2f}\linewidth}}" if k in table.wide else "l" for k in range(len(table.header))
+    )
+
+
+def _tex_size(block: Sketch | Table) -> str:
+    """Long lines take small letters to stay on the page."""
+    if isinstance(block, Sketch):
+        return r"\footnotesize" if max(map(len, block.lines), default=0) <= 98 else r"\scriptsize"
+    widths = [max(_columns(_plain_line(cell)) for cell in column) for column in zip(block.header, *block.rows, strict=True)]
+    width = sum(2 + min(WIDE, w) if k in block.wide else 2 + w for k, w in enumerate(widths))
+    return r"\small" if width <= 105 else r"\footnotesize" if width <= 125 else r"\scriptsize"
+
+
+def _html_line(text: Text) -> str:
+    return "".join(_mathml(part) if isinstance(part, Name) else html.escape(part) for part in text)
+
+
+def _mathml(name: Name) -> str:
+    """A formula as MathML. Raises GudgeonError where the extra `docs` is not installed."""
+    try:
+        from latex2mathml.converter import convert
+    except ImportError as error:
+        raise GudgeonError("HTML needs latex2mathml: pip install 'gudgeon[docs]'") from error
+    mathml = str(convert(name.latex)).replace("<mover>", '<mover accent="true">')
+    return re.sub(r"<mi>(sin|cos|tan|exp|log)</mi>(?=<m[is])", r'\g<0><mspace width="0.167em"/>', mathml)
+
+
+def _plain_line(text: Text) -> str:
+    return "".join(part.text if isinstance(part, Name) else part for part in text)
+
+
+def _plain_paragraph(paragraph: Paragraph) -> str:
+    return textwrap.fill(_plain_line(paragraph.text), WIDTH, break_long_words=False, break_on_hyphens=False)
+
+
+def _plain_equation(equation: Equation) -> str:
+    """One line, or more of them, each behind the first indented further."""
+    line = f"  {equation.left.text} = {''.join(term.text for term in equation.terms)}"
+    return textwrap.fill(
+        line, WIDTH, subsequent_indent=" " * 8, break_long_words=False, break_on_hyphens=False
+    )
+
+
+def _plain_table(table: Table) -> str:
+    """Columns under each other; running text goes on below itself."""
+    rows = [[[_plain_line(cell)] for cell in table.header]]
+    rows += [
+        [textwrap.wrap(_plain_line(cell), WIDE) or [""] if k in table.wide else [_plain_line(cell)]
+         for k, cell in enumerate(row)]
+        for row in table.rows
+    ]  # fmt: skip
+    widths = [max(_columns(line) for row in rows for line in row[k]) for k in range(len(table.header))]
+    lines = []
+    for row in rows:
+        for level in range(max(map(len, row))):
+            parts = [cell[level] if level < len(cell) else "" for cell in row]
+            padded = (part + " " * (width - _columns(part)) for part, width in zip(parts, widths, strict=True))
+            lines.append("  " + "   ".join(padded).rstrip())
+    lines.insert(1, "  " + "   ".join("-" * width for width in widths))
+    return "\n".join(lines)
+
+
+def _columns(text: str) -> int:
+    """Width on a terminal: a dot above a letter takes no room of its own."""
+    return sum(not unicodedata.combining(character) for character in text)
+
+
+def _underline(text: str, sign: str) -> str:
+    return f"{text}\n{sign * _columns(text)}"

@@ -1,0 +1,43 @@
+"""A model's equations as a document."""
+
+from __future__ import annotations
+
+from gudgeon.generator.model import Model
+from gudgeon.generator.targets.c.describe import _notes as notes
+from gudgeon.generator.targets.latex.document import Document, Section, paragraph, sentence
+from gudgeon.generator.targets.latex.kinematics import kinematics_sections
+from gudgeon.generator.targets.latex.motion import motion_sections
+from gudgeon.generator.targets.latex.notation import make_notation
+from gudgeon.generator.targets.latex.parts import part_sections
+from gudgeon.generator.targets.latex.play import play_sections
+from gudgeon.generator.targets.latex.render import render
+
+
+def make_document(model: Model) -> Document:
+    """Everything that is derived for one scene, in the order of a lecture."""
+    mechanism, notation = model.scene.mechanism, make_notation(model)
+    left_out = notes(model)
+    sections = [
+        *part_sections(model, notation),
+        *kinematics_sections(model, notation),
+        *motion_sections(model, notation),
+        *play_sections(model, notation),
+        *([Section("Left out of this scene", tuple(paragraph(sentence(n)) for n in left_out))] if left_out else []),
+    ]
+    facts = (("mechanism ", mechanism.name, ", scene ", model.scene.name),)
+    return Document(mechanism.title or mechanism.name, facts, tuple(sections))
+
+
+def equations_tex(model: Model) -> str:
+    """The equations of a scene as a LaTeX file for pdflatex and amsmath, in ASCII."""
+    return render(make_document(model), "tex")
+
+
+def equations_text(model: Model) -> str:
+    """The equations of a scene as plain Unicode text, 100 columns wide."""
+    return render(make_document(model), "txt")
+
+
+def equations_html(model: Model) -> str:
+    """The equations of a scene as one HTML file with MathML. Raises GudgeonError without the extra `docs`."""
+    return render(make_document(model), "html")
