@@ -114,6 +114,8 @@ class TexPrinter(_InOrder, LatexPrinter):
         return rf"{self.parenthesize(above, PRECEDENCE['Mul'])} / \left({self._print(below)}\right)"
 
     def _print_Rational(self, expr: sp.Rational) -> str:
+        if expr.q == 1:
+            return str(expr.p)
         return rf"{'- ' if expr.p < 0 else ''}\tfrac{{{abs(expr.p)}}}{{{expr.q}}}"
 
     def _print_Float(self, expr: sp.Float) -> str:

@@ -73,7 +73,8 @@ def _tex_size(block: Sketch | Table) -> str:
     """Long lines take small letters to stay on the page."""
     if isinstance(block, Sketch):
         return r"\footnotesize" if max(map(len, block.lines), default=0) <= 98 else r"\scriptsize"
-    widths = [max(_columns(_plain_line(cell)) for cell in column) for column in zip(block.header, *block.rows, strict=True)]
+    columns = zip(block.header, *block.rows, strict=True)
+    widths = [max(_columns(_plain_line(cell)) for cell in column) for column in columns]
     width = sum(2 + min(WIDE, w) if k in block.wide else 2 + w for k, w in enumerate(widths))
     return r"\small" if width <= 105 else r"\footnotesize" if width <= 125 else r"\scriptsize"
 
