@@ -5,7 +5,7 @@ ARGS ?=
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run test test-all lint types bench stress generated setup setup-test clean
+.PHONY: help run checks test test-all lint types bench stress generated setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -13,6 +13,9 @@ help:  ## this list
 
 run: setup  ## the nine-bar press in three scenes: a table, and a picture under out/
 	@$(GUDGEON) run nine_bar_press $(ARGS)
+
+checks: setup-test  ## README's table of what is checked against what, measured anew
+	@.venv/bin/python -m docs.checks
 
 test: lint types  ## ruff, mypy and the tests
 	@.venv/bin/pytest -n 2 -q $(ARGS)
