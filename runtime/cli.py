@@ -150,24 +150,16 @@ def emit(
 @_told
 def equations(
     file: File,
-    target: Annotated[Path, typer.Option("--out", "-o", help="x.tex or x.txt.")],
+    target: Annotated[Path, typer.Option("--out", "-o", help="x.tex, x.txt or x.html.")],
     scene: Annotated[str, typer.Option("--scene", "-s", help="Which scene.")] = "ideal",
 ) -> int:
-    """Write the equations of a scene as LaTeX or as text.
+    """Write the equations of a scene as LaTeX, text or HTML.
 
     Example: gudgeon equations nine_bar_press -o press.tex --scene lubricated
     """
     from gudgeon.commands.equations import write_equations
 
     return write_equations(file, target, scene)
-
-
-def _module_main(name: str) -> Callable[[str, tuple[str, ...], Path], int | None]:
-    """`main(mechanism, scenes, folder)` of a module that is a study of its own."""
-    from importlib import import_module
-
-    found: Callable[[str, tuple[str, ...], Path], int | None] = import_module(f"gudgeon.{name}").main
-    return found
 
 
 Quick = Annotated[bool, typer.Option("--quick", help="Fewer steps and a shorter window: seconds, not minutes.")]

@@ -76,4 +76,4 @@ def write_text(path: Path, text: str) -> None:
 def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
     """InputError for a file whose name does not say what is to be written."""
     if path.suffix not in suffixes:
-        raise InputError(f"{path}: expected a name that ends in {' or '.join(suffixes)}")
+        raise InputError(f"{path}: expected a name that ends in {', '.join(suffixes[:-1])} or {suffixes[-1]}")

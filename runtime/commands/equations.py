@@ -1,4 +1,4 @@
-"""`gudgeon equations`: the equations of a scene as LaTeX or plain text."""
+"""`gudgeon equations`: the equations of a scene as LaTeX, plain text or HTML."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from gudgeon.loading import find_mechanism, read_bytes
 
 
 def write_equations(mechanism: str, target: Path, scene: str) -> int:
-    """Derive one scene and write its equations to x.tex or x.txt."""
-    need_suffix(target, (".tex", ".txt"))
+    """Derive one scene and write its equations to x.tex, x.txt or x.html."""
+    need_suffix(target, (".tex", ".txt", ".html"))
     chosen_scenes(mechanism, (scene,))
     file = find_mechanism(mechanism)
     data = read_bytes(file)
@@ -19,7 +19,7 @@ def write_equations(mechanism: str, target: Path, scene: str) -> int:
     from gudgeon.generator.targets import latex
 
     model = derive(data, str(file), scene)
-    write = latex.equations_tex if target.suffix == ".tex" else latex.equations_text
-    write_text(target, write(model))
+    write = {".tex": latex.equations_tex, ".txt": latex.equations_text, ".html": latex.equations_html}
+    write_text(target, write[target.suffix](model))
     print(f"wrote {target}")
     return 0
