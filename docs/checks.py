@@ -11,6 +11,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -87,7 +88,7 @@ def derivation() -> Iterable[Row]:
         t, q, v = models.random_state(model, seed)
         differences = [(press.phi(t, q + s) - press.phi(t, q - s)) / (2 * h) for s in h * np.eye(q.size)]
         jacobian = max(jacobian, worst(press.phi_q(t, q), np.transpose(differences)))
-        later = t + 1e-30j, q + 1e-30j * v, v
+        later: Any = t + 1e-30j, q + 1e-30j * v, v
         rate = (phi_q(*later) @ v[:, None] - nu(*later)).imag[:, 0] / 1e-30
         gamma = max(gamma, worst(press.gamma(t, q, v), -rate))
         m = ideal_press.motion(t)
