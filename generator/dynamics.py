@@ -22,7 +22,7 @@ def dynamics_kernel(model: Model, kkt: KKT) -> Kernel:
         "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
         "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
     ])  # fmt: skip
-    if kkt.rows:
+    if kkt.rows and not model.frictions:
         build.section("status")
         build.line("int pivot = 0;")
     forces = _gravity(model)
@@ -30,20 +30,25 @@ def dynamics_kernel(model: Model, kkt: KKT) -> Kernel:
         element.add_to(forces)
     for index, clearance in enumerate(model.clearances):
         _clearance_call(model, build, index, clearance, forces)
+    slips = _slips(model, build, kkt, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
     b.update(_constraint_rhs(model, build, kkt))
-    x = kkt.solve(build, kkt.factorize(build, "{{ pivot = {}; goto dependent; }}"), b)
+    b.update(slips)
+    # where friction may stick, a vanishing pivot is told, not mended: rows come and go there
+    failed = "return {}" if model.frictions else "{{ pivot = {}; goto dependent; }}"
+    x = kkt.solve(build, kkt.factorize(build, failed), b)
     build.section("results")
     for k, _ in enumerate(model.q):
         build.out(f"a[{k}]", x[k])
     for r, _ in enumerate(kkt.rows):
         build.out(f"aside->lambda[{r}]", x[kkt.n + r])
-    if kkt.rows:
+    _friction_forces(build, kkt, x)
+    if kkt.rows and not model.frictions:
         _dependent_rows(build, kkt, b)
     _powers(model, build, kkt)
-    build.line("return pivot;" if kkt.rows else "return 0;")
-    latch = (Argument("const Latch *", "latch"),) if model.clearances else ()
-    arguments = (*STATE, *latch, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
+    build.line("return pivot;" if kkt.rows and not model.frictions else "return 0;")
+    memory = (Argument("const Memory *", "memory"),) if model.clearances or model.frictions else ()
+    arguments = (*STATE, *memory, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
     return build.build(arguments, "int")
 
 
@@ -71,16 +76,17 @@ def _clearance_call(
     ]
     omegas = (clearance.first.omega, clearance.second.omega)
     arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in omegas)])
-    build.line(f"clearance_{name}({arguments}, &latch[{index}], p, &{out});", omegas)
+    build.line(f"clearance_{name}({arguments}, &memory->latch[{index}], p, &{out});", omegas)
     F = [build.local(f"F_{name}_{axis}", f"{out}.F{axis}") for axis in "xy"]
-    moments = [build.local(f"M_{name}_{body}", f"{out}.moment_{body}") for body in ("first", "second")]
-    for point, sign, moment in ((clearance.first, -1, moments[0]), (clearance.second, 1, moments[1])):
+    power = F[0] * edot[0] + F[1] * edot[1]
+    for point, sign, which in ((clearance.first, -1, "first"), (clearance.second, 1, "second")):
         if point.body is not None:
+            moment = build.local(f"M_{name}_{which}", f"{out}.moment_{which}")
+            power += moment * point.omega
             k = point.body.index
             forces[k] += sign * F[0]
             forces[k + 1] += sign * F[1]
             forces[k + 2] += sign * (point.arm[0] * F[1] - point.arm[1] * F[0]) + moment
-    power = F[0] * edot[0] + F[1] * edot[1] + moments[0] * omegas[0] + moments[1] * omegas[1]
     build.out(f"{out}.power", power)
 
 
@@ -100,6 +106,36 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT) -> dict[int, s
         build.out(f"aside->phi[{r}]", phi)
         build.out(f"aside->phi_dot[{r}]", phi_dot)
     return rhs
+
+
+def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
+    """Slip velocities; the force of slip goes to the coordinates, the right-hand side of stick is returned."""
+    rhs: dict[int, sp.Expr] = {}
+    if kkt.frictions:
+        build.section("friction: slip, or stick as a row")
+    place = {q: k for k, q in enumerate(model.q)}
+    two_alpha = model.slots.derive("two_alpha", 2 * model.baumgarte[0], "2 alpha")
+    for r, friction in enumerate(kkt.frictions):
+        name, node = friction.name, kkt.first_friction + r
+        v = build.local(f"slip_{name}", friction.slip.v)
+        mode = build.local(f"mode_{name}", f"memory->mode[{r}]", "0 stick, else the sign of the slip")
+        kkt.sticks[node] = build.local(f"stick_{name}", f"{mode.name} == 0.0 ? 1.0 : 0.0")
+        force = build.local(f"kinetic_{name}", -mode * friction.slip.kinetic)
+        for q, entry in friction.jacobian.items():
+            forces[place[q]] += entry * force
+        rhs[node] = build.local(f"rhs_{name}", friction.gamma - two_alpha * v)
+        for key, value in (("v", v), ("static_limit", friction.slip.static), ("speed", friction.slip.speed)):
+            build.out(f"aside->friction[{r}].{key}", value)
+        build.out(f"aside->friction[{r}].force", force)
+    return rhs
+
+
+def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
+    """In stick the force is what the row needs."""
+    for r, friction in enumerate(kkt.frictions):
+        stick = kkt.sticks[kkt.first_friction + r]
+        build.line(f"if ({stick.name} != 0.0)")
+        build.out(f"    aside->friction[{r}].force", -x[kkt.first_friction + r], f"stick of {friction.name}")
 
 
 def _dependent_rows(build: KernelBuilder, kkt: KKT, b: dict[int, sp.Expr]) -> None:
@@ -123,7 +159,11 @@ def _powers(model: Model, build: KernelBuilder, kkt: KKT) -> None:
     drives = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
     clearances = " + ".join(f"aside->clearance[{i}].power" for i in range(len(model.clearances)))
     build.out("aside->power[0]", drives)
-    build.out("aside->power[1]", sum((element.loads.power for element in model.elements.values()), ZERO))
+    rubs = [f"aside->friction[{r}]" for r in range(len(kkt.frictions))]
+    friction = sp.Add(
+        *(sp.Symbol(f"{rub}.force") * (sp.Symbol(f"{rub}.v") + sp.Symbol(f"{rub}.speed")) for rub in rubs)
+    )
+    build.out("aside->power[1]", sp.Add(*(element.loads.power for element in model.elements.values())) + friction)
     build.out("aside->power[2]", clearances or ZERO)
 
 

@@ -23,19 +23,23 @@ class Elimination:
     products: int
 
 
-def choose_elimination(pattern: Pattern, coordinates: int) -> Elimination:
-    """The cheapest of a few greedy orders; nodes below `coordinates` are coordinates, the others rows."""
+def choose_elimination(pattern: Pattern, coordinates: int, last: int | None = None) -> Elimination:
+    """The cheapest of a few greedy orders; nodes below `coordinates` are coordinates, the others rows.
+
+    Nodes from `last` on come after all the others.
+    """
+    end = len(pattern) if last is None else last
 
     def degree(graph: Sequence[set[int]], node: int) -> tuple[int, ...]:
-        return (len(graph[node]), node)
+        return (node >= end, len(graph[node]), node)
 
     def fill(graph: Sequence[set[int]], node: int) -> tuple[int, ...]:
         near = sorted(graph[node])
         missing = sum(b not in graph[a] for i, a in enumerate(near) for b in near[i + 1 :])
-        return (missing, len(near), node)
+        return (node >= end, missing, len(near), node)
 
     def bodies_first(graph: Sequence[set[int]], node: int) -> tuple[int, ...]:
-        return (int(node >= coordinates), *fill(graph, node))
+        return (node >= end, node >= coordinates, *fill(graph, node))
 
     candidates = [_eliminate(pattern, coordinates, key) for key in (degree, fill, bodies_first)]
     return min(candidates, key=lambda e: e.products)

@@ -9,7 +9,8 @@ import sympy as sp
 from gudgeon.errors import Location
 from gudgeon.expression_tree import Name, names
 from gudgeon.generator.geometry import Geometry, PointFrame
-from gudgeon.generator.mechanism import GROUND, ForceElement, Joint, PointRef, Quantity
+from gudgeon.generator.mechanism import GROUND, ForceElement, Joint, PointRef, Quantity, Vector
+from gudgeon.generator.slots import Slots
 from gudgeon.generator.symbolic import to_sympy
 
 ZERO = sp.Integer(0)
@@ -23,19 +24,7 @@ class JointFields:
 
     def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
         """A vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
-        x, y = self.vector(name)
-        length = sp.sqrt(x**2 + y**2)
-        wanted = f"{self._joint.name}_{name}"
-        return self._component(f"{wanted}_x", x, y, length), self._component(f"{wanted}_y", y, x, length)
-
-    def _component(self, wanted: str, own: sp.Expr, other: sp.Expr, length: sp.Expr) -> sp.Expr:
-        if own == 0:
-            return ZERO
-        if other == 0:
-            entry = next((e for e in self._slots.entries.values() if e.symbol == own), None)
-            if entry is not None and not entry.follows:  # only its sign matters, and the sign is structural
-                return sp.Integer(1 if entry.default > 0 else -1)
-        return self._slots.derive(wanted, own / length, "unit vector")
+        return unit_vector(self._joint.vectors[name], f"{self._joint.name}_{name}", self._slots)
 
     def angle_of(self, name: str) -> sp.Expr:
         """The angle of a vector field in its body's frame (rad)."""
@@ -76,11 +65,32 @@ class JointFields:
         return self.derive(name, expression.xreplace(values))
 
 
+def unit_vector(vector: Vector, wanted: str, slots: Slots) -> tuple[sp.Expr, sp.Expr]:
+    """A vector's direction; along an axis it is exactly (±1, 0) or (0, ±1)."""
+    x, y = slots.use(vector[0]), slots.use(vector[1])
+    length = sp.sqrt(x**2 + y**2)
+
+    def component(axis: str, own: sp.Expr, other: sp.Expr) -> sp.Expr:
+        if own == 0:
+            return ZERO
+        if other == 0:
+            entry = next((e for e in slots.entries.values() if e.symbol == own), None)
+            if entry is not None and not entry.follows:  # only its sign matters, and the sign is structural
+                return sp.Integer(1 if entry.default > 0 else -1)
+        return slots.derive(f"{wanted}_{axis}", own / length, "unit vector")
+
+    return component("x", x, y), component("y", y, x)
+
+
 class ElementFields:
     """What a force element's file may ask for."""
 
     def __init__(self, element: ForceElement, geometry: Geometry, t: sp.Symbol) -> None:
         self._element, self._geometry, self._t = element, geometry, t
+
+    def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
+        """A vector field as a unit vector."""
+        return unit_vector(self._element.vectors[name], f"{self._element.name}_{name}", self._geometry.slots)
 
     def quantity(self, name: str) -> sp.Expr:
         """A number field; 0 where the user gave none."""

@@ -14,6 +14,7 @@ import sympy as sp
 
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.factorization import Elimination, choose_elimination
+from gudgeon.generator.friction import Friction
 from gudgeon.generator.kernels import KernelBuilder
 from gudgeon.generator.model import Model
 
@@ -33,20 +34,29 @@ class Factor:
 class KKT:
     """Emits factorization and solution of a scene's KKT system; nodes are coordinates, then rows."""
 
-    def __init__(self, model: Model, rows: Sequence[Row]) -> None:
+    def __init__(self, model: Model, rows: Sequence[Row], frictions: Sequence[Friction] = ()) -> None:
         self.model, self.rows, self.n = model, tuple(rows), len(model.q)
+        self.frictions, self.first_friction = tuple(frictions), len(model.q) + len(rows)
         place = {q: k for k, q in enumerate(model.q)}
         self.entry = {
             (self.n + r, place[q]): value for r, row in enumerate(self.rows) for q, value in row.phi_q.items()
         }
-        near: list[set[int]] = [set() for _ in range(self.n + len(self.rows))]
+        self.entry |= {
+            (self.first_friction + r, place[q]): value
+            for r, friction in enumerate(self.frictions)
+            for q, value in friction.jacobian.items()
+        }
+        near: list[set[int]] = [set() for _ in range(self.first_friction + len(self.frictions))]
         for r, c in self.entry:
             near[r].add(c)
             near[c].add(r)
-        self.elimination: Elimination = choose_elimination(tuple(map(frozenset, near)), self.n)
+        self.elimination: Elimination = choose_elimination(tuple(map(frozenset, near)), self.n, self.first_friction)
         self.names = [q.name for q in model.q] + [row.name.replace(".", "_") for row in self.rows]
+        self.names += [friction.name for friction in self.frictions]
+        self.sticks: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
         self.inverse_masses = [model.slots.derive(f"inverse_{mass.name}", 1 / mass, "1/M") for mass in model.masses]
-        self.pivots = tuple(self.rows[k - self.n].name for k in self.elimination.order if k >= self.n)
+        row_names = [row.name for row in self.rows] + [friction.name for friction in self.frictions]
+        self.pivots = tuple(row_names[k - self.n] for k in self.elimination.order if k >= self.n)
 
     def factorize(self, build: KernelBuilder, failed: str = "return {}") -> Factor:
         """Statements for L and 1/D; `failed` is what a vanishing pivot does, with its number, from 1, for {}."""
@@ -84,8 +94,13 @@ class KKT:
         if others:
             value = scale + sum((L[k, j] * W[k, j] for j in others), sp.Integer(0))
             pivot = build.local(f"pivot_{name}", value)
-        build.line(f"if (!({pivot.name} > {SINGULAR!r} * {scale.name})) {failed};")
-        return -build.local(f"inverse_pivot_{name}", 1 / pivot)
+        test = f"!({pivot.name} > {SINGULAR!r} * {scale.name})"
+        if k < self.first_friction:
+            build.line(f"if ({test}) {failed};")
+            return -build.local(f"inverse_pivot_{name}", 1 / pivot)
+        stick = self.sticks[k]  # a row that slips is switched off: its multiplier is zero
+        build.line(f"if ({stick.name} != 0.0 && {test}) {failed};")
+        return -build.local(f"inverse_pivot_{name}", f"{stick.name} != 0.0 ? 1.0 / {pivot.name} : 0.0")
 
     @staticmethod
     def _named(build: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:

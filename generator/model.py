@@ -15,6 +15,7 @@ import sympy as sp
 from gudgeon.generator.clearance import Clearance, make_clearance
 from gudgeon.generator.constraints import Constraints, Row
 from gudgeon.generator.elements import AppliedElement, apply_element
+from gudgeon.generator.friction import Friction, make_friction
 from gudgeon.generator.geometry import BodySymbols, Geometry
 from gudgeon.generator.scene import Scene
 from gudgeon.generator.slots import Slots
@@ -46,6 +47,7 @@ class Model:
     rows: tuple[Row, ...]  # what constrains the motion
     clearances: tuple[Clearance, ...]
     elements: Mapping[str, AppliedElement]  # the section `forces`
+    frictions: tuple[Friction, ...]  # slips that friction may hold
     redundancy: Redundancy  # rows that were left out
     gravity: tuple[sp.Expr, sp.Expr]
     baumgarte: tuple[sp.Symbol, sp.Symbol]
@@ -137,18 +139,13 @@ def make_model(scene: Scene) -> Model:
     clearances = [make_clearance(mechanism.joints[name], play, geometry, slots) for name, play in scene.play.items()]
     gravity = geometry.ground_vector(mechanism.gravity) if mechanism.gravity else (sp.Integer(0), sp.Integer(0))
     elements = {e.name: apply_element(e, geometry, constraints.t) for e in mechanism.forces.values()}
+    frictions = tuple(
+        make_friction(name, e.loads.slip, geometry, constraints.t, symbols)
+        for name, e in elements.items()
+        if e.loads.slip
+    )
     kept = tuple(row for row in rows if row.owner not in scene.play)
     return Model(
-        scene,
-        symbols,
-        slots,
-        geometry,
-        constraints,
-        tuple(rows),
-        kept,
-        tuple(clearances),
-        elements,
-        Redundancy(),
-        gravity,
-        baumgarte,
-    )
+        scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), elements, frictions,
+        Redundancy(), gravity, baumgarte,
+    )  # fmt: skip

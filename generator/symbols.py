@@ -13,14 +13,17 @@ from dataclasses import dataclass
 import sympy as sp
 
 # What emitted code itself calls its arguments and locals, and object-like macros of the C headers.
-_TAKEN = frozenset(
-    "t q v y p g f b x a dy phi nu gamma e nx ny tx ty out given is_given latch status scale "
-    "delta deltadot ratio F_n F_t v_t epsilon w_n w_t root W factor latch rows "
-    "EOF NULL NAN INFINITY HUGE_VAL errno stdin stdout stderr signgam".split()
-)
+_WORDS = """
+t q v y p g f b x a dy phi nu gamma e nx ny tx ty out given is_given latch memory pivot status scale aside
+delta deltadot ratio F_n F_t v_t epsilon w_n w_t root W factor rows force rhs powers dependent
+EOF NULL NAN INFINITY HUGE_VAL errno stdin stdout stderr signgam
+"""
+_TAKEN = frozenset(_WORDS.split())
 
 # Capitals without an underscore, and what the C headers' object-like macros begin with.
-_MACRO = re.compile(r"[A-Z0-9]+|(DBL|FLT|LDBL|U?INT|FP|M|MATH|HUGE|SIZE|PTRDIFF|WCHAR|WINT|SIG|EXIT|RAND)_[A-Z0-9_]+|N_[A-Z]+")
+_MACRO = re.compile(
+    r"[A-Z0-9]+|N_[A-Z]+|(DBL|FLT|LDBL|U?INT|FP|M|MATH|HUGE|SIZE|PTRDIFF|WCHAR|WINT|SIG|EXIT|RAND)_[A-Z0-9_]+"
+)
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,7 @@ class Evaluation:
     torques: Array  # (N, n_drives) torque (N·m) or force (N) of each drive
     clearance: Array  # (N, n_clearances, 9) CLEARANCE_COLUMNS: force on the journal; Fn > 0 pushes it back
     series: Array  # (N, n_series) results of force elements
+    friction: Array  # (N, n_frictions, 2) force on the second body along the direction, slip
     energy: Array  # (N, 2) kinetic, potential
     power: Array  # (N, 3) of drives, of force elements (but what they store), of clearance forces (W)
 
@@ -49,6 +50,7 @@ class CompiledModel:
         self.lib: Any = module.lib
         self.ffi: Any = module.ffi
         self.n = len(source.coordinates)
+        self.n_memory = len(source.clearances) + len(source.frictions)
         self._kept = np.array([_index(source, row.name) for row in source.rows], dtype=int)
 
     def pointer(self, array: NDArray[Any], kind: str = "double *") -> Any:
@@ -130,10 +132,13 @@ class CompiledModel:
         out = Evaluation(
             np.empty((N, self.n)), np.empty((N, len(s.rows))), np.empty((N, len(s.joints), 3)),
             np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))),
-            np.empty((N, len(s.series))), np.empty((N, 2)), np.empty((N, 3)),
+            np.empty((N, len(s.series))), np.empty((N, len(s.frictions), 2)), np.empty((N, 2)), np.empty((N, 3)),
         )  # fmt: skip
         failed = self.ffi.new("long *")
-        results = (out.a, out.multipliers, out.reactions, out.torques, out.clearance, out.series, out.energy, out.power)
+        results = (
+            out.a, out.multipliers, out.reactions, out.torques, out.clearance, out.series, out.friction, out.energy,
+            out.power,
+        )  # fmt: skip
         status = self.lib.gudgeon_evaluate(
             N, self.pointer(time), *(self.pointer(a) for a in inputs), self.pointer(p),
             *(self.pointer(a) for a in results), failed,
@@ -152,9 +157,8 @@ class CompiledModel:
             out.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
 
     def memory_array(self, memory: ArrayLike | None) -> Array:
-        """δ̇⁻ a joint with play; all free when None."""
-        count = len(self.source.clearances)
-        return np.full(max(count, 1), np.nan) if memory is None else contiguous(memory)
+        """δ̇⁻ a joint with play, mode a friction; None: all joints free, every mode still to be found."""
+        return np.full(max(self.n_memory, 1), np.nan) if memory is None else contiguous(memory)
 
     def check_pivot(self, status: int, t: float, pivots: tuple[str, ...] | None = None) -> None:
         """Raises SingularError for a status k > 0, with the row that the pivot belongs to."""

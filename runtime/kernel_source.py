@@ -129,6 +129,8 @@ class KernelSource:
     start_guess: tuple[str, ...]  # coordinates in the order of the C function `start_values`
     start_set: tuple[str, ...]
     start_rates: tuple[str, ...]  # "L1.omega"
+    frictions: tuple[str, ...]  # force elements that may stick
+    methods: tuple[str, ...]  # integrators in the library
     pivots: tuple[str, ...]  # rows in their order of elimination: a status k > 0 names pivots[k − 1]
     start_pivots: tuple[str, ...]  # the same for `gudgeon_project`, on the closed linkage
     indeterminate: tuple[str, ...]  # joints and drives whose multipliers redundancy leaves open

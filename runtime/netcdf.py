@@ -176,7 +176,7 @@ def _result(data: dict[str, Array], attributes: dict[str, str]) -> Result:
         v=v,
         a=a,
         state=_columns(stored, [f"{joint.name}.state" for joint in source.clearances], len(t), np.int8),
-        memory=_columns(stored, [f"{joint.name}.deltadot_minus" for joint in source.clearances], len(t)),
+        memory=_columns(stored, _memory_names(source), len(t)),
         work=_columns(stored, ["work.drives", "work.forces", "work.clearances"], len(t)),
         impacts=impacts,
         diagnostics=Diagnostics.from_json(attributes["diagnostics"]),
@@ -208,3 +208,8 @@ def _variable(name: str) -> str:
 def _read_only(values: Array) -> Array:
     values.flags.writeable = False
     return values
+
+
+def _memory_names(source: KernelSource) -> list[str]:
+    """The series that hold what the right-hand side remembers."""
+    return [f"{joint.name}.deltadot_minus" for joint in source.clearances] + [f"{f}.mode" for f in source.frictions]

@@ -60,7 +60,7 @@ class Series:
 def catalogue(source: KernelSource) -> dict[str, Series]:
     """All the names of a scene in the order in which they are listed and stored."""
     found: dict[str, Series] = {}
-    for part in (_bodies, _points, _joints, _clearances, _drives, _elements, _multipliers, _balance):
+    for part in (_bodies, _points, _joints, _clearances, _drives, _elements, _frictions, _multipliers, _balance):
         found.update(part(source))
     for name, tree in source.outputs.items():
         found[name] = _output(source, name, tree, found)
@@ -177,6 +177,16 @@ def _drives(source: KernelSource) -> Iterator[tuple[str, Series]]:
         name, unit = ("torque", "N*m") if turns else ("force", "N")
         compute = partial(_evaluated, part="torques", index=(k,))
         yield f"{drive.name}.{name}", Series(unit, f"{name} of drive {drive.name}", compute)
+
+
+def _frictions(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    first = len(source.clearances)
+    for k, name in enumerate(source.frictions):
+        force, slip = (partial(_evaluated, part="friction", index=(k, column)) for column in (0, 1))
+        yield f"{name}.F", Series("N", "friction on the second body", force)
+        yield f"{name}.v", Series("m/s", "slip", slip)
+        mode = partial(_column, array="memory", column=first + k)
+        yield f"{name}.mode", Series("", "0 stick, else the sign of the slip", mode)
 
 
 def _elements(source: KernelSource) -> Iterator[tuple[str, Series]]:

@@ -122,7 +122,7 @@ class Simulation:
         return result
 
     def _begin(self, p: Array, start: State | None) -> tuple[Array, Array, Array]:
-        count = len(self.source.clearances)
+        count = self.compiled.n_memory
         if start is None:
             assembled = assemble(self.compiled, p)
             return assembled.q, assembled.v, np.full(count, np.nan)
@@ -155,7 +155,7 @@ class Simulation:
                 f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
                 "  remove a drive or a joint; `gudgeon check -v` lists the rows"
             )
-        fitting = "rk4" if dof else "kinematic"
+        fitting = self.source.methods[0]
         if method == "auto":
             return fitting
         if method not in METHODS:

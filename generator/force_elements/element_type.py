@@ -41,6 +41,16 @@ class Load:
 
 
 @dataclass(frozen=True)
+class Slip:
+    """A slip velocity that friction may hold at zero: v (m/s), the surface's own speed, limits in N."""
+
+    v: Any
+    speed: Any
+    static: Any
+    kinetic: Any
+
+
+@dataclass(frozen=True)
 class Loads:
     """What an element does: loads, the energy it stores, the power of what it does not store.
 
@@ -51,6 +61,7 @@ class Loads:
     potential: Any
     power: Any
     series: Mapping[str, tuple[Any, str]]
+    slip: Slip | None = None
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 NAME, ORDER, SOURCE = "rk4", 4, "W. Kutta, Z. Math. Phys. 46 (1901) 435-453"
 
 CHUNK = 20_000  # steps between two looks of Python: some 50 ms
-NOT_FINITE, EVENTS_FULL = -2, -3
+NOT_FINITE, EVENTS_FULL, CHATTERING = -2, -3, -4
 N_EVENTS = 256
 
 
@@ -51,11 +51,11 @@ class _Session:
         n, nc, N = self.compiled.n, len(self.compiled.source.clearances), len(problem.t)
         self.n, self.nc, self.done = n, nc, 0
         self.y, self.a = np.zeros((N, 2 * n + N_WORK)), np.zeros((N, n))
-        self.memory, self.state = np.full((N, nc), np.nan), np.zeros((N, nc), dtype=np.int8)
+        self.memory, self.state = np.full((N, self.compiled.n_memory), np.nan), np.zeros((N, nc), dtype=np.int8)
         self.impacts = [np.zeros(0, dtype=IMPACT_DTYPE)]
         self.run = np.zeros(self.lib.gudgeon_run_size(), dtype=np.uint8)
         start = np.concatenate([problem.q, problem.v, np.zeros(N_WORK)])
-        latched = self.compiled.memory_array(problem.memory if nc else None)
+        latched = self.compiled.memory_array(problem.memory if self.compiled.n_memory else None)
         self.lib.gudgeon_run_start(self._run, problem.t[0], self.pointer(start), self.pointer(latched))
         self._steps(float(problem.t[0]), float(problem.t[0]), 1, 0, 0)  # the first right-hand side
 
@@ -92,11 +92,14 @@ class _Session:
                 f"  the step {self.problem.step:.3g} s is too long for this scene: take a smaller one",
                 t,
             )
+        if status == CHATTERING:
+            raise SolverError(f"friction changes between stick and slip without end near t = {t:.9g} s", t)
         try:
             self.compiled.check_pivot(status, t)
         except SingularError as error:
             y = np.zeros(2 * self.n + N_WORK)
-            a, latched, state = np.zeros(self.n), np.zeros(max(self.nc, 1)), np.zeros(max(self.nc, 1), dtype=np.int8)
+            a, latched = np.zeros(self.n), self.compiled.memory_array(None)
+            state = np.zeros(max(self.nc, 1), dtype=np.int8)
             self.lib.gudgeon_run_sample(
                 self._run, self.pointer(y), self.pointer(a), self.pointer(latched), self.pointer(state, "signed char *")
             )
@@ -116,7 +119,7 @@ class _Session:
             self._run, self.pointer(self.y[i]), self.pointer(self.a[i]), self.pointer(latched),
             self.pointer(state, "signed char *"),
         )  # fmt: skip
-        self.memory[i], self.state[i] = latched[: self.nc], state[: self.nc]
+        self.memory[i], self.state[i] = latched[: self.compiled.n_memory], state[: self.nc]
         self.done = i + 1
 
     def _fetch_impacts(self, last: bool) -> None:
@@ -132,7 +135,7 @@ class _Session:
         """What was stored, and the run's counts."""
         self._fetch_impacts(last=True)
         t = np.zeros(1)
-        counts, numbers, peaks = np.zeros(5, dtype=np.int_), np.zeros(4), np.zeros((max(self.nc, 1), 3))
+        counts, numbers, peaks = np.zeros(6, dtype=np.int_), np.zeros(4), np.zeros((max(self.nc, 1), 3))
         self.lib.gudgeon_run_report(
             self._run, self.pointer(t), self.pointer(counts, "long *"), self.pointer(numbers), self.pointer(peaks)
         )
@@ -140,7 +143,7 @@ class _Session:
         impacts = impacts[np.argsort(impacts["t_on"], kind="stable")]
         n, y = self.n, self.y[: self.done]
         phi, phi_dot, least, most = (float(x) if np.isfinite(x) else math.nan for x in numbers)
-        steps, evaluations, onsets, grazes, outside = (int(c) for c in counts)
+        steps, evaluations, onsets, grazes, outside, _ = (int(c) for c in counts)
         return Trajectory(
             self.problem.t[: self.done].copy(), y[:, :n].copy(), y[:, n : 2 * n].copy(), self.a[: self.done],
             self.memory[: self.done], self.state[: self.done], y[:, 2 * n :].copy(), impacts, peaks[: self.nc],

@@ -23,7 +23,7 @@ class Problem:
     t: Array  # (N,), increasing
     q: Array  # (n,)
     v: Array
-    memory: Array  # (n_clearances,) δ̇⁻ of contacts that are closed at the start
+    memory: Array  # (n_clearances + n_frictions,) δ̇⁻ of closed contacts, modes of friction; NaN: free, unknown
     step: float
     progress: Progress | None = None
 
@@ -51,7 +51,7 @@ class Trajectory:
     q: Array  # (N, n)
     v: Array
     a: Array
-    memory: Array  # (N, n_clearances)
+    memory: Array  # (N, n_clearances + n_frictions)
     state: NDArray[Any]  # (N, n_clearances) int8
     work: Array  # (N, 3) J: drives, applied forces, clearance forces
     impacts: NDArray[Any]  # results.IMPACT_DTYPE

@@ -47,6 +47,8 @@ def values(law: Law) -> dict[str, float]:
         for relation, bound in parameter.bounds:
             number = chosen[bound] if isinstance(bound, str) else bound
             low, high = (max(low, number), high) if relation.startswith(">") else (low, min(high, number))
+        if parameter.any_dimension:  # a stiffness, in its own unit
+            low = 1e8
         inside = low + 0.1 if math.isinf(high) else low + 0.9 * (high - low)
         chosen[parameter.name] = inside if parameter.default is None else parameter.default
     return chosen

@@ -29,7 +29,7 @@ from gudgeon.kernel_source import (
 
 def describe(
     model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "", cdef: str = "",
-    pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
+    methods: tuple[str, ...] = (), pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
     operations: Mapping[str, int] = MappingProxyType({}),
 ) -> KernelSource:  # fmt: skip
     """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
@@ -62,7 +62,8 @@ def describe(
         series=tuple(SeriesInfo(name, unit) for name, (_, unit) in element_series(model).items()),
         start_rows=tuple(map(_row, model.all_rows)),
         start_guess=tuple(start.guess), start_set=tuple(start.set), start_rates=tuple(start.rates),
-        pivots=pivots, start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
+        frictions=tuple(friction.name for friction in model.frictions), methods=methods, pivots=pivots,
+        start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
         slots=tuple(
             Slot(e.address, _unit(e.dimension), e.default, e.follows, _exponents(e.dimension))
             for e in model.slots.entries.values()

@@ -33,7 +33,7 @@ int gudgeon_rhs(double t, const double *y, const double *memory, const double *p
 double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p);
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
-    double *series, double *energy, double *power, long *failed);
+    double *series, double *friction, double *energy, double *power, long *failed);
 """
 KINEMATIC_CDEF = """\
 int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double *q, double *v, double *phi_max,
@@ -53,8 +53,8 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 def emit(model: Model) -> KernelSource:
     """The whole scene as C text with its description; redundant rows are left out first."""
     model = model.without(find_redundancy(model, describe(model)))
-    kinematic = model.degrees_of_freedom == 0 and not model.clearances
-    kkt = KKT(model, model.rows)
+    kinematic = model.degrees_of_freedom == 0 and not (model.clearances or model.frictions)
+    kkt = KKT(model, model.rows, model.frictions)
     dynamics = dynamics_kernel(model, kkt)
     projection, projection_kkt = projection_kernel(model, model.rows if kinematic else model.all_rows, "project")
     around = [
@@ -69,17 +69,20 @@ def emit(model: Model) -> KernelSource:
         "parameters.c": _kernels(prepare),
         "constraints.c": _kernels(*around, projection),
         "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
-        **({"singular.c": _singular(model)} if model.rows else {}),
+        **({"singular.c": _singular(model)} if model.rows and not model.frictions else {}),
         "dynamics.c": _kernels(dynamics),
-        "system.c": render("system.c.jinja", **_counts(model), **_latches(model)),
+        "system.c": render("system.c.jinja", **_counts(model), **_memory(model)),
     }
     method = "kinematic" if kinematic else "rk4"
-    files[f"{method}.c"] = render(f"{method}.c.jinja", **_counts(model), floors=_floors(model))
+    friction = render("friction.c.jinja" if model.frictions else "no_friction.c.jinja")
+    files[f"{method}.c"] = render(
+        f"{method}.c.jinja", **_counts(model), floors=_floors(model), friction_events=friction.strip()
+    )
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
     operations = _operations(model, [dynamics, projection, *around, prepare])
     return describe(
         model, files=files, main="scene.c", cdef=COMMON_CDEF + (KINEMATIC_CDEF if kinematic else RK4_CDEF),
-        pivots=kkt.pivots, start_pivots=projection_kkt.pivots, operations=operations,
+        methods=(method,), pivots=kkt.pivots, start_pivots=projection_kkt.pivots, operations=operations,
     )  # fmt: skip
 
 
@@ -109,6 +112,7 @@ def _counts(model: Model) -> dict[str, int]:
         "n_joints": len(interface.kept_joints(model)),
         "n_drives": len(model.scene.mechanism.drives),
         "n_clearances": len(model.clearances),
+        "n_frictions": len(model.frictions),
         "n_series": len(interface.element_series(model)),
     }
 
@@ -123,12 +127,10 @@ def _header(model: Model) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _latches(model: Model) -> dict[str, str]:
-    """An ideal scene's dynamics takes no latches."""
-    return {
-        "latch": "latch, " if model.clearances else "",
-        "unused_latch": "" if model.clearances else "(void)latch;",
-    }
+def _memory(model: Model) -> dict[str, str]:
+    """A scene without play and friction has nothing to remember."""
+    remembers = bool(model.clearances or model.frictions)
+    return {"memory": "memory, " if remembers else "", "unused_memory": "" if remembers else "(void)memory;"}
 
 
 def _singular(model: Model) -> str:
