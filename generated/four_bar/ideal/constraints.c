@@ -274,7 +274,7 @@ static void outputs(const double t, const double *q, const double *v, const Para
     reactions[9] = multiplier_B0_x;  /* B0.Fx */
     reactions[10] = multiplier_B0_y;  /* B0.Fy */
     reactions[11] = 0.0;  /* B0.M */
-    torques[0] = -multiplier_motor;  /* motor.torque */
+    torques[0] = -multiplier_motor;  /* motor */
 
     /* energy */
     energy[0] = (1.0/2.0)*coupler_inertia*(coupler_omega * coupler_omega) + (1.0/2.0)*coupler_mass*(coupler_vx
@@ -285,7 +285,8 @@ static void outputs(const double t, const double *q, const double *v, const Para
     energy[1] = -coupler_mass*coupler_y*par_y - crank_mass*crank_y*par_y - par_y*rocker_mass*rocker_y;
 }
 /*
- * The smallest x (n), measured by M, with Phi_q x = r (m); Newton's step, velocities.
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
  * Returns 0, or the number of the pivot that vanished.
  */
 static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)

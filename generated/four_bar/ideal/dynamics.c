@@ -1,7 +1,7 @@
 /*
  * Accelerations a (n) and multipliers in `aside` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
 static int dynamics(const double t, const double *q, const double *v, const Parameters *p, double *a, Aside
     *aside)
@@ -61,6 +61,9 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double motor_value = omega*time + 1.5707963267948966;
     const double motor_rate = omega;
     const double motor_acceleration = 0.0;
+
+    /* status */
+    int pivot = 0;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
     const double phi_A0_x = -arm_crank_tail_x - crank_x;
@@ -131,7 +134,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B_x__rocker_theta = arm_rocker_head_y*inverse_rocker_inertia;
     const double l_B_y__rocker_theta = -arm_rocker_head_x*inverse_rocker_inertia;
     const double scale_B0_x = -arm_rocker_head_y*l_B0_x__rocker_theta + inverse_rocker_mass;
-    if (!(scale_B0_x > 1e-13 * scale_B0_x)) return 1;
+    if (!(scale_B0_x > 1e-13 * scale_B0_x)) { pivot = 1; goto dependent; };
     const double inverse_pivot_B0_x = 1.0/scale_B0_x;
     const double w_B0_y__B0_x = arm_rocker_head_y*l_B0_y__rocker_theta;
     const double l_B0_y__B0_x = -inverse_pivot_B0_x*w_B0_y__B0_x;
@@ -141,7 +144,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B_y__B0_x = -inverse_pivot_B0_x*w_B_y__B0_x;
     const double scale_B0_y = arm_rocker_head_x*l_B0_y__rocker_theta + inverse_rocker_mass;
     const double pivot_B0_y = l_B0_y__B0_x*w_B0_y__B0_x + scale_B0_y;
-    if (!(pivot_B0_y > 1e-13 * scale_B0_y)) return 2;
+    if (!(pivot_B0_y > 1e-13 * scale_B0_y)) { pivot = 2; goto dependent; };
     const double inverse_pivot_B0_y = 1.0/pivot_B0_y;
     const double w_B_x__B0_y = -arm_rocker_head_x*l_B_x__rocker_theta - l_B_x__B0_x*w_B0_y__B0_x;
     const double l_B_x__B0_y = -inverse_pivot_B0_y*w_B_x__B0_y;
@@ -151,7 +154,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_B_x = arm_coupler_tail_y*l_B_x__coupler_theta + arm_rocker_head_y*l_B_x__rocker_theta +
         inverse_coupler_mass + inverse_rocker_mass;
     const double pivot_B_x = l_B_x__B0_x*w_B_x__B0_x + l_B_x__B0_y*w_B_x__B0_y + scale_B_x;
-    if (!(pivot_B_x > 1e-13 * scale_B_x)) return 3;
+    if (!(pivot_B_x > 1e-13 * scale_B_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_B_x = 1.0/pivot_B_x;
     const double w_B_y__B_x = -arm_coupler_tail_y*l_B_y__coupler_theta - arm_rocker_head_y*l_B_y__rocker_theta
         - l_B_y__B0_x*w_B_x__B0_x - l_B_y__B0_y*w_B_x__B0_y;
@@ -164,7 +167,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         + inverse_coupler_mass + inverse_rocker_mass;
     const double pivot_B_y = l_B_y__B0_x*w_B_y__B0_x + l_B_y__B0_y*w_B_y__B0_y + l_B_y__B_x*w_B_y__B_x +
         scale_B_y;
-    if (!(pivot_B_y > 1e-13 * scale_B_y)) return 4;
+    if (!(pivot_B_y > 1e-13 * scale_B_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_B_y = 1.0/pivot_B_y;
     const double w_A_x__B_y = arm_coupler_tail_x*l_A_x__coupler_theta - l_A_x__B_x*w_B_y__B_x;
     const double l_A_x__B_y = -inverse_pivot_B_y*w_A_x__B_y;
@@ -176,7 +179,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
     const double l_A_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
     const double scale_A0_x = arm_crank_tail_y*l_A0_x__crank_theta + inverse_crank_mass;
-    if (!(scale_A0_x > 1e-13 * scale_A0_x)) return 5;
+    if (!(scale_A0_x > 1e-13 * scale_A0_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_A0_x = 1.0/scale_A0_x;
     const double w_A0_y__A0_x = -arm_crank_tail_y*l_A0_y__crank_theta;
     const double l_A0_y__A0_x = -inverse_pivot_A0_x*w_A0_y__A0_x;
@@ -188,7 +191,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_motor__A0_x = -inverse_pivot_A0_x*w_motor__A0_x;
     const double scale_A0_y = -arm_crank_tail_x*l_A0_y__crank_theta + inverse_crank_mass;
     const double pivot_A0_y = l_A0_y__A0_x*w_A0_y__A0_x + scale_A0_y;
-    if (!(pivot_A0_y > 1e-13 * scale_A0_y)) return 6;
+    if (!(pivot_A0_y > 1e-13 * scale_A0_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_A0_y = 1.0/pivot_A0_y;
     const double w_A_x__A0_y = arm_crank_tail_x*l_A_x__crank_theta - l_A_x__A0_x*w_A0_y__A0_x;
     const double l_A_x__A0_y = -inverse_pivot_A0_y*w_A_x__A0_y;
@@ -201,7 +204,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_coupler_mass + inverse_crank_mass;
     const double pivot_A_x = l_A_x__A0_x*w_A_x__A0_x + l_A_x__A0_y*w_A_x__A0_y + l_A_x__B_x*w_A_x__B_x +
         l_A_x__B_y*w_A_x__B_y + scale_A_x;
-    if (!(pivot_A_x > 1e-13 * scale_A_x)) return 7;
+    if (!(pivot_A_x > 1e-13 * scale_A_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_A_x = 1.0/pivot_A_x;
     const double w_A_y__A_x = -arm_coupler_tail_y*l_A_y__coupler_theta - arm_crank_tail_y*l_A_y__crank_theta -
         l_A_y__A0_x*w_A_x__A0_x - l_A_y__A0_y*w_A_x__A0_y - l_A_y__B_x*w_A_x__B_x - l_A_y__B_y*w_A_x__B_y;
@@ -213,7 +216,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_coupler_mass + inverse_crank_mass;
     const double pivot_A_y = l_A_y__A0_x*w_A_y__A0_x + l_A_y__A0_y*w_A_y__A0_y + l_A_y__A_x*w_A_y__A_x +
         l_A_y__B_x*w_A_y__B_x + l_A_y__B_y*w_A_y__B_y + scale_A_y;
-    if (!(pivot_A_y > 1e-13 * scale_A_y)) return 8;
+    if (!(pivot_A_y > 1e-13 * scale_A_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_A_y = 1.0/pivot_A_y;
     const double w_motor__A_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__A0_x*w_A_y__A0_x -
         l_motor__A0_y*w_A_y__A0_y - l_motor__A_x*w_A_y__A_x;
@@ -221,7 +224,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_motor = inverse_crank_inertia;
     const double pivot_motor = l_motor__A0_x*w_motor__A0_x + l_motor__A0_y*w_motor__A0_y +
         l_motor__A_x*w_motor__A_x + l_motor__A_y*w_motor__A_y + scale_motor;
-    if (!(pivot_motor > 1e-13 * scale_motor)) return 9;
+    if (!(pivot_motor > 1e-13 * scale_motor)) { pivot = 9; goto dependent; };
     const double inverse_pivot_motor = 1.0/pivot_motor;
 
     /* forward substitution */
@@ -288,9 +291,35 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     aside->lambda[6] = lambda_B0_x;
     aside->lambda[7] = lambda_B0_y;
     aside->lambda[8] = lambda_motor;
-    aside->power[0] = -lambda_motor*motor_rate;
+    goto powers;
+
+    /* a pivot vanished: rows depend on each other here */
+    dependent: {
+        double force[N_Q], rhs[N_ROWS];
+        force[0] = 0.0;
+        force[1] = weight_crank_y;
+        force[2] = 0.0;
+        force[3] = 0.0;
+        force[4] = weight_coupler_y;
+        force[5] = 0.0;
+        force[6] = 0.0;
+        force[7] = weight_rocker_y;
+        force[8] = 0.0;
+        rhs[0] = rhs_A0_x;
+        rhs[1] = rhs_A0_y;
+        rhs[2] = rhs_A_x;
+        rhs[3] = rhs_A_y;
+        rhs[4] = rhs_B_x;
+        rhs[5] = rhs_B_y;
+        rhs[6] = rhs_B0_x;
+        rhs[7] = rhs_B0_y;
+        rhs[8] = rhs_motor;
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+    }
+    powers:
+    aside->power[0] = -aside->lambda[8]*motor_rate;
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
-    return 0;
+    return pivot;
 }
 

@@ -4,8 +4,10 @@
  *
  * Sizes, and the structs that the functions of this scene pass to each other.
  */
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
+#include <stdlib.h>
 
 enum {
     N_Q = 9,                 /* coordinates */
@@ -14,6 +16,7 @@ enum {
     N_JOINTS = 4,            /* joints without play */
     N_DRIVES = 1,
     N_CLEARANCES = 0,        /* joints with play */
+    N_FRICTIONS = 0,         /* slips that friction may hold */
     N_SERIES = 0,            /* results of force elements */
     N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
     N_Y = 2 * N_Q + N_WORK
@@ -27,6 +30,17 @@ typedef struct {
     int closed;
     double deltadot_minus;
 } Latch;
+
+/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+typedef struct {
+    Latch latch[1];
+    double mode[1];
+} Memory;
+
+/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+typedef struct {
+    double v, speed, force, static_limit;
+} Friction;
 
 /* A joint with play at one state; the force acts on the second body (journal), ground axes. */
 typedef struct {
@@ -43,6 +57,7 @@ typedef struct {
     double phi[9], phi_dot[9];
     double power[N_WORK];
     Clearance clearance[1];
+    Friction friction[1];
 } Aside;
 
 /* min, max, sign that keep a NaN in x. */

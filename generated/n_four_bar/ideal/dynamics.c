@@ -1,12 +1,11 @@
 /*
  * Accelerations a (n) and multipliers in `aside` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
 static int dynamics(const double t, const double *q, const double *v, const Parameters *p, double *a, Aside
     *aside)
 {
-    (void)t;
     /* coordinates, velocities, time */
     const double crank0_x = q[0];
     const double crank0_y = q[1];
@@ -86,6 +85,9 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double sin_theta_coupler2 = sin(coupler2_theta);
     const double arm_coupler2_tail_x = cos_theta_coupler2*coupler2_origin_x;
     const double arm_coupler2_tail_y = coupler2_origin_x*sin_theta_coupler2;
+
+    /* status */
+    int pivot = 0;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
     const double phi_O0_x = -arm_crank0_tail_x - crank0_x;
@@ -187,7 +189,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A0_x__crank0_theta = arm_crank0_tail_y*inverse_crank0_inertia;
     const double l_A0_y__crank0_theta = -arm_crank0_tail_x*inverse_crank0_inertia;
     const double scale_O0_x = arm_crank0_tail_y*l_O0_x__crank0_theta + inverse_crank0_mass;
-    if (!(scale_O0_x > 1e-13 * scale_O0_x)) return 1;
+    if (!(scale_O0_x > 1e-13 * scale_O0_x)) { pivot = 1; goto dependent; };
     const double inverse_pivot_O0_x = 1.0/scale_O0_x;
     const double w_O0_y__O0_x = -arm_crank0_tail_y*l_O0_y__crank0_theta;
     const double l_O0_y__O0_x = -inverse_pivot_O0_x*w_O0_y__O0_x;
@@ -197,7 +199,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A0_y__O0_x = -inverse_pivot_O0_x*w_A0_y__O0_x;
     const double scale_O0_y = -arm_crank0_tail_x*l_O0_y__crank0_theta + inverse_crank0_mass;
     const double pivot_O0_y = l_O0_y__O0_x*w_O0_y__O0_x + scale_O0_y;
-    if (!(pivot_O0_y > 1e-13 * scale_O0_y)) return 2;
+    if (!(pivot_O0_y > 1e-13 * scale_O0_y)) { pivot = 2; goto dependent; };
     const double inverse_pivot_O0_y = 1.0/pivot_O0_y;
     const double w_A0_x__O0_y = arm_crank0_tail_x*l_A0_x__crank0_theta - l_A0_x__O0_x*w_O0_y__O0_x;
     const double l_A0_x__O0_y = -inverse_pivot_O0_y*w_A0_x__O0_y;
@@ -209,7 +211,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B2_x__crank2_theta = -arm_crank2_tail_y*inverse_crank2_inertia;
     const double l_B2_y__crank2_theta = arm_crank2_tail_x*inverse_crank2_inertia;
     const double scale_O2_x = arm_crank2_tail_y*l_O2_x__crank2_theta + inverse_crank2_mass;
-    if (!(scale_O2_x > 1e-13 * scale_O2_x)) return 3;
+    if (!(scale_O2_x > 1e-13 * scale_O2_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_O2_x = 1.0/scale_O2_x;
     const double w_O2_y__O2_x = -arm_crank2_tail_y*l_O2_y__crank2_theta;
     const double l_O2_y__O2_x = -inverse_pivot_O2_x*w_O2_y__O2_x;
@@ -219,7 +221,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B2_y__O2_x = -inverse_pivot_O2_x*w_B2_y__O2_x;
     const double scale_O2_y = -arm_crank2_tail_x*l_O2_y__crank2_theta + inverse_crank2_mass;
     const double pivot_O2_y = l_O2_y__O2_x*w_O2_y__O2_x + scale_O2_y;
-    if (!(pivot_O2_y > 1e-13 * scale_O2_y)) return 4;
+    if (!(pivot_O2_y > 1e-13 * scale_O2_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_O2_y = 1.0/pivot_O2_y;
     const double w_B2_x__O2_y = arm_crank2_tail_x*l_B2_x__crank2_theta - l_B2_x__O2_x*w_O2_y__O2_x;
     const double l_B2_x__O2_y = -inverse_pivot_O2_y*w_B2_x__O2_y;
@@ -233,7 +235,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_A0_x = arm_coupler1_tail_y*l_A0_x__coupler1_theta +
         arm_crank0_tail_y*l_A0_x__crank0_theta + inverse_coupler1_mass + inverse_crank0_mass;
     const double pivot_A0_x = l_A0_x__O0_x*w_A0_x__O0_x + l_A0_x__O0_y*w_A0_x__O0_y + scale_A0_x;
-    if (!(pivot_A0_x > 1e-13 * scale_A0_x)) return 5;
+    if (!(pivot_A0_x > 1e-13 * scale_A0_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_A0_x = 1.0/pivot_A0_x;
     const double w_A0_y__A0_x = -arm_coupler1_tail_y*l_A0_y__coupler1_theta -
         arm_crank0_tail_y*l_A0_y__crank0_theta - l_A0_y__O0_x*w_A0_x__O0_x - l_A0_y__O0_y*w_A0_x__O0_y;
@@ -246,7 +248,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         arm_crank0_tail_x*l_A0_y__crank0_theta + inverse_coupler1_mass + inverse_crank0_mass;
     const double pivot_A0_y = l_A0_y__A0_x*w_A0_y__A0_x + l_A0_y__O0_x*w_A0_y__O0_x +
         l_A0_y__O0_y*w_A0_y__O0_y + scale_A0_y;
-    if (!(pivot_A0_y > 1e-13 * scale_A0_y)) return 6;
+    if (!(pivot_A0_y > 1e-13 * scale_A0_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_A0_y = 1.0/pivot_A0_y;
     const double w_B1_x__A0_y = arm_coupler1_tail_x*l_B1_x__coupler1_theta - l_B1_x__A0_x*w_A0_y__A0_x;
     const double l_B1_x__A0_y = -inverse_pivot_A0_y*w_B1_x__A0_y;
@@ -260,7 +262,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_B2_x = arm_coupler2_tail_y*l_B2_x__coupler2_theta -
         arm_crank2_tail_y*l_B2_x__crank2_theta + inverse_coupler2_mass + inverse_crank2_mass;
     const double pivot_B2_x = l_B2_x__O2_x*w_B2_x__O2_x + l_B2_x__O2_y*w_B2_x__O2_y + scale_B2_x;
-    if (!(pivot_B2_x > 1e-13 * scale_B2_x)) return 7;
+    if (!(pivot_B2_x > 1e-13 * scale_B2_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_B2_x = 1.0/pivot_B2_x;
     const double w_B2_y__B2_x = -arm_coupler2_tail_y*l_B2_y__coupler2_theta +
         arm_crank2_tail_y*l_B2_y__crank2_theta - l_B2_y__O2_x*w_B2_x__O2_x - l_B2_y__O2_y*w_B2_x__O2_y;
@@ -273,7 +275,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         arm_crank2_tail_x*l_B2_y__crank2_theta + inverse_coupler2_mass + inverse_crank2_mass;
     const double pivot_B2_y = l_B2_y__B2_x*w_B2_y__B2_x + l_B2_y__O2_x*w_B2_y__O2_x +
         l_B2_y__O2_y*w_B2_y__O2_y + scale_B2_y;
-    if (!(pivot_B2_y > 1e-13 * scale_B2_y)) return 8;
+    if (!(pivot_B2_y > 1e-13 * scale_B2_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_B2_y = 1.0/pivot_B2_y;
     const double w_A1_x__B2_y = arm_coupler2_tail_x*l_A1_x__coupler2_theta - l_A1_x__B2_x*w_B2_y__B2_x;
     const double l_A1_x__B2_y = -inverse_pivot_B2_y*w_A1_x__B2_y;
@@ -287,7 +289,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A1_x__crank1_theta = arm_crank1_tail_y*inverse_crank1_inertia;
     const double l_A1_y__crank1_theta = -arm_crank1_tail_x*inverse_crank1_inertia;
     const double scale_O1_x = arm_crank1_tail_y*l_O1_x__crank1_theta + inverse_crank1_mass;
-    if (!(scale_O1_x > 1e-13 * scale_O1_x)) return 9;
+    if (!(scale_O1_x > 1e-13 * scale_O1_x)) { pivot = 9; goto dependent; };
     const double inverse_pivot_O1_x = 1.0/scale_O1_x;
     const double w_O1_y__O1_x = -arm_crank1_tail_y*l_O1_y__crank1_theta;
     const double l_O1_y__O1_x = -inverse_pivot_O1_x*w_O1_y__O1_x;
@@ -301,7 +303,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A1_y__O1_x = -inverse_pivot_O1_x*w_A1_y__O1_x;
     const double scale_O1_y = -arm_crank1_tail_x*l_O1_y__crank1_theta + inverse_crank1_mass;
     const double pivot_O1_y = l_O1_y__O1_x*w_O1_y__O1_x + scale_O1_y;
-    if (!(pivot_O1_y > 1e-13 * scale_O1_y)) return 10;
+    if (!(pivot_O1_y > 1e-13 * scale_O1_y)) { pivot = 10; goto dependent; };
     const double inverse_pivot_O1_y = 1.0/pivot_O1_y;
     const double w_B1_x__O1_y = arm_crank1_tail_x*l_B1_x__crank1_theta - l_B1_x__O1_x*w_O1_y__O1_x;
     const double l_B1_x__O1_y = -inverse_pivot_O1_y*w_B1_x__O1_y;
@@ -317,7 +319,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         arm_crank1_tail_y*l_B1_x__crank1_theta + inverse_coupler1_mass + inverse_crank1_mass;
     const double pivot_B1_x = l_B1_x__A0_x*w_B1_x__A0_x + l_B1_x__A0_y*w_B1_x__A0_y +
         l_B1_x__O1_x*w_B1_x__O1_x + l_B1_x__O1_y*w_B1_x__O1_y + scale_B1_x;
-    if (!(pivot_B1_x > 1e-13 * scale_B1_x)) return 11;
+    if (!(pivot_B1_x > 1e-13 * scale_B1_x)) { pivot = 11; goto dependent; };
     const double inverse_pivot_B1_x = 1.0/pivot_B1_x;
     const double w_B1_y__B1_x = -arm_coupler1_tail_y*l_B1_y__coupler1_theta +
         arm_crank1_tail_y*l_B1_y__crank1_theta - l_B1_y__A0_x*w_B1_x__A0_x - l_B1_y__A0_y*w_B1_x__A0_y -
@@ -333,7 +335,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         arm_crank1_tail_x*l_B1_y__crank1_theta + inverse_coupler1_mass + inverse_crank1_mass;
     const double pivot_B1_y = l_B1_y__A0_x*w_B1_y__A0_x + l_B1_y__A0_y*w_B1_y__A0_y +
         l_B1_y__B1_x*w_B1_y__B1_x + l_B1_y__O1_x*w_B1_y__O1_x + l_B1_y__O1_y*w_B1_y__O1_y + scale_B1_y;
-    if (!(pivot_B1_y > 1e-13 * scale_B1_y)) return 12;
+    if (!(pivot_B1_y > 1e-13 * scale_B1_y)) { pivot = 12; goto dependent; };
     const double inverse_pivot_B1_y = 1.0/pivot_B1_y;
     const double w_A1_x__B1_y = -arm_crank1_tail_x*l_A1_x__crank1_theta - l_A1_x__B1_x*w_B1_y__B1_x -
         l_A1_x__O1_x*w_B1_y__O1_x - l_A1_x__O1_y*w_B1_y__O1_y;
@@ -346,7 +348,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double pivot_A1_x = l_A1_x__B1_x*w_A1_x__B1_x + l_A1_x__B1_y*w_A1_x__B1_y +
         l_A1_x__B2_x*w_A1_x__B2_x + l_A1_x__B2_y*w_A1_x__B2_y + l_A1_x__O1_x*w_A1_x__O1_x +
         l_A1_x__O1_y*w_A1_x__O1_y + scale_A1_x;
-    if (!(pivot_A1_x > 1e-13 * scale_A1_x)) return 13;
+    if (!(pivot_A1_x > 1e-13 * scale_A1_x)) { pivot = 13; goto dependent; };
     const double inverse_pivot_A1_x = 1.0/pivot_A1_x;
     const double w_A1_y__A1_x = -arm_coupler2_tail_y*l_A1_y__coupler2_theta -
         arm_crank1_tail_y*l_A1_y__crank1_theta - l_A1_y__B1_x*w_A1_x__B1_x - l_A1_y__B1_y*w_A1_x__B1_y -
@@ -358,7 +360,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double pivot_A1_y = l_A1_y__A1_x*w_A1_y__A1_x + l_A1_y__B1_x*w_A1_y__B1_x +
         l_A1_y__B1_y*w_A1_y__B1_y + l_A1_y__B2_x*w_A1_y__B2_x + l_A1_y__B2_y*w_A1_y__B2_y +
         l_A1_y__O1_x*w_A1_y__O1_x + l_A1_y__O1_y*w_A1_y__O1_y + scale_A1_y;
-    if (!(pivot_A1_y > 1e-13 * scale_A1_y)) return 14;
+    if (!(pivot_A1_y > 1e-13 * scale_A1_y)) { pivot = 14; goto dependent; };
     const double inverse_pivot_A1_y = 1.0/pivot_A1_y;
 
     /* forward substitution */
@@ -474,9 +476,46 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     aside->lambda[11] = lambda_A1_y;
     aside->lambda[12] = lambda_B2_x;
     aside->lambda[13] = lambda_B2_y;
+    goto powers;
+
+    /* a pivot vanished: rows depend on each other here */
+    dependent: {
+        double force[N_Q], rhs[N_ROWS];
+        force[0] = 0.0;
+        force[1] = weight_crank0_y;
+        force[2] = 0.0;
+        force[3] = 0.0;
+        force[4] = weight_crank1_y;
+        force[5] = 0.0;
+        force[6] = 0.0;
+        force[7] = weight_crank2_y;
+        force[8] = 0.0;
+        force[9] = 0.0;
+        force[10] = weight_coupler1_y;
+        force[11] = 0.0;
+        force[12] = 0.0;
+        force[13] = weight_coupler2_y;
+        force[14] = 0.0;
+        rhs[0] = rhs_O0_x;
+        rhs[1] = rhs_O0_y;
+        rhs[2] = rhs_O1_x;
+        rhs[3] = rhs_O1_y;
+        rhs[4] = rhs_O2_x;
+        rhs[5] = rhs_O2_y;
+        rhs[6] = rhs_A0_x;
+        rhs[7] = rhs_A0_y;
+        rhs[8] = rhs_B1_x;
+        rhs[9] = rhs_B1_y;
+        rhs[10] = rhs_A1_x;
+        rhs[11] = rhs_A1_y;
+        rhs[12] = rhs_B2_x;
+        rhs[13] = rhs_B2_y;
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+    }
+    powers:
     aside->power[0] = 0.0;
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
-    return 0;
+    return pivot;
 }
 

@@ -2,6 +2,7 @@
 #include "parameters.c"
 #include "constraints.c"
 #include "clearance.c"
+#include "singular.c"
 #include "dynamics.c"
 #include "system.c"
 #include "rk4.c"

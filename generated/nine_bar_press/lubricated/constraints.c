@@ -540,8 +540,8 @@ static void outputs(const double t, const double *q, const double *v, const Para
     reactions[24] = multiplier_guide_offset;  /* guide.Fx */
     reactions[25] = 0.0;  /* guide.Fy */
     reactions[26] = -multiplier_guide_angle;  /* guide.M */
-    torques[0] = -multiplier_crank1;  /* crank1.torque */
-    torques[1] = -multiplier_crank4;  /* crank4.torque */
+    torques[0] = -multiplier_crank1;  /* crank1 */
+    torques[1] = -multiplier_crank4;  /* crank4 */
 
     /* energy */
     energy[0] = (1.0/2.0)*L1_inertia*(L1_omega * L1_omega) + (1.0/2.0)*L1_mass*(L1_vx * L1_vx) +
@@ -559,7 +559,8 @@ static void outputs(const double t, const double *q, const double *v, const Para
         L6_mass*L6_y*par_y - L7_mass*L7_y*par_y - L8_mass*L8_y*par_y - S9_mass*S9_y*par_y;
 }
 /*
- * The smallest x (n), measured by M, with Phi_q x = r (m); Newton's step, velocities.
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
  * Returns 0, or the number of the pivot that vanished.
  */
 static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)

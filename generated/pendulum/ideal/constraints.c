@@ -128,7 +128,8 @@ static void outputs(const double t, const double *q, const double *v, const Para
     energy[1] = -bob_mass*bob_y*par_y;
 }
 /*
- * The smallest x (n), measured by M, with Phi_q x = r (m); Newton's step, velocities.
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
  * Returns 0, or the number of the pivot that vanished.
  */
 static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)

@@ -1,12 +1,11 @@
 /*
  * Accelerations a (n) and multipliers in `aside` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
 static int dynamics(const double t, const double *q, const double *v, const Parameters *p, double *a, Aside
     *aside)
 {
-    (void)t;
     /* coordinates, velocities, time */
     const double bob_x = q[0];
     const double bob_y = q[1];
@@ -20,6 +19,9 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double weight_bob_y = p->weight_bob_y;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+
+    /* status */
+    int pivot = 0;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
     const double phi_rod_length = (bob_x * bob_x)*rod_half_inverse_length + (bob_y *
@@ -38,7 +40,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_rod_length__bob_y = inverse_bob_mass*w_rod_length__bob_y;
     const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x +
         l_rod_length__bob_y*w_rod_length__bob_y;
-    if (!(scale_rod_length > 1e-13 * scale_rod_length)) return 1;
+    if (!(scale_rod_length > 1e-13 * scale_rod_length)) { pivot = 1; goto dependent; };
     const double inverse_pivot_rod_length = 1.0/scale_rod_length;
 
     /* forward substitution */
@@ -55,9 +57,21 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     a[1] = acceleration_bob_y;
     a[2] = acceleration_bob_theta;
     aside->lambda[0] = lambda_rod_length;
+    goto powers;
+
+    /* a pivot vanished: rows depend on each other here */
+    dependent: {
+        double force[N_Q], rhs[N_ROWS];
+        force[0] = 0.0;
+        force[1] = weight_bob_y;
+        force[2] = 0.0;
+        rhs[0] = rhs_rod_length;
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+    }
+    powers:
     aside->power[0] = 0.0;
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
-    return 0;
+    return pivot;
 }
 

@@ -1,10 +1,10 @@
 /*
  * Accelerations a (n) and multipliers in `aside` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static int dynamics(const double t, const double *q, const double *v, const Latch *latch, const Parameters *p,
-    double *a, Aside *aside)
+static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters
+    *p, double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
     const double crank_x = q[0];
@@ -53,12 +53,15 @@ static int dynamics(const double t, const double *q, const double *v, const Latc
     const double motor_rate = omega;
     const double motor_acceleration = 0.0;
 
+    /* status */
+    int pivot = 0;
+
     /* clearance joint wristpin */
     const double e_wristpin_x = arm_rod_tail_x - rod_x + slider_x;
     const double e_wristpin_y = arm_rod_tail_y - rod_y + slider_y;
     const double edot_wristpin_x = -arm_rod_tail_y*rod_omega - rod_vx + slider_vx;
     const double edot_wristpin_y = arm_rod_tail_x*rod_omega - rod_vy + slider_vy;
-    clearance_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega, &latch[0], p, &aside->clearance[0]);
+    clearance_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega, &memory->latch[0], p, &aside->clearance[0]);
     const double F_wristpin_x = aside->clearance[0].Fx;
     const double F_wristpin_y = aside->clearance[0].Fy;
     const double M_wristpin_first = aside->clearance[0].moment_first;
@@ -111,10 +114,10 @@ static int dynamics(const double t, const double *q, const double *v, const Latc
 
     /* L D L^T of the KKT matrix */
     const double scale_cylinder_offset = inverse_slider_mass;
-    if (!(scale_cylinder_offset > 1e-13 * scale_cylinder_offset)) return 1;
+    if (!(scale_cylinder_offset > 1e-13 * scale_cylinder_offset)) { pivot = 1; goto dependent; };
     const double inverse_pivot_cylinder_offset = 1.0/scale_cylinder_offset;
     const double scale_cylinder_angle = inverse_slider_inertia;
-    if (!(scale_cylinder_angle > 1e-13 * scale_cylinder_angle)) return 2;
+    if (!(scale_cylinder_angle > 1e-13 * scale_cylinder_angle)) { pivot = 2; goto dependent; };
     const double inverse_pivot_cylinder_angle = 1.0/scale_cylinder_angle;
     const double l_crankpin_x__rod_theta = arm_rod_tail_y*inverse_rod_inertia;
     const double l_crankpin_y__rod_theta = -arm_rod_tail_x*inverse_rod_inertia;
@@ -123,7 +126,7 @@ static int dynamics(const double t, const double *q, const double *v, const Latc
     const double l_crankpin_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
     const double l_crankpin_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
     const double scale_O_x = arm_crank_tail_y*l_O_x__crank_theta + inverse_crank_mass;
-    if (!(scale_O_x > 1e-13 * scale_O_x)) return 3;
+    if (!(scale_O_x > 1e-13 * scale_O_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_O_x = 1.0/scale_O_x;
     const double w_O_y__O_x = -arm_crank_tail_y*l_O_y__crank_theta;
     const double l_O_y__O_x = -inverse_pivot_O_x*w_O_y__O_x;
@@ -135,7 +138,7 @@ static int dynamics(const double t, const double *q, const double *v, const Latc
     const double l_motor__O_x = -inverse_pivot_O_x*w_motor__O_x;
     const double scale_O_y = -arm_crank_tail_x*l_O_y__crank_theta + inverse_crank_mass;
     const double pivot_O_y = l_O_y__O_x*w_O_y__O_x + scale_O_y;
-    if (!(pivot_O_y > 1e-13 * scale_O_y)) return 4;
+    if (!(pivot_O_y > 1e-13 * scale_O_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_O_y = 1.0/pivot_O_y;
     const double w_crankpin_x__O_y = arm_crank_tail_x*l_crankpin_x__crank_theta -
         l_crankpin_x__O_x*w_O_y__O_x;
@@ -149,7 +152,7 @@ static int dynamics(const double t, const double *q, const double *v, const Latc
         arm_rod_tail_y*l_crankpin_x__rod_theta + inverse_crank_mass + inverse_rod_mass;
     const double pivot_crankpin_x = l_crankpin_x__O_x*w_crankpin_x__O_x + l_crankpin_x__O_y*w_crankpin_x__O_y
         + scale_crankpin_x;
-    if (!(pivot_crankpin_x > 1e-13 * scale_crankpin_x)) return 5;
+    if (!(pivot_crankpin_x > 1e-13 * scale_crankpin_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_crankpin_x = 1.0/pivot_crankpin_x;
     const double w_crankpin_y__crankpin_x = -arm_crank_tail_y*l_crankpin_y__crank_theta -
         arm_rod_tail_y*l_crankpin_y__rod_theta - l_crankpin_y__O_x*w_crankpin_x__O_x -
@@ -162,7 +165,7 @@ static int dynamics(const double t, const double *q, const double *v, const Latc
         arm_rod_tail_x*l_crankpin_y__rod_theta + inverse_crank_mass + inverse_rod_mass;
     const double pivot_crankpin_y = l_crankpin_y__O_x*w_crankpin_y__O_x + l_crankpin_y__O_y*w_crankpin_y__O_y
         + l_crankpin_y__crankpin_x*w_crankpin_y__crankpin_x + scale_crankpin_y;
-    if (!(pivot_crankpin_y > 1e-13 * scale_crankpin_y)) return 6;
+    if (!(pivot_crankpin_y > 1e-13 * scale_crankpin_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_crankpin_y = 1.0/pivot_crankpin_y;
     const double w_motor__crankpin_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__O_x*w_crankpin_y__O_x
         - l_motor__O_y*w_crankpin_y__O_y - l_motor__crankpin_x*w_crankpin_y__crankpin_x;
@@ -170,7 +173,7 @@ static int dynamics(const double t, const double *q, const double *v, const Latc
     const double scale_motor = inverse_crank_inertia;
     const double pivot_motor = l_motor__O_x*w_motor__O_x + l_motor__O_y*w_motor__O_y +
         l_motor__crankpin_x*w_motor__crankpin_x + l_motor__crankpin_y*w_motor__crankpin_y + scale_motor;
-    if (!(pivot_motor > 1e-13 * scale_motor)) return 7;
+    if (!(pivot_motor > 1e-13 * scale_motor)) { pivot = 7; goto dependent; };
     const double inverse_pivot_motor = 1.0/pivot_motor;
 
     /* forward substitution */
@@ -230,9 +233,33 @@ static int dynamics(const double t, const double *q, const double *v, const Latc
     aside->lambda[4] = lambda_cylinder_offset;
     aside->lambda[5] = lambda_cylinder_angle;
     aside->lambda[6] = lambda_motor;
-    aside->power[0] = -lambda_motor*motor_rate;
+    goto powers;
+
+    /* a pivot vanished: rows depend on each other here */
+    dependent: {
+        double force[N_Q], rhs[N_ROWS];
+        force[0] = 0.0;
+        force[1] = 0.0;
+        force[2] = 0.0;
+        force[3] = -F_wristpin_x;
+        force[4] = -F_wristpin_y;
+        force[5] = -F_wristpin_x*arm_rod_tail_y + F_wristpin_y*arm_rod_tail_x + M_wristpin_first;
+        force[6] = F_wristpin_x;
+        force[7] = F_wristpin_y;
+        force[8] = M_wristpin_second;
+        rhs[0] = rhs_O_x;
+        rhs[1] = rhs_O_y;
+        rhs[2] = rhs_crankpin_x;
+        rhs[3] = rhs_crankpin_y;
+        rhs[4] = rhs_cylinder_offset;
+        rhs[5] = rhs_cylinder_angle;
+        rhs[6] = rhs_motor;
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+    }
+    powers:
+    aside->power[0] = -aside->lambda[6]*motor_rate;
     aside->power[1] = 0.0;
     aside->power[2] = aside->clearance[0].power;
-    return 0;
+    return pivot;
 }
 

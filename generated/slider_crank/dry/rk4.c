@@ -2,7 +2,7 @@
  * The classical Runge-Kutta method of order 4 with fixed step (W. Kutta, Z. Math. Phys. 46, 1901), and
  * what is watched while it runs: onsets and separations of joints with play, peaks, residuals.
  */
-enum { N_EVENTS = 256, NOT_FINITE = -2, EVENTS_FULL = -3 };
+enum { N_EVENTS = 256, NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, MAX_PARTS = 50 };
 
 typedef struct {
     double t_on, t_off, deltadot, F_peak, t_peak;
@@ -12,20 +12,20 @@ typedef struct {
 typedef struct {
     double t, y[N_Y], dy[N_Y];
     Aside aside;
-    Latch latch[1];
+    Memory memory;
     Impact open[1];      /* the contact going on in each joint */
     int compressing[1];  /* from onset until the penetration first stops growing */
     double F_peak[1], t_peak[1], e_max[1];
     Impact impacts[N_EVENTS];
     int n_impacts, ready, status;
-    long steps, evaluations, onsets, grazes, ratio_outside;
+    long steps, evaluations, onsets, grazes, ratio_outside, switches;
     double phi_max, phi_dot_max, ratio_min, ratio_max;
 } Run;
 
 static int rates(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
 {
     run->evaluations++;
-    return state_equation(t, y, run->latch, p, dy, aside);
+    return state_equation(t, y, &run->memory, p, dy, aside);
 }
 
 /* Parameter s in [0, 1] at which the cubic through (d0, h r0) and (d1, h r1) crosses zero; its slope in `rate`. */
@@ -48,17 +48,17 @@ static double crossing(double d0, double r0, double d1, double r1, double h, dou
 /* Onset: remember the impact velocity, not below its floor. */
 static void close_joint(Run *run, int i, double t, double deltadot, double floor)
 {
-    run->latch[i].closed = 1;
-    run->latch[i].deltadot_minus = max_of(deltadot, floor);
+    run->memory.latch[i].closed = 1;
+    run->memory.latch[i].deltadot_minus = max_of(deltadot, floor);
     run->compressing[i] = 1;
     run->onsets++;
-    run->open[i] = (Impact){t, NAN, run->latch[i].deltadot_minus, 0.0, t, i};
+    run->open[i] = (Impact){t, NAN, run->memory.latch[i].deltadot_minus, 0.0, t, i};
 }
 
 /* Separation: the contact goes into the list that Python fetches. */
 static void open_joint(Run *run, int i, double t)
 {
-    run->latch[i].closed = 0;
+    run->memory.latch[i].closed = 0;
     run->open[i].t_off = t;
     run->impacts[run->n_impacts++] = run->open[i];
 }
@@ -73,17 +73,17 @@ static int update_latches(Run *run, double t, double h, const Clearance *before,
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double d0 = before[i].delta, d1 = after[i].delta;
         double rate;
-        if (!run->latch[i].closed && d1 >= 0.0) {
+        if (!run->memory.latch[i].closed && d1 >= 0.0) {
             const double s = d0 < 0.0 ? crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate) : 0.0;
             close_joint(run, i, t + s * h, d0 < 0.0 ? rate : before[i].deltadot, floors[i]);
             changed = 1;
-        } else if (run->latch[i].closed && d1 < 0.0) {
+        } else if (run->memory.latch[i].closed && d1 < 0.0) {
             open_joint(run, i, t + h * crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate));
             changed = 1;
-        } else if (!run->latch[i].closed && touched[i]) {
+        } else if (!run->memory.latch[i].closed && touched[i]) {
             run->grazes++; /* in and out again within one step */
         }
-        if (run->latch[i].closed && after[i].deltadot <= 0.0)
+        if (run->memory.latch[i].closed && after[i].deltadot <= 0.0)
             run->compressing[i] = 0;
     }
     return changed;
@@ -108,8 +108,8 @@ static int watch(Run *run)
             run->F_peak[i] = F;
             run->t_peak[i] = run->t;
         }
-        if (run->latch[i].closed) {
-            const double ratio = joint->deltadot / run->latch[i].deltadot_minus;
+        if (run->memory.latch[i].closed) {
+            const double ratio = joint->deltadot / run->memory.latch[i].deltadot_minus;
             run->ratio_min = ratio < run->ratio_min ? ratio : run->ratio_min;
             run->ratio_max = ratio > run->ratio_max ? ratio : run->ratio_max;
             run->ratio_outside += ratio < -1.0 || ratio > 1.0;
@@ -122,52 +122,112 @@ static int watch(Run *run)
     return isfinite(sum) ? 0 : NOT_FINITE;
 }
 
-/* The first right-hand side; a start inside contact is in contact. */
+/* Where a step would lead: the new state, its right-hand side, and which joints touched on the way. */
+typedef struct {
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    unsigned char touched[1];
+} Trial;
+
+/*
+ * k1 = f(t, y), k2 = f(t + h/2, y + h/2 k1), k3 = f(t + h/2, y + h/2 k2), k4 = f(t + h, y + h k3),
+ * y + h/6 (k1 + 2 k2 + 2 k3 + k4). k1 is left over from the step before.
+ */
+static int rk4_trial(Run *run, double h, const Parameters *p, Trial *trial)
+{
+    static const double reach[3] = {0.5, 0.5, 1.0}, weight[3] = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+    double y[N_Y], k[N_Y];
+    const double *slope = run->dy;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        trial->touched[i] = 0;
+    for (int j = 0; j < N_Y; j++)
+        trial->y[j] = run->y[j] + h / 6.0 * run->dy[j];
+    for (int stage = 0; stage < 3; stage++) {
+        for (int j = 0; j < N_Y; j++)
+            y[j] = run->y[j] + reach[stage] * h * slope[j];
+        const int status = rates(run, run->t + reach[stage] * h, y, p, k, &trial->aside);
+        if (status)
+            return status;
+        for (int j = 0; j < N_Y; j++)
+            trial->y[j] += weight[stage] * h * k[j];
+        for (int i = 0; i < N_CLEARANCES; i++)
+            trial->touched[i] |= trial->aside.clearance[i].delta > 0.0;
+        slope = k;
+    }
+    return rates(run, run->t + h, trial->y, p, trial->dy, &trial->aside);
+}
+
+/* No friction that may stick: a step never ends early. */
+static double friction_event(Run *run, double h, const Parameters *p, const Trial *trial)
+{
+    (void)run, (void)h, (void)p, (void)trial;
+    return 1.0;
+}
+
+static int switch_friction(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+
+static int begin_friction(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+
+/* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
 static int begin(Run *run, const Parameters *p)
 {
     const unsigned char touched[1] = {0};
     int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    if (!status)
+        status = begin_friction(run, p);
     if (!status && update_latches(run, run->t, 0.0, run->aside.clearance, run->aside.clearance, touched, p))
         status = rates(run, run->t, run->y, p, run->dy, &run->aside);
     run->ready = 1;
     return status ? status : watch(run);
 }
 
-/*
- * One step: k1 = f(t, y), k2 = f(t + h/2, y + h/2 k1), k3 = f(t + h/2, y + h/2 k2), k4 = f(t + h, y + h k3),
- * y + h/6 (k1 + 2 k2 + 2 k3 + k4). k1 is left over from the step before.
- */
-static int rk4_step(Run *run, double h, double t_new, const Parameters *p)
+/* Takes a trial as the new state; latches follow from the gaps at both of its ends. */
+static int accept(Run *run, double h, double t_new, const Trial *trial, const Parameters *p)
 {
-    static const double reach[3] = {0.5, 0.5, 1.0}, weight[3] = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
-    unsigned char touched[1] = {0};
-    double y[N_Y], sum[N_Y], k[N_Y];
-    const double *slope = run->dy;
-    Aside aside;
-    for (int j = 0; j < N_Y; j++)
-        sum[j] = run->y[j] + h / 6.0 * run->dy[j];
-    for (int stage = 0; stage < 3; stage++) {
-        for (int j = 0; j < N_Y; j++)
-            y[j] = run->y[j] + reach[stage] * h * slope[j];
-        const int status = rates(run, run->t + reach[stage] * h, y, p, k, &aside);
-        if (status)
-            return status;
-        for (int j = 0; j < N_Y; j++)
-            sum[j] += weight[stage] * h * k[j];
-        for (int i = 0; i < N_CLEARANCES; i++)
-            touched[i] |= aside.clearance[i].delta > 0.0;
-        slope = k;
-    }
     const double t = run->t;
     const Aside before = run->aside;
     run->t = t_new;
-    for (int j = 0; j < N_Y; j++)
-        run->y[j] = sum[j];
-    int status = rates(run, t_new, run->y, p, run->dy, &run->aside);
-    if (!status && update_latches(run, t, h, before.clearance, run->aside.clearance, touched, p))
+    for (int j = 0; j < N_Y; j++) {
+        run->y[j] = trial->y[j];
+        run->dy[j] = trial->dy[j];
+    }
+    run->aside = trial->aside;
+    int status = 0;
+    if (update_latches(run, t, h, before.clearance, run->aside.clearance, trial->touched, p))
         status = rates(run, t_new, run->y, p, run->dy, &run->aside);
-    run->steps++;
     return status ? status : watch(run);
+}
+
+/* One step to t_new; where friction changes on the way, in parts that end there. */
+static int rk4_step(Run *run, double h, double t_new, const Parameters *p)
+{
+    Trial trial;
+    run->steps++;
+    for (int part = 0; part < MAX_PARTS; part++) {
+        const int status = rk4_trial(run, h, p, &trial);
+        if (status)
+            return status;
+        const double share = friction_event(run, h, p, &trial);
+        if (share >= 1.0)
+            return accept(run, h, t_new, &trial, p);
+        int failed = share < 0.0 ? NOT_FINITE : accept(run, share * h, run->t + share * h, &trial, p);
+        if (!failed)
+            failed = switch_friction(run, p);
+        if (failed)
+            return failed;
+        h = t_new - run->t;
+        if (!(h > 0.0))
+            return 0;
+    }
+    return CHATTERING;
 }
 
 size_t gudgeon_run_size(void) { return sizeof(Run); }
@@ -178,7 +238,7 @@ void gudgeon_run_start(void *memory, double t, const double *y, const double *la
     *run = (Run){.t = t, .ratio_min = INFINITY, .ratio_max = -INFINITY};
     for (int k = 0; k < N_Y; k++)
         run->y[k] = y[k];
-    read_memory(latched, run->latch);
+    read_memory(latched, &run->memory);
     for (int i = 0; i < N_CLEARANCES; i++)
         run->open[i] = (Impact){t, NAN, latched[i], 0.0, t, i};
 }
@@ -214,9 +274,11 @@ void gudgeon_run_sample(const void *memory, double *y, double *a, double *latche
     for (int k = 0; k < N_Q; k++)
         a[k] = run->dy[N_Q + k];
     for (int i = 0; i < N_CLEARANCES; i++) {
-        latched[i] = run->latch[i].closed ? run->latch[i].deltadot_minus : NAN;
-        state[i] = (signed char)(run->latch[i].closed ? 2 - run->compressing[i] : 0);
+        latched[i] = run->memory.latch[i].closed ? run->memory.latch[i].deltadot_minus : NAN;
+        state[i] = (signed char)(run->memory.latch[i].closed ? 2 - run->compressing[i] : 0);
     }
+    for (int i = 0; i < N_FRICTIONS; i++)
+        latched[N_CLEARANCES + i] = run->memory.mode[i];
 }
 
 /* Fetches and empties the list of impacts: 5 numbers each, and the joint; with `last` the open ones too. */
@@ -224,7 +286,7 @@ int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints)
 {
     Run *run = memory;
     for (int i = 0; last && i < N_CLEARANCES; i++)
-        if (run->latch[i].closed && run->n_impacts < N_EVENTS)
+        if (run->memory.latch[i].closed && run->n_impacts < N_EVENTS)
             run->impacts[run->n_impacts++] = run->open[i];
     const int n = run->n_impacts;
     for (int i = 0; i < n; i++) {
@@ -249,6 +311,7 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
     counts[2] = run->onsets;
     counts[3] = run->grazes;
     counts[4] = run->ratio_outside;
+    counts[5] = run->switches;
     numbers[0] = run->phi_max;
     numbers[1] = run->phi_dot_max;
     numbers[2] = run->ratio_min;

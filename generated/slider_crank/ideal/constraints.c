@@ -243,7 +243,7 @@ static void outputs(const double t, const double *q, const double *v, const Para
     reactions[9] = 0.0;  /* cylinder.Fx */
     reactions[10] = -multiplier_cylinder_offset;  /* cylinder.Fy */
     reactions[11] = -multiplier_cylinder_angle;  /* cylinder.M */
-    torques[0] = -multiplier_motor;  /* motor.torque */
+    torques[0] = -multiplier_motor;  /* motor */
 
     /* energy */
     energy[0] = (1.0/2.0)*crank_inertia*(crank_omega * crank_omega) + (1.0/2.0)*crank_mass*(crank_vx *
@@ -254,7 +254,8 @@ static void outputs(const double t, const double *q, const double *v, const Para
     energy[1] = 0.0;
 }
 /*
- * The smallest x (n), measured by M, with Phi_q x = r (m); Newton's step, velocities.
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
  * Returns 0, or the number of the pivot that vanished.
  */
 static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)

@@ -1,7 +1,7 @@
 /*
  * Accelerations a (n) and multipliers in `aside` at a state:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
- * Returns 0, or the number of the pivot that vanished.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
 static int dynamics(const double t, const double *q, const double *v, const Parameters *p, double *a, Aside
     *aside)
@@ -52,6 +52,9 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double motor_value = omega*time;
     const double motor_rate = omega;
     const double motor_acceleration = 0.0;
+
+    /* status */
+    int pivot = 0;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
     const double phi_O_x = -arm_crank_tail_x - crank_x;
@@ -110,10 +113,10 @@ static int dynamics(const double t, const double *q, const double *v, const Para
 
     /* L D L^T of the KKT matrix */
     const double scale_cylinder_angle = inverse_slider_inertia;
-    if (!(scale_cylinder_angle > 1e-13 * scale_cylinder_angle)) return 1;
+    if (!(scale_cylinder_angle > 1e-13 * scale_cylinder_angle)) { pivot = 1; goto dependent; };
     const double inverse_pivot_cylinder_angle = 1.0/scale_cylinder_angle;
     const double scale_cylinder_offset = inverse_slider_mass;
-    if (!(scale_cylinder_offset > 1e-13 * scale_cylinder_offset)) return 2;
+    if (!(scale_cylinder_offset > 1e-13 * scale_cylinder_offset)) { pivot = 2; goto dependent; };
     const double inverse_pivot_cylinder_offset = 1.0/scale_cylinder_offset;
     const double l_wristpin_y__cylinder_offset = -inverse_pivot_cylinder_offset*inverse_slider_mass;
     const double l_wristpin_x__rod_theta = arm_rod_tail_y*inverse_rod_inertia;
@@ -122,7 +125,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_crankpin_y__rod_theta = -arm_rod_tail_x*inverse_rod_inertia;
     const double scale_wristpin_x = arm_rod_tail_y*l_wristpin_x__rod_theta + inverse_rod_mass +
         inverse_slider_mass;
-    if (!(scale_wristpin_x > 1e-13 * scale_wristpin_x)) return 3;
+    if (!(scale_wristpin_x > 1e-13 * scale_wristpin_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_wristpin_x = 1.0/scale_wristpin_x;
     const double w_wristpin_y__wristpin_x = -arm_rod_tail_y*l_wristpin_y__rod_theta;
     const double l_wristpin_y__wristpin_x = -inverse_pivot_wristpin_x*w_wristpin_y__wristpin_x;
@@ -134,7 +137,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_slider_mass;
     const double pivot_wristpin_y = inverse_slider_mass*l_wristpin_y__cylinder_offset +
         l_wristpin_y__wristpin_x*w_wristpin_y__wristpin_x + scale_wristpin_y;
-    if (!(pivot_wristpin_y > 1e-13 * scale_wristpin_y)) return 4;
+    if (!(pivot_wristpin_y > 1e-13 * scale_wristpin_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_wristpin_y = 1.0/pivot_wristpin_y;
     const double w_crankpin_x__wristpin_y = arm_rod_tail_x*l_crankpin_x__rod_theta -
         l_crankpin_x__wristpin_x*w_wristpin_y__wristpin_x;
@@ -147,7 +150,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_crankpin_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
     const double l_crankpin_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
     const double scale_O_x = arm_crank_tail_y*l_O_x__crank_theta + inverse_crank_mass;
-    if (!(scale_O_x > 1e-13 * scale_O_x)) return 5;
+    if (!(scale_O_x > 1e-13 * scale_O_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_O_x = 1.0/scale_O_x;
     const double w_O_y__O_x = -arm_crank_tail_y*l_O_y__crank_theta;
     const double l_O_y__O_x = -inverse_pivot_O_x*w_O_y__O_x;
@@ -159,7 +162,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_motor__O_x = -inverse_pivot_O_x*w_motor__O_x;
     const double scale_O_y = -arm_crank_tail_x*l_O_y__crank_theta + inverse_crank_mass;
     const double pivot_O_y = l_O_y__O_x*w_O_y__O_x + scale_O_y;
-    if (!(pivot_O_y > 1e-13 * scale_O_y)) return 6;
+    if (!(pivot_O_y > 1e-13 * scale_O_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_O_y = 1.0/pivot_O_y;
     const double w_crankpin_x__O_y = arm_crank_tail_x*l_crankpin_x__crank_theta -
         l_crankpin_x__O_x*w_O_y__O_x;
@@ -174,7 +177,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double pivot_crankpin_x = l_crankpin_x__O_x*w_crankpin_x__O_x + l_crankpin_x__O_y*w_crankpin_x__O_y
         + l_crankpin_x__wristpin_x*w_crankpin_x__wristpin_x +
         l_crankpin_x__wristpin_y*w_crankpin_x__wristpin_y + scale_crankpin_x;
-    if (!(pivot_crankpin_x > 1e-13 * scale_crankpin_x)) return 7;
+    if (!(pivot_crankpin_x > 1e-13 * scale_crankpin_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_crankpin_x = 1.0/pivot_crankpin_x;
     const double w_crankpin_y__crankpin_x = -arm_crank_tail_y*l_crankpin_y__crank_theta -
         arm_rod_tail_y*l_crankpin_y__rod_theta - l_crankpin_y__O_x*w_crankpin_x__O_x -
@@ -190,7 +193,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         + l_crankpin_y__crankpin_x*w_crankpin_y__crankpin_x +
         l_crankpin_y__wristpin_x*w_crankpin_y__wristpin_x + l_crankpin_y__wristpin_y*w_crankpin_y__wristpin_y
         + scale_crankpin_y;
-    if (!(pivot_crankpin_y > 1e-13 * scale_crankpin_y)) return 8;
+    if (!(pivot_crankpin_y > 1e-13 * scale_crankpin_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_crankpin_y = 1.0/pivot_crankpin_y;
     const double w_motor__crankpin_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__O_x*w_crankpin_y__O_x
         - l_motor__O_y*w_crankpin_y__O_y - l_motor__crankpin_x*w_crankpin_y__crankpin_x;
@@ -198,7 +201,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_motor = inverse_crank_inertia;
     const double pivot_motor = l_motor__O_x*w_motor__O_x + l_motor__O_y*w_motor__O_y +
         l_motor__crankpin_x*w_motor__crankpin_x + l_motor__crankpin_y*w_motor__crankpin_y + scale_motor;
-    if (!(pivot_motor > 1e-13 * scale_motor)) return 9;
+    if (!(pivot_motor > 1e-13 * scale_motor)) { pivot = 9; goto dependent; };
     const double inverse_pivot_motor = 1.0/pivot_motor;
 
     /* forward substitution */
@@ -265,9 +268,35 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     aside->lambda[6] = lambda_cylinder_offset;
     aside->lambda[7] = lambda_cylinder_angle;
     aside->lambda[8] = lambda_motor;
-    aside->power[0] = -lambda_motor*motor_rate;
+    goto powers;
+
+    /* a pivot vanished: rows depend on each other here */
+    dependent: {
+        double force[N_Q], rhs[N_ROWS];
+        force[0] = 0.0;
+        force[1] = 0.0;
+        force[2] = 0.0;
+        force[3] = 0.0;
+        force[4] = 0.0;
+        force[5] = 0.0;
+        force[6] = 0.0;
+        force[7] = 0.0;
+        force[8] = 0.0;
+        rhs[0] = rhs_O_x;
+        rhs[1] = rhs_O_y;
+        rhs[2] = rhs_crankpin_x;
+        rhs[3] = rhs_crankpin_y;
+        rhs[4] = rhs_wristpin_x;
+        rhs[5] = rhs_wristpin_y;
+        rhs[6] = rhs_cylinder_offset;
+        rhs[7] = rhs_cylinder_angle;
+        rhs[8] = rhs_motor;
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+    }
+    powers:
+    aside->power[0] = -aside->lambda[8]*motor_rate;
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
-    return 0;
+    return pivot;
 }
 

@@ -1,9 +1,9 @@
 /*
  * The state equation y' = f(t, y) with y = (q, v, work), and everything that is computed from a state.
  */
-static int state_equation(double t, const double *y, const Latch *latch, const Parameters *p, double *dy, Aside *aside)
+static int state_equation(double t, const double *y, const Memory *memory, const Parameters *p, double *dy, Aside *aside)
 {
-    (void)latch;
+    (void)memory;
     const int status = dynamics(t, y, y + N_Q, p, dy + N_Q, aside);
     for (int k = 0; k < N_Q; k++)
         dy[k] = y[N_Q + k];
@@ -12,13 +12,15 @@ static int state_equation(double t, const double *y, const Latch *latch, const P
     return status;
 }
 
-/* The latches of a sample: `memory` holds the impact velocities, NaN where the joint is open. */
-static void read_memory(const double *memory, Latch *latch)
+/* The memory of a sample: impact velocities, NaN where a joint is open; then the modes of friction. */
+static void read_memory(const double *sample, Memory *memory)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
-        latch[i].closed = !isnan(memory[i]);
-        latch[i].deltadot_minus = memory[i];
+        memory->latch[i].closed = !isnan(sample[i]);
+        memory->latch[i].deltadot_minus = sample[i];
     }
+    for (int i = 0; i < N_FRICTIONS; i++)
+        memory->mode[i] = sample[N_CLEARANCES + i];
 }
 
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
@@ -62,10 +64,10 @@ int gudgeon_project(double t, const double *q, const double *r, const double *p,
 
 int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy)
 {
-    Latch latch[1];
+    Memory now;
     Aside aside;
-    read_memory(memory, latch);
-    return state_equation(t, y, latch, (const Parameters *)p, dy, &aside);
+    read_memory(memory, &now);
+    return state_equation(t, y, &now, (const Parameters *)p, dy, &aside);
 }
 
 /* The same right-hand side many times over, for benchmarks; the sum keeps the calls alive. */
@@ -85,19 +87,19 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *mem
 /* Everything at n samples; returns 0 or the pivot that vanished, with the sample in `failed`. */
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
-    double *series, double *energy, double *power, long *failed)
+    double *series, double *friction, double *energy, double *power, long *failed)
 {
     const Parameters *p = (const Parameters *)parameters;
     for (long i = 0; i < n; i++) {
-        Latch latch[1];
+        Memory now;
         Aside aside;
         double y[N_Y] = {0.0}, dy[N_Y];
         for (int k = 0; k < N_Q; k++) {
             y[k] = q[i * N_Q + k];
             y[N_Q + k] = v[i * N_Q + k];
         }
-        read_memory(memory + i * N_CLEARANCES, latch);
-        const int status = state_equation(t[i], y, latch, p, dy, &aside);
+        read_memory(memory + i * (N_CLEARANCES + N_FRICTIONS), &now);
+        const int status = state_equation(t[i], y, &now, p, dy, &aside);
         if (status) {
             *failed = i;
             return status;
@@ -110,6 +112,10 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             power[i * N_WORK + k] = aside.power[k];
         outputs(t[i], y, y + N_Q, p, aside.lambda, reactions + i * 3 * N_JOINTS, torques + i * N_DRIVES,
             series + i * N_SERIES, energy + 2 * i);
+        for (int k = 0; k < N_FRICTIONS; k++) {
+            friction[(i * N_FRICTIONS + k) * 2] = aside.friction[k].force;
+            friction[(i * N_FRICTIONS + k) * 2 + 1] = aside.friction[k].v;
+        }
         for (int k = 0; k < N_CLEARANCES; k++) {
             const Clearance *joint = &aside.clearance[k];
             double *out = clearance + (i * N_CLEARANCES + k) * 9;

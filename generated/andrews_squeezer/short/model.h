@@ -1,0 +1,66 @@
+/*
+ * Andrews' squeezing mechanism (seven-body mechanism)
+ * mechanism andrews_squeezer, scene short, from the YAML with sha256 471536d25724392f83d154950e54c5245e4d82c620bcf77f2707564fd4a61dd4
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+enum {
+    N_Q = 21,                 /* coordinates */
+    N_ROWS = 20,              /* constraint rows of the motion */
+    N_ALL_ROWS = 20,          /* rows of the closed linkage */
+    N_JOINTS = 10,            /* joints without play */
+    N_DRIVES = 0,
+    N_CLEARANCES = 0,        /* joints with play */
+    N_FRICTIONS = 0,         /* slips that friction may hold */
+    N_SERIES = 3,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_Y = 2 * N_Q + N_WORK
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double OF_mass;  /* bodies.OF.mass */    double OF_inertia;  /* bodies.OF.inertia */    double FE_mass;  /* bodies.FE.mass */    double FE_inertia;  /* bodies.FE.inertia */    double BDE_mass;  /* bodies.BDE.mass */    double BDE_inertia;  /* bodies.BDE.inertia */    double EG_mass;  /* bodies.EG.mass */    double EG_inertia;  /* bodies.EG.inertia */    double AG_mass;  /* bodies.AG.mass */    double AG_inertia;  /* bodies.AG.inertia */    double HE_mass;  /* bodies.HE.mass */    double HE_inertia;  /* bodies.HE.inertia */    double AH_mass;  /* bodies.AH.mass */    double AH_inertia;  /* bodies.AH.inertia */    double OF_points_O_x;  /* bodies.OF.points.O.x */    double OF_points_F_x;  /* bodies.OF.points.F.x */    double FE_points_E_x;  /* bodies.FE.points.E.x */    double FE_points_F_x;  /* bodies.FE.points.F.x */    double BDE_points_B_x;  /* bodies.BDE.points.B.x */    double BDE_points_B_y;  /* bodies.BDE.points.B.y */    double BDE_points_E_x;  /* bodies.BDE.points.E.x */    double BDE_points_E_y;  /* bodies.BDE.points.E.y */    double BDE_points_D_x;  /* bodies.BDE.points.D.x */    double BDE_points_D_y;  /* bodies.BDE.points.D.y */    double EG_points_G_y;  /* bodies.EG.points.G.y */    double EG_points_E_y;  /* bodies.EG.points.E.y */    double AG_points_A_x;  /* bodies.AG.points.A.x */    double AG_points_A_y;  /* bodies.AG.points.A.y */    double AG_points_G_x;  /* bodies.AG.points.G.x */    double AG_points_G_y;  /* bodies.AG.points.G.y */    double HE_points_H_x;  /* bodies.HE.points.H.x */    double HE_points_E_x;  /* bodies.HE.points.E.x */    double AH_points_A_x;  /* bodies.AH.points.A.x */    double AH_points_A_y;  /* bodies.AH.points.A.y */    double AH_points_H_x;  /* bodies.AH.points.H.x */    double AH_points_H_y;  /* bodies.AH.points.H.y */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double B_x;  /* ground.B.x */    double B_y;  /* ground.B.y */    double A_x;  /* ground.A.x */    double A_y;  /* ground.A.y */    double C_x;  /* ground.C.x */    double C_y;  /* ground.C.y */    double spring_stiffness;  /* forces.spring.stiffness */    double spring_free_length;  /* forces.spring.free_length */    double motor_value;  /* forces.motor.value */    double guess_FE_theta;  /* start.guess.FE.theta */    double guess_BDE_theta;  /* start.guess.BDE.theta */    double guess_EG_theta;  /* start.guess.EG.theta */    double guess_AG_theta;  /* start.guess.AG.theta */    double guess_HE_theta;  /* start.guess.HE.theta */    double guess_AH_theta;  /* start.guess.AH.theta */    double set_OF_theta;  /* start.set.OF.theta */    double inverse_OF_mass;  /* 1/M */    double inverse_OF_inertia;  /* 1/M */    double inverse_FE_mass;  /* 1/M */    double inverse_FE_inertia;  /* 1/M */    double inverse_BDE_mass;  /* 1/M */    double inverse_BDE_inertia;  /* 1/M */    double inverse_EG_mass;  /* 1/M */    double inverse_EG_inertia;  /* 1/M */    double inverse_AG_mass;  /* 1/M */    double inverse_AG_inertia;  /* 1/M */    double inverse_HE_mass;  /* 1/M */    double inverse_HE_inertia;  /* 1/M */    double inverse_AH_mass;  /* 1/M */    double inverse_AH_inertia;  /* 1/M */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+typedef struct {
+    Latch latch[1];
+    double mode[1];
+} Memory;
+
+/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+typedef struct {
+    double v, speed, force, static_limit;
+} Friction;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[20];
+    double phi[20], phi_dot[20];
+    double power[N_WORK];
+    Clearance clearance[1];
+    Friction friction[1];
+} Aside;
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }

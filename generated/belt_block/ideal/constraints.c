@@ -1,0 +1,164 @@
+/*
+ * The diagonal of M (n).
+ */
+static void mass_matrix(const Parameters *p, double *m)
+{
+    /* parameters */
+    const double block_mass = p->block_mass;
+    const double block_inertia = p->block_inertia;
+
+    /* M */
+    m[0] = block_mass;
+    m[1] = block_mass;
+    m[2] = block_inertia;
+}
+/*
+ * Phi(q, t) of the closed linkage; m and rad.
+ */
+static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+{
+    (void)t;
+    (void)p;
+    /* coordinates, velocities, time */
+    const double block_y = q[1];
+    const double block_theta = q[2];
+
+    /* rows */
+    phi[0] = block_y;  /* guide.offset */
+    phi[1] = block_theta;  /* guide.angle */
+}
+/*
+ * Phi_q of the closed linkage, dense, row by row; zeros kept.
+ */
+static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+{
+    (void)t;
+    (void)q;
+    (void)p;
+    /* non-zeros */
+    phi_q[1] = 1.0;  /* d guide.offset / d block_y */
+    phi_q[5] = 1.0;  /* d guide.angle / d block_theta */
+}
+/*
+ * nu = -Phi_t: Phi_q v = nu.
+ */
+static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+{
+    (void)t;
+    (void)q;
+    (void)p;
+    /* rows */
+    nu[0] = 0.0;  /* guide.offset */
+    nu[1] = 0.0;  /* guide.angle */
+}
+/*
+ * gamma: Phi_q a = gamma.
+ */
+static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double
+    *gamma_rows)
+{
+    (void)t;
+    (void)q;
+    (void)v;
+    (void)p;
+    /* rows */
+    gamma_rows[0] = 0.0;  /* guide.offset */
+    gamma_rows[1] = 0.0;  /* guide.angle */
+}
+/*
+ * Values of the start's guess, set and rates.
+ */
+static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+{
+    (void)guess;
+    (void)rates;
+    /* parameters */
+    const double set_block_x = p->set_block_x;
+
+    /* start */
+    set[0] = set_block_x;  /* start.set.block.x */
+}
+/*
+ * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
+ * drive torques on the driven body, kinetic and potential energy.
+ */
+static void outputs(const double t, const double *q, const double *v, const Parameters *p, const double
+    *lambda, double *reactions, double *torques, double *series, double *energy)
+{
+    (void)t;
+    (void)torques;
+    /* coordinates, velocities, time */
+    const double block_x = q[0];
+    const double block_y = q[1];
+    const double block_vx = v[0];
+    const double block_vy = v[1];
+    const double block_omega = v[2];
+
+    /* parameters */
+    const double block_mass = p->block_mass;
+    const double block_inertia = p->block_inertia;
+    const double wall_x = p->wall_x;
+    const double spring_stiffness = p->spring_stiffness;
+    const double spring_free_length = p->spring_free_length;
+
+    /* directions, arms, drives */
+    const double spring_span_x = block_x - wall_x;
+    const double spring_length = sqrt((block_y * block_y) + (spring_span_x * spring_span_x));
+    const double spring_force = spring_stiffness*(-spring_free_length + spring_length);
+
+    /* multipliers */
+    const double multiplier_guide_offset = lambda[0];
+    const double multiplier_guide_angle = lambda[1];
+
+    /* reactions */
+    reactions[0] = 0.0;  /* guide.Fx */
+    reactions[1] = -multiplier_guide_offset;  /* guide.Fy */
+    reactions[2] = -multiplier_guide_angle;  /* guide.M */
+    series[0] = spring_force;  /* spring.F */
+    series[1] = spring_length;  /* spring.length */
+
+    /* energy */
+    energy[0] = (1.0/2.0)*block_inertia*(block_omega * block_omega) + (1.0/2.0)*block_mass*(block_vx *
+        block_vx) + (1.0/2.0)*block_mass*(block_vy * block_vy);
+    energy[1] = (1.0/2.0)*spring_stiffness*((-spring_free_length + spring_length) * (-spring_free_length +
+        spring_length));
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    (void)t;
+    (void)q;
+    /* parameters */
+    const double inverse_block_mass = p->inverse_block_mass;
+    const double inverse_block_inertia = p->inverse_block_inertia;
+
+    /* right-hand side */
+    const double r_guide_offset = r[0];
+    const double r_guide_angle = r[1];
+
+    /* L D L^T of the KKT matrix */
+    const double scale_guide_offset_2 = inverse_block_mass;
+    if (!(scale_guide_offset_2 > 1e-13 * scale_guide_offset_2)) return 1;
+    const double inverse_pivot_guide_offset_2 = 1.0/scale_guide_offset_2;
+    const double scale_guide_angle_2 = inverse_block_inertia;
+    if (!(scale_guide_angle_2 > 1e-13 * scale_guide_angle_2)) return 2;
+    const double inverse_pivot_guide_angle_2 = 1.0/scale_guide_angle_2;
+
+    /* backward substitution */
+    const double step_lambda_guide_angle = -inverse_pivot_guide_angle_2*r_guide_angle;
+    const double step_acceleration_block_theta = -inverse_block_inertia*step_lambda_guide_angle;
+    const double step_lambda_guide_offset = -inverse_pivot_guide_offset_2*r_guide_offset;
+    const double step_acceleration_block_y = -inverse_block_mass*step_lambda_guide_offset;
+    const double step_acceleration_block_x = 0.0;
+
+    /* results */
+    x[0] = step_acceleration_block_x;
+    x[1] = step_acceleration_block_y;
+    x[2] = step_acceleration_block_theta;
+    return 0;
+}
+

@@ -1,0 +1,66 @@
+/*
+ * Block on a belt, stick-slip with a spring
+ * mechanism belt_block, scene ideal, from the YAML with sha256 ad6cf45ee3bd9c53289477c5ab8b2e7dfc80bfbc340727173898365090aada13
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+enum {
+    N_Q = 3,                 /* coordinates */
+    N_ROWS = 2,              /* constraint rows of the motion */
+    N_ALL_ROWS = 2,          /* rows of the closed linkage */
+    N_JOINTS = 1,            /* joints without play */
+    N_DRIVES = 0,
+    N_CLEARANCES = 0,        /* joints with play */
+    N_FRICTIONS = 1,         /* slips that friction may hold */
+    N_SERIES = 2,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_Y = 2 * N_Q + N_WORK
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double belt_speed;  /* parameters.belt_speed */    double start_at;  /* parameters.start_at */    double block_mass;  /* bodies.block.mass */    double block_inertia;  /* bodies.block.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double guide_axis_x;  /* joints.guide.axis.x */    double wall_x;  /* ground.wall.x */    double spring_stiffness;  /* forces.spring.stiffness */    double spring_free_length;  /* forces.spring.free_length */    double rub_direction_x;  /* forces.rub.direction.x */    double rub_speed;  /* forces.rub.speed */    double rub_static;  /* forces.rub.static */    double rub_kinetic;  /* forces.rub.kinetic */    double set_block_x;  /* start.set.block.x */    double inverse_block_mass;  /* 1/M */    double inverse_block_inertia;  /* 1/M */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+typedef struct {
+    Latch latch[1];
+    double mode[1];
+} Memory;
+
+/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+typedef struct {
+    double v, speed, force, static_limit;
+} Friction;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[2];
+    double phi[2], phi_dot[2];
+    double power[N_WORK];
+    Clearance clearance[1];
+    Friction friction[1];
+} Aside;
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }

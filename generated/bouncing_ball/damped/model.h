@@ -1,0 +1,66 @@
+/*
+ * Bouncing ball, Hertz contact with hysteresis damping
+ * mechanism bouncing_ball, scene damped, from the YAML with sha256 ddbbdb569d27e2af35adb5d783bcae0a9ce6a8f16cf6d94e2fb65a4b9090f7b4
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+enum {
+    N_Q = 3,                 /* coordinates */
+    N_ROWS = 0,              /* constraint rows of the motion */
+    N_ALL_ROWS = 2,          /* rows of the closed linkage */
+    N_JOINTS = 0,            /* joints without play */
+    N_DRIVES = 0,
+    N_CLEARANCES = 1,        /* joints with play */
+    N_FRICTIONS = 0,         /* slips that friction may hold */
+    N_SERIES = 0,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_Y = 2 * N_Q + N_WORK
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double height;  /* parameters.height */    double ball_mass;  /* bodies.ball.mass */    double ball_inertia;  /* bodies.ball.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double floor_radius;  /* bearings.floor.radius */    double floor_clearance;  /* bearings.floor.clearance */    double floor_length;  /* bearings.floor.length */    double steel_E;  /* materials.steel.E */    double steel_nu;  /* materials.steel.nu */    double damped_normal_stiffness;  /* contacts.damped.normal.stiffness */    double damped_normal_exponent;  /* contacts.damped.normal.exponent */    double damped_normal_restitution;  /* contacts.damped.normal.restitution */    double velocity_floor;  /* contacts.damped.velocity_floor */    double par_y;  /* gravity.y */    double R_j_floor;  /* journal radius */    double fall_hysteresis;  /* hysteresis damping factor */    double inverse_ball_mass;  /* 1/M */    double inverse_ball_inertia;  /* 1/M */    double weight_ball_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+typedef struct {
+    Latch latch[1];
+    double mode[1];
+} Memory;
+
+/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+typedef struct {
+    double v, speed, force, static_limit;
+} Friction;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[1];
+    double phi[1], phi_dot[1];
+    double power[N_WORK];
+    Clearance clearance[1];
+    Friction friction[1];
+} Aside;
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }

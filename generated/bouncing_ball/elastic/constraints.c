@@ -1,0 +1,144 @@
+/*
+ * The diagonal of M (n).
+ */
+static void mass_matrix(const Parameters *p, double *m)
+{
+    /* parameters */
+    const double ball_mass = p->ball_mass;
+    const double ball_inertia = p->ball_inertia;
+
+    /* M */
+    m[0] = ball_mass;
+    m[1] = ball_mass;
+    m[2] = ball_inertia;
+}
+/*
+ * Phi(q, t) of the closed linkage; m and rad.
+ */
+static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+{
+    (void)t;
+    (void)p;
+    /* coordinates, velocities, time */
+    const double ball_x = q[0];
+    const double ball_y = q[1];
+
+    /* rows */
+    phi[0] = -ball_x;  /* fall.x */
+    phi[1] = -ball_y;  /* fall.y */
+}
+/*
+ * Phi_q of the closed linkage, dense, row by row; zeros kept.
+ */
+static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+{
+    (void)t;
+    (void)q;
+    (void)p;
+    /* non-zeros */
+    phi_q[0] = -1.0;  /* d fall.x / d ball_x */
+    phi_q[4] = -1.0;  /* d fall.y / d ball_y */
+}
+/*
+ * nu = -Phi_t: Phi_q v = nu.
+ */
+static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+{
+    (void)t;
+    (void)q;
+    (void)p;
+    /* rows */
+    nu[0] = 0.0;  /* fall.x */
+    nu[1] = 0.0;  /* fall.y */
+}
+/*
+ * gamma: Phi_q a = gamma.
+ */
+static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double
+    *gamma_rows)
+{
+    (void)t;
+    (void)q;
+    (void)v;
+    (void)p;
+    /* rows */
+    gamma_rows[0] = 0.0;  /* fall.x */
+    gamma_rows[1] = 0.0;  /* fall.y */
+}
+/*
+ * Values of the start's guess, set and rates.
+ */
+static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+{
+    (void)p;
+    (void)guess;
+    (void)set;
+    (void)rates;
+
+}
+/*
+ * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
+ * drive torques on the driven body, kinetic and potential energy.
+ */
+static void outputs(const double t, const double *q, const double *v, const Parameters *p, const double
+    *lambda, double *reactions, double *torques, double *series, double *energy)
+{
+    (void)t;
+    (void)lambda;
+    (void)reactions;
+    (void)torques;
+    (void)series;
+    /* coordinates, velocities, time */
+    const double ball_y = q[1];
+    const double ball_vx = v[0];
+    const double ball_vy = v[1];
+    const double ball_omega = v[2];
+
+    /* parameters */
+    const double ball_mass = p->ball_mass;
+    const double ball_inertia = p->ball_inertia;
+    const double par_y = p->par_y;
+
+    /* energy */
+    energy[0] = (1.0/2.0)*ball_inertia*(ball_omega * ball_omega) + (1.0/2.0)*ball_mass*(ball_vx * ball_vx) +
+        (1.0/2.0)*ball_mass*(ball_vy * ball_vy);
+    energy[1] = -ball_mass*ball_y*par_y;
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    (void)t;
+    (void)q;
+    /* parameters */
+    const double inverse_ball_mass = p->inverse_ball_mass;
+
+    /* right-hand side */
+    const double r_fall_x = r[0];
+    const double r_fall_y = r[1];
+
+    /* L D L^T of the KKT matrix */
+    const double scale_fall_x = inverse_ball_mass;
+    if (!(scale_fall_x > 1e-13 * scale_fall_x)) return 1;
+    const double inverse_pivot_fall_x = 1.0/scale_fall_x;
+    const double scale_fall_y = inverse_ball_mass;
+    if (!(scale_fall_y > 1e-13 * scale_fall_y)) return 2;
+    const double inverse_pivot_fall_y = 1.0/scale_fall_y;
+
+    /* backward substitution */
+    const double step_lambda_fall_y = -inverse_pivot_fall_y*r_fall_y;
+    const double step_acceleration_ball_y = inverse_ball_mass*step_lambda_fall_y;
+    const double step_lambda_fall_x = -inverse_pivot_fall_x*r_fall_x;
+    const double step_acceleration_ball_x = inverse_ball_mass*step_lambda_fall_x;
+    const double step_acceleration_ball_theta = 0.0;
+
+    /* results */
+    x[0] = step_acceleration_ball_x;
+    x[1] = step_acceleration_ball_y;
+    x[2] = step_acceleration_ball_theta;
+    return 0;
+}
+

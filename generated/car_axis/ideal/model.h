@@ -1,0 +1,66 @@
+/*
+ * car axis on a bumpy road (IVP test set)
+ * mechanism car_axis, scene ideal, from the YAML with sha256 27bc1ed978b03a2998003e93863092bd7f8153fd519f0ee731603b508116784b
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+enum {
+    N_Q = 6,                 /* coordinates */
+    N_ROWS = 4,              /* constraint rows of the motion */
+    N_ALL_ROWS = 4,          /* rows of the closed linkage */
+    N_JOINTS = 2,            /* joints without play */
+    N_DRIVES = 1,
+    N_CLEARANCES = 0,        /* joints with play */
+    N_FRICTIONS = 0,         /* slips that friction may hold */
+    N_SERIES = 4,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_Y = 2 * N_Q + N_WORK
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double length;  /* parameters.length */    double half_mass;  /* parameters.half_mass */    double r;  /* parameters.r */    double omega;  /* parameters.omega */    double axle_mass;  /* bodies.axle.mass */    double axle_inertia;  /* bodies.axle.inertia */    double road_mass;  /* bodies.road.mass */    double road_inertia;  /* bodies.road.inertia */    double axle_length;  /* bodies.axle.length */    double road_length;  /* bodies.road.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slot_direction_y;  /* joints.slot.direction.y */    double par_y;  /* gravity.y */    double left_stiffness;  /* forces.left.stiffness */    double left_free_length;  /* forces.left.free_length */    double right_stiffness;  /* forces.right.stiffness */    double right_free_length;  /* forces.right.free_length */    double set_axle_y;  /* start.set.axle.y */    double axle_origin_x;  /* point from the centre of mass */    double road_origin_x;  /* point from the centre of mass */    double inverse_axle_mass;  /* 1/M */    double inverse_axle_inertia;  /* 1/M */    double inverse_road_mass;  /* 1/M */    double inverse_road_inertia;  /* 1/M */    double weight_axle_y;  /* weight */    double weight_road_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+typedef struct {
+    Latch latch[1];
+    double mode[1];
+} Memory;
+
+/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+typedef struct {
+    double v, speed, force, static_limit;
+} Friction;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[4];
+    double phi[4], phi_dot[4];
+    double power[N_WORK];
+    Clearance clearance[1];
+    Friction friction[1];
+} Aside;
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }

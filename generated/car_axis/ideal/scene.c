@@ -1,0 +1,8 @@
+#include "model.h"
+#include "parameters.c"
+#include "constraints.c"
+#include "clearance.c"
+#include "singular.c"
+#include "dynamics.c"
+#include "system.c"
+#include "rk4.c"

@@ -1,0 +1,344 @@
+/*
+ * The diagonal of M (n).
+ */
+static void mass_matrix(const Parameters *p, double *m)
+{
+    /* parameters */
+    const double crank_mass = p->crank_mass;
+    const double crank_inertia = p->crank_inertia;
+    const double rod_mass = p->rod_mass;
+    const double rod_inertia = p->rod_inertia;
+
+    /* M */
+    m[0] = crank_mass;
+    m[1] = crank_mass;
+    m[2] = crank_inertia;
+    m[3] = rod_mass;
+    m[4] = rod_mass;
+    m[5] = rod_inertia;
+}
+/*
+ * Phi(q, t) of the closed linkage; m and rad.
+ */
+static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double crank_x = q[0];
+    const double crank_y = q[1];
+    const double crank_theta = q[2];
+    const double rod_x = q[3];
+    const double rod_y = q[4];
+    const double rod_theta = q[5];
+
+    /* parameters */
+    const double crank_length = p->crank_length;
+    const double rod_points_crankpin_x = p->rod_points_crankpin_x;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_head_x = cos_theta_crank*crank_length;
+    const double arm_crank_head_y = crank_length*sin_theta_crank;
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double arm_rod_crankpin_x = cos_theta_rod*rod_points_crankpin_x;
+    const double arm_rod_crankpin_y = rod_points_crankpin_x*sin_theta_rod;
+
+    /* rows */
+    phi[0] = -crank_x;  /* O.x */
+    phi[1] = -crank_y;  /* O.y */
+    phi[2] = arm_crank_head_x - arm_rod_crankpin_x + crank_x - rod_x;  /* pin.x */
+    phi[3] = arm_crank_head_y - arm_rod_crankpin_y + crank_y - rod_y;  /* pin.y */
+    phi[4] = rod_y;  /* slider.offset */
+}
+/*
+ * Phi_q of the closed linkage, dense, row by row; zeros kept.
+ */
+static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double crank_theta = q[2];
+    const double rod_theta = q[5];
+
+    /* parameters */
+    const double crank_length = p->crank_length;
+    const double rod_points_crankpin_x = p->rod_points_crankpin_x;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_head_x = cos_theta_crank*crank_length;
+    const double arm_crank_head_y = crank_length*sin_theta_crank;
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double arm_rod_crankpin_x = cos_theta_rod*rod_points_crankpin_x;
+    const double arm_rod_crankpin_y = rod_points_crankpin_x*sin_theta_rod;
+
+    /* non-zeros */
+    phi_q[0] = -1.0;  /* d O.x / d crank_x */
+    phi_q[7] = -1.0;  /* d O.y / d crank_y */
+    phi_q[12] = 1.0;  /* d pin.x / d crank_x */
+    phi_q[14] = -arm_crank_head_y;  /* d pin.x / d crank_theta */
+    phi_q[15] = -1.0;  /* d pin.x / d rod_x */
+    phi_q[17] = arm_rod_crankpin_y;  /* d pin.x / d rod_theta */
+    phi_q[19] = 1.0;  /* d pin.y / d crank_y */
+    phi_q[20] = arm_crank_head_x;  /* d pin.y / d crank_theta */
+    phi_q[22] = -1.0;  /* d pin.y / d rod_y */
+    phi_q[23] = -arm_rod_crankpin_x;  /* d pin.y / d rod_theta */
+    phi_q[28] = 1.0;  /* d slider.offset / d rod_y */
+}
+/*
+ * nu = -Phi_t: Phi_q v = nu.
+ */
+static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+{
+    (void)t;
+    (void)q;
+    (void)p;
+    /* rows */
+    nu[0] = 0.0;  /* O.x */
+    nu[1] = 0.0;  /* O.y */
+    nu[2] = 0.0;  /* pin.x */
+    nu[3] = 0.0;  /* pin.y */
+    nu[4] = 0.0;  /* slider.offset */
+}
+/*
+ * gamma: Phi_q a = gamma.
+ */
+static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double
+    *gamma_rows)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double crank_theta = q[2];
+    const double crank_omega = v[2];
+    const double rod_theta = q[5];
+    const double rod_omega = v[5];
+
+    /* parameters */
+    const double crank_length = p->crank_length;
+    const double rod_points_crankpin_x = p->rod_points_crankpin_x;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_head_x = cos_theta_crank*crank_length;
+    const double arm_crank_head_y = crank_length*sin_theta_crank;
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double arm_rod_crankpin_x = cos_theta_rod*rod_points_crankpin_x;
+    const double arm_rod_crankpin_y = rod_points_crankpin_x*sin_theta_rod;
+
+    /* rows */
+    gamma_rows[0] = 0.0;  /* O.x */
+    gamma_rows[1] = 0.0;  /* O.y */
+    gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) - arm_rod_crankpin_x*(rod_omega * rod_omega);  /* pin.x */
+    gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) - arm_rod_crankpin_y*(rod_omega * rod_omega);  /* pin.y */
+    gamma_rows[4] = 0.0;  /* slider.offset */
+}
+/*
+ * Values of the start's guess, set and rates.
+ */
+static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+{
+    /* parameters */
+    const double guess_rod_theta = p->guess_rod_theta;
+    const double guess_rod_x = p->guess_rod_x;
+    const double set_crank_theta = p->set_crank_theta;
+
+    /* start */
+    guess[0] = guess_rod_theta;  /* start.guess.rod.theta */
+    guess[1] = guess_rod_x;  /* start.guess.rod.x */
+    set[0] = set_crank_theta;  /* start.set.crank.theta */
+    rates[0] = 0.0;  /* start.rates.crank.omega */
+}
+/*
+ * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
+ * drive torques on the driven body, kinetic and potential energy.
+ */
+static void outputs(const double t, const double *q, const double *v, const Parameters *p, const double
+    *lambda, double *reactions, double *torques, double *series, double *energy)
+{
+    (void)t;
+    (void)torques;
+    /* coordinates, velocities, time */
+    const double crank_x = q[0];
+    const double crank_y = q[1];
+    const double crank_theta = q[2];
+    const double crank_vx = v[0];
+    const double crank_vy = v[1];
+    const double crank_omega = v[2];
+    const double rod_x = q[3];
+    const double rod_y = q[4];
+    const double rod_theta = q[5];
+    const double rod_vx = v[3];
+    const double rod_vy = v[4];
+    const double rod_omega = v[5];
+
+    /* parameters */
+    const double crank_mass = p->crank_mass;
+    const double crank_inertia = p->crank_inertia;
+    const double rod_mass = p->rod_mass;
+    const double rod_inertia = p->rod_inertia;
+    const double crank_points_middle_x = p->crank_points_middle_x;
+    const double rod_points_middle_x = p->rod_points_middle_x;
+    const double coil_stiffness = p->coil_stiffness;
+    const double coil_free_length = p->coil_free_length;
+    const double coil_damping = p->coil_damping;
+    const double push_value_x = p->push_value_x;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double arm_crank_middle_x = cos_theta_crank*crank_points_middle_x;
+    const double arm_crank_middle_y = crank_points_middle_x*sin_theta_crank;
+    const double arm_rod_middle_x = cos_theta_rod*rod_points_middle_x;
+    const double arm_rod_middle_y = rod_points_middle_x*sin_theta_rod;
+    const double coil_span_x = -arm_crank_middle_x + arm_rod_middle_x - crank_x + rod_x;
+    const double coil_span_y = -arm_crank_middle_y + arm_rod_middle_y - crank_y + rod_y;
+    const double coil_span_rate_x = arm_crank_middle_y*crank_omega - arm_rod_middle_y*rod_omega - crank_vx +
+        rod_vx;
+    const double coil_span_rate_y = -arm_crank_middle_x*crank_omega + arm_rod_middle_x*rod_omega - crank_vy +
+        rod_vy;
+    const double coil_length = sqrt((coil_span_x * coil_span_x) + (coil_span_y * coil_span_y));
+    const double coil_length_rate = (coil_span_rate_x*coil_span_x + coil_span_rate_y*coil_span_y)/coil_length;
+    const double coil_force = coil_damping*coil_length_rate + coil_stiffness*(-coil_free_length +
+        coil_length);
+
+    /* multipliers */
+    const double multiplier_O_x = lambda[0];
+    const double multiplier_O_y = lambda[1];
+    const double multiplier_pin_x = lambda[2];
+    const double multiplier_pin_y = lambda[3];
+    const double multiplier_slider_offset = lambda[4];
+
+    /* reactions */
+    reactions[0] = multiplier_O_x;  /* O.Fx */
+    reactions[1] = multiplier_O_y;  /* O.Fy */
+    reactions[2] = 0.0;  /* O.M */
+    reactions[3] = multiplier_pin_x;  /* pin.Fx */
+    reactions[4] = multiplier_pin_y;  /* pin.Fy */
+    reactions[5] = 0.0;  /* pin.M */
+    reactions[6] = 0.0;  /* slider.Fx */
+    reactions[7] = multiplier_slider_offset;  /* slider.Fy */
+    reactions[8] = 0.0;  /* slider.M */
+    series[0] = coil_force;  /* coil.F */
+    series[1] = coil_length;  /* coil.length */
+    series[2] = push_value_x;  /* push.Fx */
+    series[3] = 0.0;  /* push.Fy */
+    series[4] = fabs(push_value_x);  /* push.F */
+
+    /* energy */
+    energy[0] = (1.0/2.0)*crank_inertia*(crank_omega * crank_omega) + (1.0/2.0)*crank_mass*(crank_vx *
+        crank_vx) + (1.0/2.0)*crank_mass*(crank_vy * crank_vy) + (1.0/2.0)*rod_inertia*(rod_omega * rod_omega)
+        + (1.0/2.0)*rod_mass*(rod_vx * rod_vx) + (1.0/2.0)*rod_mass*(rod_vy * rod_vy);
+    energy[1] = (1.0/2.0)*coil_stiffness*((-coil_free_length + coil_length) * (-coil_free_length +
+        coil_length));
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double crank_theta = q[2];
+    const double rod_theta = q[5];
+
+    /* parameters */
+    const double crank_length = p->crank_length;
+    const double rod_points_crankpin_x = p->rod_points_crankpin_x;
+    const double inverse_crank_mass = p->inverse_crank_mass;
+    const double inverse_crank_inertia = p->inverse_crank_inertia;
+    const double inverse_rod_mass = p->inverse_rod_mass;
+    const double inverse_rod_inertia = p->inverse_rod_inertia;
+
+    /* directions, arms, drives */
+    const double cos_theta_crank = cos(crank_theta);
+    const double sin_theta_crank = sin(crank_theta);
+    const double arm_crank_head_x = cos_theta_crank*crank_length;
+    const double arm_crank_head_y = crank_length*sin_theta_crank;
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double arm_rod_crankpin_x = cos_theta_rod*rod_points_crankpin_x;
+    const double arm_rod_crankpin_y = rod_points_crankpin_x*sin_theta_rod;
+
+    /* right-hand side */
+    const double r_O_x = r[0];
+    const double r_O_y = r[1];
+    const double r_pin_x = r[2];
+    const double r_pin_y = r[3];
+    const double r_slider_offset = r[4];
+
+    /* L D L^T of the KKT matrix */
+    const double scale_O_x_2 = inverse_crank_mass;
+    if (!(scale_O_x_2 > 1e-13 * scale_O_x_2)) return 1;
+    const double inverse_pivot_O_x_2 = 1.0/scale_O_x_2;
+    const double l_pin_x__O_x_2 = -inverse_crank_mass*inverse_pivot_O_x_2;
+    const double scale_O_y_2 = inverse_crank_mass;
+    if (!(scale_O_y_2 > 1e-13 * scale_O_y_2)) return 2;
+    const double inverse_pivot_O_y_2 = 1.0/scale_O_y_2;
+    const double l_pin_y__O_y_2 = -inverse_crank_mass*inverse_pivot_O_y_2;
+    const double l_pin_x__crank_theta_2 = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_pin_y__crank_theta_2 = arm_crank_head_x*inverse_crank_inertia;
+    const double scale_slider_offset_2 = inverse_rod_mass;
+    if (!(scale_slider_offset_2 > 1e-13 * scale_slider_offset_2)) return 3;
+    const double inverse_pivot_slider_offset_2 = 1.0/scale_slider_offset_2;
+    const double l_pin_y__slider_offset_2 = -inverse_pivot_slider_offset_2*inverse_rod_mass;
+    const double l_pin_x__rod_theta_2 = arm_rod_crankpin_y*inverse_rod_inertia;
+    const double l_pin_y__rod_theta_2 = -arm_rod_crankpin_x*inverse_rod_inertia;
+    const double scale_pin_x_2 = -arm_crank_head_y*l_pin_x__crank_theta_2 +
+        arm_rod_crankpin_y*l_pin_x__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
+    const double pivot_pin_x_2 = inverse_crank_mass*l_pin_x__O_x_2 + scale_pin_x_2;
+    if (!(pivot_pin_x_2 > 1e-13 * scale_pin_x_2)) return 4;
+    const double inverse_pivot_pin_x_2 = 1.0/pivot_pin_x_2;
+    const double w_pin_y__pin_x_2 = arm_crank_head_y*l_pin_y__crank_theta_2 -
+        arm_rod_crankpin_y*l_pin_y__rod_theta_2;
+    const double l_pin_y__pin_x_2 = -inverse_pivot_pin_x_2*w_pin_y__pin_x_2;
+    const double scale_pin_y_2 = arm_crank_head_x*l_pin_y__crank_theta_2 -
+        arm_rod_crankpin_x*l_pin_y__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
+    const double pivot_pin_y_2 = inverse_crank_mass*l_pin_y__O_y_2 + inverse_rod_mass*l_pin_y__slider_offset_2
+        + l_pin_y__pin_x_2*w_pin_y__pin_x_2 + scale_pin_y_2;
+    if (!(pivot_pin_y_2 > 1e-13 * scale_pin_y_2)) return 5;
+    const double inverse_pivot_pin_y_2 = 1.0/pivot_pin_y_2;
+
+    /* forward substitution */
+    const double step_z_pin_x = -l_pin_x__O_x_2*r_O_x + r_pin_x;
+    const double step_z_pin_y = -l_pin_y__O_y_2*r_O_y - l_pin_y__pin_x_2*step_z_pin_x -
+        l_pin_y__slider_offset_2*r_slider_offset + r_pin_y;
+
+    /* backward substitution */
+    const double step_lambda_pin_y = -inverse_pivot_pin_y_2*step_z_pin_y;
+    const double step_lambda_pin_x = -inverse_pivot_pin_x_2*step_z_pin_x - l_pin_y__pin_x_2*step_lambda_pin_y;
+    const double step_acceleration_rod_theta = -l_pin_x__rod_theta_2*step_lambda_pin_x -
+        l_pin_y__rod_theta_2*step_lambda_pin_y;
+    const double step_lambda_slider_offset = -inverse_pivot_slider_offset_2*r_slider_offset -
+        l_pin_y__slider_offset_2*step_lambda_pin_y;
+    const double step_acceleration_rod_y = inverse_rod_mass*step_lambda_pin_y -
+        inverse_rod_mass*step_lambda_slider_offset;
+    const double step_acceleration_crank_theta = -l_pin_x__crank_theta_2*step_lambda_pin_x -
+        l_pin_y__crank_theta_2*step_lambda_pin_y;
+    const double step_lambda_O_y = -inverse_pivot_O_y_2*r_O_y - l_pin_y__O_y_2*step_lambda_pin_y;
+    const double step_acceleration_crank_y = inverse_crank_mass*step_lambda_O_y -
+        inverse_crank_mass*step_lambda_pin_y;
+    const double step_lambda_O_x = -inverse_pivot_O_x_2*r_O_x - l_pin_x__O_x_2*step_lambda_pin_x;
+    const double step_acceleration_crank_x = inverse_crank_mass*step_lambda_O_x -
+        inverse_crank_mass*step_lambda_pin_x;
+    const double step_acceleration_rod_x = inverse_rod_mass*step_lambda_pin_x;
+
+    /* results */
+    x[0] = step_acceleration_crank_x;
+    x[1] = step_acceleration_crank_y;
+    x[2] = step_acceleration_crank_theta;
+    x[3] = step_acceleration_rod_x;
+    x[4] = step_acceleration_rod_y;
+    x[5] = step_acceleration_rod_theta;
+    return 0;
+}
+

@@ -1,0 +1,66 @@
+/*
+ * slider-crank with a spring-damper between crank and rod (SUNDIALS idasSlCrank)
+ * mechanism slider_crank_spring, scene ideal, from the YAML with sha256 8af7975d33b9bef0773af2a11cc5ba231336a93f4303a7ad8eb8877bd068ba23
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+enum {
+    N_Q = 6,                 /* coordinates */
+    N_ROWS = 5,              /* constraint rows of the motion */
+    N_ALL_ROWS = 5,          /* rows of the closed linkage */
+    N_JOINTS = 3,            /* joints without play */
+    N_DRIVES = 0,
+    N_CLEARANCES = 0,        /* joints with play */
+    N_FRICTIONS = 0,         /* slips that friction may hold */
+    N_SERIES = 5,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_Y = 2 * N_Q + N_WORK
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double crank_length;  /* bodies.crank.length */    double crank_points_middle_x;  /* bodies.crank.points.middle.x */    double rod_points_crankpin_x;  /* bodies.rod.points.crankpin.x */    double rod_points_middle_x;  /* bodies.rod.points.middle.x */    double rod_points_tip_x;  /* bodies.rod.points.tip.x */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slider_direction_x;  /* joints.slider.direction.x */    double coil_stiffness;  /* forces.coil.stiffness */    double coil_free_length;  /* forces.coil.free_length */    double coil_damping;  /* forces.coil.damping */    double push_value_x;  /* forces.push.value.x */    double guess_rod_theta;  /* start.guess.rod.theta */    double guess_rod_x;  /* start.guess.rod.x */    double set_crank_theta;  /* start.set.crank.theta */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+typedef struct {
+    Latch latch[1];
+    double mode[1];
+} Memory;
+
+/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+typedef struct {
+    double v, speed, force, static_limit;
+} Friction;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[5];
+    double phi[5], phi_dot[5];
+    double power[N_WORK];
+    Clearance clearance[1];
+    Friction friction[1];
+} Aside;
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
