@@ -25,6 +25,7 @@ REFERENCE_STEPS = 1_600_000  # of the reference: what bounds a smooth scene's wi
 KINEMATIC = (10, 100, 1_000, 10_000)  # samples of a scene without a degree of freedom
 TRUSTED = 20  # times the references' difference: smaller errors are rounding
 SMALL = 1e-3  # the largest error that tells an order
+STRAIGHT = math.log(2.5)  # the deviation from a line that still tells one
 
 
 @dataclass(frozen=True)
@@ -55,11 +56,17 @@ class SceneBench:
     rhs: tuple[RhsTime, ...]
 
     def order(self, measure: str) -> float:
-        """Slope of log(error) over log(step), over the errors that are neither rounding nor large; NaN for too few."""
+        """Slope of log(error) over log(step), over the errors that are neither rounding nor large.
+
+        NaN for fewer than three, or where they lie on no line (a stiff scene at its stability limit).
+        """
         floor = TRUSTED * getattr(self.agreement, measure)
         points = [(row.step, getattr(row.error, measure)) for row in self.rows if not row.failure]
         kept = np.log([(h, e) for h, e in points if floor < e < SMALL])
-        return float(np.polyfit(kept[:, 0], kept[:, 1], 1)[0]) if len(kept) >= 3 else NAN
+        if len(kept) < 3:
+            return NAN
+        line = np.polyfit(kept[:, 0], kept[:, 1], 1)
+        return float(line[0]) if np.std(np.polyval(line, kept[:, 0]) - kept[:, 1]) < STRAIGHT else NAN
 
     def row(self, step: float) -> Row | None:
         """The row of a step (s), if it was tested."""

@@ -61,7 +61,7 @@ def judge(step: float, clearance: float, long: Attempt, pairs: Sequence[Pair], l
     errors = [difference(a.run, b.run) for a, b in pairs if a.run and b.run and not (a.failure or b.failure)]
     error = worst(errors)
     if long.failure or long.run is None:
-        at = seconds(long.failed_at) if math.isfinite(long.failed_at) else "fails"
+        at = f"at {seconds(long.failed_at)}" if math.isfinite(long.failed_at) else "fails"
         return Cell(step, clearance, Status.DIVERGED, long.failure or "no result", at, error)
     diagnostics = long.run.diagnostics
     energy = diagnostics.energy_residual / max(diagnostics.energy_turned_over, 1e-300)
@@ -85,7 +85,7 @@ def _verdicts(
         yield Status.DIVERGED, "lost contact: the surfaces overlap while the joint counts as free", "lost"
     for coarse, _ in pairs:
         if coarse.failure:
-            yield Status.DIVERGED, coarse.failure, seconds(coarse.failed_at)
+            yield Status.DIVERGED, coarse.failure, f"at {seconds(coarse.failed_at)}"
     if outside := _outside(run, limits):
         if all(_outside(fine.run, limits) for _, fine in pairs if fine.run):
             yield Status.OUTSIDE, f"the contact law does not hold: {outside}", "δ"
@@ -96,12 +96,12 @@ def _verdicts(
     if any(fine.failure for _, fine in pairs):
         yield Status.INACCURATE, "a tenth of the step fails, so nothing vouches for this one", "?"
     beyond = [
-        (value / limit, f"{name} {share(value)} of {of}", share(value))
-        for name, value, limit, of in (
-            ("energy residual", energy, limits.energy, "the energy turned over"),
-            ("coordinates off by", error.motion, limits.motion, "the mechanism's size"),
-            ("joint force off by", error.force, limits.force, "its peak"),
-            ("journal's path off by", error.path, limits.path, "the clearance"),
+        (value / limit, f"{name} {share(value)} of {of}", f"{short} {share(value)}")
+        for short, name, value, limit, of in (
+            ("energy", "energy residual", energy, limits.energy, "the energy turned over"),
+            ("motion", "coordinates off by", error.motion, limits.motion, "the mechanism's size"),
+            ("force", "joint force off by", error.force, limits.force, "its peak"),
+            ("path", "journal's path off by", error.path, limits.path, "the clearance"),
         )
         if value > limit
     ]

@@ -27,7 +27,7 @@ FILL = {
 }  # fmt: skip
 GREY = "#666666"
 EXPLAIN = (
-    "%: largest error against a tenth of the step, or energy residual · time: when the run failed"
+    "%: largest error against a tenth of the step, or energy residual · at: when the run failed"
     " · energy: it comes from nowhere"
 )
 
@@ -152,9 +152,10 @@ def stress_figure(title: str, found: Sequence[StressMap], mark_step: float | Non
         handles: list[Any] = [Patch(facecolor=FILL[s], label=s.value) for s in Status if s in used]
         if mark_step is not None:
             handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {seconds(mark_step)}"))
-        picture.supxlabel(EXPLAIN, fontsize=8, color=GREY)
         picture.suptitle(f"{title}: which step will do?", fontsize=12, fontweight="bold", x=0.012, ha="left")
-        picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=9)
+        picture.legend(
+            handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=EXPLAIN, title_fontsize=8
+        )
     return picture
 
 

@@ -27,6 +27,7 @@ COLOURS = {
     Status.STABLE: "green", Status.OUTSIDE: "bright_black", Status.INACCURATE: "yellow", Status.DIVERGED: "red",
 }  # fmt: skip
 BENCH_COLUMNS = ("step", "a simulated s", "right-hand sides", "coordinates", "journals' paths", "joint forces")
+SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", Status.DIVERGED: "✗"}
 GOOD_FORCE = 0.01  # share of the peak force that the sentence of `bench` asks for
 
 
@@ -34,9 +35,11 @@ def show_bench(source: KernelSource, found: Sequence[SceneBench], out: Path, mar
     """Print everything, write `<mechanism>_bench.csv` and `.png`."""
     console = _console()
     for scene in found:
+        console.print(_title(scene), style="bold", markup=False)
         console.print(_bench_table(scene))
         for line in notes(scene, mark_step):
             console.print(f"  {line}", markup=False)
+    console.print("one right-hand side", style="bold")
     console.print(_rhs_table(found))
     path = out / f"{source.mechanism}_bench.csv"
     write_text(path, _csv(bench_rows(found)))
@@ -53,8 +56,11 @@ def show_stress(source: KernelSource, found: Sequence[StressMap], out: Path, mar
     """Print everything, write `<mechanism>_stress.csv` and `.png`."""
     console = _console()
     for scene in found:
+        title = f"{scene.scene}: stable over {seconds(scene.t_long)}, and equal to a ten times shorter step?"
+        console.print(title, style="bold", markup=False)
         console.print(_map_table(scene))
         console.print(_boundary_table(scene))
+    console.print("   ".join(f"[{COLOURS[status]}]{sign} {status.value}[/]" for status, sign in SIGNS.items()))
     for line in verdict(found, mark_step):
         console.print(line, markup=False)
     path = out / f"{source.mechanism}_stress.csv"
@@ -74,27 +80,31 @@ def _console() -> Console:
     return Console(width=None if sys.stdout.isatty() else 200, highlight=False)
 
 
-def _new_table(title: str, columns: Iterable[str]) -> Table:
+def _new_table(columns: Iterable[str]) -> Table:
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
-    table = Table(title=title, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
     for column in columns:
         table.add_column(column, justify="right", no_wrap=True)
     return table
 
 
+def _title(scene: SceneBench) -> str:
+    text = f"{scene.scene}: {scene.method} over {seconds(scene.t_end)}" + (f" ({scene.why})" if scene.why else "")
+    if math.isnan(scene.reference):
+        return text
+    return f"{text}, errors against {scene.method} with a step of {seconds(scene.reference)}"
+
+
 def _bench_table(scene: SceneBench) -> Table:
-    window = f" over {seconds(scene.t_end)}" + (f" ({scene.why})" if scene.why else "")
     if scene.method == "kinematic":
-        table = _new_table(f"{scene.scene}: {scene.method}{window}",
-                           ("samples", "a simulated s", "a sample", "max |Φ| / size"))  # fmt: skip
+        table = _new_table(("samples", "a simulated s", "a sample", "max |Φ| / size"))
         for row in scene.rows:
             cells = (seconds(row.seconds), seconds(row.seconds * row.step), _error(row.error.motion))
             table.add_row(f"{row.samples:,}", *(cells if not row.failure else (row.failure, "", "")))
         return table
-    reference = f", errors against {scene.method} with a step of {seconds(scene.reference)}"
-    table = _new_table(f"{scene.scene}: {scene.method}{window}{reference}", BENCH_COLUMNS)
+    table = _new_table(BENCH_COLUMNS)
     for row in scene.rows:
         if row.failure:
             table.add_row(seconds(row.step), f"[red]fails at {seconds(row.failed_at)}[/red]")
@@ -123,7 +133,8 @@ def notes(scene: SceneBench, mark_step: float | None) -> list[str]:
     good = [row for row in scene.rows if not row.failure and row.error.force < GOOD_FORCE]
     best = good[0].step if good else math.nan
     bad = [row.step for row in scene.rows if row.failure]
-    line = f"largest tested step with every joint force within {share(GOOD_FORCE)} of its peak: {seconds(best)}"
+    told = seconds(best) if good else "none"
+    line = f"largest tested step with every joint force within {share(GOOD_FORCE)} of its peak: {told}"
     lines.append(line + (f"; from {seconds(min(bad))} on the run diverges" if bad else ""))
     if mark_step is not None:
         lines.append(f"step {seconds(mark_step)}: {_marked(scene, mark_step)}")
@@ -143,7 +154,7 @@ def _marked(scene: SceneBench, step: float) -> str:
 
 
 def _rhs_table(found: Sequence[SceneBench]) -> Table:
-    table = _new_table("one right-hand side", ("scene", "state", "time", "operations", "ns an operation"))
+    table = _new_table(("scene", "state", "time", "operations", "ns an operation"))
     for scene in found:
         for rhs in scene.rhs:
             table.add_row(scene.scene, rhs.state, f"{rhs.seconds * 1e6:.3f} µs", f"{rhs.operations:,}",
@@ -154,17 +165,16 @@ def _rhs_table(found: Sequence[SceneBench]) -> Table:
 def _map_table(scene: StressMap) -> Table:
     """Steps down, clearances across; each cell its verdict and the number behind it."""
     heads = [f"c = {clearance(c)}" if c == c else clearance(c) for c in scene.clearances]
-    table = _new_table(f"{scene.scene}: stable over {seconds(scene.t_long)}, and equal to a ten times shorter step?",
-                       ["step", *heads])  # fmt: skip
+    table = _new_table(["step", *heads])
     for step in scene.steps:
         cells = (scene.cell(step, c) for c in scene.clearances)
-        marked = (f"[{COLOURS[cell.status]}]{cell.status.value.split()[0]} {cell.label}[/]" for cell in cells)
+        marked = (f"[{COLOURS[cell.status]}]{SIGNS[cell.status]} {cell.label}[/]" for cell in cells)
         table.add_row(seconds(step), *marked)
     return table
 
 
 def _boundary_table(scene: StressMap) -> Table:
-    table = _new_table("", ("clearance", "largest stable step", "the next one"))
+    table = _new_table(("clearance", "largest stable step", "the next one"))
     table.columns[2].justify = "left"
     for c in scene.clearances:
         best = scene.largest_stable(c)

@@ -23,7 +23,7 @@ Parameters: TypeAlias = Mapping[str, float | str]  # as in `simulate`
 ONSETS = 4  # contacts that a window holds: after more of them dry motion is chaotic
 PILOTS = 6  # the first pilot run is 2^-6 of the longest window
 SAMPLES = 100  # at least so many in a window
-REPEATS, ENOUGH = 5, 0.3  # a timed run is repeated until it took so many seconds
+REPEATS, ENOUGH = 7, 0.6  # a timed run is repeated until it took so many seconds
 T_END = 1.0  # s, where the scene says nothing
 
 
