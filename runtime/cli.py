@@ -7,6 +7,7 @@ it may not need. Exit codes: 0 success, 1 a run failed, 2 bad input, 130 interru
 from __future__ import annotations
 
 import sys
+import warnings
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
@@ -94,7 +95,9 @@ def run(
         typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
     ] = None,
     out: Out = Path("out"),
-    regenerate: Annotated[bool, typer.Option(help="Derive and compile again, whatever the cache has.")] = False,
+    regenerate: Annotated[
+        bool, typer.Option("--regenerate", help="Derive and compile again, whatever the cache has.")
+    ] = False,
     json: Json = False,
 ) -> int:
     """Simulate scenes and compare them with the ideal one: a table, a NetCDF file a scene, one picture.
@@ -194,4 +197,12 @@ def stress(file: File, scene: Scenes = None, out: Out = Path("out"), quick: Quic
 
 def main() -> None:
     """The entry point of the command `gudgeon`."""
+    told: set[str] = set()
+
+    def tell(message: Warning | str, *_: Any, **__: Any) -> None:
+        if str(message) not in told:  # once, and without a line of our code
+            told.add(str(message))
+            print(f"warning: {message}", file=sys.stderr)
+
+    warnings.showwarning = tell
     app()

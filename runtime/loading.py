@@ -15,7 +15,7 @@ from gudgeon.build import compile_kernels
 from gudgeon.cache import Cache, default_cache, digest
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.kernel_source import KernelSource
-from gudgeon.shipped import PACKAGE, committed, shipped_file
+from gudgeon.shipped import PACKAGE, committed, shipped, shipped_file
 
 if TYPE_CHECKING:
     from gudgeon.simulation import Simulation
@@ -84,7 +84,8 @@ def read_bytes(file: Path) -> bytes:
     try:
         return file.read_bytes()
     except OSError as error:
-        raise InputError(f"cannot read {file}: {error.strerror or error}") from error
+        hint = f"the mechanism that comes with gudgeon is called {file.stem}" if file.stem in shipped() else ""
+        raise InputError(f"cannot read {file}: {error.strerror or error}", hint=hint) from error
 
 
 def kernel_source(

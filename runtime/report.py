@@ -110,27 +110,37 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def tables(title: str, reports: Sequence[SceneReport]) -> list[Table]:
-    """One table for up to four scenes: a scene a column, a quantity a row."""
+def tables(title: str, reports: Sequence[SceneReport], width: int) -> list[Table]:
+    """A scene a column, a quantity a row; so many scenes beside each other as fit into `width` characters."""
+    from rich.console import Console
+    from rich.measure import Measurement
+
+    endless = Console(width=10_000)
+    rows = _rows(reports)
+    found: list[Table] = []
+    for count in range(min(COLUMNS, len(reports)), 0, -1):
+        parts = [slice(first, first + count) for first in range(0, len(reports), count)]
+        found = [_table("" if part.start else title, reports, rows, part) for part in parts]
+        if all(Measurement.get(endless, endless.options, table).maximum <= width for table in found):
+            break
+    return found
+
+
+def _table(title: str, reports: Sequence[SceneReport], rows: list[tuple[str, list[str]]], part: slice) -> Table:
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
-    found = []
-    rows = _rows(reports)
-    for first in range(0, len(reports), COLUMNS):
-        heading = title if first == 0 else None
-        table = Table(title=heading, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
-        table.add_column("", no_wrap=True)
-        for report in reports[first : first + COLUMNS]:
-            table.add_column(report.scene, justify="right", no_wrap=True)
-        for name, cells in rows:
-            if not cells:
-                table.add_section()
-                table.add_row(f"[bold]{name}[/bold]")
-            else:
-                table.add_row(f"  {name}", *cells[first : first + COLUMNS])
-        found.append(table)
-    return found
+    table = Table(title=title or None, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
+    table.add_column("", no_wrap=True)
+    for report in reports[part]:
+        table.add_column(report.scene, justify="right", no_wrap=True)
+    for name, cells in rows:
+        if not cells:
+            table.add_section()
+            table.add_row(f"[bold]{name}[/bold]")
+        else:
+            table.add_row(f"  {name}", *cells[part])
+    return table
 
 
 def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,7 +14,7 @@ import numpy as np
 
 from gudgeon.commands.common import chosen_scenes, unknown, value
 from gudgeon.commands.progress import progress_bar
-from gudgeon.errors import GudgeonError, InputError, SolverError
+from gudgeon.errors import AssemblyError, GudgeonError, InputError, SolverError
 from gudgeon.loading import load
 from gudgeon.results import Result
 
@@ -52,12 +53,14 @@ class Session:
     runs: dict[str, Result] = field(default_factory=dict)
     references: dict[str, Result] = field(default_factory=dict)
     failures: dict[str, GudgeonError] = field(default_factory=dict)
+    unwritten: GudgeonError | None = None
     interrupted: bool = False
 
 
 def run_scenes(request: Request) -> int:
     """Run, compare, save, show; the exit code."""
     settings = _settings(request.settings)
+    _check_folder(request.out)
     names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
     simulations = {name: load(request.file, name, regenerate=request.regenerate) for name in names}
     _check(request, settings, simulations)
@@ -70,10 +73,21 @@ def run_scenes(request: Request) -> int:
         _hand_over(request, simulations[IDEAL], session)
     for scene, error in session.failures.items():
         print(f"error: scene {scene}: {error}", file=sys.stderr)
+    if session.unwritten:
+        print(f"error: {session.unwritten}", file=sys.stderr)
     if session.interrupted:
         print("interrupted: what was computed is shown and saved", file=sys.stderr)
         return 130
-    return max((error.exit_code for error in session.failures.values()), default=0)
+    return max((error.exit_code for error in (*session.failures.values(), session.unwritten) if error), default=0)
+
+
+def _check_folder(out: Path) -> None:
+    """What can be known about the folder is told before anything is run, not after an hour."""
+    there = next(path for path in (out, *out.absolute().parents) if path.exists())
+    if not there.is_dir():
+        raise InputError(f"--out {out}: {there} is a file", hint="name a folder")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise InputError(f"--out {out}: nothing may be written to {there}", hint="name another folder")
 
 
 def _settings(texts: tuple[str, ...]) -> dict[str, float | str]:
@@ -133,10 +147,11 @@ def _simulate(
                     until, output=request.output, method="auto" if name == IDEAL else request.method, step=step,
                     parameters=_own(settings, simulation), progress=bar(name),
                 )  # fmt: skip
-            except SolverError as error:
+            except (AssemblyError, SolverError) as error:  # the other scenes are worth having
                 session.failures[name] = error
-                if error.partial is not None and len(error.partial.t) > 1:
-                    session.runs[name] = error.partial  # up to where it failed: that is where one looks
+                partial = getattr(error, "partial", None)
+                if partial is not None and len(partial.t) > 1:
+                    session.runs[name] = partial  # up to where it failed: that is where one looks
                 continue
             session.runs[name] = run
             if run.diagnostics.interrupted:
@@ -158,14 +173,20 @@ def _hand_over(request: Request, ideal: Simulation, session: Session) -> None:
     watch = request.watch or default_watch(first)
     shown = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
     reports = [compare(run, session.references.get(scene), watch) for scene, run in shown.items()]
-    files = _write(request.out, shown, session.references, watch)
+    if not request.json:
+        _print(first.source.title or first.source.mechanism, reports)
+    files: Files = {}
+    try:
+        _write(request.out, shown, session.references, watch, files)
+    except GudgeonError as error:  # a full disk must not take the figures with it
+        session.unwritten = error
     if request.json:
         import json
 
         document = {"mechanism": first.source.mechanism, "scenes": as_json(reports), "files": files}
         print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
     else:
-        _print(first.source.title or first.source.mechanism, reports, files)
+        print("".join(f"wrote {path}\n" for path in files.values()), end="")
 
 
 def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
@@ -178,10 +199,11 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
     return ideal.simulate(output=run.t, parameters=values)
 
 
-def _write(out: Path, runs: Mapping[str, Result], references: Mapping[str, Result], watch: Sequence[str]) -> Files:
-    """A NetCDF file a scene and one picture; a note says which optional package is missing."""
+def _write(
+    out: Path, runs: Mapping[str, Result], references: Mapping[str, Result], watch: Sequence[str], files: Files
+) -> None:
+    """A NetCDF file a scene and one picture, each told in `files`; a note names an optional package that is missing."""
     mechanism = next(iter(runs.values())).source.mechanism
-    files = {}
     if _have("NetCDF files", "h5py"):
         for scene, run in runs.items():
             run.save(out / f"{mechanism}_{scene}.nc")
@@ -191,7 +213,6 @@ def _write(out: Path, runs: Mapping[str, Result], references: Mapping[str, Resul
 
         save_figure(figure(runs, references, watch), out / f"{mechanism}.png")
         files["picture"] = str(out / f"{mechanism}.png")
-    return files
 
 
 def _have(what: str, *packages: str) -> bool:
@@ -201,15 +222,13 @@ def _have(what: str, *packages: str) -> bool:
     return not missing
 
 
-def _print(title: str, reports: list[SceneReport], files: Files) -> None:
+def _print(title: str, reports: list[SceneReport]) -> None:
     from rich.console import Console
 
     from gudgeon.report import tables
 
     console = Console(width=None if sys.stdout.isatty() else 200, highlight=False)
-    for table in tables(title, reports):
+    for table in tables(title, reports, console.width):
         console.print(table)
     for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
         console.print(f"note: {note}", markup=False)
-    for path in files.values():
-        console.print(f"wrote {path}", markup=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import shutil
@@ -163,6 +164,54 @@ def test_an_interrupt_keeps_what_was_computed(
 
 
 @needs_compiler
+def test_a_scene_that_cannot_be_assembled_leaves_the_others(call: Gudgeon, tmp_path: Path) -> None:
+    """A rod of 5 mm does not reach the bore's axis."""
+    text = TEXT.replace("c: 0.2 mm", "c: 0.2 mm, l: 120 mm").replace("length: 120 mm", "length: l")
+    (tmp_path / "short.yaml").write_text(text + "  short: {parameters: {l: 5 mm}}\n")
+    done = call("run", "short.yaml", "--t-end", "1e-4")
+    assert done.exit_code == 1 and "error: scene short" in done.stderr, done.output
+    assert {"out/pump_worn.nc", "out/pump_ideal.nc"} <= written(tmp_path)
+
+
+@needs_compiler
+def test_figures_are_shown_even_if_they_cannot_be_written(
+    call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(self: gudgeon.Result, path: Path) -> None:
+        raise gudgeon.GudgeonError(f"cannot write {path}: No space left on device")
+
+    monkeypatch.setattr(gudgeon.Result, "save", full)
+    done = call("run", pump, "--t-end", "0.001")
+    assert done.exit_code == 1 and "No space left" in done.stderr
+    assert "Peak error against ideal" in done.stdout
+
+
+def test_a_folder_that_is_a_file_is_told_before_anything_is_run(call: Gudgeon, pump: str, tmp_path: Path) -> None:
+    done = call("run", pump, "--out", "pump.yaml/out")
+    assert done.exit_code == 2 and "pump.yaml is a file" in done.stderr
+    assert written(tmp_path) == set()
+
+
+@needs_compiler
+def test_tables_are_not_cut_where_the_screen_is_narrow(call: Gudgeon, pump: str) -> None:
+    from rich.console import Console
+
+    from gudgeon.report import compare, tables
+
+    runs = [gudgeon.load(pump, scene=scene).simulate(0.002, output=20, step=2e-6) for scene in ("ideal", "worn")]
+    reports = [compare(run, runs[0] if run is runs[1] else None, ["piston.x"]) for run in runs] * 2
+    shown = {}
+    for width in (200, 70):
+        console = Console(width=width, file=io.StringIO(), record=True)
+        for table in tables("A pump", reports, width):
+            console.print(table)
+        shown[width] = console.export_text()
+        assert max(map(len, shown[width].splitlines())) <= width
+    for text in shown[200].replace("─", "").split():
+        assert text in shown[70]
+
+
+@needs_compiler
 def test_a_run_that_fails_ends_with_1_and_keeps_what_it_had(call: Gudgeon, pump: str, tmp_path: Path) -> None:
     """With a step of 1 ms the contact is far from resolved, and a stiff one throws the state out of range."""
     done = call("run", pump, "--step", "1 ms", "--t-end", "1 s", "--set", "materials.steel.E=1e18")
@@ -235,6 +284,7 @@ def test_a_file_that_is_not_there(command: str, call: Gudgeon) -> None:
         done = call(command, name)
         assert done.exit_code == 2 and done.stderr.startswith("error: ")
     assert "nine_bar_press" in done.stderr
+    assert "comes with gudgeon is called nine_bar_press" in call(command, "nine_bar_press.yaml").stderr
 
 
 @needs_compiler
