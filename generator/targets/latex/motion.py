@@ -10,7 +10,7 @@ from gudgeon.generator.targets.latex.document import Block, Equation, Section, S
 from gudgeon.generator.targets.latex.kinematics import equation, indexed
 from gudgeon.generator.targets.latex.letters import Name, letter
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
-from gudgeon.generator.targets.latex.parts import place, sketch_of
+from gudgeon.generator.targets.latex.parts import Values, field_rows, place, sketch_of
 
 KKT = Equation(
     Name(
@@ -51,8 +51,9 @@ def _masses(model: Model, notation: Notation) -> list[Block]:
 
 def _elements(model: Model, notation: Notation) -> list[Block]:
     """Each element's own quantities; their share in g stands in the next section."""
-    blocks: list[Block] = []
-    locals_of = temporaries(model)
+    values, locals_of = Values(model, notation), temporaries(model)
+    fields = [row for applied in model.elements.values() for row in field_rows(applied.element, values)]
+    blocks: list[Block] = table(cells("element", "field", "value"), fields)
     for name, applied in model.elements.items():
         own_type = element_types()[applied.element.kind]
         targets = " and ".join(place(target, own_type.targets) for target in applied.element.targets)
@@ -80,9 +81,14 @@ def _forces(model: Model, notation: Notation) -> list[Block]:
     blocks: list[Block] = [
         equation(indexed(of, k), notation.expand(force), notation) for k, force in enumerate(forces, 1) if force != 0
     ]
-    lead = [paragraph("Gravity and force elements, by the numbers of the coordinates:")] if blocks else []
+    lead: list[Block] = []
+    if model.scene.mechanism.gravity is not None:
+        gravity = Values(model, notation).vector(model.scene.mechanism.gravity)
+        lead += table(cells("gravity, m/s^2"), [cells(gravity)])
+    if blocks:
+        lead.append(paragraph("Gravity and force elements, by the numbers of the coordinates:"))
     rest = "All other components are zero." if blocks else "No gravity and no force element acts: g is zero."
-    blocks = [*lead, *blocks, *([paragraph(rest)] if len(blocks) < len(forces) else [])]
+    blocks = [*lead, *blocks, paragraph(rest)]
     if model.clearances:
         blocks.append(paragraph("The joints with play add their forces to g; see there."))
     return blocks

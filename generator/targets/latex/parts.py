@@ -9,7 +9,7 @@ import sympy as sp
 
 from gudgeon.expression_tree import Binary, Call, Expr, Number, Unary
 from gudgeon.generator.joints.joint_type import joint_types
-from gudgeon.generator.mechanism import PointRef, Quantity, Vector
+from gudgeon.generator.mechanism import ForceElement, Joint, PointRef, Quantity, Vector
 from gudgeon.generator.model import Model
 from gudgeon.generator.slots import SlotEntry
 from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, cells, paragraph, table
@@ -24,17 +24,17 @@ class Values:
     def __init__(self, model: Model, notation: Notation) -> None:
         self._slots, self._notation = model.slots, notation
 
-    def letter(self, quantity: Quantity) -> Text:
-        """The letter of a number; a literal zero has none."""
-        entry = self._slots.entries.get(quantity.address)
-        return ("0",) if entry is None else (self._notation.math(entry.symbol),)
-
     def cell(self, quantity: Quantity | None) -> Text:
-        """ "l = 0.08", "y = −l_5 = −0.3", "0"; nothing for a number that is not there."""
+        """ "l = 0.08", "y = −l_5 = −0.3", "0", what varies as it is written; nothing for a number that is not there."""
         if quantity is None:
             return ("",)
-        entry = self._slots.entries.get(quantity.address)
-        return ("0",) if entry is None else (self._notation.math(entry.symbol), " = ", *self.value(entry))
+        if quantity.address not in self._slots.entries:
+            return ("0" if quantity.is_zero else as_written(quantity.value),)
+        return self.slot(self._slots.entries[quantity.address])
+
+    def slot(self, entry: SlotEntry) -> Text:
+        """Letter = value."""
+        return self._notation.math(entry.symbol), " = ", *self.value(entry)
 
     def value(self, entry: SlotEntry) -> Text:
         """The default; in front of it the expression that it follows."""
@@ -90,20 +90,25 @@ def _joints(model: Model, values: Values) -> list[Block]:
         none = "none: it has play" if joint.name in model.scene.play else "none: they are redundant"
         rows.append(cells(joint.name, own_type.title, *ends, shown or none))
     blocks: list[Block] = table(cells("joint", "type", "first", "second", "rows"), rows)
-    fields = [
-        cells(joint.name, name, text)
-        for joint in model.scene.mechanism.joints.values()
-        for name, text in [
-            *((name, values.vector(vector)) for name, vector in joint.vectors.items()),
-            *((name, values.cell(quantity)) for name, quantity in joint.quantities.items()),
-            *((name, (word,)) for name, word in joint.options.items()),
-        ]
-    ]
+    fields = [row for joint in model.scene.mechanism.joints.values() for row in field_rows(joint, values)]
     blocks += table(cells("joint", "field", "value"), fields)
+    used = {s for row in model.rows for s in model.symbols.explicit(row.phi).free_symbols}
+    guessed = [e for e in model.slots.entries.values() if e.symbol in used and e.address.startswith("start.")]
+    blocks += table(cells("angle at the start", "value, rad"), [cells(e.address, values.slot(e)) for e in guessed])
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
         summary, *lines = sketch_of("joints", kind)
         blocks += [paragraph(summary), Sketch(tuple(lines))]
     return blocks
+
+
+def field_rows(of: Joint | ForceElement, values: Values) -> list[tuple[Text, ...]]:
+    """The fields of a joint or force element: its name, the field's, the value."""
+    fields = [
+        *((name, values.vector(vector)) for name, vector in of.vectors.items()),
+        *((name, values.cell(quantity)) for name, quantity in of.quantities.items()),
+        *((name, (word,)) for name, word in of.options.items()),
+    ]
+    return [cells(of.name, name, text) for name, text in fields]
 
 
 def place(ref: PointRef, joins: str) -> str:

@@ -89,8 +89,9 @@ def _mathml(name: Name) -> str:
         from latex2mathml.converter import convert
     except ImportError as error:
         raise GudgeonError("HTML needs latex2mathml: pip install 'gudgeon[docs]'") from error
-    mathml = str(convert(name.latex)).replace("<mover>", '<mover accent="true">')
-    return re.sub(r"<mi>(sin|cos|tan|exp|log)</mi>(?=<m[is])", r'\g<0><mspace width="0.167em"/>', mathml)
+    # a browser puts no space between a function's name and what it is of
+    function = r"(?<!<msup>)<mi>(sin|cos|tan)</mi>(?=<m[rs])"
+    return re.sub(function, r'\g<0><mspace width="0.167em"/>', str(convert(name.latex)).replace(r"\_", "_"))
 
 
 def _plain_line(text: Text) -> str:
