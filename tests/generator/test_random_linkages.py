@@ -121,9 +121,9 @@ def free_directions(joint: object, q: np.ndarray, v: np.ndarray) -> list[tuple[f
 
 
 def duration(case: Case) -> float:
-    """0.04 s, or less where the motion is quick: a drive may soon ask for what the linkage cannot reach."""
+    """0.02 s, or less where the motion is quick: a drive may soon ask for what the linkage cannot reach."""
     speed, hurry = abs(case.v).max(), abs(numpy_linkage.accelerations(case.linkage, 0.0, case.q, case.v)[0]).max()
-    return float(min(0.04, 0.1 / max(speed, 1e-9), np.sqrt(0.1 / max(hurry, 1e-9))))
+    return float(min(0.02, 0.1 / max(speed, 1e-9), np.sqrt(0.1 / max(hurry, 1e-9))))
 
 
 def drift(case: Case, library: CompiledModel, steps: int) -> tuple[float, float]:
