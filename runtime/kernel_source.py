@@ -132,7 +132,7 @@ class KernelSource:
     frictions: tuple[str, ...]  # force elements that may stick
     methods: tuple[str, ...]  # integrators in the library
     pivots: tuple[str, ...]  # rows in their order of elimination: a status k > 0 names pivots[k − 1]
-    start_pivots: tuple[str, ...]  # the same for `gudgeon_project`, on the closed linkage
+    start_pivots: tuple[str, ...]  # the same for the kinematic method's projection
     indeterminate: tuple[str, ...]  # joints and drives whose multipliers redundancy leaves open
     slots: tuple[Slot, ...]
     derived: tuple[str, ...]  # names of the prepared numbers that follow the slots in p

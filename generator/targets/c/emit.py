@@ -28,18 +28,18 @@ void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q);
 void gudgeon_nu(double t, const double *q, const double *p, double *nu);
 void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_rows);
 void gudgeon_start_values(const double *p, double *guess, double *set, double *rates);
-int gudgeon_project(double t, const double *q, const double *r, const double *p, double *x);
 int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy);
 double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p);
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
     double *series, double *friction, double *energy, double *power, long *failed);
 """
-KINEMATIC_CDEF = """\
+METHOD_CDEF = {
+    "kinematic": """\
 int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double *q, double *v, double *phi_max,
     double *phi_dot_max, long *steps, long *done);
-"""
-RK4_CDEF = """\
+""",
+    "rk4": """\
 size_t gudgeon_run_size(void);
 void gudgeon_run_start(void *memory, double t, const double *y, const double *latched);
 int gudgeon_run_steps(void *memory, const double *parameters, double t0, double t1, long total, long first, long count,
@@ -47,43 +47,49 @@ int gudgeon_run_steps(void *memory, const double *parameters, double t0, double 
 void gudgeon_run_sample(const void *memory, double *y, double *a, double *latched, signed char *state);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
-"""
+""",
+}
 
 
 def emit(model: Model) -> KernelSource:
     """The whole scene as C text with its description; redundant rows are left out first."""
     model = model.without(find_redundancy(model, describe(model)))
-    kinematic = model.degrees_of_freedom == 0 and not (model.clearances or model.frictions)
+    method = "rk4" if model.degrees_of_freedom or model.clearances or model.frictions else "kinematic"
     kkt = KKT(model, model.rows, model.frictions)
     dynamics = dynamics_kernel(model, kkt)
-    projection, projection_kkt = projection_kernel(model, model.rows if kinematic else model.all_rows, "project")
     around = [
         interface.mass_kernel(model), *interface.row_kernels(model), interface.start_kernel(model),
         interface.outputs_kernel(model),
     ]  # fmt: skip
+    start_pivots: tuple[str, ...] = ()
+    if method == "kinematic":
+        projection, projection_kkt = projection_kernel(model, model.rows, "project")
+        around.append(projection)
+        start_pivots = projection_kkt.pivots
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
     prepare = interface.prepare_kernel(model, printer.expression)
     files = {
         "model.h": render("model.h.jinja", **_header(model)),
         "parameters.c": _kernels(prepare),
-        "constraints.c": _kernels(*around, projection),
+        "constraints.c": _kernels(*around),
         "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
         **({"singular.c": _singular(model)} if model.rows and not model.frictions else {}),
         "dynamics.c": _kernels(dynamics),
         "system.c": render("system.c.jinja", **_counts(model), **_memory(model)),
+        f"{method}.c": _method(model, method),
     }
-    method = "kinematic" if kinematic else "rk4"
-    friction = render("friction.c.jinja" if model.frictions else "no_friction.c.jinja")
-    files[f"{method}.c"] = render(
-        f"{method}.c.jinja", **_counts(model), floors=_floors(model), friction_events=friction.strip()
-    )
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
-    operations = _operations(model, [dynamics, projection, *around, prepare])
     return describe(
-        model, files=files, main="scene.c", cdef=COMMON_CDEF + (KINEMATIC_CDEF if kinematic else RK4_CDEF),
-        methods=(method,), pivots=kkt.pivots, start_pivots=projection_kkt.pivots, operations=operations,
+        model, files=files, main="scene.c", cdef=COMMON_CDEF + METHOD_CDEF[method], methods=(method,),
+        pivots=kkt.pivots, start_pivots=start_pivots, operations=_operations(model, [dynamics, *around, prepare]),
     )  # fmt: skip
+
+
+def _method(model: Model, method: str) -> str:
+    """The time loop."""
+    friction = render("friction.c.jinja" if model.frictions else "no_friction.c.jinja").strip()
+    return render(f"{method}.c.jinja", **_counts(model), floors=_floors(model), friction_events=friction)
 
 
 def render(name: str, /, **values: Any) -> str:
