@@ -15,7 +15,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import kinematic, rk4
-from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
+from gudgeon.integrators.trajectory import Counts, Problem, Progress, Trajectory
 from gudgeon.parameters import number, prepare
 from gudgeon.start import Start, assemble
 from gudgeon.step import default_step
@@ -218,8 +218,21 @@ def diagnose(
         ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
         peaks=_peaks(compiled, x), seconds=seconds,
         seconds_per_simulated_second=seconds / simulated if simulated > 0 else math.nan,
-        interrupted=x.interrupted, notes=(),
+        interrupted=x.interrupted, notes=_notes(compiled, counts),
     )  # fmt: skip
+
+
+def _notes(compiled: CompiledModel, counts: Counts) -> tuple[str, ...]:
+    """What a reader of this run should know before trusting it."""
+    notes = []
+    if compiled.source.indeterminate:
+        notes.append(
+            f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"
+            " by rigid bodies (NaN)"
+        )
+    if counts.grazes:
+        notes.append(f"{counts.grazes} steps touched and left again within: take a smaller step to resolve them")
+    return tuple(notes)
 
 
 def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
