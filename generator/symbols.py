@@ -12,18 +12,22 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-# What emitted code itself calls its arguments and locals, and object-like macros of the C headers.
+# What emitted code itself calls its functions, arguments and locals (tests/generator/test_names_in_c.py finds them).
 _WORDS = """
 t q v y p g f b x a dy phi nu gamma e nx ny tx ty out given is_given latch memory pivot status scale aside
 delta deltadot ratio F_n F_t v_t epsilon w_n w_t root W factor rows force rhs powers dependent
-EOF NULL NAN INFINITY HUGE_VAL errno stdin stdout stderr signgam
+reactions torques series max_of min_of sign_of solve_dependent errno stdin stdout stderr signgam
 """
 _TAKEN = frozenset(_WORDS.split())
 
-# Capitals without an underscore, and what the C headers' object-like macros begin with.
+# Object-like macros of the C and Python headers: most have no small letter; `A_K` is short for the K of joint A.
 _MACRO = re.compile(
-    r"[A-Z0-9]+|N_[A-Z]+|(DBL|FLT|LDBL|U?INT|FP|M|MATH|HUGE|SIZE|PTRDIFF|WCHAR|WINT|SIG|EXIT|RAND)_[A-Z0-9_]+"
+    r"M_E|METH_O|[A-Z0-9]+_H|(?![A-Z0-9]+_[A-Z]$)[A-Z0-9_]+|N_[A-Z]|Py[A-Z_]\w*"
+    r"|M_(1_PI|2_PI|2_SQRT|E|LN|LOG|PI|SQRT)\w*|(PRI|SCN)[dioux]\w*|[LP]_(ctermid|cuserid|tmp)\w*"
+    r"|(sa|si|st|sched|math)_\w+"
 )
+# Functions that are called where a parameter of that name is a local.
+_FUNCTION = re.compile(r"clearance_\w+")
 
 
 @dataclass(frozen=True)
@@ -47,7 +51,7 @@ class Symbols:
     def unique(self, wanted: str) -> str:
         """`wanted` as a C identifier that nothing else has."""
         name = re.sub(r"\W", "_", wanted)
-        if name in _TAKEN or _MACRO.fullmatch(name):
+        if name in _TAKEN or _MACRO.fullmatch(name) or _FUNCTION.fullmatch(name):
             name = f"par_{name}"
         candidate, count = name, 1
         while candidate in self._names:
