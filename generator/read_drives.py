@@ -50,7 +50,7 @@ def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive
     owner = f"drives.{name}"
     kind = kind_key(node, DRIVES, ("value",), owner)
     mistyped = check_keys(reader, node, (kind, "value"), owner)
-    target = DRIVES[kind](reader, node, kind, places)
+    target = DRIVES[kind].read(reader, node, kind, places)
     if "value" not in node:
         if "value" in mistyped:
             raise reader.errors.pop()
@@ -66,7 +66,7 @@ def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive
 
 def _angle(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
     """`L1`, or `[L1, L2]` for the angle of L1 relative to L2."""
-    refs = places_of(reader, node, kind, "bodies", (1, 2), places)
+    refs = places_of(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, places)
     body, reference = refs[0].body, refs[-1].body if len(refs) == 2 else GROUND
     hint = "expected a body, or a body and its reference"
     if body == GROUND:
@@ -89,7 +89,7 @@ def _coordinate(reader: Reader, node: Map, kind: Text, places: Places) -> _Targe
 
 def _distance(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
     """`[L1.head, S9.origin]`: of two points of different bodies."""
-    refs = places_of(reader, node, kind, "points", (2,), places)
+    refs = places_of(reader, node, kind, DRIVES[kind].targets, DRIVES[kind].counts, places)
     refuse_same_body("a driven distance", refs)
     body = next(ref.body for ref in refs if ref.body != GROUND)
     key = ("distance", frozenset(f"{ref.body}.{ref.point}" for ref in refs))
@@ -100,8 +100,17 @@ def _place(node: object, kind: Text) -> Location:
     return node.where if isinstance(node, Text) else kind.where
 
 
-DRIVES: Mapping[str, Callable[[Reader, Map, Text, Places], _Target]] = {
-    "angle": _angle,
-    "coordinate": _coordinate,
-    "distance": _distance,
+@dataclass(frozen=True)
+class DriveKind:
+    """A key of a drive: what it lists, and how that is read."""
+
+    targets: str  # "bodies", "points" or "coordinates"
+    counts: tuple[int, ...]
+    read: Callable[[Reader, Map, Text, Places], _Target]
+
+
+DRIVES: Mapping[str, DriveKind] = {
+    "angle": DriveKind("bodies", (1, 2), _angle),
+    "coordinate": DriveKind("coordinates", (1,), _coordinate),
+    "distance": DriveKind("points", (2,), _distance),
 }

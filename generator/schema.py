@@ -219,13 +219,13 @@ def _fields(path: tuple[Any, ...]) -> list[str]:
     shape: Any = FileShape
     for part in path:
         if isinstance(shape, type) and issubclass(shape, Shape):
-            shape = _inner(shape.model_fields[part].annotation)
+            shape = inner(shape.model_fields[part].annotation)
         else:
-            shape = _inner(get_args(shape)[-1])  # dict[Text, X] -> X
+            shape = inner(get_args(shape)[-1])  # dict[Text, X] -> X
     return list(shape.model_fields) if isinstance(shape, type) and issubclass(shape, Shape) else []
 
 
-def _inner(annotation: Any) -> Any:
+def inner(annotation: Any) -> Any:
     """X of `X | None`."""
     if get_origin(annotation) in (Union, types.UnionType):
         return next(a for a in get_args(annotation) if a is not type(None))
