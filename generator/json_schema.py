@@ -169,7 +169,7 @@ def _role(role: str, whole: bool) -> Json:
     """A law of a contact; `whole`: with all its numbers, since nothing is inherited."""
     own = [law for law in laws().values() if law.role == role]
     names = {"law": {"enum": [law.name for law in own]}}
-    known = {name: {} for law in own for name in _law_keys(law)}
+    known: dict[str, Json] = {name: {} for law in own for name in _law_keys(law)}
     made = _object({**known, **names}, ["law"] if whole else [])
     made["allOf"] = [
         {
