@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import sympy as sp
 
 from gudgeon.generator.model import Model
 from gudgeon.generator.pipeline import derive
@@ -42,11 +43,13 @@ joints:
   weld: {rigid: [b1.head, W1.origin]}
   guide: {translational: [my_bar.head, S.origin], axis: [1, 3]}
 drives:
+  pull: {distance: [b1.eye, S.com], value: 0.3 m + 0.1 m * sin(3*t)}
   turn: {angle: [b1, my_bar], value: "smooth_step(t, 0, 0.5 s) * 10 deg + 5 deg * sin(2*pi*t)"}
 forces:
   coil: {spring_damper: [ground.P, b1.eye], stiffness: k_max, free_length: 77.85 mm, damping: 3}
   twist: {rotational_spring_damper: [ground, b1], stiffness: 2 N*m/rad, free_angle: 10 deg}
   motor: {torque: [b1, my_bar], value: 0.033 N*m * sin(omega*t)}
+  rub: {dry_friction: [b1.eye, S.com], direction: [1, 2], speed: 0.1 m/s, static: 5 N, kinetic: 4 N}
 start: {guess: {W1.theta: 10 deg}}
 """
 
@@ -148,3 +151,17 @@ def test_masses_and_forces_read_back_are_the_models(which: str) -> None:
     for left, right in equations(read(which)["Generalized forces"]):
         found[int(left[2:]) - 1] = value(right, known)
     assert found == pytest.approx(numeric(model, model.g)(t, q, v)[:, 0], rel=1e-10, abs=1e-12)
+
+
+def test_friction_read_back_is_the_models() -> None:
+    """Slip, the row of stick and the force of slip."""
+    model, (friction,) = model_of("zoo"), model_of("zoo").frictions
+    t, q, v = random_state(model, 3)
+    known = evaluate(read("zoo")["Force elements"], given_numbers("zoo", t, q, v))
+    explicit = model.symbols.explicit
+    columns = [explicit(sp.sympify(friction.jacobian.get(x, 0))) for x in model.q]
+    J = numeric(model, sp.Matrix([columns]))(t, q, v)[0]
+    slip, gamma = numeric(model, sp.Matrix([explicit(friction.slip.v), explicit(friction.gamma)]))(t, q, v)[:, 0]
+    assert (known["v_rub"], known["γ_rub"]) == pytest.approx((slip, gamma), rel=1e-10)
+    assert [known.get(f"J_rub.{k}", 0.0) for k in range(1, 1 + q.size)] == pytest.approx(J, rel=1e-10)
+    assert [known.get(f"Δg_{k}", 0.0) for k in range(1, 1 + q.size)] == pytest.approx(-4.0 * J * np.sign(slip))

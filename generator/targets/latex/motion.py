@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.force_elements.element_type import element_types
+from gudgeon.generator.friction import Friction
 from gudgeon.generator.model import Model
 from gudgeon.generator.targets.latex.document import Block, Equation, Section, Sketch, cells, paragraph, table
 from gudgeon.generator.targets.latex.kinematics import equation, indexed
@@ -52,6 +53,7 @@ def _masses(model: Model, notation: Notation) -> list[Block]:
 def _elements(model: Model, notation: Notation) -> list[Block]:
     """Each element's own quantities; their share in g stands in the next section."""
     values, locals_of = Values(model, notation), temporaries(model)
+    frictions = {friction.name: friction for friction in model.frictions}
     fields = [row for applied in model.elements.values() for row in field_rows(applied.element, values)]
     blocks: list[Block] = table(cells("element", "field", "value"), fields)
     for name, applied in model.elements.items():
@@ -63,12 +65,39 @@ def _elements(model: Model, notation: Notation) -> list[Block]:
             for symbol in locals_of
             if model.symbols.info[symbol].meaning.endswith(f" of {name}")
         ]
+        if name in frictions:
+            blocks += _friction(model, frictions[name], notation)
         if applied.loads.potential != 0:
             blocks.append(equation(letter("V", name), notation.expand(applied.loads.potential), notation))
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
         summary, *lines = sketch_of("force_elements", kind)
         blocks += [paragraph(summary), Sketch(tuple(lines))]
     return blocks
+
+
+def _friction(model: Model, friction: Friction, notation: Notation) -> list[Block]:
+    """Slip velocity, the row of stick, the force of slip."""
+    name, slip, v = friction.name, friction.slip, sp.Symbol("v", real=True)
+    own = notation.called({v: letter("v", name)})
+    place = {q: k for k, q in enumerate(model.q, 1)}
+    row = [
+        equation(letter("J", name, str(place[q])), notation.expand(entry), notation)
+        for q, entry in friction.jacobian.items()
+    ]
+    force = [
+        equation(Name(rf"\Delta g_{{{place[q]}}}", f"Δg_{place[q]}"),
+                 notation.expand(-entry * slip.kinetic * sp.sign(v)), own)
+        for q, entry in friction.jacobian.items()
+    ]  # fmt: skip
+    limit = notation.math(notation.expand(slip.static))
+    return [
+        equation(own.names[v], notation.expand(slip.v), notation),
+        paragraph("In stick v = 0 holds as a row of the equation of motion, with the entries"),
+        *row,
+        equation(letter("gamma", name), notation.expand(friction.gamma), notation),
+        paragraph("as long as the size of its multiplier is at most ", limit, "; in slip the force adds to g"),
+        *force,
+    ]
 
 
 def _forces(model: Model, notation: Notation) -> list[Block]:

@@ -113,13 +113,16 @@ def _names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
         yield symbol, _constant(model, symbol)
     for symbol in temporaries(model):
         yield symbol, _temporary(model.symbols.info[symbol].meaning)
+    for symbol in spans(model):
+        yield symbol, _span(symbol.name)
     arms = {f"arm_{body}_{point}": (body, point) for body, point in model.geometry.local}
     for symbol in turned(model):
         wanted, _, axis = symbol.name.rpartition("_")
+        direction = re.fullmatch(r"axis_(\w+)_([xy])(?:_(\d+))?", symbol.name)  # numbered from a body's second one on
         if wanted in arms:
             yield symbol, letter("s", axis, *arms[wanted])
-        elif wanted.startswith("axis_"):
-            yield symbol, letter("u", axis, wanted.removeprefix("axis_"))
+        elif direction:
+            yield symbol, letter("u", direction[2], direction[1], *([direction[3]] if direction[3] else []))
         else:
             yield symbol, letter(symbol.name)
 
@@ -183,29 +186,43 @@ def _temporary(meaning: str) -> Name:
     return letter(sign, *([axis] if axis else []), owner, dots=dots)
 
 
+def _span(name: str) -> Name:
+    """The distance that a drive prescribes: "pull_span_x", "pull_length", "pull_along_x"."""
+    for what, base, hat in (("_span_", "Delta", False), ("_along_", "e", True)):
+        owner, found, axis = name.rpartition(what)
+        if found:
+            return letter(base, axis, owner, hat=hat)
+    return letter("l", name.removesuffix("_length"))
+
+
+def spans(model: Model) -> list[sp.Symbol]:
+    """Symbols of the distances that drives prescribe, with their directions."""
+    meanings = ("span", "its length", "its direction")
+    return [s for s in model.symbols.definitions if model.symbols.info[s].meaning in meanings]
+
+
 def temporaries(model: Model) -> list[sp.Symbol]:
     """Symbols by which a force element calls its parts: they are locals, and neither angle, arm nor drive."""
-    drives = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
-    return [
-        symbol
-        for symbol in model.symbols.definitions
-        if not model.symbols.info[symbol].home and symbol not in model.symbols.rules and symbol not in drives
-    ]
+    others = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
+    others.update(spans(model), model.symbols.rules)
+    return [s for s in model.symbols.definitions if not model.symbols.info[s].home and s not in others]
 
 
 def turned(model: Model) -> list[sp.Symbol]:
     """Components of arms and directions that turn with a body."""
-    drives = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
+    others = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
+    others.update(spans(model))
     return [
         symbol
         for symbol, value in model.symbols.definitions.items()
-        if symbol in model.symbols.rules and symbol not in drives and not isinstance(value, (sp.cos, sp.sin))
+        if symbol in model.symbols.rules and symbol not in others and not isinstance(value, (sp.cos, sp.sin))
     ]
 
 
 def _kept(model: Model) -> Iterator[sp.Symbol]:
     definitions = model.symbols.definitions
-    yield from (symbol for symbol in turned(model) if definitions[symbol].is_Add or definitions[symbol].is_Pow)
+    yield from (symbol for symbol in turned(model) if definitions[symbol].is_Add)
+    yield from spans(model)
     for symbols in model.constraints.drive_angles.values():
         if sp.count_ops(definitions[symbols[0]]) > LONG_DRIVE:
             yield from symbols

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from decimal import Decimal
 from typing import Any
@@ -92,7 +93,9 @@ class TexPrinter(_InOrder, LatexPrinter):
         }  # fmt: skip
         super().__init__(settings)
         self._order, self._breakable, self._names = order, breakable, names
-        self._text = TextPrinter({symbol: "xx" for symbol in names}, order)  # a subscript takes little room
+        # a subscript takes little room; neither does a LaTeX command
+        width = {symbol: "x" * (2 + len(re.sub(r"\\[a-z]+|\W", "", name)) // 2) for symbol, name in names.items()}
+        self._text = TextPrinter(width, order)
 
     def long(self, expr: sp.Expr) -> str:
         """`expr`, if it is long with brackets and fractions that a line may break in."""
