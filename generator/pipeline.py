@@ -6,15 +6,18 @@ from collections.abc import Mapping
 
 from gudgeon.generator.model import Model, make_model
 from gudgeon.generator.read_yaml import read_mechanism
+from gudgeon.generator.redundancy import find_redundancy
 from gudgeon.generator.scene import make_scene
+from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import emit
 from gudgeon.kernel_source import KernelSource
 
 
 def derive(data: bytes, file: str, scene: str, overrides: Mapping[str, str | float | bool] | None = None) -> Model:
-    """The equations of one scene of a mechanism file."""
+    """The equations of one scene of a mechanism file, without the rows that say nothing new."""
     mechanism = read_mechanism(data, file, overrides)
-    return make_model(make_scene(mechanism, scene))
+    model = make_model(make_scene(mechanism, scene))
+    return model.without(find_redundancy(model, describe(model)))
 
 
 def generate(

@@ -76,7 +76,7 @@ def describe(
         ),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_simulate(model),
-        operations=dict(operations), notes=_notes(model), gravity=any(c != 0 for c in model.gravity),
+        operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
     )  # fmt: skip
 
 
@@ -130,7 +130,7 @@ def _simulate(model: Model) -> dict[str, float]:
     }
 
 
-def _notes(model: Model) -> tuple[str, ...]:
+def scene_notes(model: Model) -> tuple[str, ...]:
     """What this scene does not have, and so does not pay for."""
     notes = []
     if model.redundancy.dropped:

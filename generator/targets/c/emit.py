@@ -14,7 +14,6 @@ from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kkt import KKT, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
-from gudgeon.generator.redundancy import find_redundancy
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
@@ -52,8 +51,7 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 
 
 def emit(model: Model) -> KernelSource:
-    """The whole scene as C text with its description; redundant rows are left out first."""
-    model = model.without(find_redundancy(model, describe(model)))
+    """The whole scene as C text with its description."""
     method = "rk4" if model.degrees_of_freedom or model.clearances or model.frictions else "kinematic"
     kkt = KKT(model, model.rows, model.frictions)
     dynamics = dynamics_kernel(model, kkt)
@@ -77,7 +75,7 @@ def emit(model: Model) -> KernelSource:
         **({"singular.c": _singular(model)} if model.rows and not model.frictions else {}),
         "dynamics.c": _kernels(dynamics),
         "system.c": render("system.c.jinja", **_counts(model), **_memory(model)),
-        f"{method}.c": _method(model, method),
+        f"{method}.c": _method(model, kkt, method),
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
     return describe(
@@ -86,9 +84,10 @@ def emit(model: Model) -> KernelSource:
     )  # fmt: skip
 
 
-def _method(model: Model, method: str) -> str:
+def _method(model: Model, kkt: KKT, method: str) -> str:
     """The time loop."""
-    friction = render("friction.c.jinja" if model.frictions else "no_friction.c.jinja").strip()
+    pivots = _friction_pivots(kkt)
+    friction = (render("friction.c.jinja", pivots=pivots) if pivots else render("no_friction.c.jinja")).strip()
     return render(f"{method}.c.jinja", **_counts(model), floors=_floors(model), friction_events=friction)
 
 
@@ -142,6 +141,12 @@ def _memory(model: Model) -> dict[str, str]:
 def _singular(model: Model) -> str:
     place = {row.name: r for r, row in enumerate(model.all_rows)}
     return render("singular.c.jinja", kept=[place[row.name] for row in model.rows], singular=SINGULAR, **_counts(model))
+
+
+def _friction_pivots(kkt: KKT) -> list[int]:
+    """Which friction each pivot behind those of the rows belongs to."""
+    names = [friction.name for friction in kkt.frictions]
+    return [names.index(pivot) for pivot in kkt.pivots[len(kkt.rows) :]]
 
 
 def _floors(model: Model) -> list[str]:

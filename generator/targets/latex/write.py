@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gudgeon.generator.model import Model
-from gudgeon.generator.targets.c.describe import _notes as notes
+from gudgeon.generator.targets.c.describe import scene_notes as notes
 from gudgeon.generator.targets.latex.document import Document, Section, paragraph, sentence
 from gudgeon.generator.targets.latex.kinematics import kinematics_sections
 from gudgeon.generator.targets.latex.motion import motion_sections
