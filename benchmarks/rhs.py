@@ -21,7 +21,7 @@ from tests.oracles.press_dense import Press
 
 SCENES = {"ideal": None, "dry": Press(), "lubricated": replace(Press(), film=True)}
 LONGEST = 0.05  # s, in which a contact is looked for
-ROUNDS = 6  # in which ours and the peer take turns: the least tells the code from whatever else the machine does
+ROUNDS = 12  # in which ours and the peer take turns: the least tells the code from whatever else the machine does
 
 
 def machine() -> str:

@@ -147,7 +147,7 @@ def _kinematic(
     for done, count in enumerate(counts):
         if progress:
             progress(done / len(counts), f"{count} samples")
-        found = work._attempt(math.inf, np.linspace(0.0, work.t_end, count + 1), None)
+        found = work.sampled(math.inf, np.linspace(0.0, work.t_end, count + 1))
         step = work.t_end / count
         if found.run is None or found.failure:
             rows.append(Row(step, count, NAN, 0, Error(), found.failure or "no result", found.failed_at))

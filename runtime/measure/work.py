@@ -64,13 +64,13 @@ class Work:
         """Sampled for comparison."""
         stride = max(1, math.floor(step / self.spacing * (1 + 1e-9)))
         count = max(1, math.floor(self.t_end / (stride * self.spacing) * (1 + 1e-9)))
-        return self._attempt(step, np.arange(count + 1, dtype=np.float64) * (stride * self.spacing), progress)
+        return self.sampled(step, np.arange(count + 1, dtype=np.float64) * (stride * self.spacing), progress)
 
     def seconds(self, step: float, output: int = 1, progress: Progress | None = None) -> float:
         """Wall time of the integration (s), the least of several runs that store as little as possible."""
         best, spent = math.inf, 0.0
         for _ in range(REPEATS):
-            attempt = self._attempt(step, np.linspace(0.0, self.t_end, output + 1), progress)
+            attempt = self.sampled(step, np.linspace(0.0, self.t_end, output + 1), progress)
             if attempt.run is None or attempt.failure:
                 return NAN
             best = min(best, attempt.run.diagnostics.seconds)
@@ -79,7 +79,8 @@ class Work:
                 break
         return best
 
-    def _attempt(self, step: float, times: Array, progress: Progress | None) -> Attempt:
+    def sampled(self, step: float, times: Array, progress: Progress | None = None) -> Attempt:
+        """Sampled at these times (s)."""
         return attempt(self.simulation, times, step, self.parameters, progress)
 
 
