@@ -103,7 +103,8 @@ class Geometry:
     @staticmethod
     def point_names(body: Body) -> list[str]:
         """Every point of a body: the implied ones, then the user's."""
-        implied = ["origin", "com"] + (["tail", "head"] if body.length else [])
+        # the head first: a bar's other points are then written with its positive length
+        implied = (["head", "tail"] if body.length else []) + ["origin", "com"]
         return implied + [name for name in body.points if name not in implied]
 
     def _in_body(self, body: Body, point: str, com: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
@@ -162,6 +163,11 @@ class Geometry:
         if ref.body == GROUND:
             at = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
             return PointFrame(self, None, at)
-        body = self.bodies[ref.body]
-        arm = self.turn(body, self.local[ref.body, ref.point], f"arm_{ref.body}_{ref.point}")
-        return PointFrame(self, body, arm)
+        body, s = self.bodies[ref.body], self.local[ref.body, ref.point]
+        opposite = (-s[0], -s[1])
+        names = self.point_names(self.mechanism.bodies[ref.body])
+        twin = next((name for name in names if self.local[ref.body, name] == opposite), None)
+        if twin is not None and s[0].could_extract_minus_sign():  # a bar's tail is its head turned over
+            x, y = self.turn(body, opposite, f"arm_{ref.body}_{twin}")
+            return PointFrame(self, body, (-x, -y))
+        return PointFrame(self, body, self.turn(body, s, f"arm_{ref.body}_{ref.point}"))

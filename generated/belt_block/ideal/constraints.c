@@ -123,42 +123,4 @@ static void outputs(const double t, const double *q, const double *v, const Para
     energy[1] = (1.0/2.0)*spring_stiffness*((-spring_free_length + spring_length) * (-spring_free_length +
         spring_length));
 }
-/*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
- * Returns 0, or the number of the pivot that vanished.
- */
-static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)
-{
-    (void)t;
-    (void)q;
-    /* parameters */
-    const double inverse_block_mass = p->inverse_block_mass;
-    const double inverse_block_inertia = p->inverse_block_inertia;
-
-    /* right-hand side */
-    const double r_guide_offset = r[0];
-    const double r_guide_angle = r[1];
-
-    /* L D L^T of the KKT matrix */
-    const double scale_guide_offset_2 = inverse_block_mass;
-    if (!(scale_guide_offset_2 > 1e-13 * scale_guide_offset_2)) return 1;
-    const double inverse_pivot_guide_offset_2 = 1.0/scale_guide_offset_2;
-    const double scale_guide_angle_2 = inverse_block_inertia;
-    if (!(scale_guide_angle_2 > 1e-13 * scale_guide_angle_2)) return 2;
-    const double inverse_pivot_guide_angle_2 = 1.0/scale_guide_angle_2;
-
-    /* backward substitution */
-    const double step_lambda_guide_angle = -inverse_pivot_guide_angle_2*r_guide_angle;
-    const double step_acceleration_block_theta = -inverse_block_inertia*step_lambda_guide_angle;
-    const double step_lambda_guide_offset = -inverse_pivot_guide_offset_2*r_guide_offset;
-    const double step_acceleration_block_y = -inverse_block_mass*step_lambda_guide_offset;
-    const double step_acceleration_block_x = 0.0;
-
-    /* results */
-    x[0] = step_acceleration_block_x;
-    x[1] = step_acceleration_block_y;
-    x[2] = step_acceleration_block_theta;
-    return 0;
-}
 

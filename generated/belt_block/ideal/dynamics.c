@@ -34,9 +34,10 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
 
     /* friction: slip, or stick as a row */
     const double slip_rub = block_vx - rub_speed;
-    const double mode_rub = memory->mode[0];  /* 0 stick, else the sign of the slip */
+    const double mode_rub = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
     const double stick_rub = mode_rub == 0.0 ? 1.0 : 0.0;
-    const double kinetic_rub = -mode_rub*rub_kinetic;
+    const double sign_rub = fabs(mode_rub) > 1.0 ? 0.0 : mode_rub;
+    const double kinetic_rub = -rub_kinetic*sign_rub;
     const double rhs_rub = -slip_rub*two_alpha;
     aside->friction[0].v = slip_rub;
     aside->friction[0].static_limit = rub_static;
@@ -87,6 +88,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     a[2] = acceleration_block_theta;
     aside->lambda[0] = lambda_guide_offset;
     aside->lambda[1] = lambda_guide_angle;
+    aside->friction[0].rate = acceleration_block_x;
     if (stick_rub != 0.0)
         aside->friction[0].force = -lambda_rub;  /* stick of rub */
     aside->power[0] = 0.0;

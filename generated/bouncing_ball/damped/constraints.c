@@ -104,41 +104,4 @@ static void outputs(const double t, const double *q, const double *v, const Para
         (1.0/2.0)*ball_mass*(ball_vy * ball_vy);
     energy[1] = -ball_mass*ball_y*par_y;
 }
-/*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
- * Returns 0, or the number of the pivot that vanished.
- */
-static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)
-{
-    (void)t;
-    (void)q;
-    /* parameters */
-    const double inverse_ball_mass = p->inverse_ball_mass;
-
-    /* right-hand side */
-    const double r_fall_x = r[0];
-    const double r_fall_y = r[1];
-
-    /* L D L^T of the KKT matrix */
-    const double scale_fall_x = inverse_ball_mass;
-    if (!(scale_fall_x > 1e-13 * scale_fall_x)) return 1;
-    const double inverse_pivot_fall_x = 1.0/scale_fall_x;
-    const double scale_fall_y = inverse_ball_mass;
-    if (!(scale_fall_y > 1e-13 * scale_fall_y)) return 2;
-    const double inverse_pivot_fall_y = 1.0/scale_fall_y;
-
-    /* backward substitution */
-    const double step_lambda_fall_y = -inverse_pivot_fall_y*r_fall_y;
-    const double step_acceleration_ball_y = inverse_ball_mass*step_lambda_fall_y;
-    const double step_lambda_fall_x = -inverse_pivot_fall_x*r_fall_x;
-    const double step_acceleration_ball_x = inverse_ball_mass*step_lambda_fall_x;
-    const double step_acceleration_ball_theta = 0.0;
-
-    /* results */
-    x[0] = step_acceleration_ball_x;
-    x[1] = step_acceleration_ball_y;
-    x[2] = step_acceleration_ball_theta;
-    return 0;
-}
 

@@ -57,11 +57,6 @@ void gudgeon_start_values(const double *p, double *guess, double *set, double *r
     start_values((const Parameters *)p, guess, set, rates);
 }
 
-int gudgeon_project(double t, const double *q, const double *r, const double *p, double *x)
-{
-    return project(t, q, r, (const Parameters *)p, x);
-}
-
 int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy)
 {
     Memory now;

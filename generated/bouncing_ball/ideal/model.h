@@ -31,15 +31,18 @@ typedef struct {
     double deltadot_minus;
 } Latch;
 
-/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+/*
+ * What the right-hand side remembers beside the state: latches, and each friction's mode: 0 stick, 1 or -1 the
+ * sign of its slip, 2 no force at all, where others hold the slip at zero.
+ */
 typedef struct {
     Latch latch[1];
     double mode[1];
 } Memory;
 
-/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+/* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
 typedef struct {
-    double v, speed, force, static_limit;
+    double v, rate, speed, force, static_limit;
 } Friction;
 
 /* A joint with play at one state; the force acts on the second body (journal), ground axes. */

@@ -25,8 +25,8 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double length = p->length;
     const double r = p->r;
     const double omega = p->omega;
-    const double axle_origin_x = p->axle_origin_x;
-    const double road_origin_x = p->road_origin_x;
+    const double axle_head_x = p->axle_head_x;
+    const double road_head_x = p->road_head_x;
     const double left_stiffness = p->left_stiffness;
     const double left_free_length = p->left_free_length;
     const double right_stiffness = p->right_stiffness;
@@ -43,12 +43,12 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     /* directions, arms, drives */
     const double cos_theta_road = cos(road_theta);
     const double sin_theta_road = sin(road_theta);
-    const double arm_road_tail_x = cos_theta_road*road_origin_x;
-    const double arm_road_tail_y = road_origin_x*sin_theta_road;
+    const double arm_road_head_x = cos_theta_road*road_head_x;
+    const double arm_road_head_y = road_head_x*sin_theta_road;
     const double cos_theta_axle = cos(axle_theta);
     const double sin_theta_axle = sin(axle_theta);
-    const double arm_axle_tail_x = axle_origin_x*cos_theta_axle;
-    const double arm_axle_tail_y = axle_origin_x*sin_theta_axle;
+    const double arm_axle_head_x = axle_head_x*cos_theta_axle;
+    const double arm_axle_head_y = axle_head_x*sin_theta_axle;
     const double bump_value = asin(r*sin(omega*time)/length);
     const double bump_rate = omega*r*cos(omega*time)/(length*sqrt(1.0 - (r * r)*(sin(omega*time) *
         sin(omega*time))/(length * length)));
@@ -56,12 +56,12 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(r * r *
         r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 - (r *
         r)*(sin(omega*time) * sin(omega*time))/(length * length), 3.0/2.0));
-    const double left_span_x = arm_axle_tail_x + axle_x;
-    const double left_span_y = arm_axle_tail_y + axle_y;
+    const double left_span_x = -arm_axle_head_x + axle_x;
+    const double left_span_y = -arm_axle_head_y + axle_y;
     const double left_length = sqrt((left_span_x * left_span_x) + (left_span_y * left_span_y));
     const double left_force = left_stiffness*(-left_free_length + left_length);
-    const double right_span_x = -arm_axle_tail_x + arm_road_tail_x + axle_x - road_x;
-    const double right_span_y = -arm_axle_tail_y + arm_road_tail_y + axle_y - road_y;
+    const double right_span_x = arm_axle_head_x - arm_road_head_x + axle_x - road_x;
+    const double right_span_y = arm_axle_head_y - arm_road_head_y + axle_y - road_y;
     const double right_length = sqrt((right_span_x * right_span_x) + (right_span_y * right_span_y));
     const double right_force = right_stiffness*(-right_free_length + right_length);
 
@@ -69,33 +69,33 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     int pivot = 0;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
-    const double phi_foot_x = -arm_road_tail_x - road_x;
-    const double phi_dot_foot_x = arm_road_tail_y*road_omega - road_vx;
-    const double rhs_foot_x = -arm_road_tail_x*(road_omega * road_omega) - beta_squared*phi_foot_x -
+    const double phi_foot_x = arm_road_head_x - road_x;
+    const double phi_dot_foot_x = -arm_road_head_y*road_omega - road_vx;
+    const double rhs_foot_x = arm_road_head_x*(road_omega * road_omega) - beta_squared*phi_foot_x -
         phi_dot_foot_x*two_alpha;
     aside->phi[0] = phi_foot_x;
     aside->phi_dot[0] = phi_dot_foot_x;
-    const double phi_foot_y = -arm_road_tail_y - road_y;
-    const double phi_dot_foot_y = -arm_road_tail_x*road_omega - road_vy;
-    const double rhs_foot_y = -arm_road_tail_y*(road_omega * road_omega) - beta_squared*phi_foot_y -
+    const double phi_foot_y = arm_road_head_y - road_y;
+    const double phi_dot_foot_y = arm_road_head_x*road_omega - road_vy;
+    const double rhs_foot_y = arm_road_head_y*(road_omega * road_omega) - beta_squared*phi_foot_y -
         phi_dot_foot_y*two_alpha;
     aside->phi[1] = phi_foot_y;
     aside->phi_dot[1] = phi_dot_foot_y;
-    const double phi_slot_offset = -arm_axle_tail_x*cos_theta_road - arm_axle_tail_y*sin_theta_road +
-        arm_road_tail_x*cos_theta_road + arm_road_tail_y*sin_theta_road - axle_x*cos_theta_road -
+    const double phi_slot_offset = arm_axle_head_x*cos_theta_road + arm_axle_head_y*sin_theta_road -
+        arm_road_head_x*cos_theta_road - arm_road_head_y*sin_theta_road - axle_x*cos_theta_road -
         axle_y*sin_theta_road + cos_theta_road*road_x + road_y*sin_theta_road;
-    const double phi_dot_slot_offset = axle_omega*(-arm_axle_tail_x*sin_theta_road +
-        arm_axle_tail_y*cos_theta_road) - axle_vx*cos_theta_road - axle_vy*sin_theta_road +
-        cos_theta_road*road_vx + road_omega*(arm_axle_tail_x*sin_theta_road - arm_axle_tail_y*cos_theta_road +
-        axle_x*sin_theta_road - axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road) +
+    const double phi_dot_slot_offset = axle_omega*(arm_axle_head_x*sin_theta_road -
+        arm_axle_head_y*cos_theta_road) - axle_vx*cos_theta_road - axle_vy*sin_theta_road +
+        cos_theta_road*road_vx + road_omega*(-arm_axle_head_x*sin_theta_road + arm_axle_head_y*cos_theta_road
+        + axle_x*sin_theta_road - axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road) +
         road_vy*sin_theta_road;
-    const double rhs_slot_offset = -axle_omega*(arm_axle_tail_x*(axle_omega*cos_theta_road -
-        cos_theta_road*road_omega) - arm_axle_tail_y*(-axle_omega*sin_theta_road + road_omega*sin_theta_road))
+    const double rhs_slot_offset = -axle_omega*(arm_axle_head_x*(-axle_omega*cos_theta_road +
+        cos_theta_road*road_omega) - arm_axle_head_y*(axle_omega*sin_theta_road - road_omega*sin_theta_road))
         - axle_vx*road_omega*sin_theta_road + axle_vy*cos_theta_road*road_omega - beta_squared*phi_slot_offset
         - cos_theta_road*road_omega*road_vy - phi_dot_slot_offset*two_alpha +
-        road_omega*road_vx*sin_theta_road - road_omega*(cos_theta_road*(-arm_axle_tail_x*axle_omega - axle_vy
-        + road_omega*(arm_axle_tail_x + axle_x - road_x) + road_vy) -
-        sin_theta_road*(arm_axle_tail_y*axle_omega - axle_vx + road_omega*(-arm_axle_tail_y - axle_y + road_y)
+        road_omega*road_vx*sin_theta_road - road_omega*(cos_theta_road*(arm_axle_head_x*axle_omega - axle_vy +
+        road_omega*(-arm_axle_head_x + axle_x - road_x) + road_vy) -
+        sin_theta_road*(-arm_axle_head_y*axle_omega - axle_vx + road_omega*(arm_axle_head_y - axle_y + road_y)
         + road_vx));
     aside->phi[2] = phi_slot_offset;
     aside->phi_dot[2] = phi_dot_slot_offset;
@@ -108,32 +108,32 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     /* L D L^T of the KKT matrix */
     const double l_slot_offset__axle_x = -cos_theta_road*inverse_axle_mass;
     const double l_slot_offset__axle_y = -inverse_axle_mass*sin_theta_road;
-    const double w_slot_offset__axle_theta = -arm_axle_tail_x*sin_theta_road + arm_axle_tail_y*cos_theta_road;
+    const double w_slot_offset__axle_theta = arm_axle_head_x*sin_theta_road - arm_axle_head_y*cos_theta_road;
     const double l_slot_offset__axle_theta = inverse_axle_inertia*w_slot_offset__axle_theta;
     const double l_slot_offset__road_x = cos_theta_road*inverse_road_mass;
     const double l_slot_offset__road_y = inverse_road_mass*sin_theta_road;
-    const double l_foot_x__road_theta = arm_road_tail_y*inverse_road_inertia;
-    const double l_foot_y__road_theta = -arm_road_tail_x*inverse_road_inertia;
-    const double w_slot_offset__road_theta = arm_axle_tail_x*sin_theta_road - arm_axle_tail_y*cos_theta_road +
-        axle_x*sin_theta_road - axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road;
+    const double l_foot_x__road_theta = -arm_road_head_y*inverse_road_inertia;
+    const double l_foot_y__road_theta = arm_road_head_x*inverse_road_inertia;
+    const double w_slot_offset__road_theta = -arm_axle_head_x*sin_theta_road + arm_axle_head_y*cos_theta_road
+        + axle_x*sin_theta_road - axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road;
     const double l_slot_offset__road_theta = inverse_road_inertia*w_slot_offset__road_theta;
-    const double scale_foot_x = arm_road_tail_y*l_foot_x__road_theta + inverse_road_mass;
+    const double scale_foot_x = -arm_road_head_y*l_foot_x__road_theta + inverse_road_mass;
     if (!(scale_foot_x > 1e-13 * scale_foot_x)) { pivot = 1; goto dependent; };
     const double inverse_pivot_foot_x = 1.0/scale_foot_x;
-    const double w_foot_y__foot_x = -arm_road_tail_y*l_foot_y__road_theta;
+    const double w_foot_y__foot_x = arm_road_head_y*l_foot_y__road_theta;
     const double l_foot_y__foot_x = -inverse_pivot_foot_x*w_foot_y__foot_x;
-    const double w_slot_offset__foot_x = -arm_road_tail_y*l_slot_offset__road_theta + l_slot_offset__road_x;
+    const double w_slot_offset__foot_x = arm_road_head_y*l_slot_offset__road_theta + l_slot_offset__road_x;
     const double l_slot_offset__foot_x = -inverse_pivot_foot_x*w_slot_offset__foot_x;
-    const double w_bump__foot_x = -arm_road_tail_y*inverse_road_inertia;
+    const double w_bump__foot_x = arm_road_head_y*inverse_road_inertia;
     const double l_bump__foot_x = -inverse_pivot_foot_x*w_bump__foot_x;
-    const double scale_foot_y = -arm_road_tail_x*l_foot_y__road_theta + inverse_road_mass;
+    const double scale_foot_y = arm_road_head_x*l_foot_y__road_theta + inverse_road_mass;
     const double pivot_foot_y = l_foot_y__foot_x*w_foot_y__foot_x + scale_foot_y;
     if (!(pivot_foot_y > 1e-13 * scale_foot_y)) { pivot = 2; goto dependent; };
     const double inverse_pivot_foot_y = 1.0/pivot_foot_y;
-    const double w_slot_offset__foot_y = arm_road_tail_x*l_slot_offset__road_theta -
+    const double w_slot_offset__foot_y = -arm_road_head_x*l_slot_offset__road_theta -
         l_slot_offset__foot_x*w_foot_y__foot_x + l_slot_offset__road_y;
     const double l_slot_offset__foot_y = -inverse_pivot_foot_y*w_slot_offset__foot_y;
-    const double w_bump__foot_y = arm_road_tail_x*inverse_road_inertia - l_bump__foot_x*w_foot_y__foot_x;
+    const double w_bump__foot_y = -arm_road_head_x*inverse_road_inertia - l_bump__foot_x*w_foot_y__foot_x;
     const double l_bump__foot_y = -inverse_pivot_foot_y*w_bump__foot_y;
     const double scale_slot_offset = -cos_theta_road*l_slot_offset__axle_x +
         cos_theta_road*l_slot_offset__road_x + l_slot_offset__axle_theta*w_slot_offset__axle_theta -
@@ -156,14 +156,14 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double z_axle_x = -left_force*left_span_x/left_length - right_force*right_span_x/right_length;
     const double z_axle_y = -left_force*left_span_y/left_length - right_force*right_span_y/right_length +
         weight_axle_y;
-    const double z_axle_theta = -arm_axle_tail_x*left_force*left_span_y/left_length +
-        arm_axle_tail_x*right_force*right_span_y/right_length +
-        arm_axle_tail_y*left_force*left_span_x/left_length -
-        arm_axle_tail_y*right_force*right_span_x/right_length;
+    const double z_axle_theta = arm_axle_head_x*left_force*left_span_y/left_length -
+        arm_axle_head_x*right_force*right_span_y/right_length -
+        arm_axle_head_y*left_force*left_span_x/left_length +
+        arm_axle_head_y*right_force*right_span_x/right_length;
     const double z_road_x = right_force*right_span_x/right_length;
     const double z_road_y = right_force*right_span_y/right_length + weight_road_y;
-    const double z_road_theta = -arm_road_tail_x*right_force*right_span_y/right_length +
-        arm_road_tail_y*right_force*right_span_x/right_length;
+    const double z_road_theta = arm_road_head_x*right_force*right_span_y/right_length -
+        arm_road_head_y*right_force*right_span_x/right_length;
     const double z_foot_x = inverse_road_mass*z_road_x - l_foot_x__road_theta*z_road_theta + rhs_foot_x;
     const double z_foot_y = inverse_road_mass*z_road_y - l_foot_y__foot_x*z_foot_x -
         l_foot_y__road_theta*z_road_theta + rhs_foot_y;
@@ -213,14 +213,14 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         force[0] = -left_force*left_span_x/left_length - right_force*right_span_x/right_length;
         force[1] = -left_force*left_span_y/left_length - right_force*right_span_y/right_length +
         weight_axle_y;
-        force[2] = -arm_axle_tail_x*left_force*left_span_y/left_length +
-        arm_axle_tail_x*right_force*right_span_y/right_length +
-        arm_axle_tail_y*left_force*left_span_x/left_length -
-        arm_axle_tail_y*right_force*right_span_x/right_length;
+        force[2] = arm_axle_head_x*left_force*left_span_y/left_length -
+        arm_axle_head_x*right_force*right_span_y/right_length -
+        arm_axle_head_y*left_force*left_span_x/left_length +
+        arm_axle_head_y*right_force*right_span_x/right_length;
         force[3] = right_force*right_span_x/right_length;
         force[4] = right_force*right_span_y/right_length + weight_road_y;
-        force[5] = -arm_road_tail_x*right_force*right_span_y/right_length +
-        arm_road_tail_y*right_force*right_span_x/right_length;
+        force[5] = arm_road_head_x*right_force*right_span_y/right_length -
+        arm_road_head_y*right_force*right_span_x/right_length;
         rhs[0] = rhs_foot_x;
         rhs[1] = rhs_foot_y;
         rhs[2] = rhs_slot_offset;

@@ -23,7 +23,7 @@ enum {
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double length;  /* parameters.length */    double half_mass;  /* parameters.half_mass */    double r;  /* parameters.r */    double omega;  /* parameters.omega */    double axle_mass;  /* bodies.axle.mass */    double axle_inertia;  /* bodies.axle.inertia */    double road_mass;  /* bodies.road.mass */    double road_inertia;  /* bodies.road.inertia */    double axle_length;  /* bodies.axle.length */    double road_length;  /* bodies.road.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slot_direction_y;  /* joints.slot.direction.y */    double par_y;  /* gravity.y */    double left_stiffness;  /* forces.left.stiffness */    double left_free_length;  /* forces.left.free_length */    double right_stiffness;  /* forces.right.stiffness */    double right_free_length;  /* forces.right.free_length */    double set_axle_y;  /* start.set.axle.y */    double axle_origin_x;  /* point from the centre of mass */    double road_origin_x;  /* point from the centre of mass */    double inverse_axle_mass;  /* 1/M */    double inverse_axle_inertia;  /* 1/M */    double inverse_road_mass;  /* 1/M */    double inverse_road_inertia;  /* 1/M */    double weight_axle_y;  /* weight */    double weight_road_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+typedef struct {    double length;  /* parameters.length */    double half_mass;  /* parameters.half_mass */    double r;  /* parameters.r */    double omega;  /* parameters.omega */    double axle_mass;  /* bodies.axle.mass */    double axle_inertia;  /* bodies.axle.inertia */    double road_mass;  /* bodies.road.mass */    double road_inertia;  /* bodies.road.inertia */    double axle_length;  /* bodies.axle.length */    double road_length;  /* bodies.road.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slot_direction_y;  /* joints.slot.direction.y */    double par_y;  /* gravity.y */    double left_stiffness;  /* forces.left.stiffness */    double left_free_length;  /* forces.left.free_length */    double right_stiffness;  /* forces.right.stiffness */    double right_free_length;  /* forces.right.free_length */    double set_axle_y;  /* start.set.axle.y */    double axle_head_x;  /* point from the centre of mass */    double road_head_x;  /* point from the centre of mass */    double inverse_axle_mass;  /* 1/M */    double inverse_axle_inertia;  /* 1/M */    double inverse_road_mass;  /* 1/M */    double inverse_road_inertia;  /* 1/M */    double weight_axle_y;  /* weight */    double weight_road_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -31,15 +31,18 @@ typedef struct {
     double deltadot_minus;
 } Latch;
 
-/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+/*
+ * What the right-hand side remembers beside the state: latches, and each friction's mode: 0 stick, 1 or -1 the
+ * sign of its slip, 2 no force at all, where others hold the slip at zero.
+ */
 typedef struct {
     Latch latch[1];
     double mode[1];
 } Memory;
 
-/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+/* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
 typedef struct {
-    double v, speed, force, static_limit;
+    double v, rate, speed, force, static_limit;
 } Friction;
 
 /* A joint with play at one state; the force acts on the second body (journal), ground axes. */

@@ -44,10 +44,10 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->set_axle_y = set_axle_y;
 
     /* derived */
-    const double axle_origin_x = -1.0/2.0*axle_length;  /* point from the centre of mass */
-    p->axle_origin_x = axle_origin_x;
-    const double road_origin_x = -1.0/2.0*road_length;  /* point from the centre of mass */
-    p->road_origin_x = road_origin_x;
+    const double axle_head_x = (1.0/2.0)*axle_length;  /* point from the centre of mass */
+    p->axle_head_x = axle_head_x;
+    const double road_head_x = (1.0/2.0)*road_length;  /* point from the centre of mass */
+    p->road_head_x = road_head_x;
     const double inverse_axle_mass = 1.0/axle_mass;  /* 1/M */
     p->inverse_axle_mass = inverse_axle_mass;
     const double inverse_axle_inertia = 1.0/axle_inertia;  /* 1/M */

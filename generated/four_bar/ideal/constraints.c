@@ -41,33 +41,33 @@ static void constraints(const double t, const double *q, const Parameters *p, do
 
     /* parameters */
     const double omega = p->omega;
-    const double crank_origin_x = p->crank_origin_x;
-    const double coupler_origin_x = p->coupler_origin_x;
-    const double rocker_origin_x = p->rocker_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double coupler_head_x = p->coupler_head_x;
+    const double rocker_head_x = p->rocker_head_x;
     const double B0_x = p->B0_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_coupler = cos(coupler_theta);
     const double sin_theta_coupler = sin(coupler_theta);
-    const double arm_coupler_tail_x = cos_theta_coupler*coupler_origin_x;
-    const double arm_coupler_tail_y = coupler_origin_x*sin_theta_coupler;
+    const double arm_coupler_head_x = cos_theta_coupler*coupler_head_x;
+    const double arm_coupler_head_y = coupler_head_x*sin_theta_coupler;
     const double cos_theta_rocker = cos(rocker_theta);
     const double sin_theta_rocker = sin(rocker_theta);
-    const double arm_rocker_head_x = -cos_theta_rocker*rocker_origin_x;
-    const double arm_rocker_head_y = -rocker_origin_x*sin_theta_rocker;
+    const double arm_rocker_head_x = cos_theta_rocker*rocker_head_x;
+    const double arm_rocker_head_y = rocker_head_x*sin_theta_rocker;
     const double motor_value = omega*time + 1.5707963267948966;
 
     /* rows */
-    phi[0] = -arm_crank_tail_x - crank_x;  /* A0.x */
-    phi[1] = -arm_crank_tail_y - crank_y;  /* A0.y */
-    phi[2] = -arm_coupler_tail_x - arm_crank_tail_x - coupler_x + crank_x;  /* A.x */
-    phi[3] = -arm_coupler_tail_y - arm_crank_tail_y - coupler_y + crank_y;  /* A.y */
-    phi[4] = -arm_coupler_tail_x - arm_rocker_head_x + coupler_x - rocker_x;  /* B.x */
-    phi[5] = -arm_coupler_tail_y - arm_rocker_head_y + coupler_y - rocker_y;  /* B.y */
+    phi[0] = arm_crank_head_x - crank_x;  /* A0.x */
+    phi[1] = arm_crank_head_y - crank_y;  /* A0.y */
+    phi[2] = arm_coupler_head_x + arm_crank_head_x - coupler_x + crank_x;  /* A.x */
+    phi[3] = arm_coupler_head_y + arm_crank_head_y - coupler_y + crank_y;  /* A.y */
+    phi[4] = arm_coupler_head_x - arm_rocker_head_x + coupler_x - rocker_x;  /* B.x */
+    phi[5] = arm_coupler_head_y - arm_rocker_head_y + coupler_y - rocker_y;  /* B.y */
     phi[6] = B0_x + arm_rocker_head_x - rocker_x;  /* B0.x */
     phi[7] = arm_rocker_head_y - rocker_y;  /* B0.y */
     phi[8] = crank_theta - motor_value;  /* motor */
@@ -84,43 +84,43 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     const double rocker_theta = q[8];
 
     /* parameters */
-    const double crank_origin_x = p->crank_origin_x;
-    const double coupler_origin_x = p->coupler_origin_x;
-    const double rocker_origin_x = p->rocker_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double coupler_head_x = p->coupler_head_x;
+    const double rocker_head_x = p->rocker_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_coupler = cos(coupler_theta);
     const double sin_theta_coupler = sin(coupler_theta);
-    const double arm_coupler_tail_x = cos_theta_coupler*coupler_origin_x;
-    const double arm_coupler_tail_y = coupler_origin_x*sin_theta_coupler;
+    const double arm_coupler_head_x = cos_theta_coupler*coupler_head_x;
+    const double arm_coupler_head_y = coupler_head_x*sin_theta_coupler;
     const double cos_theta_rocker = cos(rocker_theta);
     const double sin_theta_rocker = sin(rocker_theta);
-    const double arm_rocker_head_x = -cos_theta_rocker*rocker_origin_x;
-    const double arm_rocker_head_y = -rocker_origin_x*sin_theta_rocker;
+    const double arm_rocker_head_x = cos_theta_rocker*rocker_head_x;
+    const double arm_rocker_head_y = rocker_head_x*sin_theta_rocker;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d A0.x / d crank_x */
-    phi_q[2] = arm_crank_tail_y;  /* d A0.x / d crank_theta */
+    phi_q[2] = -arm_crank_head_y;  /* d A0.x / d crank_theta */
     phi_q[10] = -1.0;  /* d A0.y / d crank_y */
-    phi_q[11] = -arm_crank_tail_x;  /* d A0.y / d crank_theta */
+    phi_q[11] = arm_crank_head_x;  /* d A0.y / d crank_theta */
     phi_q[18] = 1.0;  /* d A.x / d crank_x */
-    phi_q[20] = arm_crank_tail_y;  /* d A.x / d crank_theta */
+    phi_q[20] = -arm_crank_head_y;  /* d A.x / d crank_theta */
     phi_q[21] = -1.0;  /* d A.x / d coupler_x */
-    phi_q[23] = arm_coupler_tail_y;  /* d A.x / d coupler_theta */
+    phi_q[23] = -arm_coupler_head_y;  /* d A.x / d coupler_theta */
     phi_q[28] = 1.0;  /* d A.y / d crank_y */
-    phi_q[29] = -arm_crank_tail_x;  /* d A.y / d crank_theta */
+    phi_q[29] = arm_crank_head_x;  /* d A.y / d crank_theta */
     phi_q[31] = -1.0;  /* d A.y / d coupler_y */
-    phi_q[32] = -arm_coupler_tail_x;  /* d A.y / d coupler_theta */
+    phi_q[32] = arm_coupler_head_x;  /* d A.y / d coupler_theta */
     phi_q[39] = 1.0;  /* d B.x / d coupler_x */
-    phi_q[41] = arm_coupler_tail_y;  /* d B.x / d coupler_theta */
+    phi_q[41] = -arm_coupler_head_y;  /* d B.x / d coupler_theta */
     phi_q[42] = -1.0;  /* d B.x / d rocker_x */
     phi_q[44] = arm_rocker_head_y;  /* d B.x / d rocker_theta */
     phi_q[49] = 1.0;  /* d B.y / d coupler_y */
-    phi_q[50] = -arm_coupler_tail_x;  /* d B.y / d coupler_theta */
+    phi_q[50] = arm_coupler_head_x;  /* d B.y / d coupler_theta */
     phi_q[52] = -1.0;  /* d B.y / d rocker_y */
     phi_q[53] = -arm_rocker_head_x;  /* d B.y / d rocker_theta */
     phi_q[60] = -1.0;  /* d B0.x / d rocker_x */
@@ -169,35 +169,35 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     const double rocker_omega = v[8];
 
     /* parameters */
-    const double crank_origin_x = p->crank_origin_x;
-    const double coupler_origin_x = p->coupler_origin_x;
-    const double rocker_origin_x = p->rocker_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double coupler_head_x = p->coupler_head_x;
+    const double rocker_head_x = p->rocker_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_coupler = cos(coupler_theta);
     const double sin_theta_coupler = sin(coupler_theta);
-    const double arm_coupler_tail_x = cos_theta_coupler*coupler_origin_x;
-    const double arm_coupler_tail_y = coupler_origin_x*sin_theta_coupler;
+    const double arm_coupler_head_x = cos_theta_coupler*coupler_head_x;
+    const double arm_coupler_head_y = coupler_head_x*sin_theta_coupler;
     const double cos_theta_rocker = cos(rocker_theta);
     const double sin_theta_rocker = sin(rocker_theta);
-    const double arm_rocker_head_x = -cos_theta_rocker*rocker_origin_x;
-    const double arm_rocker_head_y = -rocker_origin_x*sin_theta_rocker;
+    const double arm_rocker_head_x = cos_theta_rocker*rocker_head_x;
+    const double arm_rocker_head_y = rocker_head_x*sin_theta_rocker;
     const double motor_acceleration = 0.0;
 
     /* rows */
-    gamma_rows[0] = -arm_crank_tail_x*(crank_omega * crank_omega);  /* A0.x */
-    gamma_rows[1] = -arm_crank_tail_y*(crank_omega * crank_omega);  /* A0.y */
-    gamma_rows[2] = -arm_coupler_tail_x*(coupler_omega * coupler_omega) - arm_crank_tail_x*(crank_omega *
+    gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* A0.x */
+    gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* A0.y */
+    gamma_rows[2] = arm_coupler_head_x*(coupler_omega * coupler_omega) + arm_crank_head_x*(crank_omega *
         crank_omega);  /* A.x */
-    gamma_rows[3] = -arm_coupler_tail_y*(coupler_omega * coupler_omega) - arm_crank_tail_y*(crank_omega *
+    gamma_rows[3] = arm_coupler_head_y*(coupler_omega * coupler_omega) + arm_crank_head_y*(crank_omega *
         crank_omega);  /* A.y */
-    gamma_rows[4] = -arm_coupler_tail_x*(coupler_omega * coupler_omega) - arm_rocker_head_x*(rocker_omega *
+    gamma_rows[4] = arm_coupler_head_x*(coupler_omega * coupler_omega) - arm_rocker_head_x*(rocker_omega *
         rocker_omega);  /* B.x */
-    gamma_rows[5] = -arm_coupler_tail_y*(coupler_omega * coupler_omega) - arm_rocker_head_y*(rocker_omega *
+    gamma_rows[5] = arm_coupler_head_y*(coupler_omega * coupler_omega) - arm_rocker_head_y*(rocker_omega *
         rocker_omega);  /* B.y */
     gamma_rows[6] = arm_rocker_head_x*(rocker_omega * rocker_omega);  /* B0.x */
     gamma_rows[7] = arm_rocker_head_y*(rocker_omega * rocker_omega);  /* B0.y */
@@ -298,9 +298,9 @@ static int project(const double t, const double *q, const double *r, const Param
     const double rocker_theta = q[8];
 
     /* parameters */
-    const double crank_origin_x = p->crank_origin_x;
-    const double coupler_origin_x = p->coupler_origin_x;
-    const double rocker_origin_x = p->rocker_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double coupler_head_x = p->coupler_head_x;
+    const double rocker_head_x = p->rocker_head_x;
     const double inverse_crank_mass = p->inverse_crank_mass;
     const double inverse_crank_inertia = p->inverse_crank_inertia;
     const double inverse_coupler_mass = p->inverse_coupler_mass;
@@ -311,16 +311,16 @@ static int project(const double t, const double *q, const double *r, const Param
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_coupler = cos(coupler_theta);
     const double sin_theta_coupler = sin(coupler_theta);
-    const double arm_coupler_tail_x = cos_theta_coupler*coupler_origin_x;
-    const double arm_coupler_tail_y = coupler_origin_x*sin_theta_coupler;
+    const double arm_coupler_head_x = cos_theta_coupler*coupler_head_x;
+    const double arm_coupler_head_y = coupler_head_x*sin_theta_coupler;
     const double cos_theta_rocker = cos(rocker_theta);
     const double sin_theta_rocker = sin(rocker_theta);
-    const double arm_rocker_head_x = -cos_theta_rocker*rocker_origin_x;
-    const double arm_rocker_head_y = -rocker_origin_x*sin_theta_rocker;
+    const double arm_rocker_head_x = cos_theta_rocker*rocker_head_x;
+    const double arm_rocker_head_y = rocker_head_x*sin_theta_rocker;
 
     /* right-hand side */
     const double r_A0_x = r[0];
@@ -334,10 +334,10 @@ static int project(const double t, const double *q, const double *r, const Param
     const double r_motor = r[8];
 
     /* L D L^T of the KKT matrix */
-    const double l_B_x__coupler_theta_2 = arm_coupler_tail_y*inverse_coupler_inertia;
-    const double l_B_y__coupler_theta_2 = -arm_coupler_tail_x*inverse_coupler_inertia;
-    const double l_A_x__coupler_theta_2 = arm_coupler_tail_y*inverse_coupler_inertia;
-    const double l_A_y__coupler_theta_2 = -arm_coupler_tail_x*inverse_coupler_inertia;
+    const double l_B_x__coupler_theta_2 = -arm_coupler_head_y*inverse_coupler_inertia;
+    const double l_B_y__coupler_theta_2 = arm_coupler_head_x*inverse_coupler_inertia;
+    const double l_A_x__coupler_theta_2 = -arm_coupler_head_y*inverse_coupler_inertia;
+    const double l_A_y__coupler_theta_2 = arm_coupler_head_x*inverse_coupler_inertia;
     const double l_B0_x__rocker_theta_2 = -arm_rocker_head_y*inverse_rocker_inertia;
     const double l_B0_y__rocker_theta_2 = arm_rocker_head_x*inverse_rocker_inertia;
     const double l_B_x__rocker_theta_2 = arm_rocker_head_y*inverse_rocker_inertia;
@@ -360,75 +360,75 @@ static int project(const double t, const double *q, const double *r, const Param
     const double w_B_y__B0_y_2 = -arm_rocker_head_x*l_B_y__rocker_theta_2 - inverse_rocker_mass -
         l_B_y__B0_x_2*w_B0_y__B0_x_2;
     const double l_B_y__B0_y_2 = -inverse_pivot_B0_y_2*w_B_y__B0_y_2;
-    const double scale_B_x_2 = arm_coupler_tail_y*l_B_x__coupler_theta_2 +
+    const double scale_B_x_2 = -arm_coupler_head_y*l_B_x__coupler_theta_2 +
         arm_rocker_head_y*l_B_x__rocker_theta_2 + inverse_coupler_mass + inverse_rocker_mass;
     const double pivot_B_x_2 = l_B_x__B0_x_2*w_B_x__B0_x_2 + l_B_x__B0_y_2*w_B_x__B0_y_2 + scale_B_x_2;
     if (!(pivot_B_x_2 > 1e-13 * scale_B_x_2)) return 3;
     const double inverse_pivot_B_x_2 = 1.0/pivot_B_x_2;
-    const double w_B_y__B_x_2 = -arm_coupler_tail_y*l_B_y__coupler_theta_2 -
+    const double w_B_y__B_x_2 = arm_coupler_head_y*l_B_y__coupler_theta_2 -
         arm_rocker_head_y*l_B_y__rocker_theta_2 - l_B_y__B0_x_2*w_B_x__B0_x_2 - l_B_y__B0_y_2*w_B_x__B0_y_2;
     const double l_B_y__B_x_2 = -inverse_pivot_B_x_2*w_B_y__B_x_2;
-    const double w_A_x__B_x_2 = -arm_coupler_tail_y*l_A_x__coupler_theta_2 + inverse_coupler_mass;
+    const double w_A_x__B_x_2 = arm_coupler_head_y*l_A_x__coupler_theta_2 + inverse_coupler_mass;
     const double l_A_x__B_x_2 = -inverse_pivot_B_x_2*w_A_x__B_x_2;
-    const double w_A_y__B_x_2 = -arm_coupler_tail_y*l_A_y__coupler_theta_2;
+    const double w_A_y__B_x_2 = arm_coupler_head_y*l_A_y__coupler_theta_2;
     const double l_A_y__B_x_2 = -inverse_pivot_B_x_2*w_A_y__B_x_2;
-    const double scale_B_y_2 = -arm_coupler_tail_x*l_B_y__coupler_theta_2 -
+    const double scale_B_y_2 = arm_coupler_head_x*l_B_y__coupler_theta_2 -
         arm_rocker_head_x*l_B_y__rocker_theta_2 + inverse_coupler_mass + inverse_rocker_mass;
     const double pivot_B_y_2 = l_B_y__B0_x_2*w_B_y__B0_x_2 + l_B_y__B0_y_2*w_B_y__B0_y_2 +
         l_B_y__B_x_2*w_B_y__B_x_2 + scale_B_y_2;
     if (!(pivot_B_y_2 > 1e-13 * scale_B_y_2)) return 4;
     const double inverse_pivot_B_y_2 = 1.0/pivot_B_y_2;
-    const double w_A_x__B_y_2 = arm_coupler_tail_x*l_A_x__coupler_theta_2 - l_A_x__B_x_2*w_B_y__B_x_2;
+    const double w_A_x__B_y_2 = -arm_coupler_head_x*l_A_x__coupler_theta_2 - l_A_x__B_x_2*w_B_y__B_x_2;
     const double l_A_x__B_y_2 = -inverse_pivot_B_y_2*w_A_x__B_y_2;
-    const double w_A_y__B_y_2 = arm_coupler_tail_x*l_A_y__coupler_theta_2 + inverse_coupler_mass -
+    const double w_A_y__B_y_2 = -arm_coupler_head_x*l_A_y__coupler_theta_2 + inverse_coupler_mass -
         l_A_y__B_x_2*w_B_y__B_x_2;
     const double l_A_y__B_y_2 = -inverse_pivot_B_y_2*w_A_y__B_y_2;
-    const double l_A0_x__crank_theta_2 = arm_crank_tail_y*inverse_crank_inertia;
-    const double l_A0_y__crank_theta_2 = -arm_crank_tail_x*inverse_crank_inertia;
-    const double l_A_x__crank_theta_2 = arm_crank_tail_y*inverse_crank_inertia;
-    const double l_A_y__crank_theta_2 = -arm_crank_tail_x*inverse_crank_inertia;
-    const double scale_A0_x_2 = arm_crank_tail_y*l_A0_x__crank_theta_2 + inverse_crank_mass;
+    const double l_A0_x__crank_theta_2 = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_A0_y__crank_theta_2 = arm_crank_head_x*inverse_crank_inertia;
+    const double l_A_x__crank_theta_2 = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_A_y__crank_theta_2 = arm_crank_head_x*inverse_crank_inertia;
+    const double scale_A0_x_2 = -arm_crank_head_y*l_A0_x__crank_theta_2 + inverse_crank_mass;
     if (!(scale_A0_x_2 > 1e-13 * scale_A0_x_2)) return 5;
     const double inverse_pivot_A0_x_2 = 1.0/scale_A0_x_2;
-    const double w_A0_y__A0_x_2 = -arm_crank_tail_y*l_A0_y__crank_theta_2;
+    const double w_A0_y__A0_x_2 = arm_crank_head_y*l_A0_y__crank_theta_2;
     const double l_A0_y__A0_x_2 = -inverse_pivot_A0_x_2*w_A0_y__A0_x_2;
-    const double w_A_x__A0_x_2 = -arm_crank_tail_y*l_A_x__crank_theta_2 + inverse_crank_mass;
+    const double w_A_x__A0_x_2 = arm_crank_head_y*l_A_x__crank_theta_2 + inverse_crank_mass;
     const double l_A_x__A0_x_2 = -inverse_pivot_A0_x_2*w_A_x__A0_x_2;
-    const double w_A_y__A0_x_2 = -arm_crank_tail_y*l_A_y__crank_theta_2;
+    const double w_A_y__A0_x_2 = arm_crank_head_y*l_A_y__crank_theta_2;
     const double l_A_y__A0_x_2 = -inverse_pivot_A0_x_2*w_A_y__A0_x_2;
-    const double w_motor__A0_x_2 = -arm_crank_tail_y*inverse_crank_inertia;
+    const double w_motor__A0_x_2 = arm_crank_head_y*inverse_crank_inertia;
     const double l_motor__A0_x_2 = -inverse_pivot_A0_x_2*w_motor__A0_x_2;
-    const double scale_A0_y_2 = -arm_crank_tail_x*l_A0_y__crank_theta_2 + inverse_crank_mass;
+    const double scale_A0_y_2 = arm_crank_head_x*l_A0_y__crank_theta_2 + inverse_crank_mass;
     const double pivot_A0_y_2 = l_A0_y__A0_x_2*w_A0_y__A0_x_2 + scale_A0_y_2;
     if (!(pivot_A0_y_2 > 1e-13 * scale_A0_y_2)) return 6;
     const double inverse_pivot_A0_y_2 = 1.0/pivot_A0_y_2;
-    const double w_A_x__A0_y_2 = arm_crank_tail_x*l_A_x__crank_theta_2 - l_A_x__A0_x_2*w_A0_y__A0_x_2;
+    const double w_A_x__A0_y_2 = -arm_crank_head_x*l_A_x__crank_theta_2 - l_A_x__A0_x_2*w_A0_y__A0_x_2;
     const double l_A_x__A0_y_2 = -inverse_pivot_A0_y_2*w_A_x__A0_y_2;
-    const double w_A_y__A0_y_2 = arm_crank_tail_x*l_A_y__crank_theta_2 + inverse_crank_mass -
+    const double w_A_y__A0_y_2 = -arm_crank_head_x*l_A_y__crank_theta_2 + inverse_crank_mass -
         l_A_y__A0_x_2*w_A0_y__A0_x_2;
     const double l_A_y__A0_y_2 = -inverse_pivot_A0_y_2*w_A_y__A0_y_2;
-    const double w_motor__A0_y_2 = arm_crank_tail_x*inverse_crank_inertia - l_motor__A0_x_2*w_A0_y__A0_x_2;
+    const double w_motor__A0_y_2 = -arm_crank_head_x*inverse_crank_inertia - l_motor__A0_x_2*w_A0_y__A0_x_2;
     const double l_motor__A0_y_2 = -inverse_pivot_A0_y_2*w_motor__A0_y_2;
-    const double scale_A_x_2 = arm_coupler_tail_y*l_A_x__coupler_theta_2 +
-        arm_crank_tail_y*l_A_x__crank_theta_2 + inverse_coupler_mass + inverse_crank_mass;
+    const double scale_A_x_2 = -arm_coupler_head_y*l_A_x__coupler_theta_2 -
+        arm_crank_head_y*l_A_x__crank_theta_2 + inverse_coupler_mass + inverse_crank_mass;
     const double pivot_A_x_2 = l_A_x__A0_x_2*w_A_x__A0_x_2 + l_A_x__A0_y_2*w_A_x__A0_y_2 +
         l_A_x__B_x_2*w_A_x__B_x_2 + l_A_x__B_y_2*w_A_x__B_y_2 + scale_A_x_2;
     if (!(pivot_A_x_2 > 1e-13 * scale_A_x_2)) return 7;
     const double inverse_pivot_A_x_2 = 1.0/pivot_A_x_2;
-    const double w_A_y__A_x_2 = -arm_coupler_tail_y*l_A_y__coupler_theta_2 -
-        arm_crank_tail_y*l_A_y__crank_theta_2 - l_A_y__A0_x_2*w_A_x__A0_x_2 - l_A_y__A0_y_2*w_A_x__A0_y_2 -
+    const double w_A_y__A_x_2 = arm_coupler_head_y*l_A_y__coupler_theta_2 +
+        arm_crank_head_y*l_A_y__crank_theta_2 - l_A_y__A0_x_2*w_A_x__A0_x_2 - l_A_y__A0_y_2*w_A_x__A0_y_2 -
         l_A_y__B_x_2*w_A_x__B_x_2 - l_A_y__B_y_2*w_A_x__B_y_2;
     const double l_A_y__A_x_2 = -inverse_pivot_A_x_2*w_A_y__A_x_2;
-    const double w_motor__A_x_2 = -arm_crank_tail_y*inverse_crank_inertia - l_motor__A0_x_2*w_A_x__A0_x_2 -
+    const double w_motor__A_x_2 = arm_crank_head_y*inverse_crank_inertia - l_motor__A0_x_2*w_A_x__A0_x_2 -
         l_motor__A0_y_2*w_A_x__A0_y_2;
     const double l_motor__A_x_2 = -inverse_pivot_A_x_2*w_motor__A_x_2;
-    const double scale_A_y_2 = -arm_coupler_tail_x*l_A_y__coupler_theta_2 -
-        arm_crank_tail_x*l_A_y__crank_theta_2 + inverse_coupler_mass + inverse_crank_mass;
+    const double scale_A_y_2 = arm_coupler_head_x*l_A_y__coupler_theta_2 +
+        arm_crank_head_x*l_A_y__crank_theta_2 + inverse_coupler_mass + inverse_crank_mass;
     const double pivot_A_y_2 = l_A_y__A0_x_2*w_A_y__A0_x_2 + l_A_y__A0_y_2*w_A_y__A0_y_2 +
         l_A_y__A_x_2*w_A_y__A_x_2 + l_A_y__B_x_2*w_A_y__B_x_2 + l_A_y__B_y_2*w_A_y__B_y_2 + scale_A_y_2;
     if (!(pivot_A_y_2 > 1e-13 * scale_A_y_2)) return 8;
     const double inverse_pivot_A_y_2 = 1.0/pivot_A_y_2;
-    const double w_motor__A_y_2 = arm_crank_tail_x*inverse_crank_inertia - l_motor__A0_x_2*w_A_y__A0_x_2 -
+    const double w_motor__A_y_2 = -arm_crank_head_x*inverse_crank_inertia - l_motor__A0_x_2*w_A_y__A0_x_2 -
         l_motor__A0_y_2*w_A_y__A0_y_2 - l_motor__A_x_2*w_A_y__A_x_2;
     const double l_motor__A_y_2 = -inverse_pivot_A_y_2*w_motor__A_y_2;
     const double scale_motor_2 = inverse_crank_inertia;

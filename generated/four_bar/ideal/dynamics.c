@@ -29,9 +29,9 @@ static int dynamics(const double t, const double *q, const double *v, const Para
 
     /* parameters */
     const double omega = p->omega;
-    const double crank_origin_x = p->crank_origin_x;
-    const double coupler_origin_x = p->coupler_origin_x;
-    const double rocker_origin_x = p->rocker_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double coupler_head_x = p->coupler_head_x;
+    const double rocker_head_x = p->rocker_head_x;
     const double B0_x = p->B0_x;
     const double inverse_crank_mass = p->inverse_crank_mass;
     const double inverse_crank_inertia = p->inverse_crank_inertia;
@@ -48,16 +48,16 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_coupler = cos(coupler_theta);
     const double sin_theta_coupler = sin(coupler_theta);
-    const double arm_coupler_tail_x = cos_theta_coupler*coupler_origin_x;
-    const double arm_coupler_tail_y = coupler_origin_x*sin_theta_coupler;
+    const double arm_coupler_head_x = cos_theta_coupler*coupler_head_x;
+    const double arm_coupler_head_y = coupler_head_x*sin_theta_coupler;
     const double cos_theta_rocker = cos(rocker_theta);
     const double sin_theta_rocker = sin(rocker_theta);
-    const double arm_rocker_head_x = -cos_theta_rocker*rocker_origin_x;
-    const double arm_rocker_head_y = -rocker_origin_x*sin_theta_rocker;
+    const double arm_rocker_head_x = cos_theta_rocker*rocker_head_x;
+    const double arm_rocker_head_y = rocker_head_x*sin_theta_rocker;
     const double motor_value = omega*time + 1.5707963267948966;
     const double motor_rate = omega;
     const double motor_acceleration = 0.0;
@@ -66,43 +66,43 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     int pivot = 0;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
-    const double phi_A0_x = -arm_crank_tail_x - crank_x;
-    const double phi_dot_A0_x = arm_crank_tail_y*crank_omega - crank_vx;
-    const double rhs_A0_x = -arm_crank_tail_x*(crank_omega * crank_omega) - beta_squared*phi_A0_x -
+    const double phi_A0_x = arm_crank_head_x - crank_x;
+    const double phi_dot_A0_x = -arm_crank_head_y*crank_omega - crank_vx;
+    const double rhs_A0_x = arm_crank_head_x*(crank_omega * crank_omega) - beta_squared*phi_A0_x -
         phi_dot_A0_x*two_alpha;
     aside->phi[0] = phi_A0_x;
     aside->phi_dot[0] = phi_dot_A0_x;
-    const double phi_A0_y = -arm_crank_tail_y - crank_y;
-    const double phi_dot_A0_y = -arm_crank_tail_x*crank_omega - crank_vy;
-    const double rhs_A0_y = -arm_crank_tail_y*(crank_omega * crank_omega) - beta_squared*phi_A0_y -
+    const double phi_A0_y = arm_crank_head_y - crank_y;
+    const double phi_dot_A0_y = arm_crank_head_x*crank_omega - crank_vy;
+    const double rhs_A0_y = arm_crank_head_y*(crank_omega * crank_omega) - beta_squared*phi_A0_y -
         phi_dot_A0_y*two_alpha;
     aside->phi[1] = phi_A0_y;
     aside->phi_dot[1] = phi_dot_A0_y;
-    const double phi_A_x = -arm_coupler_tail_x - arm_crank_tail_x - coupler_x + crank_x;
-    const double phi_dot_A_x = arm_coupler_tail_y*coupler_omega + arm_crank_tail_y*crank_omega - coupler_vx +
+    const double phi_A_x = arm_coupler_head_x + arm_crank_head_x - coupler_x + crank_x;
+    const double phi_dot_A_x = -arm_coupler_head_y*coupler_omega - arm_crank_head_y*crank_omega - coupler_vx +
         crank_vx;
-    const double rhs_A_x = -arm_coupler_tail_x*(coupler_omega * coupler_omega) - arm_crank_tail_x*(crank_omega
+    const double rhs_A_x = arm_coupler_head_x*(coupler_omega * coupler_omega) + arm_crank_head_x*(crank_omega
         * crank_omega) - beta_squared*phi_A_x - phi_dot_A_x*two_alpha;
     aside->phi[2] = phi_A_x;
     aside->phi_dot[2] = phi_dot_A_x;
-    const double phi_A_y = -arm_coupler_tail_y - arm_crank_tail_y - coupler_y + crank_y;
-    const double phi_dot_A_y = -arm_coupler_tail_x*coupler_omega - arm_crank_tail_x*crank_omega - coupler_vy +
+    const double phi_A_y = arm_coupler_head_y + arm_crank_head_y - coupler_y + crank_y;
+    const double phi_dot_A_y = arm_coupler_head_x*coupler_omega + arm_crank_head_x*crank_omega - coupler_vy +
         crank_vy;
-    const double rhs_A_y = -arm_coupler_tail_y*(coupler_omega * coupler_omega) - arm_crank_tail_y*(crank_omega
+    const double rhs_A_y = arm_coupler_head_y*(coupler_omega * coupler_omega) + arm_crank_head_y*(crank_omega
         * crank_omega) - beta_squared*phi_A_y - phi_dot_A_y*two_alpha;
     aside->phi[3] = phi_A_y;
     aside->phi_dot[3] = phi_dot_A_y;
-    const double phi_B_x = -arm_coupler_tail_x - arm_rocker_head_x + coupler_x - rocker_x;
-    const double phi_dot_B_x = arm_coupler_tail_y*coupler_omega + arm_rocker_head_y*rocker_omega + coupler_vx
+    const double phi_B_x = arm_coupler_head_x - arm_rocker_head_x + coupler_x - rocker_x;
+    const double phi_dot_B_x = -arm_coupler_head_y*coupler_omega + arm_rocker_head_y*rocker_omega + coupler_vx
         - rocker_vx;
-    const double rhs_B_x = -arm_coupler_tail_x*(coupler_omega * coupler_omega) -
+    const double rhs_B_x = arm_coupler_head_x*(coupler_omega * coupler_omega) -
         arm_rocker_head_x*(rocker_omega * rocker_omega) - beta_squared*phi_B_x - phi_dot_B_x*two_alpha;
     aside->phi[4] = phi_B_x;
     aside->phi_dot[4] = phi_dot_B_x;
-    const double phi_B_y = -arm_coupler_tail_y - arm_rocker_head_y + coupler_y - rocker_y;
-    const double phi_dot_B_y = -arm_coupler_tail_x*coupler_omega - arm_rocker_head_x*rocker_omega + coupler_vy
+    const double phi_B_y = arm_coupler_head_y - arm_rocker_head_y + coupler_y - rocker_y;
+    const double phi_dot_B_y = arm_coupler_head_x*coupler_omega - arm_rocker_head_x*rocker_omega + coupler_vy
         - rocker_vy;
-    const double rhs_B_y = -arm_coupler_tail_y*(coupler_omega * coupler_omega) -
+    const double rhs_B_y = arm_coupler_head_y*(coupler_omega * coupler_omega) -
         arm_rocker_head_y*(rocker_omega * rocker_omega) - beta_squared*phi_B_y - phi_dot_B_y*two_alpha;
     aside->phi[5] = phi_B_y;
     aside->phi_dot[5] = phi_dot_B_y;
@@ -125,10 +125,10 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     aside->phi_dot[8] = phi_dot_motor;
 
     /* L D L^T of the KKT matrix */
-    const double l_B_x__coupler_theta = arm_coupler_tail_y*inverse_coupler_inertia;
-    const double l_B_y__coupler_theta = -arm_coupler_tail_x*inverse_coupler_inertia;
-    const double l_A_x__coupler_theta = arm_coupler_tail_y*inverse_coupler_inertia;
-    const double l_A_y__coupler_theta = -arm_coupler_tail_x*inverse_coupler_inertia;
+    const double l_B_x__coupler_theta = -arm_coupler_head_y*inverse_coupler_inertia;
+    const double l_B_y__coupler_theta = arm_coupler_head_x*inverse_coupler_inertia;
+    const double l_A_x__coupler_theta = -arm_coupler_head_y*inverse_coupler_inertia;
+    const double l_A_y__coupler_theta = arm_coupler_head_x*inverse_coupler_inertia;
     const double l_B0_x__rocker_theta = -arm_rocker_head_y*inverse_rocker_inertia;
     const double l_B0_y__rocker_theta = arm_rocker_head_x*inverse_rocker_inertia;
     const double l_B_x__rocker_theta = arm_rocker_head_y*inverse_rocker_inertia;
@@ -151,74 +151,74 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double w_B_y__B0_y = -arm_rocker_head_x*l_B_y__rocker_theta - inverse_rocker_mass -
         l_B_y__B0_x*w_B0_y__B0_x;
     const double l_B_y__B0_y = -inverse_pivot_B0_y*w_B_y__B0_y;
-    const double scale_B_x = arm_coupler_tail_y*l_B_x__coupler_theta + arm_rocker_head_y*l_B_x__rocker_theta +
-        inverse_coupler_mass + inverse_rocker_mass;
+    const double scale_B_x = -arm_coupler_head_y*l_B_x__coupler_theta + arm_rocker_head_y*l_B_x__rocker_theta
+        + inverse_coupler_mass + inverse_rocker_mass;
     const double pivot_B_x = l_B_x__B0_x*w_B_x__B0_x + l_B_x__B0_y*w_B_x__B0_y + scale_B_x;
     if (!(pivot_B_x > 1e-13 * scale_B_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_B_x = 1.0/pivot_B_x;
-    const double w_B_y__B_x = -arm_coupler_tail_y*l_B_y__coupler_theta - arm_rocker_head_y*l_B_y__rocker_theta
+    const double w_B_y__B_x = arm_coupler_head_y*l_B_y__coupler_theta - arm_rocker_head_y*l_B_y__rocker_theta
         - l_B_y__B0_x*w_B_x__B0_x - l_B_y__B0_y*w_B_x__B0_y;
     const double l_B_y__B_x = -inverse_pivot_B_x*w_B_y__B_x;
-    const double w_A_x__B_x = -arm_coupler_tail_y*l_A_x__coupler_theta + inverse_coupler_mass;
+    const double w_A_x__B_x = arm_coupler_head_y*l_A_x__coupler_theta + inverse_coupler_mass;
     const double l_A_x__B_x = -inverse_pivot_B_x*w_A_x__B_x;
-    const double w_A_y__B_x = -arm_coupler_tail_y*l_A_y__coupler_theta;
+    const double w_A_y__B_x = arm_coupler_head_y*l_A_y__coupler_theta;
     const double l_A_y__B_x = -inverse_pivot_B_x*w_A_y__B_x;
-    const double scale_B_y = -arm_coupler_tail_x*l_B_y__coupler_theta - arm_rocker_head_x*l_B_y__rocker_theta
-        + inverse_coupler_mass + inverse_rocker_mass;
+    const double scale_B_y = arm_coupler_head_x*l_B_y__coupler_theta - arm_rocker_head_x*l_B_y__rocker_theta +
+        inverse_coupler_mass + inverse_rocker_mass;
     const double pivot_B_y = l_B_y__B0_x*w_B_y__B0_x + l_B_y__B0_y*w_B_y__B0_y + l_B_y__B_x*w_B_y__B_x +
         scale_B_y;
     if (!(pivot_B_y > 1e-13 * scale_B_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_B_y = 1.0/pivot_B_y;
-    const double w_A_x__B_y = arm_coupler_tail_x*l_A_x__coupler_theta - l_A_x__B_x*w_B_y__B_x;
+    const double w_A_x__B_y = -arm_coupler_head_x*l_A_x__coupler_theta - l_A_x__B_x*w_B_y__B_x;
     const double l_A_x__B_y = -inverse_pivot_B_y*w_A_x__B_y;
-    const double w_A_y__B_y = arm_coupler_tail_x*l_A_y__coupler_theta + inverse_coupler_mass -
+    const double w_A_y__B_y = -arm_coupler_head_x*l_A_y__coupler_theta + inverse_coupler_mass -
         l_A_y__B_x*w_B_y__B_x;
     const double l_A_y__B_y = -inverse_pivot_B_y*w_A_y__B_y;
-    const double l_A0_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
-    const double l_A0_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
-    const double l_A_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
-    const double l_A_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
-    const double scale_A0_x = arm_crank_tail_y*l_A0_x__crank_theta + inverse_crank_mass;
+    const double l_A0_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_A0_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
+    const double l_A_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_A_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
+    const double scale_A0_x = -arm_crank_head_y*l_A0_x__crank_theta + inverse_crank_mass;
     if (!(scale_A0_x > 1e-13 * scale_A0_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_A0_x = 1.0/scale_A0_x;
-    const double w_A0_y__A0_x = -arm_crank_tail_y*l_A0_y__crank_theta;
+    const double w_A0_y__A0_x = arm_crank_head_y*l_A0_y__crank_theta;
     const double l_A0_y__A0_x = -inverse_pivot_A0_x*w_A0_y__A0_x;
-    const double w_A_x__A0_x = -arm_crank_tail_y*l_A_x__crank_theta + inverse_crank_mass;
+    const double w_A_x__A0_x = arm_crank_head_y*l_A_x__crank_theta + inverse_crank_mass;
     const double l_A_x__A0_x = -inverse_pivot_A0_x*w_A_x__A0_x;
-    const double w_A_y__A0_x = -arm_crank_tail_y*l_A_y__crank_theta;
+    const double w_A_y__A0_x = arm_crank_head_y*l_A_y__crank_theta;
     const double l_A_y__A0_x = -inverse_pivot_A0_x*w_A_y__A0_x;
-    const double w_motor__A0_x = -arm_crank_tail_y*inverse_crank_inertia;
+    const double w_motor__A0_x = arm_crank_head_y*inverse_crank_inertia;
     const double l_motor__A0_x = -inverse_pivot_A0_x*w_motor__A0_x;
-    const double scale_A0_y = -arm_crank_tail_x*l_A0_y__crank_theta + inverse_crank_mass;
+    const double scale_A0_y = arm_crank_head_x*l_A0_y__crank_theta + inverse_crank_mass;
     const double pivot_A0_y = l_A0_y__A0_x*w_A0_y__A0_x + scale_A0_y;
     if (!(pivot_A0_y > 1e-13 * scale_A0_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_A0_y = 1.0/pivot_A0_y;
-    const double w_A_x__A0_y = arm_crank_tail_x*l_A_x__crank_theta - l_A_x__A0_x*w_A0_y__A0_x;
+    const double w_A_x__A0_y = -arm_crank_head_x*l_A_x__crank_theta - l_A_x__A0_x*w_A0_y__A0_x;
     const double l_A_x__A0_y = -inverse_pivot_A0_y*w_A_x__A0_y;
-    const double w_A_y__A0_y = arm_crank_tail_x*l_A_y__crank_theta + inverse_crank_mass -
+    const double w_A_y__A0_y = -arm_crank_head_x*l_A_y__crank_theta + inverse_crank_mass -
         l_A_y__A0_x*w_A0_y__A0_x;
     const double l_A_y__A0_y = -inverse_pivot_A0_y*w_A_y__A0_y;
-    const double w_motor__A0_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__A0_x*w_A0_y__A0_x;
+    const double w_motor__A0_y = -arm_crank_head_x*inverse_crank_inertia - l_motor__A0_x*w_A0_y__A0_x;
     const double l_motor__A0_y = -inverse_pivot_A0_y*w_motor__A0_y;
-    const double scale_A_x = arm_coupler_tail_y*l_A_x__coupler_theta + arm_crank_tail_y*l_A_x__crank_theta +
+    const double scale_A_x = -arm_coupler_head_y*l_A_x__coupler_theta - arm_crank_head_y*l_A_x__crank_theta +
         inverse_coupler_mass + inverse_crank_mass;
     const double pivot_A_x = l_A_x__A0_x*w_A_x__A0_x + l_A_x__A0_y*w_A_x__A0_y + l_A_x__B_x*w_A_x__B_x +
         l_A_x__B_y*w_A_x__B_y + scale_A_x;
     if (!(pivot_A_x > 1e-13 * scale_A_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_A_x = 1.0/pivot_A_x;
-    const double w_A_y__A_x = -arm_coupler_tail_y*l_A_y__coupler_theta - arm_crank_tail_y*l_A_y__crank_theta -
+    const double w_A_y__A_x = arm_coupler_head_y*l_A_y__coupler_theta + arm_crank_head_y*l_A_y__crank_theta -
         l_A_y__A0_x*w_A_x__A0_x - l_A_y__A0_y*w_A_x__A0_y - l_A_y__B_x*w_A_x__B_x - l_A_y__B_y*w_A_x__B_y;
     const double l_A_y__A_x = -inverse_pivot_A_x*w_A_y__A_x;
-    const double w_motor__A_x = -arm_crank_tail_y*inverse_crank_inertia - l_motor__A0_x*w_A_x__A0_x -
+    const double w_motor__A_x = arm_crank_head_y*inverse_crank_inertia - l_motor__A0_x*w_A_x__A0_x -
         l_motor__A0_y*w_A_x__A0_y;
     const double l_motor__A_x = -inverse_pivot_A_x*w_motor__A_x;
-    const double scale_A_y = -arm_coupler_tail_x*l_A_y__coupler_theta - arm_crank_tail_x*l_A_y__crank_theta +
+    const double scale_A_y = arm_coupler_head_x*l_A_y__coupler_theta + arm_crank_head_x*l_A_y__crank_theta +
         inverse_coupler_mass + inverse_crank_mass;
     const double pivot_A_y = l_A_y__A0_x*w_A_y__A0_x + l_A_y__A0_y*w_A_y__A0_y + l_A_y__A_x*w_A_y__A_x +
         l_A_y__B_x*w_A_y__B_x + l_A_y__B_y*w_A_y__B_y + scale_A_y;
     if (!(pivot_A_y > 1e-13 * scale_A_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_A_y = 1.0/pivot_A_y;
-    const double w_motor__A_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__A0_x*w_A_y__A0_x -
+    const double w_motor__A_y = -arm_crank_head_x*inverse_crank_inertia - l_motor__A0_x*w_A_y__A0_x -
         l_motor__A0_y*w_A_y__A0_y - l_motor__A_x*w_A_y__A_x;
     const double l_motor__A_y = -inverse_pivot_A_y*w_motor__A_y;
     const double scale_motor = inverse_crank_inertia;

@@ -23,7 +23,7 @@ enum {
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double omega;  /* parameters.omega */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double coupler_mass;  /* bodies.coupler.mass */    double coupler_inertia;  /* bodies.coupler.inertia */    double rocker_mass;  /* bodies.rocker.mass */    double rocker_inertia;  /* bodies.rocker.inertia */    double crank_length;  /* bodies.crank.length */    double coupler_length;  /* bodies.coupler.length */    double coupler_points_tracer_x;  /* bodies.coupler.points.tracer.x */    double coupler_points_tracer_y;  /* bodies.coupler.points.tracer.y */    double rocker_length;  /* bodies.rocker.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double B0_x;  /* ground.B0.x */    double par_y;  /* gravity.y */    double guess_coupler_theta;  /* start.guess.coupler.theta */    double guess_rocker_theta;  /* start.guess.rocker.theta */    double crank_origin_x;  /* point from the centre of mass */    double coupler_origin_x;  /* point from the centre of mass */    double coupler_tracer_x;  /* point from the centre of mass */    double rocker_origin_x;  /* point from the centre of mass */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_coupler_mass;  /* 1/M */    double inverse_coupler_inertia;  /* 1/M */    double inverse_rocker_mass;  /* 1/M */    double inverse_rocker_inertia;  /* 1/M */    double weight_crank_y;  /* weight */    double weight_coupler_y;  /* weight */    double weight_rocker_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+typedef struct {    double omega;  /* parameters.omega */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double coupler_mass;  /* bodies.coupler.mass */    double coupler_inertia;  /* bodies.coupler.inertia */    double rocker_mass;  /* bodies.rocker.mass */    double rocker_inertia;  /* bodies.rocker.inertia */    double crank_length;  /* bodies.crank.length */    double coupler_length;  /* bodies.coupler.length */    double coupler_points_tracer_x;  /* bodies.coupler.points.tracer.x */    double coupler_points_tracer_y;  /* bodies.coupler.points.tracer.y */    double rocker_length;  /* bodies.rocker.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double B0_x;  /* ground.B0.x */    double par_y;  /* gravity.y */    double guess_coupler_theta;  /* start.guess.coupler.theta */    double guess_rocker_theta;  /* start.guess.rocker.theta */    double crank_head_x;  /* point from the centre of mass */    double coupler_head_x;  /* point from the centre of mass */    double coupler_tracer_x;  /* point from the centre of mass */    double rocker_head_x;  /* point from the centre of mass */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_coupler_mass;  /* 1/M */    double inverse_coupler_inertia;  /* 1/M */    double inverse_rocker_mass;  /* 1/M */    double inverse_rocker_inertia;  /* 1/M */    double weight_crank_y;  /* weight */    double weight_coupler_y;  /* weight */    double weight_rocker_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -31,15 +31,18 @@ typedef struct {
     double deltadot_minus;
 } Latch;
 
-/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+/*
+ * What the right-hand side remembers beside the state: latches, and each friction's mode: 0 stick, 1 or -1 the
+ * sign of its slip, 2 no force at all, where others hold the slip at zero.
+ */
 typedef struct {
     Latch latch[1];
     double mode[1];
 } Memory;
 
-/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+/* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
 typedef struct {
-    double v, speed, force, static_limit;
+    double v, rate, speed, force, static_limit;
 } Friction;
 
 /* A joint with play at one state; the force acts on the second body (journal), ground axes. */

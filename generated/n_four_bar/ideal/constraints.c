@@ -56,51 +56,51 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     const double coupler2_theta = q[14];
 
     /* parameters */
-    const double crank0_origin_x = p->crank0_origin_x;
-    const double crank1_origin_x = p->crank1_origin_x;
-    const double crank2_origin_x = p->crank2_origin_x;
-    const double coupler1_origin_x = p->coupler1_origin_x;
-    const double coupler2_origin_x = p->coupler2_origin_x;
+    const double crank0_head_x = p->crank0_head_x;
+    const double crank1_head_x = p->crank1_head_x;
+    const double crank2_head_x = p->crank2_head_x;
+    const double coupler1_head_x = p->coupler1_head_x;
+    const double coupler2_head_x = p->coupler2_head_x;
     const double O1_x = p->O1_x;
     const double O2_x = p->O2_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank0 = cos(crank0_theta);
     const double sin_theta_crank0 = sin(crank0_theta);
-    const double arm_crank0_tail_x = cos_theta_crank0*crank0_origin_x;
-    const double arm_crank0_tail_y = crank0_origin_x*sin_theta_crank0;
+    const double arm_crank0_head_x = cos_theta_crank0*crank0_head_x;
+    const double arm_crank0_head_y = crank0_head_x*sin_theta_crank0;
     const double cos_theta_crank1 = cos(crank1_theta);
     const double sin_theta_crank1 = sin(crank1_theta);
-    const double arm_crank1_tail_x = cos_theta_crank1*crank1_origin_x;
-    const double arm_crank1_tail_y = crank1_origin_x*sin_theta_crank1;
+    const double arm_crank1_head_x = cos_theta_crank1*crank1_head_x;
+    const double arm_crank1_head_y = crank1_head_x*sin_theta_crank1;
     const double cos_theta_crank2 = cos(crank2_theta);
     const double sin_theta_crank2 = sin(crank2_theta);
-    const double arm_crank2_tail_x = cos_theta_crank2*crank2_origin_x;
-    const double arm_crank2_tail_y = crank2_origin_x*sin_theta_crank2;
+    const double arm_crank2_head_x = cos_theta_crank2*crank2_head_x;
+    const double arm_crank2_head_y = crank2_head_x*sin_theta_crank2;
     const double cos_theta_coupler1 = cos(coupler1_theta);
     const double sin_theta_coupler1 = sin(coupler1_theta);
-    const double arm_coupler1_tail_x = cos_theta_coupler1*coupler1_origin_x;
-    const double arm_coupler1_tail_y = coupler1_origin_x*sin_theta_coupler1;
+    const double arm_coupler1_head_x = cos_theta_coupler1*coupler1_head_x;
+    const double arm_coupler1_head_y = coupler1_head_x*sin_theta_coupler1;
     const double cos_theta_coupler2 = cos(coupler2_theta);
     const double sin_theta_coupler2 = sin(coupler2_theta);
-    const double arm_coupler2_tail_x = cos_theta_coupler2*coupler2_origin_x;
-    const double arm_coupler2_tail_y = coupler2_origin_x*sin_theta_coupler2;
+    const double arm_coupler2_head_x = cos_theta_coupler2*coupler2_head_x;
+    const double arm_coupler2_head_y = coupler2_head_x*sin_theta_coupler2;
 
     /* rows */
-    phi[0] = -arm_crank0_tail_x - crank0_x;  /* O0.x */
-    phi[1] = -arm_crank0_tail_y - crank0_y;  /* O0.y */
-    phi[2] = O1_x - arm_crank1_tail_x - crank1_x;  /* O1.x */
-    phi[3] = -arm_crank1_tail_y - crank1_y;  /* O1.y */
-    phi[4] = O2_x - arm_crank2_tail_x - crank2_x;  /* O2.x */
-    phi[5] = -arm_crank2_tail_y - crank2_y;  /* O2.y */
-    phi[6] = -arm_coupler1_tail_x - arm_crank0_tail_x - coupler1_x + crank0_x;  /* A0.x */
-    phi[7] = -arm_coupler1_tail_y - arm_crank0_tail_y - coupler1_y + crank0_y;  /* A0.y */
-    phi[8] = -arm_coupler1_tail_x + arm_crank1_tail_x + coupler1_x - crank1_x;  /* B1.x */
-    phi[9] = -arm_coupler1_tail_y + arm_crank1_tail_y + coupler1_y - crank1_y;  /* B1.y */
-    phi[10] = -arm_coupler2_tail_x - arm_crank1_tail_x - coupler2_x + crank1_x;  /* A1.x */
-    phi[11] = -arm_coupler2_tail_y - arm_crank1_tail_y - coupler2_y + crank1_y;  /* A1.y */
-    phi[12] = -arm_coupler2_tail_x + arm_crank2_tail_x + coupler2_x - crank2_x;  /* B2.x */
-    phi[13] = -arm_coupler2_tail_y + arm_crank2_tail_y + coupler2_y - crank2_y;  /* B2.y */
+    phi[0] = arm_crank0_head_x - crank0_x;  /* O0.x */
+    phi[1] = arm_crank0_head_y - crank0_y;  /* O0.y */
+    phi[2] = O1_x + arm_crank1_head_x - crank1_x;  /* O1.x */
+    phi[3] = arm_crank1_head_y - crank1_y;  /* O1.y */
+    phi[4] = O2_x + arm_crank2_head_x - crank2_x;  /* O2.x */
+    phi[5] = arm_crank2_head_y - crank2_y;  /* O2.y */
+    phi[6] = arm_coupler1_head_x + arm_crank0_head_x - coupler1_x + crank0_x;  /* A0.x */
+    phi[7] = arm_coupler1_head_y + arm_crank0_head_y - coupler1_y + crank0_y;  /* A0.y */
+    phi[8] = arm_coupler1_head_x - arm_crank1_head_x + coupler1_x - crank1_x;  /* B1.x */
+    phi[9] = arm_coupler1_head_y - arm_crank1_head_y + coupler1_y - crank1_y;  /* B1.y */
+    phi[10] = arm_coupler2_head_x + arm_crank1_head_x - coupler2_x + crank1_x;  /* A1.x */
+    phi[11] = arm_coupler2_head_y + arm_crank1_head_y - coupler2_y + crank1_y;  /* A1.y */
+    phi[12] = arm_coupler2_head_x - arm_crank2_head_x + coupler2_x - crank2_x;  /* B2.x */
+    phi[13] = arm_coupler2_head_y - arm_crank2_head_y + coupler2_y - crank2_y;  /* B2.y */
 }
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
@@ -116,79 +116,79 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     const double coupler2_theta = q[14];
 
     /* parameters */
-    const double crank0_origin_x = p->crank0_origin_x;
-    const double crank1_origin_x = p->crank1_origin_x;
-    const double crank2_origin_x = p->crank2_origin_x;
-    const double coupler1_origin_x = p->coupler1_origin_x;
-    const double coupler2_origin_x = p->coupler2_origin_x;
+    const double crank0_head_x = p->crank0_head_x;
+    const double crank1_head_x = p->crank1_head_x;
+    const double crank2_head_x = p->crank2_head_x;
+    const double coupler1_head_x = p->coupler1_head_x;
+    const double coupler2_head_x = p->coupler2_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank0 = cos(crank0_theta);
     const double sin_theta_crank0 = sin(crank0_theta);
-    const double arm_crank0_tail_x = cos_theta_crank0*crank0_origin_x;
-    const double arm_crank0_tail_y = crank0_origin_x*sin_theta_crank0;
+    const double arm_crank0_head_x = cos_theta_crank0*crank0_head_x;
+    const double arm_crank0_head_y = crank0_head_x*sin_theta_crank0;
     const double cos_theta_crank1 = cos(crank1_theta);
     const double sin_theta_crank1 = sin(crank1_theta);
-    const double arm_crank1_tail_x = cos_theta_crank1*crank1_origin_x;
-    const double arm_crank1_tail_y = crank1_origin_x*sin_theta_crank1;
+    const double arm_crank1_head_x = cos_theta_crank1*crank1_head_x;
+    const double arm_crank1_head_y = crank1_head_x*sin_theta_crank1;
     const double cos_theta_crank2 = cos(crank2_theta);
     const double sin_theta_crank2 = sin(crank2_theta);
-    const double arm_crank2_tail_x = cos_theta_crank2*crank2_origin_x;
-    const double arm_crank2_tail_y = crank2_origin_x*sin_theta_crank2;
+    const double arm_crank2_head_x = cos_theta_crank2*crank2_head_x;
+    const double arm_crank2_head_y = crank2_head_x*sin_theta_crank2;
     const double cos_theta_coupler1 = cos(coupler1_theta);
     const double sin_theta_coupler1 = sin(coupler1_theta);
-    const double arm_coupler1_tail_x = cos_theta_coupler1*coupler1_origin_x;
-    const double arm_coupler1_tail_y = coupler1_origin_x*sin_theta_coupler1;
+    const double arm_coupler1_head_x = cos_theta_coupler1*coupler1_head_x;
+    const double arm_coupler1_head_y = coupler1_head_x*sin_theta_coupler1;
     const double cos_theta_coupler2 = cos(coupler2_theta);
     const double sin_theta_coupler2 = sin(coupler2_theta);
-    const double arm_coupler2_tail_x = cos_theta_coupler2*coupler2_origin_x;
-    const double arm_coupler2_tail_y = coupler2_origin_x*sin_theta_coupler2;
+    const double arm_coupler2_head_x = cos_theta_coupler2*coupler2_head_x;
+    const double arm_coupler2_head_y = coupler2_head_x*sin_theta_coupler2;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d O0.x / d crank0_x */
-    phi_q[2] = arm_crank0_tail_y;  /* d O0.x / d crank0_theta */
+    phi_q[2] = -arm_crank0_head_y;  /* d O0.x / d crank0_theta */
     phi_q[16] = -1.0;  /* d O0.y / d crank0_y */
-    phi_q[17] = -arm_crank0_tail_x;  /* d O0.y / d crank0_theta */
+    phi_q[17] = arm_crank0_head_x;  /* d O0.y / d crank0_theta */
     phi_q[33] = -1.0;  /* d O1.x / d crank1_x */
-    phi_q[35] = arm_crank1_tail_y;  /* d O1.x / d crank1_theta */
+    phi_q[35] = -arm_crank1_head_y;  /* d O1.x / d crank1_theta */
     phi_q[49] = -1.0;  /* d O1.y / d crank1_y */
-    phi_q[50] = -arm_crank1_tail_x;  /* d O1.y / d crank1_theta */
+    phi_q[50] = arm_crank1_head_x;  /* d O1.y / d crank1_theta */
     phi_q[66] = -1.0;  /* d O2.x / d crank2_x */
-    phi_q[68] = arm_crank2_tail_y;  /* d O2.x / d crank2_theta */
+    phi_q[68] = -arm_crank2_head_y;  /* d O2.x / d crank2_theta */
     phi_q[82] = -1.0;  /* d O2.y / d crank2_y */
-    phi_q[83] = -arm_crank2_tail_x;  /* d O2.y / d crank2_theta */
+    phi_q[83] = arm_crank2_head_x;  /* d O2.y / d crank2_theta */
     phi_q[90] = 1.0;  /* d A0.x / d crank0_x */
-    phi_q[92] = arm_crank0_tail_y;  /* d A0.x / d crank0_theta */
+    phi_q[92] = -arm_crank0_head_y;  /* d A0.x / d crank0_theta */
     phi_q[99] = -1.0;  /* d A0.x / d coupler1_x */
-    phi_q[101] = arm_coupler1_tail_y;  /* d A0.x / d coupler1_theta */
+    phi_q[101] = -arm_coupler1_head_y;  /* d A0.x / d coupler1_theta */
     phi_q[106] = 1.0;  /* d A0.y / d crank0_y */
-    phi_q[107] = -arm_crank0_tail_x;  /* d A0.y / d crank0_theta */
+    phi_q[107] = arm_crank0_head_x;  /* d A0.y / d crank0_theta */
     phi_q[115] = -1.0;  /* d A0.y / d coupler1_y */
-    phi_q[116] = -arm_coupler1_tail_x;  /* d A0.y / d coupler1_theta */
+    phi_q[116] = arm_coupler1_head_x;  /* d A0.y / d coupler1_theta */
     phi_q[129] = 1.0;  /* d B1.x / d coupler1_x */
-    phi_q[131] = arm_coupler1_tail_y;  /* d B1.x / d coupler1_theta */
+    phi_q[131] = -arm_coupler1_head_y;  /* d B1.x / d coupler1_theta */
     phi_q[123] = -1.0;  /* d B1.x / d crank1_x */
-    phi_q[125] = -arm_crank1_tail_y;  /* d B1.x / d crank1_theta */
+    phi_q[125] = arm_crank1_head_y;  /* d B1.x / d crank1_theta */
     phi_q[145] = 1.0;  /* d B1.y / d coupler1_y */
-    phi_q[146] = -arm_coupler1_tail_x;  /* d B1.y / d coupler1_theta */
+    phi_q[146] = arm_coupler1_head_x;  /* d B1.y / d coupler1_theta */
     phi_q[139] = -1.0;  /* d B1.y / d crank1_y */
-    phi_q[140] = arm_crank1_tail_x;  /* d B1.y / d crank1_theta */
+    phi_q[140] = -arm_crank1_head_x;  /* d B1.y / d crank1_theta */
     phi_q[153] = 1.0;  /* d A1.x / d crank1_x */
-    phi_q[155] = arm_crank1_tail_y;  /* d A1.x / d crank1_theta */
+    phi_q[155] = -arm_crank1_head_y;  /* d A1.x / d crank1_theta */
     phi_q[162] = -1.0;  /* d A1.x / d coupler2_x */
-    phi_q[164] = arm_coupler2_tail_y;  /* d A1.x / d coupler2_theta */
+    phi_q[164] = -arm_coupler2_head_y;  /* d A1.x / d coupler2_theta */
     phi_q[169] = 1.0;  /* d A1.y / d crank1_y */
-    phi_q[170] = -arm_crank1_tail_x;  /* d A1.y / d crank1_theta */
+    phi_q[170] = arm_crank1_head_x;  /* d A1.y / d crank1_theta */
     phi_q[178] = -1.0;  /* d A1.y / d coupler2_y */
-    phi_q[179] = -arm_coupler2_tail_x;  /* d A1.y / d coupler2_theta */
+    phi_q[179] = arm_coupler2_head_x;  /* d A1.y / d coupler2_theta */
     phi_q[192] = 1.0;  /* d B2.x / d coupler2_x */
-    phi_q[194] = arm_coupler2_tail_y;  /* d B2.x / d coupler2_theta */
+    phi_q[194] = -arm_coupler2_head_y;  /* d B2.x / d coupler2_theta */
     phi_q[186] = -1.0;  /* d B2.x / d crank2_x */
-    phi_q[188] = -arm_crank2_tail_y;  /* d B2.x / d crank2_theta */
+    phi_q[188] = arm_crank2_head_y;  /* d B2.x / d crank2_theta */
     phi_q[208] = 1.0;  /* d B2.y / d coupler2_y */
-    phi_q[209] = -arm_coupler2_tail_x;  /* d B2.y / d coupler2_theta */
+    phi_q[209] = arm_coupler2_head_x;  /* d B2.y / d coupler2_theta */
     phi_q[202] = -1.0;  /* d B2.y / d crank2_y */
-    phi_q[203] = arm_crank2_tail_x;  /* d B2.y / d crank2_theta */
+    phi_q[203] = -arm_crank2_head_x;  /* d B2.y / d crank2_theta */
 }
 /*
  * nu = -Phi_t: Phi_q v = nu.
@@ -234,57 +234,57 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     const double coupler2_omega = v[14];
 
     /* parameters */
-    const double crank0_origin_x = p->crank0_origin_x;
-    const double crank1_origin_x = p->crank1_origin_x;
-    const double crank2_origin_x = p->crank2_origin_x;
-    const double coupler1_origin_x = p->coupler1_origin_x;
-    const double coupler2_origin_x = p->coupler2_origin_x;
+    const double crank0_head_x = p->crank0_head_x;
+    const double crank1_head_x = p->crank1_head_x;
+    const double crank2_head_x = p->crank2_head_x;
+    const double coupler1_head_x = p->coupler1_head_x;
+    const double coupler2_head_x = p->coupler2_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank0 = cos(crank0_theta);
     const double sin_theta_crank0 = sin(crank0_theta);
-    const double arm_crank0_tail_x = cos_theta_crank0*crank0_origin_x;
-    const double arm_crank0_tail_y = crank0_origin_x*sin_theta_crank0;
+    const double arm_crank0_head_x = cos_theta_crank0*crank0_head_x;
+    const double arm_crank0_head_y = crank0_head_x*sin_theta_crank0;
     const double cos_theta_crank1 = cos(crank1_theta);
     const double sin_theta_crank1 = sin(crank1_theta);
-    const double arm_crank1_tail_x = cos_theta_crank1*crank1_origin_x;
-    const double arm_crank1_tail_y = crank1_origin_x*sin_theta_crank1;
+    const double arm_crank1_head_x = cos_theta_crank1*crank1_head_x;
+    const double arm_crank1_head_y = crank1_head_x*sin_theta_crank1;
     const double cos_theta_crank2 = cos(crank2_theta);
     const double sin_theta_crank2 = sin(crank2_theta);
-    const double arm_crank2_tail_x = cos_theta_crank2*crank2_origin_x;
-    const double arm_crank2_tail_y = crank2_origin_x*sin_theta_crank2;
+    const double arm_crank2_head_x = cos_theta_crank2*crank2_head_x;
+    const double arm_crank2_head_y = crank2_head_x*sin_theta_crank2;
     const double cos_theta_coupler1 = cos(coupler1_theta);
     const double sin_theta_coupler1 = sin(coupler1_theta);
-    const double arm_coupler1_tail_x = cos_theta_coupler1*coupler1_origin_x;
-    const double arm_coupler1_tail_y = coupler1_origin_x*sin_theta_coupler1;
+    const double arm_coupler1_head_x = cos_theta_coupler1*coupler1_head_x;
+    const double arm_coupler1_head_y = coupler1_head_x*sin_theta_coupler1;
     const double cos_theta_coupler2 = cos(coupler2_theta);
     const double sin_theta_coupler2 = sin(coupler2_theta);
-    const double arm_coupler2_tail_x = cos_theta_coupler2*coupler2_origin_x;
-    const double arm_coupler2_tail_y = coupler2_origin_x*sin_theta_coupler2;
+    const double arm_coupler2_head_x = cos_theta_coupler2*coupler2_head_x;
+    const double arm_coupler2_head_y = coupler2_head_x*sin_theta_coupler2;
 
     /* rows */
-    gamma_rows[0] = -arm_crank0_tail_x*(crank0_omega * crank0_omega);  /* O0.x */
-    gamma_rows[1] = -arm_crank0_tail_y*(crank0_omega * crank0_omega);  /* O0.y */
-    gamma_rows[2] = -arm_crank1_tail_x*(crank1_omega * crank1_omega);  /* O1.x */
-    gamma_rows[3] = -arm_crank1_tail_y*(crank1_omega * crank1_omega);  /* O1.y */
-    gamma_rows[4] = -arm_crank2_tail_x*(crank2_omega * crank2_omega);  /* O2.x */
-    gamma_rows[5] = -arm_crank2_tail_y*(crank2_omega * crank2_omega);  /* O2.y */
-    gamma_rows[6] = -arm_coupler1_tail_x*(coupler1_omega * coupler1_omega) - arm_crank0_tail_x*(crank0_omega *
+    gamma_rows[0] = arm_crank0_head_x*(crank0_omega * crank0_omega);  /* O0.x */
+    gamma_rows[1] = arm_crank0_head_y*(crank0_omega * crank0_omega);  /* O0.y */
+    gamma_rows[2] = arm_crank1_head_x*(crank1_omega * crank1_omega);  /* O1.x */
+    gamma_rows[3] = arm_crank1_head_y*(crank1_omega * crank1_omega);  /* O1.y */
+    gamma_rows[4] = arm_crank2_head_x*(crank2_omega * crank2_omega);  /* O2.x */
+    gamma_rows[5] = arm_crank2_head_y*(crank2_omega * crank2_omega);  /* O2.y */
+    gamma_rows[6] = arm_coupler1_head_x*(coupler1_omega * coupler1_omega) + arm_crank0_head_x*(crank0_omega *
         crank0_omega);  /* A0.x */
-    gamma_rows[7] = -arm_coupler1_tail_y*(coupler1_omega * coupler1_omega) - arm_crank0_tail_y*(crank0_omega *
+    gamma_rows[7] = arm_coupler1_head_y*(coupler1_omega * coupler1_omega) + arm_crank0_head_y*(crank0_omega *
         crank0_omega);  /* A0.y */
-    gamma_rows[8] = -arm_coupler1_tail_x*(coupler1_omega * coupler1_omega) + arm_crank1_tail_x*(crank1_omega *
+    gamma_rows[8] = arm_coupler1_head_x*(coupler1_omega * coupler1_omega) - arm_crank1_head_x*(crank1_omega *
         crank1_omega);  /* B1.x */
-    gamma_rows[9] = -arm_coupler1_tail_y*(coupler1_omega * coupler1_omega) + arm_crank1_tail_y*(crank1_omega *
+    gamma_rows[9] = arm_coupler1_head_y*(coupler1_omega * coupler1_omega) - arm_crank1_head_y*(crank1_omega *
         crank1_omega);  /* B1.y */
-    gamma_rows[10] = -arm_coupler2_tail_x*(coupler2_omega * coupler2_omega) - arm_crank1_tail_x*(crank1_omega
-        * crank1_omega);  /* A1.x */
-    gamma_rows[11] = -arm_coupler2_tail_y*(coupler2_omega * coupler2_omega) - arm_crank1_tail_y*(crank1_omega
-        * crank1_omega);  /* A1.y */
-    gamma_rows[12] = -arm_coupler2_tail_x*(coupler2_omega * coupler2_omega) + arm_crank2_tail_x*(crank2_omega
-        * crank2_omega);  /* B2.x */
-    gamma_rows[13] = -arm_coupler2_tail_y*(coupler2_omega * coupler2_omega) + arm_crank2_tail_y*(crank2_omega
-        * crank2_omega);  /* B2.y */
+    gamma_rows[10] = arm_coupler2_head_x*(coupler2_omega * coupler2_omega) + arm_crank1_head_x*(crank1_omega *
+        crank1_omega);  /* A1.x */
+    gamma_rows[11] = arm_coupler2_head_y*(coupler2_omega * coupler2_omega) + arm_crank1_head_y*(crank1_omega *
+        crank1_omega);  /* A1.y */
+    gamma_rows[12] = arm_coupler2_head_x*(coupler2_omega * coupler2_omega) - arm_crank2_head_x*(crank2_omega *
+        crank2_omega);  /* B2.x */
+    gamma_rows[13] = arm_coupler2_head_y*(coupler2_omega * coupler2_omega) - arm_crank2_head_y*(crank2_omega *
+        crank2_omega);  /* B2.y */
 }
 /*
  * Values of the start's guess, set and rates.
@@ -402,364 +402,5 @@ static void outputs(const double t, const double *q, const double *v, const Para
         crank2_vy);
     energy[1] = -coupler1_mass*coupler1_y*par_y - coupler2_mass*coupler2_y*par_y - crank0_mass*crank0_y*par_y
         - crank1_mass*crank1_y*par_y - crank2_mass*crank2_y*par_y;
-}
-/*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
- * Returns 0, or the number of the pivot that vanished.
- */
-static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)
-{
-    (void)t;
-    /* coordinates, velocities, time */
-    const double crank0_theta = q[2];
-    const double crank1_theta = q[5];
-    const double crank2_theta = q[8];
-    const double coupler1_theta = q[11];
-    const double coupler2_theta = q[14];
-
-    /* parameters */
-    const double crank0_origin_x = p->crank0_origin_x;
-    const double crank1_origin_x = p->crank1_origin_x;
-    const double crank2_origin_x = p->crank2_origin_x;
-    const double coupler1_origin_x = p->coupler1_origin_x;
-    const double coupler2_origin_x = p->coupler2_origin_x;
-    const double inverse_crank0_mass = p->inverse_crank0_mass;
-    const double inverse_crank0_inertia = p->inverse_crank0_inertia;
-    const double inverse_crank1_mass = p->inverse_crank1_mass;
-    const double inverse_crank1_inertia = p->inverse_crank1_inertia;
-    const double inverse_crank2_mass = p->inverse_crank2_mass;
-    const double inverse_crank2_inertia = p->inverse_crank2_inertia;
-    const double inverse_coupler1_mass = p->inverse_coupler1_mass;
-    const double inverse_coupler1_inertia = p->inverse_coupler1_inertia;
-    const double inverse_coupler2_mass = p->inverse_coupler2_mass;
-    const double inverse_coupler2_inertia = p->inverse_coupler2_inertia;
-
-    /* directions, arms, drives */
-    const double cos_theta_crank0 = cos(crank0_theta);
-    const double sin_theta_crank0 = sin(crank0_theta);
-    const double arm_crank0_tail_x = cos_theta_crank0*crank0_origin_x;
-    const double arm_crank0_tail_y = crank0_origin_x*sin_theta_crank0;
-    const double cos_theta_crank1 = cos(crank1_theta);
-    const double sin_theta_crank1 = sin(crank1_theta);
-    const double arm_crank1_tail_x = cos_theta_crank1*crank1_origin_x;
-    const double arm_crank1_tail_y = crank1_origin_x*sin_theta_crank1;
-    const double cos_theta_crank2 = cos(crank2_theta);
-    const double sin_theta_crank2 = sin(crank2_theta);
-    const double arm_crank2_tail_x = cos_theta_crank2*crank2_origin_x;
-    const double arm_crank2_tail_y = crank2_origin_x*sin_theta_crank2;
-    const double cos_theta_coupler1 = cos(coupler1_theta);
-    const double sin_theta_coupler1 = sin(coupler1_theta);
-    const double arm_coupler1_tail_x = cos_theta_coupler1*coupler1_origin_x;
-    const double arm_coupler1_tail_y = coupler1_origin_x*sin_theta_coupler1;
-    const double cos_theta_coupler2 = cos(coupler2_theta);
-    const double sin_theta_coupler2 = sin(coupler2_theta);
-    const double arm_coupler2_tail_x = cos_theta_coupler2*coupler2_origin_x;
-    const double arm_coupler2_tail_y = coupler2_origin_x*sin_theta_coupler2;
-
-    /* right-hand side */
-    const double r_O0_x = r[0];
-    const double r_O0_y = r[1];
-    const double r_O1_x = r[2];
-    const double r_O1_y = r[3];
-    const double r_O2_x = r[4];
-    const double r_O2_y = r[5];
-    const double r_A0_x = r[6];
-    const double r_A0_y = r[7];
-    const double r_B1_x = r[8];
-    const double r_B1_y = r[9];
-    const double r_A1_x = r[10];
-    const double r_A1_y = r[11];
-    const double r_B2_x = r[12];
-    const double r_B2_y = r[13];
-
-    /* L D L^T of the KKT matrix */
-    const double l_O0_x__crank0_theta_2 = arm_crank0_tail_y*inverse_crank0_inertia;
-    const double l_O0_y__crank0_theta_2 = -arm_crank0_tail_x*inverse_crank0_inertia;
-    const double l_A0_x__crank0_theta_2 = arm_crank0_tail_y*inverse_crank0_inertia;
-    const double l_A0_y__crank0_theta_2 = -arm_crank0_tail_x*inverse_crank0_inertia;
-    const double scale_O0_x_2 = arm_crank0_tail_y*l_O0_x__crank0_theta_2 + inverse_crank0_mass;
-    if (!(scale_O0_x_2 > 1e-13 * scale_O0_x_2)) return 1;
-    const double inverse_pivot_O0_x_2 = 1.0/scale_O0_x_2;
-    const double w_O0_y__O0_x_2 = -arm_crank0_tail_y*l_O0_y__crank0_theta_2;
-    const double l_O0_y__O0_x_2 = -inverse_pivot_O0_x_2*w_O0_y__O0_x_2;
-    const double w_A0_x__O0_x_2 = -arm_crank0_tail_y*l_A0_x__crank0_theta_2 + inverse_crank0_mass;
-    const double l_A0_x__O0_x_2 = -inverse_pivot_O0_x_2*w_A0_x__O0_x_2;
-    const double w_A0_y__O0_x_2 = -arm_crank0_tail_y*l_A0_y__crank0_theta_2;
-    const double l_A0_y__O0_x_2 = -inverse_pivot_O0_x_2*w_A0_y__O0_x_2;
-    const double scale_O0_y_2 = -arm_crank0_tail_x*l_O0_y__crank0_theta_2 + inverse_crank0_mass;
-    const double pivot_O0_y_2 = l_O0_y__O0_x_2*w_O0_y__O0_x_2 + scale_O0_y_2;
-    if (!(pivot_O0_y_2 > 1e-13 * scale_O0_y_2)) return 2;
-    const double inverse_pivot_O0_y_2 = 1.0/pivot_O0_y_2;
-    const double w_A0_x__O0_y_2 = arm_crank0_tail_x*l_A0_x__crank0_theta_2 - l_A0_x__O0_x_2*w_O0_y__O0_x_2;
-    const double l_A0_x__O0_y_2 = -inverse_pivot_O0_y_2*w_A0_x__O0_y_2;
-    const double w_A0_y__O0_y_2 = arm_crank0_tail_x*l_A0_y__crank0_theta_2 + inverse_crank0_mass -
-        l_A0_y__O0_x_2*w_O0_y__O0_x_2;
-    const double l_A0_y__O0_y_2 = -inverse_pivot_O0_y_2*w_A0_y__O0_y_2;
-    const double l_O2_x__crank2_theta_2 = arm_crank2_tail_y*inverse_crank2_inertia;
-    const double l_O2_y__crank2_theta_2 = -arm_crank2_tail_x*inverse_crank2_inertia;
-    const double l_B2_x__crank2_theta_2 = -arm_crank2_tail_y*inverse_crank2_inertia;
-    const double l_B2_y__crank2_theta_2 = arm_crank2_tail_x*inverse_crank2_inertia;
-    const double scale_O2_x_2 = arm_crank2_tail_y*l_O2_x__crank2_theta_2 + inverse_crank2_mass;
-    if (!(scale_O2_x_2 > 1e-13 * scale_O2_x_2)) return 3;
-    const double inverse_pivot_O2_x_2 = 1.0/scale_O2_x_2;
-    const double w_O2_y__O2_x_2 = -arm_crank2_tail_y*l_O2_y__crank2_theta_2;
-    const double l_O2_y__O2_x_2 = -inverse_pivot_O2_x_2*w_O2_y__O2_x_2;
-    const double w_B2_x__O2_x_2 = -arm_crank2_tail_y*l_B2_x__crank2_theta_2 - inverse_crank2_mass;
-    const double l_B2_x__O2_x_2 = -inverse_pivot_O2_x_2*w_B2_x__O2_x_2;
-    const double w_B2_y__O2_x_2 = -arm_crank2_tail_y*l_B2_y__crank2_theta_2;
-    const double l_B2_y__O2_x_2 = -inverse_pivot_O2_x_2*w_B2_y__O2_x_2;
-    const double scale_O2_y_2 = -arm_crank2_tail_x*l_O2_y__crank2_theta_2 + inverse_crank2_mass;
-    const double pivot_O2_y_2 = l_O2_y__O2_x_2*w_O2_y__O2_x_2 + scale_O2_y_2;
-    if (!(pivot_O2_y_2 > 1e-13 * scale_O2_y_2)) return 4;
-    const double inverse_pivot_O2_y_2 = 1.0/pivot_O2_y_2;
-    const double w_B2_x__O2_y_2 = arm_crank2_tail_x*l_B2_x__crank2_theta_2 - l_B2_x__O2_x_2*w_O2_y__O2_x_2;
-    const double l_B2_x__O2_y_2 = -inverse_pivot_O2_y_2*w_B2_x__O2_y_2;
-    const double w_B2_y__O2_y_2 = arm_crank2_tail_x*l_B2_y__crank2_theta_2 - inverse_crank2_mass -
-        l_B2_y__O2_x_2*w_O2_y__O2_x_2;
-    const double l_B2_y__O2_y_2 = -inverse_pivot_O2_y_2*w_B2_y__O2_y_2;
-    const double l_A0_x__coupler1_theta_2 = arm_coupler1_tail_y*inverse_coupler1_inertia;
-    const double l_A0_y__coupler1_theta_2 = -arm_coupler1_tail_x*inverse_coupler1_inertia;
-    const double l_B1_x__coupler1_theta_2 = arm_coupler1_tail_y*inverse_coupler1_inertia;
-    const double l_B1_y__coupler1_theta_2 = -arm_coupler1_tail_x*inverse_coupler1_inertia;
-    const double scale_A0_x_2 = arm_coupler1_tail_y*l_A0_x__coupler1_theta_2 +
-        arm_crank0_tail_y*l_A0_x__crank0_theta_2 + inverse_coupler1_mass + inverse_crank0_mass;
-    const double pivot_A0_x_2 = l_A0_x__O0_x_2*w_A0_x__O0_x_2 + l_A0_x__O0_y_2*w_A0_x__O0_y_2 + scale_A0_x_2;
-    if (!(pivot_A0_x_2 > 1e-13 * scale_A0_x_2)) return 5;
-    const double inverse_pivot_A0_x_2 = 1.0/pivot_A0_x_2;
-    const double w_A0_y__A0_x_2 = -arm_coupler1_tail_y*l_A0_y__coupler1_theta_2 -
-        arm_crank0_tail_y*l_A0_y__crank0_theta_2 - l_A0_y__O0_x_2*w_A0_x__O0_x_2 -
-        l_A0_y__O0_y_2*w_A0_x__O0_y_2;
-    const double l_A0_y__A0_x_2 = -inverse_pivot_A0_x_2*w_A0_y__A0_x_2;
-    const double w_B1_x__A0_x_2 = -arm_coupler1_tail_y*l_B1_x__coupler1_theta_2 + inverse_coupler1_mass;
-    const double l_B1_x__A0_x_2 = -inverse_pivot_A0_x_2*w_B1_x__A0_x_2;
-    const double w_B1_y__A0_x_2 = -arm_coupler1_tail_y*l_B1_y__coupler1_theta_2;
-    const double l_B1_y__A0_x_2 = -inverse_pivot_A0_x_2*w_B1_y__A0_x_2;
-    const double scale_A0_y_2 = -arm_coupler1_tail_x*l_A0_y__coupler1_theta_2 -
-        arm_crank0_tail_x*l_A0_y__crank0_theta_2 + inverse_coupler1_mass + inverse_crank0_mass;
-    const double pivot_A0_y_2 = l_A0_y__A0_x_2*w_A0_y__A0_x_2 + l_A0_y__O0_x_2*w_A0_y__O0_x_2 +
-        l_A0_y__O0_y_2*w_A0_y__O0_y_2 + scale_A0_y_2;
-    if (!(pivot_A0_y_2 > 1e-13 * scale_A0_y_2)) return 6;
-    const double inverse_pivot_A0_y_2 = 1.0/pivot_A0_y_2;
-    const double w_B1_x__A0_y_2 = arm_coupler1_tail_x*l_B1_x__coupler1_theta_2 -
-        l_B1_x__A0_x_2*w_A0_y__A0_x_2;
-    const double l_B1_x__A0_y_2 = -inverse_pivot_A0_y_2*w_B1_x__A0_y_2;
-    const double w_B1_y__A0_y_2 = arm_coupler1_tail_x*l_B1_y__coupler1_theta_2 + inverse_coupler1_mass -
-        l_B1_y__A0_x_2*w_A0_y__A0_x_2;
-    const double l_B1_y__A0_y_2 = -inverse_pivot_A0_y_2*w_B1_y__A0_y_2;
-    const double l_B2_x__coupler2_theta_2 = arm_coupler2_tail_y*inverse_coupler2_inertia;
-    const double l_B2_y__coupler2_theta_2 = -arm_coupler2_tail_x*inverse_coupler2_inertia;
-    const double l_A1_x__coupler2_theta_2 = arm_coupler2_tail_y*inverse_coupler2_inertia;
-    const double l_A1_y__coupler2_theta_2 = -arm_coupler2_tail_x*inverse_coupler2_inertia;
-    const double scale_B2_x_2 = arm_coupler2_tail_y*l_B2_x__coupler2_theta_2 -
-        arm_crank2_tail_y*l_B2_x__crank2_theta_2 + inverse_coupler2_mass + inverse_crank2_mass;
-    const double pivot_B2_x_2 = l_B2_x__O2_x_2*w_B2_x__O2_x_2 + l_B2_x__O2_y_2*w_B2_x__O2_y_2 + scale_B2_x_2;
-    if (!(pivot_B2_x_2 > 1e-13 * scale_B2_x_2)) return 7;
-    const double inverse_pivot_B2_x_2 = 1.0/pivot_B2_x_2;
-    const double w_B2_y__B2_x_2 = -arm_coupler2_tail_y*l_B2_y__coupler2_theta_2 +
-        arm_crank2_tail_y*l_B2_y__crank2_theta_2 - l_B2_y__O2_x_2*w_B2_x__O2_x_2 -
-        l_B2_y__O2_y_2*w_B2_x__O2_y_2;
-    const double l_B2_y__B2_x_2 = -inverse_pivot_B2_x_2*w_B2_y__B2_x_2;
-    const double w_A1_x__B2_x_2 = -arm_coupler2_tail_y*l_A1_x__coupler2_theta_2 + inverse_coupler2_mass;
-    const double l_A1_x__B2_x_2 = -inverse_pivot_B2_x_2*w_A1_x__B2_x_2;
-    const double w_A1_y__B2_x_2 = -arm_coupler2_tail_y*l_A1_y__coupler2_theta_2;
-    const double l_A1_y__B2_x_2 = -inverse_pivot_B2_x_2*w_A1_y__B2_x_2;
-    const double scale_B2_y_2 = -arm_coupler2_tail_x*l_B2_y__coupler2_theta_2 +
-        arm_crank2_tail_x*l_B2_y__crank2_theta_2 + inverse_coupler2_mass + inverse_crank2_mass;
-    const double pivot_B2_y_2 = l_B2_y__B2_x_2*w_B2_y__B2_x_2 + l_B2_y__O2_x_2*w_B2_y__O2_x_2 +
-        l_B2_y__O2_y_2*w_B2_y__O2_y_2 + scale_B2_y_2;
-    if (!(pivot_B2_y_2 > 1e-13 * scale_B2_y_2)) return 8;
-    const double inverse_pivot_B2_y_2 = 1.0/pivot_B2_y_2;
-    const double w_A1_x__B2_y_2 = arm_coupler2_tail_x*l_A1_x__coupler2_theta_2 -
-        l_A1_x__B2_x_2*w_B2_y__B2_x_2;
-    const double l_A1_x__B2_y_2 = -inverse_pivot_B2_y_2*w_A1_x__B2_y_2;
-    const double w_A1_y__B2_y_2 = arm_coupler2_tail_x*l_A1_y__coupler2_theta_2 + inverse_coupler2_mass -
-        l_A1_y__B2_x_2*w_B2_y__B2_x_2;
-    const double l_A1_y__B2_y_2 = -inverse_pivot_B2_y_2*w_A1_y__B2_y_2;
-    const double l_O1_x__crank1_theta_2 = arm_crank1_tail_y*inverse_crank1_inertia;
-    const double l_O1_y__crank1_theta_2 = -arm_crank1_tail_x*inverse_crank1_inertia;
-    const double l_B1_x__crank1_theta_2 = -arm_crank1_tail_y*inverse_crank1_inertia;
-    const double l_B1_y__crank1_theta_2 = arm_crank1_tail_x*inverse_crank1_inertia;
-    const double l_A1_x__crank1_theta_2 = arm_crank1_tail_y*inverse_crank1_inertia;
-    const double l_A1_y__crank1_theta_2 = -arm_crank1_tail_x*inverse_crank1_inertia;
-    const double scale_O1_x_2 = arm_crank1_tail_y*l_O1_x__crank1_theta_2 + inverse_crank1_mass;
-    if (!(scale_O1_x_2 > 1e-13 * scale_O1_x_2)) return 9;
-    const double inverse_pivot_O1_x_2 = 1.0/scale_O1_x_2;
-    const double w_O1_y__O1_x_2 = -arm_crank1_tail_y*l_O1_y__crank1_theta_2;
-    const double l_O1_y__O1_x_2 = -inverse_pivot_O1_x_2*w_O1_y__O1_x_2;
-    const double w_B1_x__O1_x_2 = -arm_crank1_tail_y*l_B1_x__crank1_theta_2 - inverse_crank1_mass;
-    const double l_B1_x__O1_x_2 = -inverse_pivot_O1_x_2*w_B1_x__O1_x_2;
-    const double w_B1_y__O1_x_2 = -arm_crank1_tail_y*l_B1_y__crank1_theta_2;
-    const double l_B1_y__O1_x_2 = -inverse_pivot_O1_x_2*w_B1_y__O1_x_2;
-    const double w_A1_x__O1_x_2 = -arm_crank1_tail_y*l_A1_x__crank1_theta_2 + inverse_crank1_mass;
-    const double l_A1_x__O1_x_2 = -inverse_pivot_O1_x_2*w_A1_x__O1_x_2;
-    const double w_A1_y__O1_x_2 = -arm_crank1_tail_y*l_A1_y__crank1_theta_2;
-    const double l_A1_y__O1_x_2 = -inverse_pivot_O1_x_2*w_A1_y__O1_x_2;
-    const double scale_O1_y_2 = -arm_crank1_tail_x*l_O1_y__crank1_theta_2 + inverse_crank1_mass;
-    const double pivot_O1_y_2 = l_O1_y__O1_x_2*w_O1_y__O1_x_2 + scale_O1_y_2;
-    if (!(pivot_O1_y_2 > 1e-13 * scale_O1_y_2)) return 10;
-    const double inverse_pivot_O1_y_2 = 1.0/pivot_O1_y_2;
-    const double w_B1_x__O1_y_2 = arm_crank1_tail_x*l_B1_x__crank1_theta_2 - l_B1_x__O1_x_2*w_O1_y__O1_x_2;
-    const double l_B1_x__O1_y_2 = -inverse_pivot_O1_y_2*w_B1_x__O1_y_2;
-    const double w_B1_y__O1_y_2 = arm_crank1_tail_x*l_B1_y__crank1_theta_2 - inverse_crank1_mass -
-        l_B1_y__O1_x_2*w_O1_y__O1_x_2;
-    const double l_B1_y__O1_y_2 = -inverse_pivot_O1_y_2*w_B1_y__O1_y_2;
-    const double w_A1_x__O1_y_2 = arm_crank1_tail_x*l_A1_x__crank1_theta_2 - l_A1_x__O1_x_2*w_O1_y__O1_x_2;
-    const double l_A1_x__O1_y_2 = -inverse_pivot_O1_y_2*w_A1_x__O1_y_2;
-    const double w_A1_y__O1_y_2 = arm_crank1_tail_x*l_A1_y__crank1_theta_2 + inverse_crank1_mass -
-        l_A1_y__O1_x_2*w_O1_y__O1_x_2;
-    const double l_A1_y__O1_y_2 = -inverse_pivot_O1_y_2*w_A1_y__O1_y_2;
-    const double scale_B1_x_2 = arm_coupler1_tail_y*l_B1_x__coupler1_theta_2 -
-        arm_crank1_tail_y*l_B1_x__crank1_theta_2 + inverse_coupler1_mass + inverse_crank1_mass;
-    const double pivot_B1_x_2 = l_B1_x__A0_x_2*w_B1_x__A0_x_2 + l_B1_x__A0_y_2*w_B1_x__A0_y_2 +
-        l_B1_x__O1_x_2*w_B1_x__O1_x_2 + l_B1_x__O1_y_2*w_B1_x__O1_y_2 + scale_B1_x_2;
-    if (!(pivot_B1_x_2 > 1e-13 * scale_B1_x_2)) return 11;
-    const double inverse_pivot_B1_x_2 = 1.0/pivot_B1_x_2;
-    const double w_B1_y__B1_x_2 = -arm_coupler1_tail_y*l_B1_y__coupler1_theta_2 +
-        arm_crank1_tail_y*l_B1_y__crank1_theta_2 - l_B1_y__A0_x_2*w_B1_x__A0_x_2 -
-        l_B1_y__A0_y_2*w_B1_x__A0_y_2 - l_B1_y__O1_x_2*w_B1_x__O1_x_2 - l_B1_y__O1_y_2*w_B1_x__O1_y_2;
-    const double l_B1_y__B1_x_2 = -inverse_pivot_B1_x_2*w_B1_y__B1_x_2;
-    const double w_A1_x__B1_x_2 = arm_crank1_tail_y*l_A1_x__crank1_theta_2 + inverse_crank1_mass -
-        l_A1_x__O1_x_2*w_B1_x__O1_x_2 - l_A1_x__O1_y_2*w_B1_x__O1_y_2;
-    const double l_A1_x__B1_x_2 = -inverse_pivot_B1_x_2*w_A1_x__B1_x_2;
-    const double w_A1_y__B1_x_2 = arm_crank1_tail_y*l_A1_y__crank1_theta_2 - l_A1_y__O1_x_2*w_B1_x__O1_x_2 -
-        l_A1_y__O1_y_2*w_B1_x__O1_y_2;
-    const double l_A1_y__B1_x_2 = -inverse_pivot_B1_x_2*w_A1_y__B1_x_2;
-    const double scale_B1_y_2 = -arm_coupler1_tail_x*l_B1_y__coupler1_theta_2 +
-        arm_crank1_tail_x*l_B1_y__crank1_theta_2 + inverse_coupler1_mass + inverse_crank1_mass;
-    const double pivot_B1_y_2 = l_B1_y__A0_x_2*w_B1_y__A0_x_2 + l_B1_y__A0_y_2*w_B1_y__A0_y_2 +
-        l_B1_y__B1_x_2*w_B1_y__B1_x_2 + l_B1_y__O1_x_2*w_B1_y__O1_x_2 + l_B1_y__O1_y_2*w_B1_y__O1_y_2 +
-        scale_B1_y_2;
-    if (!(pivot_B1_y_2 > 1e-13 * scale_B1_y_2)) return 12;
-    const double inverse_pivot_B1_y_2 = 1.0/pivot_B1_y_2;
-    const double w_A1_x__B1_y_2 = -arm_crank1_tail_x*l_A1_x__crank1_theta_2 - l_A1_x__B1_x_2*w_B1_y__B1_x_2 -
-        l_A1_x__O1_x_2*w_B1_y__O1_x_2 - l_A1_x__O1_y_2*w_B1_y__O1_y_2;
-    const double l_A1_x__B1_y_2 = -inverse_pivot_B1_y_2*w_A1_x__B1_y_2;
-    const double w_A1_y__B1_y_2 = -arm_crank1_tail_x*l_A1_y__crank1_theta_2 + inverse_crank1_mass -
-        l_A1_y__B1_x_2*w_B1_y__B1_x_2 - l_A1_y__O1_x_2*w_B1_y__O1_x_2 - l_A1_y__O1_y_2*w_B1_y__O1_y_2;
-    const double l_A1_y__B1_y_2 = -inverse_pivot_B1_y_2*w_A1_y__B1_y_2;
-    const double scale_A1_x_2 = arm_coupler2_tail_y*l_A1_x__coupler2_theta_2 +
-        arm_crank1_tail_y*l_A1_x__crank1_theta_2 + inverse_coupler2_mass + inverse_crank1_mass;
-    const double pivot_A1_x_2 = l_A1_x__B1_x_2*w_A1_x__B1_x_2 + l_A1_x__B1_y_2*w_A1_x__B1_y_2 +
-        l_A1_x__B2_x_2*w_A1_x__B2_x_2 + l_A1_x__B2_y_2*w_A1_x__B2_y_2 + l_A1_x__O1_x_2*w_A1_x__O1_x_2 +
-        l_A1_x__O1_y_2*w_A1_x__O1_y_2 + scale_A1_x_2;
-    if (!(pivot_A1_x_2 > 1e-13 * scale_A1_x_2)) return 13;
-    const double inverse_pivot_A1_x_2 = 1.0/pivot_A1_x_2;
-    const double w_A1_y__A1_x_2 = -arm_coupler2_tail_y*l_A1_y__coupler2_theta_2 -
-        arm_crank1_tail_y*l_A1_y__crank1_theta_2 - l_A1_y__B1_x_2*w_A1_x__B1_x_2 -
-        l_A1_y__B1_y_2*w_A1_x__B1_y_2 - l_A1_y__B2_x_2*w_A1_x__B2_x_2 - l_A1_y__B2_y_2*w_A1_x__B2_y_2 -
-        l_A1_y__O1_x_2*w_A1_x__O1_x_2 - l_A1_y__O1_y_2*w_A1_x__O1_y_2;
-    const double l_A1_y__A1_x_2 = -inverse_pivot_A1_x_2*w_A1_y__A1_x_2;
-    const double scale_A1_y_2 = -arm_coupler2_tail_x*l_A1_y__coupler2_theta_2 -
-        arm_crank1_tail_x*l_A1_y__crank1_theta_2 + inverse_coupler2_mass + inverse_crank1_mass;
-    const double pivot_A1_y_2 = l_A1_y__A1_x_2*w_A1_y__A1_x_2 + l_A1_y__B1_x_2*w_A1_y__B1_x_2 +
-        l_A1_y__B1_y_2*w_A1_y__B1_y_2 + l_A1_y__B2_x_2*w_A1_y__B2_x_2 + l_A1_y__B2_y_2*w_A1_y__B2_y_2 +
-        l_A1_y__O1_x_2*w_A1_y__O1_x_2 + l_A1_y__O1_y_2*w_A1_y__O1_y_2 + scale_A1_y_2;
-    if (!(pivot_A1_y_2 > 1e-13 * scale_A1_y_2)) return 14;
-    const double inverse_pivot_A1_y_2 = 1.0/pivot_A1_y_2;
-
-    /* forward substitution */
-    const double step_z_O0_y = -l_O0_y__O0_x_2*r_O0_x + r_O0_y;
-    const double step_z_O2_y = -l_O2_y__O2_x_2*r_O2_x + r_O2_y;
-    const double step_z_A0_x = -l_A0_x__O0_x_2*r_O0_x - l_A0_x__O0_y_2*step_z_O0_y + r_A0_x;
-    const double step_z_A0_y = -l_A0_y__A0_x_2*step_z_A0_x - l_A0_y__O0_x_2*r_O0_x -
-        l_A0_y__O0_y_2*step_z_O0_y + r_A0_y;
-    const double step_z_B2_x = -l_B2_x__O2_x_2*r_O2_x - l_B2_x__O2_y_2*step_z_O2_y + r_B2_x;
-    const double step_z_B2_y = -l_B2_y__B2_x_2*step_z_B2_x - l_B2_y__O2_x_2*r_O2_x -
-        l_B2_y__O2_y_2*step_z_O2_y + r_B2_y;
-    const double step_z_O1_y = -l_O1_y__O1_x_2*r_O1_x + r_O1_y;
-    const double step_z_B1_x = -l_B1_x__A0_x_2*step_z_A0_x - l_B1_x__A0_y_2*step_z_A0_y -
-        l_B1_x__O1_x_2*r_O1_x - l_B1_x__O1_y_2*step_z_O1_y + r_B1_x;
-    const double step_z_B1_y = -l_B1_y__A0_x_2*step_z_A0_x - l_B1_y__A0_y_2*step_z_A0_y -
-        l_B1_y__B1_x_2*step_z_B1_x - l_B1_y__O1_x_2*r_O1_x - l_B1_y__O1_y_2*step_z_O1_y + r_B1_y;
-    const double step_z_A1_x = -l_A1_x__B1_x_2*step_z_B1_x - l_A1_x__B1_y_2*step_z_B1_y -
-        l_A1_x__B2_x_2*step_z_B2_x - l_A1_x__B2_y_2*step_z_B2_y - l_A1_x__O1_x_2*r_O1_x -
-        l_A1_x__O1_y_2*step_z_O1_y + r_A1_x;
-    const double step_z_A1_y = -l_A1_y__A1_x_2*step_z_A1_x - l_A1_y__B1_x_2*step_z_B1_x -
-        l_A1_y__B1_y_2*step_z_B1_y - l_A1_y__B2_x_2*step_z_B2_x - l_A1_y__B2_y_2*step_z_B2_y -
-        l_A1_y__O1_x_2*r_O1_x - l_A1_y__O1_y_2*step_z_O1_y + r_A1_y;
-
-    /* backward substitution */
-    const double step_lambda_A1_y = -inverse_pivot_A1_y_2*step_z_A1_y;
-    const double step_lambda_A1_x = -inverse_pivot_A1_x_2*step_z_A1_x - l_A1_y__A1_x_2*step_lambda_A1_y;
-    const double step_lambda_B1_y = -inverse_pivot_B1_y_2*step_z_B1_y - l_A1_x__B1_y_2*step_lambda_A1_x -
-        l_A1_y__B1_y_2*step_lambda_A1_y;
-    const double step_lambda_B1_x = -inverse_pivot_B1_x_2*step_z_B1_x - l_A1_x__B1_x_2*step_lambda_A1_x -
-        l_A1_y__B1_x_2*step_lambda_A1_y - l_B1_y__B1_x_2*step_lambda_B1_y;
-    const double step_lambda_O1_y = -inverse_pivot_O1_y_2*step_z_O1_y - l_A1_x__O1_y_2*step_lambda_A1_x -
-        l_A1_y__O1_y_2*step_lambda_A1_y - l_B1_x__O1_y_2*step_lambda_B1_x - l_B1_y__O1_y_2*step_lambda_B1_y;
-    const double step_lambda_O1_x = -inverse_pivot_O1_x_2*r_O1_x - l_A1_x__O1_x_2*step_lambda_A1_x -
-        l_A1_y__O1_x_2*step_lambda_A1_y - l_B1_x__O1_x_2*step_lambda_B1_x - l_B1_y__O1_x_2*step_lambda_B1_y -
-        l_O1_y__O1_x_2*step_lambda_O1_y;
-    const double step_acceleration_crank1_theta = -l_A1_x__crank1_theta_2*step_lambda_A1_x -
-        l_A1_y__crank1_theta_2*step_lambda_A1_y - l_B1_x__crank1_theta_2*step_lambda_B1_x -
-        l_B1_y__crank1_theta_2*step_lambda_B1_y - l_O1_x__crank1_theta_2*step_lambda_O1_x -
-        l_O1_y__crank1_theta_2*step_lambda_O1_y;
-    const double step_lambda_B2_y = -inverse_pivot_B2_y_2*step_z_B2_y - l_A1_x__B2_y_2*step_lambda_A1_x -
-        l_A1_y__B2_y_2*step_lambda_A1_y;
-    const double step_lambda_B2_x = -inverse_pivot_B2_x_2*step_z_B2_x - l_A1_x__B2_x_2*step_lambda_A1_x -
-        l_A1_y__B2_x_2*step_lambda_A1_y - l_B2_y__B2_x_2*step_lambda_B2_y;
-    const double step_acceleration_coupler2_theta = -l_A1_x__coupler2_theta_2*step_lambda_A1_x -
-        l_A1_y__coupler2_theta_2*step_lambda_A1_y - l_B2_x__coupler2_theta_2*step_lambda_B2_x -
-        l_B2_y__coupler2_theta_2*step_lambda_B2_y;
-    const double step_lambda_A0_y = -inverse_pivot_A0_y_2*step_z_A0_y - l_B1_x__A0_y_2*step_lambda_B1_x -
-        l_B1_y__A0_y_2*step_lambda_B1_y;
-    const double step_lambda_A0_x = -inverse_pivot_A0_x_2*step_z_A0_x - l_A0_y__A0_x_2*step_lambda_A0_y -
-        l_B1_x__A0_x_2*step_lambda_B1_x - l_B1_y__A0_x_2*step_lambda_B1_y;
-    const double step_acceleration_coupler1_theta = -l_A0_x__coupler1_theta_2*step_lambda_A0_x -
-        l_A0_y__coupler1_theta_2*step_lambda_A0_y - l_B1_x__coupler1_theta_2*step_lambda_B1_x -
-        l_B1_y__coupler1_theta_2*step_lambda_B1_y;
-    const double step_lambda_O2_y = -inverse_pivot_O2_y_2*step_z_O2_y - l_B2_x__O2_y_2*step_lambda_B2_x -
-        l_B2_y__O2_y_2*step_lambda_B2_y;
-    const double step_lambda_O2_x = -inverse_pivot_O2_x_2*r_O2_x - l_B2_x__O2_x_2*step_lambda_B2_x -
-        l_B2_y__O2_x_2*step_lambda_B2_y - l_O2_y__O2_x_2*step_lambda_O2_y;
-    const double step_acceleration_crank2_theta = -l_B2_x__crank2_theta_2*step_lambda_B2_x -
-        l_B2_y__crank2_theta_2*step_lambda_B2_y - l_O2_x__crank2_theta_2*step_lambda_O2_x -
-        l_O2_y__crank2_theta_2*step_lambda_O2_y;
-    const double step_lambda_O0_y = -inverse_pivot_O0_y_2*step_z_O0_y - l_A0_x__O0_y_2*step_lambda_A0_x -
-        l_A0_y__O0_y_2*step_lambda_A0_y;
-    const double step_lambda_O0_x = -inverse_pivot_O0_x_2*r_O0_x - l_A0_x__O0_x_2*step_lambda_A0_x -
-        l_A0_y__O0_x_2*step_lambda_A0_y - l_O0_y__O0_x_2*step_lambda_O0_y;
-    const double step_acceleration_crank0_theta = -l_A0_x__crank0_theta_2*step_lambda_A0_x -
-        l_A0_y__crank0_theta_2*step_lambda_A0_y - l_O0_x__crank0_theta_2*step_lambda_O0_x -
-        l_O0_y__crank0_theta_2*step_lambda_O0_y;
-    const double step_acceleration_crank1_y = -inverse_crank1_mass*step_lambda_A1_y +
-        inverse_crank1_mass*step_lambda_B1_y + inverse_crank1_mass*step_lambda_O1_y;
-    const double step_acceleration_crank1_x = -inverse_crank1_mass*step_lambda_A1_x +
-        inverse_crank1_mass*step_lambda_B1_x + inverse_crank1_mass*step_lambda_O1_x;
-    const double step_acceleration_coupler2_y = inverse_coupler2_mass*step_lambda_A1_y -
-        inverse_coupler2_mass*step_lambda_B2_y;
-    const double step_acceleration_coupler2_x = inverse_coupler2_mass*step_lambda_A1_x -
-        inverse_coupler2_mass*step_lambda_B2_x;
-    const double step_acceleration_coupler1_y = inverse_coupler1_mass*step_lambda_A0_y -
-        inverse_coupler1_mass*step_lambda_B1_y;
-    const double step_acceleration_coupler1_x = inverse_coupler1_mass*step_lambda_A0_x -
-        inverse_coupler1_mass*step_lambda_B1_x;
-    const double step_acceleration_crank2_y = inverse_crank2_mass*step_lambda_B2_y +
-        inverse_crank2_mass*step_lambda_O2_y;
-    const double step_acceleration_crank2_x = inverse_crank2_mass*step_lambda_B2_x +
-        inverse_crank2_mass*step_lambda_O2_x;
-    const double step_acceleration_crank0_y = -inverse_crank0_mass*step_lambda_A0_y +
-        inverse_crank0_mass*step_lambda_O0_y;
-    const double step_acceleration_crank0_x = -inverse_crank0_mass*step_lambda_A0_x +
-        inverse_crank0_mass*step_lambda_O0_x;
-
-    /* results */
-    x[0] = step_acceleration_crank0_x;
-    x[1] = step_acceleration_crank0_y;
-    x[2] = step_acceleration_crank0_theta;
-    x[3] = step_acceleration_crank1_x;
-    x[4] = step_acceleration_crank1_y;
-    x[5] = step_acceleration_crank1_theta;
-    x[6] = step_acceleration_crank2_x;
-    x[7] = step_acceleration_crank2_y;
-    x[8] = step_acceleration_crank2_theta;
-    x[9] = step_acceleration_coupler1_x;
-    x[10] = step_acceleration_coupler1_y;
-    x[11] = step_acceleration_coupler1_theta;
-    x[12] = step_acceleration_coupler2_x;
-    x[13] = step_acceleration_coupler2_y;
-    x[14] = step_acceleration_coupler2_theta;
-    return 0;
 }
 

@@ -39,11 +39,11 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double coupler2_omega = v[14];
 
     /* parameters */
-    const double crank0_origin_x = p->crank0_origin_x;
-    const double crank1_origin_x = p->crank1_origin_x;
-    const double crank2_origin_x = p->crank2_origin_x;
-    const double coupler1_origin_x = p->coupler1_origin_x;
-    const double coupler2_origin_x = p->coupler2_origin_x;
+    const double crank0_head_x = p->crank0_head_x;
+    const double crank1_head_x = p->crank1_head_x;
+    const double crank2_head_x = p->crank2_head_x;
+    const double coupler1_head_x = p->coupler1_head_x;
+    const double coupler2_head_x = p->coupler2_head_x;
     const double O1_x = p->O1_x;
     const double O2_x = p->O2_x;
     const double inverse_crank0_mass = p->inverse_crank0_mass;
@@ -67,296 +67,296 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     /* directions, arms, drives */
     const double cos_theta_crank0 = cos(crank0_theta);
     const double sin_theta_crank0 = sin(crank0_theta);
-    const double arm_crank0_tail_x = cos_theta_crank0*crank0_origin_x;
-    const double arm_crank0_tail_y = crank0_origin_x*sin_theta_crank0;
+    const double arm_crank0_head_x = cos_theta_crank0*crank0_head_x;
+    const double arm_crank0_head_y = crank0_head_x*sin_theta_crank0;
     const double cos_theta_crank1 = cos(crank1_theta);
     const double sin_theta_crank1 = sin(crank1_theta);
-    const double arm_crank1_tail_x = cos_theta_crank1*crank1_origin_x;
-    const double arm_crank1_tail_y = crank1_origin_x*sin_theta_crank1;
+    const double arm_crank1_head_x = cos_theta_crank1*crank1_head_x;
+    const double arm_crank1_head_y = crank1_head_x*sin_theta_crank1;
     const double cos_theta_crank2 = cos(crank2_theta);
     const double sin_theta_crank2 = sin(crank2_theta);
-    const double arm_crank2_tail_x = cos_theta_crank2*crank2_origin_x;
-    const double arm_crank2_tail_y = crank2_origin_x*sin_theta_crank2;
+    const double arm_crank2_head_x = cos_theta_crank2*crank2_head_x;
+    const double arm_crank2_head_y = crank2_head_x*sin_theta_crank2;
     const double cos_theta_coupler1 = cos(coupler1_theta);
     const double sin_theta_coupler1 = sin(coupler1_theta);
-    const double arm_coupler1_tail_x = cos_theta_coupler1*coupler1_origin_x;
-    const double arm_coupler1_tail_y = coupler1_origin_x*sin_theta_coupler1;
+    const double arm_coupler1_head_x = cos_theta_coupler1*coupler1_head_x;
+    const double arm_coupler1_head_y = coupler1_head_x*sin_theta_coupler1;
     const double cos_theta_coupler2 = cos(coupler2_theta);
     const double sin_theta_coupler2 = sin(coupler2_theta);
-    const double arm_coupler2_tail_x = cos_theta_coupler2*coupler2_origin_x;
-    const double arm_coupler2_tail_y = coupler2_origin_x*sin_theta_coupler2;
+    const double arm_coupler2_head_x = cos_theta_coupler2*coupler2_head_x;
+    const double arm_coupler2_head_y = coupler2_head_x*sin_theta_coupler2;
 
     /* status */
     int pivot = 0;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
-    const double phi_O0_x = -arm_crank0_tail_x - crank0_x;
-    const double phi_dot_O0_x = arm_crank0_tail_y*crank0_omega - crank0_vx;
-    const double rhs_O0_x = -arm_crank0_tail_x*(crank0_omega * crank0_omega) - beta_squared*phi_O0_x -
+    const double phi_O0_x = arm_crank0_head_x - crank0_x;
+    const double phi_dot_O0_x = -arm_crank0_head_y*crank0_omega - crank0_vx;
+    const double rhs_O0_x = arm_crank0_head_x*(crank0_omega * crank0_omega) - beta_squared*phi_O0_x -
         phi_dot_O0_x*two_alpha;
     aside->phi[0] = phi_O0_x;
     aside->phi_dot[0] = phi_dot_O0_x;
-    const double phi_O0_y = -arm_crank0_tail_y - crank0_y;
-    const double phi_dot_O0_y = -arm_crank0_tail_x*crank0_omega - crank0_vy;
-    const double rhs_O0_y = -arm_crank0_tail_y*(crank0_omega * crank0_omega) - beta_squared*phi_O0_y -
+    const double phi_O0_y = arm_crank0_head_y - crank0_y;
+    const double phi_dot_O0_y = arm_crank0_head_x*crank0_omega - crank0_vy;
+    const double rhs_O0_y = arm_crank0_head_y*(crank0_omega * crank0_omega) - beta_squared*phi_O0_y -
         phi_dot_O0_y*two_alpha;
     aside->phi[1] = phi_O0_y;
     aside->phi_dot[1] = phi_dot_O0_y;
-    const double phi_O1_x = O1_x - arm_crank1_tail_x - crank1_x;
-    const double phi_dot_O1_x = arm_crank1_tail_y*crank1_omega - crank1_vx;
-    const double rhs_O1_x = -arm_crank1_tail_x*(crank1_omega * crank1_omega) - beta_squared*phi_O1_x -
+    const double phi_O1_x = O1_x + arm_crank1_head_x - crank1_x;
+    const double phi_dot_O1_x = -arm_crank1_head_y*crank1_omega - crank1_vx;
+    const double rhs_O1_x = arm_crank1_head_x*(crank1_omega * crank1_omega) - beta_squared*phi_O1_x -
         phi_dot_O1_x*two_alpha;
     aside->phi[2] = phi_O1_x;
     aside->phi_dot[2] = phi_dot_O1_x;
-    const double phi_O1_y = -arm_crank1_tail_y - crank1_y;
-    const double phi_dot_O1_y = -arm_crank1_tail_x*crank1_omega - crank1_vy;
-    const double rhs_O1_y = -arm_crank1_tail_y*(crank1_omega * crank1_omega) - beta_squared*phi_O1_y -
+    const double phi_O1_y = arm_crank1_head_y - crank1_y;
+    const double phi_dot_O1_y = arm_crank1_head_x*crank1_omega - crank1_vy;
+    const double rhs_O1_y = arm_crank1_head_y*(crank1_omega * crank1_omega) - beta_squared*phi_O1_y -
         phi_dot_O1_y*two_alpha;
     aside->phi[3] = phi_O1_y;
     aside->phi_dot[3] = phi_dot_O1_y;
-    const double phi_O2_x = O2_x - arm_crank2_tail_x - crank2_x;
-    const double phi_dot_O2_x = arm_crank2_tail_y*crank2_omega - crank2_vx;
-    const double rhs_O2_x = -arm_crank2_tail_x*(crank2_omega * crank2_omega) - beta_squared*phi_O2_x -
+    const double phi_O2_x = O2_x + arm_crank2_head_x - crank2_x;
+    const double phi_dot_O2_x = -arm_crank2_head_y*crank2_omega - crank2_vx;
+    const double rhs_O2_x = arm_crank2_head_x*(crank2_omega * crank2_omega) - beta_squared*phi_O2_x -
         phi_dot_O2_x*two_alpha;
     aside->phi[4] = phi_O2_x;
     aside->phi_dot[4] = phi_dot_O2_x;
-    const double phi_O2_y = -arm_crank2_tail_y - crank2_y;
-    const double phi_dot_O2_y = -arm_crank2_tail_x*crank2_omega - crank2_vy;
-    const double rhs_O2_y = -arm_crank2_tail_y*(crank2_omega * crank2_omega) - beta_squared*phi_O2_y -
+    const double phi_O2_y = arm_crank2_head_y - crank2_y;
+    const double phi_dot_O2_y = arm_crank2_head_x*crank2_omega - crank2_vy;
+    const double rhs_O2_y = arm_crank2_head_y*(crank2_omega * crank2_omega) - beta_squared*phi_O2_y -
         phi_dot_O2_y*two_alpha;
     aside->phi[5] = phi_O2_y;
     aside->phi_dot[5] = phi_dot_O2_y;
-    const double phi_A0_x = -arm_coupler1_tail_x - arm_crank0_tail_x - coupler1_x + crank0_x;
-    const double phi_dot_A0_x = arm_coupler1_tail_y*coupler1_omega + arm_crank0_tail_y*crank0_omega -
+    const double phi_A0_x = arm_coupler1_head_x + arm_crank0_head_x - coupler1_x + crank0_x;
+    const double phi_dot_A0_x = -arm_coupler1_head_y*coupler1_omega - arm_crank0_head_y*crank0_omega -
         coupler1_vx + crank0_vx;
-    const double rhs_A0_x = -arm_coupler1_tail_x*(coupler1_omega * coupler1_omega) -
-        arm_crank0_tail_x*(crank0_omega * crank0_omega) - beta_squared*phi_A0_x - phi_dot_A0_x*two_alpha;
+    const double rhs_A0_x = arm_coupler1_head_x*(coupler1_omega * coupler1_omega) +
+        arm_crank0_head_x*(crank0_omega * crank0_omega) - beta_squared*phi_A0_x - phi_dot_A0_x*two_alpha;
     aside->phi[6] = phi_A0_x;
     aside->phi_dot[6] = phi_dot_A0_x;
-    const double phi_A0_y = -arm_coupler1_tail_y - arm_crank0_tail_y - coupler1_y + crank0_y;
-    const double phi_dot_A0_y = -arm_coupler1_tail_x*coupler1_omega - arm_crank0_tail_x*crank0_omega -
+    const double phi_A0_y = arm_coupler1_head_y + arm_crank0_head_y - coupler1_y + crank0_y;
+    const double phi_dot_A0_y = arm_coupler1_head_x*coupler1_omega + arm_crank0_head_x*crank0_omega -
         coupler1_vy + crank0_vy;
-    const double rhs_A0_y = -arm_coupler1_tail_y*(coupler1_omega * coupler1_omega) -
-        arm_crank0_tail_y*(crank0_omega * crank0_omega) - beta_squared*phi_A0_y - phi_dot_A0_y*two_alpha;
+    const double rhs_A0_y = arm_coupler1_head_y*(coupler1_omega * coupler1_omega) +
+        arm_crank0_head_y*(crank0_omega * crank0_omega) - beta_squared*phi_A0_y - phi_dot_A0_y*two_alpha;
     aside->phi[7] = phi_A0_y;
     aside->phi_dot[7] = phi_dot_A0_y;
-    const double phi_B1_x = -arm_coupler1_tail_x + arm_crank1_tail_x + coupler1_x - crank1_x;
-    const double phi_dot_B1_x = arm_coupler1_tail_y*coupler1_omega - arm_crank1_tail_y*crank1_omega +
+    const double phi_B1_x = arm_coupler1_head_x - arm_crank1_head_x + coupler1_x - crank1_x;
+    const double phi_dot_B1_x = -arm_coupler1_head_y*coupler1_omega + arm_crank1_head_y*crank1_omega +
         coupler1_vx - crank1_vx;
-    const double rhs_B1_x = -arm_coupler1_tail_x*(coupler1_omega * coupler1_omega) +
-        arm_crank1_tail_x*(crank1_omega * crank1_omega) - beta_squared*phi_B1_x - phi_dot_B1_x*two_alpha;
+    const double rhs_B1_x = arm_coupler1_head_x*(coupler1_omega * coupler1_omega) -
+        arm_crank1_head_x*(crank1_omega * crank1_omega) - beta_squared*phi_B1_x - phi_dot_B1_x*two_alpha;
     aside->phi[8] = phi_B1_x;
     aside->phi_dot[8] = phi_dot_B1_x;
-    const double phi_B1_y = -arm_coupler1_tail_y + arm_crank1_tail_y + coupler1_y - crank1_y;
-    const double phi_dot_B1_y = -arm_coupler1_tail_x*coupler1_omega + arm_crank1_tail_x*crank1_omega +
+    const double phi_B1_y = arm_coupler1_head_y - arm_crank1_head_y + coupler1_y - crank1_y;
+    const double phi_dot_B1_y = arm_coupler1_head_x*coupler1_omega - arm_crank1_head_x*crank1_omega +
         coupler1_vy - crank1_vy;
-    const double rhs_B1_y = -arm_coupler1_tail_y*(coupler1_omega * coupler1_omega) +
-        arm_crank1_tail_y*(crank1_omega * crank1_omega) - beta_squared*phi_B1_y - phi_dot_B1_y*two_alpha;
+    const double rhs_B1_y = arm_coupler1_head_y*(coupler1_omega * coupler1_omega) -
+        arm_crank1_head_y*(crank1_omega * crank1_omega) - beta_squared*phi_B1_y - phi_dot_B1_y*two_alpha;
     aside->phi[9] = phi_B1_y;
     aside->phi_dot[9] = phi_dot_B1_y;
-    const double phi_A1_x = -arm_coupler2_tail_x - arm_crank1_tail_x - coupler2_x + crank1_x;
-    const double phi_dot_A1_x = arm_coupler2_tail_y*coupler2_omega + arm_crank1_tail_y*crank1_omega -
+    const double phi_A1_x = arm_coupler2_head_x + arm_crank1_head_x - coupler2_x + crank1_x;
+    const double phi_dot_A1_x = -arm_coupler2_head_y*coupler2_omega - arm_crank1_head_y*crank1_omega -
         coupler2_vx + crank1_vx;
-    const double rhs_A1_x = -arm_coupler2_tail_x*(coupler2_omega * coupler2_omega) -
-        arm_crank1_tail_x*(crank1_omega * crank1_omega) - beta_squared*phi_A1_x - phi_dot_A1_x*two_alpha;
+    const double rhs_A1_x = arm_coupler2_head_x*(coupler2_omega * coupler2_omega) +
+        arm_crank1_head_x*(crank1_omega * crank1_omega) - beta_squared*phi_A1_x - phi_dot_A1_x*two_alpha;
     aside->phi[10] = phi_A1_x;
     aside->phi_dot[10] = phi_dot_A1_x;
-    const double phi_A1_y = -arm_coupler2_tail_y - arm_crank1_tail_y - coupler2_y + crank1_y;
-    const double phi_dot_A1_y = -arm_coupler2_tail_x*coupler2_omega - arm_crank1_tail_x*crank1_omega -
+    const double phi_A1_y = arm_coupler2_head_y + arm_crank1_head_y - coupler2_y + crank1_y;
+    const double phi_dot_A1_y = arm_coupler2_head_x*coupler2_omega + arm_crank1_head_x*crank1_omega -
         coupler2_vy + crank1_vy;
-    const double rhs_A1_y = -arm_coupler2_tail_y*(coupler2_omega * coupler2_omega) -
-        arm_crank1_tail_y*(crank1_omega * crank1_omega) - beta_squared*phi_A1_y - phi_dot_A1_y*two_alpha;
+    const double rhs_A1_y = arm_coupler2_head_y*(coupler2_omega * coupler2_omega) +
+        arm_crank1_head_y*(crank1_omega * crank1_omega) - beta_squared*phi_A1_y - phi_dot_A1_y*two_alpha;
     aside->phi[11] = phi_A1_y;
     aside->phi_dot[11] = phi_dot_A1_y;
-    const double phi_B2_x = -arm_coupler2_tail_x + arm_crank2_tail_x + coupler2_x - crank2_x;
-    const double phi_dot_B2_x = arm_coupler2_tail_y*coupler2_omega - arm_crank2_tail_y*crank2_omega +
+    const double phi_B2_x = arm_coupler2_head_x - arm_crank2_head_x + coupler2_x - crank2_x;
+    const double phi_dot_B2_x = -arm_coupler2_head_y*coupler2_omega + arm_crank2_head_y*crank2_omega +
         coupler2_vx - crank2_vx;
-    const double rhs_B2_x = -arm_coupler2_tail_x*(coupler2_omega * coupler2_omega) +
-        arm_crank2_tail_x*(crank2_omega * crank2_omega) - beta_squared*phi_B2_x - phi_dot_B2_x*two_alpha;
+    const double rhs_B2_x = arm_coupler2_head_x*(coupler2_omega * coupler2_omega) -
+        arm_crank2_head_x*(crank2_omega * crank2_omega) - beta_squared*phi_B2_x - phi_dot_B2_x*two_alpha;
     aside->phi[12] = phi_B2_x;
     aside->phi_dot[12] = phi_dot_B2_x;
-    const double phi_B2_y = -arm_coupler2_tail_y + arm_crank2_tail_y + coupler2_y - crank2_y;
-    const double phi_dot_B2_y = -arm_coupler2_tail_x*coupler2_omega + arm_crank2_tail_x*crank2_omega +
+    const double phi_B2_y = arm_coupler2_head_y - arm_crank2_head_y + coupler2_y - crank2_y;
+    const double phi_dot_B2_y = arm_coupler2_head_x*coupler2_omega - arm_crank2_head_x*crank2_omega +
         coupler2_vy - crank2_vy;
-    const double rhs_B2_y = -arm_coupler2_tail_y*(coupler2_omega * coupler2_omega) +
-        arm_crank2_tail_y*(crank2_omega * crank2_omega) - beta_squared*phi_B2_y - phi_dot_B2_y*two_alpha;
+    const double rhs_B2_y = arm_coupler2_head_y*(coupler2_omega * coupler2_omega) -
+        arm_crank2_head_y*(crank2_omega * crank2_omega) - beta_squared*phi_B2_y - phi_dot_B2_y*two_alpha;
     aside->phi[13] = phi_B2_y;
     aside->phi_dot[13] = phi_dot_B2_y;
 
     /* L D L^T of the KKT matrix */
-    const double l_O0_x__crank0_theta = arm_crank0_tail_y*inverse_crank0_inertia;
-    const double l_O0_y__crank0_theta = -arm_crank0_tail_x*inverse_crank0_inertia;
-    const double l_A0_x__crank0_theta = arm_crank0_tail_y*inverse_crank0_inertia;
-    const double l_A0_y__crank0_theta = -arm_crank0_tail_x*inverse_crank0_inertia;
-    const double scale_O0_x = arm_crank0_tail_y*l_O0_x__crank0_theta + inverse_crank0_mass;
+    const double l_O0_x__crank0_theta = -arm_crank0_head_y*inverse_crank0_inertia;
+    const double l_O0_y__crank0_theta = arm_crank0_head_x*inverse_crank0_inertia;
+    const double l_A0_x__crank0_theta = -arm_crank0_head_y*inverse_crank0_inertia;
+    const double l_A0_y__crank0_theta = arm_crank0_head_x*inverse_crank0_inertia;
+    const double scale_O0_x = -arm_crank0_head_y*l_O0_x__crank0_theta + inverse_crank0_mass;
     if (!(scale_O0_x > 1e-13 * scale_O0_x)) { pivot = 1; goto dependent; };
     const double inverse_pivot_O0_x = 1.0/scale_O0_x;
-    const double w_O0_y__O0_x = -arm_crank0_tail_y*l_O0_y__crank0_theta;
+    const double w_O0_y__O0_x = arm_crank0_head_y*l_O0_y__crank0_theta;
     const double l_O0_y__O0_x = -inverse_pivot_O0_x*w_O0_y__O0_x;
-    const double w_A0_x__O0_x = -arm_crank0_tail_y*l_A0_x__crank0_theta + inverse_crank0_mass;
+    const double w_A0_x__O0_x = arm_crank0_head_y*l_A0_x__crank0_theta + inverse_crank0_mass;
     const double l_A0_x__O0_x = -inverse_pivot_O0_x*w_A0_x__O0_x;
-    const double w_A0_y__O0_x = -arm_crank0_tail_y*l_A0_y__crank0_theta;
+    const double w_A0_y__O0_x = arm_crank0_head_y*l_A0_y__crank0_theta;
     const double l_A0_y__O0_x = -inverse_pivot_O0_x*w_A0_y__O0_x;
-    const double scale_O0_y = -arm_crank0_tail_x*l_O0_y__crank0_theta + inverse_crank0_mass;
+    const double scale_O0_y = arm_crank0_head_x*l_O0_y__crank0_theta + inverse_crank0_mass;
     const double pivot_O0_y = l_O0_y__O0_x*w_O0_y__O0_x + scale_O0_y;
     if (!(pivot_O0_y > 1e-13 * scale_O0_y)) { pivot = 2; goto dependent; };
     const double inverse_pivot_O0_y = 1.0/pivot_O0_y;
-    const double w_A0_x__O0_y = arm_crank0_tail_x*l_A0_x__crank0_theta - l_A0_x__O0_x*w_O0_y__O0_x;
+    const double w_A0_x__O0_y = -arm_crank0_head_x*l_A0_x__crank0_theta - l_A0_x__O0_x*w_O0_y__O0_x;
     const double l_A0_x__O0_y = -inverse_pivot_O0_y*w_A0_x__O0_y;
-    const double w_A0_y__O0_y = arm_crank0_tail_x*l_A0_y__crank0_theta + inverse_crank0_mass -
+    const double w_A0_y__O0_y = -arm_crank0_head_x*l_A0_y__crank0_theta + inverse_crank0_mass -
         l_A0_y__O0_x*w_O0_y__O0_x;
     const double l_A0_y__O0_y = -inverse_pivot_O0_y*w_A0_y__O0_y;
-    const double l_O2_x__crank2_theta = arm_crank2_tail_y*inverse_crank2_inertia;
-    const double l_O2_y__crank2_theta = -arm_crank2_tail_x*inverse_crank2_inertia;
-    const double l_B2_x__crank2_theta = -arm_crank2_tail_y*inverse_crank2_inertia;
-    const double l_B2_y__crank2_theta = arm_crank2_tail_x*inverse_crank2_inertia;
-    const double scale_O2_x = arm_crank2_tail_y*l_O2_x__crank2_theta + inverse_crank2_mass;
+    const double l_O2_x__crank2_theta = -arm_crank2_head_y*inverse_crank2_inertia;
+    const double l_O2_y__crank2_theta = arm_crank2_head_x*inverse_crank2_inertia;
+    const double l_B2_x__crank2_theta = arm_crank2_head_y*inverse_crank2_inertia;
+    const double l_B2_y__crank2_theta = -arm_crank2_head_x*inverse_crank2_inertia;
+    const double scale_O2_x = -arm_crank2_head_y*l_O2_x__crank2_theta + inverse_crank2_mass;
     if (!(scale_O2_x > 1e-13 * scale_O2_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_O2_x = 1.0/scale_O2_x;
-    const double w_O2_y__O2_x = -arm_crank2_tail_y*l_O2_y__crank2_theta;
+    const double w_O2_y__O2_x = arm_crank2_head_y*l_O2_y__crank2_theta;
     const double l_O2_y__O2_x = -inverse_pivot_O2_x*w_O2_y__O2_x;
-    const double w_B2_x__O2_x = -arm_crank2_tail_y*l_B2_x__crank2_theta - inverse_crank2_mass;
+    const double w_B2_x__O2_x = arm_crank2_head_y*l_B2_x__crank2_theta - inverse_crank2_mass;
     const double l_B2_x__O2_x = -inverse_pivot_O2_x*w_B2_x__O2_x;
-    const double w_B2_y__O2_x = -arm_crank2_tail_y*l_B2_y__crank2_theta;
+    const double w_B2_y__O2_x = arm_crank2_head_y*l_B2_y__crank2_theta;
     const double l_B2_y__O2_x = -inverse_pivot_O2_x*w_B2_y__O2_x;
-    const double scale_O2_y = -arm_crank2_tail_x*l_O2_y__crank2_theta + inverse_crank2_mass;
+    const double scale_O2_y = arm_crank2_head_x*l_O2_y__crank2_theta + inverse_crank2_mass;
     const double pivot_O2_y = l_O2_y__O2_x*w_O2_y__O2_x + scale_O2_y;
     if (!(pivot_O2_y > 1e-13 * scale_O2_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_O2_y = 1.0/pivot_O2_y;
-    const double w_B2_x__O2_y = arm_crank2_tail_x*l_B2_x__crank2_theta - l_B2_x__O2_x*w_O2_y__O2_x;
+    const double w_B2_x__O2_y = -arm_crank2_head_x*l_B2_x__crank2_theta - l_B2_x__O2_x*w_O2_y__O2_x;
     const double l_B2_x__O2_y = -inverse_pivot_O2_y*w_B2_x__O2_y;
-    const double w_B2_y__O2_y = arm_crank2_tail_x*l_B2_y__crank2_theta - inverse_crank2_mass -
+    const double w_B2_y__O2_y = -arm_crank2_head_x*l_B2_y__crank2_theta - inverse_crank2_mass -
         l_B2_y__O2_x*w_O2_y__O2_x;
     const double l_B2_y__O2_y = -inverse_pivot_O2_y*w_B2_y__O2_y;
-    const double l_A0_x__coupler1_theta = arm_coupler1_tail_y*inverse_coupler1_inertia;
-    const double l_A0_y__coupler1_theta = -arm_coupler1_tail_x*inverse_coupler1_inertia;
-    const double l_B1_x__coupler1_theta = arm_coupler1_tail_y*inverse_coupler1_inertia;
-    const double l_B1_y__coupler1_theta = -arm_coupler1_tail_x*inverse_coupler1_inertia;
-    const double scale_A0_x = arm_coupler1_tail_y*l_A0_x__coupler1_theta +
-        arm_crank0_tail_y*l_A0_x__crank0_theta + inverse_coupler1_mass + inverse_crank0_mass;
+    const double l_A0_x__coupler1_theta = -arm_coupler1_head_y*inverse_coupler1_inertia;
+    const double l_A0_y__coupler1_theta = arm_coupler1_head_x*inverse_coupler1_inertia;
+    const double l_B1_x__coupler1_theta = -arm_coupler1_head_y*inverse_coupler1_inertia;
+    const double l_B1_y__coupler1_theta = arm_coupler1_head_x*inverse_coupler1_inertia;
+    const double scale_A0_x = -arm_coupler1_head_y*l_A0_x__coupler1_theta -
+        arm_crank0_head_y*l_A0_x__crank0_theta + inverse_coupler1_mass + inverse_crank0_mass;
     const double pivot_A0_x = l_A0_x__O0_x*w_A0_x__O0_x + l_A0_x__O0_y*w_A0_x__O0_y + scale_A0_x;
     if (!(pivot_A0_x > 1e-13 * scale_A0_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_A0_x = 1.0/pivot_A0_x;
-    const double w_A0_y__A0_x = -arm_coupler1_tail_y*l_A0_y__coupler1_theta -
-        arm_crank0_tail_y*l_A0_y__crank0_theta - l_A0_y__O0_x*w_A0_x__O0_x - l_A0_y__O0_y*w_A0_x__O0_y;
+    const double w_A0_y__A0_x = arm_coupler1_head_y*l_A0_y__coupler1_theta +
+        arm_crank0_head_y*l_A0_y__crank0_theta - l_A0_y__O0_x*w_A0_x__O0_x - l_A0_y__O0_y*w_A0_x__O0_y;
     const double l_A0_y__A0_x = -inverse_pivot_A0_x*w_A0_y__A0_x;
-    const double w_B1_x__A0_x = -arm_coupler1_tail_y*l_B1_x__coupler1_theta + inverse_coupler1_mass;
+    const double w_B1_x__A0_x = arm_coupler1_head_y*l_B1_x__coupler1_theta + inverse_coupler1_mass;
     const double l_B1_x__A0_x = -inverse_pivot_A0_x*w_B1_x__A0_x;
-    const double w_B1_y__A0_x = -arm_coupler1_tail_y*l_B1_y__coupler1_theta;
+    const double w_B1_y__A0_x = arm_coupler1_head_y*l_B1_y__coupler1_theta;
     const double l_B1_y__A0_x = -inverse_pivot_A0_x*w_B1_y__A0_x;
-    const double scale_A0_y = -arm_coupler1_tail_x*l_A0_y__coupler1_theta -
-        arm_crank0_tail_x*l_A0_y__crank0_theta + inverse_coupler1_mass + inverse_crank0_mass;
+    const double scale_A0_y = arm_coupler1_head_x*l_A0_y__coupler1_theta +
+        arm_crank0_head_x*l_A0_y__crank0_theta + inverse_coupler1_mass + inverse_crank0_mass;
     const double pivot_A0_y = l_A0_y__A0_x*w_A0_y__A0_x + l_A0_y__O0_x*w_A0_y__O0_x +
         l_A0_y__O0_y*w_A0_y__O0_y + scale_A0_y;
     if (!(pivot_A0_y > 1e-13 * scale_A0_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_A0_y = 1.0/pivot_A0_y;
-    const double w_B1_x__A0_y = arm_coupler1_tail_x*l_B1_x__coupler1_theta - l_B1_x__A0_x*w_A0_y__A0_x;
+    const double w_B1_x__A0_y = -arm_coupler1_head_x*l_B1_x__coupler1_theta - l_B1_x__A0_x*w_A0_y__A0_x;
     const double l_B1_x__A0_y = -inverse_pivot_A0_y*w_B1_x__A0_y;
-    const double w_B1_y__A0_y = arm_coupler1_tail_x*l_B1_y__coupler1_theta + inverse_coupler1_mass -
+    const double w_B1_y__A0_y = -arm_coupler1_head_x*l_B1_y__coupler1_theta + inverse_coupler1_mass -
         l_B1_y__A0_x*w_A0_y__A0_x;
     const double l_B1_y__A0_y = -inverse_pivot_A0_y*w_B1_y__A0_y;
-    const double l_B2_x__coupler2_theta = arm_coupler2_tail_y*inverse_coupler2_inertia;
-    const double l_B2_y__coupler2_theta = -arm_coupler2_tail_x*inverse_coupler2_inertia;
-    const double l_A1_x__coupler2_theta = arm_coupler2_tail_y*inverse_coupler2_inertia;
-    const double l_A1_y__coupler2_theta = -arm_coupler2_tail_x*inverse_coupler2_inertia;
-    const double scale_B2_x = arm_coupler2_tail_y*l_B2_x__coupler2_theta -
-        arm_crank2_tail_y*l_B2_x__crank2_theta + inverse_coupler2_mass + inverse_crank2_mass;
+    const double l_B2_x__coupler2_theta = -arm_coupler2_head_y*inverse_coupler2_inertia;
+    const double l_B2_y__coupler2_theta = arm_coupler2_head_x*inverse_coupler2_inertia;
+    const double l_A1_x__coupler2_theta = -arm_coupler2_head_y*inverse_coupler2_inertia;
+    const double l_A1_y__coupler2_theta = arm_coupler2_head_x*inverse_coupler2_inertia;
+    const double scale_B2_x = -arm_coupler2_head_y*l_B2_x__coupler2_theta +
+        arm_crank2_head_y*l_B2_x__crank2_theta + inverse_coupler2_mass + inverse_crank2_mass;
     const double pivot_B2_x = l_B2_x__O2_x*w_B2_x__O2_x + l_B2_x__O2_y*w_B2_x__O2_y + scale_B2_x;
     if (!(pivot_B2_x > 1e-13 * scale_B2_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_B2_x = 1.0/pivot_B2_x;
-    const double w_B2_y__B2_x = -arm_coupler2_tail_y*l_B2_y__coupler2_theta +
-        arm_crank2_tail_y*l_B2_y__crank2_theta - l_B2_y__O2_x*w_B2_x__O2_x - l_B2_y__O2_y*w_B2_x__O2_y;
+    const double w_B2_y__B2_x = arm_coupler2_head_y*l_B2_y__coupler2_theta -
+        arm_crank2_head_y*l_B2_y__crank2_theta - l_B2_y__O2_x*w_B2_x__O2_x - l_B2_y__O2_y*w_B2_x__O2_y;
     const double l_B2_y__B2_x = -inverse_pivot_B2_x*w_B2_y__B2_x;
-    const double w_A1_x__B2_x = -arm_coupler2_tail_y*l_A1_x__coupler2_theta + inverse_coupler2_mass;
+    const double w_A1_x__B2_x = arm_coupler2_head_y*l_A1_x__coupler2_theta + inverse_coupler2_mass;
     const double l_A1_x__B2_x = -inverse_pivot_B2_x*w_A1_x__B2_x;
-    const double w_A1_y__B2_x = -arm_coupler2_tail_y*l_A1_y__coupler2_theta;
+    const double w_A1_y__B2_x = arm_coupler2_head_y*l_A1_y__coupler2_theta;
     const double l_A1_y__B2_x = -inverse_pivot_B2_x*w_A1_y__B2_x;
-    const double scale_B2_y = -arm_coupler2_tail_x*l_B2_y__coupler2_theta +
-        arm_crank2_tail_x*l_B2_y__crank2_theta + inverse_coupler2_mass + inverse_crank2_mass;
+    const double scale_B2_y = arm_coupler2_head_x*l_B2_y__coupler2_theta -
+        arm_crank2_head_x*l_B2_y__crank2_theta + inverse_coupler2_mass + inverse_crank2_mass;
     const double pivot_B2_y = l_B2_y__B2_x*w_B2_y__B2_x + l_B2_y__O2_x*w_B2_y__O2_x +
         l_B2_y__O2_y*w_B2_y__O2_y + scale_B2_y;
     if (!(pivot_B2_y > 1e-13 * scale_B2_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_B2_y = 1.0/pivot_B2_y;
-    const double w_A1_x__B2_y = arm_coupler2_tail_x*l_A1_x__coupler2_theta - l_A1_x__B2_x*w_B2_y__B2_x;
+    const double w_A1_x__B2_y = -arm_coupler2_head_x*l_A1_x__coupler2_theta - l_A1_x__B2_x*w_B2_y__B2_x;
     const double l_A1_x__B2_y = -inverse_pivot_B2_y*w_A1_x__B2_y;
-    const double w_A1_y__B2_y = arm_coupler2_tail_x*l_A1_y__coupler2_theta + inverse_coupler2_mass -
+    const double w_A1_y__B2_y = -arm_coupler2_head_x*l_A1_y__coupler2_theta + inverse_coupler2_mass -
         l_A1_y__B2_x*w_B2_y__B2_x;
     const double l_A1_y__B2_y = -inverse_pivot_B2_y*w_A1_y__B2_y;
-    const double l_O1_x__crank1_theta = arm_crank1_tail_y*inverse_crank1_inertia;
-    const double l_O1_y__crank1_theta = -arm_crank1_tail_x*inverse_crank1_inertia;
-    const double l_B1_x__crank1_theta = -arm_crank1_tail_y*inverse_crank1_inertia;
-    const double l_B1_y__crank1_theta = arm_crank1_tail_x*inverse_crank1_inertia;
-    const double l_A1_x__crank1_theta = arm_crank1_tail_y*inverse_crank1_inertia;
-    const double l_A1_y__crank1_theta = -arm_crank1_tail_x*inverse_crank1_inertia;
-    const double scale_O1_x = arm_crank1_tail_y*l_O1_x__crank1_theta + inverse_crank1_mass;
+    const double l_O1_x__crank1_theta = -arm_crank1_head_y*inverse_crank1_inertia;
+    const double l_O1_y__crank1_theta = arm_crank1_head_x*inverse_crank1_inertia;
+    const double l_B1_x__crank1_theta = arm_crank1_head_y*inverse_crank1_inertia;
+    const double l_B1_y__crank1_theta = -arm_crank1_head_x*inverse_crank1_inertia;
+    const double l_A1_x__crank1_theta = -arm_crank1_head_y*inverse_crank1_inertia;
+    const double l_A1_y__crank1_theta = arm_crank1_head_x*inverse_crank1_inertia;
+    const double scale_O1_x = -arm_crank1_head_y*l_O1_x__crank1_theta + inverse_crank1_mass;
     if (!(scale_O1_x > 1e-13 * scale_O1_x)) { pivot = 9; goto dependent; };
     const double inverse_pivot_O1_x = 1.0/scale_O1_x;
-    const double w_O1_y__O1_x = -arm_crank1_tail_y*l_O1_y__crank1_theta;
+    const double w_O1_y__O1_x = arm_crank1_head_y*l_O1_y__crank1_theta;
     const double l_O1_y__O1_x = -inverse_pivot_O1_x*w_O1_y__O1_x;
-    const double w_B1_x__O1_x = -arm_crank1_tail_y*l_B1_x__crank1_theta - inverse_crank1_mass;
+    const double w_B1_x__O1_x = arm_crank1_head_y*l_B1_x__crank1_theta - inverse_crank1_mass;
     const double l_B1_x__O1_x = -inverse_pivot_O1_x*w_B1_x__O1_x;
-    const double w_B1_y__O1_x = -arm_crank1_tail_y*l_B1_y__crank1_theta;
+    const double w_B1_y__O1_x = arm_crank1_head_y*l_B1_y__crank1_theta;
     const double l_B1_y__O1_x = -inverse_pivot_O1_x*w_B1_y__O1_x;
-    const double w_A1_x__O1_x = -arm_crank1_tail_y*l_A1_x__crank1_theta + inverse_crank1_mass;
+    const double w_A1_x__O1_x = arm_crank1_head_y*l_A1_x__crank1_theta + inverse_crank1_mass;
     const double l_A1_x__O1_x = -inverse_pivot_O1_x*w_A1_x__O1_x;
-    const double w_A1_y__O1_x = -arm_crank1_tail_y*l_A1_y__crank1_theta;
+    const double w_A1_y__O1_x = arm_crank1_head_y*l_A1_y__crank1_theta;
     const double l_A1_y__O1_x = -inverse_pivot_O1_x*w_A1_y__O1_x;
-    const double scale_O1_y = -arm_crank1_tail_x*l_O1_y__crank1_theta + inverse_crank1_mass;
+    const double scale_O1_y = arm_crank1_head_x*l_O1_y__crank1_theta + inverse_crank1_mass;
     const double pivot_O1_y = l_O1_y__O1_x*w_O1_y__O1_x + scale_O1_y;
     if (!(pivot_O1_y > 1e-13 * scale_O1_y)) { pivot = 10; goto dependent; };
     const double inverse_pivot_O1_y = 1.0/pivot_O1_y;
-    const double w_B1_x__O1_y = arm_crank1_tail_x*l_B1_x__crank1_theta - l_B1_x__O1_x*w_O1_y__O1_x;
+    const double w_B1_x__O1_y = -arm_crank1_head_x*l_B1_x__crank1_theta - l_B1_x__O1_x*w_O1_y__O1_x;
     const double l_B1_x__O1_y = -inverse_pivot_O1_y*w_B1_x__O1_y;
-    const double w_B1_y__O1_y = arm_crank1_tail_x*l_B1_y__crank1_theta - inverse_crank1_mass -
+    const double w_B1_y__O1_y = -arm_crank1_head_x*l_B1_y__crank1_theta - inverse_crank1_mass -
         l_B1_y__O1_x*w_O1_y__O1_x;
     const double l_B1_y__O1_y = -inverse_pivot_O1_y*w_B1_y__O1_y;
-    const double w_A1_x__O1_y = arm_crank1_tail_x*l_A1_x__crank1_theta - l_A1_x__O1_x*w_O1_y__O1_x;
+    const double w_A1_x__O1_y = -arm_crank1_head_x*l_A1_x__crank1_theta - l_A1_x__O1_x*w_O1_y__O1_x;
     const double l_A1_x__O1_y = -inverse_pivot_O1_y*w_A1_x__O1_y;
-    const double w_A1_y__O1_y = arm_crank1_tail_x*l_A1_y__crank1_theta + inverse_crank1_mass -
+    const double w_A1_y__O1_y = -arm_crank1_head_x*l_A1_y__crank1_theta + inverse_crank1_mass -
         l_A1_y__O1_x*w_O1_y__O1_x;
     const double l_A1_y__O1_y = -inverse_pivot_O1_y*w_A1_y__O1_y;
-    const double scale_B1_x = arm_coupler1_tail_y*l_B1_x__coupler1_theta -
-        arm_crank1_tail_y*l_B1_x__crank1_theta + inverse_coupler1_mass + inverse_crank1_mass;
+    const double scale_B1_x = -arm_coupler1_head_y*l_B1_x__coupler1_theta +
+        arm_crank1_head_y*l_B1_x__crank1_theta + inverse_coupler1_mass + inverse_crank1_mass;
     const double pivot_B1_x = l_B1_x__A0_x*w_B1_x__A0_x + l_B1_x__A0_y*w_B1_x__A0_y +
         l_B1_x__O1_x*w_B1_x__O1_x + l_B1_x__O1_y*w_B1_x__O1_y + scale_B1_x;
     if (!(pivot_B1_x > 1e-13 * scale_B1_x)) { pivot = 11; goto dependent; };
     const double inverse_pivot_B1_x = 1.0/pivot_B1_x;
-    const double w_B1_y__B1_x = -arm_coupler1_tail_y*l_B1_y__coupler1_theta +
-        arm_crank1_tail_y*l_B1_y__crank1_theta - l_B1_y__A0_x*w_B1_x__A0_x - l_B1_y__A0_y*w_B1_x__A0_y -
+    const double w_B1_y__B1_x = arm_coupler1_head_y*l_B1_y__coupler1_theta -
+        arm_crank1_head_y*l_B1_y__crank1_theta - l_B1_y__A0_x*w_B1_x__A0_x - l_B1_y__A0_y*w_B1_x__A0_y -
         l_B1_y__O1_x*w_B1_x__O1_x - l_B1_y__O1_y*w_B1_x__O1_y;
     const double l_B1_y__B1_x = -inverse_pivot_B1_x*w_B1_y__B1_x;
-    const double w_A1_x__B1_x = arm_crank1_tail_y*l_A1_x__crank1_theta + inverse_crank1_mass -
+    const double w_A1_x__B1_x = -arm_crank1_head_y*l_A1_x__crank1_theta + inverse_crank1_mass -
         l_A1_x__O1_x*w_B1_x__O1_x - l_A1_x__O1_y*w_B1_x__O1_y;
     const double l_A1_x__B1_x = -inverse_pivot_B1_x*w_A1_x__B1_x;
-    const double w_A1_y__B1_x = arm_crank1_tail_y*l_A1_y__crank1_theta - l_A1_y__O1_x*w_B1_x__O1_x -
+    const double w_A1_y__B1_x = -arm_crank1_head_y*l_A1_y__crank1_theta - l_A1_y__O1_x*w_B1_x__O1_x -
         l_A1_y__O1_y*w_B1_x__O1_y;
     const double l_A1_y__B1_x = -inverse_pivot_B1_x*w_A1_y__B1_x;
-    const double scale_B1_y = -arm_coupler1_tail_x*l_B1_y__coupler1_theta +
-        arm_crank1_tail_x*l_B1_y__crank1_theta + inverse_coupler1_mass + inverse_crank1_mass;
+    const double scale_B1_y = arm_coupler1_head_x*l_B1_y__coupler1_theta -
+        arm_crank1_head_x*l_B1_y__crank1_theta + inverse_coupler1_mass + inverse_crank1_mass;
     const double pivot_B1_y = l_B1_y__A0_x*w_B1_y__A0_x + l_B1_y__A0_y*w_B1_y__A0_y +
         l_B1_y__B1_x*w_B1_y__B1_x + l_B1_y__O1_x*w_B1_y__O1_x + l_B1_y__O1_y*w_B1_y__O1_y + scale_B1_y;
     if (!(pivot_B1_y > 1e-13 * scale_B1_y)) { pivot = 12; goto dependent; };
     const double inverse_pivot_B1_y = 1.0/pivot_B1_y;
-    const double w_A1_x__B1_y = -arm_crank1_tail_x*l_A1_x__crank1_theta - l_A1_x__B1_x*w_B1_y__B1_x -
+    const double w_A1_x__B1_y = arm_crank1_head_x*l_A1_x__crank1_theta - l_A1_x__B1_x*w_B1_y__B1_x -
         l_A1_x__O1_x*w_B1_y__O1_x - l_A1_x__O1_y*w_B1_y__O1_y;
     const double l_A1_x__B1_y = -inverse_pivot_B1_y*w_A1_x__B1_y;
-    const double w_A1_y__B1_y = -arm_crank1_tail_x*l_A1_y__crank1_theta + inverse_crank1_mass -
+    const double w_A1_y__B1_y = arm_crank1_head_x*l_A1_y__crank1_theta + inverse_crank1_mass -
         l_A1_y__B1_x*w_B1_y__B1_x - l_A1_y__O1_x*w_B1_y__O1_x - l_A1_y__O1_y*w_B1_y__O1_y;
     const double l_A1_y__B1_y = -inverse_pivot_B1_y*w_A1_y__B1_y;
-    const double scale_A1_x = arm_coupler2_tail_y*l_A1_x__coupler2_theta +
-        arm_crank1_tail_y*l_A1_x__crank1_theta + inverse_coupler2_mass + inverse_crank1_mass;
+    const double scale_A1_x = -arm_coupler2_head_y*l_A1_x__coupler2_theta -
+        arm_crank1_head_y*l_A1_x__crank1_theta + inverse_coupler2_mass + inverse_crank1_mass;
     const double pivot_A1_x = l_A1_x__B1_x*w_A1_x__B1_x + l_A1_x__B1_y*w_A1_x__B1_y +
         l_A1_x__B2_x*w_A1_x__B2_x + l_A1_x__B2_y*w_A1_x__B2_y + l_A1_x__O1_x*w_A1_x__O1_x +
         l_A1_x__O1_y*w_A1_x__O1_y + scale_A1_x;
     if (!(pivot_A1_x > 1e-13 * scale_A1_x)) { pivot = 13; goto dependent; };
     const double inverse_pivot_A1_x = 1.0/pivot_A1_x;
-    const double w_A1_y__A1_x = -arm_coupler2_tail_y*l_A1_y__coupler2_theta -
-        arm_crank1_tail_y*l_A1_y__crank1_theta - l_A1_y__B1_x*w_A1_x__B1_x - l_A1_y__B1_y*w_A1_x__B1_y -
+    const double w_A1_y__A1_x = arm_coupler2_head_y*l_A1_y__coupler2_theta +
+        arm_crank1_head_y*l_A1_y__crank1_theta - l_A1_y__B1_x*w_A1_x__B1_x - l_A1_y__B1_y*w_A1_x__B1_y -
         l_A1_y__B2_x*w_A1_x__B2_x - l_A1_y__B2_y*w_A1_x__B2_y - l_A1_y__O1_x*w_A1_x__O1_x -
         l_A1_y__O1_y*w_A1_x__O1_y;
     const double l_A1_y__A1_x = -inverse_pivot_A1_x*w_A1_y__A1_x;
-    const double scale_A1_y = -arm_coupler2_tail_x*l_A1_y__coupler2_theta -
-        arm_crank1_tail_x*l_A1_y__crank1_theta + inverse_coupler2_mass + inverse_crank1_mass;
+    const double scale_A1_y = arm_coupler2_head_x*l_A1_y__coupler2_theta +
+        arm_crank1_head_x*l_A1_y__crank1_theta + inverse_coupler2_mass + inverse_crank1_mass;
     const double pivot_A1_y = l_A1_y__A1_x*w_A1_y__A1_x + l_A1_y__B1_x*w_A1_y__B1_x +
         l_A1_y__B1_y*w_A1_y__B1_y + l_A1_y__B2_x*w_A1_y__B2_x + l_A1_y__B2_y*w_A1_y__B2_y +
         l_A1_y__O1_x*w_A1_y__O1_x + l_A1_y__O1_y*w_A1_y__O1_y + scale_A1_y;

@@ -23,7 +23,7 @@ enum {
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double length;  /* parameters.length */    double mass;  /* parameters.mass */    double inertia;  /* parameters.inertia */    double crank0_mass;  /* bodies.crank0.mass */    double crank0_inertia;  /* bodies.crank0.inertia */    double crank1_mass;  /* bodies.crank1.mass */    double crank1_inertia;  /* bodies.crank1.inertia */    double crank2_mass;  /* bodies.crank2.mass */    double crank2_inertia;  /* bodies.crank2.inertia */    double coupler1_mass;  /* bodies.coupler1.mass */    double coupler1_inertia;  /* bodies.coupler1.inertia */    double coupler2_mass;  /* bodies.coupler2.mass */    double coupler2_inertia;  /* bodies.coupler2.inertia */    double crank0_length;  /* bodies.crank0.length */    double crank1_length;  /* bodies.crank1.length */    double crank2_length;  /* bodies.crank2.length */    double coupler1_length;  /* bodies.coupler1.length */    double coupler2_length;  /* bodies.coupler2.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O1_x;  /* ground.O1.x */    double O2_x;  /* ground.O2.x */    double par_y;  /* gravity.y */    double guess_crank1_theta;  /* start.guess.crank1.theta */    double guess_crank2_theta;  /* start.guess.crank2.theta */    double set_crank0_theta;  /* start.set.crank0.theta */    double rates_crank0_omega;  /* start.rates.crank0.omega */    double crank0_origin_x;  /* point from the centre of mass */    double crank1_origin_x;  /* point from the centre of mass */    double crank2_origin_x;  /* point from the centre of mass */    double coupler1_origin_x;  /* point from the centre of mass */    double coupler2_origin_x;  /* point from the centre of mass */    double inverse_crank0_mass;  /* 1/M */    double inverse_crank0_inertia;  /* 1/M */    double inverse_crank1_mass;  /* 1/M */    double inverse_crank1_inertia;  /* 1/M */    double inverse_crank2_mass;  /* 1/M */    double inverse_crank2_inertia;  /* 1/M */    double inverse_coupler1_mass;  /* 1/M */    double inverse_coupler1_inertia;  /* 1/M */    double inverse_coupler2_mass;  /* 1/M */    double inverse_coupler2_inertia;  /* 1/M */    double weight_crank0_y;  /* weight */    double weight_crank1_y;  /* weight */    double weight_crank2_y;  /* weight */    double weight_coupler1_y;  /* weight */    double weight_coupler2_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+typedef struct {    double length;  /* parameters.length */    double mass;  /* parameters.mass */    double inertia;  /* parameters.inertia */    double crank0_mass;  /* bodies.crank0.mass */    double crank0_inertia;  /* bodies.crank0.inertia */    double crank1_mass;  /* bodies.crank1.mass */    double crank1_inertia;  /* bodies.crank1.inertia */    double crank2_mass;  /* bodies.crank2.mass */    double crank2_inertia;  /* bodies.crank2.inertia */    double coupler1_mass;  /* bodies.coupler1.mass */    double coupler1_inertia;  /* bodies.coupler1.inertia */    double coupler2_mass;  /* bodies.coupler2.mass */    double coupler2_inertia;  /* bodies.coupler2.inertia */    double crank0_length;  /* bodies.crank0.length */    double crank1_length;  /* bodies.crank1.length */    double crank2_length;  /* bodies.crank2.length */    double coupler1_length;  /* bodies.coupler1.length */    double coupler2_length;  /* bodies.coupler2.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O1_x;  /* ground.O1.x */    double O2_x;  /* ground.O2.x */    double par_y;  /* gravity.y */    double guess_crank1_theta;  /* start.guess.crank1.theta */    double guess_crank2_theta;  /* start.guess.crank2.theta */    double set_crank0_theta;  /* start.set.crank0.theta */    double rates_crank0_omega;  /* start.rates.crank0.omega */    double crank0_head_x;  /* point from the centre of mass */    double crank1_head_x;  /* point from the centre of mass */    double crank2_head_x;  /* point from the centre of mass */    double coupler1_head_x;  /* point from the centre of mass */    double coupler2_head_x;  /* point from the centre of mass */    double inverse_crank0_mass;  /* 1/M */    double inverse_crank0_inertia;  /* 1/M */    double inverse_crank1_mass;  /* 1/M */    double inverse_crank1_inertia;  /* 1/M */    double inverse_crank2_mass;  /* 1/M */    double inverse_crank2_inertia;  /* 1/M */    double inverse_coupler1_mass;  /* 1/M */    double inverse_coupler1_inertia;  /* 1/M */    double inverse_coupler2_mass;  /* 1/M */    double inverse_coupler2_inertia;  /* 1/M */    double weight_crank0_y;  /* weight */    double weight_crank1_y;  /* weight */    double weight_crank2_y;  /* weight */    double weight_coupler1_y;  /* weight */    double weight_coupler2_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -31,15 +31,18 @@ typedef struct {
     double deltadot_minus;
 } Latch;
 
-/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+/*
+ * What the right-hand side remembers beside the state: latches, and each friction's mode: 0 stick, 1 or -1 the
+ * sign of its slip, 2 no force at all, where others hold the slip at zero.
+ */
 typedef struct {
     Latch latch[1];
     double mode[1];
 } Memory;
 
-/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+/* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
 typedef struct {
-    double v, speed, force, static_limit;
+    double v, rate, speed, force, static_limit;
 } Friction;
 
 /* A joint with play at one state; the force acts on the second body (journal), ground axes. */

@@ -60,13 +60,13 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     /* parameters */
     const double omega = p->omega;
     const double omega4 = p->omega4;
-    const double L1_origin_x = p->L1_origin_x;
-    const double L2_origin_x = p->L2_origin_x;
-    const double L3_origin_x = p->L3_origin_x;
-    const double L4_origin_x = p->L4_origin_x;
-    const double L6_origin_x = p->L6_origin_x;
-    const double L7_origin_x = p->L7_origin_x;
-    const double L8_origin_x = p->L8_origin_x;
+    const double L1_head_x = p->L1_head_x;
+    const double L2_head_x = p->L2_head_x;
+    const double L3_head_x = p->L3_head_x;
+    const double L4_head_x = p->L4_head_x;
+    const double L6_head_x = p->L6_head_x;
+    const double L7_head_x = p->L7_head_x;
+    const double L8_head_x = p->L8_head_x;
     const double O4_y = p->O4_y;
     const double O6_x = p->O6_x;
     const double inverse_L1_mass = p->inverse_L1_mass;
@@ -99,32 +99,32 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     /* directions, arms, drives */
     const double cos_theta_L1 = cos(L1_theta);
     const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_tail_x = L1_origin_x*cos_theta_L1;
-    const double arm_L1_tail_y = L1_origin_x*sin_theta_L1;
+    const double arm_L1_head_x = L1_head_x*cos_theta_L1;
+    const double arm_L1_head_y = L1_head_x*sin_theta_L1;
     const double cos_theta_L4 = cos(L4_theta);
     const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_tail_x = L4_origin_x*cos_theta_L4;
-    const double arm_L4_tail_y = L4_origin_x*sin_theta_L4;
+    const double arm_L4_head_x = L4_head_x*cos_theta_L4;
+    const double arm_L4_head_y = L4_head_x*sin_theta_L4;
     const double cos_theta_L2 = cos(L2_theta);
     const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_tail_x = L2_origin_x*cos_theta_L2;
-    const double arm_L2_tail_y = L2_origin_x*sin_theta_L2;
+    const double arm_L2_head_x = L2_head_x*cos_theta_L2;
+    const double arm_L2_head_y = L2_head_x*sin_theta_L2;
     const double cos_theta_L3 = cos(L3_theta);
     const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_tail_x = L3_origin_x*cos_theta_L3;
-    const double arm_L3_tail_y = L3_origin_x*sin_theta_L3;
+    const double arm_L3_head_x = L3_head_x*cos_theta_L3;
+    const double arm_L3_head_y = L3_head_x*sin_theta_L3;
     const double cos_theta_L7 = cos(L7_theta);
     const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_tail_x = L7_origin_x*cos_theta_L7;
-    const double arm_L7_tail_y = L7_origin_x*sin_theta_L7;
+    const double arm_L7_head_x = L7_head_x*cos_theta_L7;
+    const double arm_L7_head_y = L7_head_x*sin_theta_L7;
     const double cos_theta_L6 = cos(L6_theta);
     const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = -L6_origin_x*cos_theta_L6;
-    const double arm_L6_head_y = -L6_origin_x*sin_theta_L6;
+    const double arm_L6_head_x = L6_head_x*cos_theta_L6;
+    const double arm_L6_head_y = L6_head_x*sin_theta_L6;
     const double cos_theta_L8 = cos(L8_theta);
     const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_tail_x = L8_origin_x*cos_theta_L8;
-    const double arm_L8_tail_y = L8_origin_x*sin_theta_L8;
+    const double arm_L8_head_x = L8_head_x*cos_theta_L8;
+    const double arm_L8_head_y = L8_head_x*sin_theta_L8;
     const double crank1_value = omega*time - 0.689754120388159;
     const double crank1_rate = omega;
     const double crank1_acceleration = 0.0;
@@ -136,10 +136,10 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     int pivot = 0;
 
     /* clearance joint A */
-    const double e_A_x = -L1_x + L2_x + arm_L1_tail_x + arm_L2_tail_x;
-    const double e_A_y = -L1_y + L2_y + arm_L1_tail_y + arm_L2_tail_y;
-    const double edot_A_x = -L1_omega*arm_L1_tail_y - L1_vx - L2_omega*arm_L2_tail_y + L2_vx;
-    const double edot_A_y = L1_omega*arm_L1_tail_x - L1_vy + L2_omega*arm_L2_tail_x + L2_vy;
+    const double e_A_x = -L1_x + L2_x - arm_L1_head_x - arm_L2_head_x;
+    const double e_A_y = -L1_y + L2_y - arm_L1_head_y - arm_L2_head_y;
+    const double edot_A_x = L1_omega*arm_L1_head_y - L1_vx + L2_omega*arm_L2_head_y + L2_vx;
+    const double edot_A_y = -L1_omega*arm_L1_head_x - L1_vy - L2_omega*arm_L2_head_x + L2_vy;
     clearance_A(e_A_x, e_A_y, edot_A_x, edot_A_y, L1_omega, L2_omega, &memory->latch[0], p, &aside->clearance[0]);
     const double F_A_x = aside->clearance[0].Fx;
     const double F_A_y = aside->clearance[0].Fy;
@@ -148,10 +148,10 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     aside->clearance[0].power = F_A_x*edot_A_x + F_A_y*edot_A_y + L1_omega*M_A_first + L2_omega*M_A_second;
 
     /* clearance joint B */
-    const double e_B_x = L3_x - L4_x + arm_L3_tail_x + arm_L4_tail_x;
-    const double e_B_y = L3_y - L4_y + arm_L3_tail_y + arm_L4_tail_y;
-    const double edot_B_x = -L3_omega*arm_L3_tail_y + L3_vx - L4_omega*arm_L4_tail_y - L4_vx;
-    const double edot_B_y = L3_omega*arm_L3_tail_x + L3_vy + L4_omega*arm_L4_tail_x - L4_vy;
+    const double e_B_x = L3_x - L4_x - arm_L3_head_x - arm_L4_head_x;
+    const double e_B_y = L3_y - L4_y - arm_L3_head_y - arm_L4_head_y;
+    const double edot_B_x = L3_omega*arm_L3_head_y + L3_vx + L4_omega*arm_L4_head_y - L4_vx;
+    const double edot_B_y = -L3_omega*arm_L3_head_x + L3_vy - L4_omega*arm_L4_head_x - L4_vy;
     clearance_B(e_B_x, e_B_y, edot_B_x, edot_B_y, L4_omega, L3_omega, &memory->latch[1], p, &aside->clearance[1]);
     const double F_B_x = aside->clearance[1].Fx;
     const double F_B_y = aside->clearance[1].Fy;
@@ -160,75 +160,75 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     aside->clearance[1].power = F_B_x*edot_B_x + F_B_y*edot_B_y + L3_omega*M_B_second + L4_omega*M_B_first;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
-    const double phi_O1_x = -L1_x - arm_L1_tail_x;
-    const double phi_dot_O1_x = L1_omega*arm_L1_tail_y - L1_vx;
-    const double rhs_O1_x = -(L1_omega * L1_omega)*arm_L1_tail_x - beta_squared*phi_O1_x -
+    const double phi_O1_x = -L1_x + arm_L1_head_x;
+    const double phi_dot_O1_x = -L1_omega*arm_L1_head_y - L1_vx;
+    const double rhs_O1_x = (L1_omega * L1_omega)*arm_L1_head_x - beta_squared*phi_O1_x -
         phi_dot_O1_x*two_alpha;
     aside->phi[0] = phi_O1_x;
     aside->phi_dot[0] = phi_dot_O1_x;
-    const double phi_O1_y = -L1_y - arm_L1_tail_y;
-    const double phi_dot_O1_y = -L1_omega*arm_L1_tail_x - L1_vy;
-    const double rhs_O1_y = -(L1_omega * L1_omega)*arm_L1_tail_y - beta_squared*phi_O1_y -
+    const double phi_O1_y = -L1_y + arm_L1_head_y;
+    const double phi_dot_O1_y = L1_omega*arm_L1_head_x - L1_vy;
+    const double rhs_O1_y = (L1_omega * L1_omega)*arm_L1_head_y - beta_squared*phi_O1_y -
         phi_dot_O1_y*two_alpha;
     aside->phi[1] = phi_O1_y;
     aside->phi_dot[1] = phi_dot_O1_y;
-    const double phi_O4_x = -L4_x - arm_L4_tail_x;
-    const double phi_dot_O4_x = L4_omega*arm_L4_tail_y - L4_vx;
-    const double rhs_O4_x = -(L4_omega * L4_omega)*arm_L4_tail_x - beta_squared*phi_O4_x -
+    const double phi_O4_x = -L4_x + arm_L4_head_x;
+    const double phi_dot_O4_x = -L4_omega*arm_L4_head_y - L4_vx;
+    const double rhs_O4_x = (L4_omega * L4_omega)*arm_L4_head_x - beta_squared*phi_O4_x -
         phi_dot_O4_x*two_alpha;
     aside->phi[2] = phi_O4_x;
     aside->phi_dot[2] = phi_dot_O4_x;
-    const double phi_O4_y = -L4_y + O4_y - arm_L4_tail_y;
-    const double phi_dot_O4_y = -L4_omega*arm_L4_tail_x - L4_vy;
-    const double rhs_O4_y = -(L4_omega * L4_omega)*arm_L4_tail_y - beta_squared*phi_O4_y -
+    const double phi_O4_y = -L4_y + O4_y + arm_L4_head_y;
+    const double phi_dot_O4_y = L4_omega*arm_L4_head_x - L4_vy;
+    const double rhs_O4_y = (L4_omega * L4_omega)*arm_L4_head_y - beta_squared*phi_O4_y -
         phi_dot_O4_y*two_alpha;
     aside->phi[3] = phi_O4_y;
     aside->phi_dot[3] = phi_dot_O4_y;
-    const double phi_P2_x = L2_x - L7_x - arm_L2_tail_x - arm_L7_tail_x;
-    const double phi_dot_P2_x = L2_omega*arm_L2_tail_y + L2_vx + L7_omega*arm_L7_tail_y - L7_vx;
-    const double rhs_P2_x = -(L2_omega * L2_omega)*arm_L2_tail_x - (L7_omega * L7_omega)*arm_L7_tail_x -
+    const double phi_P2_x = L2_x - L7_x + arm_L2_head_x + arm_L7_head_x;
+    const double phi_dot_P2_x = -L2_omega*arm_L2_head_y + L2_vx - L7_omega*arm_L7_head_y - L7_vx;
+    const double rhs_P2_x = (L2_omega * L2_omega)*arm_L2_head_x + (L7_omega * L7_omega)*arm_L7_head_x -
         beta_squared*phi_P2_x - phi_dot_P2_x*two_alpha;
     aside->phi[4] = phi_P2_x;
     aside->phi_dot[4] = phi_dot_P2_x;
-    const double phi_P2_y = L2_y - L7_y - arm_L2_tail_y - arm_L7_tail_y;
-    const double phi_dot_P2_y = -L2_omega*arm_L2_tail_x + L2_vy - L7_omega*arm_L7_tail_x - L7_vy;
-    const double rhs_P2_y = -(L2_omega * L2_omega)*arm_L2_tail_y - (L7_omega * L7_omega)*arm_L7_tail_y -
+    const double phi_P2_y = L2_y - L7_y + arm_L2_head_y + arm_L7_head_y;
+    const double phi_dot_P2_y = L2_omega*arm_L2_head_x + L2_vy + L7_omega*arm_L7_head_x - L7_vy;
+    const double rhs_P2_y = (L2_omega * L2_omega)*arm_L2_head_y + (L7_omega * L7_omega)*arm_L7_head_y -
         beta_squared*phi_P2_y - phi_dot_P2_y*two_alpha;
     aside->phi[5] = phi_P2_y;
     aside->phi_dot[5] = phi_dot_P2_y;
-    const double phi_P3_x = L3_x - L7_x - arm_L3_tail_x - arm_L7_tail_x;
-    const double phi_dot_P3_x = L3_omega*arm_L3_tail_y + L3_vx + L7_omega*arm_L7_tail_y - L7_vx;
-    const double rhs_P3_x = -(L3_omega * L3_omega)*arm_L3_tail_x - (L7_omega * L7_omega)*arm_L7_tail_x -
+    const double phi_P3_x = L3_x - L7_x + arm_L3_head_x + arm_L7_head_x;
+    const double phi_dot_P3_x = -L3_omega*arm_L3_head_y + L3_vx - L7_omega*arm_L7_head_y - L7_vx;
+    const double rhs_P3_x = (L3_omega * L3_omega)*arm_L3_head_x + (L7_omega * L7_omega)*arm_L7_head_x -
         beta_squared*phi_P3_x - phi_dot_P3_x*two_alpha;
     aside->phi[6] = phi_P3_x;
     aside->phi_dot[6] = phi_dot_P3_x;
-    const double phi_P3_y = L3_y - L7_y - arm_L3_tail_y - arm_L7_tail_y;
-    const double phi_dot_P3_y = -L3_omega*arm_L3_tail_x + L3_vy - L7_omega*arm_L7_tail_x - L7_vy;
-    const double rhs_P3_y = -(L3_omega * L3_omega)*arm_L3_tail_y - (L7_omega * L7_omega)*arm_L7_tail_y -
+    const double phi_P3_y = L3_y - L7_y + arm_L3_head_y + arm_L7_head_y;
+    const double phi_dot_P3_y = L3_omega*arm_L3_head_x + L3_vy + L7_omega*arm_L7_head_x - L7_vy;
+    const double rhs_P3_y = (L3_omega * L3_omega)*arm_L3_head_y + (L7_omega * L7_omega)*arm_L7_head_y -
         beta_squared*phi_P3_y - phi_dot_P3_y*two_alpha;
     aside->phi[7] = phi_P3_y;
     aside->phi_dot[7] = phi_dot_P3_y;
-    const double phi_Q6_x = -L6_x + L7_x - arm_L6_head_x - arm_L7_tail_x;
-    const double phi_dot_Q6_x = L6_omega*arm_L6_head_y - L6_vx + L7_omega*arm_L7_tail_y + L7_vx;
-    const double rhs_Q6_x = -(L6_omega * L6_omega)*arm_L6_head_x - (L7_omega * L7_omega)*arm_L7_tail_x -
+    const double phi_Q6_x = -L6_x + L7_x - arm_L6_head_x + arm_L7_head_x;
+    const double phi_dot_Q6_x = L6_omega*arm_L6_head_y - L6_vx - L7_omega*arm_L7_head_y + L7_vx;
+    const double rhs_Q6_x = -(L6_omega * L6_omega)*arm_L6_head_x + (L7_omega * L7_omega)*arm_L7_head_x -
         beta_squared*phi_Q6_x - phi_dot_Q6_x*two_alpha;
     aside->phi[8] = phi_Q6_x;
     aside->phi_dot[8] = phi_dot_Q6_x;
-    const double phi_Q6_y = -L6_y + L7_y - arm_L6_head_y - arm_L7_tail_y;
-    const double phi_dot_Q6_y = -L6_omega*arm_L6_head_x - L6_vy - L7_omega*arm_L7_tail_x + L7_vy;
-    const double rhs_Q6_y = -(L6_omega * L6_omega)*arm_L6_head_y - (L7_omega * L7_omega)*arm_L7_tail_y -
+    const double phi_Q6_y = -L6_y + L7_y - arm_L6_head_y + arm_L7_head_y;
+    const double phi_dot_Q6_y = -L6_omega*arm_L6_head_x - L6_vy + L7_omega*arm_L7_head_x + L7_vy;
+    const double rhs_Q6_y = -(L6_omega * L6_omega)*arm_L6_head_y + (L7_omega * L7_omega)*arm_L7_head_y -
         beta_squared*phi_Q6_y - phi_dot_Q6_y*two_alpha;
     aside->phi[9] = phi_Q6_y;
     aside->phi_dot[9] = phi_dot_Q6_y;
-    const double phi_Q8_x = L7_x - L8_x - arm_L7_tail_x - arm_L8_tail_x;
-    const double phi_dot_Q8_x = L7_omega*arm_L7_tail_y + L7_vx + L8_omega*arm_L8_tail_y - L8_vx;
-    const double rhs_Q8_x = -(L7_omega * L7_omega)*arm_L7_tail_x - (L8_omega * L8_omega)*arm_L8_tail_x -
+    const double phi_Q8_x = L7_x - L8_x + arm_L7_head_x + arm_L8_head_x;
+    const double phi_dot_Q8_x = -L7_omega*arm_L7_head_y + L7_vx - L8_omega*arm_L8_head_y - L8_vx;
+    const double rhs_Q8_x = (L7_omega * L7_omega)*arm_L7_head_x + (L8_omega * L8_omega)*arm_L8_head_x -
         beta_squared*phi_Q8_x - phi_dot_Q8_x*two_alpha;
     aside->phi[10] = phi_Q8_x;
     aside->phi_dot[10] = phi_dot_Q8_x;
-    const double phi_Q8_y = L7_y - L8_y - arm_L7_tail_y - arm_L8_tail_y;
-    const double phi_dot_Q8_y = -L7_omega*arm_L7_tail_x + L7_vy - L8_omega*arm_L8_tail_x - L8_vy;
-    const double rhs_Q8_y = -(L7_omega * L7_omega)*arm_L7_tail_y - (L8_omega * L8_omega)*arm_L8_tail_y -
+    const double phi_Q8_y = L7_y - L8_y + arm_L7_head_y + arm_L8_head_y;
+    const double phi_dot_Q8_y = L7_omega*arm_L7_head_x + L7_vy + L8_omega*arm_L8_head_x - L8_vy;
+    const double rhs_Q8_y = (L7_omega * L7_omega)*arm_L7_head_y + (L8_omega * L8_omega)*arm_L8_head_y -
         beta_squared*phi_Q8_y - phi_dot_Q8_y*two_alpha;
     aside->phi[11] = phi_Q8_y;
     aside->phi_dot[11] = phi_dot_Q8_y;
@@ -244,15 +244,15 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         phi_dot_O6_y*two_alpha;
     aside->phi[13] = phi_O6_y;
     aside->phi_dot[13] = phi_dot_O6_y;
-    const double phi_slider_x = L8_x - S9_x - arm_L8_tail_x;
-    const double phi_dot_slider_x = L8_omega*arm_L8_tail_y + L8_vx - S9_vx;
-    const double rhs_slider_x = -(L8_omega * L8_omega)*arm_L8_tail_x - beta_squared*phi_slider_x -
+    const double phi_slider_x = L8_x - S9_x + arm_L8_head_x;
+    const double phi_dot_slider_x = -L8_omega*arm_L8_head_y + L8_vx - S9_vx;
+    const double rhs_slider_x = (L8_omega * L8_omega)*arm_L8_head_x - beta_squared*phi_slider_x -
         phi_dot_slider_x*two_alpha;
     aside->phi[14] = phi_slider_x;
     aside->phi_dot[14] = phi_dot_slider_x;
-    const double phi_slider_y = L8_y - S9_y - arm_L8_tail_y;
-    const double phi_dot_slider_y = -L8_omega*arm_L8_tail_x + L8_vy - S9_vy;
-    const double rhs_slider_y = -(L8_omega * L8_omega)*arm_L8_tail_y - beta_squared*phi_slider_y -
+    const double phi_slider_y = L8_y - S9_y + arm_L8_head_y;
+    const double phi_dot_slider_y = L8_omega*arm_L8_head_x + L8_vy - S9_vy;
+    const double rhs_slider_y = (L8_omega * L8_omega)*arm_L8_head_y - beta_squared*phi_slider_y -
         phi_dot_slider_y*two_alpha;
     aside->phi[15] = phi_slider_y;
     aside->phi_dot[15] = phi_dot_slider_y;
@@ -281,47 +281,47 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_guide_angle = inverse_S9_inertia;
     if (!(scale_guide_angle > 1e-13 * scale_guide_angle)) { pivot = 1; goto dependent; };
     const double inverse_pivot_guide_angle = 1.0/scale_guide_angle;
-    const double l_P2_x__L2_theta = arm_L2_tail_y*inverse_L2_inertia;
-    const double l_P2_y__L2_theta = -arm_L2_tail_x*inverse_L2_inertia;
-    const double l_P3_x__L3_theta = arm_L3_tail_y*inverse_L3_inertia;
-    const double l_P3_y__L3_theta = -arm_L3_tail_x*inverse_L3_inertia;
+    const double l_P2_x__L2_theta = -arm_L2_head_y*inverse_L2_inertia;
+    const double l_P2_y__L2_theta = arm_L2_head_x*inverse_L2_inertia;
+    const double l_P3_x__L3_theta = -arm_L3_head_y*inverse_L3_inertia;
+    const double l_P3_y__L3_theta = arm_L3_head_x*inverse_L3_inertia;
     const double scale_guide_offset = inverse_S9_mass;
     if (!(scale_guide_offset > 1e-13 * scale_guide_offset)) { pivot = 2; goto dependent; };
     const double inverse_pivot_guide_offset = 1.0/scale_guide_offset;
     const double l_slider_x__guide_offset = inverse_S9_mass*inverse_pivot_guide_offset;
-    const double l_O1_x__L1_theta = arm_L1_tail_y*inverse_L1_inertia;
-    const double l_O1_y__L1_theta = -arm_L1_tail_x*inverse_L1_inertia;
-    const double scale_O1_x = arm_L1_tail_y*l_O1_x__L1_theta + inverse_L1_mass;
+    const double l_O1_x__L1_theta = -arm_L1_head_y*inverse_L1_inertia;
+    const double l_O1_y__L1_theta = arm_L1_head_x*inverse_L1_inertia;
+    const double scale_O1_x = -arm_L1_head_y*l_O1_x__L1_theta + inverse_L1_mass;
     if (!(scale_O1_x > 1e-13 * scale_O1_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_O1_x = 1.0/scale_O1_x;
-    const double w_O1_y__O1_x = -arm_L1_tail_y*l_O1_y__L1_theta;
+    const double w_O1_y__O1_x = arm_L1_head_y*l_O1_y__L1_theta;
     const double l_O1_y__O1_x = -inverse_pivot_O1_x*w_O1_y__O1_x;
-    const double w_crank1__O1_x = -arm_L1_tail_y*inverse_L1_inertia;
+    const double w_crank1__O1_x = arm_L1_head_y*inverse_L1_inertia;
     const double l_crank1__O1_x = -inverse_pivot_O1_x*w_crank1__O1_x;
-    const double scale_O1_y = -arm_L1_tail_x*l_O1_y__L1_theta + inverse_L1_mass;
+    const double scale_O1_y = arm_L1_head_x*l_O1_y__L1_theta + inverse_L1_mass;
     const double pivot_O1_y = l_O1_y__O1_x*w_O1_y__O1_x + scale_O1_y;
     if (!(pivot_O1_y > 1e-13 * scale_O1_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_O1_y = 1.0/pivot_O1_y;
-    const double w_crank1__O1_y = arm_L1_tail_x*inverse_L1_inertia - l_crank1__O1_x*w_O1_y__O1_x;
+    const double w_crank1__O1_y = -arm_L1_head_x*inverse_L1_inertia - l_crank1__O1_x*w_O1_y__O1_x;
     const double l_crank1__O1_y = -inverse_pivot_O1_y*w_crank1__O1_y;
     const double scale_crank1 = inverse_L1_inertia;
     const double pivot_crank1 = l_crank1__O1_x*w_crank1__O1_x + l_crank1__O1_y*w_crank1__O1_y + scale_crank1;
     if (!(pivot_crank1 > 1e-13 * scale_crank1)) { pivot = 5; goto dependent; };
     const double inverse_pivot_crank1 = 1.0/pivot_crank1;
-    const double l_O4_x__L4_theta = arm_L4_tail_y*inverse_L4_inertia;
-    const double l_O4_y__L4_theta = -arm_L4_tail_x*inverse_L4_inertia;
-    const double scale_O4_x = arm_L4_tail_y*l_O4_x__L4_theta + inverse_L4_mass;
+    const double l_O4_x__L4_theta = -arm_L4_head_y*inverse_L4_inertia;
+    const double l_O4_y__L4_theta = arm_L4_head_x*inverse_L4_inertia;
+    const double scale_O4_x = -arm_L4_head_y*l_O4_x__L4_theta + inverse_L4_mass;
     if (!(scale_O4_x > 1e-13 * scale_O4_x)) { pivot = 6; goto dependent; };
     const double inverse_pivot_O4_x = 1.0/scale_O4_x;
-    const double w_O4_y__O4_x = -arm_L4_tail_y*l_O4_y__L4_theta;
+    const double w_O4_y__O4_x = arm_L4_head_y*l_O4_y__L4_theta;
     const double l_O4_y__O4_x = -inverse_pivot_O4_x*w_O4_y__O4_x;
-    const double w_crank4__O4_x = -arm_L4_tail_y*inverse_L4_inertia;
+    const double w_crank4__O4_x = arm_L4_head_y*inverse_L4_inertia;
     const double l_crank4__O4_x = -inverse_pivot_O4_x*w_crank4__O4_x;
-    const double scale_O4_y = -arm_L4_tail_x*l_O4_y__L4_theta + inverse_L4_mass;
+    const double scale_O4_y = arm_L4_head_x*l_O4_y__L4_theta + inverse_L4_mass;
     const double pivot_O4_y = l_O4_y__O4_x*w_O4_y__O4_x + scale_O4_y;
     if (!(pivot_O4_y > 1e-13 * scale_O4_y)) { pivot = 7; goto dependent; };
     const double inverse_pivot_O4_y = 1.0/pivot_O4_y;
-    const double w_crank4__O4_y = arm_L4_tail_x*inverse_L4_inertia - l_crank4__O4_x*w_O4_y__O4_x;
+    const double w_crank4__O4_y = -arm_L4_head_x*inverse_L4_inertia - l_crank4__O4_x*w_O4_y__O4_x;
     const double l_crank4__O4_y = -inverse_pivot_O4_y*w_crank4__O4_y;
     const double scale_crank4 = inverse_L4_inertia;
     const double pivot_crank4 = l_crank4__O4_x*w_crank4__O4_x + l_crank4__O4_y*w_crank4__O4_y + scale_crank4;
@@ -348,143 +348,143 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_Q6_x__O6_y = -inverse_pivot_O6_y*w_Q6_x__O6_y;
     const double w_Q6_y__O6_y = -arm_L6_head_x*l_Q6_y__L6_theta - inverse_L6_mass - l_Q6_y__O6_x*w_O6_y__O6_x;
     const double l_Q6_y__O6_y = -inverse_pivot_O6_y*w_Q6_y__O6_y;
-    const double l_slider_x__L8_theta = arm_L8_tail_y*inverse_L8_inertia;
-    const double l_slider_y__L8_theta = -arm_L8_tail_x*inverse_L8_inertia;
-    const double l_Q8_x__L8_theta = arm_L8_tail_y*inverse_L8_inertia;
-    const double l_Q8_y__L8_theta = -arm_L8_tail_x*inverse_L8_inertia;
-    const double scale_slider_x = arm_L8_tail_y*l_slider_x__L8_theta + inverse_L8_mass + inverse_S9_mass;
+    const double l_slider_x__L8_theta = -arm_L8_head_y*inverse_L8_inertia;
+    const double l_slider_y__L8_theta = arm_L8_head_x*inverse_L8_inertia;
+    const double l_Q8_x__L8_theta = -arm_L8_head_y*inverse_L8_inertia;
+    const double l_Q8_y__L8_theta = arm_L8_head_x*inverse_L8_inertia;
+    const double scale_slider_x = -arm_L8_head_y*l_slider_x__L8_theta + inverse_L8_mass + inverse_S9_mass;
     const double pivot_slider_x = -inverse_S9_mass*l_slider_x__guide_offset + scale_slider_x;
     if (!(pivot_slider_x > 1e-13 * scale_slider_x)) { pivot = 11; goto dependent; };
     const double inverse_pivot_slider_x = 1.0/pivot_slider_x;
-    const double w_slider_y__slider_x = -arm_L8_tail_y*l_slider_y__L8_theta;
+    const double w_slider_y__slider_x = arm_L8_head_y*l_slider_y__L8_theta;
     const double l_slider_y__slider_x = -inverse_pivot_slider_x*w_slider_y__slider_x;
-    const double w_Q8_x__slider_x = -arm_L8_tail_y*l_Q8_x__L8_theta + inverse_L8_mass;
+    const double w_Q8_x__slider_x = arm_L8_head_y*l_Q8_x__L8_theta + inverse_L8_mass;
     const double l_Q8_x__slider_x = -inverse_pivot_slider_x*w_Q8_x__slider_x;
-    const double w_Q8_y__slider_x = -arm_L8_tail_y*l_Q8_y__L8_theta;
+    const double w_Q8_y__slider_x = arm_L8_head_y*l_Q8_y__L8_theta;
     const double l_Q8_y__slider_x = -inverse_pivot_slider_x*w_Q8_y__slider_x;
-    const double scale_slider_y = -arm_L8_tail_x*l_slider_y__L8_theta + inverse_L8_mass + inverse_S9_mass;
+    const double scale_slider_y = arm_L8_head_x*l_slider_y__L8_theta + inverse_L8_mass + inverse_S9_mass;
     const double pivot_slider_y = l_slider_y__slider_x*w_slider_y__slider_x + scale_slider_y;
     if (!(pivot_slider_y > 1e-13 * scale_slider_y)) { pivot = 12; goto dependent; };
     const double inverse_pivot_slider_y = 1.0/pivot_slider_y;
-    const double w_Q8_x__slider_y = arm_L8_tail_x*l_Q8_x__L8_theta - l_Q8_x__slider_x*w_slider_y__slider_x;
+    const double w_Q8_x__slider_y = -arm_L8_head_x*l_Q8_x__L8_theta - l_Q8_x__slider_x*w_slider_y__slider_x;
     const double l_Q8_x__slider_y = -inverse_pivot_slider_y*w_Q8_x__slider_y;
-    const double w_Q8_y__slider_y = arm_L8_tail_x*l_Q8_y__L8_theta + inverse_L8_mass -
+    const double w_Q8_y__slider_y = -arm_L8_head_x*l_Q8_y__L8_theta + inverse_L8_mass -
         l_Q8_y__slider_x*w_slider_y__slider_x;
     const double l_Q8_y__slider_y = -inverse_pivot_slider_y*w_Q8_y__slider_y;
-    const double l_P2_x__L7_theta = arm_L7_tail_y*inverse_L7_inertia;
-    const double l_P2_y__L7_theta = -arm_L7_tail_x*inverse_L7_inertia;
-    const double l_P3_x__L7_theta = arm_L7_tail_y*inverse_L7_inertia;
-    const double l_P3_y__L7_theta = -arm_L7_tail_x*inverse_L7_inertia;
-    const double l_Q6_x__L7_theta = arm_L7_tail_y*inverse_L7_inertia;
-    const double l_Q6_y__L7_theta = -arm_L7_tail_x*inverse_L7_inertia;
-    const double l_Q8_x__L7_theta = arm_L7_tail_y*inverse_L7_inertia;
-    const double l_Q8_y__L7_theta = -arm_L7_tail_x*inverse_L7_inertia;
-    const double scale_P2_x = arm_L2_tail_y*l_P2_x__L2_theta + arm_L7_tail_y*l_P2_x__L7_theta +
+    const double l_P2_x__L7_theta = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_P2_y__L7_theta = arm_L7_head_x*inverse_L7_inertia;
+    const double l_P3_x__L7_theta = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_P3_y__L7_theta = arm_L7_head_x*inverse_L7_inertia;
+    const double l_Q6_x__L7_theta = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_Q6_y__L7_theta = arm_L7_head_x*inverse_L7_inertia;
+    const double l_Q8_x__L7_theta = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_Q8_y__L7_theta = arm_L7_head_x*inverse_L7_inertia;
+    const double scale_P2_x = -arm_L2_head_y*l_P2_x__L2_theta - arm_L7_head_y*l_P2_x__L7_theta +
         inverse_L2_mass + inverse_L7_mass;
     if (!(scale_P2_x > 1e-13 * scale_P2_x)) { pivot = 13; goto dependent; };
     const double inverse_pivot_P2_x = 1.0/scale_P2_x;
-    const double w_P2_y__P2_x = -arm_L2_tail_y*l_P2_y__L2_theta - arm_L7_tail_y*l_P2_y__L7_theta;
+    const double w_P2_y__P2_x = arm_L2_head_y*l_P2_y__L2_theta + arm_L7_head_y*l_P2_y__L7_theta;
     const double l_P2_y__P2_x = -inverse_pivot_P2_x*w_P2_y__P2_x;
-    const double w_P3_x__P2_x = -arm_L7_tail_y*l_P3_x__L7_theta - inverse_L7_mass;
+    const double w_P3_x__P2_x = arm_L7_head_y*l_P3_x__L7_theta - inverse_L7_mass;
     const double l_P3_x__P2_x = -inverse_pivot_P2_x*w_P3_x__P2_x;
-    const double w_P3_y__P2_x = -arm_L7_tail_y*l_P3_y__L7_theta;
+    const double w_P3_y__P2_x = arm_L7_head_y*l_P3_y__L7_theta;
     const double l_P3_y__P2_x = -inverse_pivot_P2_x*w_P3_y__P2_x;
-    const double w_Q6_x__P2_x = -arm_L7_tail_y*l_Q6_x__L7_theta + inverse_L7_mass;
+    const double w_Q6_x__P2_x = arm_L7_head_y*l_Q6_x__L7_theta + inverse_L7_mass;
     const double l_Q6_x__P2_x = -inverse_pivot_P2_x*w_Q6_x__P2_x;
-    const double w_Q6_y__P2_x = -arm_L7_tail_y*l_Q6_y__L7_theta;
+    const double w_Q6_y__P2_x = arm_L7_head_y*l_Q6_y__L7_theta;
     const double l_Q6_y__P2_x = -inverse_pivot_P2_x*w_Q6_y__P2_x;
-    const double w_Q8_x__P2_x = -arm_L7_tail_y*l_Q8_x__L7_theta + inverse_L7_mass;
+    const double w_Q8_x__P2_x = arm_L7_head_y*l_Q8_x__L7_theta + inverse_L7_mass;
     const double l_Q8_x__P2_x = -inverse_pivot_P2_x*w_Q8_x__P2_x;
-    const double w_Q8_y__P2_x = -arm_L7_tail_y*l_Q8_y__L7_theta;
+    const double w_Q8_y__P2_x = arm_L7_head_y*l_Q8_y__L7_theta;
     const double l_Q8_y__P2_x = -inverse_pivot_P2_x*w_Q8_y__P2_x;
-    const double scale_P2_y = -arm_L2_tail_x*l_P2_y__L2_theta - arm_L7_tail_x*l_P2_y__L7_theta +
+    const double scale_P2_y = arm_L2_head_x*l_P2_y__L2_theta + arm_L7_head_x*l_P2_y__L7_theta +
         inverse_L2_mass + inverse_L7_mass;
     const double pivot_P2_y = l_P2_y__P2_x*w_P2_y__P2_x + scale_P2_y;
     if (!(pivot_P2_y > 1e-13 * scale_P2_y)) { pivot = 14; goto dependent; };
     const double inverse_pivot_P2_y = 1.0/pivot_P2_y;
-    const double w_P3_x__P2_y = arm_L7_tail_x*l_P3_x__L7_theta - l_P3_x__P2_x*w_P2_y__P2_x;
+    const double w_P3_x__P2_y = -arm_L7_head_x*l_P3_x__L7_theta - l_P3_x__P2_x*w_P2_y__P2_x;
     const double l_P3_x__P2_y = -inverse_pivot_P2_y*w_P3_x__P2_y;
-    const double w_P3_y__P2_y = arm_L7_tail_x*l_P3_y__L7_theta - inverse_L7_mass - l_P3_y__P2_x*w_P2_y__P2_x;
+    const double w_P3_y__P2_y = -arm_L7_head_x*l_P3_y__L7_theta - inverse_L7_mass - l_P3_y__P2_x*w_P2_y__P2_x;
     const double l_P3_y__P2_y = -inverse_pivot_P2_y*w_P3_y__P2_y;
-    const double w_Q6_x__P2_y = arm_L7_tail_x*l_Q6_x__L7_theta - l_Q6_x__P2_x*w_P2_y__P2_x;
+    const double w_Q6_x__P2_y = -arm_L7_head_x*l_Q6_x__L7_theta - l_Q6_x__P2_x*w_P2_y__P2_x;
     const double l_Q6_x__P2_y = -inverse_pivot_P2_y*w_Q6_x__P2_y;
-    const double w_Q6_y__P2_y = arm_L7_tail_x*l_Q6_y__L7_theta + inverse_L7_mass - l_Q6_y__P2_x*w_P2_y__P2_x;
+    const double w_Q6_y__P2_y = -arm_L7_head_x*l_Q6_y__L7_theta + inverse_L7_mass - l_Q6_y__P2_x*w_P2_y__P2_x;
     const double l_Q6_y__P2_y = -inverse_pivot_P2_y*w_Q6_y__P2_y;
-    const double w_Q8_x__P2_y = arm_L7_tail_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_P2_y__P2_x;
+    const double w_Q8_x__P2_y = -arm_L7_head_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_P2_y__P2_x;
     const double l_Q8_x__P2_y = -inverse_pivot_P2_y*w_Q8_x__P2_y;
-    const double w_Q8_y__P2_y = arm_L7_tail_x*l_Q8_y__L7_theta + inverse_L7_mass - l_Q8_y__P2_x*w_P2_y__P2_x;
+    const double w_Q8_y__P2_y = -arm_L7_head_x*l_Q8_y__L7_theta + inverse_L7_mass - l_Q8_y__P2_x*w_P2_y__P2_x;
     const double l_Q8_y__P2_y = -inverse_pivot_P2_y*w_Q8_y__P2_y;
-    const double scale_P3_x = arm_L3_tail_y*l_P3_x__L3_theta + arm_L7_tail_y*l_P3_x__L7_theta +
+    const double scale_P3_x = -arm_L3_head_y*l_P3_x__L3_theta - arm_L7_head_y*l_P3_x__L7_theta +
         inverse_L3_mass + inverse_L7_mass;
     const double pivot_P3_x = l_P3_x__P2_x*w_P3_x__P2_x + l_P3_x__P2_y*w_P3_x__P2_y + scale_P3_x;
     if (!(pivot_P3_x > 1e-13 * scale_P3_x)) { pivot = 15; goto dependent; };
     const double inverse_pivot_P3_x = 1.0/pivot_P3_x;
-    const double w_P3_y__P3_x = -arm_L3_tail_y*l_P3_y__L3_theta - arm_L7_tail_y*l_P3_y__L7_theta -
+    const double w_P3_y__P3_x = arm_L3_head_y*l_P3_y__L3_theta + arm_L7_head_y*l_P3_y__L7_theta -
         l_P3_y__P2_x*w_P3_x__P2_x - l_P3_y__P2_y*w_P3_x__P2_y;
     const double l_P3_y__P3_x = -inverse_pivot_P3_x*w_P3_y__P3_x;
-    const double w_Q6_x__P3_x = -arm_L7_tail_y*l_Q6_x__L7_theta + inverse_L7_mass - l_Q6_x__P2_x*w_P3_x__P2_x
-        - l_Q6_x__P2_y*w_P3_x__P2_y;
+    const double w_Q6_x__P3_x = arm_L7_head_y*l_Q6_x__L7_theta + inverse_L7_mass - l_Q6_x__P2_x*w_P3_x__P2_x -
+        l_Q6_x__P2_y*w_P3_x__P2_y;
     const double l_Q6_x__P3_x = -inverse_pivot_P3_x*w_Q6_x__P3_x;
-    const double w_Q6_y__P3_x = -arm_L7_tail_y*l_Q6_y__L7_theta - l_Q6_y__P2_x*w_P3_x__P2_x -
+    const double w_Q6_y__P3_x = arm_L7_head_y*l_Q6_y__L7_theta - l_Q6_y__P2_x*w_P3_x__P2_x -
         l_Q6_y__P2_y*w_P3_x__P2_y;
     const double l_Q6_y__P3_x = -inverse_pivot_P3_x*w_Q6_y__P3_x;
-    const double w_Q8_x__P3_x = -arm_L7_tail_y*l_Q8_x__L7_theta + inverse_L7_mass - l_Q8_x__P2_x*w_P3_x__P2_x
-        - l_Q8_x__P2_y*w_P3_x__P2_y;
+    const double w_Q8_x__P3_x = arm_L7_head_y*l_Q8_x__L7_theta + inverse_L7_mass - l_Q8_x__P2_x*w_P3_x__P2_x -
+        l_Q8_x__P2_y*w_P3_x__P2_y;
     const double l_Q8_x__P3_x = -inverse_pivot_P3_x*w_Q8_x__P3_x;
-    const double w_Q8_y__P3_x = -arm_L7_tail_y*l_Q8_y__L7_theta - l_Q8_y__P2_x*w_P3_x__P2_x -
+    const double w_Q8_y__P3_x = arm_L7_head_y*l_Q8_y__L7_theta - l_Q8_y__P2_x*w_P3_x__P2_x -
         l_Q8_y__P2_y*w_P3_x__P2_y;
     const double l_Q8_y__P3_x = -inverse_pivot_P3_x*w_Q8_y__P3_x;
-    const double scale_P3_y = -arm_L3_tail_x*l_P3_y__L3_theta - arm_L7_tail_x*l_P3_y__L7_theta +
+    const double scale_P3_y = arm_L3_head_x*l_P3_y__L3_theta + arm_L7_head_x*l_P3_y__L7_theta +
         inverse_L3_mass + inverse_L7_mass;
     const double pivot_P3_y = l_P3_y__P2_x*w_P3_y__P2_x + l_P3_y__P2_y*w_P3_y__P2_y +
         l_P3_y__P3_x*w_P3_y__P3_x + scale_P3_y;
     if (!(pivot_P3_y > 1e-13 * scale_P3_y)) { pivot = 16; goto dependent; };
     const double inverse_pivot_P3_y = 1.0/pivot_P3_y;
-    const double w_Q6_x__P3_y = arm_L7_tail_x*l_Q6_x__L7_theta - l_Q6_x__P2_x*w_P3_y__P2_x -
+    const double w_Q6_x__P3_y = -arm_L7_head_x*l_Q6_x__L7_theta - l_Q6_x__P2_x*w_P3_y__P2_x -
         l_Q6_x__P2_y*w_P3_y__P2_y - l_Q6_x__P3_x*w_P3_y__P3_x;
     const double l_Q6_x__P3_y = -inverse_pivot_P3_y*w_Q6_x__P3_y;
-    const double w_Q6_y__P3_y = arm_L7_tail_x*l_Q6_y__L7_theta + inverse_L7_mass - l_Q6_y__P2_x*w_P3_y__P2_x -
-        l_Q6_y__P2_y*w_P3_y__P2_y - l_Q6_y__P3_x*w_P3_y__P3_x;
+    const double w_Q6_y__P3_y = -arm_L7_head_x*l_Q6_y__L7_theta + inverse_L7_mass - l_Q6_y__P2_x*w_P3_y__P2_x
+        - l_Q6_y__P2_y*w_P3_y__P2_y - l_Q6_y__P3_x*w_P3_y__P3_x;
     const double l_Q6_y__P3_y = -inverse_pivot_P3_y*w_Q6_y__P3_y;
-    const double w_Q8_x__P3_y = arm_L7_tail_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_P3_y__P2_x -
+    const double w_Q8_x__P3_y = -arm_L7_head_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_P3_y__P2_x -
         l_Q8_x__P2_y*w_P3_y__P2_y - l_Q8_x__P3_x*w_P3_y__P3_x;
     const double l_Q8_x__P3_y = -inverse_pivot_P3_y*w_Q8_x__P3_y;
-    const double w_Q8_y__P3_y = arm_L7_tail_x*l_Q8_y__L7_theta + inverse_L7_mass - l_Q8_y__P2_x*w_P3_y__P2_x -
-        l_Q8_y__P2_y*w_P3_y__P2_y - l_Q8_y__P3_x*w_P3_y__P3_x;
+    const double w_Q8_y__P3_y = -arm_L7_head_x*l_Q8_y__L7_theta + inverse_L7_mass - l_Q8_y__P2_x*w_P3_y__P2_x
+        - l_Q8_y__P2_y*w_P3_y__P2_y - l_Q8_y__P3_x*w_P3_y__P3_x;
     const double l_Q8_y__P3_y = -inverse_pivot_P3_y*w_Q8_y__P3_y;
-    const double scale_Q6_x = arm_L6_head_y*l_Q6_x__L6_theta + arm_L7_tail_y*l_Q6_x__L7_theta +
+    const double scale_Q6_x = arm_L6_head_y*l_Q6_x__L6_theta - arm_L7_head_y*l_Q6_x__L7_theta +
         inverse_L6_mass + inverse_L7_mass;
     const double pivot_Q6_x = l_Q6_x__O6_x*w_Q6_x__O6_x + l_Q6_x__O6_y*w_Q6_x__O6_y +
         l_Q6_x__P2_x*w_Q6_x__P2_x + l_Q6_x__P2_y*w_Q6_x__P2_y + l_Q6_x__P3_x*w_Q6_x__P3_x +
         l_Q6_x__P3_y*w_Q6_x__P3_y + scale_Q6_x;
     if (!(pivot_Q6_x > 1e-13 * scale_Q6_x)) { pivot = 17; goto dependent; };
     const double inverse_pivot_Q6_x = 1.0/pivot_Q6_x;
-    const double w_Q6_y__Q6_x = -arm_L6_head_y*l_Q6_y__L6_theta - arm_L7_tail_y*l_Q6_y__L7_theta -
+    const double w_Q6_y__Q6_x = -arm_L6_head_y*l_Q6_y__L6_theta + arm_L7_head_y*l_Q6_y__L7_theta -
         l_Q6_y__O6_x*w_Q6_x__O6_x - l_Q6_y__O6_y*w_Q6_x__O6_y - l_Q6_y__P2_x*w_Q6_x__P2_x -
         l_Q6_y__P2_y*w_Q6_x__P2_y - l_Q6_y__P3_x*w_Q6_x__P3_x - l_Q6_y__P3_y*w_Q6_x__P3_y;
     const double l_Q6_y__Q6_x = -inverse_pivot_Q6_x*w_Q6_y__Q6_x;
-    const double w_Q8_x__Q6_x = -arm_L7_tail_y*l_Q8_x__L7_theta - inverse_L7_mass - l_Q8_x__P2_x*w_Q6_x__P2_x
-        - l_Q8_x__P2_y*w_Q6_x__P2_y - l_Q8_x__P3_x*w_Q6_x__P3_x - l_Q8_x__P3_y*w_Q6_x__P3_y;
+    const double w_Q8_x__Q6_x = arm_L7_head_y*l_Q8_x__L7_theta - inverse_L7_mass - l_Q8_x__P2_x*w_Q6_x__P2_x -
+        l_Q8_x__P2_y*w_Q6_x__P2_y - l_Q8_x__P3_x*w_Q6_x__P3_x - l_Q8_x__P3_y*w_Q6_x__P3_y;
     const double l_Q8_x__Q6_x = -inverse_pivot_Q6_x*w_Q8_x__Q6_x;
-    const double w_Q8_y__Q6_x = -arm_L7_tail_y*l_Q8_y__L7_theta - l_Q8_y__P2_x*w_Q6_x__P2_x -
+    const double w_Q8_y__Q6_x = arm_L7_head_y*l_Q8_y__L7_theta - l_Q8_y__P2_x*w_Q6_x__P2_x -
         l_Q8_y__P2_y*w_Q6_x__P2_y - l_Q8_y__P3_x*w_Q6_x__P3_x - l_Q8_y__P3_y*w_Q6_x__P3_y;
     const double l_Q8_y__Q6_x = -inverse_pivot_Q6_x*w_Q8_y__Q6_x;
-    const double scale_Q6_y = -arm_L6_head_x*l_Q6_y__L6_theta - arm_L7_tail_x*l_Q6_y__L7_theta +
+    const double scale_Q6_y = -arm_L6_head_x*l_Q6_y__L6_theta + arm_L7_head_x*l_Q6_y__L7_theta +
         inverse_L6_mass + inverse_L7_mass;
     const double pivot_Q6_y = l_Q6_y__O6_x*w_Q6_y__O6_x + l_Q6_y__O6_y*w_Q6_y__O6_y +
         l_Q6_y__P2_x*w_Q6_y__P2_x + l_Q6_y__P2_y*w_Q6_y__P2_y + l_Q6_y__P3_x*w_Q6_y__P3_x +
         l_Q6_y__P3_y*w_Q6_y__P3_y + l_Q6_y__Q6_x*w_Q6_y__Q6_x + scale_Q6_y;
     if (!(pivot_Q6_y > 1e-13 * scale_Q6_y)) { pivot = 18; goto dependent; };
     const double inverse_pivot_Q6_y = 1.0/pivot_Q6_y;
-    const double w_Q8_x__Q6_y = arm_L7_tail_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_Q6_y__P2_x -
+    const double w_Q8_x__Q6_y = -arm_L7_head_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_Q6_y__P2_x -
         l_Q8_x__P2_y*w_Q6_y__P2_y - l_Q8_x__P3_x*w_Q6_y__P3_x - l_Q8_x__P3_y*w_Q6_y__P3_y -
         l_Q8_x__Q6_x*w_Q6_y__Q6_x;
     const double l_Q8_x__Q6_y = -inverse_pivot_Q6_y*w_Q8_x__Q6_y;
-    const double w_Q8_y__Q6_y = arm_L7_tail_x*l_Q8_y__L7_theta - inverse_L7_mass - l_Q8_y__P2_x*w_Q6_y__P2_x -
-        l_Q8_y__P2_y*w_Q6_y__P2_y - l_Q8_y__P3_x*w_Q6_y__P3_x - l_Q8_y__P3_y*w_Q6_y__P3_y -
+    const double w_Q8_y__Q6_y = -arm_L7_head_x*l_Q8_y__L7_theta - inverse_L7_mass - l_Q8_y__P2_x*w_Q6_y__P2_x
+        - l_Q8_y__P2_y*w_Q6_y__P2_y - l_Q8_y__P3_x*w_Q6_y__P3_x - l_Q8_y__P3_y*w_Q6_y__P3_y -
         l_Q8_y__Q6_x*w_Q6_y__Q6_x;
     const double l_Q8_y__Q6_y = -inverse_pivot_Q6_y*w_Q8_y__Q6_y;
-    const double scale_Q8_x = arm_L7_tail_y*l_Q8_x__L7_theta + arm_L8_tail_y*l_Q8_x__L8_theta +
+    const double scale_Q8_x = -arm_L7_head_y*l_Q8_x__L7_theta - arm_L8_head_y*l_Q8_x__L8_theta +
         inverse_L7_mass + inverse_L8_mass;
     const double pivot_Q8_x = l_Q8_x__P2_x*w_Q8_x__P2_x + l_Q8_x__P2_y*w_Q8_x__P2_y +
         l_Q8_x__P3_x*w_Q8_x__P3_x + l_Q8_x__P3_y*w_Q8_x__P3_y + l_Q8_x__Q6_x*w_Q8_x__Q6_x +
@@ -492,12 +492,12 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         scale_Q8_x;
     if (!(pivot_Q8_x > 1e-13 * scale_Q8_x)) { pivot = 19; goto dependent; };
     const double inverse_pivot_Q8_x = 1.0/pivot_Q8_x;
-    const double w_Q8_y__Q8_x = -arm_L7_tail_y*l_Q8_y__L7_theta - arm_L8_tail_y*l_Q8_y__L8_theta -
+    const double w_Q8_y__Q8_x = arm_L7_head_y*l_Q8_y__L7_theta + arm_L8_head_y*l_Q8_y__L8_theta -
         l_Q8_y__P2_x*w_Q8_x__P2_x - l_Q8_y__P2_y*w_Q8_x__P2_y - l_Q8_y__P3_x*w_Q8_x__P3_x -
         l_Q8_y__P3_y*w_Q8_x__P3_y - l_Q8_y__Q6_x*w_Q8_x__Q6_x - l_Q8_y__Q6_y*w_Q8_x__Q6_y -
         l_Q8_y__slider_x*w_Q8_x__slider_x - l_Q8_y__slider_y*w_Q8_x__slider_y;
     const double l_Q8_y__Q8_x = -inverse_pivot_Q8_x*w_Q8_y__Q8_x;
-    const double scale_Q8_y = -arm_L7_tail_x*l_Q8_y__L7_theta - arm_L8_tail_x*l_Q8_y__L8_theta +
+    const double scale_Q8_y = arm_L7_head_x*l_Q8_y__L7_theta + arm_L8_head_x*l_Q8_y__L8_theta +
         inverse_L7_mass + inverse_L8_mass;
     const double pivot_Q8_y = l_Q8_y__P2_x*w_Q8_y__P2_x + l_Q8_y__P2_y*w_Q8_y__P2_y +
         l_Q8_y__P3_x*w_Q8_y__P3_x + l_Q8_y__P3_y*w_Q8_y__P3_y + l_Q8_y__Q6_x*w_Q8_y__Q6_x +
@@ -511,15 +511,15 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double z_L2_y = F_A_y + weight_L2_y;
     const double z_L3_y = F_B_y + weight_L3_y;
     const double z_L4_y = -F_B_y + weight_L4_y;
-    const double z_L2_theta = -F_A_x*arm_L2_tail_y + F_A_y*arm_L2_tail_x + M_A_second;
-    const double z_L3_theta = -F_B_x*arm_L3_tail_y + F_B_y*arm_L3_tail_x + M_B_second;
-    const double z_L1_theta = -F_A_x*arm_L1_tail_y + F_A_y*arm_L1_tail_x + M_A_first;
+    const double z_L2_theta = F_A_x*arm_L2_head_y - F_A_y*arm_L2_head_x + M_A_second;
+    const double z_L3_theta = F_B_x*arm_L3_head_y - F_B_y*arm_L3_head_x + M_B_second;
+    const double z_L1_theta = F_A_x*arm_L1_head_y - F_A_y*arm_L1_head_x + M_A_first;
     const double z_O1_x = -F_A_x*inverse_L1_mass - l_O1_x__L1_theta*z_L1_theta + rhs_O1_x;
     const double z_O1_y = inverse_L1_mass*z_L1_y - l_O1_y__L1_theta*z_L1_theta - l_O1_y__O1_x*z_O1_x +
         rhs_O1_y;
     const double z_crank1 = -inverse_L1_inertia*z_L1_theta - l_crank1__O1_x*z_O1_x - l_crank1__O1_y*z_O1_y +
         rhs_crank1;
-    const double z_L4_theta = -F_B_x*arm_L4_tail_y + F_B_y*arm_L4_tail_x + M_B_first;
+    const double z_L4_theta = F_B_x*arm_L4_head_y - F_B_y*arm_L4_head_x + M_B_first;
     const double z_O4_x = -F_B_x*inverse_L4_mass - l_O4_x__L4_theta*z_L4_theta + rhs_O4_x;
     const double z_O4_y = inverse_L4_mass*z_L4_y - l_O4_y__L4_theta*z_L4_theta - l_O4_y__O4_x*z_O4_x +
         rhs_O4_y;
@@ -675,16 +675,16 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         double force[N_Q], rhs[N_ROWS];
         force[0] = -F_A_x;
         force[1] = -F_A_y + weight_L1_y;
-        force[2] = -F_A_x*arm_L1_tail_y + F_A_y*arm_L1_tail_x + M_A_first;
+        force[2] = F_A_x*arm_L1_head_y - F_A_y*arm_L1_head_x + M_A_first;
         force[3] = F_A_x;
         force[4] = F_A_y + weight_L2_y;
-        force[5] = -F_A_x*arm_L2_tail_y + F_A_y*arm_L2_tail_x + M_A_second;
+        force[5] = F_A_x*arm_L2_head_y - F_A_y*arm_L2_head_x + M_A_second;
         force[6] = F_B_x;
         force[7] = F_B_y + weight_L3_y;
-        force[8] = -F_B_x*arm_L3_tail_y + F_B_y*arm_L3_tail_x + M_B_second;
+        force[8] = F_B_x*arm_L3_head_y - F_B_y*arm_L3_head_x + M_B_second;
         force[9] = -F_B_x;
         force[10] = -F_B_y + weight_L4_y;
-        force[11] = -F_B_x*arm_L4_tail_y + F_B_y*arm_L4_tail_x + M_B_first;
+        force[11] = F_B_x*arm_L4_head_y - F_B_y*arm_L4_head_x + M_B_first;
         force[12] = 0.0;
         force[13] = weight_L6_y;
         force[14] = 0.0;

@@ -104,20 +104,20 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->guess_L8_theta = guess_L8_theta;
 
     /* derived */
-    const double L1_origin_x = -1.0/2.0*L1_length;  /* point from the centre of mass */
-    p->L1_origin_x = L1_origin_x;
-    const double L2_origin_x = -1.0/2.0*L2_length;  /* point from the centre of mass */
-    p->L2_origin_x = L2_origin_x;
-    const double L3_origin_x = -1.0/2.0*L3_length;  /* point from the centre of mass */
-    p->L3_origin_x = L3_origin_x;
-    const double L4_origin_x = -1.0/2.0*L4_length;  /* point from the centre of mass */
-    p->L4_origin_x = L4_origin_x;
-    const double L6_origin_x = -1.0/2.0*L6_length;  /* point from the centre of mass */
-    p->L6_origin_x = L6_origin_x;
-    const double L7_origin_x = -1.0/2.0*L7_length;  /* point from the centre of mass */
-    p->L7_origin_x = L7_origin_x;
-    const double L8_origin_x = -1.0/2.0*L8_length;  /* point from the centre of mass */
-    p->L8_origin_x = L8_origin_x;
+    const double L1_head_x = (1.0/2.0)*L1_length;  /* point from the centre of mass */
+    p->L1_head_x = L1_head_x;
+    const double L2_head_x = (1.0/2.0)*L2_length;  /* point from the centre of mass */
+    p->L2_head_x = L2_head_x;
+    const double L3_head_x = (1.0/2.0)*L3_length;  /* point from the centre of mass */
+    p->L3_head_x = L3_head_x;
+    const double L4_head_x = (1.0/2.0)*L4_length;  /* point from the centre of mass */
+    p->L4_head_x = L4_head_x;
+    const double L6_head_x = (1.0/2.0)*L6_length;  /* point from the centre of mass */
+    p->L6_head_x = L6_head_x;
+    const double L7_head_x = (1.0/2.0)*L7_length;  /* point from the centre of mass */
+    p->L7_head_x = L7_head_x;
+    const double L8_head_x = (1.0/2.0)*L8_length;  /* point from the centre of mass */
+    p->L8_head_x = L8_head_x;
     const double R_j_pin = -pin_clearance + pin_radius;  /* journal radius */
     p->R_j_pin = R_j_pin;
     const double A_K = (2.0/3.0)*aluminium_E*sqrt(R_j_pin*pin_radius/(R_j_pin + pin_radius))/(1.0 -

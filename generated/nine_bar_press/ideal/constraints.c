@@ -82,69 +82,69 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     /* parameters */
     const double omega = p->omega;
     const double omega4 = p->omega4;
-    const double L1_origin_x = p->L1_origin_x;
-    const double L2_origin_x = p->L2_origin_x;
-    const double L3_origin_x = p->L3_origin_x;
-    const double L4_origin_x = p->L4_origin_x;
-    const double L6_origin_x = p->L6_origin_x;
-    const double L7_origin_x = p->L7_origin_x;
-    const double L8_origin_x = p->L8_origin_x;
+    const double L1_head_x = p->L1_head_x;
+    const double L2_head_x = p->L2_head_x;
+    const double L3_head_x = p->L3_head_x;
+    const double L4_head_x = p->L4_head_x;
+    const double L6_head_x = p->L6_head_x;
+    const double L7_head_x = p->L7_head_x;
+    const double L8_head_x = p->L8_head_x;
     const double O4_y = p->O4_y;
     const double O6_x = p->O6_x;
 
     /* directions, arms, drives */
     const double cos_theta_L1 = cos(L1_theta);
     const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_tail_x = L1_origin_x*cos_theta_L1;
-    const double arm_L1_tail_y = L1_origin_x*sin_theta_L1;
+    const double arm_L1_head_x = L1_head_x*cos_theta_L1;
+    const double arm_L1_head_y = L1_head_x*sin_theta_L1;
     const double cos_theta_L4 = cos(L4_theta);
     const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_tail_x = L4_origin_x*cos_theta_L4;
-    const double arm_L4_tail_y = L4_origin_x*sin_theta_L4;
+    const double arm_L4_head_x = L4_head_x*cos_theta_L4;
+    const double arm_L4_head_y = L4_head_x*sin_theta_L4;
     const double cos_theta_L2 = cos(L2_theta);
     const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_tail_x = L2_origin_x*cos_theta_L2;
-    const double arm_L2_tail_y = L2_origin_x*sin_theta_L2;
+    const double arm_L2_head_x = L2_head_x*cos_theta_L2;
+    const double arm_L2_head_y = L2_head_x*sin_theta_L2;
     const double cos_theta_L3 = cos(L3_theta);
     const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_tail_x = L3_origin_x*cos_theta_L3;
-    const double arm_L3_tail_y = L3_origin_x*sin_theta_L3;
+    const double arm_L3_head_x = L3_head_x*cos_theta_L3;
+    const double arm_L3_head_y = L3_head_x*sin_theta_L3;
     const double cos_theta_L7 = cos(L7_theta);
     const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_tail_x = L7_origin_x*cos_theta_L7;
-    const double arm_L7_tail_y = L7_origin_x*sin_theta_L7;
+    const double arm_L7_head_x = L7_head_x*cos_theta_L7;
+    const double arm_L7_head_y = L7_head_x*sin_theta_L7;
     const double cos_theta_L6 = cos(L6_theta);
     const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = -L6_origin_x*cos_theta_L6;
-    const double arm_L6_head_y = -L6_origin_x*sin_theta_L6;
+    const double arm_L6_head_x = L6_head_x*cos_theta_L6;
+    const double arm_L6_head_y = L6_head_x*sin_theta_L6;
     const double cos_theta_L8 = cos(L8_theta);
     const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_tail_x = L8_origin_x*cos_theta_L8;
-    const double arm_L8_tail_y = L8_origin_x*sin_theta_L8;
+    const double arm_L8_head_x = L8_head_x*cos_theta_L8;
+    const double arm_L8_head_y = L8_head_x*sin_theta_L8;
     const double crank1_value = omega*time - 0.689754120388159;
     const double crank4_value = omega4*time + 3.4814082589530893;
 
     /* rows */
-    phi[0] = -L1_x - arm_L1_tail_x;  /* O1.x */
-    phi[1] = -L1_y - arm_L1_tail_y;  /* O1.y */
-    phi[2] = -L4_x - arm_L4_tail_x;  /* O4.x */
-    phi[3] = -L4_y + O4_y - arm_L4_tail_y;  /* O4.y */
-    phi[4] = L1_x - L2_x - arm_L1_tail_x - arm_L2_tail_x;  /* A.x */
-    phi[5] = L1_y - L2_y - arm_L1_tail_y - arm_L2_tail_y;  /* A.y */
-    phi[6] = -L3_x + L4_x - arm_L3_tail_x - arm_L4_tail_x;  /* B.x */
-    phi[7] = -L3_y + L4_y - arm_L3_tail_y - arm_L4_tail_y;  /* B.y */
-    phi[8] = L2_x - L7_x - arm_L2_tail_x - arm_L7_tail_x;  /* P2.x */
-    phi[9] = L2_y - L7_y - arm_L2_tail_y - arm_L7_tail_y;  /* P2.y */
-    phi[10] = L3_x - L7_x - arm_L3_tail_x - arm_L7_tail_x;  /* P3.x */
-    phi[11] = L3_y - L7_y - arm_L3_tail_y - arm_L7_tail_y;  /* P3.y */
-    phi[12] = -L6_x + L7_x - arm_L6_head_x - arm_L7_tail_x;  /* Q6.x */
-    phi[13] = -L6_y + L7_y - arm_L6_head_y - arm_L7_tail_y;  /* Q6.y */
-    phi[14] = L7_x - L8_x - arm_L7_tail_x - arm_L8_tail_x;  /* Q8.x */
-    phi[15] = L7_y - L8_y - arm_L7_tail_y - arm_L8_tail_y;  /* Q8.y */
+    phi[0] = -L1_x + arm_L1_head_x;  /* O1.x */
+    phi[1] = -L1_y + arm_L1_head_y;  /* O1.y */
+    phi[2] = -L4_x + arm_L4_head_x;  /* O4.x */
+    phi[3] = -L4_y + O4_y + arm_L4_head_y;  /* O4.y */
+    phi[4] = L1_x - L2_x + arm_L1_head_x + arm_L2_head_x;  /* A.x */
+    phi[5] = L1_y - L2_y + arm_L1_head_y + arm_L2_head_y;  /* A.y */
+    phi[6] = -L3_x + L4_x + arm_L3_head_x + arm_L4_head_x;  /* B.x */
+    phi[7] = -L3_y + L4_y + arm_L3_head_y + arm_L4_head_y;  /* B.y */
+    phi[8] = L2_x - L7_x + arm_L2_head_x + arm_L7_head_x;  /* P2.x */
+    phi[9] = L2_y - L7_y + arm_L2_head_y + arm_L7_head_y;  /* P2.y */
+    phi[10] = L3_x - L7_x + arm_L3_head_x + arm_L7_head_x;  /* P3.x */
+    phi[11] = L3_y - L7_y + arm_L3_head_y + arm_L7_head_y;  /* P3.y */
+    phi[12] = -L6_x + L7_x - arm_L6_head_x + arm_L7_head_x;  /* Q6.x */
+    phi[13] = -L6_y + L7_y - arm_L6_head_y + arm_L7_head_y;  /* Q6.y */
+    phi[14] = L7_x - L8_x + arm_L7_head_x + arm_L8_head_x;  /* Q8.x */
+    phi[15] = L7_y - L8_y + arm_L7_head_y + arm_L8_head_y;  /* Q8.y */
     phi[16] = -L6_x + O6_x + arm_L6_head_x;  /* O6.x */
     phi[17] = -L6_y + arm_L6_head_y;  /* O6.y */
-    phi[18] = L8_x - S9_x - arm_L8_tail_x;  /* slider.x */
-    phi[19] = L8_y - S9_y - arm_L8_tail_y;  /* slider.y */
+    phi[18] = L8_x - S9_x + arm_L8_head_x;  /* slider.x */
+    phi[19] = L8_y - S9_y + arm_L8_head_y;  /* slider.y */
     phi[20] = O6_x - S9_x;  /* guide.offset */
     phi[21] = S9_theta - 1.0/2.0*3.141592653589793;  /* guide.angle */
     phi[22] = L1_theta - crank1_value;  /* crank1 */
@@ -166,110 +166,110 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     const double L8_theta = q[20];
 
     /* parameters */
-    const double L1_origin_x = p->L1_origin_x;
-    const double L2_origin_x = p->L2_origin_x;
-    const double L3_origin_x = p->L3_origin_x;
-    const double L4_origin_x = p->L4_origin_x;
-    const double L6_origin_x = p->L6_origin_x;
-    const double L7_origin_x = p->L7_origin_x;
-    const double L8_origin_x = p->L8_origin_x;
+    const double L1_head_x = p->L1_head_x;
+    const double L2_head_x = p->L2_head_x;
+    const double L3_head_x = p->L3_head_x;
+    const double L4_head_x = p->L4_head_x;
+    const double L6_head_x = p->L6_head_x;
+    const double L7_head_x = p->L7_head_x;
+    const double L8_head_x = p->L8_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_L1 = cos(L1_theta);
     const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_tail_x = L1_origin_x*cos_theta_L1;
-    const double arm_L1_tail_y = L1_origin_x*sin_theta_L1;
+    const double arm_L1_head_x = L1_head_x*cos_theta_L1;
+    const double arm_L1_head_y = L1_head_x*sin_theta_L1;
     const double cos_theta_L4 = cos(L4_theta);
     const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_tail_x = L4_origin_x*cos_theta_L4;
-    const double arm_L4_tail_y = L4_origin_x*sin_theta_L4;
+    const double arm_L4_head_x = L4_head_x*cos_theta_L4;
+    const double arm_L4_head_y = L4_head_x*sin_theta_L4;
     const double cos_theta_L2 = cos(L2_theta);
     const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_tail_x = L2_origin_x*cos_theta_L2;
-    const double arm_L2_tail_y = L2_origin_x*sin_theta_L2;
+    const double arm_L2_head_x = L2_head_x*cos_theta_L2;
+    const double arm_L2_head_y = L2_head_x*sin_theta_L2;
     const double cos_theta_L3 = cos(L3_theta);
     const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_tail_x = L3_origin_x*cos_theta_L3;
-    const double arm_L3_tail_y = L3_origin_x*sin_theta_L3;
+    const double arm_L3_head_x = L3_head_x*cos_theta_L3;
+    const double arm_L3_head_y = L3_head_x*sin_theta_L3;
     const double cos_theta_L7 = cos(L7_theta);
     const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_tail_x = L7_origin_x*cos_theta_L7;
-    const double arm_L7_tail_y = L7_origin_x*sin_theta_L7;
+    const double arm_L7_head_x = L7_head_x*cos_theta_L7;
+    const double arm_L7_head_y = L7_head_x*sin_theta_L7;
     const double cos_theta_L6 = cos(L6_theta);
     const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = -L6_origin_x*cos_theta_L6;
-    const double arm_L6_head_y = -L6_origin_x*sin_theta_L6;
+    const double arm_L6_head_x = L6_head_x*cos_theta_L6;
+    const double arm_L6_head_y = L6_head_x*sin_theta_L6;
     const double cos_theta_L8 = cos(L8_theta);
     const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_tail_x = L8_origin_x*cos_theta_L8;
-    const double arm_L8_tail_y = L8_origin_x*sin_theta_L8;
+    const double arm_L8_head_x = L8_head_x*cos_theta_L8;
+    const double arm_L8_head_y = L8_head_x*sin_theta_L8;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d O1.x / d L1_x */
-    phi_q[2] = arm_L1_tail_y;  /* d O1.x / d L1_theta */
+    phi_q[2] = -arm_L1_head_y;  /* d O1.x / d L1_theta */
     phi_q[25] = -1.0;  /* d O1.y / d L1_y */
-    phi_q[26] = -arm_L1_tail_x;  /* d O1.y / d L1_theta */
+    phi_q[26] = arm_L1_head_x;  /* d O1.y / d L1_theta */
     phi_q[57] = -1.0;  /* d O4.x / d L4_x */
-    phi_q[59] = arm_L4_tail_y;  /* d O4.x / d L4_theta */
+    phi_q[59] = -arm_L4_head_y;  /* d O4.x / d L4_theta */
     phi_q[82] = -1.0;  /* d O4.y / d L4_y */
-    phi_q[83] = -arm_L4_tail_x;  /* d O4.y / d L4_theta */
+    phi_q[83] = arm_L4_head_x;  /* d O4.y / d L4_theta */
     phi_q[96] = 1.0;  /* d A.x / d L1_x */
-    phi_q[98] = arm_L1_tail_y;  /* d A.x / d L1_theta */
+    phi_q[98] = -arm_L1_head_y;  /* d A.x / d L1_theta */
     phi_q[99] = -1.0;  /* d A.x / d L2_x */
-    phi_q[101] = arm_L2_tail_y;  /* d A.x / d L2_theta */
+    phi_q[101] = -arm_L2_head_y;  /* d A.x / d L2_theta */
     phi_q[121] = 1.0;  /* d A.y / d L1_y */
-    phi_q[122] = -arm_L1_tail_x;  /* d A.y / d L1_theta */
+    phi_q[122] = arm_L1_head_x;  /* d A.y / d L1_theta */
     phi_q[124] = -1.0;  /* d A.y / d L2_y */
-    phi_q[125] = -arm_L2_tail_x;  /* d A.y / d L2_theta */
+    phi_q[125] = arm_L2_head_x;  /* d A.y / d L2_theta */
     phi_q[153] = 1.0;  /* d B.x / d L4_x */
-    phi_q[155] = arm_L4_tail_y;  /* d B.x / d L4_theta */
+    phi_q[155] = -arm_L4_head_y;  /* d B.x / d L4_theta */
     phi_q[150] = -1.0;  /* d B.x / d L3_x */
-    phi_q[152] = arm_L3_tail_y;  /* d B.x / d L3_theta */
+    phi_q[152] = -arm_L3_head_y;  /* d B.x / d L3_theta */
     phi_q[178] = 1.0;  /* d B.y / d L4_y */
-    phi_q[179] = -arm_L4_tail_x;  /* d B.y / d L4_theta */
+    phi_q[179] = arm_L4_head_x;  /* d B.y / d L4_theta */
     phi_q[175] = -1.0;  /* d B.y / d L3_y */
-    phi_q[176] = -arm_L3_tail_x;  /* d B.y / d L3_theta */
+    phi_q[176] = arm_L3_head_x;  /* d B.y / d L3_theta */
     phi_q[195] = 1.0;  /* d P2.x / d L2_x */
-    phi_q[197] = arm_L2_tail_y;  /* d P2.x / d L2_theta */
+    phi_q[197] = -arm_L2_head_y;  /* d P2.x / d L2_theta */
     phi_q[207] = -1.0;  /* d P2.x / d L7_x */
-    phi_q[209] = arm_L7_tail_y;  /* d P2.x / d L7_theta */
+    phi_q[209] = -arm_L7_head_y;  /* d P2.x / d L7_theta */
     phi_q[220] = 1.0;  /* d P2.y / d L2_y */
-    phi_q[221] = -arm_L2_tail_x;  /* d P2.y / d L2_theta */
+    phi_q[221] = arm_L2_head_x;  /* d P2.y / d L2_theta */
     phi_q[232] = -1.0;  /* d P2.y / d L7_y */
-    phi_q[233] = -arm_L7_tail_x;  /* d P2.y / d L7_theta */
+    phi_q[233] = arm_L7_head_x;  /* d P2.y / d L7_theta */
     phi_q[246] = 1.0;  /* d P3.x / d L3_x */
-    phi_q[248] = arm_L3_tail_y;  /* d P3.x / d L3_theta */
+    phi_q[248] = -arm_L3_head_y;  /* d P3.x / d L3_theta */
     phi_q[255] = -1.0;  /* d P3.x / d L7_x */
-    phi_q[257] = arm_L7_tail_y;  /* d P3.x / d L7_theta */
+    phi_q[257] = -arm_L7_head_y;  /* d P3.x / d L7_theta */
     phi_q[271] = 1.0;  /* d P3.y / d L3_y */
-    phi_q[272] = -arm_L3_tail_x;  /* d P3.y / d L3_theta */
+    phi_q[272] = arm_L3_head_x;  /* d P3.y / d L3_theta */
     phi_q[280] = -1.0;  /* d P3.y / d L7_y */
-    phi_q[281] = -arm_L7_tail_x;  /* d P3.y / d L7_theta */
+    phi_q[281] = arm_L7_head_x;  /* d P3.y / d L7_theta */
     phi_q[303] = 1.0;  /* d Q6.x / d L7_x */
-    phi_q[305] = arm_L7_tail_y;  /* d Q6.x / d L7_theta */
+    phi_q[305] = -arm_L7_head_y;  /* d Q6.x / d L7_theta */
     phi_q[300] = -1.0;  /* d Q6.x / d L6_x */
     phi_q[302] = arm_L6_head_y;  /* d Q6.x / d L6_theta */
     phi_q[328] = 1.0;  /* d Q6.y / d L7_y */
-    phi_q[329] = -arm_L7_tail_x;  /* d Q6.y / d L7_theta */
+    phi_q[329] = arm_L7_head_x;  /* d Q6.y / d L7_theta */
     phi_q[325] = -1.0;  /* d Q6.y / d L6_y */
     phi_q[326] = -arm_L6_head_x;  /* d Q6.y / d L6_theta */
     phi_q[351] = 1.0;  /* d Q8.x / d L7_x */
-    phi_q[353] = arm_L7_tail_y;  /* d Q8.x / d L7_theta */
+    phi_q[353] = -arm_L7_head_y;  /* d Q8.x / d L7_theta */
     phi_q[354] = -1.0;  /* d Q8.x / d L8_x */
-    phi_q[356] = arm_L8_tail_y;  /* d Q8.x / d L8_theta */
+    phi_q[356] = -arm_L8_head_y;  /* d Q8.x / d L8_theta */
     phi_q[376] = 1.0;  /* d Q8.y / d L7_y */
-    phi_q[377] = -arm_L7_tail_x;  /* d Q8.y / d L7_theta */
+    phi_q[377] = arm_L7_head_x;  /* d Q8.y / d L7_theta */
     phi_q[379] = -1.0;  /* d Q8.y / d L8_y */
-    phi_q[380] = -arm_L8_tail_x;  /* d Q8.y / d L8_theta */
+    phi_q[380] = arm_L8_head_x;  /* d Q8.y / d L8_theta */
     phi_q[396] = -1.0;  /* d O6.x / d L6_x */
     phi_q[398] = -arm_L6_head_y;  /* d O6.x / d L6_theta */
     phi_q[421] = -1.0;  /* d O6.y / d L6_y */
     phi_q[422] = arm_L6_head_x;  /* d O6.y / d L6_theta */
     phi_q[450] = 1.0;  /* d slider.x / d L8_x */
-    phi_q[452] = arm_L8_tail_y;  /* d slider.x / d L8_theta */
+    phi_q[452] = -arm_L8_head_y;  /* d slider.x / d L8_theta */
     phi_q[453] = -1.0;  /* d slider.x / d S9_x */
     phi_q[475] = 1.0;  /* d slider.y / d L8_y */
-    phi_q[476] = -arm_L8_tail_x;  /* d slider.y / d L8_theta */
+    phi_q[476] = arm_L8_head_x;  /* d slider.y / d L8_theta */
     phi_q[478] = -1.0;  /* d slider.y / d S9_y */
     phi_q[501] = -1.0;  /* d guide.offset / d S9_x */
     phi_q[527] = 1.0;  /* d guide.angle / d S9_theta */
@@ -341,67 +341,67 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     const double L8_omega = v[20];
 
     /* parameters */
-    const double L1_origin_x = p->L1_origin_x;
-    const double L2_origin_x = p->L2_origin_x;
-    const double L3_origin_x = p->L3_origin_x;
-    const double L4_origin_x = p->L4_origin_x;
-    const double L6_origin_x = p->L6_origin_x;
-    const double L7_origin_x = p->L7_origin_x;
-    const double L8_origin_x = p->L8_origin_x;
+    const double L1_head_x = p->L1_head_x;
+    const double L2_head_x = p->L2_head_x;
+    const double L3_head_x = p->L3_head_x;
+    const double L4_head_x = p->L4_head_x;
+    const double L6_head_x = p->L6_head_x;
+    const double L7_head_x = p->L7_head_x;
+    const double L8_head_x = p->L8_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_L1 = cos(L1_theta);
     const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_tail_x = L1_origin_x*cos_theta_L1;
-    const double arm_L1_tail_y = L1_origin_x*sin_theta_L1;
+    const double arm_L1_head_x = L1_head_x*cos_theta_L1;
+    const double arm_L1_head_y = L1_head_x*sin_theta_L1;
     const double cos_theta_L4 = cos(L4_theta);
     const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_tail_x = L4_origin_x*cos_theta_L4;
-    const double arm_L4_tail_y = L4_origin_x*sin_theta_L4;
+    const double arm_L4_head_x = L4_head_x*cos_theta_L4;
+    const double arm_L4_head_y = L4_head_x*sin_theta_L4;
     const double cos_theta_L2 = cos(L2_theta);
     const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_tail_x = L2_origin_x*cos_theta_L2;
-    const double arm_L2_tail_y = L2_origin_x*sin_theta_L2;
+    const double arm_L2_head_x = L2_head_x*cos_theta_L2;
+    const double arm_L2_head_y = L2_head_x*sin_theta_L2;
     const double cos_theta_L3 = cos(L3_theta);
     const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_tail_x = L3_origin_x*cos_theta_L3;
-    const double arm_L3_tail_y = L3_origin_x*sin_theta_L3;
+    const double arm_L3_head_x = L3_head_x*cos_theta_L3;
+    const double arm_L3_head_y = L3_head_x*sin_theta_L3;
     const double cos_theta_L7 = cos(L7_theta);
     const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_tail_x = L7_origin_x*cos_theta_L7;
-    const double arm_L7_tail_y = L7_origin_x*sin_theta_L7;
+    const double arm_L7_head_x = L7_head_x*cos_theta_L7;
+    const double arm_L7_head_y = L7_head_x*sin_theta_L7;
     const double cos_theta_L6 = cos(L6_theta);
     const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = -L6_origin_x*cos_theta_L6;
-    const double arm_L6_head_y = -L6_origin_x*sin_theta_L6;
+    const double arm_L6_head_x = L6_head_x*cos_theta_L6;
+    const double arm_L6_head_y = L6_head_x*sin_theta_L6;
     const double cos_theta_L8 = cos(L8_theta);
     const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_tail_x = L8_origin_x*cos_theta_L8;
-    const double arm_L8_tail_y = L8_origin_x*sin_theta_L8;
+    const double arm_L8_head_x = L8_head_x*cos_theta_L8;
+    const double arm_L8_head_y = L8_head_x*sin_theta_L8;
     const double crank1_acceleration = 0.0;
     const double crank4_acceleration = 0.0;
 
     /* rows */
-    gamma_rows[0] = -(L1_omega * L1_omega)*arm_L1_tail_x;  /* O1.x */
-    gamma_rows[1] = -(L1_omega * L1_omega)*arm_L1_tail_y;  /* O1.y */
-    gamma_rows[2] = -(L4_omega * L4_omega)*arm_L4_tail_x;  /* O4.x */
-    gamma_rows[3] = -(L4_omega * L4_omega)*arm_L4_tail_y;  /* O4.y */
-    gamma_rows[4] = -(L1_omega * L1_omega)*arm_L1_tail_x - (L2_omega * L2_omega)*arm_L2_tail_x;  /* A.x */
-    gamma_rows[5] = -(L1_omega * L1_omega)*arm_L1_tail_y - (L2_omega * L2_omega)*arm_L2_tail_y;  /* A.y */
-    gamma_rows[6] = -(L3_omega * L3_omega)*arm_L3_tail_x - (L4_omega * L4_omega)*arm_L4_tail_x;  /* B.x */
-    gamma_rows[7] = -(L3_omega * L3_omega)*arm_L3_tail_y - (L4_omega * L4_omega)*arm_L4_tail_y;  /* B.y */
-    gamma_rows[8] = -(L2_omega * L2_omega)*arm_L2_tail_x - (L7_omega * L7_omega)*arm_L7_tail_x;  /* P2.x */
-    gamma_rows[9] = -(L2_omega * L2_omega)*arm_L2_tail_y - (L7_omega * L7_omega)*arm_L7_tail_y;  /* P2.y */
-    gamma_rows[10] = -(L3_omega * L3_omega)*arm_L3_tail_x - (L7_omega * L7_omega)*arm_L7_tail_x;  /* P3.x */
-    gamma_rows[11] = -(L3_omega * L3_omega)*arm_L3_tail_y - (L7_omega * L7_omega)*arm_L7_tail_y;  /* P3.y */
-    gamma_rows[12] = -(L6_omega * L6_omega)*arm_L6_head_x - (L7_omega * L7_omega)*arm_L7_tail_x;  /* Q6.x */
-    gamma_rows[13] = -(L6_omega * L6_omega)*arm_L6_head_y - (L7_omega * L7_omega)*arm_L7_tail_y;  /* Q6.y */
-    gamma_rows[14] = -(L7_omega * L7_omega)*arm_L7_tail_x - (L8_omega * L8_omega)*arm_L8_tail_x;  /* Q8.x */
-    gamma_rows[15] = -(L7_omega * L7_omega)*arm_L7_tail_y - (L8_omega * L8_omega)*arm_L8_tail_y;  /* Q8.y */
+    gamma_rows[0] = (L1_omega * L1_omega)*arm_L1_head_x;  /* O1.x */
+    gamma_rows[1] = (L1_omega * L1_omega)*arm_L1_head_y;  /* O1.y */
+    gamma_rows[2] = (L4_omega * L4_omega)*arm_L4_head_x;  /* O4.x */
+    gamma_rows[3] = (L4_omega * L4_omega)*arm_L4_head_y;  /* O4.y */
+    gamma_rows[4] = (L1_omega * L1_omega)*arm_L1_head_x + (L2_omega * L2_omega)*arm_L2_head_x;  /* A.x */
+    gamma_rows[5] = (L1_omega * L1_omega)*arm_L1_head_y + (L2_omega * L2_omega)*arm_L2_head_y;  /* A.y */
+    gamma_rows[6] = (L3_omega * L3_omega)*arm_L3_head_x + (L4_omega * L4_omega)*arm_L4_head_x;  /* B.x */
+    gamma_rows[7] = (L3_omega * L3_omega)*arm_L3_head_y + (L4_omega * L4_omega)*arm_L4_head_y;  /* B.y */
+    gamma_rows[8] = (L2_omega * L2_omega)*arm_L2_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* P2.x */
+    gamma_rows[9] = (L2_omega * L2_omega)*arm_L2_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* P2.y */
+    gamma_rows[10] = (L3_omega * L3_omega)*arm_L3_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* P3.x */
+    gamma_rows[11] = (L3_omega * L3_omega)*arm_L3_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* P3.y */
+    gamma_rows[12] = -(L6_omega * L6_omega)*arm_L6_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* Q6.x */
+    gamma_rows[13] = -(L6_omega * L6_omega)*arm_L6_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* Q6.y */
+    gamma_rows[14] = (L7_omega * L7_omega)*arm_L7_head_x + (L8_omega * L8_omega)*arm_L8_head_x;  /* Q8.x */
+    gamma_rows[15] = (L7_omega * L7_omega)*arm_L7_head_y + (L8_omega * L8_omega)*arm_L8_head_y;  /* Q8.y */
     gamma_rows[16] = (L6_omega * L6_omega)*arm_L6_head_x;  /* O6.x */
     gamma_rows[17] = (L6_omega * L6_omega)*arm_L6_head_y;  /* O6.y */
-    gamma_rows[18] = -(L8_omega * L8_omega)*arm_L8_tail_x;  /* slider.x */
-    gamma_rows[19] = -(L8_omega * L8_omega)*arm_L8_tail_y;  /* slider.y */
+    gamma_rows[18] = (L8_omega * L8_omega)*arm_L8_head_x;  /* slider.x */
+    gamma_rows[19] = (L8_omega * L8_omega)*arm_L8_head_y;  /* slider.y */
     gamma_rows[20] = 0.0;  /* guide.offset */
     gamma_rows[21] = 0.0;  /* guide.angle */
     gamma_rows[22] = crank1_acceleration;  /* crank1 */
@@ -586,13 +586,13 @@ static int project(const double t, const double *q, const double *r, const Param
     const double L8_theta = q[20];
 
     /* parameters */
-    const double L1_origin_x = p->L1_origin_x;
-    const double L2_origin_x = p->L2_origin_x;
-    const double L3_origin_x = p->L3_origin_x;
-    const double L4_origin_x = p->L4_origin_x;
-    const double L6_origin_x = p->L6_origin_x;
-    const double L7_origin_x = p->L7_origin_x;
-    const double L8_origin_x = p->L8_origin_x;
+    const double L1_head_x = p->L1_head_x;
+    const double L2_head_x = p->L2_head_x;
+    const double L3_head_x = p->L3_head_x;
+    const double L4_head_x = p->L4_head_x;
+    const double L6_head_x = p->L6_head_x;
+    const double L7_head_x = p->L7_head_x;
+    const double L8_head_x = p->L8_head_x;
     const double inverse_L1_mass = p->inverse_L1_mass;
     const double inverse_L1_inertia = p->inverse_L1_inertia;
     const double inverse_L2_mass = p->inverse_L2_mass;
@@ -613,32 +613,32 @@ static int project(const double t, const double *q, const double *r, const Param
     /* directions, arms, drives */
     const double cos_theta_L1 = cos(L1_theta);
     const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_tail_x = L1_origin_x*cos_theta_L1;
-    const double arm_L1_tail_y = L1_origin_x*sin_theta_L1;
+    const double arm_L1_head_x = L1_head_x*cos_theta_L1;
+    const double arm_L1_head_y = L1_head_x*sin_theta_L1;
     const double cos_theta_L4 = cos(L4_theta);
     const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_tail_x = L4_origin_x*cos_theta_L4;
-    const double arm_L4_tail_y = L4_origin_x*sin_theta_L4;
+    const double arm_L4_head_x = L4_head_x*cos_theta_L4;
+    const double arm_L4_head_y = L4_head_x*sin_theta_L4;
     const double cos_theta_L2 = cos(L2_theta);
     const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_tail_x = L2_origin_x*cos_theta_L2;
-    const double arm_L2_tail_y = L2_origin_x*sin_theta_L2;
+    const double arm_L2_head_x = L2_head_x*cos_theta_L2;
+    const double arm_L2_head_y = L2_head_x*sin_theta_L2;
     const double cos_theta_L3 = cos(L3_theta);
     const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_tail_x = L3_origin_x*cos_theta_L3;
-    const double arm_L3_tail_y = L3_origin_x*sin_theta_L3;
+    const double arm_L3_head_x = L3_head_x*cos_theta_L3;
+    const double arm_L3_head_y = L3_head_x*sin_theta_L3;
     const double cos_theta_L7 = cos(L7_theta);
     const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_tail_x = L7_origin_x*cos_theta_L7;
-    const double arm_L7_tail_y = L7_origin_x*sin_theta_L7;
+    const double arm_L7_head_x = L7_head_x*cos_theta_L7;
+    const double arm_L7_head_y = L7_head_x*sin_theta_L7;
     const double cos_theta_L6 = cos(L6_theta);
     const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = -L6_origin_x*cos_theta_L6;
-    const double arm_L6_head_y = -L6_origin_x*sin_theta_L6;
+    const double arm_L6_head_x = L6_head_x*cos_theta_L6;
+    const double arm_L6_head_y = L6_head_x*sin_theta_L6;
     const double cos_theta_L8 = cos(L8_theta);
     const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_tail_x = L8_origin_x*cos_theta_L8;
-    const double arm_L8_tail_y = L8_origin_x*sin_theta_L8;
+    const double arm_L8_head_x = L8_head_x*cos_theta_L8;
+    const double arm_L8_head_y = L8_head_x*sin_theta_L8;
 
     /* right-hand side */
     const double r_O1_x = r[0];
@@ -674,14 +674,14 @@ static int project(const double t, const double *q, const double *r, const Param
     if (!(scale_guide_offset_2 > 1e-13 * scale_guide_offset_2)) return 2;
     const double inverse_pivot_guide_offset_2 = 1.0/scale_guide_offset_2;
     const double l_slider_x__guide_offset_2 = inverse_S9_mass*inverse_pivot_guide_offset_2;
-    const double l_A_x__L2_theta_2 = arm_L2_tail_y*inverse_L2_inertia;
-    const double l_A_y__L2_theta_2 = -arm_L2_tail_x*inverse_L2_inertia;
-    const double l_P2_x__L2_theta_2 = arm_L2_tail_y*inverse_L2_inertia;
-    const double l_P2_y__L2_theta_2 = -arm_L2_tail_x*inverse_L2_inertia;
-    const double l_B_x__L3_theta_2 = arm_L3_tail_y*inverse_L3_inertia;
-    const double l_B_y__L3_theta_2 = -arm_L3_tail_x*inverse_L3_inertia;
-    const double l_P3_x__L3_theta_2 = arm_L3_tail_y*inverse_L3_inertia;
-    const double l_P3_y__L3_theta_2 = -arm_L3_tail_x*inverse_L3_inertia;
+    const double l_A_x__L2_theta_2 = -arm_L2_head_y*inverse_L2_inertia;
+    const double l_A_y__L2_theta_2 = arm_L2_head_x*inverse_L2_inertia;
+    const double l_P2_x__L2_theta_2 = -arm_L2_head_y*inverse_L2_inertia;
+    const double l_P2_y__L2_theta_2 = arm_L2_head_x*inverse_L2_inertia;
+    const double l_B_x__L3_theta_2 = -arm_L3_head_y*inverse_L3_inertia;
+    const double l_B_y__L3_theta_2 = arm_L3_head_x*inverse_L3_inertia;
+    const double l_P3_x__L3_theta_2 = -arm_L3_head_y*inverse_L3_inertia;
+    const double l_P3_y__L3_theta_2 = arm_L3_head_x*inverse_L3_inertia;
     const double l_O6_x__L6_theta_2 = -arm_L6_head_y*inverse_L6_inertia;
     const double l_O6_y__L6_theta_2 = arm_L6_head_x*inverse_L6_inertia;
     const double l_Q6_x__L6_theta_2 = arm_L6_head_y*inverse_L6_inertia;
@@ -704,54 +704,54 @@ static int project(const double t, const double *q, const double *r, const Param
     const double w_Q6_y__O6_y_2 = -arm_L6_head_x*l_Q6_y__L6_theta_2 - inverse_L6_mass -
         l_Q6_y__O6_x_2*w_O6_y__O6_x_2;
     const double l_Q6_y__O6_y_2 = -inverse_pivot_O6_y_2*w_Q6_y__O6_y_2;
-    const double l_slider_x__L8_theta_2 = arm_L8_tail_y*inverse_L8_inertia;
-    const double l_slider_y__L8_theta_2 = -arm_L8_tail_x*inverse_L8_inertia;
-    const double l_Q8_x__L8_theta_2 = arm_L8_tail_y*inverse_L8_inertia;
-    const double l_Q8_y__L8_theta_2 = -arm_L8_tail_x*inverse_L8_inertia;
-    const double scale_slider_x_2 = arm_L8_tail_y*l_slider_x__L8_theta_2 + inverse_L8_mass + inverse_S9_mass;
+    const double l_slider_x__L8_theta_2 = -arm_L8_head_y*inverse_L8_inertia;
+    const double l_slider_y__L8_theta_2 = arm_L8_head_x*inverse_L8_inertia;
+    const double l_Q8_x__L8_theta_2 = -arm_L8_head_y*inverse_L8_inertia;
+    const double l_Q8_y__L8_theta_2 = arm_L8_head_x*inverse_L8_inertia;
+    const double scale_slider_x_2 = -arm_L8_head_y*l_slider_x__L8_theta_2 + inverse_L8_mass + inverse_S9_mass;
     const double pivot_slider_x_2 = -inverse_S9_mass*l_slider_x__guide_offset_2 + scale_slider_x_2;
     if (!(pivot_slider_x_2 > 1e-13 * scale_slider_x_2)) return 5;
     const double inverse_pivot_slider_x_2 = 1.0/pivot_slider_x_2;
-    const double w_slider_y__slider_x_2 = -arm_L8_tail_y*l_slider_y__L8_theta_2;
+    const double w_slider_y__slider_x_2 = arm_L8_head_y*l_slider_y__L8_theta_2;
     const double l_slider_y__slider_x_2 = -inverse_pivot_slider_x_2*w_slider_y__slider_x_2;
-    const double w_Q8_x__slider_x_2 = -arm_L8_tail_y*l_Q8_x__L8_theta_2 + inverse_L8_mass;
+    const double w_Q8_x__slider_x_2 = arm_L8_head_y*l_Q8_x__L8_theta_2 + inverse_L8_mass;
     const double l_Q8_x__slider_x_2 = -inverse_pivot_slider_x_2*w_Q8_x__slider_x_2;
-    const double w_Q8_y__slider_x_2 = -arm_L8_tail_y*l_Q8_y__L8_theta_2;
+    const double w_Q8_y__slider_x_2 = arm_L8_head_y*l_Q8_y__L8_theta_2;
     const double l_Q8_y__slider_x_2 = -inverse_pivot_slider_x_2*w_Q8_y__slider_x_2;
-    const double scale_slider_y_2 = -arm_L8_tail_x*l_slider_y__L8_theta_2 + inverse_L8_mass + inverse_S9_mass;
+    const double scale_slider_y_2 = arm_L8_head_x*l_slider_y__L8_theta_2 + inverse_L8_mass + inverse_S9_mass;
     const double pivot_slider_y_2 = l_slider_y__slider_x_2*w_slider_y__slider_x_2 + scale_slider_y_2;
     if (!(pivot_slider_y_2 > 1e-13 * scale_slider_y_2)) return 6;
     const double inverse_pivot_slider_y_2 = 1.0/pivot_slider_y_2;
-    const double w_Q8_x__slider_y_2 = arm_L8_tail_x*l_Q8_x__L8_theta_2 -
+    const double w_Q8_x__slider_y_2 = -arm_L8_head_x*l_Q8_x__L8_theta_2 -
         l_Q8_x__slider_x_2*w_slider_y__slider_x_2;
     const double l_Q8_x__slider_y_2 = -inverse_pivot_slider_y_2*w_Q8_x__slider_y_2;
-    const double w_Q8_y__slider_y_2 = arm_L8_tail_x*l_Q8_y__L8_theta_2 + inverse_L8_mass -
+    const double w_Q8_y__slider_y_2 = -arm_L8_head_x*l_Q8_y__L8_theta_2 + inverse_L8_mass -
         l_Q8_y__slider_x_2*w_slider_y__slider_x_2;
     const double l_Q8_y__slider_y_2 = -inverse_pivot_slider_y_2*w_Q8_y__slider_y_2;
-    const double l_O1_x__L1_theta_2 = arm_L1_tail_y*inverse_L1_inertia;
-    const double l_O1_y__L1_theta_2 = -arm_L1_tail_x*inverse_L1_inertia;
-    const double l_A_x__L1_theta_2 = arm_L1_tail_y*inverse_L1_inertia;
-    const double l_A_y__L1_theta_2 = -arm_L1_tail_x*inverse_L1_inertia;
-    const double scale_O1_x_2 = arm_L1_tail_y*l_O1_x__L1_theta_2 + inverse_L1_mass;
+    const double l_O1_x__L1_theta_2 = -arm_L1_head_y*inverse_L1_inertia;
+    const double l_O1_y__L1_theta_2 = arm_L1_head_x*inverse_L1_inertia;
+    const double l_A_x__L1_theta_2 = -arm_L1_head_y*inverse_L1_inertia;
+    const double l_A_y__L1_theta_2 = arm_L1_head_x*inverse_L1_inertia;
+    const double scale_O1_x_2 = -arm_L1_head_y*l_O1_x__L1_theta_2 + inverse_L1_mass;
     if (!(scale_O1_x_2 > 1e-13 * scale_O1_x_2)) return 7;
     const double inverse_pivot_O1_x_2 = 1.0/scale_O1_x_2;
-    const double w_O1_y__O1_x_2 = -arm_L1_tail_y*l_O1_y__L1_theta_2;
+    const double w_O1_y__O1_x_2 = arm_L1_head_y*l_O1_y__L1_theta_2;
     const double l_O1_y__O1_x_2 = -inverse_pivot_O1_x_2*w_O1_y__O1_x_2;
-    const double w_crank1__O1_x_2 = -arm_L1_tail_y*inverse_L1_inertia;
+    const double w_crank1__O1_x_2 = arm_L1_head_y*inverse_L1_inertia;
     const double l_crank1__O1_x_2 = -inverse_pivot_O1_x_2*w_crank1__O1_x_2;
-    const double w_A_x__O1_x_2 = -arm_L1_tail_y*l_A_x__L1_theta_2 + inverse_L1_mass;
+    const double w_A_x__O1_x_2 = arm_L1_head_y*l_A_x__L1_theta_2 + inverse_L1_mass;
     const double l_A_x__O1_x_2 = -inverse_pivot_O1_x_2*w_A_x__O1_x_2;
-    const double w_A_y__O1_x_2 = -arm_L1_tail_y*l_A_y__L1_theta_2;
+    const double w_A_y__O1_x_2 = arm_L1_head_y*l_A_y__L1_theta_2;
     const double l_A_y__O1_x_2 = -inverse_pivot_O1_x_2*w_A_y__O1_x_2;
-    const double scale_O1_y_2 = -arm_L1_tail_x*l_O1_y__L1_theta_2 + inverse_L1_mass;
+    const double scale_O1_y_2 = arm_L1_head_x*l_O1_y__L1_theta_2 + inverse_L1_mass;
     const double pivot_O1_y_2 = l_O1_y__O1_x_2*w_O1_y__O1_x_2 + scale_O1_y_2;
     if (!(pivot_O1_y_2 > 1e-13 * scale_O1_y_2)) return 8;
     const double inverse_pivot_O1_y_2 = 1.0/pivot_O1_y_2;
-    const double w_crank1__O1_y_2 = arm_L1_tail_x*inverse_L1_inertia - l_crank1__O1_x_2*w_O1_y__O1_x_2;
+    const double w_crank1__O1_y_2 = -arm_L1_head_x*inverse_L1_inertia - l_crank1__O1_x_2*w_O1_y__O1_x_2;
     const double l_crank1__O1_y_2 = -inverse_pivot_O1_y_2*w_crank1__O1_y_2;
-    const double w_A_x__O1_y_2 = arm_L1_tail_x*l_A_x__L1_theta_2 - l_A_x__O1_x_2*w_O1_y__O1_x_2;
+    const double w_A_x__O1_y_2 = -arm_L1_head_x*l_A_x__L1_theta_2 - l_A_x__O1_x_2*w_O1_y__O1_x_2;
     const double l_A_x__O1_y_2 = -inverse_pivot_O1_y_2*w_A_x__O1_y_2;
-    const double w_A_y__O1_y_2 = arm_L1_tail_x*l_A_y__L1_theta_2 + inverse_L1_mass -
+    const double w_A_y__O1_y_2 = -arm_L1_head_x*l_A_y__L1_theta_2 + inverse_L1_mass -
         l_A_y__O1_x_2*w_O1_y__O1_x_2;
     const double l_A_y__O1_y_2 = -inverse_pivot_O1_y_2*w_A_y__O1_y_2;
     const double scale_crank1_2 = inverse_L1_inertia;
@@ -765,54 +765,54 @@ static int project(const double t, const double *q, const double *r, const Param
     const double w_A_y__crank1_2 = -l_A_y__L1_theta_2 - l_A_y__O1_x_2*w_crank1__O1_x_2 -
         l_A_y__O1_y_2*w_crank1__O1_y_2;
     const double l_A_y__crank1_2 = -inverse_pivot_crank1_2*w_A_y__crank1_2;
-    const double scale_A_x_2 = arm_L1_tail_y*l_A_x__L1_theta_2 + arm_L2_tail_y*l_A_x__L2_theta_2 +
+    const double scale_A_x_2 = -arm_L1_head_y*l_A_x__L1_theta_2 - arm_L2_head_y*l_A_x__L2_theta_2 +
         inverse_L1_mass + inverse_L2_mass;
     const double pivot_A_x_2 = l_A_x__O1_x_2*w_A_x__O1_x_2 + l_A_x__O1_y_2*w_A_x__O1_y_2 +
         l_A_x__crank1_2*w_A_x__crank1_2 + scale_A_x_2;
     if (!(pivot_A_x_2 > 1e-13 * scale_A_x_2)) return 10;
     const double inverse_pivot_A_x_2 = 1.0/pivot_A_x_2;
-    const double w_A_y__A_x_2 = -arm_L1_tail_y*l_A_y__L1_theta_2 - arm_L2_tail_y*l_A_y__L2_theta_2 -
+    const double w_A_y__A_x_2 = arm_L1_head_y*l_A_y__L1_theta_2 + arm_L2_head_y*l_A_y__L2_theta_2 -
         l_A_y__O1_x_2*w_A_x__O1_x_2 - l_A_y__O1_y_2*w_A_x__O1_y_2 - l_A_y__crank1_2*w_A_x__crank1_2;
     const double l_A_y__A_x_2 = -inverse_pivot_A_x_2*w_A_y__A_x_2;
-    const double w_P2_x__A_x_2 = -arm_L2_tail_y*l_P2_x__L2_theta_2 + inverse_L2_mass;
+    const double w_P2_x__A_x_2 = arm_L2_head_y*l_P2_x__L2_theta_2 + inverse_L2_mass;
     const double l_P2_x__A_x_2 = -inverse_pivot_A_x_2*w_P2_x__A_x_2;
-    const double w_P2_y__A_x_2 = -arm_L2_tail_y*l_P2_y__L2_theta_2;
+    const double w_P2_y__A_x_2 = arm_L2_head_y*l_P2_y__L2_theta_2;
     const double l_P2_y__A_x_2 = -inverse_pivot_A_x_2*w_P2_y__A_x_2;
-    const double scale_A_y_2 = -arm_L1_tail_x*l_A_y__L1_theta_2 - arm_L2_tail_x*l_A_y__L2_theta_2 +
+    const double scale_A_y_2 = arm_L1_head_x*l_A_y__L1_theta_2 + arm_L2_head_x*l_A_y__L2_theta_2 +
         inverse_L1_mass + inverse_L2_mass;
     const double pivot_A_y_2 = l_A_y__A_x_2*w_A_y__A_x_2 + l_A_y__O1_x_2*w_A_y__O1_x_2 +
         l_A_y__O1_y_2*w_A_y__O1_y_2 + l_A_y__crank1_2*w_A_y__crank1_2 + scale_A_y_2;
     if (!(pivot_A_y_2 > 1e-13 * scale_A_y_2)) return 11;
     const double inverse_pivot_A_y_2 = 1.0/pivot_A_y_2;
-    const double w_P2_x__A_y_2 = arm_L2_tail_x*l_P2_x__L2_theta_2 - l_P2_x__A_x_2*w_A_y__A_x_2;
+    const double w_P2_x__A_y_2 = -arm_L2_head_x*l_P2_x__L2_theta_2 - l_P2_x__A_x_2*w_A_y__A_x_2;
     const double l_P2_x__A_y_2 = -inverse_pivot_A_y_2*w_P2_x__A_y_2;
-    const double w_P2_y__A_y_2 = arm_L2_tail_x*l_P2_y__L2_theta_2 + inverse_L2_mass -
+    const double w_P2_y__A_y_2 = -arm_L2_head_x*l_P2_y__L2_theta_2 + inverse_L2_mass -
         l_P2_y__A_x_2*w_A_y__A_x_2;
     const double l_P2_y__A_y_2 = -inverse_pivot_A_y_2*w_P2_y__A_y_2;
-    const double l_O4_x__L4_theta_2 = arm_L4_tail_y*inverse_L4_inertia;
-    const double l_O4_y__L4_theta_2 = -arm_L4_tail_x*inverse_L4_inertia;
-    const double l_B_x__L4_theta_2 = arm_L4_tail_y*inverse_L4_inertia;
-    const double l_B_y__L4_theta_2 = -arm_L4_tail_x*inverse_L4_inertia;
-    const double scale_O4_x_2 = arm_L4_tail_y*l_O4_x__L4_theta_2 + inverse_L4_mass;
+    const double l_O4_x__L4_theta_2 = -arm_L4_head_y*inverse_L4_inertia;
+    const double l_O4_y__L4_theta_2 = arm_L4_head_x*inverse_L4_inertia;
+    const double l_B_x__L4_theta_2 = -arm_L4_head_y*inverse_L4_inertia;
+    const double l_B_y__L4_theta_2 = arm_L4_head_x*inverse_L4_inertia;
+    const double scale_O4_x_2 = -arm_L4_head_y*l_O4_x__L4_theta_2 + inverse_L4_mass;
     if (!(scale_O4_x_2 > 1e-13 * scale_O4_x_2)) return 12;
     const double inverse_pivot_O4_x_2 = 1.0/scale_O4_x_2;
-    const double w_O4_y__O4_x_2 = -arm_L4_tail_y*l_O4_y__L4_theta_2;
+    const double w_O4_y__O4_x_2 = arm_L4_head_y*l_O4_y__L4_theta_2;
     const double l_O4_y__O4_x_2 = -inverse_pivot_O4_x_2*w_O4_y__O4_x_2;
-    const double w_crank4__O4_x_2 = -arm_L4_tail_y*inverse_L4_inertia;
+    const double w_crank4__O4_x_2 = arm_L4_head_y*inverse_L4_inertia;
     const double l_crank4__O4_x_2 = -inverse_pivot_O4_x_2*w_crank4__O4_x_2;
-    const double w_B_x__O4_x_2 = -arm_L4_tail_y*l_B_x__L4_theta_2 + inverse_L4_mass;
+    const double w_B_x__O4_x_2 = arm_L4_head_y*l_B_x__L4_theta_2 + inverse_L4_mass;
     const double l_B_x__O4_x_2 = -inverse_pivot_O4_x_2*w_B_x__O4_x_2;
-    const double w_B_y__O4_x_2 = -arm_L4_tail_y*l_B_y__L4_theta_2;
+    const double w_B_y__O4_x_2 = arm_L4_head_y*l_B_y__L4_theta_2;
     const double l_B_y__O4_x_2 = -inverse_pivot_O4_x_2*w_B_y__O4_x_2;
-    const double scale_O4_y_2 = -arm_L4_tail_x*l_O4_y__L4_theta_2 + inverse_L4_mass;
+    const double scale_O4_y_2 = arm_L4_head_x*l_O4_y__L4_theta_2 + inverse_L4_mass;
     const double pivot_O4_y_2 = l_O4_y__O4_x_2*w_O4_y__O4_x_2 + scale_O4_y_2;
     if (!(pivot_O4_y_2 > 1e-13 * scale_O4_y_2)) return 13;
     const double inverse_pivot_O4_y_2 = 1.0/pivot_O4_y_2;
-    const double w_crank4__O4_y_2 = arm_L4_tail_x*inverse_L4_inertia - l_crank4__O4_x_2*w_O4_y__O4_x_2;
+    const double w_crank4__O4_y_2 = -arm_L4_head_x*inverse_L4_inertia - l_crank4__O4_x_2*w_O4_y__O4_x_2;
     const double l_crank4__O4_y_2 = -inverse_pivot_O4_y_2*w_crank4__O4_y_2;
-    const double w_B_x__O4_y_2 = arm_L4_tail_x*l_B_x__L4_theta_2 - l_B_x__O4_x_2*w_O4_y__O4_x_2;
+    const double w_B_x__O4_y_2 = -arm_L4_head_x*l_B_x__L4_theta_2 - l_B_x__O4_x_2*w_O4_y__O4_x_2;
     const double l_B_x__O4_y_2 = -inverse_pivot_O4_y_2*w_B_x__O4_y_2;
-    const double w_B_y__O4_y_2 = arm_L4_tail_x*l_B_y__L4_theta_2 + inverse_L4_mass -
+    const double w_B_y__O4_y_2 = -arm_L4_head_x*l_B_y__L4_theta_2 + inverse_L4_mass -
         l_B_y__O4_x_2*w_O4_y__O4_x_2;
     const double l_B_y__O4_y_2 = -inverse_pivot_O4_y_2*w_B_y__O4_y_2;
     const double scale_crank4_2 = inverse_L4_inertia;
@@ -826,154 +826,154 @@ static int project(const double t, const double *q, const double *r, const Param
     const double w_B_y__crank4_2 = -l_B_y__L4_theta_2 - l_B_y__O4_x_2*w_crank4__O4_x_2 -
         l_B_y__O4_y_2*w_crank4__O4_y_2;
     const double l_B_y__crank4_2 = -inverse_pivot_crank4_2*w_B_y__crank4_2;
-    const double scale_B_x_2 = arm_L3_tail_y*l_B_x__L3_theta_2 + arm_L4_tail_y*l_B_x__L4_theta_2 +
+    const double scale_B_x_2 = -arm_L3_head_y*l_B_x__L3_theta_2 - arm_L4_head_y*l_B_x__L4_theta_2 +
         inverse_L3_mass + inverse_L4_mass;
     const double pivot_B_x_2 = l_B_x__O4_x_2*w_B_x__O4_x_2 + l_B_x__O4_y_2*w_B_x__O4_y_2 +
         l_B_x__crank4_2*w_B_x__crank4_2 + scale_B_x_2;
     if (!(pivot_B_x_2 > 1e-13 * scale_B_x_2)) return 15;
     const double inverse_pivot_B_x_2 = 1.0/pivot_B_x_2;
-    const double w_B_y__B_x_2 = -arm_L3_tail_y*l_B_y__L3_theta_2 - arm_L4_tail_y*l_B_y__L4_theta_2 -
+    const double w_B_y__B_x_2 = arm_L3_head_y*l_B_y__L3_theta_2 + arm_L4_head_y*l_B_y__L4_theta_2 -
         l_B_y__O4_x_2*w_B_x__O4_x_2 - l_B_y__O4_y_2*w_B_x__O4_y_2 - l_B_y__crank4_2*w_B_x__crank4_2;
     const double l_B_y__B_x_2 = -inverse_pivot_B_x_2*w_B_y__B_x_2;
-    const double w_P3_x__B_x_2 = -arm_L3_tail_y*l_P3_x__L3_theta_2 + inverse_L3_mass;
+    const double w_P3_x__B_x_2 = arm_L3_head_y*l_P3_x__L3_theta_2 + inverse_L3_mass;
     const double l_P3_x__B_x_2 = -inverse_pivot_B_x_2*w_P3_x__B_x_2;
-    const double w_P3_y__B_x_2 = -arm_L3_tail_y*l_P3_y__L3_theta_2;
+    const double w_P3_y__B_x_2 = arm_L3_head_y*l_P3_y__L3_theta_2;
     const double l_P3_y__B_x_2 = -inverse_pivot_B_x_2*w_P3_y__B_x_2;
-    const double scale_B_y_2 = -arm_L3_tail_x*l_B_y__L3_theta_2 - arm_L4_tail_x*l_B_y__L4_theta_2 +
+    const double scale_B_y_2 = arm_L3_head_x*l_B_y__L3_theta_2 + arm_L4_head_x*l_B_y__L4_theta_2 +
         inverse_L3_mass + inverse_L4_mass;
     const double pivot_B_y_2 = l_B_y__B_x_2*w_B_y__B_x_2 + l_B_y__O4_x_2*w_B_y__O4_x_2 +
         l_B_y__O4_y_2*w_B_y__O4_y_2 + l_B_y__crank4_2*w_B_y__crank4_2 + scale_B_y_2;
     if (!(pivot_B_y_2 > 1e-13 * scale_B_y_2)) return 16;
     const double inverse_pivot_B_y_2 = 1.0/pivot_B_y_2;
-    const double w_P3_x__B_y_2 = arm_L3_tail_x*l_P3_x__L3_theta_2 - l_P3_x__B_x_2*w_B_y__B_x_2;
+    const double w_P3_x__B_y_2 = -arm_L3_head_x*l_P3_x__L3_theta_2 - l_P3_x__B_x_2*w_B_y__B_x_2;
     const double l_P3_x__B_y_2 = -inverse_pivot_B_y_2*w_P3_x__B_y_2;
-    const double w_P3_y__B_y_2 = arm_L3_tail_x*l_P3_y__L3_theta_2 + inverse_L3_mass -
+    const double w_P3_y__B_y_2 = -arm_L3_head_x*l_P3_y__L3_theta_2 + inverse_L3_mass -
         l_P3_y__B_x_2*w_B_y__B_x_2;
     const double l_P3_y__B_y_2 = -inverse_pivot_B_y_2*w_P3_y__B_y_2;
-    const double l_P2_x__L7_theta_2 = arm_L7_tail_y*inverse_L7_inertia;
-    const double l_P2_y__L7_theta_2 = -arm_L7_tail_x*inverse_L7_inertia;
-    const double l_P3_x__L7_theta_2 = arm_L7_tail_y*inverse_L7_inertia;
-    const double l_P3_y__L7_theta_2 = -arm_L7_tail_x*inverse_L7_inertia;
-    const double l_Q6_x__L7_theta_2 = arm_L7_tail_y*inverse_L7_inertia;
-    const double l_Q6_y__L7_theta_2 = -arm_L7_tail_x*inverse_L7_inertia;
-    const double l_Q8_x__L7_theta_2 = arm_L7_tail_y*inverse_L7_inertia;
-    const double l_Q8_y__L7_theta_2 = -arm_L7_tail_x*inverse_L7_inertia;
-    const double scale_P2_x_2 = arm_L2_tail_y*l_P2_x__L2_theta_2 + arm_L7_tail_y*l_P2_x__L7_theta_2 +
+    const double l_P2_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_P2_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
+    const double l_P3_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_P3_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
+    const double l_Q6_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_Q6_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
+    const double l_Q8_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_Q8_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
+    const double scale_P2_x_2 = -arm_L2_head_y*l_P2_x__L2_theta_2 - arm_L7_head_y*l_P2_x__L7_theta_2 +
         inverse_L2_mass + inverse_L7_mass;
     const double pivot_P2_x_2 = l_P2_x__A_x_2*w_P2_x__A_x_2 + l_P2_x__A_y_2*w_P2_x__A_y_2 + scale_P2_x_2;
     if (!(pivot_P2_x_2 > 1e-13 * scale_P2_x_2)) return 17;
     const double inverse_pivot_P2_x_2 = 1.0/pivot_P2_x_2;
-    const double w_P2_y__P2_x_2 = -arm_L2_tail_y*l_P2_y__L2_theta_2 - arm_L7_tail_y*l_P2_y__L7_theta_2 -
+    const double w_P2_y__P2_x_2 = arm_L2_head_y*l_P2_y__L2_theta_2 + arm_L7_head_y*l_P2_y__L7_theta_2 -
         l_P2_y__A_x_2*w_P2_x__A_x_2 - l_P2_y__A_y_2*w_P2_x__A_y_2;
     const double l_P2_y__P2_x_2 = -inverse_pivot_P2_x_2*w_P2_y__P2_x_2;
-    const double w_P3_x__P2_x_2 = -arm_L7_tail_y*l_P3_x__L7_theta_2 - inverse_L7_mass;
+    const double w_P3_x__P2_x_2 = arm_L7_head_y*l_P3_x__L7_theta_2 - inverse_L7_mass;
     const double l_P3_x__P2_x_2 = -inverse_pivot_P2_x_2*w_P3_x__P2_x_2;
-    const double w_P3_y__P2_x_2 = -arm_L7_tail_y*l_P3_y__L7_theta_2;
+    const double w_P3_y__P2_x_2 = arm_L7_head_y*l_P3_y__L7_theta_2;
     const double l_P3_y__P2_x_2 = -inverse_pivot_P2_x_2*w_P3_y__P2_x_2;
-    const double w_Q6_x__P2_x_2 = -arm_L7_tail_y*l_Q6_x__L7_theta_2 + inverse_L7_mass;
+    const double w_Q6_x__P2_x_2 = arm_L7_head_y*l_Q6_x__L7_theta_2 + inverse_L7_mass;
     const double l_Q6_x__P2_x_2 = -inverse_pivot_P2_x_2*w_Q6_x__P2_x_2;
-    const double w_Q6_y__P2_x_2 = -arm_L7_tail_y*l_Q6_y__L7_theta_2;
+    const double w_Q6_y__P2_x_2 = arm_L7_head_y*l_Q6_y__L7_theta_2;
     const double l_Q6_y__P2_x_2 = -inverse_pivot_P2_x_2*w_Q6_y__P2_x_2;
-    const double w_Q8_x__P2_x_2 = -arm_L7_tail_y*l_Q8_x__L7_theta_2 + inverse_L7_mass;
+    const double w_Q8_x__P2_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_2 + inverse_L7_mass;
     const double l_Q8_x__P2_x_2 = -inverse_pivot_P2_x_2*w_Q8_x__P2_x_2;
-    const double w_Q8_y__P2_x_2 = -arm_L7_tail_y*l_Q8_y__L7_theta_2;
+    const double w_Q8_y__P2_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2;
     const double l_Q8_y__P2_x_2 = -inverse_pivot_P2_x_2*w_Q8_y__P2_x_2;
-    const double scale_P2_y_2 = -arm_L2_tail_x*l_P2_y__L2_theta_2 - arm_L7_tail_x*l_P2_y__L7_theta_2 +
+    const double scale_P2_y_2 = arm_L2_head_x*l_P2_y__L2_theta_2 + arm_L7_head_x*l_P2_y__L7_theta_2 +
         inverse_L2_mass + inverse_L7_mass;
     const double pivot_P2_y_2 = l_P2_y__A_x_2*w_P2_y__A_x_2 + l_P2_y__A_y_2*w_P2_y__A_y_2 +
         l_P2_y__P2_x_2*w_P2_y__P2_x_2 + scale_P2_y_2;
     if (!(pivot_P2_y_2 > 1e-13 * scale_P2_y_2)) return 18;
     const double inverse_pivot_P2_y_2 = 1.0/pivot_P2_y_2;
-    const double w_P3_x__P2_y_2 = arm_L7_tail_x*l_P3_x__L7_theta_2 - l_P3_x__P2_x_2*w_P2_y__P2_x_2;
+    const double w_P3_x__P2_y_2 = -arm_L7_head_x*l_P3_x__L7_theta_2 - l_P3_x__P2_x_2*w_P2_y__P2_x_2;
     const double l_P3_x__P2_y_2 = -inverse_pivot_P2_y_2*w_P3_x__P2_y_2;
-    const double w_P3_y__P2_y_2 = arm_L7_tail_x*l_P3_y__L7_theta_2 - inverse_L7_mass -
+    const double w_P3_y__P2_y_2 = -arm_L7_head_x*l_P3_y__L7_theta_2 - inverse_L7_mass -
         l_P3_y__P2_x_2*w_P2_y__P2_x_2;
     const double l_P3_y__P2_y_2 = -inverse_pivot_P2_y_2*w_P3_y__P2_y_2;
-    const double w_Q6_x__P2_y_2 = arm_L7_tail_x*l_Q6_x__L7_theta_2 - l_Q6_x__P2_x_2*w_P2_y__P2_x_2;
+    const double w_Q6_x__P2_y_2 = -arm_L7_head_x*l_Q6_x__L7_theta_2 - l_Q6_x__P2_x_2*w_P2_y__P2_x_2;
     const double l_Q6_x__P2_y_2 = -inverse_pivot_P2_y_2*w_Q6_x__P2_y_2;
-    const double w_Q6_y__P2_y_2 = arm_L7_tail_x*l_Q6_y__L7_theta_2 + inverse_L7_mass -
+    const double w_Q6_y__P2_y_2 = -arm_L7_head_x*l_Q6_y__L7_theta_2 + inverse_L7_mass -
         l_Q6_y__P2_x_2*w_P2_y__P2_x_2;
     const double l_Q6_y__P2_y_2 = -inverse_pivot_P2_y_2*w_Q6_y__P2_y_2;
-    const double w_Q8_x__P2_y_2 = arm_L7_tail_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_P2_y__P2_x_2;
+    const double w_Q8_x__P2_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_P2_y__P2_x_2;
     const double l_Q8_x__P2_y_2 = -inverse_pivot_P2_y_2*w_Q8_x__P2_y_2;
-    const double w_Q8_y__P2_y_2 = arm_L7_tail_x*l_Q8_y__L7_theta_2 + inverse_L7_mass -
+    const double w_Q8_y__P2_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 + inverse_L7_mass -
         l_Q8_y__P2_x_2*w_P2_y__P2_x_2;
     const double l_Q8_y__P2_y_2 = -inverse_pivot_P2_y_2*w_Q8_y__P2_y_2;
-    const double scale_P3_x_2 = arm_L3_tail_y*l_P3_x__L3_theta_2 + arm_L7_tail_y*l_P3_x__L7_theta_2 +
+    const double scale_P3_x_2 = -arm_L3_head_y*l_P3_x__L3_theta_2 - arm_L7_head_y*l_P3_x__L7_theta_2 +
         inverse_L3_mass + inverse_L7_mass;
     const double pivot_P3_x_2 = l_P3_x__B_x_2*w_P3_x__B_x_2 + l_P3_x__B_y_2*w_P3_x__B_y_2 +
         l_P3_x__P2_x_2*w_P3_x__P2_x_2 + l_P3_x__P2_y_2*w_P3_x__P2_y_2 + scale_P3_x_2;
     if (!(pivot_P3_x_2 > 1e-13 * scale_P3_x_2)) return 19;
     const double inverse_pivot_P3_x_2 = 1.0/pivot_P3_x_2;
-    const double w_P3_y__P3_x_2 = -arm_L3_tail_y*l_P3_y__L3_theta_2 - arm_L7_tail_y*l_P3_y__L7_theta_2 -
+    const double w_P3_y__P3_x_2 = arm_L3_head_y*l_P3_y__L3_theta_2 + arm_L7_head_y*l_P3_y__L7_theta_2 -
         l_P3_y__B_x_2*w_P3_x__B_x_2 - l_P3_y__B_y_2*w_P3_x__B_y_2 - l_P3_y__P2_x_2*w_P3_x__P2_x_2 -
         l_P3_y__P2_y_2*w_P3_x__P2_y_2;
     const double l_P3_y__P3_x_2 = -inverse_pivot_P3_x_2*w_P3_y__P3_x_2;
-    const double w_Q6_x__P3_x_2 = -arm_L7_tail_y*l_Q6_x__L7_theta_2 + inverse_L7_mass -
+    const double w_Q6_x__P3_x_2 = arm_L7_head_y*l_Q6_x__L7_theta_2 + inverse_L7_mass -
         l_Q6_x__P2_x_2*w_P3_x__P2_x_2 - l_Q6_x__P2_y_2*w_P3_x__P2_y_2;
     const double l_Q6_x__P3_x_2 = -inverse_pivot_P3_x_2*w_Q6_x__P3_x_2;
-    const double w_Q6_y__P3_x_2 = -arm_L7_tail_y*l_Q6_y__L7_theta_2 - l_Q6_y__P2_x_2*w_P3_x__P2_x_2 -
+    const double w_Q6_y__P3_x_2 = arm_L7_head_y*l_Q6_y__L7_theta_2 - l_Q6_y__P2_x_2*w_P3_x__P2_x_2 -
         l_Q6_y__P2_y_2*w_P3_x__P2_y_2;
     const double l_Q6_y__P3_x_2 = -inverse_pivot_P3_x_2*w_Q6_y__P3_x_2;
-    const double w_Q8_x__P3_x_2 = -arm_L7_tail_y*l_Q8_x__L7_theta_2 + inverse_L7_mass -
+    const double w_Q8_x__P3_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_2 + inverse_L7_mass -
         l_Q8_x__P2_x_2*w_P3_x__P2_x_2 - l_Q8_x__P2_y_2*w_P3_x__P2_y_2;
     const double l_Q8_x__P3_x_2 = -inverse_pivot_P3_x_2*w_Q8_x__P3_x_2;
-    const double w_Q8_y__P3_x_2 = -arm_L7_tail_y*l_Q8_y__L7_theta_2 - l_Q8_y__P2_x_2*w_P3_x__P2_x_2 -
+    const double w_Q8_y__P3_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 - l_Q8_y__P2_x_2*w_P3_x__P2_x_2 -
         l_Q8_y__P2_y_2*w_P3_x__P2_y_2;
     const double l_Q8_y__P3_x_2 = -inverse_pivot_P3_x_2*w_Q8_y__P3_x_2;
-    const double scale_P3_y_2 = -arm_L3_tail_x*l_P3_y__L3_theta_2 - arm_L7_tail_x*l_P3_y__L7_theta_2 +
+    const double scale_P3_y_2 = arm_L3_head_x*l_P3_y__L3_theta_2 + arm_L7_head_x*l_P3_y__L7_theta_2 +
         inverse_L3_mass + inverse_L7_mass;
     const double pivot_P3_y_2 = l_P3_y__B_x_2*w_P3_y__B_x_2 + l_P3_y__B_y_2*w_P3_y__B_y_2 +
         l_P3_y__P2_x_2*w_P3_y__P2_x_2 + l_P3_y__P2_y_2*w_P3_y__P2_y_2 + l_P3_y__P3_x_2*w_P3_y__P3_x_2 +
         scale_P3_y_2;
     if (!(pivot_P3_y_2 > 1e-13 * scale_P3_y_2)) return 20;
     const double inverse_pivot_P3_y_2 = 1.0/pivot_P3_y_2;
-    const double w_Q6_x__P3_y_2 = arm_L7_tail_x*l_Q6_x__L7_theta_2 - l_Q6_x__P2_x_2*w_P3_y__P2_x_2 -
+    const double w_Q6_x__P3_y_2 = -arm_L7_head_x*l_Q6_x__L7_theta_2 - l_Q6_x__P2_x_2*w_P3_y__P2_x_2 -
         l_Q6_x__P2_y_2*w_P3_y__P2_y_2 - l_Q6_x__P3_x_2*w_P3_y__P3_x_2;
     const double l_Q6_x__P3_y_2 = -inverse_pivot_P3_y_2*w_Q6_x__P3_y_2;
-    const double w_Q6_y__P3_y_2 = arm_L7_tail_x*l_Q6_y__L7_theta_2 + inverse_L7_mass -
+    const double w_Q6_y__P3_y_2 = -arm_L7_head_x*l_Q6_y__L7_theta_2 + inverse_L7_mass -
         l_Q6_y__P2_x_2*w_P3_y__P2_x_2 - l_Q6_y__P2_y_2*w_P3_y__P2_y_2 - l_Q6_y__P3_x_2*w_P3_y__P3_x_2;
     const double l_Q6_y__P3_y_2 = -inverse_pivot_P3_y_2*w_Q6_y__P3_y_2;
-    const double w_Q8_x__P3_y_2 = arm_L7_tail_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_P3_y__P2_x_2 -
+    const double w_Q8_x__P3_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_P3_y__P2_x_2 -
         l_Q8_x__P2_y_2*w_P3_y__P2_y_2 - l_Q8_x__P3_x_2*w_P3_y__P3_x_2;
     const double l_Q8_x__P3_y_2 = -inverse_pivot_P3_y_2*w_Q8_x__P3_y_2;
-    const double w_Q8_y__P3_y_2 = arm_L7_tail_x*l_Q8_y__L7_theta_2 + inverse_L7_mass -
+    const double w_Q8_y__P3_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 + inverse_L7_mass -
         l_Q8_y__P2_x_2*w_P3_y__P2_x_2 - l_Q8_y__P2_y_2*w_P3_y__P2_y_2 - l_Q8_y__P3_x_2*w_P3_y__P3_x_2;
     const double l_Q8_y__P3_y_2 = -inverse_pivot_P3_y_2*w_Q8_y__P3_y_2;
-    const double scale_Q6_x_2 = arm_L6_head_y*l_Q6_x__L6_theta_2 + arm_L7_tail_y*l_Q6_x__L7_theta_2 +
+    const double scale_Q6_x_2 = arm_L6_head_y*l_Q6_x__L6_theta_2 - arm_L7_head_y*l_Q6_x__L7_theta_2 +
         inverse_L6_mass + inverse_L7_mass;
     const double pivot_Q6_x_2 = l_Q6_x__O6_x_2*w_Q6_x__O6_x_2 + l_Q6_x__O6_y_2*w_Q6_x__O6_y_2 +
         l_Q6_x__P2_x_2*w_Q6_x__P2_x_2 + l_Q6_x__P2_y_2*w_Q6_x__P2_y_2 + l_Q6_x__P3_x_2*w_Q6_x__P3_x_2 +
         l_Q6_x__P3_y_2*w_Q6_x__P3_y_2 + scale_Q6_x_2;
     if (!(pivot_Q6_x_2 > 1e-13 * scale_Q6_x_2)) return 21;
     const double inverse_pivot_Q6_x_2 = 1.0/pivot_Q6_x_2;
-    const double w_Q6_y__Q6_x_2 = -arm_L6_head_y*l_Q6_y__L6_theta_2 - arm_L7_tail_y*l_Q6_y__L7_theta_2 -
+    const double w_Q6_y__Q6_x_2 = -arm_L6_head_y*l_Q6_y__L6_theta_2 + arm_L7_head_y*l_Q6_y__L7_theta_2 -
         l_Q6_y__O6_x_2*w_Q6_x__O6_x_2 - l_Q6_y__O6_y_2*w_Q6_x__O6_y_2 - l_Q6_y__P2_x_2*w_Q6_x__P2_x_2 -
         l_Q6_y__P2_y_2*w_Q6_x__P2_y_2 - l_Q6_y__P3_x_2*w_Q6_x__P3_x_2 - l_Q6_y__P3_y_2*w_Q6_x__P3_y_2;
     const double l_Q6_y__Q6_x_2 = -inverse_pivot_Q6_x_2*w_Q6_y__Q6_x_2;
-    const double w_Q8_x__Q6_x_2 = -arm_L7_tail_y*l_Q8_x__L7_theta_2 - inverse_L7_mass -
+    const double w_Q8_x__Q6_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_2 - inverse_L7_mass -
         l_Q8_x__P2_x_2*w_Q6_x__P2_x_2 - l_Q8_x__P2_y_2*w_Q6_x__P2_y_2 - l_Q8_x__P3_x_2*w_Q6_x__P3_x_2 -
         l_Q8_x__P3_y_2*w_Q6_x__P3_y_2;
     const double l_Q8_x__Q6_x_2 = -inverse_pivot_Q6_x_2*w_Q8_x__Q6_x_2;
-    const double w_Q8_y__Q6_x_2 = -arm_L7_tail_y*l_Q8_y__L7_theta_2 - l_Q8_y__P2_x_2*w_Q6_x__P2_x_2 -
+    const double w_Q8_y__Q6_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 - l_Q8_y__P2_x_2*w_Q6_x__P2_x_2 -
         l_Q8_y__P2_y_2*w_Q6_x__P2_y_2 - l_Q8_y__P3_x_2*w_Q6_x__P3_x_2 - l_Q8_y__P3_y_2*w_Q6_x__P3_y_2;
     const double l_Q8_y__Q6_x_2 = -inverse_pivot_Q6_x_2*w_Q8_y__Q6_x_2;
-    const double scale_Q6_y_2 = -arm_L6_head_x*l_Q6_y__L6_theta_2 - arm_L7_tail_x*l_Q6_y__L7_theta_2 +
+    const double scale_Q6_y_2 = -arm_L6_head_x*l_Q6_y__L6_theta_2 + arm_L7_head_x*l_Q6_y__L7_theta_2 +
         inverse_L6_mass + inverse_L7_mass;
     const double pivot_Q6_y_2 = l_Q6_y__O6_x_2*w_Q6_y__O6_x_2 + l_Q6_y__O6_y_2*w_Q6_y__O6_y_2 +
         l_Q6_y__P2_x_2*w_Q6_y__P2_x_2 + l_Q6_y__P2_y_2*w_Q6_y__P2_y_2 + l_Q6_y__P3_x_2*w_Q6_y__P3_x_2 +
         l_Q6_y__P3_y_2*w_Q6_y__P3_y_2 + l_Q6_y__Q6_x_2*w_Q6_y__Q6_x_2 + scale_Q6_y_2;
     if (!(pivot_Q6_y_2 > 1e-13 * scale_Q6_y_2)) return 22;
     const double inverse_pivot_Q6_y_2 = 1.0/pivot_Q6_y_2;
-    const double w_Q8_x__Q6_y_2 = arm_L7_tail_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_Q6_y__P2_x_2 -
+    const double w_Q8_x__Q6_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_Q6_y__P2_x_2 -
         l_Q8_x__P2_y_2*w_Q6_y__P2_y_2 - l_Q8_x__P3_x_2*w_Q6_y__P3_x_2 - l_Q8_x__P3_y_2*w_Q6_y__P3_y_2 -
         l_Q8_x__Q6_x_2*w_Q6_y__Q6_x_2;
     const double l_Q8_x__Q6_y_2 = -inverse_pivot_Q6_y_2*w_Q8_x__Q6_y_2;
-    const double w_Q8_y__Q6_y_2 = arm_L7_tail_x*l_Q8_y__L7_theta_2 - inverse_L7_mass -
+    const double w_Q8_y__Q6_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 - inverse_L7_mass -
         l_Q8_y__P2_x_2*w_Q6_y__P2_x_2 - l_Q8_y__P2_y_2*w_Q6_y__P2_y_2 - l_Q8_y__P3_x_2*w_Q6_y__P3_x_2 -
         l_Q8_y__P3_y_2*w_Q6_y__P3_y_2 - l_Q8_y__Q6_x_2*w_Q6_y__Q6_x_2;
     const double l_Q8_y__Q6_y_2 = -inverse_pivot_Q6_y_2*w_Q8_y__Q6_y_2;
-    const double scale_Q8_x_2 = arm_L7_tail_y*l_Q8_x__L7_theta_2 + arm_L8_tail_y*l_Q8_x__L8_theta_2 +
+    const double scale_Q8_x_2 = -arm_L7_head_y*l_Q8_x__L7_theta_2 - arm_L8_head_y*l_Q8_x__L8_theta_2 +
         inverse_L7_mass + inverse_L8_mass;
     const double pivot_Q8_x_2 = l_Q8_x__P2_x_2*w_Q8_x__P2_x_2 + l_Q8_x__P2_y_2*w_Q8_x__P2_y_2 +
         l_Q8_x__P3_x_2*w_Q8_x__P3_x_2 + l_Q8_x__P3_y_2*w_Q8_x__P3_y_2 + l_Q8_x__Q6_x_2*w_Q8_x__Q6_x_2 +
@@ -981,12 +981,12 @@ static int project(const double t, const double *q, const double *r, const Param
         l_Q8_x__slider_y_2*w_Q8_x__slider_y_2 + scale_Q8_x_2;
     if (!(pivot_Q8_x_2 > 1e-13 * scale_Q8_x_2)) return 23;
     const double inverse_pivot_Q8_x_2 = 1.0/pivot_Q8_x_2;
-    const double w_Q8_y__Q8_x_2 = -arm_L7_tail_y*l_Q8_y__L7_theta_2 - arm_L8_tail_y*l_Q8_y__L8_theta_2 -
+    const double w_Q8_y__Q8_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 + arm_L8_head_y*l_Q8_y__L8_theta_2 -
         l_Q8_y__P2_x_2*w_Q8_x__P2_x_2 - l_Q8_y__P2_y_2*w_Q8_x__P2_y_2 - l_Q8_y__P3_x_2*w_Q8_x__P3_x_2 -
         l_Q8_y__P3_y_2*w_Q8_x__P3_y_2 - l_Q8_y__Q6_x_2*w_Q8_x__Q6_x_2 - l_Q8_y__Q6_y_2*w_Q8_x__Q6_y_2 -
         l_Q8_y__slider_x_2*w_Q8_x__slider_x_2 - l_Q8_y__slider_y_2*w_Q8_x__slider_y_2;
     const double l_Q8_y__Q8_x_2 = -inverse_pivot_Q8_x_2*w_Q8_y__Q8_x_2;
-    const double scale_Q8_y_2 = -arm_L7_tail_x*l_Q8_y__L7_theta_2 - arm_L8_tail_x*l_Q8_y__L8_theta_2 +
+    const double scale_Q8_y_2 = arm_L7_head_x*l_Q8_y__L7_theta_2 + arm_L8_head_x*l_Q8_y__L8_theta_2 +
         inverse_L7_mass + inverse_L8_mass;
     const double pivot_Q8_y_2 = l_Q8_y__P2_x_2*w_Q8_y__P2_x_2 + l_Q8_y__P2_y_2*w_Q8_y__P2_y_2 +
         l_Q8_y__P3_x_2*w_Q8_y__P3_x_2 + l_Q8_y__P3_y_2*w_Q8_y__P3_y_2 + l_Q8_y__Q6_x_2*w_Q8_y__Q6_x_2 +

@@ -127,45 +127,4 @@ static void outputs(const double t, const double *q, const double *v, const Para
         (1.0/2.0)*bob_mass*(bob_vy * bob_vy);
     energy[1] = -bob_mass*bob_y*par_y;
 }
-/*
- * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
- * the closed linkage, redundant ones are not looked at.
- * Returns 0, or the number of the pivot that vanished.
- */
-static int project(const double t, const double *q, const double *r, const Parameters *p, double *x)
-{
-    (void)t;
-    /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_y = q[1];
-
-    /* parameters */
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-    const double inverse_bob_mass = p->inverse_bob_mass;
-
-    /* right-hand side */
-    const double r_rod_length = r[0];
-
-    /* L D L^T of the KKT matrix */
-    const double w_rod_length__bob_x_2 = 2.0*bob_x*rod_half_inverse_length;
-    const double l_rod_length__bob_x_2 = inverse_bob_mass*w_rod_length__bob_x_2;
-    const double w_rod_length__bob_y_2 = 2.0*bob_y*rod_half_inverse_length;
-    const double l_rod_length__bob_y_2 = inverse_bob_mass*w_rod_length__bob_y_2;
-    const double scale_rod_length_2 = l_rod_length__bob_x_2*w_rod_length__bob_x_2 +
-        l_rod_length__bob_y_2*w_rod_length__bob_y_2;
-    if (!(scale_rod_length_2 > 1e-13 * scale_rod_length_2)) return 1;
-    const double inverse_pivot_rod_length_2 = 1.0/scale_rod_length_2;
-
-    /* backward substitution */
-    const double step_lambda_rod_length = -inverse_pivot_rod_length_2*r_rod_length;
-    const double step_acceleration_bob_y = -l_rod_length__bob_y_2*step_lambda_rod_length;
-    const double step_acceleration_bob_x = -l_rod_length__bob_x_2*step_lambda_rod_length;
-    const double step_acceleration_bob_theta = 0.0;
-
-    /* results */
-    x[0] = step_acceleration_bob_x;
-    x[1] = step_acceleration_bob_y;
-    x[2] = step_acceleration_bob_theta;
-    return 0;
-}
 

@@ -29,8 +29,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
 
     /* parameters */
     const double omega = p->omega;
-    const double crank_origin_x = p->crank_origin_x;
-    const double rod_origin_x = p->rod_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double rod_head_x = p->rod_head_x;
     const double inverse_crank_mass = p->inverse_crank_mass;
     const double inverse_crank_inertia = p->inverse_crank_inertia;
     const double inverse_rod_mass = p->inverse_rod_mass;
@@ -43,12 +43,12 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
-    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
+    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
     const double motor_value = omega*time;
     const double motor_rate = omega;
     const double motor_acceleration = 0.0;
@@ -57,10 +57,10 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     int pivot = 0;
 
     /* clearance joint wristpin */
-    const double e_wristpin_x = arm_rod_tail_x - rod_x + slider_x;
-    const double e_wristpin_y = arm_rod_tail_y - rod_y + slider_y;
-    const double edot_wristpin_x = -arm_rod_tail_y*rod_omega - rod_vx + slider_vx;
-    const double edot_wristpin_y = arm_rod_tail_x*rod_omega - rod_vy + slider_vy;
+    const double e_wristpin_x = -arm_rod_head_x - rod_x + slider_x;
+    const double e_wristpin_y = -arm_rod_head_y - rod_y + slider_y;
+    const double edot_wristpin_x = arm_rod_head_y*rod_omega - rod_vx + slider_vx;
+    const double edot_wristpin_y = -arm_rod_head_x*rod_omega - rod_vy + slider_vy;
     clearance_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega, &memory->latch[0], p, &aside->clearance[0]);
     const double F_wristpin_x = aside->clearance[0].Fx;
     const double F_wristpin_y = aside->clearance[0].Fy;
@@ -70,29 +70,29 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         M_wristpin_first*rod_omega + M_wristpin_second*slider_omega;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
-    const double phi_O_x = -arm_crank_tail_x - crank_x;
-    const double phi_dot_O_x = arm_crank_tail_y*crank_omega - crank_vx;
-    const double rhs_O_x = -arm_crank_tail_x*(crank_omega * crank_omega) - beta_squared*phi_O_x -
+    const double phi_O_x = arm_crank_head_x - crank_x;
+    const double phi_dot_O_x = -arm_crank_head_y*crank_omega - crank_vx;
+    const double rhs_O_x = arm_crank_head_x*(crank_omega * crank_omega) - beta_squared*phi_O_x -
         phi_dot_O_x*two_alpha;
     aside->phi[0] = phi_O_x;
     aside->phi_dot[0] = phi_dot_O_x;
-    const double phi_O_y = -arm_crank_tail_y - crank_y;
-    const double phi_dot_O_y = -arm_crank_tail_x*crank_omega - crank_vy;
-    const double rhs_O_y = -arm_crank_tail_y*(crank_omega * crank_omega) - beta_squared*phi_O_y -
+    const double phi_O_y = arm_crank_head_y - crank_y;
+    const double phi_dot_O_y = arm_crank_head_x*crank_omega - crank_vy;
+    const double rhs_O_y = arm_crank_head_y*(crank_omega * crank_omega) - beta_squared*phi_O_y -
         phi_dot_O_y*two_alpha;
     aside->phi[1] = phi_O_y;
     aside->phi_dot[1] = phi_dot_O_y;
-    const double phi_crankpin_x = -arm_crank_tail_x - arm_rod_tail_x + crank_x - rod_x;
-    const double phi_dot_crankpin_x = arm_crank_tail_y*crank_omega + arm_rod_tail_y*rod_omega + crank_vx -
+    const double phi_crankpin_x = arm_crank_head_x + arm_rod_head_x + crank_x - rod_x;
+    const double phi_dot_crankpin_x = -arm_crank_head_y*crank_omega - arm_rod_head_y*rod_omega + crank_vx -
         rod_vx;
-    const double rhs_crankpin_x = -arm_crank_tail_x*(crank_omega * crank_omega) - arm_rod_tail_x*(rod_omega *
+    const double rhs_crankpin_x = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega *
         rod_omega) - beta_squared*phi_crankpin_x - phi_dot_crankpin_x*two_alpha;
     aside->phi[2] = phi_crankpin_x;
     aside->phi_dot[2] = phi_dot_crankpin_x;
-    const double phi_crankpin_y = -arm_crank_tail_y - arm_rod_tail_y + crank_y - rod_y;
-    const double phi_dot_crankpin_y = -arm_crank_tail_x*crank_omega - arm_rod_tail_x*rod_omega + crank_vy -
+    const double phi_crankpin_y = arm_crank_head_y + arm_rod_head_y + crank_y - rod_y;
+    const double phi_dot_crankpin_y = arm_crank_head_x*crank_omega + arm_rod_head_x*rod_omega + crank_vy -
         rod_vy;
-    const double rhs_crankpin_y = -arm_crank_tail_y*(crank_omega * crank_omega) - arm_rod_tail_y*(rod_omega *
+    const double rhs_crankpin_y = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega *
         rod_omega) - beta_squared*phi_crankpin_y - phi_dot_crankpin_y*two_alpha;
     aside->phi[3] = phi_crankpin_y;
     aside->phi_dot[3] = phi_dot_crankpin_y;
@@ -119,56 +119,57 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_cylinder_angle = inverse_slider_inertia;
     if (!(scale_cylinder_angle > 1e-13 * scale_cylinder_angle)) { pivot = 2; goto dependent; };
     const double inverse_pivot_cylinder_angle = 1.0/scale_cylinder_angle;
-    const double l_crankpin_x__rod_theta = arm_rod_tail_y*inverse_rod_inertia;
-    const double l_crankpin_y__rod_theta = -arm_rod_tail_x*inverse_rod_inertia;
-    const double l_O_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
-    const double l_O_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
-    const double l_crankpin_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
-    const double l_crankpin_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
-    const double scale_O_x = arm_crank_tail_y*l_O_x__crank_theta + inverse_crank_mass;
+    const double l_crankpin_x__rod_theta = -arm_rod_head_y*inverse_rod_inertia;
+    const double l_crankpin_y__rod_theta = arm_rod_head_x*inverse_rod_inertia;
+    const double l_O_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_O_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
+    const double l_crankpin_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_crankpin_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
+    const double scale_O_x = -arm_crank_head_y*l_O_x__crank_theta + inverse_crank_mass;
     if (!(scale_O_x > 1e-13 * scale_O_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_O_x = 1.0/scale_O_x;
-    const double w_O_y__O_x = -arm_crank_tail_y*l_O_y__crank_theta;
+    const double w_O_y__O_x = arm_crank_head_y*l_O_y__crank_theta;
     const double l_O_y__O_x = -inverse_pivot_O_x*w_O_y__O_x;
-    const double w_crankpin_x__O_x = -arm_crank_tail_y*l_crankpin_x__crank_theta + inverse_crank_mass;
+    const double w_crankpin_x__O_x = arm_crank_head_y*l_crankpin_x__crank_theta + inverse_crank_mass;
     const double l_crankpin_x__O_x = -inverse_pivot_O_x*w_crankpin_x__O_x;
-    const double w_crankpin_y__O_x = -arm_crank_tail_y*l_crankpin_y__crank_theta;
+    const double w_crankpin_y__O_x = arm_crank_head_y*l_crankpin_y__crank_theta;
     const double l_crankpin_y__O_x = -inverse_pivot_O_x*w_crankpin_y__O_x;
-    const double w_motor__O_x = -arm_crank_tail_y*inverse_crank_inertia;
+    const double w_motor__O_x = arm_crank_head_y*inverse_crank_inertia;
     const double l_motor__O_x = -inverse_pivot_O_x*w_motor__O_x;
-    const double scale_O_y = -arm_crank_tail_x*l_O_y__crank_theta + inverse_crank_mass;
+    const double scale_O_y = arm_crank_head_x*l_O_y__crank_theta + inverse_crank_mass;
     const double pivot_O_y = l_O_y__O_x*w_O_y__O_x + scale_O_y;
     if (!(pivot_O_y > 1e-13 * scale_O_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_O_y = 1.0/pivot_O_y;
-    const double w_crankpin_x__O_y = arm_crank_tail_x*l_crankpin_x__crank_theta -
+    const double w_crankpin_x__O_y = -arm_crank_head_x*l_crankpin_x__crank_theta -
         l_crankpin_x__O_x*w_O_y__O_x;
     const double l_crankpin_x__O_y = -inverse_pivot_O_y*w_crankpin_x__O_y;
-    const double w_crankpin_y__O_y = arm_crank_tail_x*l_crankpin_y__crank_theta + inverse_crank_mass -
+    const double w_crankpin_y__O_y = -arm_crank_head_x*l_crankpin_y__crank_theta + inverse_crank_mass -
         l_crankpin_y__O_x*w_O_y__O_x;
     const double l_crankpin_y__O_y = -inverse_pivot_O_y*w_crankpin_y__O_y;
-    const double w_motor__O_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__O_x*w_O_y__O_x;
+    const double w_motor__O_y = -arm_crank_head_x*inverse_crank_inertia - l_motor__O_x*w_O_y__O_x;
     const double l_motor__O_y = -inverse_pivot_O_y*w_motor__O_y;
-    const double scale_crankpin_x = arm_crank_tail_y*l_crankpin_x__crank_theta +
-        arm_rod_tail_y*l_crankpin_x__rod_theta + inverse_crank_mass + inverse_rod_mass;
+    const double scale_crankpin_x = -arm_crank_head_y*l_crankpin_x__crank_theta -
+        arm_rod_head_y*l_crankpin_x__rod_theta + inverse_crank_mass + inverse_rod_mass;
     const double pivot_crankpin_x = l_crankpin_x__O_x*w_crankpin_x__O_x + l_crankpin_x__O_y*w_crankpin_x__O_y
         + scale_crankpin_x;
     if (!(pivot_crankpin_x > 1e-13 * scale_crankpin_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_crankpin_x = 1.0/pivot_crankpin_x;
-    const double w_crankpin_y__crankpin_x = -arm_crank_tail_y*l_crankpin_y__crank_theta -
-        arm_rod_tail_y*l_crankpin_y__rod_theta - l_crankpin_y__O_x*w_crankpin_x__O_x -
+    const double w_crankpin_y__crankpin_x = arm_crank_head_y*l_crankpin_y__crank_theta +
+        arm_rod_head_y*l_crankpin_y__rod_theta - l_crankpin_y__O_x*w_crankpin_x__O_x -
         l_crankpin_y__O_y*w_crankpin_x__O_y;
     const double l_crankpin_y__crankpin_x = -inverse_pivot_crankpin_x*w_crankpin_y__crankpin_x;
-    const double w_motor__crankpin_x = -arm_crank_tail_y*inverse_crank_inertia -
-        l_motor__O_x*w_crankpin_x__O_x - l_motor__O_y*w_crankpin_x__O_y;
+    const double w_motor__crankpin_x = arm_crank_head_y*inverse_crank_inertia - l_motor__O_x*w_crankpin_x__O_x
+        - l_motor__O_y*w_crankpin_x__O_y;
     const double l_motor__crankpin_x = -inverse_pivot_crankpin_x*w_motor__crankpin_x;
-    const double scale_crankpin_y = -arm_crank_tail_x*l_crankpin_y__crank_theta -
-        arm_rod_tail_x*l_crankpin_y__rod_theta + inverse_crank_mass + inverse_rod_mass;
+    const double scale_crankpin_y = arm_crank_head_x*l_crankpin_y__crank_theta +
+        arm_rod_head_x*l_crankpin_y__rod_theta + inverse_crank_mass + inverse_rod_mass;
     const double pivot_crankpin_y = l_crankpin_y__O_x*w_crankpin_y__O_x + l_crankpin_y__O_y*w_crankpin_y__O_y
         + l_crankpin_y__crankpin_x*w_crankpin_y__crankpin_x + scale_crankpin_y;
     if (!(pivot_crankpin_y > 1e-13 * scale_crankpin_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_crankpin_y = 1.0/pivot_crankpin_y;
-    const double w_motor__crankpin_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__O_x*w_crankpin_y__O_x
-        - l_motor__O_y*w_crankpin_y__O_y - l_motor__crankpin_x*w_crankpin_y__crankpin_x;
+    const double w_motor__crankpin_y = -arm_crank_head_x*inverse_crank_inertia -
+        l_motor__O_x*w_crankpin_y__O_x - l_motor__O_y*w_crankpin_y__O_y -
+        l_motor__crankpin_x*w_crankpin_y__crankpin_x;
     const double l_motor__crankpin_y = -inverse_pivot_crankpin_y*w_motor__crankpin_y;
     const double scale_motor = inverse_crank_inertia;
     const double pivot_motor = l_motor__O_x*w_motor__O_x + l_motor__O_y*w_motor__O_y +
@@ -179,7 +180,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     /* forward substitution */
     const double z_cylinder_offset = -F_wristpin_y*inverse_slider_mass + rhs_cylinder_offset;
     const double z_cylinder_angle = -M_wristpin_second*inverse_slider_inertia + rhs_cylinder_angle;
-    const double z_rod_theta = -F_wristpin_x*arm_rod_tail_y + F_wristpin_y*arm_rod_tail_x + M_wristpin_first;
+    const double z_rod_theta = F_wristpin_x*arm_rod_head_y - F_wristpin_y*arm_rod_head_x + M_wristpin_first;
     const double z_O_y = -l_O_y__O_x*rhs_O_x + rhs_O_y;
     const double z_crankpin_x = -F_wristpin_x*inverse_rod_mass - l_crankpin_x__O_x*rhs_O_x -
         l_crankpin_x__O_y*z_O_y - l_crankpin_x__rod_theta*z_rod_theta + rhs_crankpin_x;
@@ -243,7 +244,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         force[2] = 0.0;
         force[3] = -F_wristpin_x;
         force[4] = -F_wristpin_y;
-        force[5] = -F_wristpin_x*arm_rod_tail_y + F_wristpin_y*arm_rod_tail_x + M_wristpin_first;
+        force[5] = F_wristpin_x*arm_rod_head_y - F_wristpin_y*arm_rod_head_x + M_wristpin_first;
         force[6] = F_wristpin_x;
         force[7] = F_wristpin_y;
         force[8] = M_wristpin_second;

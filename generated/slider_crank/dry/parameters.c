@@ -56,10 +56,10 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->guess_slider_x = guess_slider_x;
 
     /* derived */
-    const double crank_origin_x = -1.0/2.0*crank_length;  /* point from the centre of mass */
-    p->crank_origin_x = crank_origin_x;
-    const double rod_origin_x = -1.0/2.0*rod_length;  /* point from the centre of mass */
-    p->rod_origin_x = rod_origin_x;
+    const double crank_head_x = (1.0/2.0)*crank_length;  /* point from the centre of mass */
+    p->crank_head_x = crank_head_x;
+    const double rod_head_x = (1.0/2.0)*rod_length;  /* point from the centre of mass */
+    p->rod_head_x = rod_head_x;
     const double R_j_pin = -pin_clearance + pin_radius;  /* journal radius */
     p->R_j_pin = R_j_pin;
     const double wristpin_K = (2.0/3.0)*steel_E*sqrt(R_j_pin*pin_radius/(R_j_pin + pin_radius))/(1.0 -

@@ -41,27 +41,27 @@ static void constraints(const double t, const double *q, const Parameters *p, do
 
     /* parameters */
     const double omega = p->omega;
-    const double crank_origin_x = p->crank_origin_x;
-    const double rod_origin_x = p->rod_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double rod_head_x = p->rod_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
-    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
+    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
     const double motor_value = omega*time;
 
     /* rows */
-    phi[0] = -arm_crank_tail_x - crank_x;  /* O.x */
-    phi[1] = -arm_crank_tail_y - crank_y;  /* O.y */
-    phi[2] = -arm_crank_tail_x - arm_rod_tail_x + crank_x - rod_x;  /* crankpin.x */
-    phi[3] = -arm_crank_tail_y - arm_rod_tail_y + crank_y - rod_y;  /* crankpin.y */
-    phi[4] = -arm_rod_tail_x + rod_x - slider_x;  /* wristpin.x */
-    phi[5] = -arm_rod_tail_y + rod_y - slider_y;  /* wristpin.y */
+    phi[0] = arm_crank_head_x - crank_x;  /* O.x */
+    phi[1] = arm_crank_head_y - crank_y;  /* O.y */
+    phi[2] = arm_crank_head_x + arm_rod_head_x + crank_x - rod_x;  /* crankpin.x */
+    phi[3] = arm_crank_head_y + arm_rod_head_y + crank_y - rod_y;  /* crankpin.y */
+    phi[4] = arm_rod_head_x + rod_x - slider_x;  /* wristpin.x */
+    phi[5] = arm_rod_head_y + rod_y - slider_y;  /* wristpin.y */
     phi[6] = slider_y;  /* cylinder.offset */
     phi[7] = slider_theta;  /* cylinder.angle */
     phi[8] = crank_theta - motor_value;  /* motor */
@@ -77,37 +77,37 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     const double rod_theta = q[5];
 
     /* parameters */
-    const double crank_origin_x = p->crank_origin_x;
-    const double rod_origin_x = p->rod_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double rod_head_x = p->rod_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
-    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
+    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d O.x / d crank_x */
-    phi_q[2] = arm_crank_tail_y;  /* d O.x / d crank_theta */
+    phi_q[2] = -arm_crank_head_y;  /* d O.x / d crank_theta */
     phi_q[10] = -1.0;  /* d O.y / d crank_y */
-    phi_q[11] = -arm_crank_tail_x;  /* d O.y / d crank_theta */
+    phi_q[11] = arm_crank_head_x;  /* d O.y / d crank_theta */
     phi_q[18] = 1.0;  /* d crankpin.x / d crank_x */
-    phi_q[20] = arm_crank_tail_y;  /* d crankpin.x / d crank_theta */
+    phi_q[20] = -arm_crank_head_y;  /* d crankpin.x / d crank_theta */
     phi_q[21] = -1.0;  /* d crankpin.x / d rod_x */
-    phi_q[23] = arm_rod_tail_y;  /* d crankpin.x / d rod_theta */
+    phi_q[23] = -arm_rod_head_y;  /* d crankpin.x / d rod_theta */
     phi_q[28] = 1.0;  /* d crankpin.y / d crank_y */
-    phi_q[29] = -arm_crank_tail_x;  /* d crankpin.y / d crank_theta */
+    phi_q[29] = arm_crank_head_x;  /* d crankpin.y / d crank_theta */
     phi_q[31] = -1.0;  /* d crankpin.y / d rod_y */
-    phi_q[32] = -arm_rod_tail_x;  /* d crankpin.y / d rod_theta */
+    phi_q[32] = arm_rod_head_x;  /* d crankpin.y / d rod_theta */
     phi_q[39] = 1.0;  /* d wristpin.x / d rod_x */
-    phi_q[41] = arm_rod_tail_y;  /* d wristpin.x / d rod_theta */
+    phi_q[41] = -arm_rod_head_y;  /* d wristpin.x / d rod_theta */
     phi_q[42] = -1.0;  /* d wristpin.x / d slider_x */
     phi_q[49] = 1.0;  /* d wristpin.y / d rod_y */
-    phi_q[50] = -arm_rod_tail_x;  /* d wristpin.y / d rod_theta */
+    phi_q[50] = arm_rod_head_x;  /* d wristpin.y / d rod_theta */
     phi_q[52] = -1.0;  /* d wristpin.y / d slider_y */
     phi_q[61] = 1.0;  /* d cylinder.offset / d slider_y */
     phi_q[71] = 1.0;  /* d cylinder.angle / d slider_theta */
@@ -151,27 +151,27 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     const double rod_omega = v[5];
 
     /* parameters */
-    const double crank_origin_x = p->crank_origin_x;
-    const double rod_origin_x = p->rod_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double rod_head_x = p->rod_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
-    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
+    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
     const double motor_acceleration = 0.0;
 
     /* rows */
-    gamma_rows[0] = -arm_crank_tail_x*(crank_omega * crank_omega);  /* O.x */
-    gamma_rows[1] = -arm_crank_tail_y*(crank_omega * crank_omega);  /* O.y */
-    gamma_rows[2] = -arm_crank_tail_x*(crank_omega * crank_omega) - arm_rod_tail_x*(rod_omega * rod_omega);  /* crankpin.x */
-    gamma_rows[3] = -arm_crank_tail_y*(crank_omega * crank_omega) - arm_rod_tail_y*(rod_omega * rod_omega);  /* crankpin.y */
-    gamma_rows[4] = -arm_rod_tail_x*(rod_omega * rod_omega);  /* wristpin.x */
-    gamma_rows[5] = -arm_rod_tail_y*(rod_omega * rod_omega);  /* wristpin.y */
+    gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* O.x */
+    gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* O.y */
+    gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega * rod_omega);  /* crankpin.x */
+    gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega * rod_omega);  /* crankpin.y */
+    gamma_rows[4] = arm_rod_head_x*(rod_omega * rod_omega);  /* wristpin.x */
+    gamma_rows[5] = arm_rod_head_y*(rod_omega * rod_omega);  /* wristpin.y */
     gamma_rows[6] = 0.0;  /* cylinder.offset */
     gamma_rows[7] = 0.0;  /* cylinder.angle */
     gamma_rows[8] = motor_acceleration;  /* motor */
@@ -266,8 +266,8 @@ static int project(const double t, const double *q, const double *r, const Param
     const double rod_theta = q[5];
 
     /* parameters */
-    const double crank_origin_x = p->crank_origin_x;
-    const double rod_origin_x = p->rod_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double rod_head_x = p->rod_head_x;
     const double inverse_crank_mass = p->inverse_crank_mass;
     const double inverse_crank_inertia = p->inverse_crank_inertia;
     const double inverse_rod_mass = p->inverse_rod_mass;
@@ -278,12 +278,12 @@ static int project(const double t, const double *q, const double *r, const Param
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
-    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
+    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
 
     /* right-hand side */
     const double r_O_x = r[0];
@@ -304,83 +304,83 @@ static int project(const double t, const double *q, const double *r, const Param
     if (!(scale_cylinder_offset_2 > 1e-13 * scale_cylinder_offset_2)) return 2;
     const double inverse_pivot_cylinder_offset_2 = 1.0/scale_cylinder_offset_2;
     const double l_wristpin_y__cylinder_offset_2 = -inverse_pivot_cylinder_offset_2*inverse_slider_mass;
-    const double l_wristpin_x__rod_theta_2 = arm_rod_tail_y*inverse_rod_inertia;
-    const double l_wristpin_y__rod_theta_2 = -arm_rod_tail_x*inverse_rod_inertia;
-    const double l_crankpin_x__rod_theta_2 = arm_rod_tail_y*inverse_rod_inertia;
-    const double l_crankpin_y__rod_theta_2 = -arm_rod_tail_x*inverse_rod_inertia;
-    const double scale_wristpin_x_2 = arm_rod_tail_y*l_wristpin_x__rod_theta_2 + inverse_rod_mass +
+    const double l_wristpin_x__rod_theta_2 = -arm_rod_head_y*inverse_rod_inertia;
+    const double l_wristpin_y__rod_theta_2 = arm_rod_head_x*inverse_rod_inertia;
+    const double l_crankpin_x__rod_theta_2 = -arm_rod_head_y*inverse_rod_inertia;
+    const double l_crankpin_y__rod_theta_2 = arm_rod_head_x*inverse_rod_inertia;
+    const double scale_wristpin_x_2 = -arm_rod_head_y*l_wristpin_x__rod_theta_2 + inverse_rod_mass +
         inverse_slider_mass;
     if (!(scale_wristpin_x_2 > 1e-13 * scale_wristpin_x_2)) return 3;
     const double inverse_pivot_wristpin_x_2 = 1.0/scale_wristpin_x_2;
-    const double w_wristpin_y__wristpin_x_2 = -arm_rod_tail_y*l_wristpin_y__rod_theta_2;
+    const double w_wristpin_y__wristpin_x_2 = arm_rod_head_y*l_wristpin_y__rod_theta_2;
     const double l_wristpin_y__wristpin_x_2 = -inverse_pivot_wristpin_x_2*w_wristpin_y__wristpin_x_2;
-    const double w_crankpin_x__wristpin_x_2 = -arm_rod_tail_y*l_crankpin_x__rod_theta_2 + inverse_rod_mass;
+    const double w_crankpin_x__wristpin_x_2 = arm_rod_head_y*l_crankpin_x__rod_theta_2 + inverse_rod_mass;
     const double l_crankpin_x__wristpin_x_2 = -inverse_pivot_wristpin_x_2*w_crankpin_x__wristpin_x_2;
-    const double w_crankpin_y__wristpin_x_2 = -arm_rod_tail_y*l_crankpin_y__rod_theta_2;
+    const double w_crankpin_y__wristpin_x_2 = arm_rod_head_y*l_crankpin_y__rod_theta_2;
     const double l_crankpin_y__wristpin_x_2 = -inverse_pivot_wristpin_x_2*w_crankpin_y__wristpin_x_2;
-    const double scale_wristpin_y_2 = -arm_rod_tail_x*l_wristpin_y__rod_theta_2 + inverse_rod_mass +
+    const double scale_wristpin_y_2 = arm_rod_head_x*l_wristpin_y__rod_theta_2 + inverse_rod_mass +
         inverse_slider_mass;
     const double pivot_wristpin_y_2 = inverse_slider_mass*l_wristpin_y__cylinder_offset_2 +
         l_wristpin_y__wristpin_x_2*w_wristpin_y__wristpin_x_2 + scale_wristpin_y_2;
     if (!(pivot_wristpin_y_2 > 1e-13 * scale_wristpin_y_2)) return 4;
     const double inverse_pivot_wristpin_y_2 = 1.0/pivot_wristpin_y_2;
-    const double w_crankpin_x__wristpin_y_2 = arm_rod_tail_x*l_crankpin_x__rod_theta_2 -
+    const double w_crankpin_x__wristpin_y_2 = -arm_rod_head_x*l_crankpin_x__rod_theta_2 -
         l_crankpin_x__wristpin_x_2*w_wristpin_y__wristpin_x_2;
     const double l_crankpin_x__wristpin_y_2 = -inverse_pivot_wristpin_y_2*w_crankpin_x__wristpin_y_2;
-    const double w_crankpin_y__wristpin_y_2 = arm_rod_tail_x*l_crankpin_y__rod_theta_2 + inverse_rod_mass -
+    const double w_crankpin_y__wristpin_y_2 = -arm_rod_head_x*l_crankpin_y__rod_theta_2 + inverse_rod_mass -
         l_crankpin_y__wristpin_x_2*w_wristpin_y__wristpin_x_2;
     const double l_crankpin_y__wristpin_y_2 = -inverse_pivot_wristpin_y_2*w_crankpin_y__wristpin_y_2;
-    const double l_O_x__crank_theta_2 = arm_crank_tail_y*inverse_crank_inertia;
-    const double l_O_y__crank_theta_2 = -arm_crank_tail_x*inverse_crank_inertia;
-    const double l_crankpin_x__crank_theta_2 = arm_crank_tail_y*inverse_crank_inertia;
-    const double l_crankpin_y__crank_theta_2 = -arm_crank_tail_x*inverse_crank_inertia;
-    const double scale_O_x_2 = arm_crank_tail_y*l_O_x__crank_theta_2 + inverse_crank_mass;
+    const double l_O_x__crank_theta_2 = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_O_y__crank_theta_2 = arm_crank_head_x*inverse_crank_inertia;
+    const double l_crankpin_x__crank_theta_2 = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_crankpin_y__crank_theta_2 = arm_crank_head_x*inverse_crank_inertia;
+    const double scale_O_x_2 = -arm_crank_head_y*l_O_x__crank_theta_2 + inverse_crank_mass;
     if (!(scale_O_x_2 > 1e-13 * scale_O_x_2)) return 5;
     const double inverse_pivot_O_x_2 = 1.0/scale_O_x_2;
-    const double w_O_y__O_x_2 = -arm_crank_tail_y*l_O_y__crank_theta_2;
+    const double w_O_y__O_x_2 = arm_crank_head_y*l_O_y__crank_theta_2;
     const double l_O_y__O_x_2 = -inverse_pivot_O_x_2*w_O_y__O_x_2;
-    const double w_crankpin_x__O_x_2 = -arm_crank_tail_y*l_crankpin_x__crank_theta_2 + inverse_crank_mass;
+    const double w_crankpin_x__O_x_2 = arm_crank_head_y*l_crankpin_x__crank_theta_2 + inverse_crank_mass;
     const double l_crankpin_x__O_x_2 = -inverse_pivot_O_x_2*w_crankpin_x__O_x_2;
-    const double w_crankpin_y__O_x_2 = -arm_crank_tail_y*l_crankpin_y__crank_theta_2;
+    const double w_crankpin_y__O_x_2 = arm_crank_head_y*l_crankpin_y__crank_theta_2;
     const double l_crankpin_y__O_x_2 = -inverse_pivot_O_x_2*w_crankpin_y__O_x_2;
-    const double w_motor__O_x_2 = -arm_crank_tail_y*inverse_crank_inertia;
+    const double w_motor__O_x_2 = arm_crank_head_y*inverse_crank_inertia;
     const double l_motor__O_x_2 = -inverse_pivot_O_x_2*w_motor__O_x_2;
-    const double scale_O_y_2 = -arm_crank_tail_x*l_O_y__crank_theta_2 + inverse_crank_mass;
+    const double scale_O_y_2 = arm_crank_head_x*l_O_y__crank_theta_2 + inverse_crank_mass;
     const double pivot_O_y_2 = l_O_y__O_x_2*w_O_y__O_x_2 + scale_O_y_2;
     if (!(pivot_O_y_2 > 1e-13 * scale_O_y_2)) return 6;
     const double inverse_pivot_O_y_2 = 1.0/pivot_O_y_2;
-    const double w_crankpin_x__O_y_2 = arm_crank_tail_x*l_crankpin_x__crank_theta_2 -
+    const double w_crankpin_x__O_y_2 = -arm_crank_head_x*l_crankpin_x__crank_theta_2 -
         l_crankpin_x__O_x_2*w_O_y__O_x_2;
     const double l_crankpin_x__O_y_2 = -inverse_pivot_O_y_2*w_crankpin_x__O_y_2;
-    const double w_crankpin_y__O_y_2 = arm_crank_tail_x*l_crankpin_y__crank_theta_2 + inverse_crank_mass -
+    const double w_crankpin_y__O_y_2 = -arm_crank_head_x*l_crankpin_y__crank_theta_2 + inverse_crank_mass -
         l_crankpin_y__O_x_2*w_O_y__O_x_2;
     const double l_crankpin_y__O_y_2 = -inverse_pivot_O_y_2*w_crankpin_y__O_y_2;
-    const double w_motor__O_y_2 = arm_crank_tail_x*inverse_crank_inertia - l_motor__O_x_2*w_O_y__O_x_2;
+    const double w_motor__O_y_2 = -arm_crank_head_x*inverse_crank_inertia - l_motor__O_x_2*w_O_y__O_x_2;
     const double l_motor__O_y_2 = -inverse_pivot_O_y_2*w_motor__O_y_2;
-    const double scale_crankpin_x_2 = arm_crank_tail_y*l_crankpin_x__crank_theta_2 +
-        arm_rod_tail_y*l_crankpin_x__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
+    const double scale_crankpin_x_2 = -arm_crank_head_y*l_crankpin_x__crank_theta_2 -
+        arm_rod_head_y*l_crankpin_x__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
     const double pivot_crankpin_x_2 = l_crankpin_x__O_x_2*w_crankpin_x__O_x_2 +
         l_crankpin_x__O_y_2*w_crankpin_x__O_y_2 + l_crankpin_x__wristpin_x_2*w_crankpin_x__wristpin_x_2 +
         l_crankpin_x__wristpin_y_2*w_crankpin_x__wristpin_y_2 + scale_crankpin_x_2;
     if (!(pivot_crankpin_x_2 > 1e-13 * scale_crankpin_x_2)) return 7;
     const double inverse_pivot_crankpin_x_2 = 1.0/pivot_crankpin_x_2;
-    const double w_crankpin_y__crankpin_x_2 = -arm_crank_tail_y*l_crankpin_y__crank_theta_2 -
-        arm_rod_tail_y*l_crankpin_y__rod_theta_2 - l_crankpin_y__O_x_2*w_crankpin_x__O_x_2 -
+    const double w_crankpin_y__crankpin_x_2 = arm_crank_head_y*l_crankpin_y__crank_theta_2 +
+        arm_rod_head_y*l_crankpin_y__rod_theta_2 - l_crankpin_y__O_x_2*w_crankpin_x__O_x_2 -
         l_crankpin_y__O_y_2*w_crankpin_x__O_y_2 - l_crankpin_y__wristpin_x_2*w_crankpin_x__wristpin_x_2 -
         l_crankpin_y__wristpin_y_2*w_crankpin_x__wristpin_y_2;
     const double l_crankpin_y__crankpin_x_2 = -inverse_pivot_crankpin_x_2*w_crankpin_y__crankpin_x_2;
-    const double w_motor__crankpin_x_2 = -arm_crank_tail_y*inverse_crank_inertia -
+    const double w_motor__crankpin_x_2 = arm_crank_head_y*inverse_crank_inertia -
         l_motor__O_x_2*w_crankpin_x__O_x_2 - l_motor__O_y_2*w_crankpin_x__O_y_2;
     const double l_motor__crankpin_x_2 = -inverse_pivot_crankpin_x_2*w_motor__crankpin_x_2;
-    const double scale_crankpin_y_2 = -arm_crank_tail_x*l_crankpin_y__crank_theta_2 -
-        arm_rod_tail_x*l_crankpin_y__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
+    const double scale_crankpin_y_2 = arm_crank_head_x*l_crankpin_y__crank_theta_2 +
+        arm_rod_head_x*l_crankpin_y__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
     const double pivot_crankpin_y_2 = l_crankpin_y__O_x_2*w_crankpin_y__O_x_2 +
         l_crankpin_y__O_y_2*w_crankpin_y__O_y_2 + l_crankpin_y__crankpin_x_2*w_crankpin_y__crankpin_x_2 +
         l_crankpin_y__wristpin_x_2*w_crankpin_y__wristpin_x_2 +
         l_crankpin_y__wristpin_y_2*w_crankpin_y__wristpin_y_2 + scale_crankpin_y_2;
     if (!(pivot_crankpin_y_2 > 1e-13 * scale_crankpin_y_2)) return 8;
     const double inverse_pivot_crankpin_y_2 = 1.0/pivot_crankpin_y_2;
-    const double w_motor__crankpin_y_2 = arm_crank_tail_x*inverse_crank_inertia -
+    const double w_motor__crankpin_y_2 = -arm_crank_head_x*inverse_crank_inertia -
         l_motor__O_x_2*w_crankpin_y__O_x_2 - l_motor__O_y_2*w_crankpin_y__O_y_2 -
         l_motor__crankpin_x_2*w_crankpin_y__crankpin_x_2;
     const double l_motor__crankpin_y_2 = -inverse_pivot_crankpin_y_2*w_motor__crankpin_y_2;

@@ -29,8 +29,8 @@ static int dynamics(const double t, const double *q, const double *v, const Para
 
     /* parameters */
     const double omega = p->omega;
-    const double crank_origin_x = p->crank_origin_x;
-    const double rod_origin_x = p->rod_origin_x;
+    const double crank_head_x = p->crank_head_x;
+    const double rod_head_x = p->rod_head_x;
     const double inverse_crank_mass = p->inverse_crank_mass;
     const double inverse_crank_inertia = p->inverse_crank_inertia;
     const double inverse_rod_mass = p->inverse_rod_mass;
@@ -43,12 +43,12 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_tail_x = cos_theta_crank*crank_origin_x;
-    const double arm_crank_tail_y = crank_origin_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
+    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_tail_x = cos_theta_rod*rod_origin_x;
-    const double arm_rod_tail_y = rod_origin_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
+    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
     const double motor_value = omega*time;
     const double motor_rate = omega;
     const double motor_acceleration = 0.0;
@@ -57,41 +57,41 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     int pivot = 0;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
-    const double phi_O_x = -arm_crank_tail_x - crank_x;
-    const double phi_dot_O_x = arm_crank_tail_y*crank_omega - crank_vx;
-    const double rhs_O_x = -arm_crank_tail_x*(crank_omega * crank_omega) - beta_squared*phi_O_x -
+    const double phi_O_x = arm_crank_head_x - crank_x;
+    const double phi_dot_O_x = -arm_crank_head_y*crank_omega - crank_vx;
+    const double rhs_O_x = arm_crank_head_x*(crank_omega * crank_omega) - beta_squared*phi_O_x -
         phi_dot_O_x*two_alpha;
     aside->phi[0] = phi_O_x;
     aside->phi_dot[0] = phi_dot_O_x;
-    const double phi_O_y = -arm_crank_tail_y - crank_y;
-    const double phi_dot_O_y = -arm_crank_tail_x*crank_omega - crank_vy;
-    const double rhs_O_y = -arm_crank_tail_y*(crank_omega * crank_omega) - beta_squared*phi_O_y -
+    const double phi_O_y = arm_crank_head_y - crank_y;
+    const double phi_dot_O_y = arm_crank_head_x*crank_omega - crank_vy;
+    const double rhs_O_y = arm_crank_head_y*(crank_omega * crank_omega) - beta_squared*phi_O_y -
         phi_dot_O_y*two_alpha;
     aside->phi[1] = phi_O_y;
     aside->phi_dot[1] = phi_dot_O_y;
-    const double phi_crankpin_x = -arm_crank_tail_x - arm_rod_tail_x + crank_x - rod_x;
-    const double phi_dot_crankpin_x = arm_crank_tail_y*crank_omega + arm_rod_tail_y*rod_omega + crank_vx -
+    const double phi_crankpin_x = arm_crank_head_x + arm_rod_head_x + crank_x - rod_x;
+    const double phi_dot_crankpin_x = -arm_crank_head_y*crank_omega - arm_rod_head_y*rod_omega + crank_vx -
         rod_vx;
-    const double rhs_crankpin_x = -arm_crank_tail_x*(crank_omega * crank_omega) - arm_rod_tail_x*(rod_omega *
+    const double rhs_crankpin_x = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega *
         rod_omega) - beta_squared*phi_crankpin_x - phi_dot_crankpin_x*two_alpha;
     aside->phi[2] = phi_crankpin_x;
     aside->phi_dot[2] = phi_dot_crankpin_x;
-    const double phi_crankpin_y = -arm_crank_tail_y - arm_rod_tail_y + crank_y - rod_y;
-    const double phi_dot_crankpin_y = -arm_crank_tail_x*crank_omega - arm_rod_tail_x*rod_omega + crank_vy -
+    const double phi_crankpin_y = arm_crank_head_y + arm_rod_head_y + crank_y - rod_y;
+    const double phi_dot_crankpin_y = arm_crank_head_x*crank_omega + arm_rod_head_x*rod_omega + crank_vy -
         rod_vy;
-    const double rhs_crankpin_y = -arm_crank_tail_y*(crank_omega * crank_omega) - arm_rod_tail_y*(rod_omega *
+    const double rhs_crankpin_y = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega *
         rod_omega) - beta_squared*phi_crankpin_y - phi_dot_crankpin_y*two_alpha;
     aside->phi[3] = phi_crankpin_y;
     aside->phi_dot[3] = phi_dot_crankpin_y;
-    const double phi_wristpin_x = -arm_rod_tail_x + rod_x - slider_x;
-    const double phi_dot_wristpin_x = arm_rod_tail_y*rod_omega + rod_vx - slider_vx;
-    const double rhs_wristpin_x = -arm_rod_tail_x*(rod_omega * rod_omega) - beta_squared*phi_wristpin_x -
+    const double phi_wristpin_x = arm_rod_head_x + rod_x - slider_x;
+    const double phi_dot_wristpin_x = -arm_rod_head_y*rod_omega + rod_vx - slider_vx;
+    const double rhs_wristpin_x = arm_rod_head_x*(rod_omega * rod_omega) - beta_squared*phi_wristpin_x -
         phi_dot_wristpin_x*two_alpha;
     aside->phi[4] = phi_wristpin_x;
     aside->phi_dot[4] = phi_dot_wristpin_x;
-    const double phi_wristpin_y = -arm_rod_tail_y + rod_y - slider_y;
-    const double phi_dot_wristpin_y = -arm_rod_tail_x*rod_omega + rod_vy - slider_vy;
-    const double rhs_wristpin_y = -arm_rod_tail_y*(rod_omega * rod_omega) - beta_squared*phi_wristpin_y -
+    const double phi_wristpin_y = arm_rod_head_y + rod_y - slider_y;
+    const double phi_dot_wristpin_y = arm_rod_head_x*rod_omega + rod_vy - slider_vy;
+    const double rhs_wristpin_y = arm_rod_head_y*(rod_omega * rod_omega) - beta_squared*phi_wristpin_y -
         phi_dot_wristpin_y*two_alpha;
     aside->phi[5] = phi_wristpin_y;
     aside->phi_dot[5] = phi_dot_wristpin_y;
@@ -119,84 +119,85 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     if (!(scale_cylinder_offset > 1e-13 * scale_cylinder_offset)) { pivot = 2; goto dependent; };
     const double inverse_pivot_cylinder_offset = 1.0/scale_cylinder_offset;
     const double l_wristpin_y__cylinder_offset = -inverse_pivot_cylinder_offset*inverse_slider_mass;
-    const double l_wristpin_x__rod_theta = arm_rod_tail_y*inverse_rod_inertia;
-    const double l_wristpin_y__rod_theta = -arm_rod_tail_x*inverse_rod_inertia;
-    const double l_crankpin_x__rod_theta = arm_rod_tail_y*inverse_rod_inertia;
-    const double l_crankpin_y__rod_theta = -arm_rod_tail_x*inverse_rod_inertia;
-    const double scale_wristpin_x = arm_rod_tail_y*l_wristpin_x__rod_theta + inverse_rod_mass +
+    const double l_wristpin_x__rod_theta = -arm_rod_head_y*inverse_rod_inertia;
+    const double l_wristpin_y__rod_theta = arm_rod_head_x*inverse_rod_inertia;
+    const double l_crankpin_x__rod_theta = -arm_rod_head_y*inverse_rod_inertia;
+    const double l_crankpin_y__rod_theta = arm_rod_head_x*inverse_rod_inertia;
+    const double scale_wristpin_x = -arm_rod_head_y*l_wristpin_x__rod_theta + inverse_rod_mass +
         inverse_slider_mass;
     if (!(scale_wristpin_x > 1e-13 * scale_wristpin_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_wristpin_x = 1.0/scale_wristpin_x;
-    const double w_wristpin_y__wristpin_x = -arm_rod_tail_y*l_wristpin_y__rod_theta;
+    const double w_wristpin_y__wristpin_x = arm_rod_head_y*l_wristpin_y__rod_theta;
     const double l_wristpin_y__wristpin_x = -inverse_pivot_wristpin_x*w_wristpin_y__wristpin_x;
-    const double w_crankpin_x__wristpin_x = -arm_rod_tail_y*l_crankpin_x__rod_theta + inverse_rod_mass;
+    const double w_crankpin_x__wristpin_x = arm_rod_head_y*l_crankpin_x__rod_theta + inverse_rod_mass;
     const double l_crankpin_x__wristpin_x = -inverse_pivot_wristpin_x*w_crankpin_x__wristpin_x;
-    const double w_crankpin_y__wristpin_x = -arm_rod_tail_y*l_crankpin_y__rod_theta;
+    const double w_crankpin_y__wristpin_x = arm_rod_head_y*l_crankpin_y__rod_theta;
     const double l_crankpin_y__wristpin_x = -inverse_pivot_wristpin_x*w_crankpin_y__wristpin_x;
-    const double scale_wristpin_y = -arm_rod_tail_x*l_wristpin_y__rod_theta + inverse_rod_mass +
+    const double scale_wristpin_y = arm_rod_head_x*l_wristpin_y__rod_theta + inverse_rod_mass +
         inverse_slider_mass;
     const double pivot_wristpin_y = inverse_slider_mass*l_wristpin_y__cylinder_offset +
         l_wristpin_y__wristpin_x*w_wristpin_y__wristpin_x + scale_wristpin_y;
     if (!(pivot_wristpin_y > 1e-13 * scale_wristpin_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_wristpin_y = 1.0/pivot_wristpin_y;
-    const double w_crankpin_x__wristpin_y = arm_rod_tail_x*l_crankpin_x__rod_theta -
+    const double w_crankpin_x__wristpin_y = -arm_rod_head_x*l_crankpin_x__rod_theta -
         l_crankpin_x__wristpin_x*w_wristpin_y__wristpin_x;
     const double l_crankpin_x__wristpin_y = -inverse_pivot_wristpin_y*w_crankpin_x__wristpin_y;
-    const double w_crankpin_y__wristpin_y = arm_rod_tail_x*l_crankpin_y__rod_theta + inverse_rod_mass -
+    const double w_crankpin_y__wristpin_y = -arm_rod_head_x*l_crankpin_y__rod_theta + inverse_rod_mass -
         l_crankpin_y__wristpin_x*w_wristpin_y__wristpin_x;
     const double l_crankpin_y__wristpin_y = -inverse_pivot_wristpin_y*w_crankpin_y__wristpin_y;
-    const double l_O_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
-    const double l_O_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
-    const double l_crankpin_x__crank_theta = arm_crank_tail_y*inverse_crank_inertia;
-    const double l_crankpin_y__crank_theta = -arm_crank_tail_x*inverse_crank_inertia;
-    const double scale_O_x = arm_crank_tail_y*l_O_x__crank_theta + inverse_crank_mass;
+    const double l_O_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_O_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
+    const double l_crankpin_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_crankpin_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
+    const double scale_O_x = -arm_crank_head_y*l_O_x__crank_theta + inverse_crank_mass;
     if (!(scale_O_x > 1e-13 * scale_O_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_O_x = 1.0/scale_O_x;
-    const double w_O_y__O_x = -arm_crank_tail_y*l_O_y__crank_theta;
+    const double w_O_y__O_x = arm_crank_head_y*l_O_y__crank_theta;
     const double l_O_y__O_x = -inverse_pivot_O_x*w_O_y__O_x;
-    const double w_crankpin_x__O_x = -arm_crank_tail_y*l_crankpin_x__crank_theta + inverse_crank_mass;
+    const double w_crankpin_x__O_x = arm_crank_head_y*l_crankpin_x__crank_theta + inverse_crank_mass;
     const double l_crankpin_x__O_x = -inverse_pivot_O_x*w_crankpin_x__O_x;
-    const double w_crankpin_y__O_x = -arm_crank_tail_y*l_crankpin_y__crank_theta;
+    const double w_crankpin_y__O_x = arm_crank_head_y*l_crankpin_y__crank_theta;
     const double l_crankpin_y__O_x = -inverse_pivot_O_x*w_crankpin_y__O_x;
-    const double w_motor__O_x = -arm_crank_tail_y*inverse_crank_inertia;
+    const double w_motor__O_x = arm_crank_head_y*inverse_crank_inertia;
     const double l_motor__O_x = -inverse_pivot_O_x*w_motor__O_x;
-    const double scale_O_y = -arm_crank_tail_x*l_O_y__crank_theta + inverse_crank_mass;
+    const double scale_O_y = arm_crank_head_x*l_O_y__crank_theta + inverse_crank_mass;
     const double pivot_O_y = l_O_y__O_x*w_O_y__O_x + scale_O_y;
     if (!(pivot_O_y > 1e-13 * scale_O_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_O_y = 1.0/pivot_O_y;
-    const double w_crankpin_x__O_y = arm_crank_tail_x*l_crankpin_x__crank_theta -
+    const double w_crankpin_x__O_y = -arm_crank_head_x*l_crankpin_x__crank_theta -
         l_crankpin_x__O_x*w_O_y__O_x;
     const double l_crankpin_x__O_y = -inverse_pivot_O_y*w_crankpin_x__O_y;
-    const double w_crankpin_y__O_y = arm_crank_tail_x*l_crankpin_y__crank_theta + inverse_crank_mass -
+    const double w_crankpin_y__O_y = -arm_crank_head_x*l_crankpin_y__crank_theta + inverse_crank_mass -
         l_crankpin_y__O_x*w_O_y__O_x;
     const double l_crankpin_y__O_y = -inverse_pivot_O_y*w_crankpin_y__O_y;
-    const double w_motor__O_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__O_x*w_O_y__O_x;
+    const double w_motor__O_y = -arm_crank_head_x*inverse_crank_inertia - l_motor__O_x*w_O_y__O_x;
     const double l_motor__O_y = -inverse_pivot_O_y*w_motor__O_y;
-    const double scale_crankpin_x = arm_crank_tail_y*l_crankpin_x__crank_theta +
-        arm_rod_tail_y*l_crankpin_x__rod_theta + inverse_crank_mass + inverse_rod_mass;
+    const double scale_crankpin_x = -arm_crank_head_y*l_crankpin_x__crank_theta -
+        arm_rod_head_y*l_crankpin_x__rod_theta + inverse_crank_mass + inverse_rod_mass;
     const double pivot_crankpin_x = l_crankpin_x__O_x*w_crankpin_x__O_x + l_crankpin_x__O_y*w_crankpin_x__O_y
         + l_crankpin_x__wristpin_x*w_crankpin_x__wristpin_x +
         l_crankpin_x__wristpin_y*w_crankpin_x__wristpin_y + scale_crankpin_x;
     if (!(pivot_crankpin_x > 1e-13 * scale_crankpin_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_crankpin_x = 1.0/pivot_crankpin_x;
-    const double w_crankpin_y__crankpin_x = -arm_crank_tail_y*l_crankpin_y__crank_theta -
-        arm_rod_tail_y*l_crankpin_y__rod_theta - l_crankpin_y__O_x*w_crankpin_x__O_x -
+    const double w_crankpin_y__crankpin_x = arm_crank_head_y*l_crankpin_y__crank_theta +
+        arm_rod_head_y*l_crankpin_y__rod_theta - l_crankpin_y__O_x*w_crankpin_x__O_x -
         l_crankpin_y__O_y*w_crankpin_x__O_y - l_crankpin_y__wristpin_x*w_crankpin_x__wristpin_x -
         l_crankpin_y__wristpin_y*w_crankpin_x__wristpin_y;
     const double l_crankpin_y__crankpin_x = -inverse_pivot_crankpin_x*w_crankpin_y__crankpin_x;
-    const double w_motor__crankpin_x = -arm_crank_tail_y*inverse_crank_inertia -
-        l_motor__O_x*w_crankpin_x__O_x - l_motor__O_y*w_crankpin_x__O_y;
+    const double w_motor__crankpin_x = arm_crank_head_y*inverse_crank_inertia - l_motor__O_x*w_crankpin_x__O_x
+        - l_motor__O_y*w_crankpin_x__O_y;
     const double l_motor__crankpin_x = -inverse_pivot_crankpin_x*w_motor__crankpin_x;
-    const double scale_crankpin_y = -arm_crank_tail_x*l_crankpin_y__crank_theta -
-        arm_rod_tail_x*l_crankpin_y__rod_theta + inverse_crank_mass + inverse_rod_mass;
+    const double scale_crankpin_y = arm_crank_head_x*l_crankpin_y__crank_theta +
+        arm_rod_head_x*l_crankpin_y__rod_theta + inverse_crank_mass + inverse_rod_mass;
     const double pivot_crankpin_y = l_crankpin_y__O_x*w_crankpin_y__O_x + l_crankpin_y__O_y*w_crankpin_y__O_y
         + l_crankpin_y__crankpin_x*w_crankpin_y__crankpin_x +
         l_crankpin_y__wristpin_x*w_crankpin_y__wristpin_x + l_crankpin_y__wristpin_y*w_crankpin_y__wristpin_y
         + scale_crankpin_y;
     if (!(pivot_crankpin_y > 1e-13 * scale_crankpin_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_crankpin_y = 1.0/pivot_crankpin_y;
-    const double w_motor__crankpin_y = arm_crank_tail_x*inverse_crank_inertia - l_motor__O_x*w_crankpin_y__O_x
-        - l_motor__O_y*w_crankpin_y__O_y - l_motor__crankpin_x*w_crankpin_y__crankpin_x;
+    const double w_motor__crankpin_y = -arm_crank_head_x*inverse_crank_inertia -
+        l_motor__O_x*w_crankpin_y__O_x - l_motor__O_y*w_crankpin_y__O_y -
+        l_motor__crankpin_x*w_crankpin_y__crankpin_x;
     const double l_motor__crankpin_y = -inverse_pivot_crankpin_y*w_motor__crankpin_y;
     const double scale_motor = inverse_crank_inertia;
     const double pivot_motor = l_motor__O_x*w_motor__O_x + l_motor__O_y*w_motor__O_y +

@@ -23,7 +23,7 @@ enum {
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double omega;  /* parameters.omega */    double c;  /* parameters.c */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double slider_mass;  /* bodies.slider.mass */    double slider_inertia;  /* bodies.slider.inertia */    double crank_length;  /* bodies.crank.length */    double rod_length;  /* bodies.rod.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double cylinder_axis_x;  /* joints.cylinder.axis.x */    double guess_slider_x;  /* start.guess.slider.x */    double crank_origin_x;  /* point from the centre of mass */    double rod_origin_x;  /* point from the centre of mass */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double inverse_slider_mass;  /* 1/M */    double inverse_slider_inertia;  /* 1/M */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+typedef struct {    double omega;  /* parameters.omega */    double c;  /* parameters.c */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double slider_mass;  /* bodies.slider.mass */    double slider_inertia;  /* bodies.slider.inertia */    double crank_length;  /* bodies.crank.length */    double rod_length;  /* bodies.rod.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double cylinder_axis_x;  /* joints.cylinder.axis.x */    double guess_slider_x;  /* start.guess.slider.x */    double crank_head_x;  /* point from the centre of mass */    double rod_head_x;  /* point from the centre of mass */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double inverse_slider_mass;  /* 1/M */    double inverse_slider_inertia;  /* 1/M */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -31,15 +31,18 @@ typedef struct {
     double deltadot_minus;
 } Latch;
 
-/* What the right-hand side remembers beside the state: latches, and each friction's mode (0 stick, sign of slip). */
+/*
+ * What the right-hand side remembers beside the state: latches, and each friction's mode: 0 stick, 1 or -1 the
+ * sign of its slip, 2 no force at all, where others hold the slip at zero.
+ */
 typedef struct {
     Latch latch[1];
     double mode[1];
 } Memory;
 
-/* Friction at one state: slip, surface speed, force on the second body along the direction, its limit at stick. */
+/* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
 typedef struct {
-    double v, speed, force, static_limit;
+    double v, rate, speed, force, static_limit;
 } Friction;
 
 /* A joint with play at one state; the force acts on the second body (journal), ground axes. */

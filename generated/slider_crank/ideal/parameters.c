@@ -34,10 +34,10 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->guess_slider_x = guess_slider_x;
 
     /* derived */
-    const double crank_origin_x = -1.0/2.0*crank_length;  /* point from the centre of mass */
-    p->crank_origin_x = crank_origin_x;
-    const double rod_origin_x = -1.0/2.0*rod_length;  /* point from the centre of mass */
-    p->rod_origin_x = rod_origin_x;
+    const double crank_head_x = (1.0/2.0)*crank_length;  /* point from the centre of mass */
+    p->crank_head_x = crank_head_x;
+    const double rod_head_x = (1.0/2.0)*rod_length;  /* point from the centre of mass */
+    p->rod_head_x = rod_head_x;
     const double inverse_crank_mass = 1.0/crank_mass;  /* 1/M */
     p->inverse_crank_mass = inverse_crank_mass;
     const double inverse_crank_inertia = 1.0/crank_inertia;  /* 1/M */
