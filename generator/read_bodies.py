@@ -25,7 +25,7 @@ def read_gravity(reader: Reader, shape: FileShape) -> Vector | None:
 
 def read_bodies(reader: Reader, shape: FileShape, namespace: Namespace) -> dict[str, Body]:
     """All bodies, in the order of the file: it is the order of the coordinates."""
-    if not shape.bodies:
+    if not shape.bodies and not reader.left_out:
         reader.errors.append(BadValueError("bodies is empty", shape.where, "expected one body at least"))
     bodies = {}
     for name, body in shape.bodies.items():

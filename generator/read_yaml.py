@@ -21,7 +21,7 @@ from gudgeon.generator.read_scenes import Parts, read_scenes
 from gudgeon.generator.read_start import read_start
 from gudgeon.generator.reading import EnoughErrors, Reader, ResultDimension
 from gudgeon.generator.result_names import MotionNames, ResultNames
-from gudgeon.generator.schema import FileShape, check_shape
+from gudgeon.generator.schema import FileShape
 from gudgeon.generator.yaml_tree import parse_yaml
 
 _MAX_TITLE = 200
@@ -34,11 +34,10 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
     overrides: address -> text or number that replaces what the file says there.
     Raises an InputError at file:line:column, or InputErrors with all that are wrong.
     """
-    root = apply_overrides(parse_yaml(data, file), overrides or {})
-    shape = check_shape(root)
     reader = Reader(file)
+    root = apply_overrides(parse_yaml(data, file, reader.errors), overrides or {})
     try:
-        mechanism = _read(reader, shape, hashlib.sha256(data).hexdigest())
+        mechanism = _read(reader, reader.check_shape(root), hashlib.sha256(data).hexdigest())
     except EnoughErrors:
         mechanism = None
     reader.raise_errors()

@@ -7,13 +7,14 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
-from gudgeon.errors import BadValueError, ExpressionError, InputError, InputErrors, Location
+from gudgeon.errors import BadValueError, ExpressionError, InputError, InputErrors, Location, UnknownNameError
 from gudgeon.expression_tree import Expr, Name, Number, Unary, names
 from gudgeon.generator.expressions import at, check_dimension, parse
 from gudgeon.generator.mechanism import Condition, Quantity, Vector
 from gudgeon.generator.names import unknown_name
+from gudgeon.generator.schema import ANY_NAME, FileShape, check_shape
 from gudgeon.generator.units import DIMENSIONLESS, TIME, Dimension
-from gudgeon.generator.yaml_tree import Text
+from gudgeon.generator.yaml_tree import Map, Text
 
 ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
 
@@ -36,6 +37,17 @@ class Reader:
         self.vectors_not_zero: list[Vector] = []
         self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
         self.uses: dict[str, set[Dimension]] = {}  # of those: what they were used as
+        self.left_out: frozenset[str] = frozenset()  # names of entries whose shape is wrong
+
+    def check_shape(self, root: Map) -> FileShape:
+        """The file as typed shapes, without the entries whose shape is wrong: these are told, and not missed."""
+        with self.collect():
+            checked = check_shape(root)
+            twice = (ANY_NAME,) if self.errors else ()  # a key given twice may stand for one that is missing now
+            self.left_out = checked.left_out.union(twice)
+            self.errors += checked.errors
+            return checked.shape
+        raise EnoughErrors  # nothing is left to read
 
     @contextmanager
     def collect(self) -> Iterator[None]:
@@ -51,11 +63,16 @@ class Reader:
 
     def raise_errors(self) -> None:
         """Raise what was collected: one error as itself, several as InputErrors."""
-        errors = list({_told(e): e for e in reversed(self.errors)}.values())
+        errors = [e for e in {_told(e): e for e in reversed(self.errors)}.values() if not self._follows(e)]
         if len(errors) == 1:
             raise errors[0]
         if errors:
             raise InputErrors(errors)
+
+    def _follows(self, error: InputError) -> bool:
+        """Whether an error is that of a name whose entry was left out."""
+        name = re.match(r"unknown [^']*'([A-Za-z0-9_]+)", error.message)
+        return isinstance(error, UnknownNameError) and bool(self.left_out.intersection((ANY_NAME, name and name[1])))
 
     def quantity(
         self,

@@ -7,7 +7,8 @@ open to new files (joints, drives, force laws) is a Map here: their own fields s
 from __future__ import annotations
 
 import types
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import (
@@ -126,17 +127,63 @@ class FileShape(Shape):
     outputs: dict[Text, Text] = {}
 
 
-def check_shape(root: Map) -> FileShape:
-    """The file as typed shapes. Raises UnknownKeyError, MissingKeyError, BadValueError, or several at once."""
+@dataclass(frozen=True)
+class Checked:
+    """The file as typed shapes, without the entries that are wrong in `errors`; `left_out` are their names."""
+
+    shape: FileShape
+    errors: tuple[InputError, ...] = ()
+    left_out: frozenset[str] = frozenset()
+
+
+def check_shape(root: Map) -> Checked:
+    """What can be read of a file, and what is wrong with the shape of the rest.
+
+    Raises UnknownKeyError, MissingKeyError, BadValueError, or several at once, if nothing can be read.
+    """
     check_format(root)
     # a section with nothing in it (all of it commented out) is as good as none
     sections = {k: v for k, v in root.items() if not (isinstance(v, Text) and v.is_nothing and k in _SECTIONS)}
     document = Map.make(sections, root.where)
-    try:
-        return FileShape.model_validate(document)
-    except ValidationError as found:
-        errors = _errors(found, document)
+    errors: list[InputError] = []
+    left_out: set[str] = set()
+    while len(errors) < MOST_FINDINGS:
+        try:
+            return Checked(FileShape.model_validate(document), tuple(errors), frozenset(left_out))
+        except ValidationError as found:
+            findings = _findings(found)
+        errors += _errors(findings, document)
+        if any(path[0] in _NEEDED and len(path) == 1 for path in (f.path for f in findings) if path):
+            break
+        for finding in findings:
+            document = _without(document, finding, left_out)
     raise errors[0] if len(errors) == 1 else InputErrors(errors)
+
+
+_NEEDED = ("format", "name", "bodies")
+ANY_NAME = "*"  # left out is a section whose names nobody knows
+
+
+def _without(document: Map, finding: _Finding, left_out: set[str]) -> Map:
+    """The file without an unknown key, or without the whole entry in which something is wrong."""
+    path = finding.path
+    if finding.kind != "extra_forbidden":
+        path = path[:2] if get_origin(_annotation(str(path[0]))) is dict else path[:1]
+        if len(path) == 2:
+            left_out.add(str(path[1]))
+    if len(path) == 1:
+        section = document.get(str(path[0]))
+        left_out.update(section if isinstance(section, Map) else (ANY_NAME,))
+    return _remove(document, path)
+
+
+def _remove(node: Map, path: tuple[Any, ...]) -> Map:
+    head, rest = path[0], path[1:]
+    if head not in node or rest and not isinstance(node[head], Map):
+        return node
+    if rest:
+        return Map.make({**node, node.key(head): _remove(node[head], rest)}, node.where)
+    return Map.make({key: value for key, value in node.items() if key != head}, node.where)
 
 
 _SECTIONS = frozenset(FileShape.model_fields) - {"format", "name", "title", "bodies"}
@@ -151,26 +198,38 @@ def check_format(root: Map) -> None:
         raise BadValueError(f"format is {kind_of(found)}", found.where, f"expected {FORMAT}")
 
 
-def _errors(found: ValidationError, document: Map) -> list[InputError]:
-    """Our errors; a missing key is not told where a mistyped one stands in its place."""
-    findings = [
-        (finding["type"], tuple(part for part in finding["loc"] if part != "[key]"), finding)
-        for finding in found.errors(include_url=False)[:MOST_FINDINGS]
+@dataclass(frozen=True)
+class _Finding:
+    """One of pydantic's; `wanted` is the class that it looked for."""
+
+    kind: str
+    path: tuple[Any, ...]
+    wanted: str
+
+
+def _findings(found: ValidationError) -> list[_Finding]:
+    return [
+        _Finding(
+            one["type"], tuple(part for part in one["loc"] if part != "[key]"), str(one.get("ctx", {}).get("class", ""))
+        )
+        for one in found.errors(include_url=False)[:MOST_FINDINGS]
     ]
+
+
+def _errors(findings: Sequence[_Finding], document: Map) -> list[InputError]:
+    """Our errors; a missing key is not told where a mistyped one stands in its place."""
     mistyped = {
-        (*path[:-1], nearest(str(path[-1]), _fields(path[:-1])))
-        for kind, path, _ in findings
-        if kind == "extra_forbidden"
+        (*f.path[:-1], nearest(str(f.path[-1]), _fields(f.path[:-1]))) for f in findings if f.kind == "extra_forbidden"
     }
     return [
-        _translate(kind, path, str(finding.get("ctx", {}).get("class", "")), document)
-        for kind, path, finding in findings
-        if not (kind == "missing" and path in mistyped)
+        _translate(f.kind, f.path, f.wanted, document)
+        for f in findings
+        if not (f.kind == "missing" and f.path in mistyped)
     ]
 
 
 def _translate(kind: str, path: tuple[Any, ...], wanted: str, document: Map) -> InputError:
-    """One finding of pydantic as our error at its place; `wanted` is the class that it looked for."""
+    """One finding of pydantic as our error at its place."""
     if kind == "extra_forbidden":
         key = _walk(document, path[:-1]).key(str(path[-1]))
         return unknown_key(key, _fields(path[:-1]), _title(path[:-1]))
@@ -223,6 +282,11 @@ def _fields(path: tuple[Any, ...]) -> list[str]:
         else:
             shape = inner(get_args(shape)[-1])  # dict[Text, X] -> X
     return list(shape.model_fields) if isinstance(shape, type) and issubclass(shape, Shape) else []
+
+
+def _annotation(section: str) -> Any:
+    field = FileShape.model_fields.get(section)
+    return inner(field.annotation) if field else None
 
 
 def inner(annotation: Any) -> Any:

@@ -84,10 +84,10 @@ class Items(list[Any]):
 Node: TypeAlias = Text | Map | Items
 
 
-def parse_yaml(data: bytes, file: str) -> Map:
+def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None) -> Map:
     """The mapping that a file holds.
 
-    Raises NotYamlError, LimitError, or UnknownKeyError for a key that is given twice.
+    Raises NotYamlError, LimitError, or UnknownKeyError for a key that is given twice; these go to `twice`, if given.
     """
     if len(data) > MAX_BYTES:
         raise LimitError(f"a file of {len(data)} bytes", Location(file, 1, 1), f"expected at most {MAX_BYTES}")
@@ -99,7 +99,9 @@ def parse_yaml(data: bytes, file: str) -> Map:
         raise _translate(error, text, file) from None
     except (ValueError, RecursionError, IndexError, AttributeError, TypeError) as error:  # ruamel on hostile text
         raise NotYamlError(f"not YAML: {error}", Location(file, 1, 1)) from None
-    if composer.duplicates:
+    if twice is not None:
+        twice += composer.duplicates
+    elif composer.duplicates:
         raise composer.duplicates[0] if len(composer.duplicates) == 1 else InputErrors(composer.duplicates)
     if root is None or isinstance(root, Text) and root.is_nothing:
         raise NotYamlError(

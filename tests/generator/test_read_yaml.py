@@ -231,6 +231,44 @@ def test_all_errors_of_a_file_at_once() -> None:
     assert caught.value.exit_code == 2 and str(caught.value).count("many.yaml:") == 4
 
 
+def test_wrong_shapes_do_not_hide_other_mistakes() -> None:
+    """A wrong shape leaves out its entry alone, and no error follows from that."""
+    text = (VALID / "double_pendulum.yaml").read_text()
+    for right, wrong in (
+        ("L2: {length: 250 mm, mass", "L2: {length: [250 mm], mas"),  # L2 is used in A, start, outputs
+        ("steel: {E: 206 GPa, nu: 0.3}", "steel: 7"),  # and steel in pin
+        ("omega: 2*pi rad/s", "omega: 2*pi rad/s\n  omega: 1"),  # twice
+        ("  crank: {angle: L1, value: omega * t}", "  crank: {angle: L1, value: omega}"),
+        ("ground: {O1: [0, 0]}", "ground: {O1: [0, 1 kg]}"),
+        ("friction: {law: modified_coulomb, mu: 0.15", "friction: {law: modified_coulomb, mu: -1"),
+        ("gravity: [0, -9.81 m/s^2]", "gravity: 9.81"),
+        ("outputs: {tip: L2.head.x}", "outputs: {tip: L2.head.x, top: L1.head.z}\nextra: {a: 1}"),
+    ):
+        assert right in text
+        text = text.replace(right, wrong)
+    with pytest.raises(InputErrors) as caught:
+        read_mechanism(text.encode(), "many.yaml")
+    found = [(type(error).__name__, str(error.where)) for error in caught.value.errors]
+    assert found == [
+        ("BadValueError", "many.yaml:3:10"),
+        ("UnknownKeyError", "many.yaml:6:3"),
+        ("BadValueError", "many.yaml:9:10"),
+        ("BadValueError", "many.yaml:12:16"),
+        ("UnknownKeyError", "many.yaml:12:26"),
+        ("UnitError", "many.yaml:13:18"),
+        ("UnitError", "many.yaml:18:29"),
+        ("BadValueError", "many.yaml:26:43"),
+        ("UnknownKeyError", "many.yaml:34:1"),
+    ]
+
+
+def test_where_nothing_can_be_read_the_shape_alone_is_told() -> None:
+    for text in ("format: gudgeon/1\nname: n\nbodies: 3\njoints: 4", "format: gudgeon/1\njoints: {A: {b: 1}}"):
+        with pytest.raises(InputErrors) as caught:
+            read_mechanism(text.encode(), "f")
+        assert len(caught.value.errors) == 2
+
+
 def test_a_file_of_mistakes_is_left_after_fifty() -> None:
     bodies = "".join(f"  B{i}: {{mass: 1 m, inertia: x{i}}}\n" for i in range(1000))
     with pytest.raises(InputErrors) as caught:
