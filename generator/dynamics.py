@@ -118,9 +118,10 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
     for r, friction in enumerate(kkt.frictions):
         name, node = friction.name, kkt.first_friction + r
         v = build.local(f"slip_{name}", friction.slip.v)
-        mode = build.local(f"mode_{name}", f"memory->mode[{r}]", "0 stick, else the sign of the slip")
+        mode = build.local(f"mode_{name}", f"memory->mode[{r}]", "0 stick, 1 or -1 the sign of the slip, 2 held")
         kkt.sticks[node] = build.local(f"stick_{name}", f"{mode.name} == 0.0 ? 1.0 : 0.0")
-        force = build.local(f"kinetic_{name}", -mode * friction.slip.kinetic)
+        sign = build.local(f"sign_{name}", f"fabs({mode.name}) > 1.0 ? 0.0 : {mode.name}")
+        force = build.local(f"kinetic_{name}", -sign * friction.slip.kinetic)
         for q, entry in friction.jacobian.items():
             forces[place[q]] += entry * force
         rhs[node] = build.local(f"rhs_{name}", friction.gamma - two_alpha * v)
@@ -131,8 +132,11 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
 
 
 def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
-    """In stick the force is what the row needs."""
+    """In stick the force is what the row needs; the slip's rate is J q̈ − γ."""
+    place = {q: k for k, q in enumerate(kkt.model.q)}
     for r, friction in enumerate(kkt.frictions):
+        rate = sum((entry * x[place[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
+        build.out(f"aside->friction[{r}].rate", rate)
         stick = kkt.sticks[kkt.first_friction + r]
         build.line(f"if ({stick.name} != 0.0)")
         build.out(f"    aside->friction[{r}].force", -x[kkt.first_friction + r], f"stick of {friction.name}")

@@ -41,4 +41,8 @@ def _force(reader: Reader, name: Text, node: Map, places: Places, motion: Result
     targets = places_of(reader, node, kind, element.targets, element.counts, places)
     refuse_same_body(kind, targets)
     values = read_fields(reader, node, element.fields, owner, places, mistyped, motion)
+    for field in element.fields:
+        if field.at_least and {field.name, field.at_least} <= values.quantities.keys():
+            number, bound = values.quantities[field.name], values.quantities[field.at_least]
+            reader.require(number, ">=", bound.address, f"{field.name} is at least {field.at_least}")
     return ForceElement(str(name), str(kind), targets, values.quantities, values.vectors, values.options, name.where)

@@ -28,6 +28,7 @@ class ElementField:
     variable: bool = False  # may use t and named coordinates and velocities, not parameters alone
     values: tuple[str, ...] = ()  # of an option; the first is the default
     not_negative: bool = False
+    at_least: str = ""  # another field of the element that it must not fall below
 
 
 @dataclass(frozen=True)

@@ -162,7 +162,8 @@ static int rk4_trial(Run *run, double h, const Parameters *p, Trial *trial)
  * and the mode changes. The place is the root of the indicator over the length of a trial step.
  */
 
-#define AT_REST 1e-9 /* m/s: a slip below it may stick */
+#define AT_REST 1e-9   /* m/s: a slip below it may stick */
+#define ROUNDING 1e-12 /* m/s: of a slip that others hold at zero */
 enum { HELD = 2, MAX_TRIES = 8 + 4 * N_FRICTIONS };
 
 /* Positive while friction goes on as it is: what is left of the limit in stick, slip in its direction. */
@@ -171,7 +172,9 @@ static double indicator(const Memory *memory, const Aside *aside, int i)
     const Friction *friction = &aside->friction[i];
     if (memory->mode[i] == HELD)
         return AT_REST - fabs(friction->v);
-    return memory->mode[i] == 0.0 ? friction->static_limit - fabs(friction->force) : memory->mode[i] * friction->v;
+    if (memory->mode[i] == 0.0)
+        return friction->static_limit - fabs(friction->force);
+    return memory->mode[i] * friction->v + ROUNDING;
 }
 
 /* The lowest indicator that fell through zero between two states; its value in `value`. */
@@ -223,10 +226,13 @@ static int rates_of_modes(Run *run, const Parameters *p)
     return status;
 }
 
-/* Puts right the mode that is most wrong: a stick beyond its limit, a slip from rest against its own rate. */
+/*
+ * Puts right the mode that is most wrong: a stick beyond its limit, a slip from rest against its own rate. Where a
+ * stick is beyond its limit and another one is held, that one helps before the first gives way.
+ */
 static int mend_modes(Run *run)
 {
-    int worst = -1;
+    int worst = -1, held = -1;
     double most = 1e-9, mode = 0.0;
     for (int i = 0; i < N_FRICTIONS; i++) {
         const Friction *friction = &run->aside.friction[i];
@@ -239,6 +245,7 @@ static int mend_modes(Run *run)
             wrong = now == HELD || now * friction->rate < 0.0 ? 1.0 : 0.0;
             next = now != HELD ? 0.0 : friction->rate > 0.0 ? 1.0 : -1.0;
         }
+        held = now == HELD && wrong == 0.0 ? i : held;
         if (wrong > most) {
             worst = i;
             most = wrong;
@@ -246,7 +253,7 @@ static int mend_modes(Run *run)
         }
     }
     if (worst >= 0)
-        run->memory.mode[worst] = mode;
+        run->memory.mode[mode != 0.0 && held >= 0 ? held : worst] = mode;
     return worst >= 0;
 }
 
