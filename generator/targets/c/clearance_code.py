@@ -2,73 +2,67 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
+import sympy as sp
+
+from gudgeon.generator import contact
 from gudgeon.generator.clearance import Clearance
+from gudgeon.generator.contact import Step
+from gudgeon.generator.kernels import Statement
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
 from gudgeon.generator.targets.c import printer
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
-EPSILON_MAX = 0.9999  # the film is evaluated with its eccentricity ratio capped here (physics.md, 4)
-
 _ARGUMENTS = (
-    "double ex, double ey, double edot_x, double edot_y, double omega_i, double omega_j,\n"
+    "double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,\n"
     "    const Latch *latch, const Parameters *p, Clearance *out"
 )
-_GAP = """\
-    const double e = sqrt(ex * ex + ey * ey);
-    const double nx = e > 0.0 ? ex / e : 1.0; /* at e = 0 any direction will do: the force is isotropic there */
-    const double ny = e > 0.0 ? ey / e : 0.0;
-    const double deltadot = edot_x * nx + edot_y * ny;
-    const double edot_t = edot_y * nx - edot_x * ny;
-    const double delta = e - p->{c};"""
+# At e = 0 any direction will do for the normal: the force is isotropic there.
+_GUARDED = {contact.n_x: "e > 0.0 ? e_x / e : 1.0", contact.n_y: "e > 0.0 ? e_y / e : 0.0"}
 _STORE = """\
-    *out = (Clearance){.Fx = F_n * nx - F_t * ny, .Fy = F_n * ny + F_t * nx, .F_n = F_n, .F_t = F_t,
-        .ex = ex, .ey = ey, .e = e, .deltadot = deltadot, .v_t = v_t,
-        .moment_first = M_i, .moment_second = M_j, .delta = delta, .power = 0.0};"""
+    *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
+        .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
+        .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};"""
 _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
 _CLIPPED = f"max_of(min_of({_RATIO}, 1.0), -1.0)"
-# Without shear the resultant acts at the journal's centre on both bodies; with shear at each pin centre.
-_MOMENTS = {
-    False: "*M_j = T0 * 0.0;\n    *M_i = -e * *F_t;",
-    True: "const double drag = T0 * (omega_j - omega_i);\n"
-    "    *M_j = -drag - 0.5 * e * *F_t;\n    *M_i = drag - 0.5 * e * *F_t;",
-}
-_OMEGA = {"absolute": "omega_i + omega_j", "relative": "omega_j - omega_i"}
 
 
 def clearance_code(model: Model, clearance: Clearance, render: Render) -> str:
     """Law functions, then the joint's own function."""
-    pair, constants = clearance.pair, clearance.constants
+    joint, film = clearance.name, clearance.film
     parts = [printer.kernel(kernel) for kernel in law_kernels(model.symbols, clearance)]
     if clearance.normal is not None:
-        ratio = _CLIPPED if clearance.clip_ratio else _RATIO
-        parts.append(render("dry.c.jinja", name=clearance.name, c=pair.c, R_i=pair.R_i, R_j=pair.R_j, ratio=ratio))
-    if clearance.film is not None:
-        options = clearance.film.options
+        before = [step for step in contact.before_dry(clearance) if step.symbol != contact.ratio]
         parts.append(
             render(
-                "film.c.jinja",
-                name=clearance.name,
-                c_film=constants["film_clearance"],
-                epsilon_max=EPSILON_MAX,
-                omega_sum=_OMEGA[str(options.get("angular_velocity", "absolute"))],
-                moments=_MOMENTS[bool(options.get("shear", False))],
+                "dry.c.jinja", joint=joint, ratio=_CLIPPED if clearance.clip_ratio else _RATIO,
+                before=_lines(model, before), after=_lines(model, contact.after_dry()),
             )
-        )
+        )  # fmt: skip
+    if film is not None:
+        before, after = contact.before_film(clearance, film), contact.after_film(film)
+        parts.append(render("film.c.jinja", joint=joint, before=_lines(model, before), after=_lines(model, after)))
+    share = [contact.blend(clearance)] if _template(clearance) == "clearance_transition.c.jinja" else []
     parts.append(
         render(
-            _template(clearance),
-            name=clearance.name,
-            arguments=_ARGUMENTS,
-            gap=_GAP.format(c=pair.c),
-            store=_STORE,
-            e_0=clearance.transition,
+            _template(clearance), joint=joint, arguments=_ARGUMENTS, gap=_lines(model, contact.gap(clearance)),
+            share=_lines(model, share), store=_STORE,
         )
-    )
+    )  # fmt: skip
     return "\n".join(parts)
+
+
+def _lines(model: Model, steps: Sequence[Step]) -> str:
+    """Steps as C statements, parameters read in place."""
+    lines = []
+    for step in steps:
+        slots = {s: sp.Symbol(f"p->{s.name}") for s in step.value.free_symbols if s in model.symbols.info}
+        value = _GUARDED.get(step.symbol) or step.value.xreplace(slots)
+        lines.append(printer.statement(Statement(step.symbol.name, value)))
+    return "\n".join(lines)
 
 
 def _template(clearance: Clearance) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import textwrap
 
@@ -17,7 +18,7 @@ class CPrinter(C99CodePrinter):
     """C99 with doubles written to round-trip, small powers as products, NaN-keeping min and max."""
 
     def _print_Float(self, expr: sp.Float) -> str:
-        return repr(float(expr))
+        return _double(expr)
 
     def _print_NumberSymbol(self, expr: sp.NumberSymbol) -> str:
         return repr(float(expr))
@@ -25,13 +26,16 @@ class CPrinter(C99CodePrinter):
     _print_Pi = _print_Exp1 = _print_NumberSymbol
 
     def _print_Integer(self, expr: sp.Integer) -> str:
-        return f"{int(expr)}.0"
+        return f"{int(expr)}.0" if abs(int(expr)) < 10**300 else _double(expr)
 
     def _print_int(self, expr: int) -> str:
         return f"{expr}.0"
 
     def _print_Rational(self, expr: sp.Rational) -> str:
-        return f"{int(expr.p)}.0/{int(expr.q)}.0"
+        if max(abs(int(expr.p)), int(expr.q)) > 10**15:
+            return _double(expr)
+        p, q = int(expr.p), int(expr.q)
+        return repr(p / q) if q & (q - 1) == 0 else f"{p}.0/{q}.0"  # a power of two divides exactly
 
     def _print_Pow(self, expr: sp.Pow) -> str:
         base, exponent = expr.as_base_exp()
@@ -61,12 +65,21 @@ class CPrinter(C99CodePrinter):
             text = f"{function}({text}, {self._print(argument)})"
         return text
 
+    def _print_Abs(self, expr: sp.Expr) -> str:
+        return f"fabs({self._print(expr.args[0])})"
+
     def _print_sign(self, expr: sp.Expr) -> str:
         return f"sign_of({self._print(expr.args[0])})"
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         """From the rates of ramps and corners; 1 at 0, so that a ramp that begins at the start moves at once."""
         return f"({self._print(expr.args[0])} >= 0.0 ? 1.0 : 0.0)"
+
+
+def _double(number: sp.Expr) -> str:
+    """A number as binary64; one that is too large is what the arithmetic of C would make of it."""
+    value = float(sp.Float(number, 17))
+    return repr(value) if math.isfinite(value) else f"{'-' if value < 0 else ''}INFINITY"
 
 
 _printer = CPrinter()

@@ -6,12 +6,13 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from gudgeon.generator import contact
 from gudgeon.generator.clearance import Clearance, LawEquations
+from gudgeon.generator.contact import Step
 from gudgeon.generator.forces.law import RESULTS
 from gudgeon.generator.mechanism import LawUse, Play, Quantity
 from gudgeon.generator.model import Model
-from gudgeon.generator.targets.latex import contact
-from gudgeon.generator.targets.latex.contact import Step
+from gudgeon.generator.targets.latex import contact_names
 from gudgeon.generator.targets.latex.document import Block, Section, Text, cells, paragraph, sentence, table
 from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
@@ -50,7 +51,7 @@ class JointWithPlay:
 
     def _names(self) -> Iterator[tuple[sp.Symbol, Name]]:
         pair, constants = self.clearance.pair, self.clearance.constants
-        yield from contact.names(self.clearance).items()
+        yield from contact_names.names(self.clearance).items()
         for symbol, sign in ((pair.c, "c"), (pair.R_i, "R_i"), (pair.R_j, "R_j"), (pair.L, "L")):
             yield symbol, of_latex(sign)
         for constant in ("E", "nu"):
@@ -91,7 +92,7 @@ class JointWithPlay:
     def result(equations: LawEquations, name: str) -> sp.Symbol:
         """The symbol of a law's step; its tangential force belongs to its part of the joint."""
         if name == "F_t" and name in RESULTS[equations.law.role]:
-            return contact.of_part(contact.F_q, "film" if equations.law.role == "film" else "dry")
+            return contact.of_part(contact.F_along_t, "film" if equations.law.role == "film" else "dry")
         return sp.Symbol(name, real=True)
 
     def steps(self, equations: LawEquations) -> list[Step]:
@@ -188,7 +189,8 @@ def _dry(joint: JointWithPlay) -> list[Block]:
         Name(r"\dot{\delta} / ", "δ̇ / "), stored, " counts as 1.",
     )  # fmt: skip
     friction = _law(joint, "friction") if clearance.friction else [
-        paragraph("There is no friction:"), equation(contact.of_part(contact.F_q, "dry"), sp.Integer(0), joint.notation)
+        paragraph("There is no friction:"),
+        equation(contact.of_part(contact.F_along_t, "dry"), sp.Integer(0), joint.notation),
     ]  # fmt: skip
     return [impact, *joint.shown(contact.before_dry(clearance)), *_law(joint, "normal"), *friction,
             *joint.shown(contact.after_dry())]  # fmt: skip
