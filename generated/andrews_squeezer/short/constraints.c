@@ -601,17 +601,15 @@ static void outputs(const double t, const double *q, const double *v, const Para
     series[2] = motor_value;  /* motor.M */
 
     /* energy */
-    energy[0] = (1.0/2.0)*AG_inertia*(AG_omega * AG_omega) + (1.0/2.0)*AG_mass*(AG_vx * AG_vx) +
-        (1.0/2.0)*AG_mass*(AG_vy * AG_vy) + (1.0/2.0)*AH_inertia*(AH_omega * AH_omega) +
-        (1.0/2.0)*AH_mass*(AH_vx * AH_vx) + (1.0/2.0)*AH_mass*(AH_vy * AH_vy) +
-        (1.0/2.0)*BDE_inertia*(BDE_omega * BDE_omega) + (1.0/2.0)*BDE_mass*(BDE_vx * BDE_vx) +
-        (1.0/2.0)*BDE_mass*(BDE_vy * BDE_vy) + (1.0/2.0)*EG_inertia*(EG_omega * EG_omega) +
-        (1.0/2.0)*EG_mass*(EG_vx * EG_vx) + (1.0/2.0)*EG_mass*(EG_vy * EG_vy) + (1.0/2.0)*FE_inertia*(FE_omega
-        * FE_omega) + (1.0/2.0)*FE_mass*(FE_vx * FE_vx) + (1.0/2.0)*FE_mass*(FE_vy * FE_vy) +
-        (1.0/2.0)*HE_inertia*(HE_omega * HE_omega) + (1.0/2.0)*HE_mass*(HE_vx * HE_vx) +
-        (1.0/2.0)*HE_mass*(HE_vy * HE_vy) + (1.0/2.0)*OF_inertia*(OF_omega * OF_omega) +
-        (1.0/2.0)*OF_mass*(OF_vx * OF_vx) + (1.0/2.0)*OF_mass*(OF_vy * OF_vy);
-    energy[1] = (1.0/2.0)*spring_stiffness*((-spring_free_length + spring_length) * (-spring_free_length +
+    energy[0] = (0.5)*AG_inertia*(AG_omega * AG_omega) + (0.5)*AG_mass*(AG_vx * AG_vx) + (0.5)*AG_mass*(AG_vy
+        * AG_vy) + (0.5)*AH_inertia*(AH_omega * AH_omega) + (0.5)*AH_mass*(AH_vx * AH_vx) +
+        (0.5)*AH_mass*(AH_vy * AH_vy) + (0.5)*BDE_inertia*(BDE_omega * BDE_omega) + (0.5)*BDE_mass*(BDE_vx *
+        BDE_vx) + (0.5)*BDE_mass*(BDE_vy * BDE_vy) + (0.5)*EG_inertia*(EG_omega * EG_omega) +
+        (0.5)*EG_mass*(EG_vx * EG_vx) + (0.5)*EG_mass*(EG_vy * EG_vy) + (0.5)*FE_inertia*(FE_omega * FE_omega)
+        + (0.5)*FE_mass*(FE_vx * FE_vx) + (0.5)*FE_mass*(FE_vy * FE_vy) + (0.5)*HE_inertia*(HE_omega *
+        HE_omega) + (0.5)*HE_mass*(HE_vx * HE_vx) + (0.5)*HE_mass*(HE_vy * HE_vy) + (0.5)*OF_inertia*(OF_omega
+        * OF_omega) + (0.5)*OF_mass*(OF_vx * OF_vx) + (0.5)*OF_mass*(OF_vy * OF_vy);
+    energy[1] = (0.5)*spring_stiffness*((-spring_free_length + spring_length) * (-spring_free_length +
         spring_length));
 }
 

@@ -54,6 +54,11 @@ typedef struct {
     double delta, power;                 /* m, W */
 } Clearance;
 
+/* The force of a joint with play along n and t on the journal, moments about both pin centres, slip. */
+typedef struct {
+    double n, t, M_i, M_j, v_t;
+} PinForce;
+
 /* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
 typedef struct {
     double lambda[20];

@@ -118,9 +118,9 @@ static void outputs(const double t, const double *q, const double *v, const Para
     series[1] = spring_length;  /* spring.length */
 
     /* energy */
-    energy[0] = (1.0/2.0)*block_inertia*(block_omega * block_omega) + (1.0/2.0)*block_mass*(block_vx *
-        block_vx) + (1.0/2.0)*block_mass*(block_vy * block_vy);
-    energy[1] = (1.0/2.0)*spring_stiffness*((-spring_free_length + spring_length) * (-spring_free_length +
+    energy[0] = (0.5)*block_inertia*(block_omega * block_omega) + (0.5)*block_mass*(block_vx * block_vx) +
+        (0.5)*block_mass*(block_vy * block_vy);
+    energy[1] = (0.5)*spring_stiffness*((-spring_free_length + spring_length) * (-spring_free_length +
         spring_length));
 }
 

@@ -107,8 +107,8 @@ static void outputs(const double t, const double *q, const double *v, const Para
     reactions[2] = 0.0;  /* fall.M */
 
     /* energy */
-    energy[0] = (1.0/2.0)*ball_inertia*(ball_omega * ball_omega) + (1.0/2.0)*ball_mass*(ball_vx * ball_vx) +
-        (1.0/2.0)*ball_mass*(ball_vy * ball_vy);
+    energy[0] = (0.5)*ball_inertia*(ball_omega * ball_omega) + (0.5)*ball_mass*(ball_vx * ball_vx) +
+        (0.5)*ball_mass*(ball_vy * ball_vy);
     energy[1] = -ball_mass*ball_y*par_y;
 }
 

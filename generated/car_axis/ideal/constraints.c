@@ -163,7 +163,7 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     const double bump_acceleration = -(omega * omega)*r*sin(omega*time)/(length*sqrt(1.0 - (r *
         r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(r * r *
         r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 - (r *
-        r)*(sin(omega*time) * sin(omega*time))/(length * length), 3.0/2.0));
+        r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
 
     /* rows */
     gamma_rows[0] = arm_road_head_x*(road_omega * road_omega);  /* foot.x */
@@ -265,11 +265,11 @@ static void outputs(const double t, const double *q, const double *v, const Para
     series[3] = right_length;  /* right.length */
 
     /* energy */
-    energy[0] = (1.0/2.0)*axle_inertia*(axle_omega * axle_omega) + (1.0/2.0)*axle_mass*(axle_vx * axle_vx) +
-        (1.0/2.0)*axle_mass*(axle_vy * axle_vy) + (1.0/2.0)*road_inertia*(road_omega * road_omega) +
-        (1.0/2.0)*road_mass*(road_vx * road_vx) + (1.0/2.0)*road_mass*(road_vy * road_vy);
-    energy[1] = -axle_mass*axle_y*par_y + (1.0/2.0)*left_stiffness*((-left_free_length + left_length) *
+    energy[0] = (0.5)*axle_inertia*(axle_omega * axle_omega) + (0.5)*axle_mass*(axle_vx * axle_vx) +
+        (0.5)*axle_mass*(axle_vy * axle_vy) + (0.5)*road_inertia*(road_omega * road_omega) +
+        (0.5)*road_mass*(road_vx * road_vx) + (0.5)*road_mass*(road_vy * road_vy);
+    energy[1] = -axle_mass*axle_y*par_y + (0.5)*left_stiffness*((-left_free_length + left_length) *
         (-left_free_length + left_length)) - par_y*road_mass*road_y +
-        (1.0/2.0)*right_stiffness*((-right_free_length + right_length) * (-right_free_length + right_length));
+        (0.5)*right_stiffness*((-right_free_length + right_length) * (-right_free_length + right_length));
 }
 

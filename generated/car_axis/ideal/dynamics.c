@@ -55,7 +55,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double bump_acceleration = -(omega * omega)*r*sin(omega*time)/(length*sqrt(1.0 - (r *
         r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(r * r *
         r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 - (r *
-        r)*(sin(omega*time) * sin(omega*time))/(length * length), 3.0/2.0));
+        r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
     const double left_span_x = -arm_axle_head_x + axle_x;
     const double left_span_y = -arm_axle_head_y + axle_y;
     const double left_length = sqrt((left_span_x * left_span_x) + (left_span_y * left_span_y));

@@ -14,7 +14,7 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->omega = omega;
     const double axle_mass = is_given[4] ? given[4] : 2.0*half_mass;  /* bodies.axle.mass */
     p->axle_mass = axle_mass;
-    const double axle_inertia = is_given[5] ? given[5] : (1.0/2.0)*half_mass*(length * length);  /* bodies.axle.inertia */
+    const double axle_inertia = is_given[5] ? given[5] : (0.5)*half_mass*(length * length);  /* bodies.axle.inertia */
     p->axle_inertia = axle_inertia;
     const double road_mass = is_given[6] ? given[6] : 1.0;  /* bodies.road.mass */
     p->road_mass = road_mass;
@@ -44,9 +44,9 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->set_axle_y = set_axle_y;
 
     /* derived */
-    const double axle_head_x = (1.0/2.0)*axle_length;  /* point from the centre of mass */
+    const double axle_head_x = (0.5)*axle_length;  /* point from the centre of mass */
     p->axle_head_x = axle_head_x;
-    const double road_head_x = (1.0/2.0)*road_length;  /* point from the centre of mass */
+    const double road_head_x = (0.5)*road_length;  /* point from the centre of mass */
     p->road_head_x = road_head_x;
     const double inverse_axle_mass = 1.0/axle_mass;  /* 1/M */
     p->inverse_axle_mass = inverse_axle_mass;

@@ -277,11 +277,11 @@ static void outputs(const double t, const double *q, const double *v, const Para
     torques[0] = -multiplier_motor;  /* motor */
 
     /* energy */
-    energy[0] = (1.0/2.0)*coupler_inertia*(coupler_omega * coupler_omega) + (1.0/2.0)*coupler_mass*(coupler_vx
-        * coupler_vx) + (1.0/2.0)*coupler_mass*(coupler_vy * coupler_vy) +
-        (1.0/2.0)*crank_inertia*(crank_omega * crank_omega) + (1.0/2.0)*crank_mass*(crank_vx * crank_vx) +
-        (1.0/2.0)*crank_mass*(crank_vy * crank_vy) + (1.0/2.0)*rocker_inertia*(rocker_omega * rocker_omega) +
-        (1.0/2.0)*rocker_mass*(rocker_vx * rocker_vx) + (1.0/2.0)*rocker_mass*(rocker_vy * rocker_vy);
+    energy[0] = (0.5)*coupler_inertia*(coupler_omega * coupler_omega) + (0.5)*coupler_mass*(coupler_vx *
+        coupler_vx) + (0.5)*coupler_mass*(coupler_vy * coupler_vy) + (0.5)*crank_inertia*(crank_omega *
+        crank_omega) + (0.5)*crank_mass*(crank_vx * crank_vx) + (0.5)*crank_mass*(crank_vy * crank_vy) +
+        (0.5)*rocker_inertia*(rocker_omega * rocker_omega) + (0.5)*rocker_mass*(rocker_vx * rocker_vx) +
+        (0.5)*rocker_mass*(rocker_vy * rocker_vy);
     energy[1] = -coupler_mass*coupler_y*par_y - crank_mass*crank_y*par_y - par_y*rocker_mass*rocker_y;
 }
 /*

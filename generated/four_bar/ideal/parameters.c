@@ -42,13 +42,13 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->guess_rocker_theta = guess_rocker_theta;
 
     /* derived */
-    const double crank_head_x = (1.0/2.0)*crank_length;  /* point from the centre of mass */
+    const double crank_head_x = (0.5)*crank_length;  /* point from the centre of mass */
     p->crank_head_x = crank_head_x;
-    const double coupler_head_x = (1.0/2.0)*coupler_length;  /* point from the centre of mass */
+    const double coupler_head_x = (0.5)*coupler_length;  /* point from the centre of mass */
     p->coupler_head_x = coupler_head_x;
-    const double coupler_tracer_x = -1.0/2.0*coupler_length + coupler_points_tracer_x;  /* point from the centre of mass */
+    const double coupler_tracer_x = -0.5*coupler_length + coupler_points_tracer_x;  /* point from the centre of mass */
     p->coupler_tracer_x = coupler_tracer_x;
-    const double rocker_head_x = (1.0/2.0)*rocker_length;  /* point from the centre of mass */
+    const double rocker_head_x = (0.5)*rocker_length;  /* point from the centre of mass */
     p->rocker_head_x = rocker_head_x;
     const double inverse_crank_mass = 1.0/crank_mass;  /* 1/M */
     p->inverse_crank_mass = inverse_crank_mass;

@@ -390,16 +390,14 @@ static void outputs(const double t, const double *q, const double *v, const Para
     reactions[20] = 0.0;  /* B2.M */
 
     /* energy */
-    energy[0] = (1.0/2.0)*coupler1_inertia*(coupler1_omega * coupler1_omega) +
-        (1.0/2.0)*coupler1_mass*(coupler1_vx * coupler1_vx) + (1.0/2.0)*coupler1_mass*(coupler1_vy *
-        coupler1_vy) + (1.0/2.0)*coupler2_inertia*(coupler2_omega * coupler2_omega) +
-        (1.0/2.0)*coupler2_mass*(coupler2_vx * coupler2_vx) + (1.0/2.0)*coupler2_mass*(coupler2_vy *
-        coupler2_vy) + (1.0/2.0)*crank0_inertia*(crank0_omega * crank0_omega) +
-        (1.0/2.0)*crank0_mass*(crank0_vx * crank0_vx) + (1.0/2.0)*crank0_mass*(crank0_vy * crank0_vy) +
-        (1.0/2.0)*crank1_inertia*(crank1_omega * crank1_omega) + (1.0/2.0)*crank1_mass*(crank1_vx * crank1_vx)
-        + (1.0/2.0)*crank1_mass*(crank1_vy * crank1_vy) + (1.0/2.0)*crank2_inertia*(crank2_omega *
-        crank2_omega) + (1.0/2.0)*crank2_mass*(crank2_vx * crank2_vx) + (1.0/2.0)*crank2_mass*(crank2_vy *
-        crank2_vy);
+    energy[0] = (0.5)*coupler1_inertia*(coupler1_omega * coupler1_omega) + (0.5)*coupler1_mass*(coupler1_vx *
+        coupler1_vx) + (0.5)*coupler1_mass*(coupler1_vy * coupler1_vy) +
+        (0.5)*coupler2_inertia*(coupler2_omega * coupler2_omega) + (0.5)*coupler2_mass*(coupler2_vx *
+        coupler2_vx) + (0.5)*coupler2_mass*(coupler2_vy * coupler2_vy) + (0.5)*crank0_inertia*(crank0_omega *
+        crank0_omega) + (0.5)*crank0_mass*(crank0_vx * crank0_vx) + (0.5)*crank0_mass*(crank0_vy * crank0_vy)
+        + (0.5)*crank1_inertia*(crank1_omega * crank1_omega) + (0.5)*crank1_mass*(crank1_vx * crank1_vx) +
+        (0.5)*crank1_mass*(crank1_vy * crank1_vy) + (0.5)*crank2_inertia*(crank2_omega * crank2_omega) +
+        (0.5)*crank2_mass*(crank2_vx * crank2_vx) + (0.5)*crank2_mass*(crank2_vy * crank2_vy);
     energy[1] = -coupler1_mass*coupler1_y*par_y - coupler2_mass*coupler2_y*par_y - crank0_mass*crank0_y*par_y
         - crank1_mass*crank1_y*par_y - crank2_mass*crank2_y*par_y;
 }

@@ -60,15 +60,15 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->rates_crank0_omega = rates_crank0_omega;
 
     /* derived */
-    const double crank0_head_x = (1.0/2.0)*crank0_length;  /* point from the centre of mass */
+    const double crank0_head_x = (0.5)*crank0_length;  /* point from the centre of mass */
     p->crank0_head_x = crank0_head_x;
-    const double crank1_head_x = (1.0/2.0)*crank1_length;  /* point from the centre of mass */
+    const double crank1_head_x = (0.5)*crank1_length;  /* point from the centre of mass */
     p->crank1_head_x = crank1_head_x;
-    const double crank2_head_x = (1.0/2.0)*crank2_length;  /* point from the centre of mass */
+    const double crank2_head_x = (0.5)*crank2_length;  /* point from the centre of mass */
     p->crank2_head_x = crank2_head_x;
-    const double coupler1_head_x = (1.0/2.0)*coupler1_length;  /* point from the centre of mass */
+    const double coupler1_head_x = (0.5)*coupler1_length;  /* point from the centre of mass */
     p->coupler1_head_x = coupler1_head_x;
-    const double coupler2_head_x = (1.0/2.0)*coupler2_length;  /* point from the centre of mass */
+    const double coupler2_head_x = (0.5)*coupler2_length;  /* point from the centre of mass */
     p->coupler2_head_x = coupler2_head_x;
     const double inverse_crank0_mass = 1.0/crank0_mass;  /* 1/M */
     p->inverse_crank0_mass = inverse_crank0_mass;

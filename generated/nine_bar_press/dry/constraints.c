@@ -146,7 +146,7 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     phi[18] = L8_x - S9_x + arm_L8_head_x;  /* slider.x */
     phi[19] = L8_y - S9_y + arm_L8_head_y;  /* slider.y */
     phi[20] = O6_x - S9_x;  /* guide.offset */
-    phi[21] = S9_theta - 1.0/2.0*3.141592653589793;  /* guide.angle */
+    phi[21] = S9_theta - 0.5*3.141592653589793;  /* guide.angle */
     phi[22] = L1_theta - crank1_value;  /* crank1 */
     phi[23] = L4_theta - crank4_value;  /* crank4 */
 }
@@ -544,17 +544,15 @@ static void outputs(const double t, const double *q, const double *v, const Para
     torques[1] = -multiplier_crank4;  /* crank4 */
 
     /* energy */
-    energy[0] = (1.0/2.0)*L1_inertia*(L1_omega * L1_omega) + (1.0/2.0)*L1_mass*(L1_vx * L1_vx) +
-        (1.0/2.0)*L1_mass*(L1_vy * L1_vy) + (1.0/2.0)*L2_inertia*(L2_omega * L2_omega) +
-        (1.0/2.0)*L2_mass*(L2_vx * L2_vx) + (1.0/2.0)*L2_mass*(L2_vy * L2_vy) + (1.0/2.0)*L3_inertia*(L3_omega
-        * L3_omega) + (1.0/2.0)*L3_mass*(L3_vx * L3_vx) + (1.0/2.0)*L3_mass*(L3_vy * L3_vy) +
-        (1.0/2.0)*L4_inertia*(L4_omega * L4_omega) + (1.0/2.0)*L4_mass*(L4_vx * L4_vx) +
-        (1.0/2.0)*L4_mass*(L4_vy * L4_vy) + (1.0/2.0)*L6_inertia*(L6_omega * L6_omega) +
-        (1.0/2.0)*L6_mass*(L6_vx * L6_vx) + (1.0/2.0)*L6_mass*(L6_vy * L6_vy) + (1.0/2.0)*L7_inertia*(L7_omega
-        * L7_omega) + (1.0/2.0)*L7_mass*(L7_vx * L7_vx) + (1.0/2.0)*L7_mass*(L7_vy * L7_vy) +
-        (1.0/2.0)*L8_inertia*(L8_omega * L8_omega) + (1.0/2.0)*L8_mass*(L8_vx * L8_vx) +
-        (1.0/2.0)*L8_mass*(L8_vy * L8_vy) + (1.0/2.0)*S9_inertia*(S9_omega * S9_omega) +
-        (1.0/2.0)*S9_mass*(S9_vx * S9_vx) + (1.0/2.0)*S9_mass*(S9_vy * S9_vy);
+    energy[0] = (0.5)*L1_inertia*(L1_omega * L1_omega) + (0.5)*L1_mass*(L1_vx * L1_vx) + (0.5)*L1_mass*(L1_vy
+        * L1_vy) + (0.5)*L2_inertia*(L2_omega * L2_omega) + (0.5)*L2_mass*(L2_vx * L2_vx) +
+        (0.5)*L2_mass*(L2_vy * L2_vy) + (0.5)*L3_inertia*(L3_omega * L3_omega) + (0.5)*L3_mass*(L3_vx * L3_vx)
+        + (0.5)*L3_mass*(L3_vy * L3_vy) + (0.5)*L4_inertia*(L4_omega * L4_omega) + (0.5)*L4_mass*(L4_vx *
+        L4_vx) + (0.5)*L4_mass*(L4_vy * L4_vy) + (0.5)*L6_inertia*(L6_omega * L6_omega) + (0.5)*L6_mass*(L6_vx
+        * L6_vx) + (0.5)*L6_mass*(L6_vy * L6_vy) + (0.5)*L7_inertia*(L7_omega * L7_omega) +
+        (0.5)*L7_mass*(L7_vx * L7_vx) + (0.5)*L7_mass*(L7_vy * L7_vy) + (0.5)*L8_inertia*(L8_omega * L8_omega)
+        + (0.5)*L8_mass*(L8_vx * L8_vx) + (0.5)*L8_mass*(L8_vy * L8_vy) + (0.5)*S9_inertia*(S9_omega *
+        S9_omega) + (0.5)*S9_mass*(S9_vx * S9_vx) + (0.5)*S9_mass*(S9_vy * S9_vy);
     energy[1] = -L1_mass*L1_y*par_y - L2_mass*L2_y*par_y - L3_mass*L3_y*par_y - L4_mass*L4_y*par_y -
         L6_mass*L6_y*par_y - L7_mass*L7_y*par_y - L8_mass*L8_y*par_y - S9_mass*S9_y*par_y;
 }

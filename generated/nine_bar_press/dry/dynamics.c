@@ -261,7 +261,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double rhs_guide_offset = -beta_squared*phi_guide_offset - phi_dot_guide_offset*two_alpha;
     aside->phi[16] = phi_guide_offset;
     aside->phi_dot[16] = phi_dot_guide_offset;
-    const double phi_guide_angle = S9_theta - 1.0/2.0*3.141592653589793;
+    const double phi_guide_angle = S9_theta - 0.5*3.141592653589793;
     const double phi_dot_guide_angle = S9_omega;
     const double rhs_guide_angle = -beta_squared*phi_guide_angle - phi_dot_guide_angle*two_alpha;
     aside->phi[17] = phi_guide_angle;

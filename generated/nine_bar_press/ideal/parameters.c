@@ -82,19 +82,19 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->guess_L8_theta = guess_L8_theta;
 
     /* derived */
-    const double L1_head_x = (1.0/2.0)*L1_length;  /* point from the centre of mass */
+    const double L1_head_x = (0.5)*L1_length;  /* point from the centre of mass */
     p->L1_head_x = L1_head_x;
-    const double L2_head_x = (1.0/2.0)*L2_length;  /* point from the centre of mass */
+    const double L2_head_x = (0.5)*L2_length;  /* point from the centre of mass */
     p->L2_head_x = L2_head_x;
-    const double L3_head_x = (1.0/2.0)*L3_length;  /* point from the centre of mass */
+    const double L3_head_x = (0.5)*L3_length;  /* point from the centre of mass */
     p->L3_head_x = L3_head_x;
-    const double L4_head_x = (1.0/2.0)*L4_length;  /* point from the centre of mass */
+    const double L4_head_x = (0.5)*L4_length;  /* point from the centre of mass */
     p->L4_head_x = L4_head_x;
-    const double L6_head_x = (1.0/2.0)*L6_length;  /* point from the centre of mass */
+    const double L6_head_x = (0.5)*L6_length;  /* point from the centre of mass */
     p->L6_head_x = L6_head_x;
-    const double L7_head_x = (1.0/2.0)*L7_length;  /* point from the centre of mass */
+    const double L7_head_x = (0.5)*L7_length;  /* point from the centre of mass */
     p->L7_head_x = L7_head_x;
-    const double L8_head_x = (1.0/2.0)*L8_length;  /* point from the centre of mass */
+    const double L8_head_x = (0.5)*L8_length;  /* point from the centre of mass */
     p->L8_head_x = L8_head_x;
     const double inverse_L1_mass = 1.0/L1_mass;  /* 1/M */
     p->inverse_L1_mass = inverse_L1_mass;

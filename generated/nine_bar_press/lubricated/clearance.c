@@ -47,7 +47,7 @@ static inline void film_A_force(double epsilon, double w_n, double w_t, const Pa
     /* law of joint A */
     const double root = sqrt(1.0 - (epsilon * epsilon));
     const double W = sqrt((w_n * w_n) + (w_t * w_t));
-    const double factor = (3.0/2.0)*epsilon*w_n/(W*root + (3.0/2.0)*epsilon*fabs(w_n) + 1e-300) + 1.0;
+    const double factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*fabs(w_n) + 1e-300) + 1.0;
     *F_r_out = -A_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) + 3.141592653589793*factor*w_n)/(root *
         root * root);
     *F_t_out = -2.0*3.141592653589793*A_S*factor*w_t/(root*((epsilon * epsilon) + 2.0));
@@ -59,68 +59,68 @@ static inline void film_A_force(double epsilon, double w_n, double w_t, const Pa
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
-static inline void dry_A(double e, double deltadot, double edot_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, double *F_n, double *F_t, double *M_i, double *M_j, double *v_t)
+static inline PinForce dry_A(double delta, double deltadot, double de_t, double omega_i, double omega_j,
+    const Latch *latch, const Parameters *p)
 {
-    const double delta = e - p->pin_clearance;
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = p->pin_radius + 0.5 * delta;
-    const double a_j = p->R_j_pin - 0.5 * delta;
-    double N;
-    normal_A_force(delta, ratio, p, &N);
-    *v_t = edot_t + omega_j * a_j - omega_i * a_i;
-    friction_A_force(N, *v_t, p, F_t);
-    *F_n = -N;
-    *M_i = -a_i * *F_t;
-    *M_j = a_j * *F_t;
+    const double a_i = (0.5)*delta + p->pin_radius;
+    const double a_j = -0.5*delta + p->R_j_pin;
+    const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
+    double F_n, F_along_t_dry;
+    normal_A_force(delta, ratio, p, &F_n);
+    friction_A_force(F_n, v_t, p, &F_along_t_dry);
+    const double M_i_dry = -F_along_t_dry*a_i;
+    const double M_j_dry = F_along_t_dry*a_j;
+    return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
 /*
  * Film in joint A (physics.md, section 4), finite at e = 0 and, with epsilon capped, at every e.
- * Effective squeeze velocity w = edot - (omega_i + omega_j)/2 z x e, over the film's clearance.
+ * Effective squeeze velocity w = de - (omega_i + omega_j)/2 z x e, over the film's clearance.
  */
-static inline void film_A(double e, double deltadot, double edot_t, double omega_i, double omega_j,
-    const Parameters *p, double *F_n, double *F_t, double *M_i, double *M_j)
+static inline PinForce film_A(double e, double deltadot, double de_t, double omega_i, double omega_j,
+    const Parameters *p)
 {
-    const double c = p->pin_clearance;
-    const double epsilon = min_of(e / c, 0.9999);
-    const double w_n = deltadot / c;
-    const double w_t = (edot_t - 0.5 * (omega_i + omega_j) * e) / c;
-    double T0;
-    film_A_force(epsilon, w_n, w_t, p, F_n, F_t, &T0);
-    *M_j = T0 * 0.0;
-    *M_i = -e * *F_t;
+    const double epsilon = min_of(e/p->pin_clearance, 0.9999);
+    const double w_n = deltadot/p->pin_clearance;
+    const double w_t = (de_t - 0.5*e*(omega_i + omega_j))/p->pin_clearance;
+    double F_r, F_along_t_film, T0;
+    film_A_force(epsilon, w_n, w_t, p, &F_r, &F_along_t_film, &T0);
+    (void)T0; /* read only with shear */
+    const double M_i_film = -F_along_t_film*e;
+    const double M_j_film = 0.0;
+    return (PinForce){F_r, F_along_t_film, M_i_film, M_j_film, 0.0};
 }
 
 /*
  * Joint A: film for e < c, dry contact for e > c + e_0, a linear blend between them
  * (the paper's Eq. 17).
  */
-static void clearance_A(double ex, double ey, double edot_x, double edot_y, double omega_i, double omega_j,
+static void clearance_A(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, Clearance *out)
 {
-    const double e = sqrt(ex * ex + ey * ey);
-    const double nx = e > 0.0 ? ex / e : 1.0; /* at e = 0 any direction will do: the force is isotropic there */
-    const double ny = e > 0.0 ? ey / e : 0.0;
-    const double deltadot = edot_x * nx + edot_y * ny;
-    const double edot_t = edot_y * nx - edot_x * ny;
+    const double e = sqrt((e_x * e_x) + (e_y * e_y));
+    const double n_x = e > 0.0 ? e_x / e : 1.0;
+    const double n_y = e > 0.0 ? e_y / e : 0.0;
     const double delta = e - p->pin_clearance;
-    double F_n = 0.0, F_t = 0.0, M_i = 0.0, M_j = 0.0, v_t = 0.0;
-    const double dry_share = max_of(min_of(delta / p->oil_transition, 1.0), 0.0);
-    if (dry_share < 1.0)
-        film_A(e, deltadot, edot_t, omega_i, omega_j, p, &F_n, &F_t, &M_i, &M_j);
-    if (dry_share > 0.0) {
-        double dry_n, dry_t, dry_i, dry_j;
-        dry_A(e, deltadot, edot_t, omega_i, omega_j, latch, p, &dry_n, &dry_t, &dry_i, &dry_j, &v_t);
-        F_n += dry_share * (dry_n - F_n);
-        F_t += dry_share * (dry_t - F_t);
-        M_i += dry_share * (dry_i - M_i);
-        M_j += dry_share * (dry_j - M_j);
+    const double deltadot = de_x*n_x + de_y*n_y;
+    const double de_t = -de_x*n_y + de_y*n_x;
+    PinForce F = {0};
+    const double share = max_of(min_of(delta/p->oil_transition, 1.0), 0.0);
+    if (share < 1.0)
+        F = film_A(e, deltadot, de_t, omega_i, omega_j, p);
+    if (share > 0.0) {
+        const PinForce dry = dry_A(delta, deltadot, de_t, omega_i, omega_j, latch, p);
+        F.n += share * (dry.n - F.n);
+        F.t += share * (dry.t - F.t);
+        F.M_i += share * (dry.M_i - F.M_i);
+        F.M_j += share * (dry.M_j - F.M_j);
+        F.v_t = dry.v_t;
     }
-    *out = (Clearance){.Fx = F_n * nx - F_t * ny, .Fy = F_n * ny + F_t * nx, .F_n = F_n, .F_t = F_t,
-        .ex = ex, .ey = ey, .e = e, .deltadot = deltadot, .v_t = v_t,
-        .moment_first = M_i, .moment_second = M_j, .delta = delta, .power = 0.0};
+    *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
+        .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
+        .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};
 }
 
 /*
@@ -172,7 +172,7 @@ static inline void film_B_force(double epsilon, double w_n, double w_t, const Pa
     /* law of joint B */
     const double root = sqrt(1.0 - (epsilon * epsilon));
     const double W = sqrt((w_n * w_n) + (w_t * w_t));
-    const double factor = (3.0/2.0)*epsilon*w_n/(W*root + (3.0/2.0)*epsilon*fabs(w_n) + 1e-300) + 1.0;
+    const double factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*fabs(w_n) + 1e-300) + 1.0;
     *F_r_out = -A_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) + 3.141592653589793*factor*w_n)/(root *
         root * root);
     *F_t_out = -2.0*3.141592653589793*A_S*factor*w_t/(root*((epsilon * epsilon) + 2.0));
@@ -184,66 +184,66 @@ static inline void film_B_force(double epsilon, double w_n, double w_t, const Pa
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
-static inline void dry_B(double e, double deltadot, double edot_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, double *F_n, double *F_t, double *M_i, double *M_j, double *v_t)
+static inline PinForce dry_B(double delta, double deltadot, double de_t, double omega_i, double omega_j,
+    const Latch *latch, const Parameters *p)
 {
-    const double delta = e - p->pin_clearance;
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = p->pin_radius + 0.5 * delta;
-    const double a_j = p->R_j_pin - 0.5 * delta;
-    double N;
-    normal_B_force(delta, ratio, p, &N);
-    *v_t = edot_t + omega_j * a_j - omega_i * a_i;
-    friction_B_force(N, *v_t, p, F_t);
-    *F_n = -N;
-    *M_i = -a_i * *F_t;
-    *M_j = a_j * *F_t;
+    const double a_i = (0.5)*delta + p->pin_radius;
+    const double a_j = -0.5*delta + p->R_j_pin;
+    const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
+    double F_n, F_along_t_dry;
+    normal_B_force(delta, ratio, p, &F_n);
+    friction_B_force(F_n, v_t, p, &F_along_t_dry);
+    const double M_i_dry = -F_along_t_dry*a_i;
+    const double M_j_dry = F_along_t_dry*a_j;
+    return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
 /*
  * Film in joint B (physics.md, section 4), finite at e = 0 and, with epsilon capped, at every e.
- * Effective squeeze velocity w = edot - (omega_i + omega_j)/2 z x e, over the film's clearance.
+ * Effective squeeze velocity w = de - (omega_i + omega_j)/2 z x e, over the film's clearance.
  */
-static inline void film_B(double e, double deltadot, double edot_t, double omega_i, double omega_j,
-    const Parameters *p, double *F_n, double *F_t, double *M_i, double *M_j)
+static inline PinForce film_B(double e, double deltadot, double de_t, double omega_i, double omega_j,
+    const Parameters *p)
 {
-    const double c = p->pin_clearance;
-    const double epsilon = min_of(e / c, 0.9999);
-    const double w_n = deltadot / c;
-    const double w_t = (edot_t - 0.5 * (omega_i + omega_j) * e) / c;
-    double T0;
-    film_B_force(epsilon, w_n, w_t, p, F_n, F_t, &T0);
-    *M_j = T0 * 0.0;
-    *M_i = -e * *F_t;
+    const double epsilon = min_of(e/p->pin_clearance, 0.9999);
+    const double w_n = deltadot/p->pin_clearance;
+    const double w_t = (de_t - 0.5*e*(omega_i + omega_j))/p->pin_clearance;
+    double F_r, F_along_t_film, T0;
+    film_B_force(epsilon, w_n, w_t, p, &F_r, &F_along_t_film, &T0);
+    (void)T0; /* read only with shear */
+    const double M_i_film = -F_along_t_film*e;
+    const double M_j_film = 0.0;
+    return (PinForce){F_r, F_along_t_film, M_i_film, M_j_film, 0.0};
 }
 
 /*
  * Joint B: film for e < c, dry contact for e > c + e_0, a linear blend between them
  * (the paper's Eq. 17).
  */
-static void clearance_B(double ex, double ey, double edot_x, double edot_y, double omega_i, double omega_j,
+static void clearance_B(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, Clearance *out)
 {
-    const double e = sqrt(ex * ex + ey * ey);
-    const double nx = e > 0.0 ? ex / e : 1.0; /* at e = 0 any direction will do: the force is isotropic there */
-    const double ny = e > 0.0 ? ey / e : 0.0;
-    const double deltadot = edot_x * nx + edot_y * ny;
-    const double edot_t = edot_y * nx - edot_x * ny;
+    const double e = sqrt((e_x * e_x) + (e_y * e_y));
+    const double n_x = e > 0.0 ? e_x / e : 1.0;
+    const double n_y = e > 0.0 ? e_y / e : 0.0;
     const double delta = e - p->pin_clearance;
-    double F_n = 0.0, F_t = 0.0, M_i = 0.0, M_j = 0.0, v_t = 0.0;
-    const double dry_share = max_of(min_of(delta / p->oil_transition, 1.0), 0.0);
-    if (dry_share < 1.0)
-        film_B(e, deltadot, edot_t, omega_i, omega_j, p, &F_n, &F_t, &M_i, &M_j);
-    if (dry_share > 0.0) {
-        double dry_n, dry_t, dry_i, dry_j;
-        dry_B(e, deltadot, edot_t, omega_i, omega_j, latch, p, &dry_n, &dry_t, &dry_i, &dry_j, &v_t);
-        F_n += dry_share * (dry_n - F_n);
-        F_t += dry_share * (dry_t - F_t);
-        M_i += dry_share * (dry_i - M_i);
-        M_j += dry_share * (dry_j - M_j);
+    const double deltadot = de_x*n_x + de_y*n_y;
+    const double de_t = -de_x*n_y + de_y*n_x;
+    PinForce F = {0};
+    const double share = max_of(min_of(delta/p->oil_transition, 1.0), 0.0);
+    if (share < 1.0)
+        F = film_B(e, deltadot, de_t, omega_i, omega_j, p);
+    if (share > 0.0) {
+        const PinForce dry = dry_B(delta, deltadot, de_t, omega_i, omega_j, latch, p);
+        F.n += share * (dry.n - F.n);
+        F.t += share * (dry.t - F.t);
+        F.M_i += share * (dry.M_i - F.M_i);
+        F.M_j += share * (dry.M_j - F.M_j);
+        F.v_t = dry.v_t;
     }
-    *out = (Clearance){.Fx = F_n * nx - F_t * ny, .Fy = F_n * ny + F_t * nx, .F_n = F_n, .F_t = F_t,
-        .ex = ex, .ey = ey, .e = e, .deltadot = deltadot, .v_t = v_t,
-        .moment_first = M_i, .moment_second = M_j, .delta = delta, .power = 0.0};
+    *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
+        .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
+        .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};
 }

@@ -108,26 +108,26 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->guess_L8_theta = guess_L8_theta;
 
     /* derived */
-    const double L1_head_x = (1.0/2.0)*L1_length;  /* point from the centre of mass */
+    const double L1_head_x = (0.5)*L1_length;  /* point from the centre of mass */
     p->L1_head_x = L1_head_x;
-    const double L2_head_x = (1.0/2.0)*L2_length;  /* point from the centre of mass */
+    const double L2_head_x = (0.5)*L2_length;  /* point from the centre of mass */
     p->L2_head_x = L2_head_x;
-    const double L3_head_x = (1.0/2.0)*L3_length;  /* point from the centre of mass */
+    const double L3_head_x = (0.5)*L3_length;  /* point from the centre of mass */
     p->L3_head_x = L3_head_x;
-    const double L4_head_x = (1.0/2.0)*L4_length;  /* point from the centre of mass */
+    const double L4_head_x = (0.5)*L4_length;  /* point from the centre of mass */
     p->L4_head_x = L4_head_x;
-    const double L6_head_x = (1.0/2.0)*L6_length;  /* point from the centre of mass */
+    const double L6_head_x = (0.5)*L6_length;  /* point from the centre of mass */
     p->L6_head_x = L6_head_x;
-    const double L7_head_x = (1.0/2.0)*L7_length;  /* point from the centre of mass */
+    const double L7_head_x = (0.5)*L7_length;  /* point from the centre of mass */
     p->L7_head_x = L7_head_x;
-    const double L8_head_x = (1.0/2.0)*L8_length;  /* point from the centre of mass */
+    const double L8_head_x = (0.5)*L8_length;  /* point from the centre of mass */
     p->L8_head_x = L8_head_x;
     const double R_j_pin = -pin_clearance + pin_radius;  /* journal radius */
     p->R_j_pin = R_j_pin;
     const double A_K = (2.0/3.0)*aluminium_E*sqrt(R_j_pin*pin_radius/(R_j_pin + pin_radius))/(1.0 -
         (aluminium_nu * aluminium_nu));  /* contact stiffness */
     p->A_K = A_K;
-    const double A_hysteresis = 3.0/4.0 - 3.0/4.0*(oil_normal_restitution * oil_normal_restitution);  /* hysteresis damping factor, 3(1 - c_e^2)/4 */
+    const double A_hysteresis = 0.75 - 0.75*(oil_normal_restitution * oil_normal_restitution);  /* hysteresis damping factor, 3(1 - c_e^2)/4 */
     p->A_hysteresis = A_hysteresis;
     const double A_friction_slope = 1.0/(-oil_friction_v0 + oil_friction_v1);  /* 1/(v1 - v0) */
     p->A_friction_slope = A_friction_slope;

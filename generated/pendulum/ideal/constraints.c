@@ -28,7 +28,7 @@ static void constraints(const double t, const double *q, const Parameters *p, do
 
     /* rows */
     phi[0] = (bob_x * bob_x)*rod_half_inverse_length + (bob_y * bob_y)*rod_half_inverse_length -
-        1.0/2.0*rod_length;  /* rod.length */
+        0.5*rod_length;  /* rod.length */
 }
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
@@ -123,8 +123,8 @@ static void outputs(const double t, const double *q, const double *v, const Para
     reactions[2] = 0.0;  /* rod.M */
 
     /* energy */
-    energy[0] = (1.0/2.0)*bob_inertia*(bob_omega * bob_omega) + (1.0/2.0)*bob_mass*(bob_vx * bob_vx) +
-        (1.0/2.0)*bob_mass*(bob_vy * bob_vy);
+    energy[0] = (0.5)*bob_inertia*(bob_omega * bob_omega) + (0.5)*bob_mass*(bob_vx * bob_vx) +
+        (0.5)*bob_mass*(bob_vy * bob_vy);
     energy[1] = -bob_mass*bob_y*par_y;
 }
 

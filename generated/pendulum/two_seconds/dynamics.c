@@ -25,7 +25,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
     const double phi_rod_length = (bob_x * bob_x)*rod_half_inverse_length + (bob_y *
-        bob_y)*rod_half_inverse_length - 1.0/2.0*rod_length;
+        bob_y)*rod_half_inverse_length - 0.5*rod_length;
     const double phi_dot_rod_length = 2.0*bob_vx*bob_x*rod_half_inverse_length +
         2.0*bob_vy*bob_y*rod_half_inverse_length;
     const double rhs_rod_length = -beta_squared*phi_rod_length - 2.0*(bob_vx * bob_vx)*rod_half_inverse_length

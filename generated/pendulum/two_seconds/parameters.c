@@ -24,7 +24,7 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->set_bob_x = set_bob_x;
 
     /* derived */
-    const double rod_half_inverse_length = (1.0/2.0)/rod_length;  /* of joint rod */
+    const double rod_half_inverse_length = (0.5)/rod_length;  /* of joint rod */
     p->rod_half_inverse_length = rod_half_inverse_length;
     const double inverse_bob_mass = 1.0/bob_mass;  /* 1/M */
     p->inverse_bob_mass = inverse_bob_mass;

@@ -37,37 +37,36 @@ static inline void friction_wristpin_force(double F_n, double v_t, const Paramet
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
-static inline void dry_wristpin(double e, double deltadot, double edot_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, double *F_n, double *F_t, double *M_i, double *M_j, double *v_t)
+static inline PinForce dry_wristpin(double delta, double deltadot, double de_t, double omega_i, double omega_j,
+    const Latch *latch, const Parameters *p)
 {
-    const double delta = e - p->pin_clearance;
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = p->pin_radius + 0.5 * delta;
-    const double a_j = p->R_j_pin - 0.5 * delta;
-    double N;
-    normal_wristpin_force(delta, ratio, p, &N);
-    *v_t = edot_t + omega_j * a_j - omega_i * a_i;
-    friction_wristpin_force(N, *v_t, p, F_t);
-    *F_n = -N;
-    *M_i = -a_i * *F_t;
-    *M_j = a_j * *F_t;
+    const double a_i = (0.5)*delta + p->pin_radius;
+    const double a_j = -0.5*delta + p->R_j_pin;
+    const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
+    double F_n, F_along_t_dry;
+    normal_wristpin_force(delta, ratio, p, &F_n);
+    friction_wristpin_force(F_n, v_t, p, &F_along_t_dry);
+    const double M_i_dry = -F_along_t_dry*a_i;
+    const double M_j_dry = F_along_t_dry*a_j;
+    return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
 /* Joint wristpin: free while delta < 0, dry contact beyond. */
-static void clearance_wristpin(double ex, double ey, double edot_x, double edot_y, double omega_i, double omega_j,
+static void clearance_wristpin(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, Clearance *out)
 {
-    const double e = sqrt(ex * ex + ey * ey);
-    const double nx = e > 0.0 ? ex / e : 1.0; /* at e = 0 any direction will do: the force is isotropic there */
-    const double ny = e > 0.0 ? ey / e : 0.0;
-    const double deltadot = edot_x * nx + edot_y * ny;
-    const double edot_t = edot_y * nx - edot_x * ny;
+    const double e = sqrt((e_x * e_x) + (e_y * e_y));
+    const double n_x = e > 0.0 ? e_x / e : 1.0;
+    const double n_y = e > 0.0 ? e_y / e : 0.0;
     const double delta = e - p->pin_clearance;
-    double F_n = 0.0, F_t = 0.0, M_i = 0.0, M_j = 0.0, v_t = 0.0;
+    const double deltadot = de_x*n_x + de_y*n_y;
+    const double de_t = -de_x*n_y + de_y*n_x;
+    PinForce F = {0};
     if (delta > 0.0)
-        dry_wristpin(e, deltadot, edot_t, omega_i, omega_j, latch, p, &F_n, &F_t, &M_i, &M_j, &v_t);
-    *out = (Clearance){.Fx = F_n * nx - F_t * ny, .Fy = F_n * ny + F_t * nx, .F_n = F_n, .F_t = F_t,
-        .ex = ex, .ey = ey, .e = e, .deltadot = deltadot, .v_t = v_t,
-        .moment_first = M_i, .moment_second = M_j, .delta = delta, .power = 0.0};
+        F = dry_wristpin(delta, deltadot, de_t, omega_i, omega_j, latch, p);
+    *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
+        .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
+        .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};
 }

@@ -241,11 +241,11 @@ static void outputs(const double t, const double *q, const double *v, const Para
     torques[0] = -multiplier_motor;  /* motor */
 
     /* energy */
-    energy[0] = (1.0/2.0)*crank_inertia*(crank_omega * crank_omega) + (1.0/2.0)*crank_mass*(crank_vx *
-        crank_vx) + (1.0/2.0)*crank_mass*(crank_vy * crank_vy) + (1.0/2.0)*rod_inertia*(rod_omega * rod_omega)
-        + (1.0/2.0)*rod_mass*(rod_vx * rod_vx) + (1.0/2.0)*rod_mass*(rod_vy * rod_vy) +
-        (1.0/2.0)*slider_inertia*(slider_omega * slider_omega) + (1.0/2.0)*slider_mass*(slider_vx * slider_vx)
-        + (1.0/2.0)*slider_mass*(slider_vy * slider_vy);
+    energy[0] = (0.5)*crank_inertia*(crank_omega * crank_omega) + (0.5)*crank_mass*(crank_vx * crank_vx) +
+        (0.5)*crank_mass*(crank_vy * crank_vy) + (0.5)*rod_inertia*(rod_omega * rod_omega) +
+        (0.5)*rod_mass*(rod_vx * rod_vx) + (0.5)*rod_mass*(rod_vy * rod_vy) +
+        (0.5)*slider_inertia*(slider_omega * slider_omega) + (0.5)*slider_mass*(slider_vx * slider_vx) +
+        (0.5)*slider_mass*(slider_vy * slider_vy);
     energy[1] = 0.0;
 }
 

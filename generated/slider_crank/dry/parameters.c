@@ -56,16 +56,16 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->guess_slider_x = guess_slider_x;
 
     /* derived */
-    const double crank_head_x = (1.0/2.0)*crank_length;  /* point from the centre of mass */
+    const double crank_head_x = (0.5)*crank_length;  /* point from the centre of mass */
     p->crank_head_x = crank_head_x;
-    const double rod_head_x = (1.0/2.0)*rod_length;  /* point from the centre of mass */
+    const double rod_head_x = (0.5)*rod_length;  /* point from the centre of mass */
     p->rod_head_x = rod_head_x;
     const double R_j_pin = -pin_clearance + pin_radius;  /* journal radius */
     p->R_j_pin = R_j_pin;
     const double wristpin_K = (2.0/3.0)*steel_E*sqrt(R_j_pin*pin_radius/(R_j_pin + pin_radius))/(1.0 -
         (steel_nu * steel_nu));  /* contact stiffness */
     p->wristpin_K = wristpin_K;
-    const double wristpin_hysteresis = 3.0/4.0 - 3.0/4.0*(dry_normal_restitution * dry_normal_restitution);  /* hysteresis damping factor, 3(1 - c_e^2)/4 */
+    const double wristpin_hysteresis = 0.75 - 0.75*(dry_normal_restitution * dry_normal_restitution);  /* hysteresis damping factor, 3(1 - c_e^2)/4 */
     p->wristpin_hysteresis = wristpin_hysteresis;
     const double wristpin_friction_slope = 1.0/(-dry_friction_v0 + dry_friction_v1);  /* 1/(v1 - v0) */
     p->wristpin_friction_slope = wristpin_friction_slope;

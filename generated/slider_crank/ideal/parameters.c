@@ -34,9 +34,9 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->guess_slider_x = guess_slider_x;
 
     /* derived */
-    const double crank_head_x = (1.0/2.0)*crank_length;  /* point from the centre of mass */
+    const double crank_head_x = (0.5)*crank_length;  /* point from the centre of mass */
     p->crank_head_x = crank_head_x;
-    const double rod_head_x = (1.0/2.0)*rod_length;  /* point from the centre of mass */
+    const double rod_head_x = (0.5)*rod_length;  /* point from the centre of mass */
     p->rod_head_x = rod_head_x;
     const double inverse_crank_mass = 1.0/crank_mass;  /* 1/M */
     p->inverse_crank_mass = inverse_crank_mass;

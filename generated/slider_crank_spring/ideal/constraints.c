@@ -233,10 +233,9 @@ static void outputs(const double t, const double *q, const double *v, const Para
     series[4] = fabs(push_value_x);  /* push.F */
 
     /* energy */
-    energy[0] = (1.0/2.0)*crank_inertia*(crank_omega * crank_omega) + (1.0/2.0)*crank_mass*(crank_vx *
-        crank_vx) + (1.0/2.0)*crank_mass*(crank_vy * crank_vy) + (1.0/2.0)*rod_inertia*(rod_omega * rod_omega)
-        + (1.0/2.0)*rod_mass*(rod_vx * rod_vx) + (1.0/2.0)*rod_mass*(rod_vy * rod_vy);
-    energy[1] = (1.0/2.0)*coil_stiffness*((-coil_free_length + coil_length) * (-coil_free_length +
-        coil_length));
+    energy[0] = (0.5)*crank_inertia*(crank_omega * crank_omega) + (0.5)*crank_mass*(crank_vx * crank_vx) +
+        (0.5)*crank_mass*(crank_vy * crank_vy) + (0.5)*rod_inertia*(rod_omega * rod_omega) +
+        (0.5)*rod_mass*(rod_vx * rod_vx) + (0.5)*rod_mass*(rod_vy * rod_vy);
+    energy[1] = (0.5)*coil_stiffness*((-coil_free_length + coil_length) * (-coil_free_length + coil_length));
 }
 
