@@ -59,7 +59,9 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
     pair = _pair(joint.name, play.bearing, slots)
 
     def derive(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
-        constants[name] = slots.derive(f"{joint.name}_{name}", expression, meaning)
+        # named after what it is made of: joints with the same bearing and contact share it
+        wanted = f"{play.contact.name}_{play.bearing.name}_{name}"
+        constants[name] = slots.derive(wanted, expression, meaning)
         return constants[name]
 
     def law(use: LawUse | None, role: str) -> LawEquations | None:

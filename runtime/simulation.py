@@ -15,7 +15,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import kinematic, rk4
-from gudgeon.integrators.trajectory import Counts, Problem, Progress, Trajectory
+from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.parameters import number, prepare
 from gudgeon.start import Start, assemble
 from gudgeon.step import default_step
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 METHODS = {"rk4": rk4.run, "kinematic": kinematic.run}
 DEFAULT_OUTPUT = 1000
 MAX_STEPS = 10**12
+DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
 
 
 class Simulation:
@@ -218,13 +219,21 @@ def diagnose(
         ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
         peaks=_peaks(compiled, x), seconds=seconds,
         seconds_per_simulated_second=seconds / simulated if simulated > 0 else math.nan,
-        interrupted=x.interrupted, notes=_notes(compiled, counts),
+        interrupted=x.interrupted, notes=_notes(compiled, problem.p, trajectory),
     )  # fmt: skip
 
 
-def _notes(compiled: CompiledModel, counts: Counts) -> tuple[str, ...]:
+def _notes(compiled: CompiledModel, p: Array, trajectory: Trajectory) -> tuple[str, ...]:
     """What a reader of this run should know before trusting it."""
-    notes = []
+    notes, counts = [], trajectory.counts
+    for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
+        c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
+        deepest = float(e_max) - c
+        if deepest > min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius):
+            notes.append(
+                f"{joint.name}: the journal goes {deepest:.3g} m into its bearing (c {c:.3g} m, radius {radius:.3g} m):"
+                " outside what contact laws hold for; a step too long does this too"
+            )
     if compiled.source.indeterminate:
         notes.append(
             f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"
