@@ -14,6 +14,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import AssemblyError
 
 MAX_STEPS = 60
+_LENGTH = (1, 0, 0)  # exponents of m, kg, s
 CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly
 
 # Weights of a coordinate in the norm of a Newton step: a guess is held most firmly.
@@ -158,6 +159,9 @@ class _Assembly:
 
 
 def mechanism_size(compiled: CompiledModel, p: Array) -> float:
-    """The largest distance of a point from its body's centre of mass (or of the ground's points), m."""
-    index = [k for point in compiled.source.points for k in (point.x, point.y) if k >= 0]
+    """The largest coordinate of a point in its body, of a ground point, or length of a joint, m."""
+    source = compiled.source
+    index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
+    lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
+    index += [k for k, is_length in enumerate(lengths) if is_length]
     return max(float(np.abs(p[index]).max(initial=0.0)), 1e-9) if index else 1.0

@@ -41,7 +41,9 @@ ELEMENT = ElementType(
     (2,),
     (
         ElementField("direction", "vector", "of sliding, in the first body's frame", DIMENSIONLESS, True),
-        ElementField("static", "quantity", "largest force at stick", _FORCE, True, not_negative=True, at_least="kinetic"),
+        ElementField(
+            "static", "quantity", "largest force at stick", _FORCE, True, not_negative=True, at_least="kinetic"
+        ),
         ElementField("kinetic", "quantity", "force while slipping", _FORCE, True, not_negative=True),
         ElementField("speed", "quantity", "of the first's surface along the direction", VELOCITY),
     ),

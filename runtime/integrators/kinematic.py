@@ -11,10 +11,11 @@ import numpy as np
 from gudgeon.compiled import Array
 from gudgeon.errors import SolverError
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
+from gudgeon.start import mechanism_size
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
-REACH = 0.05  # m or rad: a Newton correction beyond it halves the way, so that no branch is left
+REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
 CHUNK = 2_000  # samples between two looks of Python
 GAUSS = 4  # nodes an interval
 
@@ -54,8 +55,9 @@ def _follow(problem: Problem, times: Array) -> tuple[Array, Array, Counts, bool,
         while first < len(times) - 1 and stopped is None:
             count = min(CHUNK, len(times) - 1 - first)
             status = compiled.lib.gudgeon_kinematic(
-                count, pointer(times[first:]), pointer(problem.p), REACH, pointer(q[first:]), pointer(v[first:]),
-                pointer(maxima), pointer(maxima[1:]), pointer(longs, "long *"), pointer(longs[1:], "long *"),
+                count, pointer(times[first:]), pointer(problem.p), REACH, mechanism_size(compiled, problem.p),
+                pointer(q[first:]), pointer(v[first:]), pointer(maxima), pointer(maxima[1:]),
+                pointer(longs, "long *"), pointer(longs[1:], "long *"),
             )  # fmt: skip
             first += int(longs[1])
             if status:

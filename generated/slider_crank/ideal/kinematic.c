@@ -12,8 +12,19 @@ static double largest(const double *x, int n)
     return most;
 }
 
+/* The same of a change of q, positions as shares of the mechanism's size: the angle that it is worth (rad). */
+static double largest_turn(const double *x, double size)
+{
+    double most = 0.0;
+    for (int k = 0; k < N_Q; k++) {
+        const double turn = fabs(x[k]) / (k % 3 == 2 ? 1.0 : size);
+        most = turn > most || isnan(turn) ? turn : most;
+    }
+    return most;
+}
+
 /* Newton on Phi(q, t) = 0 until the step no longer shrinks; `moved` is the way from the first guess. */
-static int close_linkage(double t, const Parameters *p, double *q, double *moved)
+static int close_linkage(double t, const Parameters *p, double extent, double *q, double *moved)
 {
     double phi[9], step[N_Q], before = INFINITY;
     *moved = 0.0;
@@ -25,7 +36,7 @@ static int close_linkage(double t, const Parameters *p, double *q, double *moved
         for (int k = 0; k < N_Q; k++)
             q[k] -= step[k];
         const double size = largest(step, N_Q);
-        *moved += size;
+        *moved += largest_turn(step, extent);
         if (isnan(size))
             return NEWTON_FAILED;
         if (size < 1e-9 && (size >= 0.5 * before || size < 1e-15))
@@ -57,23 +68,32 @@ static int velocities(double t, const double *q, const Parameters *p, double *v)
 }
 
 /*
- * From (t0, q, v) to t1 along the same branch. The first guess is q + h v; where Newton moves an angle
- * or a length by more than `reach` the way is halved, so that it cannot land on another branch.
+ * From (t0, q, v) to t1 along the same branch. The first guess is q + h v; where Newton moves it by more than
+ * `reach`, or the way bends more than its velocities say, the way is halved: another branch passes near dead
+ * centres as a jump of positions that no velocity explains.
  */
-static int follow(double t0, double t1, const Parameters *p, double reach, double *q, double *v, long *steps)
+static int follow(double t0, double t1, const Parameters *p, double reach, double extent, double *q, double *v,
+    long *steps)
 {
+    const double straight = 0.002 * reach;
     double t = t0, h = t1 - t0;
     int halvings = 0;
     while (t < t1) {
-        double guess[N_Q], rate[N_Q], moved;
+        double guess[N_Q], rate[N_Q], bend[N_Q], moved, bent = 0.0;
         const double next = t + h < t1 ? t + h : t1;
         for (int k = 0; k < N_Q; k++)
             guess[k] = q[k] + (next - t) * v[k];
-        int status = close_linkage(next, p, guess, &moved);
-        if (!status && moved <= reach)
+        int status = next > t ? close_linkage(next, p, extent, guess, &moved) : NEWTON_FAILED;
+        const int near = !status && moved <= reach;
+        if (near)
             status = velocities(next, guess, p, rate);
-        if (status || moved > reach) {
-            if (++halvings > MAX_HALVINGS)
+        if (near && !status) { /* what the trapezoidal rule leaves over */
+            for (int k = 0; k < N_Q; k++)
+                bend[k] = guess[k] - q[k] - 0.5 * (next - t) * (v[k] + rate[k]);
+            bent = largest_turn(bend, extent);
+        }
+        if (status || !near || !(bent <= straight)) {
+            if (++halvings > MAX_HALVINGS || !(next > t))
                 return status ? status : NEWTON_FAILED;
             h *= 0.5;
             continue;
@@ -84,13 +104,17 @@ static int follow(double t0, double t1, const Parameters *p, double reach, doubl
             q[k] = guess[k];
             v[k] = rate[k];
         }
+        if (halvings > 0 && bent < 0.1 * straight) { /* it grows with h cubed */
+            h *= 2.0;
+            halvings--;
+        }
     }
     return 0;
 }
 
 /* n samples at the given times; q and v hold the start in front: n + 1 rows. */
-int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double *q, double *v, double *phi_max,
-    double *phi_dot_max, long *steps, long *done)
+int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double extent, double *q, double *v,
+    double *phi_max, double *phi_dot_max, long *steps, long *done)
 {
     double phi[9];
     for (long i = 0; i < n; i++) {
@@ -100,7 +124,7 @@ int gudgeon_kinematic(long n, const double *t, const double *p, double reach, do
             rate[k] = v[i * N_Q + k];
         }
         *done = i;
-        const int status = follow(t[i], t[i + 1], (const Parameters *)p, reach, now, rate, steps);
+        const int status = follow(t[i], t[i + 1], (const Parameters *)p, reach, extent, now, rate, steps);
         if (status)
             return status;
         Aside aside;

@@ -35,8 +35,8 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
 """
 METHOD_CDEF = {
     "kinematic": """\
-int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double *q, double *v, double *phi_max,
-    double *phi_dot_max, long *steps, long *done);
+int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double extent, double *q, double *v,
+    double *phi_max, double *phi_dot_max, long *steps, long *done);
 """,
     "rk4": """\
 size_t gudgeon_run_size(void);
