@@ -7,7 +7,7 @@ import sympy as sp
 from gudgeon.generator.clearance import Clearance
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder
-from gudgeon.generator.kkt import KKT
+from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR
 from gudgeon.generator.model import Model
 
 STATE = (Argument("const double", "t"), Argument("const double *", "q"), Argument("const double *", "v"))
@@ -35,8 +35,11 @@ def dynamics_kernel(model: Model, kkt: KKT) -> Kernel:
     b.update(_constraint_rhs(model, build, kkt))
     b.update(slips)
     # where friction may stick, a vanishing pivot is told, not mended: rows come and go there
-    failed = "return {}" if model.frictions else "{{ pivot = {}; goto dependent; }}"
-    x = kkt.solve(build, kkt.factorize(build, failed), b)
+    if model.frictions:
+        factor = kkt.factorize(build)
+    else:
+        factor = kkt.factorize(build, "{{ pivot = {}; goto dependent; }}", NEARLY_SINGULAR)
+    x = kkt.solve(build, factor, b)
     build.section("results")
     for k, _ in enumerate(model.q):
         build.out(f"a[{k}]", x[k])

@@ -21,6 +21,9 @@ from gudgeon.generator.model import Model
 # A row counts as dependent when less than this share of its pivot is left after elimination: the
 # share is the squared sine of the angle between the row and the others, rounding leaves some 1e-15.
 SINGULAR = 1e-13
+# Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
+# The rank-revealing way (templates/c/singular.c.jinja) leaves it out for the moment if the others agree.
+NEARLY_SINGULAR = 1e-8
 
 
 @dataclass(frozen=True)
@@ -58,8 +61,8 @@ class KKT:
         row_names = [row.name for row in self.rows] + [friction.name for friction in self.frictions]
         self.pivots = tuple(row_names[k - self.n] for k in self.elimination.order if k >= self.n)
 
-    def factorize(self, build: KernelBuilder, failed: str = "return {}") -> Factor:
-        """Statements for L and 1/D; `failed` is what a vanishing pivot does, with its number, from 1, for {}."""
+    def factorize(self, build: KernelBuilder, failed: str = "return {}", share: float = SINGULAR) -> Factor:
+        """Statements for L and 1/D; `failed` is what a pivot below its `share` does, its number, from 1, for {}."""
         build.section("L D L^T of the KKT matrix")
         L: dict[tuple[int, int], sp.Expr] = {}
         W: dict[tuple[int, int], sp.Expr] = {}  # entries before the division by their pivot
@@ -71,7 +74,7 @@ class KKT:
                 inverse[k] = self.inverse_masses[k]
             else:
                 count += 1
-                inverse[k] = self._row_pivot(build, k, earlier[k], L, W, failed.format(count))
+                inverse[k] = self._row_pivot(build, k, earlier[k], L, W, failed.format(count), share)
             for i in self.elimination.structure[k]:
                 shared = [j for j in earlier[k] if (i, j) in L]
                 value = self.entry.get((i, k), self.entry.get((k, i), sp.Integer(0)))
@@ -84,8 +87,9 @@ class KKT:
     def _row_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],
         L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr], failed: str,
+        least: float,
     ) -> sp.Expr:  # fmt: skip
-        """1/D of a row: D = −scale + what earlier rows explain; NaN fails the comparison too."""
+        """1/D of a row: D = −scale + what earlier rows explain; NaN fails the comparison with the scale too."""
         name = self.names[k]
         own = sum((L[k, j] * W[k, j] for j in earlier if j < self.n), sp.Integer(0))
         scale = build.local(f"scale_{name}", own)
@@ -94,7 +98,7 @@ class KKT:
         if others:
             value = scale + sum((L[k, j] * W[k, j] for j in others), sp.Integer(0))
             pivot = build.local(f"pivot_{name}", value)
-        test = f"!({pivot.name} > {SINGULAR!r} * {scale.name})"
+        test = f"!({pivot.name} > {least!r} * {scale.name})"
         if k < self.first_friction:
             build.line(f"if ({test}) {failed};")
             return -build.local(f"inverse_pivot_{name}", 1 / pivot)

@@ -11,7 +11,7 @@ import sympy as sp
 from gudgeon.generator import interface
 from gudgeon.generator.dynamics import dynamics_kernel, projection_kernel
 from gudgeon.generator.kernels import Kernel
-from gudgeon.generator.kkt import KKT, SINGULAR
+from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
 from gudgeon.generator.targets.c import printer
@@ -140,7 +140,8 @@ def _memory(model: Model) -> dict[str, str]:
 
 def _singular(model: Model) -> str:
     place = {row.name: r for r, row in enumerate(model.all_rows)}
-    return render("singular.c.jinja", kept=[place[row.name] for row in model.rows], singular=SINGULAR, **_counts(model))
+    return render("singular.c.jinja", kept=[place[row.name] for row in model.rows], singular=SINGULAR,
+        nearly=NEARLY_SINGULAR, **_counts(model))
 
 
 def _friction_pivots(kkt: KKT) -> list[int]:
