@@ -14,6 +14,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import AssemblyError
 
 MAX_STEPS = 60
+LARGE = 150  # from so many columns on a sparse factorization is tried first
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly
 
@@ -71,7 +72,7 @@ class _Assembly:
         """Smallest weighted step that closes the linearised rows, in some columns only."""
         weight = self.weight[columns]
         matrix = self.jacobian(q)[:, columns] / self.row_scale[:, None] / weight
-        solution = np.linalg.lstsq(matrix, -self.residual(q) / self.row_scale, rcond=1e-12)[0]
+        solution = smallest(matrix, -self.residual(q) / self.row_scale)
         step = np.zeros_like(q)
         step[columns] = solution / weight
         return step
@@ -101,7 +102,7 @@ class _Assembly:
         matrix = self.jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
         q = q.copy()
         if rows.any():
-            solution = np.linalg.lstsq(matrix, -self.residual(q)[rows], rcond=1e-12)[0]
+            solution = smallest(matrix, -self.residual(q)[rows])
             q[self.is_angle] += solution / self.weight[self.is_angle]
         return q
 
@@ -117,7 +118,7 @@ class _Assembly:
         root = np.sqrt(self.compiled.mass(self.p))
         v = np.zeros_like(q)
         for _ in range(2):  # once more for the rounding of the first solution
-            v += np.linalg.lstsq(matrix / root, target - matrix @ v, rcond=1e-12)[0] / root
+            v += smallest(matrix / root, target - matrix @ v) / root
         left = np.abs(matrix @ v - target)
         if left.max(initial=0.0) > 1e-8 * max(1.0, float(np.abs(target).max(initial=0.0))):
             raise self._stuck(matrix / root, left)
@@ -165,3 +166,28 @@ def mechanism_size(compiled: CompiledModel, p: Array) -> float:
     lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
     index += [k for k, is_length in enumerate(lengths) if is_length]
     return max(float(np.abs(p[index]).max(initial=0.0)), 1e-9) if index else 1.0
+
+
+def smallest(matrix: Array, target: Array) -> Array:
+    """The shortest x with matrix x = target, or the nearest to it that there is."""
+    if matrix.shape[1] >= LARGE:
+        x = _sparse_smallest(matrix, target)
+        if x is not None:
+            return x
+    return np.linalg.lstsq(matrix, target, rcond=1e-12)[0]
+
+
+def _sparse_smallest(matrix: Array, target: Array) -> Array | None:
+    """The same by a sparse factorization of [I Aᵀ; A 0], linear in the joints; None where A is rank-deficient."""
+    from scipy import sparse
+    from scipy.sparse.linalg import splu
+
+    rows, columns = matrix.shape
+    A = sparse.csc_matrix(matrix)
+    system = sparse.bmat([[sparse.identity(columns), A.T], [A, None]], format="csc")
+    try:
+        x = splu(system).solve(np.concatenate([np.zeros(columns), target]))[:columns]
+    except RuntimeError:  # exactly singular
+        return None
+    fits = np.linalg.norm(matrix @ x - target) <= 1e-9 * (np.linalg.norm(target) + 1e-300)
+    return np.asarray(x) if fits else None
