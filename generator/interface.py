@@ -126,13 +126,19 @@ def kept_joints(model: Model) -> list[Joint]:
 def _reaction(
     model: Model, joint: Joint, rows: list[Row], multiplier: dict[str, sp.Expr]
 ) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """Force on the second body and moment about the joint's point; from the first body if that is the ground."""
+    """Force on the second body and moment about the joint's point; on the ground: what all the others do not get."""
     first, second = model.geometry.point(joint.first), model.geometry.point(joint.second)
-    body = second.body or first.body
-    assert body is not None  # the reader refuses ground to ground
-    share = [-sum((row.phi_q.get(q, ZERO) * multiplier[row.name] for row in rows), ZERO) for q in body.q]
-    at = first if joint_types()[joint.kind].reaction_at == "first" else second
-    arm = at.arm if at.body is body else (at.x - body.x, at.y - body.y)
-    moment = sp.expand(share[2] - (arm[0] * share[1] - arm[1] * share[0]))
-    sign = 1 if second.body else -1
-    return sign * share[0], sign * share[1], sign * moment
+    kind = joint_types()[joint.kind]
+    at = first if kind.reaction_at == "first" else second
+    sign, bodies = 1, [second.body]
+    if second.body is None:
+        others = [joint.options[field.name] for field in kind.fields if field.kind == "body"]  # a gear's carrier
+        sign, bodies = -1, [first.body, *(model.geometry.bodies.get(name) for name in others)]
+    wrench = [ZERO, ZERO, ZERO]
+    for body in bodies:
+        if body is not None:
+            share = [-sum((row.phi_q.get(q, ZERO) * multiplier[row.name] for row in rows), ZERO) for q in body.q]
+            arm = at.arm if at.body is body else (at.x - body.x, at.y - body.y)
+            share[2] = sp.expand(share[2] - (arm[0] * share[1] - arm[1] * share[0]))
+            wrench = [total + sign * part for total, part in zip(wrench, share, strict=True)]
+    return wrench[0], wrench[1], wrench[2]

@@ -40,6 +40,7 @@ class Slots:
         self.symbols = symbols
         self.entries: dict[str, SlotEntry] = {}
         self.derived: dict[sp.Symbol, sp.Expr] = {}
+        self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
         self._parameters = scene.parameters
         for name in scene.parameters:

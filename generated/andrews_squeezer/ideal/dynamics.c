@@ -278,7 +278,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_F_x__OF_theta = -arm_OF_F_y*inverse_OF_inertia;
     const double l_F_y__OF_theta = arm_OF_F_x*inverse_OF_inertia;
     const double scale_O_x = arm_OF_O_y*l_O_x__OF_theta + inverse_OF_mass;
-    if (!(scale_O_x > 1e-13 * scale_O_x)) { pivot = 1; goto dependent; };
+    if (!(scale_O_x > 1e-08 * scale_O_x)) { pivot = 1; goto dependent; };
     const double inverse_pivot_O_x = 1.0/scale_O_x;
     const double w_O_y__O_x = -arm_OF_O_y*l_O_y__OF_theta;
     const double l_O_y__O_x = -inverse_pivot_O_x*w_O_y__O_x;
@@ -288,7 +288,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_F_y__O_x = -inverse_pivot_O_x*w_F_y__O_x;
     const double scale_O_y = -arm_OF_O_x*l_O_y__OF_theta + inverse_OF_mass;
     const double pivot_O_y = l_O_y__O_x*w_O_y__O_x + scale_O_y;
-    if (!(pivot_O_y > 1e-13 * scale_O_y)) { pivot = 2; goto dependent; };
+    if (!(pivot_O_y > 1e-08 * scale_O_y)) { pivot = 2; goto dependent; };
     const double inverse_pivot_O_y = 1.0/pivot_O_y;
     const double w_F_x__O_y = arm_OF_O_x*l_F_x__OF_theta - l_F_x__O_x*w_O_y__O_x;
     const double l_F_x__O_y = -inverse_pivot_O_y*w_F_x__O_y;
@@ -299,7 +299,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_E3_x__BDE_theta = arm_BDE_E_y*inverse_BDE_inertia;
     const double l_E3_y__BDE_theta = -arm_BDE_E_x*inverse_BDE_inertia;
     const double scale_B_x = arm_BDE_B_y*l_B_x__BDE_theta + inverse_BDE_mass;
-    if (!(scale_B_x > 1e-13 * scale_B_x)) { pivot = 3; goto dependent; };
+    if (!(scale_B_x > 1e-08 * scale_B_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_B_x = 1.0/scale_B_x;
     const double w_B_y__B_x = -arm_BDE_B_y*l_B_y__BDE_theta;
     const double l_B_y__B_x = -inverse_pivot_B_x*w_B_y__B_x;
@@ -309,7 +309,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_E3_y__B_x = -inverse_pivot_B_x*w_E3_y__B_x;
     const double scale_B_y = -arm_BDE_B_x*l_B_y__BDE_theta + inverse_BDE_mass;
     const double pivot_B_y = l_B_y__B_x*w_B_y__B_x + scale_B_y;
-    if (!(pivot_B_y > 1e-13 * scale_B_y)) { pivot = 4; goto dependent; };
+    if (!(pivot_B_y > 1e-08 * scale_B_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_B_y = 1.0/pivot_B_y;
     const double w_E3_x__B_y = arm_BDE_B_x*l_E3_x__BDE_theta - l_E3_x__B_x*w_B_y__B_x;
     const double l_E3_x__B_y = -inverse_pivot_B_y*w_E3_x__B_y;
@@ -324,7 +324,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_G_x__AG_theta = arm_AG_G_y*inverse_AG_inertia;
     const double l_G_y__AG_theta = -arm_AG_G_x*inverse_AG_inertia;
     const double scale_A5_x = arm_AG_A_y*l_A5_x__AG_theta + inverse_AG_mass;
-    if (!(scale_A5_x > 1e-13 * scale_A5_x)) { pivot = 5; goto dependent; };
+    if (!(scale_A5_x > 1e-08 * scale_A5_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_A5_x = 1.0/scale_A5_x;
     const double w_A5_y__A5_x = -arm_AG_A_y*l_A5_y__AG_theta;
     const double l_A5_y__A5_x = -inverse_pivot_A5_x*w_A5_y__A5_x;
@@ -334,7 +334,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_G_y__A5_x = -inverse_pivot_A5_x*w_G_y__A5_x;
     const double scale_A5_y = -arm_AG_A_x*l_A5_y__AG_theta + inverse_AG_mass;
     const double pivot_A5_y = l_A5_y__A5_x*w_A5_y__A5_x + scale_A5_y;
-    if (!(pivot_A5_y > 1e-13 * scale_A5_y)) { pivot = 6; goto dependent; };
+    if (!(pivot_A5_y > 1e-08 * scale_A5_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_A5_y = 1.0/pivot_A5_y;
     const double w_G_x__A5_y = arm_AG_A_x*l_G_x__AG_theta - l_G_x__A5_x*w_A5_y__A5_x;
     const double l_G_x__A5_y = -inverse_pivot_A5_y*w_G_x__A5_y;
@@ -343,7 +343,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_G_x = arm_AG_G_y*l_G_x__AG_theta - arm_EG_G_y*l_G_x__EG_theta + inverse_AG_mass +
         inverse_EG_mass;
     const double pivot_G_x = l_G_x__A5_x*w_G_x__A5_x + l_G_x__A5_y*w_G_x__A5_y + scale_G_x;
-    if (!(pivot_G_x > 1e-13 * scale_G_x)) { pivot = 7; goto dependent; };
+    if (!(pivot_G_x > 1e-08 * scale_G_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_G_x = 1.0/pivot_G_x;
     const double w_G_y__G_x = -arm_AG_G_y*l_G_y__AG_theta + arm_EG_G_y*l_G_y__EG_theta -
         l_G_y__A5_x*w_G_x__A5_x - l_G_y__A5_y*w_G_x__A5_y;
@@ -356,7 +356,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_EG_mass;
     const double pivot_G_y = l_G_y__A5_x*w_G_y__A5_x + l_G_y__A5_y*w_G_y__A5_y + l_G_y__G_x*w_G_y__G_x +
         scale_G_y;
-    if (!(pivot_G_y > 1e-13 * scale_G_y)) { pivot = 8; goto dependent; };
+    if (!(pivot_G_y > 1e-08 * scale_G_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_G_y = 1.0/pivot_G_y;
     const double w_E4_x__G_y = -arm_EG_G_x*l_E4_x__EG_theta - l_E4_x__G_x*w_G_y__G_x;
     const double l_E4_x__G_y = -inverse_pivot_G_y*w_E4_x__G_y;
@@ -371,7 +371,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_H_x__AH_theta = arm_AH_H_y*inverse_AH_inertia;
     const double l_H_y__AH_theta = -arm_AH_H_x*inverse_AH_inertia;
     const double scale_A7_x = arm_AH_A_y*l_A7_x__AH_theta + inverse_AH_mass;
-    if (!(scale_A7_x > 1e-13 * scale_A7_x)) { pivot = 9; goto dependent; };
+    if (!(scale_A7_x > 1e-08 * scale_A7_x)) { pivot = 9; goto dependent; };
     const double inverse_pivot_A7_x = 1.0/scale_A7_x;
     const double w_A7_y__A7_x = -arm_AH_A_y*l_A7_y__AH_theta;
     const double l_A7_y__A7_x = -inverse_pivot_A7_x*w_A7_y__A7_x;
@@ -381,7 +381,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_H_y__A7_x = -inverse_pivot_A7_x*w_H_y__A7_x;
     const double scale_A7_y = -arm_AH_A_x*l_A7_y__AH_theta + inverse_AH_mass;
     const double pivot_A7_y = l_A7_y__A7_x*w_A7_y__A7_x + scale_A7_y;
-    if (!(pivot_A7_y > 1e-13 * scale_A7_y)) { pivot = 10; goto dependent; };
+    if (!(pivot_A7_y > 1e-08 * scale_A7_y)) { pivot = 10; goto dependent; };
     const double inverse_pivot_A7_y = 1.0/pivot_A7_y;
     const double w_H_x__A7_y = arm_AH_A_x*l_H_x__AH_theta - l_H_x__A7_x*w_A7_y__A7_x;
     const double l_H_x__A7_y = -inverse_pivot_A7_y*w_H_x__A7_y;
@@ -390,7 +390,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_H_x = arm_AH_H_y*l_H_x__AH_theta - arm_HE_H_y*l_H_x__HE_theta + inverse_AH_mass +
         inverse_HE_mass;
     const double pivot_H_x = l_H_x__A7_x*w_H_x__A7_x + l_H_x__A7_y*w_H_x__A7_y + scale_H_x;
-    if (!(pivot_H_x > 1e-13 * scale_H_x)) { pivot = 11; goto dependent; };
+    if (!(pivot_H_x > 1e-08 * scale_H_x)) { pivot = 11; goto dependent; };
     const double inverse_pivot_H_x = 1.0/pivot_H_x;
     const double w_H_y__H_x = -arm_AH_H_y*l_H_y__AH_theta + arm_HE_H_y*l_H_y__HE_theta -
         l_H_y__A7_x*w_H_x__A7_x - l_H_y__A7_y*w_H_x__A7_y;
@@ -403,7 +403,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_HE_mass;
     const double pivot_H_y = l_H_y__A7_x*w_H_y__A7_x + l_H_y__A7_y*w_H_y__A7_y + l_H_y__H_x*w_H_y__H_x +
         scale_H_y;
-    if (!(pivot_H_y > 1e-13 * scale_H_y)) { pivot = 12; goto dependent; };
+    if (!(pivot_H_y > 1e-08 * scale_H_y)) { pivot = 12; goto dependent; };
     const double inverse_pivot_H_y = 1.0/pivot_H_y;
     const double w_E6_x__H_y = -arm_HE_H_x*l_E6_x__HE_theta - l_E6_x__H_x*w_H_y__H_x;
     const double l_E6_x__H_y = -inverse_pivot_H_y*w_E6_x__H_y;
@@ -420,7 +420,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_F_x = arm_FE_F_y*l_F_x__FE_theta - arm_OF_F_y*l_F_x__OF_theta + inverse_FE_mass +
         inverse_OF_mass;
     const double pivot_F_x = l_F_x__O_x*w_F_x__O_x + l_F_x__O_y*w_F_x__O_y + scale_F_x;
-    if (!(pivot_F_x > 1e-13 * scale_F_x)) { pivot = 13; goto dependent; };
+    if (!(pivot_F_x > 1e-08 * scale_F_x)) { pivot = 13; goto dependent; };
     const double inverse_pivot_F_x = 1.0/pivot_F_x;
     const double w_F_y__F_x = -arm_FE_F_y*l_F_y__FE_theta + arm_OF_F_y*l_F_y__OF_theta - l_F_y__O_x*w_F_x__O_x
         - l_F_y__O_y*w_F_x__O_y;
@@ -441,7 +441,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_OF_mass;
     const double pivot_F_y = l_F_y__F_x*w_F_y__F_x + l_F_y__O_x*w_F_y__O_x + l_F_y__O_y*w_F_y__O_y +
         scale_F_y;
-    if (!(pivot_F_y > 1e-13 * scale_F_y)) { pivot = 14; goto dependent; };
+    if (!(pivot_F_y > 1e-08 * scale_F_y)) { pivot = 14; goto dependent; };
     const double inverse_pivot_F_y = 1.0/pivot_F_y;
     const double w_E3_x__F_y = arm_FE_F_x*l_E3_x__FE_theta - l_E3_x__F_x*w_F_y__F_x;
     const double l_E3_x__F_y = -inverse_pivot_F_y*w_E3_x__F_y;
@@ -459,7 +459,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_FE_mass;
     const double pivot_E3_x = l_E3_x__B_x*w_E3_x__B_x + l_E3_x__B_y*w_E3_x__B_y + l_E3_x__F_x*w_E3_x__F_x +
         l_E3_x__F_y*w_E3_x__F_y + scale_E3_x;
-    if (!(pivot_E3_x > 1e-13 * scale_E3_x)) { pivot = 15; goto dependent; };
+    if (!(pivot_E3_x > 1e-08 * scale_E3_x)) { pivot = 15; goto dependent; };
     const double inverse_pivot_E3_x = 1.0/pivot_E3_x;
     const double w_E3_y__E3_x = -arm_BDE_E_y*l_E3_y__BDE_theta + arm_FE_E_y*l_E3_y__FE_theta -
         l_E3_y__B_x*w_E3_x__B_x - l_E3_y__B_y*w_E3_x__B_y - l_E3_y__F_x*w_E3_x__F_x - l_E3_y__F_y*w_E3_x__F_y;
@@ -480,7 +480,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         + inverse_FE_mass;
     const double pivot_E3_y = l_E3_y__B_x*w_E3_y__B_x + l_E3_y__B_y*w_E3_y__B_y + l_E3_y__E3_x*w_E3_y__E3_x +
         l_E3_y__F_x*w_E3_y__F_x + l_E3_y__F_y*w_E3_y__F_y + scale_E3_y;
-    if (!(pivot_E3_y > 1e-13 * scale_E3_y)) { pivot = 16; goto dependent; };
+    if (!(pivot_E3_y > 1e-08 * scale_E3_y)) { pivot = 16; goto dependent; };
     const double inverse_pivot_E3_y = 1.0/pivot_E3_y;
     const double w_E4_x__E3_y = -arm_FE_E_x*l_E4_x__FE_theta - l_E4_x__E3_x*w_E3_y__E3_x -
         l_E4_x__F_x*w_E3_y__F_x - l_E4_x__F_y*w_E3_y__F_y;
@@ -498,7 +498,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_FE_mass;
     const double pivot_E4_x = l_E4_x__E3_x*w_E4_x__E3_x + l_E4_x__E3_y*w_E4_x__E3_y + l_E4_x__F_x*w_E4_x__F_x
         + l_E4_x__F_y*w_E4_x__F_y + l_E4_x__G_x*w_E4_x__G_x + l_E4_x__G_y*w_E4_x__G_y + scale_E4_x;
-    if (!(pivot_E4_x > 1e-13 * scale_E4_x)) { pivot = 17; goto dependent; };
+    if (!(pivot_E4_x > 1e-08 * scale_E4_x)) { pivot = 17; goto dependent; };
     const double inverse_pivot_E4_x = 1.0/pivot_E4_x;
     const double w_E4_y__E4_x = -arm_EG_E_y*l_E4_y__EG_theta + arm_FE_E_y*l_E4_y__FE_theta -
         l_E4_y__E3_x*w_E4_x__E3_x - l_E4_y__E3_y*w_E4_x__E3_y - l_E4_y__F_x*w_E4_x__F_x -
@@ -515,7 +515,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double pivot_E4_y = l_E4_y__E3_x*w_E4_y__E3_x + l_E4_y__E3_y*w_E4_y__E3_y +
         l_E4_y__E4_x*w_E4_y__E4_x + l_E4_y__F_x*w_E4_y__F_x + l_E4_y__F_y*w_E4_y__F_y +
         l_E4_y__G_x*w_E4_y__G_x + l_E4_y__G_y*w_E4_y__G_y + scale_E4_y;
-    if (!(pivot_E4_y > 1e-13 * scale_E4_y)) { pivot = 18; goto dependent; };
+    if (!(pivot_E4_y > 1e-08 * scale_E4_y)) { pivot = 18; goto dependent; };
     const double inverse_pivot_E4_y = 1.0/pivot_E4_y;
     const double w_E6_x__E4_y = -arm_FE_E_x*l_E6_x__FE_theta - l_E6_x__E3_x*w_E4_y__E3_x -
         l_E6_x__E3_y*w_E4_y__E3_y - l_E6_x__E4_x*w_E4_y__E4_x - l_E6_x__F_x*w_E4_y__F_x -
@@ -530,7 +530,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double pivot_E6_x = l_E6_x__E3_x*w_E6_x__E3_x + l_E6_x__E3_y*w_E6_x__E3_y +
         l_E6_x__E4_x*w_E6_x__E4_x + l_E6_x__E4_y*w_E6_x__E4_y + l_E6_x__F_x*w_E6_x__F_x +
         l_E6_x__F_y*w_E6_x__F_y + l_E6_x__H_x*w_E6_x__H_x + l_E6_x__H_y*w_E6_x__H_y + scale_E6_x;
-    if (!(pivot_E6_x > 1e-13 * scale_E6_x)) { pivot = 19; goto dependent; };
+    if (!(pivot_E6_x > 1e-08 * scale_E6_x)) { pivot = 19; goto dependent; };
     const double inverse_pivot_E6_x = 1.0/pivot_E6_x;
     const double w_E6_y__E6_x = arm_FE_E_y*l_E6_y__FE_theta - arm_HE_E_y*l_E6_y__HE_theta -
         l_E6_y__E3_x*w_E6_x__E3_x - l_E6_y__E3_y*w_E6_x__E3_y - l_E6_y__E4_x*w_E6_x__E4_x -
@@ -543,7 +543,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         l_E6_y__E4_x*w_E6_y__E4_x + l_E6_y__E4_y*w_E6_y__E4_y + l_E6_y__E6_x*w_E6_y__E6_x +
         l_E6_y__F_x*w_E6_y__F_x + l_E6_y__F_y*w_E6_y__F_y + l_E6_y__H_x*w_E6_y__H_x + l_E6_y__H_y*w_E6_y__H_y
         + scale_E6_y;
-    if (!(pivot_E6_y > 1e-13 * scale_E6_y)) { pivot = 20; goto dependent; };
+    if (!(pivot_E6_y > 1e-08 * scale_E6_y)) { pivot = 20; goto dependent; };
     const double inverse_pivot_E6_y = 1.0/pivot_E6_y;
 
     /* forward substitution */

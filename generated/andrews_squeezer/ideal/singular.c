@@ -1,8 +1,10 @@
 /*
- * The same system where a pivot vanishes: at a singular position (links in one line) rows of Phi_q
- * depend on each other for a moment. Gram-Schmidt with pivoting on the rows of Phi_q M^(-1/2), twice
- * over, keeps the independent ones; the others must agree with them, or the constraints contradict
- * each other and the pivot's number is returned. Rare, dense, and out of the way of the fast path.
+ * The same system where a pivot (nearly) vanishes: at a singular position (links in one line) rows of
+ * Phi_q depend on each other for a moment, and beside it any drift would be blown up. Gram-Schmidt with
+ * pivoting on the rows of Phi_q M^(-1/2), twice over, keeps the independent ones; the others must agree
+ * with them. If they do not, only what is dependent to rounding is left out; if that does not agree
+ * either, the constraints contradict each other and the pivot's number is returned. Rare, dense, and
+ * out of the way of the fast path.
  */
 typedef struct {
     double basis[20][N_Q];             /* orthonormal rows found so far */
@@ -36,7 +38,7 @@ static void remove_component(Workspace *w, int rank, int first)
 }
 
 /* Orders the rows, the largest remainder first; returns how many are independent. */
-static int independent_rows(Workspace *w)
+static int independent_rows(Workspace *w, double least)
 {
     int rank = 0;
     for (; rank < N_ROWS; rank++) {
@@ -49,7 +51,7 @@ static int independent_rows(Workspace *w)
                 best = i;
             }
         }
-        if (!(most > 1e-13))
+        if (!(most > least))
             break;
         const int chosen = w->order[best];
         w->order[best] = w->order[rank];
@@ -63,14 +65,11 @@ static int independent_rows(Workspace *w)
     return rank;
 }
 
-/* a and lambda by the independent rows; `rhs` holds gamma - 2 alpha Phi_dot - beta^2 Phi, `force` is g. */
-static int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
-    double *a, double *lambda, int pivot)
+/* Rows scaled by M^(-1/2), and what each must still give: rhs - Phi_q M^-1 g. */
+static void fill_workspace(Workspace *w, double t, const double *q, const Parameters *p, const double *force, const double *rhs)
 {
     static const int kept[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
-    Workspace *w = calloc(1, sizeof(Workspace));
-    if (!w)
-        return pivot;
+    *w = (Workspace){0};
     mass_matrix(p, w->root);
     jacobian(t, q, p, &w->all[0][0]);
     for (int k = 0; k < N_Q; k++) {
@@ -85,8 +84,12 @@ static int solve_dependent(double t, const double *q, const Parameters *p, const
         w->rest[i] = rhs[i] - dot(w->row[i], w->y);
         w->along[i] = fabs(rhs[i]) + sqrt(w->norm[i] * dot(w->y, w->y)); /* its size, for the comparison below */
     }
-    const int rank = independent_rows(w);
-    int status = 0;
+}
+
+/* y and lambda by the rows that are independent to `least`; 1 if the others agree to `tolerance`. */
+static int solve_independent(Workspace *w, double least, double tolerance, double *lambda)
+{
+    const int rank = independent_rows(w, least);
     for (int k = 0; k < rank; k++) { /* forward: coordinates along the basis */
         const int row = w->order[k];
         const double along = w->rest[row] / w->lower[row][k];
@@ -98,9 +101,6 @@ static int solve_dependent(double t, const double *q, const Parameters *p, const
         for (int j = 0; j < N_Q; j++)
             w->y[j] += along * w->basis[k][j];
     }
-    for (int i = rank; i < N_ROWS; i++)
-        if (!(fabs(w->rest[w->order[i]]) <= 1e-6 * w->along[w->order[i]]))
-            status = pivot;
     for (int i = 0; i < N_ROWS; i++)
         lambda[i] = 0.0;
     for (int k = rank - 1; k >= 0; k--) { /* backward: multipliers of the independent rows */
@@ -109,10 +109,29 @@ static int solve_dependent(double t, const double *q, const Parameters *p, const
             value += w->lower[w->order[i]][k] * lambda[w->order[i]];
         lambda[w->order[k]] = -value / w->lower[w->order[k]][k];
     }
-    for (int k = 0; k < N_Q; k++) {
-        a[k] = w->y[k] / w->root[k];
-        if (!isfinite(a[k]))
-            status = pivot;
+    int agree = 1;
+    for (int i = rank; i < N_ROWS; i++)
+        agree = agree && fabs(w->rest[w->order[i]]) <= tolerance * w->along[w->order[i]];
+    return agree;
+}
+
+/* a and lambda; `rhs` holds gamma - 2 alpha Phi_dot - beta^2 Phi, `force` is g. */
+static int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
+    double *a, double *lambda, int pivot)
+{
+    static const double least[] = {1e-08, 1e-13}, tolerance[] = {1e-3, 1e-6};
+    Workspace *w = malloc(sizeof(Workspace));
+    int status = pivot;
+    for (int pass = 0; w && status && pass < 2; pass++) {
+        fill_workspace(w, t, q, p, force, rhs);
+        if (!solve_independent(w, least[pass], tolerance[pass], lambda))
+            continue;
+        status = 0;
+        for (int k = 0; k < N_Q; k++) {
+            a[k] = w->y[k] / w->root[k];
+            if (!isfinite(a[k]))
+                status = pivot;
+        }
     }
     free(w);
     return status;

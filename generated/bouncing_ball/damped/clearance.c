@@ -9,11 +9,11 @@ static inline void normal_fall_force(double delta, double ratio, const Parameter
     /* parameters */
     const double damped_normal_stiffness = p->damped_normal_stiffness;
     const double damped_normal_exponent = p->damped_normal_exponent;
-    const double fall_hysteresis = p->fall_hysteresis;
+    const double damped_floor_hysteresis = p->damped_floor_hysteresis;
 
     /* law of joint fall */
-    *F_n_out = max_of(damped_normal_stiffness*pow(delta, damped_normal_exponent)*(fall_hysteresis*ratio +
-        1.0), 0.0);
+    *F_n_out = max_of(damped_normal_stiffness*pow(delta,
+        damped_normal_exponent)*(damped_floor_hysteresis*ratio + 1.0), 0.0);
 }
 
 /*

@@ -38,8 +38,8 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     /* derived */
     const double R_j_floor = -floor_clearance + floor_radius;  /* journal radius */
     p->R_j_floor = R_j_floor;
-    const double fall_hysteresis = 1.5 - 1.5*damped_normal_restitution;  /* hysteresis damping factor */
-    p->fall_hysteresis = fall_hysteresis;
+    const double damped_floor_hysteresis = 1.5 - 1.5*damped_normal_restitution;  /* hysteresis damping factor */
+    p->damped_floor_hysteresis = damped_floor_hysteresis;
     const double inverse_ball_mass = 1.0/ball_mass;  /* 1/M */
     p->inverse_ball_mass = inverse_ball_mass;
     const double inverse_ball_inertia = 1.0/ball_inertia;  /* 1/M */

@@ -35,10 +35,10 @@ static int dynamics(const double t, const double *q, const double *v, const Para
 
     /* L D L^T of the KKT matrix */
     const double scale_fall_x = inverse_ball_mass;
-    if (!(scale_fall_x > 1e-13 * scale_fall_x)) { pivot = 1; goto dependent; };
+    if (!(scale_fall_x > 1e-08 * scale_fall_x)) { pivot = 1; goto dependent; };
     const double inverse_pivot_fall_x = 1.0/scale_fall_x;
     const double scale_fall_y = inverse_ball_mass;
-    if (!(scale_fall_y > 1e-13 * scale_fall_y)) { pivot = 2; goto dependent; };
+    if (!(scale_fall_y > 1e-08 * scale_fall_y)) { pivot = 2; goto dependent; };
     const double inverse_pivot_fall_y = 1.0/scale_fall_y;
 
     /* forward substitution */

@@ -118,7 +118,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         + axle_x*sin_theta_road - axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road;
     const double l_slot_offset__road_theta = inverse_road_inertia*w_slot_offset__road_theta;
     const double scale_foot_x = -arm_road_head_y*l_foot_x__road_theta + inverse_road_mass;
-    if (!(scale_foot_x > 1e-13 * scale_foot_x)) { pivot = 1; goto dependent; };
+    if (!(scale_foot_x > 1e-08 * scale_foot_x)) { pivot = 1; goto dependent; };
     const double inverse_pivot_foot_x = 1.0/scale_foot_x;
     const double w_foot_y__foot_x = arm_road_head_y*l_foot_y__road_theta;
     const double l_foot_y__foot_x = -inverse_pivot_foot_x*w_foot_y__foot_x;
@@ -128,7 +128,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_bump__foot_x = -inverse_pivot_foot_x*w_bump__foot_x;
     const double scale_foot_y = arm_road_head_x*l_foot_y__road_theta + inverse_road_mass;
     const double pivot_foot_y = l_foot_y__foot_x*w_foot_y__foot_x + scale_foot_y;
-    if (!(pivot_foot_y > 1e-13 * scale_foot_y)) { pivot = 2; goto dependent; };
+    if (!(pivot_foot_y > 1e-08 * scale_foot_y)) { pivot = 2; goto dependent; };
     const double inverse_pivot_foot_y = 1.0/pivot_foot_y;
     const double w_slot_offset__foot_y = -arm_road_head_x*l_slot_offset__road_theta -
         l_slot_offset__foot_x*w_foot_y__foot_x + l_slot_offset__road_y;
@@ -141,7 +141,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         l_slot_offset__road_y*sin_theta_road;
     const double pivot_slot_offset = l_slot_offset__foot_x*w_slot_offset__foot_x +
         l_slot_offset__foot_y*w_slot_offset__foot_y + scale_slot_offset;
-    if (!(pivot_slot_offset > 1e-13 * scale_slot_offset)) { pivot = 3; goto dependent; };
+    if (!(pivot_slot_offset > 1e-08 * scale_slot_offset)) { pivot = 3; goto dependent; };
     const double inverse_pivot_slot_offset = 1.0/pivot_slot_offset;
     const double w_bump__slot_offset = -inverse_road_inertia*w_slot_offset__road_theta -
         l_bump__foot_x*w_slot_offset__foot_x - l_bump__foot_y*w_slot_offset__foot_y;
@@ -149,7 +149,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_bump = inverse_road_inertia;
     const double pivot_bump = l_bump__foot_x*w_bump__foot_x + l_bump__foot_y*w_bump__foot_y +
         l_bump__slot_offset*w_bump__slot_offset + scale_bump;
-    if (!(pivot_bump > 1e-13 * scale_bump)) { pivot = 4; goto dependent; };
+    if (!(pivot_bump > 1e-08 * scale_bump)) { pivot = 4; goto dependent; };
     const double inverse_pivot_bump = 1.0/pivot_bump;
 
     /* forward substitution */

@@ -134,7 +134,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B_x__rocker_theta = arm_rocker_head_y*inverse_rocker_inertia;
     const double l_B_y__rocker_theta = -arm_rocker_head_x*inverse_rocker_inertia;
     const double scale_B0_x = -arm_rocker_head_y*l_B0_x__rocker_theta + inverse_rocker_mass;
-    if (!(scale_B0_x > 1e-13 * scale_B0_x)) { pivot = 1; goto dependent; };
+    if (!(scale_B0_x > 1e-08 * scale_B0_x)) { pivot = 1; goto dependent; };
     const double inverse_pivot_B0_x = 1.0/scale_B0_x;
     const double w_B0_y__B0_x = arm_rocker_head_y*l_B0_y__rocker_theta;
     const double l_B0_y__B0_x = -inverse_pivot_B0_x*w_B0_y__B0_x;
@@ -144,7 +144,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B_y__B0_x = -inverse_pivot_B0_x*w_B_y__B0_x;
     const double scale_B0_y = arm_rocker_head_x*l_B0_y__rocker_theta + inverse_rocker_mass;
     const double pivot_B0_y = l_B0_y__B0_x*w_B0_y__B0_x + scale_B0_y;
-    if (!(pivot_B0_y > 1e-13 * scale_B0_y)) { pivot = 2; goto dependent; };
+    if (!(pivot_B0_y > 1e-08 * scale_B0_y)) { pivot = 2; goto dependent; };
     const double inverse_pivot_B0_y = 1.0/pivot_B0_y;
     const double w_B_x__B0_y = -arm_rocker_head_x*l_B_x__rocker_theta - l_B_x__B0_x*w_B0_y__B0_x;
     const double l_B_x__B0_y = -inverse_pivot_B0_y*w_B_x__B0_y;
@@ -154,7 +154,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_B_x = -arm_coupler_head_y*l_B_x__coupler_theta + arm_rocker_head_y*l_B_x__rocker_theta
         + inverse_coupler_mass + inverse_rocker_mass;
     const double pivot_B_x = l_B_x__B0_x*w_B_x__B0_x + l_B_x__B0_y*w_B_x__B0_y + scale_B_x;
-    if (!(pivot_B_x > 1e-13 * scale_B_x)) { pivot = 3; goto dependent; };
+    if (!(pivot_B_x > 1e-08 * scale_B_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_B_x = 1.0/pivot_B_x;
     const double w_B_y__B_x = arm_coupler_head_y*l_B_y__coupler_theta - arm_rocker_head_y*l_B_y__rocker_theta
         - l_B_y__B0_x*w_B_x__B0_x - l_B_y__B0_y*w_B_x__B0_y;
@@ -167,7 +167,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_coupler_mass + inverse_rocker_mass;
     const double pivot_B_y = l_B_y__B0_x*w_B_y__B0_x + l_B_y__B0_y*w_B_y__B0_y + l_B_y__B_x*w_B_y__B_x +
         scale_B_y;
-    if (!(pivot_B_y > 1e-13 * scale_B_y)) { pivot = 4; goto dependent; };
+    if (!(pivot_B_y > 1e-08 * scale_B_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_B_y = 1.0/pivot_B_y;
     const double w_A_x__B_y = -arm_coupler_head_x*l_A_x__coupler_theta - l_A_x__B_x*w_B_y__B_x;
     const double l_A_x__B_y = -inverse_pivot_B_y*w_A_x__B_y;
@@ -179,7 +179,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
     const double l_A_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
     const double scale_A0_x = -arm_crank_head_y*l_A0_x__crank_theta + inverse_crank_mass;
-    if (!(scale_A0_x > 1e-13 * scale_A0_x)) { pivot = 5; goto dependent; };
+    if (!(scale_A0_x > 1e-08 * scale_A0_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_A0_x = 1.0/scale_A0_x;
     const double w_A0_y__A0_x = arm_crank_head_y*l_A0_y__crank_theta;
     const double l_A0_y__A0_x = -inverse_pivot_A0_x*w_A0_y__A0_x;
@@ -191,7 +191,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_motor__A0_x = -inverse_pivot_A0_x*w_motor__A0_x;
     const double scale_A0_y = arm_crank_head_x*l_A0_y__crank_theta + inverse_crank_mass;
     const double pivot_A0_y = l_A0_y__A0_x*w_A0_y__A0_x + scale_A0_y;
-    if (!(pivot_A0_y > 1e-13 * scale_A0_y)) { pivot = 6; goto dependent; };
+    if (!(pivot_A0_y > 1e-08 * scale_A0_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_A0_y = 1.0/pivot_A0_y;
     const double w_A_x__A0_y = -arm_crank_head_x*l_A_x__crank_theta - l_A_x__A0_x*w_A0_y__A0_x;
     const double l_A_x__A0_y = -inverse_pivot_A0_y*w_A_x__A0_y;
@@ -204,7 +204,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_coupler_mass + inverse_crank_mass;
     const double pivot_A_x = l_A_x__A0_x*w_A_x__A0_x + l_A_x__A0_y*w_A_x__A0_y + l_A_x__B_x*w_A_x__B_x +
         l_A_x__B_y*w_A_x__B_y + scale_A_x;
-    if (!(pivot_A_x > 1e-13 * scale_A_x)) { pivot = 7; goto dependent; };
+    if (!(pivot_A_x > 1e-08 * scale_A_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_A_x = 1.0/pivot_A_x;
     const double w_A_y__A_x = arm_coupler_head_y*l_A_y__coupler_theta + arm_crank_head_y*l_A_y__crank_theta -
         l_A_y__A0_x*w_A_x__A0_x - l_A_y__A0_y*w_A_x__A0_y - l_A_y__B_x*w_A_x__B_x - l_A_y__B_y*w_A_x__B_y;
@@ -216,7 +216,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_coupler_mass + inverse_crank_mass;
     const double pivot_A_y = l_A_y__A0_x*w_A_y__A0_x + l_A_y__A0_y*w_A_y__A0_y + l_A_y__A_x*w_A_y__A_x +
         l_A_y__B_x*w_A_y__B_x + l_A_y__B_y*w_A_y__B_y + scale_A_y;
-    if (!(pivot_A_y > 1e-13 * scale_A_y)) { pivot = 8; goto dependent; };
+    if (!(pivot_A_y > 1e-08 * scale_A_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_A_y = 1.0/pivot_A_y;
     const double w_motor__A_y = -arm_crank_head_x*inverse_crank_inertia - l_motor__A0_x*w_A_y__A0_x -
         l_motor__A0_y*w_A_y__A0_y - l_motor__A_x*w_A_y__A_x;
@@ -224,7 +224,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_motor = inverse_crank_inertia;
     const double pivot_motor = l_motor__A0_x*w_motor__A0_x + l_motor__A0_y*w_motor__A0_y +
         l_motor__A_x*w_motor__A_x + l_motor__A_y*w_motor__A_y + scale_motor;
-    if (!(pivot_motor > 1e-13 * scale_motor)) { pivot = 9; goto dependent; };
+    if (!(pivot_motor > 1e-08 * scale_motor)) { pivot = 9; goto dependent; };
     const double inverse_pivot_motor = 1.0/pivot_motor;
 
     /* forward substitution */

@@ -189,7 +189,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A0_x__crank0_theta = -arm_crank0_head_y*inverse_crank0_inertia;
     const double l_A0_y__crank0_theta = arm_crank0_head_x*inverse_crank0_inertia;
     const double scale_O0_x = -arm_crank0_head_y*l_O0_x__crank0_theta + inverse_crank0_mass;
-    if (!(scale_O0_x > 1e-13 * scale_O0_x)) { pivot = 1; goto dependent; };
+    if (!(scale_O0_x > 1e-08 * scale_O0_x)) { pivot = 1; goto dependent; };
     const double inverse_pivot_O0_x = 1.0/scale_O0_x;
     const double w_O0_y__O0_x = arm_crank0_head_y*l_O0_y__crank0_theta;
     const double l_O0_y__O0_x = -inverse_pivot_O0_x*w_O0_y__O0_x;
@@ -199,7 +199,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A0_y__O0_x = -inverse_pivot_O0_x*w_A0_y__O0_x;
     const double scale_O0_y = arm_crank0_head_x*l_O0_y__crank0_theta + inverse_crank0_mass;
     const double pivot_O0_y = l_O0_y__O0_x*w_O0_y__O0_x + scale_O0_y;
-    if (!(pivot_O0_y > 1e-13 * scale_O0_y)) { pivot = 2; goto dependent; };
+    if (!(pivot_O0_y > 1e-08 * scale_O0_y)) { pivot = 2; goto dependent; };
     const double inverse_pivot_O0_y = 1.0/pivot_O0_y;
     const double w_A0_x__O0_y = -arm_crank0_head_x*l_A0_x__crank0_theta - l_A0_x__O0_x*w_O0_y__O0_x;
     const double l_A0_x__O0_y = -inverse_pivot_O0_y*w_A0_x__O0_y;
@@ -211,7 +211,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B2_x__crank2_theta = arm_crank2_head_y*inverse_crank2_inertia;
     const double l_B2_y__crank2_theta = -arm_crank2_head_x*inverse_crank2_inertia;
     const double scale_O2_x = -arm_crank2_head_y*l_O2_x__crank2_theta + inverse_crank2_mass;
-    if (!(scale_O2_x > 1e-13 * scale_O2_x)) { pivot = 3; goto dependent; };
+    if (!(scale_O2_x > 1e-08 * scale_O2_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_O2_x = 1.0/scale_O2_x;
     const double w_O2_y__O2_x = arm_crank2_head_y*l_O2_y__crank2_theta;
     const double l_O2_y__O2_x = -inverse_pivot_O2_x*w_O2_y__O2_x;
@@ -221,7 +221,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B2_y__O2_x = -inverse_pivot_O2_x*w_B2_y__O2_x;
     const double scale_O2_y = arm_crank2_head_x*l_O2_y__crank2_theta + inverse_crank2_mass;
     const double pivot_O2_y = l_O2_y__O2_x*w_O2_y__O2_x + scale_O2_y;
-    if (!(pivot_O2_y > 1e-13 * scale_O2_y)) { pivot = 4; goto dependent; };
+    if (!(pivot_O2_y > 1e-08 * scale_O2_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_O2_y = 1.0/pivot_O2_y;
     const double w_B2_x__O2_y = -arm_crank2_head_x*l_B2_x__crank2_theta - l_B2_x__O2_x*w_O2_y__O2_x;
     const double l_B2_x__O2_y = -inverse_pivot_O2_y*w_B2_x__O2_y;
@@ -235,7 +235,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_A0_x = -arm_coupler1_head_y*l_A0_x__coupler1_theta -
         arm_crank0_head_y*l_A0_x__crank0_theta + inverse_coupler1_mass + inverse_crank0_mass;
     const double pivot_A0_x = l_A0_x__O0_x*w_A0_x__O0_x + l_A0_x__O0_y*w_A0_x__O0_y + scale_A0_x;
-    if (!(pivot_A0_x > 1e-13 * scale_A0_x)) { pivot = 5; goto dependent; };
+    if (!(pivot_A0_x > 1e-08 * scale_A0_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_A0_x = 1.0/pivot_A0_x;
     const double w_A0_y__A0_x = arm_coupler1_head_y*l_A0_y__coupler1_theta +
         arm_crank0_head_y*l_A0_y__crank0_theta - l_A0_y__O0_x*w_A0_x__O0_x - l_A0_y__O0_y*w_A0_x__O0_y;
@@ -248,7 +248,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         arm_crank0_head_x*l_A0_y__crank0_theta + inverse_coupler1_mass + inverse_crank0_mass;
     const double pivot_A0_y = l_A0_y__A0_x*w_A0_y__A0_x + l_A0_y__O0_x*w_A0_y__O0_x +
         l_A0_y__O0_y*w_A0_y__O0_y + scale_A0_y;
-    if (!(pivot_A0_y > 1e-13 * scale_A0_y)) { pivot = 6; goto dependent; };
+    if (!(pivot_A0_y > 1e-08 * scale_A0_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_A0_y = 1.0/pivot_A0_y;
     const double w_B1_x__A0_y = -arm_coupler1_head_x*l_B1_x__coupler1_theta - l_B1_x__A0_x*w_A0_y__A0_x;
     const double l_B1_x__A0_y = -inverse_pivot_A0_y*w_B1_x__A0_y;
@@ -262,7 +262,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_B2_x = -arm_coupler2_head_y*l_B2_x__coupler2_theta +
         arm_crank2_head_y*l_B2_x__crank2_theta + inverse_coupler2_mass + inverse_crank2_mass;
     const double pivot_B2_x = l_B2_x__O2_x*w_B2_x__O2_x + l_B2_x__O2_y*w_B2_x__O2_y + scale_B2_x;
-    if (!(pivot_B2_x > 1e-13 * scale_B2_x)) { pivot = 7; goto dependent; };
+    if (!(pivot_B2_x > 1e-08 * scale_B2_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_B2_x = 1.0/pivot_B2_x;
     const double w_B2_y__B2_x = arm_coupler2_head_y*l_B2_y__coupler2_theta -
         arm_crank2_head_y*l_B2_y__crank2_theta - l_B2_y__O2_x*w_B2_x__O2_x - l_B2_y__O2_y*w_B2_x__O2_y;
@@ -275,7 +275,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         arm_crank2_head_x*l_B2_y__crank2_theta + inverse_coupler2_mass + inverse_crank2_mass;
     const double pivot_B2_y = l_B2_y__B2_x*w_B2_y__B2_x + l_B2_y__O2_x*w_B2_y__O2_x +
         l_B2_y__O2_y*w_B2_y__O2_y + scale_B2_y;
-    if (!(pivot_B2_y > 1e-13 * scale_B2_y)) { pivot = 8; goto dependent; };
+    if (!(pivot_B2_y > 1e-08 * scale_B2_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_B2_y = 1.0/pivot_B2_y;
     const double w_A1_x__B2_y = -arm_coupler2_head_x*l_A1_x__coupler2_theta - l_A1_x__B2_x*w_B2_y__B2_x;
     const double l_A1_x__B2_y = -inverse_pivot_B2_y*w_A1_x__B2_y;
@@ -289,7 +289,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A1_x__crank1_theta = -arm_crank1_head_y*inverse_crank1_inertia;
     const double l_A1_y__crank1_theta = arm_crank1_head_x*inverse_crank1_inertia;
     const double scale_O1_x = -arm_crank1_head_y*l_O1_x__crank1_theta + inverse_crank1_mass;
-    if (!(scale_O1_x > 1e-13 * scale_O1_x)) { pivot = 9; goto dependent; };
+    if (!(scale_O1_x > 1e-08 * scale_O1_x)) { pivot = 9; goto dependent; };
     const double inverse_pivot_O1_x = 1.0/scale_O1_x;
     const double w_O1_y__O1_x = arm_crank1_head_y*l_O1_y__crank1_theta;
     const double l_O1_y__O1_x = -inverse_pivot_O1_x*w_O1_y__O1_x;
@@ -303,7 +303,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A1_y__O1_x = -inverse_pivot_O1_x*w_A1_y__O1_x;
     const double scale_O1_y = arm_crank1_head_x*l_O1_y__crank1_theta + inverse_crank1_mass;
     const double pivot_O1_y = l_O1_y__O1_x*w_O1_y__O1_x + scale_O1_y;
-    if (!(pivot_O1_y > 1e-13 * scale_O1_y)) { pivot = 10; goto dependent; };
+    if (!(pivot_O1_y > 1e-08 * scale_O1_y)) { pivot = 10; goto dependent; };
     const double inverse_pivot_O1_y = 1.0/pivot_O1_y;
     const double w_B1_x__O1_y = -arm_crank1_head_x*l_B1_x__crank1_theta - l_B1_x__O1_x*w_O1_y__O1_x;
     const double l_B1_x__O1_y = -inverse_pivot_O1_y*w_B1_x__O1_y;
@@ -319,7 +319,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         arm_crank1_head_y*l_B1_x__crank1_theta + inverse_coupler1_mass + inverse_crank1_mass;
     const double pivot_B1_x = l_B1_x__A0_x*w_B1_x__A0_x + l_B1_x__A0_y*w_B1_x__A0_y +
         l_B1_x__O1_x*w_B1_x__O1_x + l_B1_x__O1_y*w_B1_x__O1_y + scale_B1_x;
-    if (!(pivot_B1_x > 1e-13 * scale_B1_x)) { pivot = 11; goto dependent; };
+    if (!(pivot_B1_x > 1e-08 * scale_B1_x)) { pivot = 11; goto dependent; };
     const double inverse_pivot_B1_x = 1.0/pivot_B1_x;
     const double w_B1_y__B1_x = arm_coupler1_head_y*l_B1_y__coupler1_theta -
         arm_crank1_head_y*l_B1_y__crank1_theta - l_B1_y__A0_x*w_B1_x__A0_x - l_B1_y__A0_y*w_B1_x__A0_y -
@@ -335,7 +335,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         arm_crank1_head_x*l_B1_y__crank1_theta + inverse_coupler1_mass + inverse_crank1_mass;
     const double pivot_B1_y = l_B1_y__A0_x*w_B1_y__A0_x + l_B1_y__A0_y*w_B1_y__A0_y +
         l_B1_y__B1_x*w_B1_y__B1_x + l_B1_y__O1_x*w_B1_y__O1_x + l_B1_y__O1_y*w_B1_y__O1_y + scale_B1_y;
-    if (!(pivot_B1_y > 1e-13 * scale_B1_y)) { pivot = 12; goto dependent; };
+    if (!(pivot_B1_y > 1e-08 * scale_B1_y)) { pivot = 12; goto dependent; };
     const double inverse_pivot_B1_y = 1.0/pivot_B1_y;
     const double w_A1_x__B1_y = arm_crank1_head_x*l_A1_x__crank1_theta - l_A1_x__B1_x*w_B1_y__B1_x -
         l_A1_x__O1_x*w_B1_y__O1_x - l_A1_x__O1_y*w_B1_y__O1_y;
@@ -348,7 +348,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double pivot_A1_x = l_A1_x__B1_x*w_A1_x__B1_x + l_A1_x__B1_y*w_A1_x__B1_y +
         l_A1_x__B2_x*w_A1_x__B2_x + l_A1_x__B2_y*w_A1_x__B2_y + l_A1_x__O1_x*w_A1_x__O1_x +
         l_A1_x__O1_y*w_A1_x__O1_y + scale_A1_x;
-    if (!(pivot_A1_x > 1e-13 * scale_A1_x)) { pivot = 13; goto dependent; };
+    if (!(pivot_A1_x > 1e-08 * scale_A1_x)) { pivot = 13; goto dependent; };
     const double inverse_pivot_A1_x = 1.0/pivot_A1_x;
     const double w_A1_y__A1_x = arm_coupler2_head_y*l_A1_y__coupler2_theta +
         arm_crank1_head_y*l_A1_y__crank1_theta - l_A1_y__B1_x*w_A1_x__B1_x - l_A1_y__B1_y*w_A1_x__B1_y -
@@ -360,7 +360,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double pivot_A1_y = l_A1_y__A1_x*w_A1_y__A1_x + l_A1_y__B1_x*w_A1_y__B1_x +
         l_A1_y__B1_y*w_A1_y__B1_y + l_A1_y__B2_x*w_A1_y__B2_x + l_A1_y__B2_y*w_A1_y__B2_y +
         l_A1_y__O1_x*w_A1_y__O1_x + l_A1_y__O1_y*w_A1_y__O1_y + scale_A1_y;
-    if (!(pivot_A1_y > 1e-13 * scale_A1_y)) { pivot = 14; goto dependent; };
+    if (!(pivot_A1_y > 1e-08 * scale_A1_y)) { pivot = 14; goto dependent; };
     const double inverse_pivot_A1_y = 1.0/pivot_A1_y;
 
     /* forward substitution */

@@ -8,11 +8,11 @@ static inline void normal_A_force(double delta, double ratio, const Parameters *
 {
     /* parameters */
     const double dry_normal_exponent = p->dry_normal_exponent;
-    const double A_K = p->A_K;
-    const double A_hysteresis = p->A_hysteresis;
+    const double dry_pin_K = p->dry_pin_K;
+    const double dry_pin_hysteresis = p->dry_pin_hysteresis;
 
     /* law of joint A */
-    *F_n_out = max_of(A_K*pow(delta, dry_normal_exponent)*(A_hysteresis*ratio + 1.0), 0.0);
+    *F_n_out = max_of(pow(delta, dry_normal_exponent)*dry_pin_K*(dry_pin_hysteresis*ratio + 1.0), 0.0);
 }
 
 /*
@@ -25,10 +25,10 @@ static inline void friction_A_force(double F_n, double v_t, const Parameters *p,
     /* parameters */
     const double dry_friction_mu = p->dry_friction_mu;
     const double dry_friction_v0 = p->dry_friction_v0;
-    const double A_friction_slope = p->A_friction_slope;
+    const double dry_pin_friction_slope = p->dry_pin_friction_slope;
 
     /* law of joint A */
-    *F_t_out = -F_n*dry_friction_mu*sign_of(v_t)*max_of(min_of(A_friction_slope*(-dry_friction_v0 +
+    *F_t_out = -F_n*dry_friction_mu*sign_of(v_t)*max_of(min_of(dry_pin_friction_slope*(-dry_friction_v0 +
         fabs(v_t)), 1.0), 0.0);
 }
 
@@ -81,11 +81,11 @@ static inline void normal_B_force(double delta, double ratio, const Parameters *
 {
     /* parameters */
     const double dry_normal_exponent = p->dry_normal_exponent;
-    const double A_K = p->A_K;
-    const double A_hysteresis = p->A_hysteresis;
+    const double dry_pin_K = p->dry_pin_K;
+    const double dry_pin_hysteresis = p->dry_pin_hysteresis;
 
     /* law of joint B */
-    *F_n_out = max_of(A_K*pow(delta, dry_normal_exponent)*(A_hysteresis*ratio + 1.0), 0.0);
+    *F_n_out = max_of(pow(delta, dry_normal_exponent)*dry_pin_K*(dry_pin_hysteresis*ratio + 1.0), 0.0);
 }
 
 /*
@@ -98,10 +98,10 @@ static inline void friction_B_force(double F_n, double v_t, const Parameters *p,
     /* parameters */
     const double dry_friction_mu = p->dry_friction_mu;
     const double dry_friction_v0 = p->dry_friction_v0;
-    const double A_friction_slope = p->A_friction_slope;
+    const double dry_pin_friction_slope = p->dry_pin_friction_slope;
 
     /* law of joint B */
-    *F_t_out = -F_n*dry_friction_mu*sign_of(v_t)*max_of(min_of(A_friction_slope*(-dry_friction_v0 +
+    *F_t_out = -F_n*dry_friction_mu*sign_of(v_t)*max_of(min_of(dry_pin_friction_slope*(-dry_friction_v0 +
         fabs(v_t)), 1.0), 0.0);
 }
 

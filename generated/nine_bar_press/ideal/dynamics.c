@@ -279,10 +279,10 @@ static int dynamics(const double t, const double *q, const double *v, const Para
 
     /* L D L^T of the KKT matrix */
     const double scale_guide_angle = inverse_S9_inertia;
-    if (!(scale_guide_angle > 1e-13 * scale_guide_angle)) { pivot = 1; goto dependent; };
+    if (!(scale_guide_angle > 1e-08 * scale_guide_angle)) { pivot = 1; goto dependent; };
     const double inverse_pivot_guide_angle = 1.0/scale_guide_angle;
     const double scale_guide_offset = inverse_S9_mass;
-    if (!(scale_guide_offset > 1e-13 * scale_guide_offset)) { pivot = 2; goto dependent; };
+    if (!(scale_guide_offset > 1e-08 * scale_guide_offset)) { pivot = 2; goto dependent; };
     const double inverse_pivot_guide_offset = 1.0/scale_guide_offset;
     const double l_slider_x__guide_offset = inverse_S9_mass*inverse_pivot_guide_offset;
     const double l_A_x__L2_theta = -arm_L2_head_y*inverse_L2_inertia;
@@ -298,7 +298,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_Q6_x__L6_theta = arm_L6_head_y*inverse_L6_inertia;
     const double l_Q6_y__L6_theta = -arm_L6_head_x*inverse_L6_inertia;
     const double scale_O6_x = -arm_L6_head_y*l_O6_x__L6_theta + inverse_L6_mass;
-    if (!(scale_O6_x > 1e-13 * scale_O6_x)) { pivot = 3; goto dependent; };
+    if (!(scale_O6_x > 1e-08 * scale_O6_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_O6_x = 1.0/scale_O6_x;
     const double w_O6_y__O6_x = arm_L6_head_y*l_O6_y__L6_theta;
     const double l_O6_y__O6_x = -inverse_pivot_O6_x*w_O6_y__O6_x;
@@ -308,7 +308,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_Q6_y__O6_x = -inverse_pivot_O6_x*w_Q6_y__O6_x;
     const double scale_O6_y = arm_L6_head_x*l_O6_y__L6_theta + inverse_L6_mass;
     const double pivot_O6_y = l_O6_y__O6_x*w_O6_y__O6_x + scale_O6_y;
-    if (!(pivot_O6_y > 1e-13 * scale_O6_y)) { pivot = 4; goto dependent; };
+    if (!(pivot_O6_y > 1e-08 * scale_O6_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_O6_y = 1.0/pivot_O6_y;
     const double w_Q6_x__O6_y = -arm_L6_head_x*l_Q6_x__L6_theta - l_Q6_x__O6_x*w_O6_y__O6_x;
     const double l_Q6_x__O6_y = -inverse_pivot_O6_y*w_Q6_x__O6_y;
@@ -320,7 +320,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_Q8_y__L8_theta = arm_L8_head_x*inverse_L8_inertia;
     const double scale_slider_x = -arm_L8_head_y*l_slider_x__L8_theta + inverse_L8_mass + inverse_S9_mass;
     const double pivot_slider_x = -inverse_S9_mass*l_slider_x__guide_offset + scale_slider_x;
-    if (!(pivot_slider_x > 1e-13 * scale_slider_x)) { pivot = 5; goto dependent; };
+    if (!(pivot_slider_x > 1e-08 * scale_slider_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_slider_x = 1.0/pivot_slider_x;
     const double w_slider_y__slider_x = arm_L8_head_y*l_slider_y__L8_theta;
     const double l_slider_y__slider_x = -inverse_pivot_slider_x*w_slider_y__slider_x;
@@ -330,7 +330,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_Q8_y__slider_x = -inverse_pivot_slider_x*w_Q8_y__slider_x;
     const double scale_slider_y = arm_L8_head_x*l_slider_y__L8_theta + inverse_L8_mass + inverse_S9_mass;
     const double pivot_slider_y = l_slider_y__slider_x*w_slider_y__slider_x + scale_slider_y;
-    if (!(pivot_slider_y > 1e-13 * scale_slider_y)) { pivot = 6; goto dependent; };
+    if (!(pivot_slider_y > 1e-08 * scale_slider_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_slider_y = 1.0/pivot_slider_y;
     const double w_Q8_x__slider_y = -arm_L8_head_x*l_Q8_x__L8_theta - l_Q8_x__slider_x*w_slider_y__slider_x;
     const double l_Q8_x__slider_y = -inverse_pivot_slider_y*w_Q8_x__slider_y;
@@ -342,7 +342,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A_x__L1_theta = -arm_L1_head_y*inverse_L1_inertia;
     const double l_A_y__L1_theta = arm_L1_head_x*inverse_L1_inertia;
     const double scale_O1_x = -arm_L1_head_y*l_O1_x__L1_theta + inverse_L1_mass;
-    if (!(scale_O1_x > 1e-13 * scale_O1_x)) { pivot = 7; goto dependent; };
+    if (!(scale_O1_x > 1e-08 * scale_O1_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_O1_x = 1.0/scale_O1_x;
     const double w_O1_y__O1_x = arm_L1_head_y*l_O1_y__L1_theta;
     const double l_O1_y__O1_x = -inverse_pivot_O1_x*w_O1_y__O1_x;
@@ -354,7 +354,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A_y__O1_x = -inverse_pivot_O1_x*w_A_y__O1_x;
     const double scale_O1_y = arm_L1_head_x*l_O1_y__L1_theta + inverse_L1_mass;
     const double pivot_O1_y = l_O1_y__O1_x*w_O1_y__O1_x + scale_O1_y;
-    if (!(pivot_O1_y > 1e-13 * scale_O1_y)) { pivot = 8; goto dependent; };
+    if (!(pivot_O1_y > 1e-08 * scale_O1_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_O1_y = 1.0/pivot_O1_y;
     const double w_crank1__O1_y = -arm_L1_head_x*inverse_L1_inertia - l_crank1__O1_x*w_O1_y__O1_x;
     const double l_crank1__O1_y = -inverse_pivot_O1_y*w_crank1__O1_y;
@@ -364,7 +364,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_A_y__O1_y = -inverse_pivot_O1_y*w_A_y__O1_y;
     const double scale_crank1 = inverse_L1_inertia;
     const double pivot_crank1 = l_crank1__O1_x*w_crank1__O1_x + l_crank1__O1_y*w_crank1__O1_y + scale_crank1;
-    if (!(pivot_crank1 > 1e-13 * scale_crank1)) { pivot = 9; goto dependent; };
+    if (!(pivot_crank1 > 1e-08 * scale_crank1)) { pivot = 9; goto dependent; };
     const double inverse_pivot_crank1 = 1.0/pivot_crank1;
     const double w_A_x__crank1 = -l_A_x__L1_theta - l_A_x__O1_x*w_crank1__O1_x - l_A_x__O1_y*w_crank1__O1_y;
     const double l_A_x__crank1 = -inverse_pivot_crank1*w_A_x__crank1;
@@ -374,7 +374,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         + inverse_L2_mass;
     const double pivot_A_x = l_A_x__O1_x*w_A_x__O1_x + l_A_x__O1_y*w_A_x__O1_y + l_A_x__crank1*w_A_x__crank1 +
         scale_A_x;
-    if (!(pivot_A_x > 1e-13 * scale_A_x)) { pivot = 10; goto dependent; };
+    if (!(pivot_A_x > 1e-08 * scale_A_x)) { pivot = 10; goto dependent; };
     const double inverse_pivot_A_x = 1.0/pivot_A_x;
     const double w_A_y__A_x = arm_L1_head_y*l_A_y__L1_theta + arm_L2_head_y*l_A_y__L2_theta -
         l_A_y__O1_x*w_A_x__O1_x - l_A_y__O1_y*w_A_x__O1_y - l_A_y__crank1*w_A_x__crank1;
@@ -387,7 +387,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_L2_mass;
     const double pivot_A_y = l_A_y__A_x*w_A_y__A_x + l_A_y__O1_x*w_A_y__O1_x + l_A_y__O1_y*w_A_y__O1_y +
         l_A_y__crank1*w_A_y__crank1 + scale_A_y;
-    if (!(pivot_A_y > 1e-13 * scale_A_y)) { pivot = 11; goto dependent; };
+    if (!(pivot_A_y > 1e-08 * scale_A_y)) { pivot = 11; goto dependent; };
     const double inverse_pivot_A_y = 1.0/pivot_A_y;
     const double w_P2_x__A_y = -arm_L2_head_x*l_P2_x__L2_theta - l_P2_x__A_x*w_A_y__A_x;
     const double l_P2_x__A_y = -inverse_pivot_A_y*w_P2_x__A_y;
@@ -398,7 +398,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B_x__L4_theta = -arm_L4_head_y*inverse_L4_inertia;
     const double l_B_y__L4_theta = arm_L4_head_x*inverse_L4_inertia;
     const double scale_O4_x = -arm_L4_head_y*l_O4_x__L4_theta + inverse_L4_mass;
-    if (!(scale_O4_x > 1e-13 * scale_O4_x)) { pivot = 12; goto dependent; };
+    if (!(scale_O4_x > 1e-08 * scale_O4_x)) { pivot = 12; goto dependent; };
     const double inverse_pivot_O4_x = 1.0/scale_O4_x;
     const double w_O4_y__O4_x = arm_L4_head_y*l_O4_y__L4_theta;
     const double l_O4_y__O4_x = -inverse_pivot_O4_x*w_O4_y__O4_x;
@@ -410,7 +410,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B_y__O4_x = -inverse_pivot_O4_x*w_B_y__O4_x;
     const double scale_O4_y = arm_L4_head_x*l_O4_y__L4_theta + inverse_L4_mass;
     const double pivot_O4_y = l_O4_y__O4_x*w_O4_y__O4_x + scale_O4_y;
-    if (!(pivot_O4_y > 1e-13 * scale_O4_y)) { pivot = 13; goto dependent; };
+    if (!(pivot_O4_y > 1e-08 * scale_O4_y)) { pivot = 13; goto dependent; };
     const double inverse_pivot_O4_y = 1.0/pivot_O4_y;
     const double w_crank4__O4_y = -arm_L4_head_x*inverse_L4_inertia - l_crank4__O4_x*w_O4_y__O4_x;
     const double l_crank4__O4_y = -inverse_pivot_O4_y*w_crank4__O4_y;
@@ -420,7 +420,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_B_y__O4_y = -inverse_pivot_O4_y*w_B_y__O4_y;
     const double scale_crank4 = inverse_L4_inertia;
     const double pivot_crank4 = l_crank4__O4_x*w_crank4__O4_x + l_crank4__O4_y*w_crank4__O4_y + scale_crank4;
-    if (!(pivot_crank4 > 1e-13 * scale_crank4)) { pivot = 14; goto dependent; };
+    if (!(pivot_crank4 > 1e-08 * scale_crank4)) { pivot = 14; goto dependent; };
     const double inverse_pivot_crank4 = 1.0/pivot_crank4;
     const double w_B_x__crank4 = -l_B_x__L4_theta - l_B_x__O4_x*w_crank4__O4_x - l_B_x__O4_y*w_crank4__O4_y;
     const double l_B_x__crank4 = -inverse_pivot_crank4*w_B_x__crank4;
@@ -430,7 +430,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         + inverse_L4_mass;
     const double pivot_B_x = l_B_x__O4_x*w_B_x__O4_x + l_B_x__O4_y*w_B_x__O4_y + l_B_x__crank4*w_B_x__crank4 +
         scale_B_x;
-    if (!(pivot_B_x > 1e-13 * scale_B_x)) { pivot = 15; goto dependent; };
+    if (!(pivot_B_x > 1e-08 * scale_B_x)) { pivot = 15; goto dependent; };
     const double inverse_pivot_B_x = 1.0/pivot_B_x;
     const double w_B_y__B_x = arm_L3_head_y*l_B_y__L3_theta + arm_L4_head_y*l_B_y__L4_theta -
         l_B_y__O4_x*w_B_x__O4_x - l_B_y__O4_y*w_B_x__O4_y - l_B_y__crank4*w_B_x__crank4;
@@ -443,7 +443,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_L4_mass;
     const double pivot_B_y = l_B_y__B_x*w_B_y__B_x + l_B_y__O4_x*w_B_y__O4_x + l_B_y__O4_y*w_B_y__O4_y +
         l_B_y__crank4*w_B_y__crank4 + scale_B_y;
-    if (!(pivot_B_y > 1e-13 * scale_B_y)) { pivot = 16; goto dependent; };
+    if (!(pivot_B_y > 1e-08 * scale_B_y)) { pivot = 16; goto dependent; };
     const double inverse_pivot_B_y = 1.0/pivot_B_y;
     const double w_P3_x__B_y = -arm_L3_head_x*l_P3_x__L3_theta - l_P3_x__B_x*w_B_y__B_x;
     const double l_P3_x__B_y = -inverse_pivot_B_y*w_P3_x__B_y;
@@ -460,7 +460,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_P2_x = -arm_L2_head_y*l_P2_x__L2_theta - arm_L7_head_y*l_P2_x__L7_theta +
         inverse_L2_mass + inverse_L7_mass;
     const double pivot_P2_x = l_P2_x__A_x*w_P2_x__A_x + l_P2_x__A_y*w_P2_x__A_y + scale_P2_x;
-    if (!(pivot_P2_x > 1e-13 * scale_P2_x)) { pivot = 17; goto dependent; };
+    if (!(pivot_P2_x > 1e-08 * scale_P2_x)) { pivot = 17; goto dependent; };
     const double inverse_pivot_P2_x = 1.0/pivot_P2_x;
     const double w_P2_y__P2_x = arm_L2_head_y*l_P2_y__L2_theta + arm_L7_head_y*l_P2_y__L7_theta -
         l_P2_y__A_x*w_P2_x__A_x - l_P2_y__A_y*w_P2_x__A_y;
@@ -481,7 +481,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_L2_mass + inverse_L7_mass;
     const double pivot_P2_y = l_P2_y__A_x*w_P2_y__A_x + l_P2_y__A_y*w_P2_y__A_y + l_P2_y__P2_x*w_P2_y__P2_x +
         scale_P2_y;
-    if (!(pivot_P2_y > 1e-13 * scale_P2_y)) { pivot = 18; goto dependent; };
+    if (!(pivot_P2_y > 1e-08 * scale_P2_y)) { pivot = 18; goto dependent; };
     const double inverse_pivot_P2_y = 1.0/pivot_P2_y;
     const double w_P3_x__P2_y = -arm_L7_head_x*l_P3_x__L7_theta - l_P3_x__P2_x*w_P2_y__P2_x;
     const double l_P3_x__P2_y = -inverse_pivot_P2_y*w_P3_x__P2_y;
@@ -499,7 +499,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_L3_mass + inverse_L7_mass;
     const double pivot_P3_x = l_P3_x__B_x*w_P3_x__B_x + l_P3_x__B_y*w_P3_x__B_y + l_P3_x__P2_x*w_P3_x__P2_x +
         l_P3_x__P2_y*w_P3_x__P2_y + scale_P3_x;
-    if (!(pivot_P3_x > 1e-13 * scale_P3_x)) { pivot = 19; goto dependent; };
+    if (!(pivot_P3_x > 1e-08 * scale_P3_x)) { pivot = 19; goto dependent; };
     const double inverse_pivot_P3_x = 1.0/pivot_P3_x;
     const double w_P3_y__P3_x = arm_L3_head_y*l_P3_y__L3_theta + arm_L7_head_y*l_P3_y__L7_theta -
         l_P3_y__B_x*w_P3_x__B_x - l_P3_y__B_y*w_P3_x__B_y - l_P3_y__P2_x*w_P3_x__P2_x -
@@ -521,7 +521,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_L3_mass + inverse_L7_mass;
     const double pivot_P3_y = l_P3_y__B_x*w_P3_y__B_x + l_P3_y__B_y*w_P3_y__B_y + l_P3_y__P2_x*w_P3_y__P2_x +
         l_P3_y__P2_y*w_P3_y__P2_y + l_P3_y__P3_x*w_P3_y__P3_x + scale_P3_y;
-    if (!(pivot_P3_y > 1e-13 * scale_P3_y)) { pivot = 20; goto dependent; };
+    if (!(pivot_P3_y > 1e-08 * scale_P3_y)) { pivot = 20; goto dependent; };
     const double inverse_pivot_P3_y = 1.0/pivot_P3_y;
     const double w_Q6_x__P3_y = -arm_L7_head_x*l_Q6_x__L7_theta - l_Q6_x__P2_x*w_P3_y__P2_x -
         l_Q6_x__P2_y*w_P3_y__P2_y - l_Q6_x__P3_x*w_P3_y__P3_x;
@@ -540,7 +540,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double pivot_Q6_x = l_Q6_x__O6_x*w_Q6_x__O6_x + l_Q6_x__O6_y*w_Q6_x__O6_y +
         l_Q6_x__P2_x*w_Q6_x__P2_x + l_Q6_x__P2_y*w_Q6_x__P2_y + l_Q6_x__P3_x*w_Q6_x__P3_x +
         l_Q6_x__P3_y*w_Q6_x__P3_y + scale_Q6_x;
-    if (!(pivot_Q6_x > 1e-13 * scale_Q6_x)) { pivot = 21; goto dependent; };
+    if (!(pivot_Q6_x > 1e-08 * scale_Q6_x)) { pivot = 21; goto dependent; };
     const double inverse_pivot_Q6_x = 1.0/pivot_Q6_x;
     const double w_Q6_y__Q6_x = -arm_L6_head_y*l_Q6_y__L6_theta + arm_L7_head_y*l_Q6_y__L7_theta -
         l_Q6_y__O6_x*w_Q6_x__O6_x - l_Q6_y__O6_y*w_Q6_x__O6_y - l_Q6_y__P2_x*w_Q6_x__P2_x -
@@ -557,7 +557,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double pivot_Q6_y = l_Q6_y__O6_x*w_Q6_y__O6_x + l_Q6_y__O6_y*w_Q6_y__O6_y +
         l_Q6_y__P2_x*w_Q6_y__P2_x + l_Q6_y__P2_y*w_Q6_y__P2_y + l_Q6_y__P3_x*w_Q6_y__P3_x +
         l_Q6_y__P3_y*w_Q6_y__P3_y + l_Q6_y__Q6_x*w_Q6_y__Q6_x + scale_Q6_y;
-    if (!(pivot_Q6_y > 1e-13 * scale_Q6_y)) { pivot = 22; goto dependent; };
+    if (!(pivot_Q6_y > 1e-08 * scale_Q6_y)) { pivot = 22; goto dependent; };
     const double inverse_pivot_Q6_y = 1.0/pivot_Q6_y;
     const double w_Q8_x__Q6_y = -arm_L7_head_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_Q6_y__P2_x -
         l_Q8_x__P2_y*w_Q6_y__P2_y - l_Q8_x__P3_x*w_Q6_y__P3_x - l_Q8_x__P3_y*w_Q6_y__P3_y -
@@ -573,7 +573,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         l_Q8_x__P3_x*w_Q8_x__P3_x + l_Q8_x__P3_y*w_Q8_x__P3_y + l_Q8_x__Q6_x*w_Q8_x__Q6_x +
         l_Q8_x__Q6_y*w_Q8_x__Q6_y + l_Q8_x__slider_x*w_Q8_x__slider_x + l_Q8_x__slider_y*w_Q8_x__slider_y +
         scale_Q8_x;
-    if (!(pivot_Q8_x > 1e-13 * scale_Q8_x)) { pivot = 23; goto dependent; };
+    if (!(pivot_Q8_x > 1e-08 * scale_Q8_x)) { pivot = 23; goto dependent; };
     const double inverse_pivot_Q8_x = 1.0/pivot_Q8_x;
     const double w_Q8_y__Q8_x = arm_L7_head_y*l_Q8_y__L7_theta + arm_L8_head_y*l_Q8_y__L8_theta -
         l_Q8_y__P2_x*w_Q8_x__P2_x - l_Q8_y__P2_y*w_Q8_x__P2_y - l_Q8_y__P3_x*w_Q8_x__P3_x -
@@ -586,7 +586,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         l_Q8_y__P3_x*w_Q8_y__P3_x + l_Q8_y__P3_y*w_Q8_y__P3_y + l_Q8_y__Q6_x*w_Q8_y__Q6_x +
         l_Q8_y__Q6_y*w_Q8_y__Q6_y + l_Q8_y__Q8_x*w_Q8_y__Q8_x + l_Q8_y__slider_x*w_Q8_y__slider_x +
         l_Q8_y__slider_y*w_Q8_y__slider_y + scale_Q8_y;
-    if (!(pivot_Q8_y > 1e-13 * scale_Q8_y)) { pivot = 24; goto dependent; };
+    if (!(pivot_Q8_y > 1e-08 * scale_Q8_y)) { pivot = 24; goto dependent; };
     const double inverse_pivot_Q8_y = 1.0/pivot_Q8_y;
 
     /* forward substitution */

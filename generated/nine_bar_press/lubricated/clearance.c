@@ -8,11 +8,11 @@ static inline void normal_A_force(double delta, double ratio, const Parameters *
 {
     /* parameters */
     const double oil_normal_exponent = p->oil_normal_exponent;
-    const double A_K = p->A_K;
-    const double A_hysteresis = p->A_hysteresis;
+    const double oil_pin_K = p->oil_pin_K;
+    const double oil_pin_hysteresis = p->oil_pin_hysteresis;
 
     /* law of joint A */
-    *F_n_out = max_of(A_K*pow(delta, oil_normal_exponent)*(A_hysteresis*ratio + 1.0), 0.0);
+    *F_n_out = max_of(pow(delta, oil_normal_exponent)*oil_pin_K*(oil_pin_hysteresis*ratio + 1.0), 0.0);
 }
 
 /*
@@ -25,10 +25,10 @@ static inline void friction_A_force(double F_n, double v_t, const Parameters *p,
     /* parameters */
     const double oil_friction_mu = p->oil_friction_mu;
     const double oil_friction_v0 = p->oil_friction_v0;
-    const double A_friction_slope = p->A_friction_slope;
+    const double oil_pin_friction_slope = p->oil_pin_friction_slope;
 
     /* law of joint A */
-    *F_t_out = -F_n*oil_friction_mu*sign_of(v_t)*max_of(min_of(A_friction_slope*(-oil_friction_v0 +
+    *F_t_out = -F_n*oil_friction_mu*sign_of(v_t)*max_of(min_of(oil_pin_friction_slope*(-oil_friction_v0 +
         fabs(v_t)), 1.0), 0.0);
 }
 
@@ -42,15 +42,15 @@ static inline void film_A_force(double epsilon, double w_n, double w_t, const Pa
     double *F_t_out, double *T0_out)
 {
     /* parameters */
-    const double A_S = p->A_S;
+    const double oil_pin_S = p->oil_pin_S;
 
     /* law of joint A */
     const double root = sqrt(1.0 - (epsilon * epsilon));
     const double W = sqrt((w_n * w_n) + (w_t * w_t));
     const double factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*fabs(w_n) + 1e-300) + 1.0;
-    *F_r_out = -A_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) + 3.141592653589793*factor*w_n)/(root *
-        root * root);
-    *F_t_out = -2.0*3.141592653589793*A_S*factor*w_t/(root*((epsilon * epsilon) + 2.0));
+    *F_r_out = -oil_pin_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) +
+        3.141592653589793*factor*w_n)/(root * root * root);
+    *F_t_out = -2.0*3.141592653589793*factor*oil_pin_S*w_t/(root*((epsilon * epsilon) + 2.0));
     *T0_out = 0.0;
 }
 
@@ -133,11 +133,11 @@ static inline void normal_B_force(double delta, double ratio, const Parameters *
 {
     /* parameters */
     const double oil_normal_exponent = p->oil_normal_exponent;
-    const double A_K = p->A_K;
-    const double A_hysteresis = p->A_hysteresis;
+    const double oil_pin_K = p->oil_pin_K;
+    const double oil_pin_hysteresis = p->oil_pin_hysteresis;
 
     /* law of joint B */
-    *F_n_out = max_of(A_K*pow(delta, oil_normal_exponent)*(A_hysteresis*ratio + 1.0), 0.0);
+    *F_n_out = max_of(pow(delta, oil_normal_exponent)*oil_pin_K*(oil_pin_hysteresis*ratio + 1.0), 0.0);
 }
 
 /*
@@ -150,10 +150,10 @@ static inline void friction_B_force(double F_n, double v_t, const Parameters *p,
     /* parameters */
     const double oil_friction_mu = p->oil_friction_mu;
     const double oil_friction_v0 = p->oil_friction_v0;
-    const double A_friction_slope = p->A_friction_slope;
+    const double oil_pin_friction_slope = p->oil_pin_friction_slope;
 
     /* law of joint B */
-    *F_t_out = -F_n*oil_friction_mu*sign_of(v_t)*max_of(min_of(A_friction_slope*(-oil_friction_v0 +
+    *F_t_out = -F_n*oil_friction_mu*sign_of(v_t)*max_of(min_of(oil_pin_friction_slope*(-oil_friction_v0 +
         fabs(v_t)), 1.0), 0.0);
 }
 
@@ -167,15 +167,15 @@ static inline void film_B_force(double epsilon, double w_n, double w_t, const Pa
     double *F_t_out, double *T0_out)
 {
     /* parameters */
-    const double A_S = p->A_S;
+    const double oil_pin_S = p->oil_pin_S;
 
     /* law of joint B */
     const double root = sqrt(1.0 - (epsilon * epsilon));
     const double W = sqrt((w_n * w_n) + (w_t * w_t));
     const double factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*fabs(w_n) + 1e-300) + 1.0;
-    *F_r_out = -A_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) + 3.141592653589793*factor*w_n)/(root *
-        root * root);
-    *F_t_out = -2.0*3.141592653589793*A_S*factor*w_t/(root*((epsilon * epsilon) + 2.0));
+    *F_r_out = -oil_pin_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) +
+        3.141592653589793*factor*w_n)/(root * root * root);
+    *F_t_out = -2.0*3.141592653589793*factor*oil_pin_S*w_t/(root*((epsilon * epsilon) + 2.0));
     *T0_out = 0.0;
 }
 

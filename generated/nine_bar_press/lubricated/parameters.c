@@ -124,16 +124,16 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->L8_head_x = L8_head_x;
     const double R_j_pin = -pin_clearance + pin_radius;  /* journal radius */
     p->R_j_pin = R_j_pin;
-    const double A_K = (2.0/3.0)*aluminium_E*sqrt(R_j_pin*pin_radius/(R_j_pin + pin_radius))/(1.0 -
+    const double oil_pin_K = (2.0/3.0)*aluminium_E*sqrt(R_j_pin*pin_radius/(R_j_pin + pin_radius))/(1.0 -
         (aluminium_nu * aluminium_nu));  /* contact stiffness */
-    p->A_K = A_K;
-    const double A_hysteresis = 0.75 - 0.75*(oil_normal_restitution * oil_normal_restitution);  /* hysteresis damping factor, 3(1 - c_e^2)/4 */
-    p->A_hysteresis = A_hysteresis;
-    const double A_friction_slope = 1.0/(-oil_friction_v0 + oil_friction_v1);  /* 1/(v1 - v0) */
-    p->A_friction_slope = A_friction_slope;
-    const double A_S = 6.0*(R_j_pin * R_j_pin * R_j_pin)*oil_film_viscosity*pin_length/(pin_clearance *
+    p->oil_pin_K = oil_pin_K;
+    const double oil_pin_hysteresis = 0.75 - 0.75*(oil_normal_restitution * oil_normal_restitution);  /* hysteresis damping factor, 3(1 - c_e^2)/4 */
+    p->oil_pin_hysteresis = oil_pin_hysteresis;
+    const double oil_pin_friction_slope = 1.0/(-oil_friction_v0 + oil_friction_v1);  /* 1/(v1 - v0) */
+    p->oil_pin_friction_slope = oil_pin_friction_slope;
+    const double oil_pin_S = 6.0*(R_j_pin * R_j_pin * R_j_pin)*oil_film_viscosity*pin_length/(pin_clearance *
         pin_clearance);  /* film factor 6 mu R_j^3 L/c^2 */
-    p->A_S = A_S;
+    p->oil_pin_S = oil_pin_S;
     const double inverse_L1_mass = 1.0/L1_mass;  /* 1/M */
     p->inverse_L1_mass = inverse_L1_mass;
     const double inverse_L1_inertia = 1.0/L1_inertia;  /* 1/M */

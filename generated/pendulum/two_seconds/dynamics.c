@@ -40,7 +40,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_rod_length__bob_y = inverse_bob_mass*w_rod_length__bob_y;
     const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x +
         l_rod_length__bob_y*w_rod_length__bob_y;
-    if (!(scale_rod_length > 1e-13 * scale_rod_length)) { pivot = 1; goto dependent; };
+    if (!(scale_rod_length > 1e-08 * scale_rod_length)) { pivot = 1; goto dependent; };
     const double inverse_pivot_rod_length = 1.0/scale_rod_length;
 
     /* forward substitution */

@@ -8,11 +8,11 @@ static inline void normal_wristpin_force(double delta, double ratio, const Param
 {
     /* parameters */
     const double dry_normal_exponent = p->dry_normal_exponent;
-    const double wristpin_K = p->wristpin_K;
-    const double wristpin_hysteresis = p->wristpin_hysteresis;
+    const double dry_pin_K = p->dry_pin_K;
+    const double dry_pin_hysteresis = p->dry_pin_hysteresis;
 
     /* law of joint wristpin */
-    *F_n_out = max_of(pow(delta, dry_normal_exponent)*wristpin_K*(ratio*wristpin_hysteresis + 1.0), 0.0);
+    *F_n_out = max_of(pow(delta, dry_normal_exponent)*dry_pin_K*(dry_pin_hysteresis*ratio + 1.0), 0.0);
 }
 
 /*
@@ -25,10 +25,10 @@ static inline void friction_wristpin_force(double F_n, double v_t, const Paramet
     /* parameters */
     const double dry_friction_mu = p->dry_friction_mu;
     const double dry_friction_v0 = p->dry_friction_v0;
-    const double wristpin_friction_slope = p->wristpin_friction_slope;
+    const double dry_pin_friction_slope = p->dry_pin_friction_slope;
 
     /* law of joint wristpin */
-    *F_t_out = -F_n*dry_friction_mu*sign_of(v_t)*max_of(min_of(wristpin_friction_slope*(-dry_friction_v0 +
+    *F_t_out = -F_n*dry_friction_mu*sign_of(v_t)*max_of(min_of(dry_pin_friction_slope*(-dry_friction_v0 +
         fabs(v_t)), 1.0), 0.0);
 }
 

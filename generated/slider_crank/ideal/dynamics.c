@@ -113,10 +113,10 @@ static int dynamics(const double t, const double *q, const double *v, const Para
 
     /* L D L^T of the KKT matrix */
     const double scale_cylinder_angle = inverse_slider_inertia;
-    if (!(scale_cylinder_angle > 1e-13 * scale_cylinder_angle)) { pivot = 1; goto dependent; };
+    if (!(scale_cylinder_angle > 1e-08 * scale_cylinder_angle)) { pivot = 1; goto dependent; };
     const double inverse_pivot_cylinder_angle = 1.0/scale_cylinder_angle;
     const double scale_cylinder_offset = inverse_slider_mass;
-    if (!(scale_cylinder_offset > 1e-13 * scale_cylinder_offset)) { pivot = 2; goto dependent; };
+    if (!(scale_cylinder_offset > 1e-08 * scale_cylinder_offset)) { pivot = 2; goto dependent; };
     const double inverse_pivot_cylinder_offset = 1.0/scale_cylinder_offset;
     const double l_wristpin_y__cylinder_offset = -inverse_pivot_cylinder_offset*inverse_slider_mass;
     const double l_wristpin_x__rod_theta = -arm_rod_head_y*inverse_rod_inertia;
@@ -125,7 +125,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_crankpin_y__rod_theta = arm_rod_head_x*inverse_rod_inertia;
     const double scale_wristpin_x = -arm_rod_head_y*l_wristpin_x__rod_theta + inverse_rod_mass +
         inverse_slider_mass;
-    if (!(scale_wristpin_x > 1e-13 * scale_wristpin_x)) { pivot = 3; goto dependent; };
+    if (!(scale_wristpin_x > 1e-08 * scale_wristpin_x)) { pivot = 3; goto dependent; };
     const double inverse_pivot_wristpin_x = 1.0/scale_wristpin_x;
     const double w_wristpin_y__wristpin_x = arm_rod_head_y*l_wristpin_y__rod_theta;
     const double l_wristpin_y__wristpin_x = -inverse_pivot_wristpin_x*w_wristpin_y__wristpin_x;
@@ -137,7 +137,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_slider_mass;
     const double pivot_wristpin_y = inverse_slider_mass*l_wristpin_y__cylinder_offset +
         l_wristpin_y__wristpin_x*w_wristpin_y__wristpin_x + scale_wristpin_y;
-    if (!(pivot_wristpin_y > 1e-13 * scale_wristpin_y)) { pivot = 4; goto dependent; };
+    if (!(pivot_wristpin_y > 1e-08 * scale_wristpin_y)) { pivot = 4; goto dependent; };
     const double inverse_pivot_wristpin_y = 1.0/pivot_wristpin_y;
     const double w_crankpin_x__wristpin_y = -arm_rod_head_x*l_crankpin_x__rod_theta -
         l_crankpin_x__wristpin_x*w_wristpin_y__wristpin_x;
@@ -150,7 +150,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_crankpin_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
     const double l_crankpin_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
     const double scale_O_x = -arm_crank_head_y*l_O_x__crank_theta + inverse_crank_mass;
-    if (!(scale_O_x > 1e-13 * scale_O_x)) { pivot = 5; goto dependent; };
+    if (!(scale_O_x > 1e-08 * scale_O_x)) { pivot = 5; goto dependent; };
     const double inverse_pivot_O_x = 1.0/scale_O_x;
     const double w_O_y__O_x = arm_crank_head_y*l_O_y__crank_theta;
     const double l_O_y__O_x = -inverse_pivot_O_x*w_O_y__O_x;
@@ -162,7 +162,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double l_motor__O_x = -inverse_pivot_O_x*w_motor__O_x;
     const double scale_O_y = arm_crank_head_x*l_O_y__crank_theta + inverse_crank_mass;
     const double pivot_O_y = l_O_y__O_x*w_O_y__O_x + scale_O_y;
-    if (!(pivot_O_y > 1e-13 * scale_O_y)) { pivot = 6; goto dependent; };
+    if (!(pivot_O_y > 1e-08 * scale_O_y)) { pivot = 6; goto dependent; };
     const double inverse_pivot_O_y = 1.0/pivot_O_y;
     const double w_crankpin_x__O_y = -arm_crank_head_x*l_crankpin_x__crank_theta -
         l_crankpin_x__O_x*w_O_y__O_x;
@@ -177,7 +177,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double pivot_crankpin_x = l_crankpin_x__O_x*w_crankpin_x__O_x + l_crankpin_x__O_y*w_crankpin_x__O_y
         + l_crankpin_x__wristpin_x*w_crankpin_x__wristpin_x +
         l_crankpin_x__wristpin_y*w_crankpin_x__wristpin_y + scale_crankpin_x;
-    if (!(pivot_crankpin_x > 1e-13 * scale_crankpin_x)) { pivot = 7; goto dependent; };
+    if (!(pivot_crankpin_x > 1e-08 * scale_crankpin_x)) { pivot = 7; goto dependent; };
     const double inverse_pivot_crankpin_x = 1.0/pivot_crankpin_x;
     const double w_crankpin_y__crankpin_x = arm_crank_head_y*l_crankpin_y__crank_theta +
         arm_rod_head_y*l_crankpin_y__rod_theta - l_crankpin_y__O_x*w_crankpin_x__O_x -
@@ -193,7 +193,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         + l_crankpin_y__crankpin_x*w_crankpin_y__crankpin_x +
         l_crankpin_y__wristpin_x*w_crankpin_y__wristpin_x + l_crankpin_y__wristpin_y*w_crankpin_y__wristpin_y
         + scale_crankpin_y;
-    if (!(pivot_crankpin_y > 1e-13 * scale_crankpin_y)) { pivot = 8; goto dependent; };
+    if (!(pivot_crankpin_y > 1e-08 * scale_crankpin_y)) { pivot = 8; goto dependent; };
     const double inverse_pivot_crankpin_y = 1.0/pivot_crankpin_y;
     const double w_motor__crankpin_y = -arm_crank_head_x*inverse_crank_inertia -
         l_motor__O_x*w_crankpin_y__O_x - l_motor__O_y*w_crankpin_y__O_y -
@@ -202,7 +202,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_motor = inverse_crank_inertia;
     const double pivot_motor = l_motor__O_x*w_motor__O_x + l_motor__O_y*w_motor__O_y +
         l_motor__crankpin_x*w_motor__crankpin_x + l_motor__crankpin_y*w_motor__crankpin_y + scale_motor;
-    if (!(pivot_motor > 1e-13 * scale_motor)) { pivot = 9; goto dependent; };
+    if (!(pivot_motor > 1e-08 * scale_motor)) { pivot = 9; goto dependent; };
     const double inverse_pivot_motor = 1.0/pivot_motor;
 
     /* forward substitution */

@@ -98,17 +98,17 @@ static int dynamics(const double t, const double *q, const double *v, const Para
 
     /* L D L^T of the KKT matrix */
     const double scale_O_x = inverse_crank_mass;
-    if (!(scale_O_x > 1e-13 * scale_O_x)) { pivot = 1; goto dependent; };
+    if (!(scale_O_x > 1e-08 * scale_O_x)) { pivot = 1; goto dependent; };
     const double inverse_pivot_O_x = 1.0/scale_O_x;
     const double l_pin_x__O_x = -inverse_crank_mass*inverse_pivot_O_x;
     const double scale_O_y = inverse_crank_mass;
-    if (!(scale_O_y > 1e-13 * scale_O_y)) { pivot = 2; goto dependent; };
+    if (!(scale_O_y > 1e-08 * scale_O_y)) { pivot = 2; goto dependent; };
     const double inverse_pivot_O_y = 1.0/scale_O_y;
     const double l_pin_y__O_y = -inverse_crank_mass*inverse_pivot_O_y;
     const double l_pin_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
     const double l_pin_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
     const double scale_slider_offset = inverse_rod_mass;
-    if (!(scale_slider_offset > 1e-13 * scale_slider_offset)) { pivot = 3; goto dependent; };
+    if (!(scale_slider_offset > 1e-08 * scale_slider_offset)) { pivot = 3; goto dependent; };
     const double inverse_pivot_slider_offset = 1.0/scale_slider_offset;
     const double l_pin_y__slider_offset = -inverse_pivot_slider_offset*inverse_rod_mass;
     const double l_pin_x__rod_theta = arm_rod_crankpin_y*inverse_rod_inertia;
@@ -116,7 +116,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double scale_pin_x = -arm_crank_head_y*l_pin_x__crank_theta + arm_rod_crankpin_y*l_pin_x__rod_theta
         + inverse_crank_mass + inverse_rod_mass;
     const double pivot_pin_x = inverse_crank_mass*l_pin_x__O_x + scale_pin_x;
-    if (!(pivot_pin_x > 1e-13 * scale_pin_x)) { pivot = 4; goto dependent; };
+    if (!(pivot_pin_x > 1e-08 * scale_pin_x)) { pivot = 4; goto dependent; };
     const double inverse_pivot_pin_x = 1.0/pivot_pin_x;
     const double w_pin_y__pin_x = arm_crank_head_y*l_pin_y__crank_theta -
         arm_rod_crankpin_y*l_pin_y__rod_theta;
@@ -125,7 +125,7 @@ static int dynamics(const double t, const double *q, const double *v, const Para
         inverse_crank_mass + inverse_rod_mass;
     const double pivot_pin_y = inverse_crank_mass*l_pin_y__O_y + inverse_rod_mass*l_pin_y__slider_offset +
         l_pin_y__pin_x*w_pin_y__pin_x + scale_pin_y;
-    if (!(pivot_pin_y > 1e-13 * scale_pin_y)) { pivot = 5; goto dependent; };
+    if (!(pivot_pin_y > 1e-08 * scale_pin_y)) { pivot = 5; goto dependent; };
     const double inverse_pivot_pin_y = 1.0/pivot_pin_y;
 
     /* forward substitution */

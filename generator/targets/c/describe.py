@@ -73,6 +73,10 @@ def describe(
             Condition(c.address, c.relation, c.bound, c.message)
             for c in mechanism.conditions
             if c.address in used and (not isinstance(c.bound, str) or c.bound in used)
+        )
+        + tuple(
+            Condition(address, relation, 0.0, "a direction along an axis turns round with load(overrides=...) only")
+            for address, relation in model.slots.signs.items()
         ),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_simulate(model),
