@@ -44,5 +44,5 @@ def _force(reader: Reader, name: Text, node: Map, places: Places, motion: Result
     for field in element.fields:
         if field.at_least and {field.name, field.at_least} <= values.quantities.keys():
             number, bound = values.quantities[field.name], values.quantities[field.at_least]
-            reader.require(number, ">=", bound.address, f"{field.name} is at least {field.at_least}")
+            reader.require(number, ">=", bound, f"{field.name} is at least {field.at_least}")
     return ForceElement(str(name), str(kind), targets, values.quantities, values.vectors, values.options, name.where)

@@ -174,7 +174,7 @@ def smallest(matrix: Array, target: Array) -> Array:
         x = _sparse_smallest(matrix, target)
         if x is not None:
             return x
-    return np.linalg.lstsq(matrix, target, rcond=1e-12)[0]
+    return np.asarray(np.linalg.lstsq(matrix, target, rcond=1e-12)[0], dtype=np.float64)
 
 
 def _sparse_smallest(matrix: Array, target: Array) -> Array | None:
@@ -190,4 +190,4 @@ def _sparse_smallest(matrix: Array, target: Array) -> Array | None:
     except RuntimeError:  # exactly singular
         return None
     fits = np.linalg.norm(matrix @ x - target) <= 1e-9 * (np.linalg.norm(target) + 1e-300)
-    return np.asarray(x) if fits else None
+    return np.asarray(x, dtype=np.float64) if fits else None

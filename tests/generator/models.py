@@ -14,7 +14,7 @@ from gudgeon.generator.pipeline import derive
 from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_linkage import Case, random_case
 
-Function = Callable[[float, np.ndarray, np.ndarray], np.ndarray]
+Function = Callable[[complex, np.ndarray, np.ndarray], np.ndarray]
 
 
 @cache

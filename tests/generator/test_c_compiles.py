@@ -96,7 +96,7 @@ def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> Non
 
 
 # Structure that no shipped scene has: each option of each law once.
-OPTIONS = {
+OPTIONS: dict[str, dict[str, str | float | bool]] = {
     "as_printed": {"contacts.oil.film.as_printed": True},
     "shear": {"contacts.oil.film.shear": True},
     "relative": {"contacts.oil.film.angular_velocity": "relative"},

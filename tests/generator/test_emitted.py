@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -92,11 +93,11 @@ def test_press_against_the_dense_hand_written_one(scene: str, memory: tuple[floa
 
     _, library, p = compiled(scene)
     peer = replace(golden.DRY, common_point=True, film=scene == "lubricated")
-    stored = tuple(0.0 if np.isnan(m) else m for m in memory)
+    first, second = (0.0 if np.isnan(m) else m for m in memory)
     touched = 0
     for seed in range(20):
         t, q, v = press_state(seed)
-        dy, _, contacts = press_dense.rhs(peer, t, np.concatenate([q, v]), stored)
+        dy, _, contacts = press_dense.rhs(peer, t, np.concatenate([q, v]), (first, second))
         got = library.evaluate([t], q[None], v[None], np.array([memory]), p)
         close(got.a[0], dy[24:], 1e-10)
         for columns, contact in zip(got.clearance[0], contacts, strict=True):
@@ -120,7 +121,9 @@ def test_reactions_and_torques_move_the_bodies(seed: int) -> None:
     got = library.evaluate([0.0], q[None], v[None], np.full((1, 1), NAN), p)
     load = numpy_linkage.forces(linkage, q, v)
     scale = abs(got.reactions).max(initial=1.0)
-    for joint, (fx, fy, moment) in zip(linkage.joints, got.reactions[0], strict=True):
+    joints: Any = linkage.joints  # revolute and translational ones here, drives of angles
+    drives: Any = linkage.drives
+    for joint, (fx, fy, moment) in zip(joints, got.reactions[0], strict=True):
         at = numpy_linkage.place(joint.second, q, v).r  # the second body's point; the first body feels it there too
         for end, sign in ((joint.second, 1.0), (joint.first, -1.0)):
             if end.body != numpy_linkage.GROUND:
@@ -134,7 +137,7 @@ def test_reactions_and_torques_move_the_bodies(seed: int) -> None:
             angle = 0.0 if joint.first.body == numpy_linkage.GROUND else q[3 * joint.first.body + 2]
             along = numpy_linkage.rotation(angle) @ turned
             assert abs(fx * along[0] + fy * along[1]) < 1e-12 * scale  # nothing along the slide
-    for drive, torque in zip(linkage.drives, got.torques[0], strict=True):
+    for drive, torque in zip(drives, got.torques[0], strict=True):
         load[3 * drive.body + 2] += torque
         if drive.reference != numpy_linkage.GROUND:
             load[3 * drive.reference + 2] -= torque

@@ -120,6 +120,6 @@ class Reference:
         for name, step in equations.steps.items():
             value = self.model.symbols.explicit(sp.sympify(step)).xreplace(known | self._numbers)
             known[sp.Symbol(name, real=True)] = sp.N(value, DIGITS + 5)
-        results = ("F_n",) if equations.law.role == "normal" else ("F_t",)
+        results: tuple[str, ...] = ("F_n",) if equations.law.role == "normal" else ("F_t",)
         results = ("F_r", "F_t", "T0") if equations.law.role == "film" else results
         return [mp.mpmathify(known[sp.Symbol(name, real=True)]) for name in results]
