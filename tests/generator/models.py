@@ -42,7 +42,7 @@ def numeric(model: Model, matrix: sp.Matrix) -> Function:
     entries = [entry.xreplace(numbers) for entry in matrix]
     function = sp.lambdify([model.t, model.q, model.v], entries, "numpy", cse=True)
 
-    def call(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+    def call(t: complex, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         return np.array(function(t, tuple(q), tuple(v))).reshape(matrix.shape)
 
     return call
