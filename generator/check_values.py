@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from gudgeon.errors import BadValueError, InputError, Location
-from gudgeon.expression_tree import evaluate, names
+from gudgeon.expression_tree import Binary, Call, Expr, Number, Unary, evaluate, names
 from gudgeon.generator.mechanism import Condition, Quantity, SceneSpec
 from gudgeon.generator.parameters import parameter_values
 from gudgeon.generator.reading import Reader
@@ -50,6 +50,13 @@ def _check_with(
             complain(address, f"is {value}{context}", hint)
         elif address.endswith(".simulate.output") and value != math.floor(value):
             complain(address, f"is {value:.6g}{context}", "expected a whole number of equal intervals")
+    for address, quantity in reader.quantities.items():
+        if address not in values and not broken_is_told and ".parameters." not in address:
+            parts = (float(evaluate(part, known.__getitem__)) for part in _constant_parts(quantity.value, known))
+            wrong = next((part for part in parts if not math.isfinite(part)), None)
+            if wrong is not None:
+                hint = "expected finite numbers: is there a division by zero or a root of a negative number?"
+                complain(address, f"has a part that is {wrong}{context}", hint)
     for condition in reader.conditions:
         broken = _broken(condition, values)
         if broken:
@@ -60,6 +67,25 @@ def _check_with(
     for vector in reader.vectors_not_zero:
         if all(values.get(component.address) == 0.0 for component in vector):
             complain(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
+
+
+def _constant_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
+    """The largest parts of an expression that parameters alone determine, and 1 over each of them that divides."""
+    if all(name.path in known for name in names(expr)):
+        yield expr
+        return
+    match expr:
+        case Unary(operand=operand):
+            yield from _constant_parts(operand, known)
+        case Binary(operator=operator, left=left, right=right):
+            yield from _constant_parts(left, known)
+            for part in _constant_parts(right, known):
+                yield Binary("/", Number(1.0), part) if operator == "/" and part is right else part
+        case Call(function=function, arguments=arguments):
+            divides = arguments[-1] if function in ("ramp", "smooth_step") else None
+            for argument in arguments:
+                for part in _constant_parts(argument, known):
+                    yield Binary("/", Number(1.0), part) if part is divides else part
 
 
 def _values(reader: Reader, known: Mapping[str, float]) -> dict[str, float]:

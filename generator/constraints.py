@@ -11,7 +11,7 @@ from gudgeon.generator.geometry import BodySymbols, Geometry, PointFrame
 from gudgeon.generator.joint_fields import JointFields
 from gudgeon.generator.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Drive, Joint
-from gudgeon.generator.symbolic import to_sympy
+from gudgeon.generator.symbolic import quantity_to_sympy
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class Constraints:
         def symbol_of(path: str) -> sp.Symbol:
             return self.t if path == "t" else slots.entries[f"parameters.{path}"].symbol
 
-        value = to_sympy(drive.value.value, symbol_of)
+        value = quantity_to_sympy(drive.value, symbol_of)
         f = define(f"{drive.name}_value", value, "", f"drive {drive.name}")
         rate = define(f"{drive.name}_rate", _rate(value, self.t), "", "its rate")
         second = define(f"{drive.name}_acceleration", _rate(_rate(value, self.t), self.t), "", "its second rate")

@@ -24,11 +24,12 @@ from gudgeon.generator.dimensions import check_dimension
 from gudgeon.generator.names import nearest
 from gudgeon.generator.units import DIMENSIONLESS, UNITS, Unit, parse_unit, unit
 
-__all__ = ["MAX_DEPTH", "MAX_LENGTH", "MAX_NODES", "at", "check_dimension", "parse"]
+__all__ = ["MAX_DEPTH", "MAX_LENGTH", "MAX_NODES", "MAX_WEIGHT", "at", "check_dimension", "parse"]
 
 MAX_LENGTH = 1000  # characters
 MAX_DEPTH = 50  # levels of the tree
 MAX_NODES = 300
+MAX_WEIGHT = 1500  # nodes once functions are written out: nested smooth steps grow by powers
 _MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractions grow without bound
 
 _TOKEN = re.compile(
@@ -36,6 +37,7 @@ _TOKEN = re.compile(
     r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*(?:\.[A-Za-z_][A-Za-z0-9_]*)*)"
     r"|(?P<operator>\*\*|[-+*/(),])"
 )
+_COPIES = {"smooth_step": 3}  # of its arguments in the formula
 # words of YAML and Python that look like values or operators; nobody's parameter has such a name
 _WORDS = frozenset(
     ("true", "false", "null", "yes", "no", "on", "off", "inf", "nan", "True", "False", "None")
@@ -186,6 +188,7 @@ class _Parser:
         self.tokens, self.where = _Tokenizer(text, where), where
         self.token = self.tokens.next()
         self.depths: dict[int, int] = {}  # id of a node -> levels below it
+        self.weights: dict[int, int] = {}  # id of a node -> nodes below it, functions written out
         self.kept: list[Expr] = []  # keeps the ids alive
 
     def whole(self) -> Expr:
@@ -210,12 +213,13 @@ class _Parser:
         """Every node passes here, so that no tree grows beyond the bounds."""
         depth = 1 + max((self.depths[id(child)] for child in children), default=0)
         self.depths[id(expr)] = depth
+        weight = 1 + sum(self.weights[id(child)] for child in children) * _COPIES.get(getattr(expr, "function", ""), 1)
+        self.weights[id(expr)] = weight
         self.kept.append(expr)
         self.bound(depth, expr.offset)
-        if len(self.kept) > MAX_NODES:
-            raise LimitError(
-                "an expression of too many parts", at(self.where, expr.offset), f"expected at most {MAX_NODES}"
-            )
+        if len(self.kept) > MAX_NODES or weight > MAX_WEIGHT:
+            hint = f"expected at most {MAX_NODES}; smooth steps in each other count by powers of three"
+            raise LimitError("an expression of too many parts", at(self.where, expr.offset), hint)
         return expr
 
     def bound(self, depth: int, offset: int) -> None:

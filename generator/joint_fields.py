@@ -11,7 +11,7 @@ from gudgeon.expression_tree import Name, names
 from gudgeon.generator.geometry import Geometry, PointFrame
 from gudgeon.generator.mechanism import GROUND, ForceElement, Joint, PointRef, Quantity, Vector
 from gudgeon.generator.slots import Slots
-from gudgeon.generator.symbolic import to_sympy
+from gudgeon.generator.symbolic import quantity_to_sympy
 
 ZERO = sp.Integer(0)
 
@@ -121,7 +121,7 @@ class ElementFields:
         variable = VariableNames(self._geometry, self._t)
         if not any(variable.is_variable(name) for name in names(quantity.value)):
             return self._geometry.slots.use(quantity)
-        return to_sympy(quantity.value, variable)
+        return quantity_to_sympy(quantity, variable)
 
 
 class VariableNames:

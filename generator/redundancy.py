@@ -94,14 +94,14 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     if not model.rows:
         return Redundancy()
     numeric = NumericModel(model, source)
-    try:
-        q = assemble(numeric, numeric.p).q  # type: ignore[arg-type]
-    except GudgeonError:
-        return Redundancy()  # the run will say why it does not assemble
     names = {row.name for row in model.rows}
     kept = [r for r, row in enumerate(model.all_rows) if row.name in names]
-    matrices = [numeric.closed_phi_q(0.0, x, numeric.p)[kept] for x in _configurations(numeric, q, kept)]
-    ranks = [_rank(matrix) for matrix in matrices]
+    try:
+        q = assemble(numeric, numeric.p).q  # type: ignore[arg-type]
+        matrices = [numeric.closed_phi_q(0.0, x, numeric.p)[kept] for x in _configurations(numeric, q, kept)]
+        ranks = [_rank(matrix) for matrix in matrices]
+    except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run will say why
+        return Redundancy()
     best = int(np.argmax(ranks))
     if ranks[best] == len(kept):
         return Redundancy()

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 import sympy as sp
 
+from gudgeon.errors import BadValueError
 from gudgeon.expression_tree import Binary, Call, Expr, Name, Number, Unary
+from gudgeon.generator.mechanism import Quantity
 
 
 def smooth_step(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
@@ -56,4 +59,20 @@ def _combine(operator: str, a: sp.Expr, b: sp.Expr) -> sp.Expr:
             return a * b
         case "/":
             return a / b
-    return a**b
+    return _power(a, b) if a.is_number and b.is_number else a**b
+
+
+def _power(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    """A power of numbers as binary64 has it: exactly, 10**10**10 has more digits than there is memory."""
+    with np.errstate(all="ignore"):
+        value = float(np.power(np.float64(a), np.float64(b)))
+    return sp.Integer(int(value)) if abs(value) < 1e15 and value == int(value) else sp.Float(value, 17)
+
+
+def quantity_to_sympy(quantity: Quantity, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
+    """An expression of t and motion. Raises BadValueError where it is finite for none."""
+    value = to_sympy(quantity.value, symbol_of)
+    if value.has(sp.zoo, sp.nan, sp.oo, -sp.oo, sp.I):
+        message, hint = f"{quantity.address} is finite for no motion", "expected a number: is there a division by zero?"
+        raise BadValueError(message, quantity.where, hint)
+    return value

@@ -1,4 +1,4 @@
-"""`python -m tests.fuzz TARGET [--count N] [--seconds S] [--corpus FOLDER]`: fuzz until N inputs, with atheris if it is there."""
+"""`python -m tests.fuzz TARGET [--count N] [--seconds S]`: so many inputs, guided by coverage if atheris is there."""
 
 from __future__ import annotations
 

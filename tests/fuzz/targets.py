@@ -18,17 +18,20 @@ HERE = Location("f", 1, 1)
 KNOWN: Mapping[str, Dimension | None] = {"t": TIME, "a": LENGTH, "b": None, "L1.x": LENGTH, "k": DIMENSIONLESS}
 LONGEST = 2.0  # s, for any input; a thousand times what a file of this size takes
 
-TOKENS = (
+_TOKENS = (
     "+ - * / ** ( ) , . 0 1 2 9e307 1e-308 12.5 .5 1e 0x 1_0 pi t a b k L1.x sin( atan2( smooth_step( ramp( min( sqrt("
     " mm deg kg N*m 1/s m^2 rad/s Hz in rpm __class__ lambda if [ ] { } ' \" # ~ \\ \t \u2212 \u00b5m \u03c0"
-).split(" ")
-YAML_TOKENS = (
+)
+TOKENS = tuple(_TOKENS.split(" "))
+_YAML_TOKENS = (
     ": |\n|  |- |[|]|{|}|, |'|\"|&x |*x|!!python/object |<<: |? |> |%YAML 1.1|---\n|...\n|~|\t|# |format: gudgeon/1\n|"
-    "name: n\n|bodies:\n|joints:\n|drives:\n|forces:\n|ground:\n|start: |guess: |scenes:\n|play: |outputs: |parameters:\n|"
+    "name: n\n|bodies:\n|joints:\n|drives:\n|forces:\n|ground:\n|start: |guess: |scenes:\n|play: |outputs: |"
+    "parameters:\n|"
     "extends: |length: |mass: |inertia: |points: |com: |revolute: |rigid: |gear: |distance: |point_on_line: |"
     "spring_damper: |torque: |force: |angle: |coordinate: |value: |radii: |carrier: |axis: |ground.O|L1.head|L2.tail|"
     "L1|ideal|contact: |bearing: |normal: |law: |lankarani_nikravesh|1 kg|2 mm|-1|0|t|\ufeff|\x00|\u2028"
-).split("|")
+)
+YAML_TOKENS = tuple(_YAML_TOKENS.split("|"))
 
 SMALL = b"""format: gudgeon/1
 name: n
@@ -99,8 +102,8 @@ def files() -> list[bytes]:
 
 
 EXPRESSIONS = (
-    "80 mm", "-39.52 deg + omega * t", "2*pi rad/s", "-(a + b)**2 / 3", "atan2(a, 2 m) * -k**-0.5", "smooth_step(t, 0, 1 s)",
-    "min(max(a, 1 mm), 3*L1.x)", "1e-308", "1 N*m*s/rad", "hypot(a, a) + (3 m)**2/a",
+    "80 mm", "-39.52 deg + omega * t", "2*pi rad/s", "-(a + b)**2 / 3", "atan2(a, 2 m) * -k**-0.5",
+    "smooth_step(t, 0, 1 s)", "min(max(a, 1 mm), 3*L1.x)", "1e-308", "1 N*m*s/rad", "hypot(a, a) + (3 m)**2/a",
 )  # fmt: skip
 
 TARGETS: Mapping[str, tuple[Callable[[bytes], None], tuple[str, ...], Callable[[], list[bytes]]]] = {
