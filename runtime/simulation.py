@@ -16,6 +16,7 @@ from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import kinematic, rk4
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
+from gudgeon.left_out import check_start, contradiction
 from gudgeon.parameters import number, prepare
 from gudgeon.start import Start, assemble
 from gudgeon.step import default_step
@@ -107,19 +108,23 @@ class Simulation:
         p, given, is_given = prepare(self.compiled, parameters or {})
         t0 = 0.0 if start is None else start.t
         times = self._times(t0, t_end, output)
+        if self.source.degrees_of_freedom < 0:
+            assemble(self.compiled, p)  # names the joints that contradict each other
         chosen = self._method(method)
         h = self._step(step, chosen, p, float(times[-1] - t0))
         if (times[-1] - t0) / h > MAX_STEPS:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         q, v, memory = self._begin(p, start)
+        check_start(self.compiled, p, t0, q)
         problem = Problem(self.compiled, p, times, q, v, memory, h, progress)
         before = time.perf_counter()
         trajectory = METHODS[chosen](problem)
         seconds = time.perf_counter() - before
         result = self._result(chosen, problem, trajectory, given, is_given, seconds)
-        if trajectory.stopped is not None:
-            trajectory.stopped.partial = result
-            raise trajectory.stopped
+        stopped = trajectory.stopped or contradiction(problem, trajectory)
+        if stopped is not None:
+            stopped.partial = result
+            raise stopped
         return result
 
     def _begin(self, p: Array, start: State | None) -> tuple[Array, Array, Array]:
