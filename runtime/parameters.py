@@ -55,9 +55,6 @@ def check(source: KernelSource, p: Array) -> None:
     for slot in source.slots:
         if not math.isfinite(value[slot.address]):
             raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
-    for name, number in zip(source.derived, p[len(source.slots) :].tolist(), strict=True):
-        if not math.isfinite(number):
-            raise BadValueError(f"{name}, which follows from the parameters, is {number}: not finite with these values")
     for condition in source.conditions:
         bound = value[condition.bound] if isinstance(condition.bound, str) else condition.bound
         if not _RELATIONS[condition.relation](value[condition.address], bound):
@@ -65,6 +62,9 @@ def check(source: KernelSource, p: Array) -> None:
                 f"{condition.address} is {value[condition.address]:.6g}: {condition.message}"
                 + (f" ({condition.bound} is {bound:.6g})" if isinstance(condition.bound, str) else "")
             )
+    for name, number in zip(source.derived, p[len(source.slots) :].tolist(), strict=True):
+        if not math.isfinite(number):
+            raise BadValueError(f"{name}, which follows from the parameters, is {number}: not finite with these values")
 
 
 def _unknown(name: str, addresses: list[str]) -> UnknownNameError:

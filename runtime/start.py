@@ -6,6 +6,7 @@ moves guessed angles least, then the other angles, and positions follow.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,8 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import AssemblyError
 
 MAX_STEPS = 60
+FAR = 1.0  # rad: where a guessed angle turns further, a nearer configuration is sought
+TRIES, MANY = 24, 60  # from as many other angles; fewer with more coordinates than these
 LARGE = 150  # from so many columns on a sparse factorization is tried first
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly
@@ -78,11 +81,45 @@ class _Assembly:
         return step
 
     def positions(self) -> Array:
-        """Newton with line search from the guess, driven angles and positions put in first."""
-        q = np.zeros(len(self.place))
-        q[[self.place[name] for name in self.compiled.source.start_guess]] = self.guess
-        q[self.set_index] = self.set
-        q = self._place_angles(q)
+        """The closed configuration nearest the guess; where Newton leads far away or nowhere, others are sought."""
+        guess = np.zeros(len(self.place))
+        guess[[self.place[name] for name in self.compiled.source.start_guess]] = self.guess
+        guess[self.set_index] = self.set
+        guess = self._place_angles(guess)
+        first = self._newton(guess)
+        if self._norm(first) < CLOSED and self._turned(first, guess) < FAR:
+            return first
+        found = [first, *(self._newton(other) for other in self._others(guess))]
+        closed = [self._unwound(q, guess) for q in found if self._norm(q) < CLOSED]
+        if not closed:
+            raise self._failure(first)
+        angles = self.is_angle
+        return min(closed, key=lambda q: float(np.linalg.norm(((q - guess) * self.weight)[angles])))
+
+    def _turned(self, q: Array, guess: Array) -> float:
+        """The largest turn (rad) of a guessed angle."""
+        held = self.is_angle & (self.weight == GUESSED)
+        return float(np.abs(q - guess)[held].max(initial=0.0))
+
+    def _others(self, guess: Array) -> Iterator[Array]:
+        """Angles around the guess, the same in every run; driven and set ones fall back into place."""
+        rng = np.random.default_rng(0)
+        spread = np.where(self.weight == GUESSED, 1.0, np.pi) * self.is_angle
+        for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):
+            q = guess + spread * rng.uniform(-1.0, 1.0, len(guess))
+            q[self.set_index] = self.set
+            yield self._place_angles(q)
+
+    def _unwound(self, q: Array, guess: Array) -> Array:
+        """Angles within half a turn of the guess, where no row counts turns."""
+        for k in np.flatnonzero(self.is_angle & (np.abs(q - guess) > np.pi)):
+            other = q.copy()
+            other[k] -= 2.0 * np.pi * np.round((q[k] - guess[k]) / (2.0 * np.pi))
+            q = other if self._norm(other) < CLOSED else q
+        return q
+
+    def _newton(self, q: Array) -> Array:
+        """Newton with line search, positions put in first; as far as it gets."""
         q = q + self._step(q, ~self.is_angle)
         norm = self._norm(q)
         for _ in range(MAX_STEPS):
@@ -92,8 +129,6 @@ class _Assembly:
             if share <= 1e-4:
                 break
             q, norm = q + share * step, self._norm(q + share * step)
-        if not norm < CLOSED:
-            raise self._failure(q)
         return q
 
     def _place_angles(self, q: Array) -> Array:

@@ -1,0 +1,75 @@
+"""Starts from bad guesses, at any size, against the circles' intersections."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gudgeon.errors import AssemblyError
+
+from .scenes import Load, loader
+
+
+@pytest.fixture
+def load(tmp_path: Path) -> Load:
+    return loader(tmp_path)
+
+
+FOUR_BAR = """
+parameters: {{guess_b: 0, guess_c: 0}}
+bodies:
+  a: {{length: 0.4 {unit}, mass: 1 kg, inertia: 0.01 kg*m^2}}
+  b: {{length: 1.2 {unit}, mass: 1 kg, inertia: 0.01 kg*m^2}}
+  c: {{length: {rocker} {unit}, mass: 1 kg, inertia: 0.01 kg*m^2}}
+ground: {{o: [0, 0], p: [1 {unit}, 0]}}
+joints:
+  O: {{revolute: [ground.o, a.tail]}}
+  A: {{revolute: [a.head, b.tail]}}
+  B: {{revolute: [b.head, c.head]}}
+  P: {{revolute: [ground.p, c.tail]}}
+drives: {{turn: {{angle: a, value: 70 deg + 1 rad/s * t}}}}
+start: {{guess: {{b.theta: guess_b, c.theta: guess_c}}}}
+"""
+
+
+def both_branches() -> np.ndarray:
+    """(2, 2): angles of coupler and rocker, the coupler's head left and right of the diagonal."""
+    tip, pivot = 0.4 * np.array([np.cos(np.radians(70)), np.sin(np.radians(70))]), np.array([1.0, 0.0])
+    span = np.hypot(*(pivot - tip))
+    along = (pivot - tip) / span
+    far = (1.2**2 - 0.8**2 + span**2) / (2 * span)
+    across = np.sqrt(1.2**2 - far**2) * np.array([-along[1], along[0]])
+    heads = [tip + far * along + sign * across for sign in (1, -1)]
+    return np.array([[np.arctan2(*(head - foot)[::-1]) for foot in (tip, pivot)] for head in heads])
+
+
+def away(angle: np.ndarray) -> np.ndarray:
+    """Wrapped into half a turn."""
+    return np.abs((angle + np.pi) % (2 * np.pi) - np.pi)
+
+
+@pytest.mark.parametrize("unit", ["um", "mm", "m", "km"])
+def test_branch_nearest_the_guess_from_anywhere(load: Load, unit: str) -> None:
+    """Two hundred guesses all round: assembled every time, on the nearer branch, within half a turn of the guess."""
+    scene, rng = load(FOUR_BAR.format(unit=unit, rocker=0.8)), np.random.default_rng(3)
+    branches = both_branches()
+    for guess in rng.uniform(-np.pi, np.pi, (200, 2)):
+        q = scene.start({"guess_b": guess[0], "guess_c": guess[1]}).q[[5, 8]]
+        distance = [np.linalg.norm(away(branch - guess)) for branch in branches]
+        reached = [np.linalg.norm(away(branch - q)) for branch in branches]
+        assert min(reached) < 1e-9
+        assert abs(distance[0] - distance[1]) < 0.1 or np.argmin(reached) == np.argmin(distance)
+        assert np.abs(q - guess).max() < np.pi + 1e-9
+
+
+def test_turns_of_the_guess_are_kept(load: Load) -> None:
+    q = load(FOUR_BAR.format(unit="m", rocker=0.8)).start({"guess_b": 4 * np.pi + 0.3, "guess_c": 2 * np.pi + 1}).q
+    assert abs(q[5] - 4 * np.pi - 0.3) < 0.5
+    assert abs(q[8] - 2 * np.pi - 1) < 0.5
+
+
+def test_lengths_that_cannot_meet_are_told(load: Load) -> None:
+    with pytest.raises(AssemblyError, match="cannot be assembled"):
+        load(FOUR_BAR.format(unit="m", rocker=0.1)).start()
