@@ -16,6 +16,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from sympy.core.cache import clear_cache
 
 from gudgeon.build import compile_kernels
 from gudgeon.compiled import CompiledModel
@@ -28,9 +29,10 @@ COLUMNS = ("derive [s]", "emit [s]", "operations", "C [kB]", "compile [s]", "rhs
 
 
 def minimum(call: Callable[[], object], repeats: int) -> float:
-    """Seconds of the fastest of some runs."""
+    """Seconds of the fastest of some runs; SymPy's cache is emptied, or small systems would be in it whole."""
     times = []
     for _ in range(repeats):
+        clear_cache()
         before = time.perf_counter()
         call()
         times.append(time.perf_counter() - before)
