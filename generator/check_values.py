@@ -48,7 +48,7 @@ def _check_with(
         if not math.isfinite(value) and not broken_is_told:
             hint = "expected a finite number: is there a division by zero or a root of a negative number?"
             complain(address, f"is {value}{context}", hint)
-        elif address.endswith(".simulate.output") and value != math.floor(value):
+        elif address.endswith(".simulate.output") and math.isfinite(value) and value != math.floor(value):
             complain(address, f"is {value:.6g}{context}", "expected a whole number of equal intervals")
     for address, quantity in reader.quantities.items():
         if address not in values and not broken_is_told and ".parameters." not in address:

@@ -29,7 +29,7 @@ __all__ = ["MAX_DEPTH", "MAX_LENGTH", "MAX_NODES", "MAX_WEIGHT", "at", "check_di
 MAX_LENGTH = 1000  # characters
 MAX_DEPTH = 50  # levels of the tree
 MAX_NODES = 300
-MAX_WEIGHT = 1500  # nodes once functions are written out: nested smooth steps grow by powers
+MAX_WEIGHT = 400  # nodes once functions are written out: nested smooth steps grow by powers
 _MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractions grow without bound
 
 _TOKEN = re.compile(

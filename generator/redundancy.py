@@ -24,6 +24,10 @@ SAMPLES = 3
 REACH = 0.05  # rad or share of the size, how far from the start the other configurations are sought
 
 
+# steps by name: SymPy would write each as a case distinction, simplified at great length
+MODULES = [{"Heaviside": lambda x, at_zero=1.0: 1.0 if x >= 0.0 else 0.0}, "math"]
+
+
 class NumericModel:
     """The closed linkage in NumPy, in the words of CompiledModel: just what `assemble` asks for."""
 
@@ -34,7 +38,7 @@ class NumericModel:
         entries = list(model.slots.entries.values())
         slots, derived = [e.symbol for e in entries], list(model.slots.derived)
         self.p = np.array([e.default for e in entries] + [0.0] * len(derived))
-        values = sp.lambdify([slots], [symbols.explicit(e) for e in model.slots.derived.values()], "math")
+        values = sp.lambdify([slots], [symbols.explicit(e) for e in model.slots.derived.values()], MODULES)
         self.p[len(slots) :] = values(self.p[: len(slots)])
         local = [s for s in symbols.definitions if not symbols.info[s].home]
         arguments = [[model.t], list(model.q), slots + derived]
@@ -45,9 +49,9 @@ class NumericModel:
         wanted += [value for *_, value in self._entries]
         needed = _needed(wanted, local, symbols.definitions)
         steps = [(symbol, symbols.definitions[symbol]) for symbol in needed]
-        self._rows = sp.lambdify(arguments, wanted, "math", cse=lambda expressions: (steps, list(expressions)))
-        self._masses = sp.lambdify([slots + derived], list(model.masses), "math")
-        self._start = [sp.lambdify([slots + derived], group, "math") for group in groups]
+        self._rows = sp.lambdify(arguments, wanted, MODULES, cse=lambda expressions: (steps, list(expressions)))
+        self._masses = sp.lambdify([slots + derived], list(model.masses), MODULES)
+        self._start = [sp.lambdify([slots + derived], group, MODULES) for group in groups]
 
     def _values(self, t: float, q: Array, p: Array) -> Array:
         return np.array(self._rows([t], q, p), dtype=float)

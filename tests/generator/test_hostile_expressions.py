@@ -57,7 +57,8 @@ REFUSED: list[tuple[str, type[InputError]]] = [
 def test_refused(text: str, kind: type[InputError]) -> None:
     with pytest.raises(kind) as caught:
         generate(text.encode(), "f", "ideal")
-    assert caught.value.where is not None and caught.value.where.line == 7  # the scene's, where it is the scene that divides by zero
+    where = caught.value.where
+    assert where is not None and where.line == 7  # the scene's, where it is the scene that divides by zero
 
 
 COMPILED = [
@@ -68,7 +69,8 @@ COMPILED = [
     drive(f"log({T})"),
     drive(f"sqrt({T})"),
     drive(f"asin(2 + {T})"),
-    drive("smooth_step(" * 4 + T + ", 0, 1)" * 4),
+    drive("smooth_step(" * 2 + T + ", 0.1, 1)" * 2),
+    drive("ramp(" * 5 + T + ", 0.1, 2)" * 5),
     drive("sin(" * 40 + T + ")" * 40),
     drive("abs(sign(t)) + ramp(t, 0, 1 s) + min(t, 2 s) * max(t, 1 s) * 1 1/s * 1 1/s"),
     torque("a.theta * 1e300 * 1e300"),
