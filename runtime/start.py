@@ -155,7 +155,7 @@ class _Assembly:
         for _ in range(2):  # once more for the rounding of the first solution
             v += smallest(matrix / root, target - matrix @ v) / root
         left = np.abs(matrix @ v - target)
-        if left.max(initial=0.0) > 1e-8 * max(1.0, float(np.abs(target).max(initial=0.0))):
+        if left.max(initial=0.0) > 1e-8 * float(np.abs(target).max(initial=0.0)):
             raise self._stuck(matrix / root, left)
         return v
 
@@ -169,6 +169,14 @@ class _Assembly:
         share = np.abs(vectors).max(axis=0, initial=0.0)
         stuck = [name for name, size in zip(rows, share, strict=True) if size > 1e-6]
         movers = [name for name in stuck if name in moving]
+        if len(movers) > 1:
+            owners = dict(zip(rows, [row.owner for row in source.start_rows], strict=False))
+            joints = dict.fromkeys(owners[name] for name in stuck if name not in moving)
+            among = f" (joints {', '.join(joints)} tie them)" if joints else ""
+            return AssemblyError(
+                f"the start's velocities contradict each other: {', '.join(movers)} ask for different motions{among}\n"
+                "  leave out a rate, or make drives and rates agree at the start"
+            )
         if movers:
             return AssemblyError(
                 f"the start is a dead centre: {', '.join(movers)} cannot move the linkage from here (rows"

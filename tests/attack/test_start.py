@@ -73,3 +73,22 @@ def test_turns_of_the_guess_are_kept(load: Load) -> None:
 def test_lengths_that_cannot_meet_are_told(load: Load) -> None:
     with pytest.raises(AssemblyError, match="cannot be assembled"):
         load(FOUR_BAR.format(unit="m", rocker=0.1)).start()
+
+
+@pytest.mark.parametrize("speed", [1.0, 1e-7])
+def test_rates_that_contradict_are_told(load: Load, speed: float) -> None:
+    """A rate against a drive, and two rates of one degree of freedom, however slow: both are named."""
+    driven = FOUR_BAR.format(unit="m", rocker=0.8).replace("1 rad/s", f"{speed} rad/s")
+    guess = "guess: {b.theta: guess_b, c.theta: guess_c}"
+    with pytest.raises(AssemblyError, match=r"turn, a\.omega"):
+        load(driven.replace(guess, f"{guess}, rates: {{a.omega: {2 * speed} rad/s}}")).start({"guess_c": 1.4})
+    free = "\n".join(line for line in driven.splitlines() if not line.startswith("drives"))
+    rates = f"set: {{a.theta: 70 deg}}, {guess}, rates: {{a.omega: {speed} rad/s, c.omega: {speed} rad/s}}"
+    with pytest.raises(AssemblyError, match=r"a\.omega, c\.omega"):
+        load(free.replace(guess, rates)).start({"guess_c": 1.4})
+
+
+def test_rate_that_agrees_with_a_drive(load: Load) -> None:
+    text = FOUR_BAR.format(unit="m", rocker=0.8)
+    text = text.replace("c.theta: guess_c}", "c.theta: guess_c}, rates: {a.omega: 1 rad/s}")
+    assert load(text).start({"guess_c": 1.4}).v[2] == pytest.approx(1.0)

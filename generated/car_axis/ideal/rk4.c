@@ -60,7 +60,8 @@ static void open_joint(Run *run, int i, double t)
 {
     run->memory.latch[i].closed = 0;
     run->open[i].t_off = t;
-    run->impacts[run->n_impacts++] = run->open[i];
+    if (run->n_impacts < N_EVENTS) /* more in one step than the list holds: only where friction cuts it in parts */
+        run->impacts[run->n_impacts++] = run->open[i];
 }
 
 /* Free, impact, contact from gap and approach at both ends of a step; 1 if any joint changed. */
@@ -256,7 +257,7 @@ int gudgeon_run_steps(void *memory, const double *parameters, double t0, double 
     int status = run->ready ? 0 : begin(run, p);
     *taken = 0;
     while (!status && *taken < count) {
-        if (run->n_impacts > N_EVENTS - 1)
+        if (run->n_impacts > 0 && run->n_impacts > N_EVENTS - 1)
             return EVENTS_FULL;
         const long i = first + *taken + 1;
         status = rk4_step(run, h, i == total ? t1 : t0 + (double)i * h, p);
