@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 
 from gudgeon.errors import Location
 from gudgeon.expression_tree import Expr, Number
-
 from gudgeon.generator.units import Dimension
 
 GROUND = "ground"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -45,7 +46,7 @@ def test_gear_on_the_ground(load: Load, wheels: str, radii: str, ring: str, turn
     run = load(EPICYCLIC.format(wheels=wheels, radii=radii, ring=ring)).simulate(0.5, output=5)
     assert run["planet.omega"] == pytest.approx(turns * run["arm.omega"])
     momentum_rate = 0.01 * run["arm.alpha"] + 0.02 * run["planet.alpha"]
-    weight = 0.0
+    weight: Any = 0.0
     for body, mass in (("arm", 1.0), ("planet", 1.5)):
         x, y, ax, ay = (run[f"{body}.{what}"] for what in ("x", "y", "ax", "ay"))
         momentum_rate = momentum_rate + mass * (x * ay - y * ax)
