@@ -116,7 +116,9 @@ class Simulation:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         q, v, memory = self._begin(p, start)
         check_start(self.compiled, p, t0, q)
-        problem = Problem(self.compiled, p, times, q, v, memory, h, progress)
+        problem = Problem(
+            self.compiled, p, times, q, v, memory, h, progress, None if start is None else start.state
+        )
         before = time.perf_counter()
         trajectory = METHODS[chosen](problem)
         seconds = time.perf_counter() - before
@@ -132,7 +134,8 @@ class Simulation:
         if start is None:
             assembled = assemble(self.compiled, p)
             return assembled.q, assembled.v, np.full(count, np.nan)
-        if len(start.q) != self.compiled.n or len(start.memory) != count:
+        clearances = len(self.source.clearances)
+        if len(start.q) != self.compiled.n or len(start.memory) != count or len(start.state) != clearances:
             raise BadValueError("start: this state belongs to another mechanism or scene")
         return np.asarray(start.q, dtype=float), np.asarray(start.v, dtype=float), np.asarray(start.memory, dtype=float)
 

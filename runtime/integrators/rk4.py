@@ -57,6 +57,9 @@ class _Session:
         start = np.concatenate([problem.q, problem.v, np.zeros(N_WORK)])
         latched = self.compiled.memory_array(problem.memory if self.compiled.n_memory else None)
         self.lib.gudgeon_run_start(self._run, problem.t[0], self.pointer(start), self.pointer(latched))
+        if problem.state is not None and nc:
+            codes = np.ascontiguousarray(problem.state, dtype=np.int8)
+            self.lib.gudgeon_run_codes(self._run, self.pointer(codes, "signed char *"))
         self._steps(float(problem.t[0]), float(problem.t[0]), 1, 0, 0)  # the first right-hand side
 
     @property

@@ -26,6 +26,7 @@ class Problem:
     memory: Array  # (n_clearances + n_frictions,) δ̇⁻ of closed contacts, modes of friction; NaN: free, unknown
     step: float
     progress: Progress | None = None
+    state: NDArray[Any] | None = None  # (n_clearances,) int8 codes of the run that this one goes on from
 
 
 @dataclass(frozen=True)

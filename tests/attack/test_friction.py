@@ -242,3 +242,37 @@ def test_block_on_a_turning_beam_against_scipy(load: Load) -> None:
     torque = 2 * r[-1] * rate * omega + g * r[-1] * math.cos(omega * 1.2)  # d(r² ω)/dt + weight
     assert run["turn.torque"][-1] == pytest.approx(torque, abs=1e-6)
     assert run.diagnostics.energy_residual < 1e-7
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_network_of_blocks_obeys_coulomb_everywhere(load: Load, seed: int) -> None:
+    """Random blocks on each other, springs, pushes, belts: within the limit in stick, against the slip in slip."""
+    rng, count = np.random.default_rng(seed), 4
+    carriers = ["ground.o", *(f"b{rng.integers(0, i)}.origin" for i in range(1, count))]
+    pads = [(int(i), int(rng.integers(-1, i)), float(rng.uniform(0.5, 4)), float(rng.uniform(0.5, 1)),
+             float(rng.choice([0.0, 0.0, 0.1, -0.2]))) for i in range(count)]  # fmt: skip
+    lines = ["bodies:"]
+    lines += [f"  b{i}: {{mass: {rng.uniform(0.3, 2)} kg, inertia: 1 kg*m^2}}" for i in range(count)]
+    lines += ["ground: {o: [0, 0]}", "joints:"]
+    lines += [f"  g{i}: {{translational: [{carriers[i]}, b{i}.origin], axis: [1, 0]}}" for i in range(count)]
+    lines += ["forces:"]
+    for k, (i, j, static, share, speed) in enumerate(pads):
+        other = "ground.o" if j < 0 else f"b{j}.origin"
+        limits = f"static: {static} N, kinetic: {static * share} N, speed: {speed} m/s"
+        lines.append(f"  r{k}: {{dry_friction: [{other}, b{i}.origin], direction: [1, 0], {limits}}}")
+        lines.append(f"  s{k}: {{spring_damper: [ground.o, b{i}.origin], stiffness: {rng.uniform(5, 80)} N/m}}")
+        push = f"{rng.uniform(-4, 4)} N * sin({rng.uniform(0.5, 6)} * t / (1 s))"
+        lines.append(f"  p{k}: {{force: b{i}.origin, value: [{push}, 0]}}")
+    run = load("\n".join(lines) + "\n").simulate(5.0, step=2e-3, output=1000)
+    changes = 0
+    for k, (_, _, static, share, _) in enumerate(pads):
+        mode, force, slip = (run[f"r{k}.{what}"] for what in ("mode", "F", "v"))
+        assert set(np.unique(mode)) <= {-1.0, 0.0, 1.0}
+        sticks = mode == 0
+        assert (np.abs(force[sticks]) <= static * (1 + 1e-9)).all()
+        assert np.abs(slip[sticks]).max(initial=0.0) < 1e-9
+        assert force[~sticks] == pytest.approx(-static * share * mode[~sticks])
+        assert (mode * slip)[~sticks].min(initial=0.0) > -1e-9
+        changes += int(np.count_nonzero(np.diff(mode)))
+    assert changes > 5
+    assert run.diagnostics.energy_residual < 1e-9

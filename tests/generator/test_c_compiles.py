@@ -60,7 +60,7 @@ static int go(const double *p, const double *y)
         q[k] = y[k];
         v[k] = y[N_Q + k];
     }
-    return gudgeon_kinematic(100, t, p, 0.05, q, v, &phi, &phi_dot, &steps, &done);
+    return gudgeon_kinematic(100, t, p, 0.05, 0.1, q, v, &phi, &phi_dot, &steps, &done);
 }
 """
 MAIN = r"""

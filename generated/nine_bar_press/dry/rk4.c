@@ -244,6 +244,14 @@ void gudgeon_run_start(void *memory, double t, const double *y, const double *la
         run->open[i] = (Impact){t, NAN, latched[i], 0.0, t, i};
 }
 
+/* The codes with which an earlier run ended: whether a contact that goes on is still being compressed. */
+void gudgeon_run_codes(void *memory, const signed char *state)
+{
+    Run *run = memory;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        run->compressing[i] = state[i] == 1;
+}
+
 /*
  * `count` steps from t0 + first h towards t0 + total h = t1, or fewer when the list of impacts is full.
  * Returns 0, EVENTS_FULL, NOT_FINITE or the pivot that vanished; `taken` steps were made.

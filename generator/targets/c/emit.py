@@ -41,6 +41,7 @@ int gudgeon_kinematic(long n, const double *t, const double *p, double reach, do
     "rk4": """\
 size_t gudgeon_run_size(void);
 void gudgeon_run_start(void *memory, double t, const double *y, const double *latched);
+void gudgeon_run_codes(void *memory, const signed char *state);
 int gudgeon_run_steps(void *memory, const double *parameters, double t0, double t1, long total, long first, long count,
     long *taken);
 void gudgeon_run_sample(const void *memory, double *y, double *a, double *latched, signed char *state);
