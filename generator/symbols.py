@@ -17,6 +17,7 @@ _WORDS = """
 t q v y p g f b x a dy phi nu gamma e nx ny tx ty out given is_given latch memory pivot status scale aside
 delta deltadot ratio F_n F_t v_t epsilon w_n w_t root W factor rows force rhs powers dependent
 reactions torques series max_of min_of sign_of solve_dependent errno stdin stdout stderr signgam
+e_x e_y de_x de_y de_t omega_i omega_j n_x n_y stored a_i a_j share F_r T0 F_x F_y F_along_n F_along_t M_i M_j
 """
 _TAKEN = frozenset(_WORDS.split())
 
@@ -26,8 +27,8 @@ _MACRO = re.compile(
     r"|M_(1_PI|2_PI|2_SQRT|E|LN|LOG|PI|SQRT)\w*|(PRI|SCN)[dioux]\w*|[LP]_(ctermid|cuserid|tmp)\w*"
     r"|(sa|si|st|sched|math)_\w+"
 )
-# Functions that are called where a parameter of that name is a local.
-_FUNCTION = re.compile(r"clearance_\w+")
+# Functions that are called where a parameter of that name is a local; parts of a clearance joint's force.
+_FUNCTION = re.compile(r"clearance_\w+|(F_along_[nt]|M_[ij])_(dry|film)")
 
 
 @dataclass(frozen=True)

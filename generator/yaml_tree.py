@@ -28,6 +28,8 @@ from gudgeon.generator.yaml_commas import Events
 MAX_BYTES = 1 << 20
 MAX_DEPTH = 24
 MAX_NODES = 20_000  # aliases counted as what they stand for
+# what ruamel raises on hostile text besides its own errors: "%YAML 1.13" fails an assertion
+_OF_RUAMEL = (ValueError, RecursionError, LookupError, AttributeError, TypeError, AssertionError, ArithmeticError)
 
 
 class Text(str):
@@ -97,7 +99,7 @@ def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None) ->
         root = composer.document()
     except YAMLError as error:
         raise _translate(error, text, file) from None
-    except (ValueError, RecursionError, IndexError, AttributeError, TypeError) as error:  # ruamel on hostile text
+    except _OF_RUAMEL as error:
         raise NotYamlError(f"not YAML: {error}", Location(file, 1, 1)) from None
     if twice is not None:
         twice += composer.duplicates

@@ -11,12 +11,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import sympy as sp
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import gudgeon
 from gudgeon.compiler import find_compiler
 from gudgeon.errors import BadNameError
+from gudgeon.generator import contact
+from gudgeon.generator.forces.law import RESULTS, VARIABLES
 from gudgeon.generator.names import check_name
 from gudgeon.generator.pipeline import generate
 from gudgeon.kernel_source import KernelSource
@@ -44,6 +47,11 @@ def accepted(name: str) -> bool:
     except BadNameError:
         return False
     return True
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path_factory.getbasetemp() / "cache"))
 
 
 def text_of(source: KernelSource) -> str:
@@ -114,6 +122,25 @@ def test_parameters_named_as_emitted_code_and_macros(scene: str, tmp_path: Path)
 def test_parameters_named_as_macros_of_the_headers(tmp_path: Path) -> None:
     assert {"DBL_MAX", "FP_NAN", "INT_MAX", "Py_None"} <= macros()
     check_c(text_of(generate(with_parameters(macros()), "f", "ideal")), tmp_path)
+
+
+def test_parameters_named_as_symbols_of_the_equations_do_not_change_a_number(tmp_path: Path) -> None:
+    """A parameter and a symbol of one name would be one symbol: the right-hand side would be another's."""
+    own = {symbol.name for symbol in vars(contact).values() if isinstance(symbol, sp.Symbol)}
+    own |= {f"{name}_{part}" for name in own for part in ("dry", "film")} | {"F_r", "T0"}
+    own |= {name for group in (*VARIABLES.values(), *RESULTS.values()) for name in group}
+    hostile = sorted(name for name in own | set(TRIED) if accepted(name))
+    assert {"n_x", "omega_i", "M_j_film", "epsilon"} <= set(hostile)
+    q = np.array([0.5, 0.0, 0.0, 1.6, 0.01, 0.02])  # the journal of A is where the film hands over to the contact
+    y = np.concatenate([q, [0.1, 0.2, -0.5, 0.3, -0.7, 0.4]])
+    found = []
+    for name, parameters in (("plain", [f"plain{i:03}" for i in range(len(hostile))]), ("hostile", hostile)):
+        path = tmp_path / f"{name}.yaml"
+        path.write_bytes(with_parameters(parameters))
+        linkage = gudgeon.load(path, scene="oiled")
+        found.append(linkage.rhs(0.3, y))
+        assert np.isfinite(found[-1]).all()
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-11)
 
 
 # Pieces that meet again when they are joined by '_': body a_b with point c, body a with point b_c.

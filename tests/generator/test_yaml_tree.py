@@ -74,6 +74,12 @@ def test_alias_bomb_is_counted_not_expanded() -> None:
         parse_yaml("\n".join(levels).encode(), "f")
 
 
+@pytest.mark.parametrize("text", ["%YAML 1.13", "%YAML 1.3\n---\na: 1", "%YAML 9.9\n--- {}", "%TAG ! !\n---\n!a b"])
+def test_directives(text: str) -> None:
+    with pytest.raises(NotYamlError):
+        parse_yaml(text.encode(), "f")
+
+
 def test_too_many_bytes() -> None:
     with pytest.raises(LimitError, match="bytes"):
         parse_yaml(b"#" * (MAX_BYTES + 1), "f")
