@@ -5,7 +5,7 @@ ARGS ?=
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run checks test test-all lint types bench stress generated setup setup-test clean
+.PHONY: help run checks test test-all lint types fuzz bench stress generated setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -35,6 +35,10 @@ lint: setup-test
 types: setup-test
 	@.venv/bin/mypy -p gudgeon
 	@.venv/bin/mypy tests
+
+fuzz: setup-test  ## mutated expressions and files; ARGS="--count 1000000"; guided by coverage where atheris is installed
+	@.venv/bin/python -m tests.fuzz expression $(ARGS)
+	@.venv/bin/python -m tests.fuzz reader $(ARGS)
 
 bench: setup  ## run time against error; one right-hand side beside the hand-written C
 	@$(GUDGEON) bench nine_bar_press --mark-step 0.1ms $(ARGS)
