@@ -165,6 +165,18 @@ def equations(
     return write_equations(file, target, scene)
 
 
+@app.command()
+@_told
+def schema() -> int:
+    """Print the JSON Schema of mechanism files, for editors that complete and check YAML.
+
+    Example: gudgeon schema > gudgeon.schema.json
+    """
+    from gudgeon.commands.schema import print_schema
+
+    return print_schema()
+
+
 Quick = Annotated[bool, typer.Option("--quick", help="Fewer steps and a shorter window: seconds, not minutes.")]
 Mark = Annotated[
     str | None, typer.Option("--mark-step", metavar="STEP", help="Show and tell what becomes of this step: 0.1ms.")

@@ -318,3 +318,11 @@ def test_version_and_help(call: Gudgeon) -> None:
     assert call("--version").stdout == f"gudgeon {gudgeon.__version__}\n"
     for command in ("run", "check", "emit", "equations", "bench", "stress"):
         assert "Example: gudgeon" in call(command, "--help").stdout
+
+
+def test_schema_is_json_schema(call: Gudgeon) -> None:
+    done = call("schema")
+    assert done.exit_code == 0
+    document = json.loads(done.stdout)
+    assert document["$schema"].endswith("2020-12/schema")
+    assert {"bodies", "joints", "forces", "scenes"} <= set(document["properties"])
