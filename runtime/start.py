@@ -37,7 +37,8 @@ class Start:
 def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
     """The start of a scene. Raises AssemblyError with rows, joints and residual."""
     problem = _Assembly(compiled, p, t)
-    q = problem.positions()
+    with np.errstate(all="ignore"):  # Newton may come where a direction is not defined; it looks for that itself
+        q = problem.positions()
     return Start(q, problem.velocities(q), float(np.abs(problem.residual(q)).max(initial=0.0)))
 
 
@@ -75,9 +76,9 @@ class _Assembly:
         """Smallest weighted step that closes the linearised rows, in some columns only."""
         weight = self.weight[columns]
         matrix = self.jacobian(q)[:, columns] / self.row_scale[:, None] / weight
-        solution = smallest(matrix, -self.residual(q) / self.row_scale)
-        step = np.zeros_like(q)
-        step[columns] = solution / weight
+        target, step = -self.residual(q) / self.row_scale, np.zeros_like(q)
+        if np.isfinite(matrix).all() and np.isfinite(target).all():  # a driven distance has no direction at zero
+            step[columns] = smallest(matrix, target) / weight
         return step
 
     def positions(self) -> Array:
@@ -93,8 +94,7 @@ class _Assembly:
         closed = [self._unwound(q, guess) for q in found if self._norm(q) < CLOSED]
         if not closed:
             raise self._failure(first)
-        angles = self.is_angle
-        return min(closed, key=lambda q: float(np.linalg.norm(((q - guess) * self.weight)[angles])))
+        return min(closed, key=lambda q: float(np.linalg.norm((q - guess) * self.weight)))
 
     def _turned(self, q: Array, guess: Array) -> float:
         """The largest turn (rad) of a guessed angle."""
@@ -102,9 +102,10 @@ class _Assembly:
         return float(np.abs(q - guess)[held].max(initial=0.0))
 
     def _others(self, guess: Array) -> Iterator[Array]:
-        """Angles around the guess, the same in every run; driven and set ones fall back into place."""
-        rng = np.random.default_rng(0)
-        spread = np.where(self.weight == GUESSED, 1.0, np.pi) * self.is_angle
+        """Coordinates around the guess, the same in every run; driven and set ones fall back into place."""
+        rng, guessed = np.random.default_rng(0), [self.place[name] for name in self.compiled.source.start_guess]
+        spread = np.where(self.is_angle, np.pi, self.size)
+        spread[guessed] /= np.pi
         for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):
             q = guess + spread * rng.uniform(-1.0, 1.0, len(guess))
             q[self.set_index] = self.set

@@ -92,3 +92,18 @@ def test_rate_that_agrees_with_a_drive(load: Load) -> None:
     text = FOUR_BAR.format(unit="m", rocker=0.8)
     text = text.replace("c.theta: guess_c}", "c.theta: guess_c}, rates: {a.omega: 1 rad/s}")
     assert load(text).start({"guess_c": 1.4}).v[2] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        "joints: {rod: {distance: [{ends}], length: 2 mm}}",
+        "drives: {rod: {distance: [{ends}], value: 2 mm}}",
+    ],
+)
+@pytest.mark.parametrize("ends", ["ground.o, a.origin", "a.origin, ground.o"])
+def test_rod_whose_ends_coincide_in_the_guess(load: Load, part: str, ends: str) -> None:
+    """No guess puts the two ends of a rod into one point, where its row has no direction."""
+    text = "bodies: {a: {mass: 1 kg, inertia: 1 kg*m^2}}\nground: {o: [0, 0]}\n" + part.replace("{ends}", ends) + "\n"
+    q = load(text).start().q
+    assert np.hypot(q[0], q[1]) == pytest.approx(2e-3, rel=1e-12)
