@@ -7,8 +7,12 @@ import pytest
 
 import gudgeon
 
-CASES = [("nine_bar_press", "dry", 0.012, 2e-6, 400), ("belt_block", "ideal", 3.0, 1e-2, 60)]
-CASES += [("bouncing_ball", "damped", 0.46, 1e-5, 2300), ("slider_crank", "ideal", 0.2, None, 20)]
+CASES: list[tuple[str, str, float, float | None, int]] = [
+    ("nine_bar_press", "dry", 0.012, 2e-6, 400),
+    ("belt_block", "ideal", 3.0, 1e-2, 60),
+    ("bouncing_ball", "damped", 0.46, 1e-5, 2300),
+    ("slider_crank", "ideal", 0.2, None, 20),
+]
 
 
 @pytest.mark.parametrize(("name", "scene", "t_end", "step", "samples"), CASES)
