@@ -171,9 +171,7 @@ def two_blocks(t_end: float) -> np.ndarray:
     while t < t_end:
         now = tuple(modes)
         events = [margin(0, now), margin(1, now)]
-        found = solve_ivp(
-            slide(now), (t, t_end), y, "DOP853", events=events, rtol=1e-12, atol=1e-14, max_step=0.01
-        )
+        found = solve_ivp(slide(now), (t, t_end), y, "DOP853", events=events, rtol=1e-12, atol=1e-14, max_step=0.01)
         t, y = float(found.t[-1]), found.y[:, -1].copy()
         for i in range(2):
             if len(found.t_events[i]):
