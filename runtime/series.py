@@ -12,7 +12,7 @@ The names depend on the scene alone; nothing is computed before somebody asks (`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Container, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -63,8 +63,16 @@ def catalogue(source: KernelSource) -> dict[str, Series]:
     for part in (_bodies, _points, _joints, _clearances, _drives, _elements, _frictions, _multipliers, _balance):
         found.update(part(source))
     for name, tree in source.outputs.items():
-        found[name] = _output(source, name, tree, found)
+        if not missing(source, tree, found):
+            found[name] = _output(source, name, tree, found)
     return found
+
+
+def missing(source: KernelSource, tree: Any, known: Container[str]) -> list[str]:
+    """Names in an output's expression that this scene does not have (A.Fn where A has no play)."""
+    parameters = {slot.address.removeprefix("parameters.") for slot in source.slots} | {"t"}
+    used = [name.path for name in expression_tree.names(expression_tree.from_json(tree))]
+    return [path for path in dict.fromkeys(used) if path not in known and path not in parameters]
 
 
 def rates(name: str) -> tuple[str, str]:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+import gudgeon
 from gudgeon.dimensions import parse, unit_of
 from gudgeon.errors import GudgeonError, UnknownNameError
 from gudgeon.expression_tree import from_json
 from gudgeon.results import Result
+from gudgeon.shipped import shipped_file
 
 
 def test_a_body_is_read_from_its_columns(run: Result) -> None:
@@ -133,3 +137,17 @@ def test_units_are_read_as_products_of_powers() -> None:
     assert parse("kg*m^2/s^2") == parse("N*m") == parse("J")
     with pytest.raises(ValueError):
         parse("furlong")
+
+
+def test_an_output_of_play_is_left_out_where_there_is_none(tmp_path: Path) -> None:
+    text = shipped_file("slider_crank").read_text(encoding="utf-8")
+    joint = next(iter(gudgeon.load("slider_crank", "dry").source.clearances)).name
+    file = tmp_path / "slider.yaml"
+    file.write_text(text.partition("\noutputs:")[0] + f"\noutputs: {{press: 2 * {joint}.Fn, twice: 2 * t}}\n")
+    run = gudgeon.load(file, "ideal").simulate(0.01, output=4)
+    assert run["twice"] == pytest.approx(2 * run.t)
+    assert "press" not in run.names
+    with pytest.raises(UnknownNameError, match=f"output 'press' needs {joint}.Fn"):
+        run["press"]
+    run.save(tmp_path / "run.nc")
+    assert "press" in gudgeon.load(file, "dry").simulate(1e-4, output=4).names
