@@ -185,7 +185,8 @@ class Result:
 
             lacking = ", ".join(missing(self.source, self.source.outputs[name], self._catalogue))
             hint = "a joint's play, contact and reaction have results only in the scenes that have them"
-            return UnknownNameError(f"output {name!r} needs {lacking}, which scene {self.source.scene!r} lacks", hint=hint)
+            scene = self.source.scene
+            return UnknownNameError(f"output {name!r} needs {lacking}, which scene {scene!r} lacks", hint=hint)
         nearest = difflib.get_close_matches(name, self._catalogue, n=3, cutoff=0.5)
         hint = f"nearest: {', '.join(nearest)}" if nearest else "run.names lists all names"
         return UnknownNameError(f"the scene {self.source.scene!r} has nothing named {name!r}", hint=hint)
