@@ -6,13 +6,12 @@ PointFrame a target and the element's own numbers, and returns a `Loads`.
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from gudgeon.generator.discovery import declared
 from gudgeon.generator.units import Dimension
 
 
@@ -81,10 +80,4 @@ class ElementType:
 @cache
 def element_types() -> Mapping[str, ElementType]:
     """All the kinds in this folder."""
-    package = importlib.import_module("gudgeon.generator.force_elements")
-    found = {}
-    for info in pkgutil.iter_modules(package.__path__):
-        element = getattr(importlib.import_module(f"gudgeon.generator.force_elements.{info.name}"), "ELEMENT", None)
-        if isinstance(element, ElementType):
-            found[element.kind] = element
-    return found
+    return {e.kind: e for e in declared("gudgeon.generator.force_elements", "ELEMENT", ElementType)}

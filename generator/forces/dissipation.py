@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from gudgeon.generator.forces.law import LawInputs
+
 # name -> a(c_e)
 FACTORS: Mapping[str, Callable[[Any], Any]] = {
     "none": lambda c_e: 0 * c_e,
@@ -21,6 +23,15 @@ FACTORS: Mapping[str, Callable[[Any], Any]] = {
     "flores": lambda c_e: 8 * (1 - c_e) / (5 * c_e),
     "hu_guo": lambda c_e: 3 * (1 - c_e) / (2 * c_e),
 }
+
+
+def normal_force(s: LawInputs, K: Any, factor: str) -> Any:
+    """K δⁿ (1 + a δ̇/δ̇⁻), never negative: what every law with hysteresis damping is."""
+    import sympy as sp
+
+    a = s.derive("hysteresis", FACTORS[factor](s.parameters["restitution"]), "hysteresis damping factor a")
+    delta, ratio = s.variables["delta"], s.variables["ratio"]
+    return sp.Max(K * delta ** s.parameters["exponent"] * (1 + a * ratio), 0)
 
 
 def _exp(x: Any) -> Any:

@@ -10,19 +10,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.forces.dissipation import FACTORS
+from gudgeon.generator.forces.dissipation import FACTORS, normal_force
 from gudgeon.generator.forces.law import Law, LawInputs, LawOption, LawParameter
 from gudgeon.generator.units import DIMENSIONLESS, Dimension
 
 
 def build(s: LawInputs) -> dict[str, Any]:
     """F_n (N), compressive, for δ > 0."""
-    import sympy as sp
-
-    n, c_e = s.parameters["exponent"], s.parameters["restitution"]
     K = s.derive("K", s.parameters["stiffness"], "contact stiffness")
-    a = s.derive("hysteresis", FACTORS[str(s.options["dissipation"])](c_e), "hysteresis damping factor")
-    return {"F_n": sp.Max(K * s.variables["delta"] ** n * (1 + a * s.variables["ratio"]), 0)}
+    return {"F_n": normal_force(s, K, str(s.options["dissipation"]))}
 
 
 LAW = Law(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from gudgeon.generator.forces.dissipation import normal_force
 from gudgeon.generator.forces.law import Law, LawInputs, LawOption, LawParameter
 from gudgeon.generator.units import DIMENSIONLESS
 
@@ -17,13 +18,12 @@ def build(s: LawInputs) -> dict[str, Any]:
     """F_n (N), compressive, for δ > 0."""
     import sympy as sp
 
-    pair, n, c_e = s.pair, s.parameters["exponent"], s.parameters["restitution"]
+    pair = s.pair
     sigma_i, sigma_j = (1 - pair.nu_i**2) / pair.E_i, (1 - pair.nu_j**2) / pair.E_j
     other = pair.R_j if s.options["geometry"] == "external" else -pair.R_j
     radius = sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + other))
     K = s.derive("K", sp.Rational(4, 3) / (sigma_i + sigma_j) * radius, "contact stiffness")
-    a = s.derive("hysteresis", sp.Rational(3, 4) * (1 - c_e**2), "hysteresis damping factor, 3(1 - c_e^2)/4")
-    return {"F_n": sp.Max(K * s.variables["delta"] ** n * (1 + a * s.variables["ratio"]), 0)}
+    return {"F_n": normal_force(s, K, LAW.name)}
 
 
 LAW = Law(

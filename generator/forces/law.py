@@ -6,13 +6,12 @@ parameters and options, not its equations. Equations are built inside functions.
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from gudgeon.generator.discovery import declared
 from gudgeon.generator.units import Dimension
 
 
@@ -96,10 +95,4 @@ class Law:
 @cache
 def laws() -> Mapping[str, Law]:
     """All the laws in this folder by name."""
-    package = importlib.import_module("gudgeon.generator.forces")
-    found = {}
-    for info in pkgutil.iter_modules(package.__path__):
-        law = getattr(importlib.import_module(f"gudgeon.generator.forces.{info.name}"), "LAW", None)
-        if isinstance(law, Law):
-            found[law.name] = law
-    return found
+    return {law.name: law for law in declared("gudgeon.generator.forces", "LAW", Law)}

@@ -5,13 +5,12 @@ As with the laws, nothing here imports SymPy at the top: the reader needs only t
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from gudgeon.generator.discovery import declared
 from gudgeon.generator.units import Dimension
 
 
@@ -52,10 +51,4 @@ class JointType:
 @cache
 def joint_types() -> Mapping[str, JointType]:
     """All the joint types in this folder by kind."""
-    package = importlib.import_module("gudgeon.generator.joints")
-    found = {}
-    for info in pkgutil.iter_modules(package.__path__):
-        joint = getattr(importlib.import_module(f"gudgeon.generator.joints.{info.name}"), "JOINT", None)
-        if isinstance(joint, JointType):
-            found[joint.kind] = joint
-    return found
+    return {joint.kind: joint for joint in declared("gudgeon.generator.joints", "JOINT", JointType)}

@@ -38,7 +38,7 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     /* derived */
     const double R_j_floor = -floor_clearance + floor_radius;  /* journal radius */
     p->R_j_floor = R_j_floor;
-    const double damped_floor_hysteresis = 1.5 - 1.5*damped_normal_restitution;  /* hysteresis damping factor */
+    const double damped_floor_hysteresis = 1.5 - 1.5*damped_normal_restitution;  /* hysteresis damping factor a */
     p->damped_floor_hysteresis = damped_floor_hysteresis;
     const double inverse_ball_mass = 1.0/ball_mass;  /* 1/M */
     p->inverse_ball_mass = inverse_ball_mass;

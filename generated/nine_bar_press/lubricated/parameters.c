@@ -127,7 +127,7 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double oil_pin_K = (2.0/3.0)*aluminium_E*sqrt(R_j_pin*pin_radius/(R_j_pin + pin_radius))/(1.0 -
         (aluminium_nu * aluminium_nu));  /* contact stiffness */
     p->oil_pin_K = oil_pin_K;
-    const double oil_pin_hysteresis = 0.75 - 0.75*(oil_normal_restitution * oil_normal_restitution);  /* hysteresis damping factor, 3(1 - c_e^2)/4 */
+    const double oil_pin_hysteresis = 0.75 - 0.75*(oil_normal_restitution * oil_normal_restitution);  /* hysteresis damping factor a */
     p->oil_pin_hysteresis = oil_pin_hysteresis;
     const double oil_pin_friction_slope = 1.0/(-oil_friction_v0 + oil_friction_v1);  /* 1/(v1 - v0) */
     p->oil_pin_friction_slope = oil_pin_friction_slope;

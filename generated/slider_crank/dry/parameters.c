@@ -65,7 +65,7 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double dry_pin_K = (2.0/3.0)*steel_E*sqrt(R_j_pin*pin_radius/(R_j_pin + pin_radius))/(1.0 -
         (steel_nu * steel_nu));  /* contact stiffness */
     p->dry_pin_K = dry_pin_K;
-    const double dry_pin_hysteresis = 0.75 - 0.75*(dry_normal_restitution * dry_normal_restitution);  /* hysteresis damping factor, 3(1 - c_e^2)/4 */
+    const double dry_pin_hysteresis = 0.75 - 0.75*(dry_normal_restitution * dry_normal_restitution);  /* hysteresis damping factor a */
     p->dry_pin_hysteresis = dry_pin_hysteresis;
     const double dry_pin_friction_slope = 1.0/(-dry_friction_v0 + dry_friction_v1);  /* 1/(v1 - v0) */
     p->dry_pin_friction_slope = dry_pin_friction_slope;
