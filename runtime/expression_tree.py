@@ -116,6 +116,18 @@ def names(expr: Expr) -> Iterator[Name]:
                 yield from names(argument)
 
 
+def functions(expr: Expr) -> set[str]:
+    """Names of the functions that `expr` calls."""
+    match expr:
+        case Unary(operand=operand):
+            return functions(operand)
+        case Binary(left=left, right=right):
+            return functions(left) | functions(right)
+        case Call(function=function, arguments=arguments):
+            return {function}.union(*map(functions, arguments))
+    return set()
+
+
 def to_json(expr: Expr) -> Any:
     """Nested lists that `from_json` reads back."""
     match expr:

@@ -257,3 +257,20 @@ def test_a_name_is_never_hidden_by_a_module() -> None:
 
 def test_replace_keeps_the_tiny_source_a_kernel_source() -> None:
     assert KernelSource.from_json(tiny().to_json()) == replace(tiny())
+
+
+def test_a_ramp_before_a_body_that_must_follow_is_noted(tmp_path: Path) -> None:
+    text = """
+format: gudgeon/1
+name: arm
+bodies: {A: {length: 1 m, mass: 1 kg, inertia: 0.1}, B: {length: 1 m, mass: 1 kg, inertia: 0.1}}
+ground: {O: [0, 0]}
+joints: {H: {revolute: [ground.O, A.tail]}, K: {revolute: [A.head, B.tail]}}
+drives: {m: {angle: A, value: "STEP(t, 0.1 s, 1 s) * 90 deg"}}
+"""
+    noted = {}
+    for step in ("ramp", "smooth_step"):
+        file = tmp_path / f"{step}.yaml"
+        file.write_text(text.replace("STEP", step))
+        noted[step] = any("jumps" in note for note in gudgeon.load(file).source.notes)
+    assert noted == {"ramp": True, "smooth_step": False}
