@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.compiled import Array, CompiledModel
+from gudgeon.dead_centre import dependent_rows
 from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import kinematic, rk4
@@ -227,13 +228,18 @@ def diagnose(
         ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
         peaks=_peaks(compiled, x), seconds=seconds,
         seconds_per_simulated_second=seconds / simulated if simulated > 0 else math.nan,
-        interrupted=x.interrupted, notes=_notes(compiled, problem.p, trajectory),
+        interrupted=x.interrupted, notes=_notes(compiled, problem, trajectory),
     )  # fmt: skip
 
 
-def _notes(compiled: CompiledModel, p: Array, trajectory: Trajectory) -> tuple[str, ...]:
+def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
     """What a reader of this run should know before trusting it."""
-    notes, counts = [], trajectory.counts
+    p, notes, counts = problem.p, [], trajectory.counts
+    if problem.state is None and (tied := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
+        notes.append(
+            f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"
+            " start.rates leave open were taken least: give a rate of each body that may move"
+        )
     for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - c

@@ -19,6 +19,7 @@ FAR = 1.0  # rad: where a guessed angle turns further, a nearer configuration is
 TRIES, MANY = 24, 60  # from as many other angles; fewer with more coordinates than these
 LARGE = 150  # from so many columns on a sparse factorization is tried first
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
+AWAY = 1e3  # of the mechanism's size: a body so far from the origin is lost
 CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly
 
 # Weights of a coordinate in the norm of a Newton step: a guess is held most firmly.
@@ -88,13 +89,18 @@ class _Assembly:
         guess[self.set_index] = self.set
         guess = self._place_angles(guess)
         first = self._newton(guess)
-        if self._norm(first) < CLOSED and self._turned(first, guess) < FAR:
+        if self._norm(first) < CLOSED and self._turned(first, guess) < FAR and self._is_near(first):
             return first
         found = [first, *(self._newton(other) for other in self._others(guess))]
-        closed = [self._unwound(q, guess) for q in found if self._norm(q) < CLOSED]
+        near = [q for q in found if self._is_near(q)]
+        closed = [self._unwound(q, guess) for q in near if self._norm(q) < CLOSED]
         if not closed:
-            raise self._failure(first)
+            raise self._failure(min(near, key=self._norm, default=guess))
         return min(closed, key=lambda q: float(np.linalg.norm((q - guess) * self.weight)))
+
+    def _is_near(self, q: Array) -> bool:
+        """Not run off to where parallel lines meet, and every row seems to close."""
+        return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.size)
 
     def _turned(self, q: Array, guess: Array) -> float:
         """The largest turn (rad) of a guessed angle."""
@@ -195,11 +201,13 @@ class _Assembly:
         worst = np.argsort(-scaled)[:6]
         worst = worst[scaled[worst] > 1e-3 * scaled.max()]
         rows = ", ".join(f"{self.names[k]} ({self.residual(q)[k]:.3g})" for k in worst)
-        owners = ", ".join(dict.fromkeys(self.owners[k] for k in worst))
+        owners = ", ".join(dict.fromkeys(self.owners[k] for k in worst if self.owners[k] != "start"))
+        sets = "what start.set holds, " if len(self.set_index) else ""
         return AssemblyError(
-            f"the start cannot be assembled: rows {rows} stay open (joints {owners};"
+            f"the start cannot be assembled: rows {rows} stay open (joints {owners or 'none'};"
             f" residual {np.abs(self.residual(q)).max():.3g})\n"
-            "  check lengths and ground points, or give start.guess angles nearer to the wanted branch"
+            "  either the constraints contradict each other or the guess is far from every branch: check"
+            f" {sets}lengths and ground points, or give start.guess angles nearer to the wanted branch"
         )
 
 

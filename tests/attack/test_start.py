@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import gudgeon
 from gudgeon.errors import AssemblyError
 
 from .scenes import Load, loader
@@ -107,3 +108,50 @@ def test_rod_whose_ends_coincide_in_the_guess(load: Load, part: str, ends: str) 
     text = "bodies: {a: {mass: 1 kg, inertia: 1 kg*m^2}}\nground: {o: [0, 0]}\n" + part.replace("{ends}", ends) + "\n"
     q = load(text).start().q
     assert np.hypot(q[0], q[1]) == pytest.approx(2e-3, rel=1e-12)
+
+
+STRETCHED = """
+format: gudgeon/1
+name: stretched
+bodies:
+  crank: {length: 50 mm, mass: 0.3 kg, inertia: 1e-4 kg*m^2}
+  rod: {length: 120 mm, mass: 0.21 kg, inertia: 2.5e-4 kg*m^2}
+  piston: {mass: 0.14 kg, inertia: 1e-4 kg*m^2}
+ground: {O: [0, 0]}
+joints:
+  shaft: {revolute: [ground.O, crank.tail]}
+  crankpin: {revolute: [crank.head, rod.tail]}
+  wristpin: {revolute: [rod.head, piston.origin]}
+  cylinder: {translational: [ground.O, piston.origin], axis: [1, 0]}
+start: {set: {piston.x: X mm}, guess: {crank.theta: 40 deg, rod.theta: -10 deg}, rates: {piston.vx: 0 m/s}}
+"""
+
+
+@pytest.mark.parametrize(("x", "dead"), [("170", True), ("160", False)])
+def test_a_dead_centre_is_told_even_where_the_rate_fits(x: str, dead: bool, tmp_path: Path) -> None:
+    """Stretched, the piston's rate is zero whatever the crank does: it determines nothing."""
+    file = tmp_path / "stretched.yaml"
+    file.write_text(STRETCHED.replace("X", x))
+    notes = gudgeon.load(file).simulate(1e-3, output=2).diagnostics.notes
+    assert any("dead centre" in note and "piston.vx" in note for note in notes) == dead
+
+
+def test_a_start_is_not_sought_where_parallels_meet(tmp_path: Path) -> None:
+    """The pin's line is level and the crank is set at 40°: nothing closes, and the joints at fault are named."""
+    file = tmp_path / "yoke.yaml"
+    file.write_text("""
+format: gudgeon/1
+name: yoke
+bodies:
+  crank: {length: 100 mm, mass: 1 kg, inertia: 1e-3}
+  yoke: {mass: 1 kg, inertia: 1e-3}
+ground: {O: [0, 0]}
+joints:
+  shaft: {revolute: [ground.O, crank.tail]}
+  pin: {point_on_line: [crank.head, yoke.origin], direction: [1, 0]}
+  slide: {translational: [ground.O, yoke.origin], axis: [1, 0]}
+start: {set: {crank.theta: 40 deg}}
+""")
+    with pytest.raises(AssemblyError, match="contradict each other") as caught:
+        gudgeon.load(file).start()
+    assert "pin" in str(caught.value) and "start.set" in str(caught.value)

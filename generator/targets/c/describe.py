@@ -142,6 +142,11 @@ def scene_notes(model: Model) -> tuple[str, ...]:
             f"redundant rows left out: {', '.join(model.redundancy.dropped)}; reactions not determined by"
             f" rigid bodies: {', '.join(model.redundancy.indeterminate)}"
         )
+    if model.degrees_of_freedom < 0:
+        notes.append(
+            f"{-model.degrees_of_freedom} more rows than coordinates: nothing can move, and unless lengths and points"
+            " fit exactly it cannot be assembled"
+        )
     if not model.clearances:
         notes.append("no joint has play: no contact code, no film")
         if model.degrees_of_freedom == 0:
