@@ -104,7 +104,7 @@ def run(
 
     The ideal scene (no play) is always run too, at the same times and with the same parameters.
 
-    Example: gudgeon run nine_bar_press --scene dry --set c=0.5mm --t-end 0.2
+    Example: gudgeon run engine.yaml --scene dry --set c=0.5mm --t-end 0.2
     """
     from gudgeon.commands.run import Request, run_scenes
 
@@ -126,7 +126,7 @@ def check(
 ) -> int:
     """Is a mechanism file valid? Every mistake is told with its line, its column and what was expected.
 
-    Example: gudgeon check nine_bar_press -v
+    Example: gudgeon check engine.yaml -v
     """
     from gudgeon.commands.check import check_file
 
@@ -142,7 +142,7 @@ def emit(
 ) -> int:
     """Write the generated C, to be read or to be built into something else.
 
-    Example: gudgeon emit nine_bar_press -o c --scene dry
+    Example: gudgeon emit engine.yaml -o c --scene dry
     """
     from gudgeon.commands.emit import emit_c
 
@@ -158,7 +158,7 @@ def equations(
 ) -> int:
     """Write the equations of a scene as LaTeX, text or HTML.
 
-    Example: gudgeon equations nine_bar_press -o press.tex --scene lubricated
+    Example: gudgeon equations engine.yaml -o press.tex --scene lubricated
     """
     from gudgeon.commands.equations import write_equations
 
@@ -188,7 +188,7 @@ Mark = Annotated[
 def bench(file: File, scene: Scenes = None, out: Out = Path("out"), quick: Quick = False, mark: Mark = None) -> int:
     """Run time against error over the steps, for each scene: a table, a CSV file, a picture.
 
-    Example: gudgeon bench nine_bar_press --scene dry --mark-step 0.1ms
+    Example: gudgeon bench engine.yaml --scene dry --mark-step 0.1ms
     """
     from gudgeon.commands.measure import bench_file
 
@@ -200,7 +200,7 @@ def bench(file: File, scene: Scenes = None, out: Out = Path("out"), quick: Quick
 def stress(file: File, scene: Scenes = None, out: Out = Path("out"), quick: Quick = False, mark: Mark = None) -> int:
     """Step × clearance: stable, inaccurate, diverged or outside the model, each with its reason.
 
-    Example: gudgeon stress nine_bar_press --scene lubricated --mark-step 0.1ms
+    Example: gudgeon stress engine.yaml --scene lubricated --mark-step 0.1ms
     """
     from gudgeon.commands.measure import stress_file
 
