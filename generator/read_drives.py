@@ -81,7 +81,8 @@ def _coordinate(reader: Reader, node: Map, kind: Text, places: Places) -> _Targe
     """`S9.y`: of the centre of mass, in ground axes."""
     text = node[kind]
     if not isinstance(text, Text) or "." not in text:
-        raise BadValueError(f"{kind} is {kind_of(text)}", _place(text, kind), "expected a coordinate: BODY.x, BODY.y or BODY.theta")
+        hint = "expected a coordinate: BODY.x, BODY.y or BODY.theta"
+        raise BadValueError(f"{kind} is {kind_of(text)}", _place(text, kind), hint)
     dimension = coordinate_of(text, COORDINATES, places, text.where)
     body, _, coordinate = text.partition(".")
     return _Target(body, None, coordinate, (), dimension, (coordinate, frozenset((body, GROUND))))
