@@ -38,16 +38,14 @@ class Argument:
 
 @dataclass(frozen=True)
 class Kernel:
-    """One function: `returns` is its C type, `result` the expression returned at the end."""
+    """One function: `returns` is its C type."""
 
     name: str
     doc: tuple[str, ...]
     arguments: tuple[Argument, ...]
     sections: tuple[Section, ...]
     returns: str = "void"
-    result: str = ""
     inline: bool = False
-    public: bool = False
 
     @property
     def operations(self) -> int:
@@ -96,10 +94,7 @@ class KernelBuilder:
         """`target = value;`"""
         self._sections[-1][1].append(Statement(target, value, False, comment))
 
-    def build(
-        self, arguments: Sequence[Argument], returns: str = "void", result: str = "", inline: bool = False,
-        public: bool = False,
-    ) -> Kernel:  # fmt: skip
+    def build(self, arguments: Sequence[Argument], returns: str = "void", inline: bool = False) -> Kernel:
         """The kernel, with its inputs and definitions in front."""
         statements = [s for _, group in self._sections for s in group if isinstance(s, Statement)]
         declared = {s.target for s in statements if s.local}
@@ -117,7 +112,7 @@ class KernelBuilder:
         ]
         sections = front + [Section(title, tuple(group)) for title, group in self._sections]
         kept = tuple(section for section in sections if section.statements)
-        return Kernel(self._name, self._doc, tuple(arguments), kept, returns, result, inline, public)
+        return Kernel(self._name, self._doc, tuple(arguments), kept, returns, inline)
 
     def _resolve(self, expressions: Iterable[sp.Expr], declared: set[str]) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
         """Definitions to compute (in the order in which they were made) and inputs to read."""

@@ -17,9 +17,9 @@ from gudgeon.errors import GudgeonError
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.model import Model, Redundancy
 from gudgeon.kernel_source import KernelSource
+from gudgeon.rank import RANK, rank, tied
 from gudgeon.start import assemble
 
-RANK = 1e-9  # singular values below this share of the largest count as zero
 SAMPLES = 3
 REACH = 0.05  # rad or share of the size, how far from the start the other configurations are sought
 
@@ -103,7 +103,7 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     try:
         q = assemble(numeric, numeric.p).q  # type: ignore[arg-type]
         matrices = [numeric.closed_phi_q(0.0, x, numeric.p)[kept] for x in _configurations(numeric, q, kept)]
-        ranks = [_rank(matrix) for matrix in matrices]
+        ranks = [rank(matrix) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run will say why
         return Redundancy()
     best = int(np.argmax(ranks))
@@ -112,16 +112,11 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     return _name_rows([model.all_rows[r] for r in kept], matrices[best], ranks[best])
 
 
-def _rank(matrix: Array) -> int:
-    values = np.linalg.svd(matrix, compute_uv=False)
-    return int((values > RANK * values[0]).sum())
-
-
 def _configurations(numeric: NumericModel, q: Array, kept: list[int]) -> list[Array]:
     """The start, and configurations near it: a random step along the motion, closed again by Newton."""
     rng = np.random.default_rng(0)
     found = [q]
-    for _ in range(SAMPLES if _rank(numeric.closed_phi_q(0.0, q, numeric.p)[kept]) < len(kept) else 0):
+    for _ in range(SAMPLES if rank(numeric.closed_phi_q(0.0, q, numeric.p)[kept]) < len(kept) else 0):
         x = q + REACH * rng.standard_normal(len(q)) * np.linalg.norm(q, np.inf)
         for _ in range(50):
             residual = numeric.closed_phi(0.0, x, numeric.p)[kept]
@@ -133,7 +128,7 @@ def _configurations(numeric: NumericModel, q: Array, kept: list[int]) -> list[Ar
     return found
 
 
-def _name_rows(rows: Sequence[Row], matrix: Array, rank: int) -> Redundancy:
+def _name_rows(rows: Sequence[Row], matrix: Array, independent: int) -> Redundancy:
     """Drives are kept first, then rows in the order of the file; a dependent one is dropped."""
     order = sorted(range(len(rows)), key=lambda r: (rows[r].kind != "drive", r))
     basis = np.zeros((0, matrix.shape[1]))
@@ -141,11 +136,10 @@ def _name_rows(rows: Sequence[Row], matrix: Array, rank: int) -> Redundancy:
     for r in order:
         rest = matrix[r] - (basis @ matrix[r]) @ basis
         rest = rest - (basis @ rest) @ basis
-        if len(basis) < rank and np.linalg.norm(rest) > 10 * RANK * np.linalg.norm(matrix[r]):
+        if len(basis) < independent and np.linalg.norm(rest) > 10 * RANK * np.linalg.norm(matrix[r]):
             basis = np.vstack([basis, rest / np.linalg.norm(rest)])
         else:
             dropped.append(r)
-    left = np.linalg.svd(matrix.T)[2][rank:]  # combinations of rows that vanish
-    free = np.abs(left).max(axis=0) > 1e-7
+    free = tied(matrix) > 1e-7
     owners = dict.fromkeys(rows[r].owner for r in range(len(rows)) if free[r])
     return Redundancy(tuple(rows[r].name for r in sorted(dropped)), tuple(owners))

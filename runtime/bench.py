@@ -18,6 +18,7 @@ from gudgeon.measure import work as measured
 from gudgeon.measure.rhs import RhsTime, time_rhs
 from gudgeon.measure.work import NAN, Attempt, Error, Parameters, Work, difference, natural_step, size
 from gudgeon.simulation import Simulation
+from gudgeon.step import scene_end
 
 FINEST, COARSEST = 1 / 5, 200  # steps that are tested, of the step that a plain run takes
 FINER = (4, 8)  # the references' steps: the finest tested one divided by these
@@ -142,7 +143,7 @@ def _kinematic(
     progress: Report | None,
 ) -> SceneBench:  # fmt: skip
     """No step and no reference: the error is what Newton's method leaves open of the constraints."""
-    work = Work(simulation, t_end or measured.natural_end(simulation), parameters)
+    work = Work(simulation, t_end or scene_end(simulation.source), parameters)
     rows = []
     for done, count in enumerate(counts):
         if progress:

@@ -10,9 +10,9 @@ import numpy as np
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import AssemblyError, SolverError
 from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.rank import rank
 from gudgeon.start import mechanism_size
 
-RANK = 1e-9  # as in generator/redundancy.py
 OPEN = 1e-3  # rad, or share of the mechanism's size: a row left out that opens further contradicts the others
 
 
@@ -29,8 +29,7 @@ def check_start(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
     if not extra:
         return
     rows, kept = compiled.closed_phi_q(t, q, p), compiled.phi_q(t, q, p)
-    rank = _rank(kept)
-    if rank == len(kept) and _rank(np.concatenate([kept, rows[extra]])) > rank:
+    if rank(kept) == len(kept) and rank(np.concatenate([kept, rows[extra]])) > len(kept):
         raise AssemblyError(
             f"{_named(compiled, extra)} said nothing new with the file's numbers and"
             " would hold the linkage with these\n"
@@ -56,11 +55,6 @@ def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | Non
                 t,
             )
     return None
-
-
-def _rank(matrix: Array) -> int:
-    values = np.linalg.svd(matrix, compute_uv=False)
-    return int((values > RANK * values[0]).sum())
 
 
 def _named(compiled: CompiledModel, rows: list[int]) -> str:

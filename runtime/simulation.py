@@ -20,7 +20,7 @@ from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.left_out import check_start, contradiction
 from gudgeon.parameters import number, prepare
 from gudgeon.start import Start, assemble
-from gudgeon.step import default_step
+from gudgeon.step import scene_end, scene_step
 
 if TYPE_CHECKING:
     from gudgeon.generator.model import Model
@@ -150,7 +150,7 @@ class Simulation:
             if times[0] < t0:
                 raise BadValueError(f"output: times begin at {t0:g} s, got {times[0]:g} s")
             return times if times[0] == t0 else np.concatenate([[t0], times])
-        end = _seconds("t_end", defaults.get("t_end", 1.0) if t_end is None else t_end)
+        end = _seconds("t_end", scene_end(self.source) if t_end is None else t_end)
         if not end > t0:
             raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
         intervals = int(output if output is not None else defaults.get("output", DEFAULT_OUTPUT))
@@ -180,7 +180,7 @@ class Simulation:
         if method == "kinematic":
             return math.inf
         if step is None:
-            return float(self.source.simulate.get("step", 0.0)) or default_step(self.compiled, p, duration)
+            return scene_step(self.compiled, p, duration)
         h = _seconds("step", step)
         if not h > 0:
             raise BadValueError(f"step is {h:g} s: expected a positive time")

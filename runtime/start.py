@@ -13,6 +13,7 @@ import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import AssemblyError
+from gudgeon.rank import tied
 
 MAX_STEPS = 60
 FAR = 1.0  # rad: where a guessed angle turns further, a nearer configuration is sought
@@ -171,10 +172,7 @@ class _Assembly:
         source = self.compiled.source
         rows = [row.name for row in source.start_rows] + list(source.start_rates)
         moving = {row.name for row in source.start_rows if row.kind == "drive"} | set(source.start_rates)
-        _, values, _ = np.linalg.svd(matrix)
-        vectors = np.linalg.svd(matrix.T)[2][int((values > 1e-9 * values[0]).sum()) :]
-        share = np.abs(vectors).max(axis=0, initial=0.0)
-        stuck = [name for name, size in zip(rows, share, strict=True) if size > 1e-6]
+        stuck = [name for name, share in zip(rows, tied(matrix), strict=True) if share > 1e-6]
         movers = [name for name in stuck if name in moving]
         if len(movers) > 1:
             owners = dict(zip(rows, [row.owner for row in source.start_rows], strict=False))

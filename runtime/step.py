@@ -10,11 +10,23 @@ from __future__ import annotations
 import math
 
 from gudgeon.compiled import Array, CompiledModel
+from gudgeon.kernel_source import KernelSource
 
+T_END = 1.0  # s, of a scene that does not say
 SMOOTH = 2e-4  # of the run's length, at most
 FILM = 1.0  # h · rate
 CONTACT = 1.0 / 50.0  # of a contact's time
 IMPACT_SPEED = 0.1  # m/s, of the contact that the estimate takes
+
+
+def scene_end(source: KernelSource) -> float:
+    """When a plain run of the scene ends (s): as the file says, or T_END."""
+    return float(source.simulate.get("t_end", T_END))
+
+
+def scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
+    """The step (s) that a plain run takes: the file's, or the default."""
+    return float(compiled.source.simulate.get("step", 0.0)) or default_step(compiled, p, duration)
 
 
 def default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:

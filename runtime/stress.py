@@ -15,9 +15,10 @@ from dataclasses import dataclass
 
 from gudgeon.errors import BadValueError
 from gudgeon.measure.cells import Cell, Limits, Status, judge
-from gudgeon.measure.work import NAN, Attempt, Parameters, Work, natural_end, natural_step, round_numbers, window
+from gudgeon.measure.work import NAN, Attempt, Parameters, Work, natural_step, round_numbers, window
 from gudgeon.parameters import prepare
 from gudgeon.simulation import Simulation
+from gudgeon.step import scene_end
 
 LONG, SHORT = 300_000, 1_000_000  # steps of the two windows with the shortest step (of the reference)
 COARSEST = 200  # the longest step, of the shortest scene's
@@ -85,7 +86,7 @@ def stress(
     if not steps or not steps[0] > 0:
         raise BadValueError("steps: expected positive times (s)")
     columns = _columns(simulation, clearances, parameters or {}, quick)
-    t_long = t_long or min(natural_end(simulation), LONG * steps[0] / (10 if quick else 1))
+    t_long = t_long or min(scene_end(simulation.source), LONG * steps[0] / (10 if quick else 1))
     longest = t_short or SHORT * steps[0] / FINER / (10 if quick else 1)
     with _Pool(report, len(columns)) as pool:
         found = pool.map(

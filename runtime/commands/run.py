@@ -17,6 +17,7 @@ from gudgeon.commands.progress import progress_bar
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, SolverError
 from gudgeon.loading import load
 from gudgeon.results import Result
+from gudgeon.step import T_END, scene_end
 
 if TYPE_CHECKING:
     from gudgeon.report import SceneReport
@@ -26,7 +27,6 @@ Settings: TypeAlias = Mapping[str, float | str]  # address -> SI, or text with a
 Files: TypeAlias = dict[str, str]  # scene, or "picture" -> path
 
 IDEAL = "ideal"
-T_END = 1.0  # s, where neither the command line nor the scene says
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ def _simulate(
 ) -> None:
     """All scenes, the ideal one last: it lasts as long as the longest, and is to be had cheaply."""
     t_end, step = (None if text is None else value(text) for text in (request.t_end, request.step))
-    longest = max((s.source.simulate.get("t_end", T_END) for n, s in simulations.items() if n != IDEAL), default=T_END)
+    longest = max((scene_end(s.source) for n, s in simulations.items() if n != IDEAL), default=T_END)
     with progress_bar(quiet=request.json) as bar:
         for name in sorted(simulations, key=lambda name: name == IDEAL):
             simulation, until = simulations[name], t_end

@@ -16,7 +16,7 @@ from gudgeon.parameters import prepare
 from gudgeon.results import Result
 from gudgeon.simulation import Simulation
 from gudgeon.start import mechanism_size
-from gudgeon.step import default_step
+from gudgeon.step import scene_end, scene_step
 
 NAN = math.nan
 Parameters: TypeAlias = Mapping[str, float | str]  # as in `simulate`
@@ -24,7 +24,6 @@ ONSETS = 4  # contacts that a window holds: after more of them dry motion is cha
 PILOTS = 6  # the first pilot run is 2^-6 of the longest window
 SAMPLES = 100  # at least so many in a window
 REPEATS, ENOUGH = 7, 0.6  # a timed run is repeated until it took so many seconds
-T_END = 1.0  # s, where the scene says nothing
 
 
 @dataclass(frozen=True)
@@ -107,13 +106,7 @@ def round_numbers(low: float, high: float) -> tuple[float, ...]:
 def natural_step(simulation: Simulation, parameters: Parameters | None = None) -> float:
     """The step (s) that a plain run would take: the scene's, or the default."""
     p = prepare(simulation.compiled, parameters or {})[0]
-    given = float(simulation.source.simulate.get("step", 0.0))
-    return given or default_step(simulation.compiled, p, natural_end(simulation))
-
-
-def natural_end(simulation: Simulation) -> float:
-    """The scene's end of a run (s)."""
-    return float(simulation.source.simulate.get("t_end", T_END))
+    return scene_step(simulation.compiled, p, scene_end(simulation.source))
 
 
 def window(simulation: Simulation, longest: float, step: float, parameters: Parameters | None = None) -> Work:
@@ -124,7 +117,7 @@ def window(simulation: Simulation, longest: float, step: float, parameters: Para
     half-way between the fourth onset and the next.
     """
     parameters = dict(parameters or {})
-    longest = min(longest, natural_end(simulation))
+    longest = min(longest, scene_end(simulation.source))
     for halvings in range(PILOTS, -1, -1) if simulation.source.clearances else ():
         span = longest / 2**halvings
         pilot = attempt(simulation, np.linspace(0.0, span, 3), step, parameters)

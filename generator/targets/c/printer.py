@@ -127,10 +127,9 @@ def section(item: Section) -> str:
 def kernel(item: Kernel) -> str:
     """A whole function, its doc comment in front; arguments that it does not read are voided."""
     body = "\n\n".join(section(s) for s in item.sections)
-    unused = [a.name for a in item.arguments if not re.search(rf"\b{re.escape(a.name)}\b", body + item.result)]
+    unused = [a.name for a in item.arguments if not re.search(rf"\b{re.escape(a.name)}\b", body)]
     voids = "".join(f"    (void){name};\n" for name in unused)
     doc = "\n".join(f" * {comment_text(line)}" for line in item.doc)
     head = f"static {'inline ' if item.inline else ''}{item.returns} {item.name}({arguments(item.arguments)})"
     head = "\n".join(textwrap.wrap(head, WIDTH, subsequent_indent="    "))
-    end = f"\n    return {item.result};" if item.result else ""
-    return f"/*\n{doc}\n */\n{head}\n{{\n{voids}{body}{end}\n}}\n"
+    return f"/*\n{doc}\n */\n{head}\n{{\n{voids}{body}\n}}\n"
