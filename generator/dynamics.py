@@ -9,14 +9,16 @@ from gudgeon.generator.constraints import Row
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR
 from gudgeon.generator.model import Model
+from gudgeon.generator.system import System
 
 STATE = (Argument("const double", "t"), Argument("const double *", "q"), Argument("const double *", "v"))
 PARAMETERS = Argument("const Parameters *", "p")
 ZERO = sp.Integer(0)
 
 
-def dynamics_kernel(model: Model, kkt: KKT) -> Kernel:
+def dynamics_kernel(system: System, kkt: KKT) -> Kernel:
     """q̈ and λ at a state, clearance forces included."""
+    model = system.model
     build = KernelBuilder(model.symbols, "dynamics", [
         "Accelerations a (n) and multipliers in `aside` at a state:",
         "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
@@ -30,6 +32,7 @@ def dynamics_kernel(model: Model, kkt: KKT) -> Kernel:
         element.add_to(forces)
     for index, clearance in enumerate(model.clearances):
         _clearance_call(model, build, index, clearance, forces)
+    forces = system.generalized(forces)
     slips = _slips(model, build, kkt, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
     b.update(_constraint_rhs(model, build, kkt))
@@ -41,7 +44,7 @@ def dynamics_kernel(model: Model, kkt: KKT) -> Kernel:
         factor = kkt.factorize(build, "{{ pivot = {}; goto dependent; }}", NEARLY_SINGULAR)
     x = kkt.solve(build, factor, b)
     build.section("results")
-    for k, _ in enumerate(model.q):
+    for k, _ in enumerate(system.q):
         build.out(f"a[{k}]", x[k])
     for r, _ in enumerate(kkt.rows):
         build.out(f"aside->lambda[{r}]", x[kkt.n + r])
@@ -116,7 +119,7 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
     rhs: dict[int, sp.Expr] = {}
     if kkt.frictions:
         build.section("friction: slip, or stick as a row")
-    place = {q: k for k, q in enumerate(model.q)}
+    place = {q: k for k, q in enumerate(kkt.system.q)}
     two_alpha = model.slots.derive("two_alpha", 2 * model.baumgarte[0], "2 alpha")
     for r, friction in enumerate(kkt.frictions):
         name, node = friction.name, kkt.first_friction + r
@@ -136,7 +139,7 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
 
 def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
     """In stick the force is what the row needs; the slip's rate is J q̈ − γ."""
-    place = {q: k for k, q in enumerate(kkt.model.q)}
+    place = {q: k for k, q in enumerate(kkt.system.q)}
     for r, friction in enumerate(kkt.frictions):
         rate = sum((entry * x[place[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
         build.out(f"aside->friction[{r}].rate", rate)
@@ -174,9 +177,9 @@ def _powers(model: Model, build: KernelBuilder, kkt: KKT) -> None:
     build.out("aside->power[2]", clearances or ZERO)
 
 
-def projection_kernel(model: Model, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
+def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
     """x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r: the smallest x, in the metric of M, with Φ_q x = r."""
-    kkt = KKT(model, rows)
+    model, kkt = system.model, KKT(system, rows)
     build = KernelBuilder(model.symbols, name, [
         "The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of",
         "the closed linkage, redundant ones are not looked at.",
@@ -190,7 +193,7 @@ def projection_kernel(model: Model, rows: tuple[Row, ...], name: str) -> tuple[K
     }
     x = kkt.solve(build, kkt.factorize(build), r, "step_")
     build.section("results")
-    for k, _ in enumerate(model.q):
+    for k, _ in enumerate(system.q):
         build.out(f"x[{k}]", x[k])
     build.line("return 0;")
     arguments = (*STATE[:2], Argument("const double *", "r"), PARAMETERS, Argument("double *", "x"))

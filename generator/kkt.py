@@ -1,8 +1,9 @@
 """The KKT system [M Φ_qᵀ; Φ_q 0][x; λ] = [b; r] as straight-line statements.
 
 Its symbolic L D Lᵀ (generator/factorization.py) becomes one named temporary an entry; entries that
-are a number or a single symbol are written in place. The pivots of coordinates are masses; the
-pivot of a row is compared with what it would be if the row were independent of the others.
+are a number or a single symbol are written in place. The pivots of coordinates are masses, or what
+elimination leaves of them; the pivot of a row is compared with what it would be if the row were
+independent of the others.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from gudgeon.generator.constraints import Row
 from gudgeon.generator.factorization import Elimination, choose_elimination
 from gudgeon.generator.friction import Friction
 from gudgeon.generator.kernels import KernelBuilder
-from gudgeon.generator.model import Model
+from gudgeon.generator.system import System
 
 # A row counts as dependent when less than this share of its pivot is left after elimination: the
 # share is the squared sine of the angle between the row and the others, rounding leaves some 1e-15.
@@ -37,29 +38,23 @@ class Factor:
 class KKT:
     """Emits factorization and solution of a scene's KKT system; nodes are coordinates, then rows."""
 
-    def __init__(self, model: Model, rows: Sequence[Row], frictions: Sequence[Friction] = ()) -> None:
-        self.model, self.rows, self.n = model, tuple(rows), len(model.q)
-        self.frictions, self.first_friction = tuple(frictions), len(model.q) + len(rows)
-        place = {q: k for k, q in enumerate(model.q)}
-        self.entry = {
-            (self.n + r, place[q]): value for r, row in enumerate(self.rows) for q, value in row.phi_q.items()
-        }
-        self.entry |= {
-            (self.first_friction + r, place[q]): value
-            for r, friction in enumerate(self.frictions)
-            for q, value in friction.jacobian.items()
-        }
+    def __init__(self, system: System, rows: Sequence[Row] | None = None) -> None:
+        self.system, self.n = system, len(system.q)
+        self.rows = system.rows if rows is None else tuple(rows)
+        self.frictions, self.first_friction = system.frictions if rows is None else (), self.n + len(self.rows)
+        place = {q: k for k, q in enumerate(system.q)}
+        self.entry = {(i, j): value for (i, j), value in system.mass.items() if i != j}
+        for r, linear in enumerate((*(row.phi_q for row in self.rows), *(f.jacobian for f in self.frictions))):
+            self.entry |= {(self.n + r, place[q]): value for q, value in linear.items()}
         near: list[set[int]] = [set() for _ in range(self.first_friction + len(self.frictions))]
         for r, c in self.entry:
             near[r].add(c)
             near[c].add(r)
         self.elimination: Elimination = choose_elimination(tuple(map(frozenset, near)), self.n, self.first_friction)
-        self.names = [q.name for q in model.q] + [row.name.replace(".", "_") for row in self.rows]
-        self.names += [friction.name for friction in self.frictions]
+        names = [row.name for row in self.rows] + [friction.name for friction in self.frictions]
+        self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in names]
         self.sticks: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
-        self.inverse_masses = [model.slots.derive(f"inverse_{mass.name}", 1 / mass, "1/M") for mass in model.masses]
-        row_names = [row.name for row in self.rows] + [friction.name for friction in self.frictions]
-        self.pivots = tuple(row_names[k - self.n] for k in self.elimination.order if k >= self.n)
+        self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
 
     def factorize(self, build: KernelBuilder, failed: str = "return {}", share: float = SINGULAR) -> Factor:
         """Statements for L and 1/D; `failed` is what a pivot below its `share` does, its number, from 1, for {}."""
@@ -71,7 +66,7 @@ class KKT:
         count = 0
         for k in self.elimination.order:
             if k < self.n:
-                inverse[k] = self.inverse_masses[k]
+                inverse[k] = self._coordinate_pivot(build, k, earlier[k], L, W)
             else:
                 count += 1
                 inverse[k] = self._row_pivot(build, k, earlier[k], L, W, failed.format(count), share)
@@ -83,6 +78,21 @@ class KKT:
                 L[i, k] = self._named(build, f"l_{self.names[i]}__{self.names[k]}", W[i, k] * inverse[k])
                 earlier[i].append(k)
         return Factor(L, inverse)
+
+    def _coordinate_pivot(
+        self, build: KernelBuilder, k: int, earlier: Sequence[int],
+        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr],
+    ) -> sp.Expr:  # fmt: skip
+        """1/D of a coordinate: of a mass alone it is a number of `prepare`."""
+        mass = self.system.mass[k, k]
+        if not earlier and not mass.free_symbols & set(self.system.model.symbols.rules):
+            inverse: sp.Expr = self.system.model.slots.derive(f"inverse_{self._mass_name(mass, k)}", 1 / mass, "1/M")
+            return inverse
+        value = mass - sum((L[k, j] * W[k, j] for j in earlier), sp.Integer(0))
+        return build.local(f"inverse_pivot_{self.names[k]}", 1 / value)
+
+    def _mass_name(self, mass: sp.Expr, k: int) -> str:
+        return mass.name if isinstance(mass, sp.Symbol) else f"mass_{self.names[k]}"
 
     def _row_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],

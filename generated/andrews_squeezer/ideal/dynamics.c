@@ -82,22 +82,22 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double spring_stiffness = p->spring_stiffness;
     const double spring_free_length = p->spring_free_length;
     const double motor_value = p->motor_value;
-    const double inverse_OF_mass = p->inverse_OF_mass;
-    const double inverse_OF_inertia = p->inverse_OF_inertia;
-    const double inverse_FE_mass = p->inverse_FE_mass;
-    const double inverse_FE_inertia = p->inverse_FE_inertia;
-    const double inverse_BDE_mass = p->inverse_BDE_mass;
-    const double inverse_BDE_inertia = p->inverse_BDE_inertia;
-    const double inverse_EG_mass = p->inverse_EG_mass;
-    const double inverse_EG_inertia = p->inverse_EG_inertia;
-    const double inverse_AG_mass = p->inverse_AG_mass;
-    const double inverse_AG_inertia = p->inverse_AG_inertia;
-    const double inverse_HE_mass = p->inverse_HE_mass;
-    const double inverse_HE_inertia = p->inverse_HE_inertia;
-    const double inverse_AH_mass = p->inverse_AH_mass;
-    const double inverse_AH_inertia = p->inverse_AH_inertia;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+    const double inverse_OF_mass = p->inverse_OF_mass;
+    const double inverse_BDE_mass = p->inverse_BDE_mass;
+    const double inverse_EG_mass = p->inverse_EG_mass;
+    const double inverse_AG_mass = p->inverse_AG_mass;
+    const double inverse_HE_mass = p->inverse_HE_mass;
+    const double inverse_AH_mass = p->inverse_AH_mass;
+    const double inverse_OF_inertia = p->inverse_OF_inertia;
+    const double inverse_FE_mass = p->inverse_FE_mass;
+    const double inverse_BDE_inertia = p->inverse_BDE_inertia;
+    const double inverse_EG_inertia = p->inverse_EG_inertia;
+    const double inverse_AG_inertia = p->inverse_AG_inertia;
+    const double inverse_HE_inertia = p->inverse_HE_inertia;
+    const double inverse_AH_inertia = p->inverse_AH_inertia;
+    const double inverse_FE_inertia = p->inverse_FE_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_OF = cos(OF_theta);

@@ -22,10 +22,10 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double rub_speed = p->rub_speed;
     const double rub_static = p->rub_static;
     const double rub_kinetic = p->rub_kinetic;
-    const double inverse_block_mass = p->inverse_block_mass;
-    const double inverse_block_inertia = p->inverse_block_inertia;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+    const double inverse_block_mass = p->inverse_block_mass;
+    const double inverse_block_inertia = p->inverse_block_inertia;
 
     /* directions, arms, drives */
     const double spring_span_x = block_x - wall_x;

@@ -36,13 +36,13 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->set_block_x = set_block_x;
 
     /* derived */
-    const double inverse_block_mass = 1.0/block_mass;  /* 1/M */
-    p->inverse_block_mass = inverse_block_mass;
-    const double inverse_block_inertia = 1.0/block_inertia;  /* 1/M */
-    p->inverse_block_inertia = inverse_block_inertia;
     const double two_alpha = 2.0*alpha;  /* 2 alpha */
     p->two_alpha = two_alpha;
     const double beta_squared = (beta * beta);  /* beta^2 */
     p->beta_squared = beta_squared;
+    const double inverse_block_mass = 1.0/block_mass;  /* 1/M */
+    p->inverse_block_mass = inverse_block_mass;
+    const double inverse_block_inertia = 1.0/block_inertia;  /* 1/M */
+    p->inverse_block_inertia = inverse_block_inertia;
 }
 

@@ -15,9 +15,9 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double ball_omega = v[2];
 
     /* parameters */
+    const double weight_ball_y = p->weight_ball_y;
     const double inverse_ball_mass = p->inverse_ball_mass;
     const double inverse_ball_inertia = p->inverse_ball_inertia;
-    const double weight_ball_y = p->weight_ball_y;
 
     /* clearance joint fall */
     const double e_fall_x = ball_x;

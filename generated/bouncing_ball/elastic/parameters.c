@@ -38,15 +38,15 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     /* derived */
     const double R_j_floor = -floor_clearance + floor_radius;  /* journal radius */
     p->R_j_floor = R_j_floor;
-    const double inverse_ball_mass = 1.0/ball_mass;  /* 1/M */
-    p->inverse_ball_mass = inverse_ball_mass;
-    const double inverse_ball_inertia = 1.0/ball_inertia;  /* 1/M */
-    p->inverse_ball_inertia = inverse_ball_inertia;
     const double weight_ball_y = ball_mass*par_y;  /* weight */
     p->weight_ball_y = weight_ball_y;
     const double two_alpha = 2.0*alpha;  /* 2 alpha */
     p->two_alpha = two_alpha;
     const double beta_squared = (beta * beta);  /* beta^2 */
     p->beta_squared = beta_squared;
+    const double inverse_ball_mass = 1.0/ball_mass;  /* 1/M */
+    p->inverse_ball_mass = inverse_ball_mass;
+    const double inverse_ball_inertia = 1.0/ball_inertia;  /* 1/M */
+    p->inverse_ball_inertia = inverse_ball_inertia;
 }
 

@@ -13,10 +13,10 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double ball_vy = v[1];
 
     /* parameters */
-    const double inverse_ball_mass = p->inverse_ball_mass;
     const double weight_ball_y = p->weight_ball_y;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+    const double inverse_ball_mass = p->inverse_ball_mass;
 
     /* status */
     int pivot = 0;

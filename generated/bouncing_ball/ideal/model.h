@@ -23,7 +23,7 @@ enum {
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double height;  /* parameters.height */    double ball_mass;  /* bodies.ball.mass */    double ball_inertia;  /* bodies.ball.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double par_y;  /* gravity.y */    double inverse_ball_mass;  /* 1/M */    double inverse_ball_inertia;  /* 1/M */    double weight_ball_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+typedef struct {    double height;  /* parameters.height */    double ball_mass;  /* bodies.ball.mass */    double ball_inertia;  /* bodies.ball.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double par_y;  /* gravity.y */    double weight_ball_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_ball_inertia;  /* 1/M */    double inverse_ball_mass;  /* 1/M */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {

@@ -31,14 +31,14 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double left_free_length = p->left_free_length;
     const double right_stiffness = p->right_stiffness;
     const double right_free_length = p->right_free_length;
-    const double inverse_axle_mass = p->inverse_axle_mass;
-    const double inverse_axle_inertia = p->inverse_axle_inertia;
-    const double inverse_road_mass = p->inverse_road_mass;
-    const double inverse_road_inertia = p->inverse_road_inertia;
     const double weight_axle_y = p->weight_axle_y;
     const double weight_road_y = p->weight_road_y;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+    const double inverse_axle_mass = p->inverse_axle_mass;
+    const double inverse_axle_inertia = p->inverse_axle_inertia;
+    const double inverse_road_mass = p->inverse_road_mass;
+    const double inverse_road_inertia = p->inverse_road_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_road = cos(road_theta);

@@ -48,14 +48,6 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->axle_head_x = axle_head_x;
     const double road_head_x = (0.5)*road_length;  /* point from the centre of mass */
     p->road_head_x = road_head_x;
-    const double inverse_axle_mass = 1.0/axle_mass;  /* 1/M */
-    p->inverse_axle_mass = inverse_axle_mass;
-    const double inverse_axle_inertia = 1.0/axle_inertia;  /* 1/M */
-    p->inverse_axle_inertia = inverse_axle_inertia;
-    const double inverse_road_mass = 1.0/road_mass;  /* 1/M */
-    p->inverse_road_mass = inverse_road_mass;
-    const double inverse_road_inertia = 1.0/road_inertia;  /* 1/M */
-    p->inverse_road_inertia = inverse_road_inertia;
     const double weight_axle_y = axle_mass*par_y;  /* weight */
     p->weight_axle_y = weight_axle_y;
     const double weight_road_y = par_y*road_mass;  /* weight */
@@ -64,5 +56,13 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->two_alpha = two_alpha;
     const double beta_squared = (beta * beta);  /* beta^2 */
     p->beta_squared = beta_squared;
+    const double inverse_axle_mass = 1.0/axle_mass;  /* 1/M */
+    p->inverse_axle_mass = inverse_axle_mass;
+    const double inverse_axle_inertia = 1.0/axle_inertia;  /* 1/M */
+    p->inverse_axle_inertia = inverse_axle_inertia;
+    const double inverse_road_mass = 1.0/road_mass;  /* 1/M */
+    p->inverse_road_mass = inverse_road_mass;
+    const double inverse_road_inertia = 1.0/road_inertia;  /* 1/M */
+    p->inverse_road_inertia = inverse_road_inertia;
 }
 

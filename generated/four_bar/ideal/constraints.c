@@ -302,11 +302,11 @@ static int project(const double t, const double *q, const double *r, const Param
     const double coupler_head_x = p->coupler_head_x;
     const double rocker_head_x = p->rocker_head_x;
     const double inverse_crank_mass = p->inverse_crank_mass;
-    const double inverse_crank_inertia = p->inverse_crank_inertia;
     const double inverse_coupler_mass = p->inverse_coupler_mass;
-    const double inverse_coupler_inertia = p->inverse_coupler_inertia;
     const double inverse_rocker_mass = p->inverse_rocker_mass;
+    const double inverse_coupler_inertia = p->inverse_coupler_inertia;
     const double inverse_rocker_inertia = p->inverse_rocker_inertia;
+    const double inverse_crank_inertia = p->inverse_crank_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);

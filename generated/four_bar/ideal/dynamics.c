@@ -33,17 +33,17 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double coupler_head_x = p->coupler_head_x;
     const double rocker_head_x = p->rocker_head_x;
     const double B0_x = p->B0_x;
-    const double inverse_crank_mass = p->inverse_crank_mass;
-    const double inverse_crank_inertia = p->inverse_crank_inertia;
-    const double inverse_coupler_mass = p->inverse_coupler_mass;
-    const double inverse_coupler_inertia = p->inverse_coupler_inertia;
-    const double inverse_rocker_mass = p->inverse_rocker_mass;
-    const double inverse_rocker_inertia = p->inverse_rocker_inertia;
     const double weight_crank_y = p->weight_crank_y;
     const double weight_coupler_y = p->weight_coupler_y;
     const double weight_rocker_y = p->weight_rocker_y;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+    const double inverse_crank_mass = p->inverse_crank_mass;
+    const double inverse_coupler_mass = p->inverse_coupler_mass;
+    const double inverse_rocker_mass = p->inverse_rocker_mass;
+    const double inverse_coupler_inertia = p->inverse_coupler_inertia;
+    const double inverse_rocker_inertia = p->inverse_rocker_inertia;
+    const double inverse_crank_inertia = p->inverse_crank_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);

@@ -50,18 +50,6 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->coupler_tracer_x = coupler_tracer_x;
     const double rocker_head_x = (0.5)*rocker_length;  /* point from the centre of mass */
     p->rocker_head_x = rocker_head_x;
-    const double inverse_crank_mass = 1.0/crank_mass;  /* 1/M */
-    p->inverse_crank_mass = inverse_crank_mass;
-    const double inverse_crank_inertia = 1.0/crank_inertia;  /* 1/M */
-    p->inverse_crank_inertia = inverse_crank_inertia;
-    const double inverse_coupler_mass = 1.0/coupler_mass;  /* 1/M */
-    p->inverse_coupler_mass = inverse_coupler_mass;
-    const double inverse_coupler_inertia = 1.0/coupler_inertia;  /* 1/M */
-    p->inverse_coupler_inertia = inverse_coupler_inertia;
-    const double inverse_rocker_mass = 1.0/rocker_mass;  /* 1/M */
-    p->inverse_rocker_mass = inverse_rocker_mass;
-    const double inverse_rocker_inertia = 1.0/rocker_inertia;  /* 1/M */
-    p->inverse_rocker_inertia = inverse_rocker_inertia;
     const double weight_crank_y = crank_mass*par_y;  /* weight */
     p->weight_crank_y = weight_crank_y;
     const double weight_coupler_y = coupler_mass*par_y;  /* weight */
@@ -72,5 +60,17 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->two_alpha = two_alpha;
     const double beta_squared = (beta * beta);  /* beta^2 */
     p->beta_squared = beta_squared;
+    const double inverse_crank_mass = 1.0/crank_mass;  /* 1/M */
+    p->inverse_crank_mass = inverse_crank_mass;
+    const double inverse_coupler_mass = 1.0/coupler_mass;  /* 1/M */
+    p->inverse_coupler_mass = inverse_coupler_mass;
+    const double inverse_rocker_mass = 1.0/rocker_mass;  /* 1/M */
+    p->inverse_rocker_mass = inverse_rocker_mass;
+    const double inverse_coupler_inertia = 1.0/coupler_inertia;  /* 1/M */
+    p->inverse_coupler_inertia = inverse_coupler_inertia;
+    const double inverse_rocker_inertia = 1.0/rocker_inertia;  /* 1/M */
+    p->inverse_rocker_inertia = inverse_rocker_inertia;
+    const double inverse_crank_inertia = 1.0/crank_inertia;  /* 1/M */
+    p->inverse_crank_inertia = inverse_crank_inertia;
 }
 

@@ -46,16 +46,6 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double coupler2_head_x = p->coupler2_head_x;
     const double O1_x = p->O1_x;
     const double O2_x = p->O2_x;
-    const double inverse_crank0_mass = p->inverse_crank0_mass;
-    const double inverse_crank0_inertia = p->inverse_crank0_inertia;
-    const double inverse_crank1_mass = p->inverse_crank1_mass;
-    const double inverse_crank1_inertia = p->inverse_crank1_inertia;
-    const double inverse_crank2_mass = p->inverse_crank2_mass;
-    const double inverse_crank2_inertia = p->inverse_crank2_inertia;
-    const double inverse_coupler1_mass = p->inverse_coupler1_mass;
-    const double inverse_coupler1_inertia = p->inverse_coupler1_inertia;
-    const double inverse_coupler2_mass = p->inverse_coupler2_mass;
-    const double inverse_coupler2_inertia = p->inverse_coupler2_inertia;
     const double weight_crank0_y = p->weight_crank0_y;
     const double weight_crank1_y = p->weight_crank1_y;
     const double weight_crank2_y = p->weight_crank2_y;
@@ -63,6 +53,16 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double weight_coupler2_y = p->weight_coupler2_y;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+    const double inverse_crank0_mass = p->inverse_crank0_mass;
+    const double inverse_crank2_mass = p->inverse_crank2_mass;
+    const double inverse_coupler1_mass = p->inverse_coupler1_mass;
+    const double inverse_coupler2_mass = p->inverse_coupler2_mass;
+    const double inverse_crank1_mass = p->inverse_crank1_mass;
+    const double inverse_crank0_inertia = p->inverse_crank0_inertia;
+    const double inverse_crank2_inertia = p->inverse_crank2_inertia;
+    const double inverse_coupler1_inertia = p->inverse_coupler1_inertia;
+    const double inverse_coupler2_inertia = p->inverse_coupler2_inertia;
+    const double inverse_crank1_inertia = p->inverse_crank1_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_crank0 = cos(crank0_theta);

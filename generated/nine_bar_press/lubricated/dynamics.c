@@ -69,22 +69,6 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double L8_head_x = p->L8_head_x;
     const double O4_y = p->O4_y;
     const double O6_x = p->O6_x;
-    const double inverse_L1_mass = p->inverse_L1_mass;
-    const double inverse_L1_inertia = p->inverse_L1_inertia;
-    const double inverse_L2_mass = p->inverse_L2_mass;
-    const double inverse_L2_inertia = p->inverse_L2_inertia;
-    const double inverse_L3_mass = p->inverse_L3_mass;
-    const double inverse_L3_inertia = p->inverse_L3_inertia;
-    const double inverse_L4_mass = p->inverse_L4_mass;
-    const double inverse_L4_inertia = p->inverse_L4_inertia;
-    const double inverse_L6_mass = p->inverse_L6_mass;
-    const double inverse_L6_inertia = p->inverse_L6_inertia;
-    const double inverse_L7_mass = p->inverse_L7_mass;
-    const double inverse_L7_inertia = p->inverse_L7_inertia;
-    const double inverse_L8_mass = p->inverse_L8_mass;
-    const double inverse_L8_inertia = p->inverse_L8_inertia;
-    const double inverse_S9_mass = p->inverse_S9_mass;
-    const double inverse_S9_inertia = p->inverse_S9_inertia;
     const double weight_L1_y = p->weight_L1_y;
     const double weight_L2_y = p->weight_L2_y;
     const double weight_L3_y = p->weight_L3_y;
@@ -95,6 +79,22 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double weight_S9_y = p->weight_S9_y;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+    const double inverse_L1_mass = p->inverse_L1_mass;
+    const double inverse_L2_mass = p->inverse_L2_mass;
+    const double inverse_L3_mass = p->inverse_L3_mass;
+    const double inverse_L4_mass = p->inverse_L4_mass;
+    const double inverse_S9_mass = p->inverse_S9_mass;
+    const double inverse_S9_inertia = p->inverse_S9_inertia;
+    const double inverse_L2_inertia = p->inverse_L2_inertia;
+    const double inverse_L3_inertia = p->inverse_L3_inertia;
+    const double inverse_L6_mass = p->inverse_L6_mass;
+    const double inverse_L8_mass = p->inverse_L8_mass;
+    const double inverse_L1_inertia = p->inverse_L1_inertia;
+    const double inverse_L4_inertia = p->inverse_L4_inertia;
+    const double inverse_L6_inertia = p->inverse_L6_inertia;
+    const double inverse_L7_mass = p->inverse_L7_mass;
+    const double inverse_L8_inertia = p->inverse_L8_inertia;
+    const double inverse_L7_inertia = p->inverse_L7_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_L1 = cos(L1_theta);

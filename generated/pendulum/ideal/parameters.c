@@ -26,15 +26,15 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     /* derived */
     const double rod_half_inverse_length = (0.5)/rod_length;  /* of joint rod */
     p->rod_half_inverse_length = rod_half_inverse_length;
-    const double inverse_bob_mass = 1.0/bob_mass;  /* 1/M */
-    p->inverse_bob_mass = inverse_bob_mass;
-    const double inverse_bob_inertia = 1.0/bob_inertia;  /* 1/M */
-    p->inverse_bob_inertia = inverse_bob_inertia;
     const double weight_bob_y = bob_mass*par_y;  /* weight */
     p->weight_bob_y = weight_bob_y;
     const double two_alpha = 2.0*alpha;  /* 2 alpha */
     p->two_alpha = two_alpha;
     const double beta_squared = (beta * beta);  /* beta^2 */
     p->beta_squared = beta_squared;
+    const double inverse_bob_inertia = 1.0/bob_inertia;  /* 1/M */
+    p->inverse_bob_inertia = inverse_bob_inertia;
+    const double inverse_bob_mass = 1.0/bob_mass;  /* 1/M */
+    p->inverse_bob_mass = inverse_bob_mass;
 }
 

@@ -15,10 +15,10 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     /* parameters */
     const double rod_length = p->rod_length;
     const double rod_half_inverse_length = p->rod_half_inverse_length;
-    const double inverse_bob_mass = p->inverse_bob_mass;
     const double weight_bob_y = p->weight_bob_y;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+    const double inverse_bob_mass = p->inverse_bob_mass;
 
     /* status */
     int pivot = 0;

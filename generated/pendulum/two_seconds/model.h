@@ -23,7 +23,7 @@ enum {
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double par_g;  /* parameters.g */    double length;  /* parameters.length */    double bob_mass;  /* bodies.bob.mass */    double bob_inertia;  /* bodies.bob.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double rod_length;  /* joints.rod.length */    double par_y;  /* gravity.y */    double set_bob_x;  /* start.set.bob.x */    double rod_half_inverse_length;  /* of joint rod */    double inverse_bob_mass;  /* 1/M */    double inverse_bob_inertia;  /* 1/M */    double weight_bob_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */} Parameters;
+typedef struct {    double par_g;  /* parameters.g */    double length;  /* parameters.length */    double bob_mass;  /* bodies.bob.mass */    double bob_inertia;  /* bodies.bob.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double rod_length;  /* joints.rod.length */    double par_y;  /* gravity.y */    double set_bob_x;  /* start.set.bob.x */    double rod_half_inverse_length;  /* of joint rod */    double weight_bob_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_bob_inertia;  /* 1/M */    double inverse_bob_mass;  /* 1/M */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {

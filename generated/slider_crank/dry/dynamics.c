@@ -31,14 +31,14 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double omega = p->omega;
     const double crank_head_x = p->crank_head_x;
     const double rod_head_x = p->rod_head_x;
-    const double inverse_crank_mass = p->inverse_crank_mass;
-    const double inverse_crank_inertia = p->inverse_crank_inertia;
-    const double inverse_rod_mass = p->inverse_rod_mass;
-    const double inverse_rod_inertia = p->inverse_rod_inertia;
-    const double inverse_slider_mass = p->inverse_slider_mass;
-    const double inverse_slider_inertia = p->inverse_slider_inertia;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+    const double inverse_slider_mass = p->inverse_slider_mass;
+    const double inverse_rod_mass = p->inverse_rod_mass;
+    const double inverse_slider_inertia = p->inverse_slider_inertia;
+    const double inverse_crank_mass = p->inverse_crank_mass;
+    const double inverse_rod_inertia = p->inverse_rod_inertia;
+    const double inverse_crank_inertia = p->inverse_crank_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);

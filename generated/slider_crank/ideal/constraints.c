@@ -268,12 +268,12 @@ static int project(const double t, const double *q, const double *r, const Param
     /* parameters */
     const double crank_head_x = p->crank_head_x;
     const double rod_head_x = p->rod_head_x;
-    const double inverse_crank_mass = p->inverse_crank_mass;
-    const double inverse_crank_inertia = p->inverse_crank_inertia;
-    const double inverse_rod_mass = p->inverse_rod_mass;
-    const double inverse_rod_inertia = p->inverse_rod_inertia;
     const double inverse_slider_mass = p->inverse_slider_mass;
     const double inverse_slider_inertia = p->inverse_slider_inertia;
+    const double inverse_crank_mass = p->inverse_crank_mass;
+    const double inverse_rod_mass = p->inverse_rod_mass;
+    const double inverse_rod_inertia = p->inverse_rod_inertia;
+    const double inverse_crank_inertia = p->inverse_crank_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);

@@ -38,21 +38,21 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->crank_head_x = crank_head_x;
     const double rod_head_x = (0.5)*rod_length;  /* point from the centre of mass */
     p->rod_head_x = rod_head_x;
-    const double inverse_crank_mass = 1.0/crank_mass;  /* 1/M */
-    p->inverse_crank_mass = inverse_crank_mass;
-    const double inverse_crank_inertia = 1.0/crank_inertia;  /* 1/M */
-    p->inverse_crank_inertia = inverse_crank_inertia;
-    const double inverse_rod_mass = 1.0/rod_mass;  /* 1/M */
-    p->inverse_rod_mass = inverse_rod_mass;
-    const double inverse_rod_inertia = 1.0/rod_inertia;  /* 1/M */
-    p->inverse_rod_inertia = inverse_rod_inertia;
-    const double inverse_slider_mass = 1.0/slider_mass;  /* 1/M */
-    p->inverse_slider_mass = inverse_slider_mass;
-    const double inverse_slider_inertia = 1.0/slider_inertia;  /* 1/M */
-    p->inverse_slider_inertia = inverse_slider_inertia;
     const double two_alpha = 2.0*alpha;  /* 2 alpha */
     p->two_alpha = two_alpha;
     const double beta_squared = (beta * beta);  /* beta^2 */
     p->beta_squared = beta_squared;
+    const double inverse_slider_mass = 1.0/slider_mass;  /* 1/M */
+    p->inverse_slider_mass = inverse_slider_mass;
+    const double inverse_slider_inertia = 1.0/slider_inertia;  /* 1/M */
+    p->inverse_slider_inertia = inverse_slider_inertia;
+    const double inverse_crank_mass = 1.0/crank_mass;  /* 1/M */
+    p->inverse_crank_mass = inverse_crank_mass;
+    const double inverse_rod_mass = 1.0/rod_mass;  /* 1/M */
+    p->inverse_rod_mass = inverse_rod_mass;
+    const double inverse_rod_inertia = 1.0/rod_inertia;  /* 1/M */
+    p->inverse_rod_inertia = inverse_rod_inertia;
+    const double inverse_crank_inertia = 1.0/crank_inertia;  /* 1/M */
+    p->inverse_crank_inertia = inverse_crank_inertia;
 }
 

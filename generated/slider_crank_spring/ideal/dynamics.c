@@ -30,12 +30,12 @@ static int dynamics(const double t, const double *q, const double *v, const Para
     const double coil_free_length = p->coil_free_length;
     const double coil_damping = p->coil_damping;
     const double push_value_x = p->push_value_x;
-    const double inverse_crank_mass = p->inverse_crank_mass;
-    const double inverse_crank_inertia = p->inverse_crank_inertia;
-    const double inverse_rod_mass = p->inverse_rod_mass;
-    const double inverse_rod_inertia = p->inverse_rod_inertia;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
+    const double inverse_rod_mass = p->inverse_rod_mass;
+    const double inverse_crank_mass = p->inverse_crank_mass;
+    const double inverse_crank_inertia = p->inverse_crank_inertia;
+    const double inverse_rod_inertia = p->inverse_rod_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);

@@ -14,6 +14,7 @@ from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
+from gudgeon.generator.system import absolute
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
@@ -54,15 +55,16 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 def emit(model: Model) -> KernelSource:
     """The whole scene as C text with its description."""
     method = "rk4" if model.degrees_of_freedom or model.clearances or model.frictions else "kinematic"
-    kkt = KKT(model, model.rows, model.frictions)
-    dynamics = dynamics_kernel(model, kkt)
+    system = absolute(model)
+    kkt = KKT(system)
+    dynamics = dynamics_kernel(system, kkt)
     around = [
         interface.mass_kernel(model), *interface.row_kernels(model), interface.start_kernel(model),
         interface.outputs_kernel(model),
     ]  # fmt: skip
     start_pivots: tuple[str, ...] = ()
     if method == "kinematic":
-        projection, projection_kkt = projection_kernel(model, model.rows, "project")
+        projection, projection_kkt = projection_kernel(system, model.rows, "project")
         around.append(projection)
         start_pivots = projection_kkt.pivots
     # rendered before `prepare`, which lists what the others derived
