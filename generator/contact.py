@@ -96,8 +96,8 @@ def after_film(film: LawEquations) -> list[Step]:
 
 
 def blend(clearance: Clearance) -> Step:
-    """The share of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq. 17)."""
-    return Step(share, sp.Max(0, sp.Min(1, delta / clearance.transition)))
+    """The share of a closed contact: 0 at e = c, 1 from e = c + e_0 on (the paper's Eq. 17)."""
+    return Step(share, sp.Min(1, delta / clearance.transition))
 
 
 def resultant(clearance: Clearance) -> list[Step]:
