@@ -48,7 +48,7 @@ def clearance_code(model: Model, clearance: Clearance, render: Render) -> str:
         parts.append(
             render("film.c.jinja", joint=joint, before=_lines(model, before, owner), after=_lines(model, after, owner))
         )
-    share = [contact.blend(clearance)] if _template(clearance) == "clearance_transition.c.jinja" else []
+    share = [contact.blend(clearance, closed=True)] if _template(clearance) == "clearance_transition.c.jinja" else []
     gap, blend = _lines(model, contact.gap(clearance), owner), _lines(model, share, owner)
     switches = [switch.index for switch in model.symbols.switches.of(owner)]
     parts.append(
