@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib import resources
 from typing import Any
 
@@ -9,12 +10,14 @@ import jinja2
 import sympy as sp
 
 from gudgeon.generator import interface
-from gudgeon.generator.dynamics import dynamics_kernel, projection_kernel
+from gudgeon.generator.dynamics import dynamics_kernel
 from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
+from gudgeon.generator.methods import dop853, rodas5p
 from gudgeon.generator.model import Model
-from gudgeon.generator.system import absolute
+from gudgeon.generator.projection import closing_kernel, projection_kernel
+from gudgeon.generator.system import System, absolute
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
@@ -47,6 +50,9 @@ int gudgeon_run_steps(void *memory, const double *parameters, double t0, double 
     long *taken);
 void gudgeon_run_sample(const void *memory, double *y, double *a, double *latched, signed char *state);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double h, double fixed);
+int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
+    double *y, double *a, double *latched, signed char *state, long *done);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
 """,
 }
@@ -70,6 +76,7 @@ def emit(model: Model) -> KernelSource:
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
     prepare = interface.prepare_kernel(model, printer.expression)
+    loops = _kinematic(model) if method == "kinematic" else _integrators(model, system, kkt)
     files = {
         "model.h": render("model.h.jinja", **_header(model)),
         "parameters.c": _kernels(prepare),
@@ -78,20 +85,60 @@ def emit(model: Model) -> KernelSource:
         **({"singular.c": _singular(model)} if model.rows and not model.frictions else {}),
         "dynamics.c": _kernels(dynamics),
         "system.c": render("system.c.jinja", **_counts(model)),
-        f"{method}.c": _method(model, kkt, method),
+        **loops,
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
+    methods = ("kinematic",) if method == "kinematic" else ("rk4", "dop853", "rodas5p")
     return describe(
-        model, files=files, main="scene.c", cdef=COMMON_CDEF + METHOD_CDEF[method], methods=(method,),
+        model, files=files, main="scene.c", cdef=COMMON_CDEF + METHOD_CDEF[method], methods=methods,
         pivots=kkt.pivots, start_pivots=start_pivots, operations=_operations(model, [dynamics, *around, prepare]),
     )  # fmt: skip
 
 
-def _method(model: Model, kkt: KKT, method: str) -> str:
-    """The time loop."""
-    pivots = _friction_pivots(kkt)
-    friction = (render("friction.c.jinja", pivots=pivots) if pivots else render("no_friction.c.jinja")).strip()
-    return render(f"{method}.c.jinja", **_counts(model), floors=_floors(model), friction_events=friction)
+def _kinematic(model: Model) -> dict[str, str]:
+    return {"kinematic.c": render("kinematic.c.jinja", **_counts(model))}
+
+
+def _integrators(model: Model, system: System, kkt: KKT) -> dict[str, str]:
+    """The time loops, in the order in which they call each other."""
+    pivots, counts = _friction_pivots(kkt), _counts(model)
+    kind = "friction" if pivots else "no_friction"
+    modes, events = (render(f"{name}.c.jinja", pivots=pivots).strip() for name in (kind, f"{kind}_events"))
+    common = {**counts, "floors": _floors(model), "clearances": _own_clearances(model)}
+    return {
+        "projection.c": _kernels(closing_kernel(system)),
+        "newton.c": render("no_newton.c.jinja"),
+        "run.c": render("run.c.jinja", **common, friction_modes=modes, angles=_angles(system)),
+        "rk4.c": render("rk4.c.jinja", **common, friction_events=events),
+        "step.c": render("step.c.jinja", **counts),
+        "dop853.c": render("dop853.c.jinja", **_dop853()),
+        "rodas5p.c": render("rodas5p.c.jinja", **_rodas5p()),
+        "events.c": render("events.c.jinja", **counts),
+        "adaptive.c": render("adaptive.c.jinja", **common),
+    }
+
+
+def _angles(system: System) -> list[int]:
+    """1 for an angle, 0 for a length, by coordinate."""
+    return [int(system.model.symbols.info[q].meaning.endswith(".theta")) for q in system.q]
+
+
+def _dop853() -> dict[str, Any]:
+    def terms(row: Mapping[int, float], of: str) -> str:
+        return " + ".join(f"{value!r} * {of}[{j}][i]" for j, value in row.items())
+
+    return {
+        "nodes": dop853.C, "stages": [terms(row, "k") for row in dop853.A[1:]], "n_stages": dop853.STAGES,
+        "error_3": terms(dop853.E[0], "k"), "error_5": terms(dop853.E[1], "k"),
+        "dense": [terms(row, "k") for row in dop853.D],
+    }  # fmt: skip
+
+
+def _rodas5p() -> dict[str, Any]:
+    return {
+        "nodes": rodas5p.NODES, "time": rodas5p.TIME, "gamma": rodas5p.GAMMA, "a": rodas5p.A, "c": rodas5p.C,
+        "dense": rodas5p.H,
+    }  # fmt: skip
 
 
 def render(name: str, /, **values: Any) -> str:
@@ -122,6 +169,8 @@ def _counts(model: Model) -> dict[str, int]:
         "n_clearances": len(model.clearances),
         "n_frictions": len(model.frictions),
         "n_switches": len(model.symbols.switches.found),
+        "n_memory": len(model.clearances) + len(model.frictions),
+        "n_margins": len(model.clearances) + len(model.symbols.switches.found) + len(model.frictions),
         "n_series": len(interface.element_series(model)),
     }
 
@@ -154,6 +203,12 @@ def _floors(model: Model) -> list[str]:
         for c in model.clearances
     ]
     return names or ["0.0"]
+
+
+def _own_clearances(model: Model) -> list[str]:
+    """c of each joint with play."""
+    read = {s: sp.Symbol(f"p->{s.name}") for s in model.symbols.info}
+    return [printer.expression(sp.sympify(c.pair.c).xreplace(read)) for c in model.clearances] or ["0.0"]
 
 
 def _operations(model: Model, kernels: list[Kernel]) -> dict[str, int]:
