@@ -40,12 +40,12 @@ class Diagnostics:
     peaks: tuple[Peak, ...]  # in the order of the clearances
     seconds: float  # wall time of the integration
     seconds_per_simulated_second: float
+    interrupted: bool = False
+    notes: tuple[str, ...] = ()
     rtol: float = float("nan")  # of a method that chose its step
     rejected: int = 0  # steps tried and not taken
     stiff_steps: int = 0  # of the steps, those of the stiff method
     jacobians: int = 0
-    interrupted: bool = False
-    notes: tuple[str, ...] = ()
 
     def peak(self, joint: str) -> Peak:
         """The peak at a joint with play; KeyError for any other."""
