@@ -14,10 +14,11 @@ from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
-from gudgeon.generator.system import absolute
+from gudgeon.generator.system import System, absolute
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
+from gudgeon.generator.targets.c.newton_code import jacobian_code, newton_code, tangent_code
 from gudgeon.kernel_source import KernelSource
 
 COMMON_CDEF = """\
@@ -33,6 +34,11 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *mem
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
     double *series, double *friction, double *energy, double *power, long *failed);
+"""
+NEWTON_CDEF = """\
+int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t);
+int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
+    const double *r, double *u);
 """
 METHOD_CDEF = {
     "kinematic": """\
@@ -52,8 +58,8 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 }
 
 
-def emit(model: Model) -> KernelSource:
-    """The whole scene as C text with its description."""
+def emit(model: Model, *, newton: bool = True) -> KernelSource:
+    """The whole scene as C text with its description; `newton`: with the Jacobian, where there is integration."""
     method = "rk4" if model.degrees_of_freedom or model.clearances or model.frictions else "kinematic"
     system = absolute(model)
     kkt = KKT(system)
@@ -69,6 +75,8 @@ def emit(model: Model) -> KernelSource:
         start_pivots = projection_kkt.pivots
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
+    newton = newton and method != "kinematic"
+    linearized, linear_kernels = _newton(model, system) if newton else ("", [])
     prepare = interface.prepare_kernel(model, printer.expression)
     files = {
         "model.h": render("model.h.jinja", **_header(model)),
@@ -78,13 +86,23 @@ def emit(model: Model) -> KernelSource:
         **({"singular.c": _singular(model)} if model.rows and not model.frictions else {}),
         "dynamics.c": _kernels(dynamics),
         "system.c": render("system.c.jinja", **_counts(model)),
+        **({"newton.c": linearized} if newton else {}),
         f"{method}.c": _method(model, kkt, method),
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
+    cdef = COMMON_CDEF + METHOD_CDEF[method] + (NEWTON_CDEF if newton else "")
+    kernels = [dynamics, *around, prepare, *linear_kernels]
     return describe(
-        model, files=files, main="scene.c", cdef=COMMON_CDEF + METHOD_CDEF[method], methods=(method,),
-        pivots=kkt.pivots, start_pivots=start_pivots, operations=_operations(model, [dynamics, *around, prepare]),
+        model, files=files, main="scene.c", cdef=cdef, methods=(method,), pivots=kkt.pivots,
+        start_pivots=start_pivots, operations=_operations(model, kernels),
     )  # fmt: skip
+
+
+def _newton(model: Model, system: System) -> tuple[str, list[Kernel]]:
+    """The linearized equations: Newton's matrix, Jacobian."""
+    tangents, slopes = tangent_code(model, render)
+    text, kernels = newton_code(system, render)
+    return tangents + text + jacobian_code(model, render), [*kernels, *slopes]
 
 
 def _method(model: Model, kkt: KKT, method: str) -> str:
