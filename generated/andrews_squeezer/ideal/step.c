@@ -20,7 +20,6 @@ static void forget_stages(Step *step)
     for (int i = 0; i < N_CLEARANCES; i++) {
         step->rate[i][0] = INFINITY;
         step->rate[i][1] = -INFINITY;
-        step->F[i] = 0.0;
     }
 }
 
@@ -36,13 +35,8 @@ static void note_stage(const Run *run, Step *step, const Aside *aside, double no
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &aside->clearance[i];
-        const double F = hypot(joint->F_n, joint->F_t);
         step->rate[i][0] = fmin(step->rate[i][0], joint->deltadot);
         step->rate[i][1] = fmax(step->rate[i][1], joint->deltadot);
-        if (F > step->F[i]) {
-            step->F[i] = F;
-            step->F_node[i] = node;
-        }
     }
 }
 

@@ -23,24 +23,24 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double phi_dot_guide_angle_2 = block_omega;
 
     /* L D L^T of the KKT matrix */
-    const double scale_guide_offset_2 = inverse_block_mass;
-    if (!(scale_guide_offset_2 > 1e-13 * scale_guide_offset_2)) return 1;
-    const double inverse_pivot_guide_offset_2 = 1.0/scale_guide_offset_2;
-    const double scale_guide_angle_2 = inverse_block_inertia;
-    if (!(scale_guide_angle_2 > 1e-13 * scale_guide_angle_2)) return 2;
-    const double inverse_pivot_guide_angle_2 = 1.0/scale_guide_angle_2;
+    const double scale_guide_offset_3 = inverse_block_mass;
+    if (!(scale_guide_offset_3 > 1e-13 * scale_guide_offset_3)) return 1;
+    const double inverse_pivot_guide_offset_3 = 1.0/scale_guide_offset_3;
+    const double scale_guide_angle_3 = inverse_block_inertia;
+    if (!(scale_guide_angle_3 > 1e-13 * scale_guide_angle_3)) return 2;
+    const double inverse_pivot_guide_angle_3 = 1.0/scale_guide_angle_3;
 
     /* backward substitution */
-    const double dq_lambda_guide_angle = -inverse_pivot_guide_angle_2*phi_guide_angle_2;
+    const double dq_lambda_guide_angle = -inverse_pivot_guide_angle_3*phi_guide_angle_2;
     const double dq_acceleration_block_theta = -dq_lambda_guide_angle*inverse_block_inertia;
-    const double dq_lambda_guide_offset = -inverse_pivot_guide_offset_2*phi_guide_offset_2;
+    const double dq_lambda_guide_offset = -inverse_pivot_guide_offset_3*phi_guide_offset_2;
     const double dq_acceleration_block_y = -dq_lambda_guide_offset*inverse_block_mass;
     const double dq_acceleration_block_x = 0.0;
 
     /* backward substitution */
-    const double dv_lambda_guide_angle = -inverse_pivot_guide_angle_2*phi_dot_guide_angle_2;
+    const double dv_lambda_guide_angle = -inverse_pivot_guide_angle_3*phi_dot_guide_angle_2;
     const double dv_acceleration_block_theta = -dv_lambda_guide_angle*inverse_block_inertia;
-    const double dv_lambda_guide_offset = -inverse_pivot_guide_offset_2*phi_dot_guide_offset_2;
+    const double dv_lambda_guide_offset = -inverse_pivot_guide_offset_3*phi_dot_guide_offset_2;
     const double dv_acceleration_block_y = -dv_lambda_guide_offset*inverse_block_mass;
     const double dv_acceleration_block_x = 0.0;
 

@@ -22,24 +22,24 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double phi_dot_fall_y_2 = -ball_vy;
 
     /* L D L^T of the KKT matrix */
-    const double scale_fall_x_2 = inverse_ball_mass;
-    if (!(scale_fall_x_2 > 1e-13 * scale_fall_x_2)) return 1;
-    const double inverse_pivot_fall_x_2 = 1.0/scale_fall_x_2;
-    const double scale_fall_y_2 = inverse_ball_mass;
-    if (!(scale_fall_y_2 > 1e-13 * scale_fall_y_2)) return 2;
-    const double inverse_pivot_fall_y_2 = 1.0/scale_fall_y_2;
+    const double scale_fall_x_3 = inverse_ball_mass;
+    if (!(scale_fall_x_3 > 1e-13 * scale_fall_x_3)) return 1;
+    const double inverse_pivot_fall_x_3 = 1.0/scale_fall_x_3;
+    const double scale_fall_y_3 = inverse_ball_mass;
+    if (!(scale_fall_y_3 > 1e-13 * scale_fall_y_3)) return 2;
+    const double inverse_pivot_fall_y_3 = 1.0/scale_fall_y_3;
 
     /* backward substitution */
-    const double dq_lambda_fall_y = -inverse_pivot_fall_y_2*phi_fall_y_2;
+    const double dq_lambda_fall_y = -inverse_pivot_fall_y_3*phi_fall_y_2;
     const double dq_acceleration_ball_y = dq_lambda_fall_y*inverse_ball_mass;
-    const double dq_lambda_fall_x = -inverse_pivot_fall_x_2*phi_fall_x_2;
+    const double dq_lambda_fall_x = -inverse_pivot_fall_x_3*phi_fall_x_2;
     const double dq_acceleration_ball_x = dq_lambda_fall_x*inverse_ball_mass;
     const double dq_acceleration_ball_theta = 0.0;
 
     /* backward substitution */
-    const double dv_lambda_fall_y = -inverse_pivot_fall_y_2*phi_dot_fall_y_2;
+    const double dv_lambda_fall_y = -inverse_pivot_fall_y_3*phi_dot_fall_y_2;
     const double dv_acceleration_ball_y = dv_lambda_fall_y*inverse_ball_mass;
-    const double dv_lambda_fall_x = -inverse_pivot_fall_x_2*phi_dot_fall_x_2;
+    const double dv_lambda_fall_x = -inverse_pivot_fall_x_3*phi_dot_fall_x_2;
     const double dv_acceleration_ball_x = dv_lambda_fall_x*inverse_ball_mass;
     const double dv_acceleration_ball_theta = 0.0;
 

@@ -25,14 +25,25 @@ static int settle_sides(Run *run, int crossed, const Parameters *p)
     return 0;
 }
 
+/* A contact begins with no longer a step than the last one could begin with, free flight likewise. */
+static void cross_contact(Run *run, int i, double floor)
+{
+    const int opens = run->memory.latch[i].closed;
+    if (opens)
+        open_joint(run, i, run->t);
+    else
+        close_joint(run, i, run->t, run->aside.clearance[i].deltadot, floor);
+    if (run->h_first[opens] > 0.0)
+        run->h = fmin(run->h, 2.0 * run->h_first[opens]);
+    run->first = &run->h_first[opens];
+}
+
 static void cross(Run *run, int k, const Parameters *p)
 {
     const double floors[] = {0.0};
     (void)p;
-    if (k < N_CLEARANCES && run->memory.latch[k].closed)
-        open_joint(run, k, run->t);
-    else if (k < N_CLEARANCES)
-        close_joint(run, k, run->t, run->aside.clearance[k].deltadot, floors[k]);
+    if (k < N_CLEARANCES)
+        cross_contact(run, k, floors[k]);
     else if (k < N_CLEARANCES + N_SWITCHES)
         run->memory.side[k - N_CLEARANCES] *= -1.0;
 }
@@ -64,16 +75,18 @@ static int check_contacts(const Run *run, const Parameters *p)
 /* Takes a step, or its part up to an event, as the new state. */
 static int commit(Run *run, Step *step, double share, double t_new, int event, const Parameters *p)
 {
-    inner_peaks(run, step, share, p);
-    double y[N_Y];
-    int status = share < 1.0 ? state_at(run, step, share, p, y, step->dy, &step->aside) : 0;
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    int status = share < 1.0 ? state_at(run, step, share, p, y, dy, &aside) : 0;
     if (status)
         return status;
+    inner_peaks(run, step, share, share < 1.0 ? y : step->y, share < 1.0 ? dy : step->dy,
+        share < 1.0 ? &aside : &step->aside, p);
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = share < 1.0 ? y[k] : step->y[k];
-        run->dy[k] = step->dy[k];
+        run->dy[k] = share < 1.0 ? dy[k] : step->dy[k];
     }
-    run->aside = step->aside;
+    run->aside = share < 1.0 ? aside : step->aside;
     run->stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->stuck + 1 : 0;
     run->t = t_new;
     run->steps++;
@@ -116,8 +129,13 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
         if (status && run->fixed > 0.0)
             return status;
         if (!status && step->error <= run->accept) {
-            double factor = 0.9 * pow(fmax(step->error, 1e-12), -power);
+            const double error = fmax(step->error, 1e-12);
+            double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
             factor = fmin(fmax(factor, 0.3), again ? 1.0 : 6.0);
+            run->error_before = fmax(error, 1e-4);
+            if (run->first)
+                *run->first = h;
+            run->first = NULL;
             if (h * factor > run->h || h < left || factor < 1.0)
                 run->h = h * factor;
             return 0;
@@ -171,6 +189,7 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
     run->stiff = choice == STIFF;
     run->h = h;
     run->fixed = fixed;
+    run->error_before = 1e-4;
     run->accept = fixed > 0.0 ? INFINITY : 1.0;
     for (int k = 0; k < 2 * N_X; k++)
         run->scale[k] = scale[k];
