@@ -117,16 +117,18 @@ class InC:
         c, peer = kernel.c, kernel.peer
         peer.array = kernel.ffi.cast("double *(*)(void *)", int(ffi.cast("intptr_t", f["N_VGetArrayPointer"])))
         peer.matrix = kernel.ffi.cast("double *(*)(void *)", int(ffi.cast("intptr_t", f["SUNDenseMatrix_Data"])))
-        self.call("CVodeInit", self._pointer("int (*)(double, void *, void *, void *)", c, "peer_cvode_rhs"), 0.0, self.vector)
+        rhs = self.pointer("int (*)(double, void *, void *, void *)", c, "peer_cvode_rhs")
+        self.call("CVodeInit", rhs, 0.0, self.vector)
         self.call("CVodeSStolerances", rtol, ATOL * rtol)
         self.call("CVodeSetUserData", ffi.cast("void *", int(kernel.ffi.cast("intptr_t", peer))))
         self.call("CVodeSetMaxNumSteps", MAX_STEPS)
         self.call("CVodeSetLinearSolver", self.solver, self.matrix)
         if own_jacobian:
             kind = "int (*)(double, void *, void *, void *, void *, void *, void *, void *)"
-            self.call("CVodeSetJacFn", self._pointer(kind, c, "peer_cvode_jacobian"))
+            self.call("CVodeSetJacFn", self.pointer(kind, c, "peer_cvode_jacobian"))
 
-    def _pointer(self, kind: str, library: Any, name: str) -> Any:
+    def pointer(self, kind: str, library: Any, name: str) -> Any:
+        """A function of the press as this cffi sees it."""
         function = self.kernel.ffi.addressof(library, name)
         return self.ffi.cast(kind, int(self.kernel.ffi.cast("intptr_t", function)))
 
@@ -168,7 +170,8 @@ def _run(solver: InC, work: Work) -> Samples:
     onsets: tuple[list[float], list[float]] = ([], [])
     dry = work.press.film == 0.0
     if dry:
-        solver.call("CVodeRootInit", 2, solver._pointer("int (*)(double, void *, double *, void *)", kernel.c, "peer_cvode_gaps"))
+        gaps = solver.pointer("int (*)(double, void *, double *, void *)", kernel.c, "peer_cvode_gaps")
+        solver.call("CVodeRootInit", 2, gaps)
         solver.locate(closed)
     kernel.peer.stored = [0.0, 0.0]
     rows, now, info = np.empty((len(times), 24)), solver.ffi.new("double *"), solver.ffi.new("int[2]")

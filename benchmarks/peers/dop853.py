@@ -28,7 +28,9 @@ def scipy(rtol: float, method: str = "DOP853") -> andrews.Measured:
 
     f = andrews.compiled().f
     begin = perf_counter()
-    s = solve_ivp(f, (0.0, andrews.T_END), andrews.start(), method=method, rtol=rtol, atol=ATOL * rtol, t_eval=[andrews.T_END])
+    s = solve_ivp(
+        f, (0.0, andrews.T_END), andrews.start(), method=method, rtol=rtol, atol=ATOL * rtol, t_eval=[andrews.T_END]
+    )
     return andrews.error(s.y[:, -1]), perf_counter() - begin, int(s.nfev)
 
 
