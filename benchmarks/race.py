@@ -15,6 +15,7 @@ import csv
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
 from benchmarks.peers import andrews, press
@@ -106,6 +107,8 @@ def table(sweeps: list[Sweep], measure: str) -> list[str]:
 
 def head(work: str) -> list[str]:
     """What the work is judged by: the peers' right-hand side and how well the reference is confirmed."""
+    if work == "andrews" and find_spec("jitcode") is None:
+        return ["  no right-hand side of a peer: jitcode is not installed"]
     if work == "andrews":
         return [f"  right-hand side of jitcode, called from Python: {andrews.seconds_per_rhs() * 1e6:.2f} µs"]
     if work == "ideal":
