@@ -264,7 +264,8 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         int event;
         const double share = first_event(run, step, p, &event);
         const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
-        status = sample_step(run, step, t_new, n, t, p, y, a, latched, state, done);
+        const double close = event < 0 ? 0.0 : fmax(2e-12, 8.0 * DBL_EPSILON * fabs(t_new)); /* is at the event */
+        status = sample_step(run, step, t_new - close, n, t, p, y, a, latched, state, done);
         if (!status)
             status = commit(run, step, share, t_new, event, p);
     }
