@@ -15,7 +15,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.dead_centre import dependent_rows
 from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
-from gudgeon.integrators import adaptive, kinematic, rk4
+from gudgeon.integrators import adaptive, kinematic, python_driver, rk4
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.left_out import check_start, contradiction
 from gudgeon.parameters import number, prepare, without_baumgarte
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 METHODS = {
     "rk4": rk4.run, "dop853": adaptive.run, "rodas5p": adaptive.run, "adaptive": adaptive.run,
-    "kinematic": kinematic.run,
+    "kinematic": kinematic.run, **dict.fromkeys(python_driver.NAMES, python_driver.run),
 }  # fmt: skip
 ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
 DEFAULT_OUTPUT = 1000
@@ -177,7 +177,7 @@ class Simulation:
                 f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
                 "  remove a drive or a joint; `gudgeon check -v` lists the rows"
             )
-        fitting = (*self.source.methods, *(["adaptive"] if "dop853" in self.source.methods else []))
+        fitting = (*self.source.methods, *(("adaptive", *python_driver.NAMES) if "dop853" in self.source.methods else ()))
         if method == "auto":
             return fitting[0] if len(fitting) == 1 or fixed else "adaptive"
         if method not in METHODS:
