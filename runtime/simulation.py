@@ -99,7 +99,7 @@ class Simulation:
         self, t_end: float | str | None = None, *, output: int | ArrayLike | None = None, method: str = "auto",
         rtol: float | None = None, step: float | str | None = None,
         parameters: Mapping[str, float | str] | None = None, start: State | None = None,
-        progress: Progress | None = None,
+        progress: Progress | None = None, horizon: bool = False,
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
@@ -110,7 +110,9 @@ class Simulation:
         - "rk4" with fixed `step` (s), the longest; each interval between outputs is divided evenly;
         - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-6): the error of a
           step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
-          unchanged, without error control.
+          unchanged, without error control;
+        - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/python_driver.py).
+        `horizon`: repeat the run twice to find the time to which it can be trusted (predictability.py).
         `parameters`: {address or parameter name: float in SI or '0.5 mm'}. Ctrl-C ends the run and keeps
         what was computed.
 
@@ -140,6 +142,10 @@ class Simulation:
         if stopped is not None:
             stopped.partial = result
             raise stopped
+        if horizon and not trajectory.interrupted:
+            from gudgeon.predictability import with_horizon
+
+            result = with_horizon(self, result, progress)
         return result
 
     def _begin(self, p: Array, start: State | None) -> tuple[Array, Array, Array]:

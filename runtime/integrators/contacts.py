@@ -136,14 +136,14 @@ class Contacts:
         return int(lost[0]) if len(lost) else None
 
     def inner_peaks(self, piece: Piece, t: Array, view: View) -> None:
-        """Peaks inside a step, at times t that lie before what ended it."""
+        """Peaks inside a step, from its nodes t before what ended it."""
         from scipy.optimize import minimize_scalar
 
         for k in range(self.count):
             i = int(np.argmax(view.F[:, k]))
             known = self.open[k][1] if self.closed[k] else self.peaks[k, 0]
-            if 0 < i < len(t) - 1 and view.F[i, k] > KEPT * known:
-                bounds = (t[i - 1], t[i + 1])
+            bounds = (t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)])
+            if bounds[0] < bounds[1] and view.F[i, k] > KEPT * known:
                 top = minimize_scalar(
                     lambda x, k=k: -self._at(piece.at, x).F[0, k], bounds=bounds, method="bounded",
                     options={"xatol": 1e-5 * (bounds[1] - bounds[0])},

@@ -43,7 +43,8 @@ class ScipyStepper(Stepper):
     def step(self) -> float:
         """One step; SciPy's own words where there is none small enough."""
         self.equations.failure = None
-        message = self.solver.step()
+        with np.errstate(invalid="ignore", over="ignore"):  # a step far too long is tried, and rejected
+            message = self.solver.step()
         if self.solver.status == "failed":
             t = float(self.solver.t)
             raise self.equations.failure or SolverError(f"{self.name} stopped at t = {t:.9g} s: {message}", t)
