@@ -40,6 +40,8 @@ class Diagnostics:
     peaks: tuple[Peak, ...]  # in the order of the clearances
     seconds: float  # wall time of the integration
     seconds_per_simulated_second: float
+    interrupted: bool = False
+    notes: tuple[str, ...] = ()
     rtol: float = float("nan")  # of a method that chose its step
     rejected: int = 0  # steps tried and not taken
     stiff_steps: int = 0  # of the steps, those of the stiff method

@@ -108,7 +108,7 @@ class Simulation:
           "adaptive", which is "dop853" while steps are bounded by accuracy and "rodas5p" while stability
           would bound them (integrators/adaptive.py);
         - "rk4" with fixed `step` (s), the longest; each interval between outputs is divided evenly;
-        - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-6): the error of a
+        - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-8): the error of a
           step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
           unchanged, without error control;
         - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/python_driver.py).

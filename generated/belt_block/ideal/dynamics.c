@@ -22,6 +22,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double rub_speed = p->rub_speed;
     const double rub_static = p->rub_static;
     const double rub_kinetic = p->rub_kinetic;
+    const double two_alpha_stick = p->two_alpha_stick;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
     const double inverse_block_mass = p->inverse_block_mass;
@@ -38,7 +39,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double stick_rub = mode_rub == 0.0 ? 1.0 : 0.0;
     const double sign_rub = fabs(mode_rub) > 1.0 ? 0.0 : mode_rub;
     const double kinetic_rub = -rub_kinetic*sign_rub;
-    const double rhs_rub = -slip_rub*two_alpha;
+    const double rhs_rub = -slip_rub*two_alpha_stick;
     aside->friction[0].v = slip_rub;
     aside->friction[0].static_limit = rub_static;
     aside->friction[0].speed = rub_speed;
