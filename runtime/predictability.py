@@ -1,10 +1,12 @@
 """How far a run can be trusted: impacts multiply small differences until two honest runs have nothing in common.
 
 `simulate(..., horizon=True)` repeats the run twice, once with a tolerance a hundred times tighter (a step four times
-smaller), once from a start that is moved by 1e-12. While all three agree, the trace belongs to the scene; beyond, it
-is one of many that the same numbers allow, and only its statistics mean anything. The horizon is the last of the
-compared times before any two of them differ by more than 1e-2: of the radial clearance in the path of a journal;
-in a scene without play of the mechanism's size in a coordinate, of 1 rad in an angle.
+smaller), once from a start that is moved by 1e-12. While they agree, the trace belongs to the scene; beyond, it is
+one of many that the same numbers allow, and only its statistics mean anything. The horizon is the last of the
+compared times before the run and one of its repetitions are a tenth apart: of the radial clearance, in the path of a
+journal; in a scene without play of the mechanism's size, of 1 rad in an angle.
+
+It is a figure of the run, not of the scene alone: each digit of tolerance buys some time, until rounding is what grows.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ import numpy as np
 
 from gudgeon.compiled import Array
 from gudgeon.errors import SolverError
-from gudgeon.integrators.adaptive import SMALLEST
+from gudgeon.integrators.adaptive import SMALLEST, tolerances
 from gudgeon.integrators.projection import project
 from gudgeon.start import mechanism_size
 
@@ -26,8 +28,8 @@ if TYPE_CHECKING:
     from gudgeon.results import Result, State
     from gudgeon.simulation import Simulation
 
-APART = 1e-2  # see above
-MOVED = 1e-12  # of the mechanism's size, of 1 rad, of the largest speed: the start of one run
+APART = 0.1  # see above
+MOVED = 1e-12  # a relative tolerance (integrators/adaptive.py): as much as one step of such a run may err
 TIGHTER, SHORTER = 100.0, 4.0  # tolerance, step
 TIMES = 4000  # intervals between compared times: the horizon's resolution
 
@@ -108,9 +110,10 @@ def _state(run: Result) -> State:
 
 def _moved(simulation: Simulation, run: Result, start: State) -> State:
     """The start moved by MOVED in a direction drawn once and for all, and back onto the constraints."""
-    angle, draw = _angles(run), np.random.default_rng(1).uniform(-1.0, 1.0, (2, len(start.q)))
+    angle, n = _angles(run), len(start.q)
+    draw = np.random.default_rng(1).uniform(-1.0, 1.0, 2 * n)
     speed = [np.abs(start.v[angle == kind]).max(initial=0.0) for kind in (False, True)]
-    q = start.q + MOVED * draw[0] * np.where(angle, 1.0, mechanism_size(simulation.compiled, run.p))
-    v = start.v + MOVED * draw[1] * np.where(angle, speed[1], speed[0])
+    scale = draw * tolerances(simulation.compiled, run.p, MOVED, 1.0)[0]
+    q, v = start.q + scale[:n], start.v + scale[n:] * np.where(angle, speed[1], speed[0])
     q, v = project(simulation.compiled, start.t, q, v, run.p)
     return replace(start, q=q, v=v)
