@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -51,6 +51,20 @@ class Clearance:
     def eccentricity_rate(self) -> tuple[sp.Expr, sp.Expr]:
         (vx_i, vy_i), (vx_j, vy_j) = self.first.velocity, self.second.velocity
         return vx_j - vx_i, vy_j - vy_i
+
+    def add_to(self, forces: list[sp.Expr], F: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> None:
+        """Adds F on the journal, -F on the bearing, and both moments to the forces of the bodies (three a body)."""
+        for point, sign, moment in ((self.first, -1, moments[0]), (self.second, 1, moments[1])):
+            if point.body is not None:
+                k = point.body.index
+                forces[k] += sign * F[0]
+                forces[k + 1] += sign * F[1]
+                forces[k + 2] += sign * (point.arm[0] * F[1] - point.arm[1] * F[0]) + moment
+
+    def power(self, F: Sequence[sp.Expr], edot: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> sp.Expr:
+        """F · ė + M_i ω_i + M_j ω_j (W)."""
+        turning = moments[0] * self.first.omega + moments[1] * self.second.omega
+        return F[0] * edot[0] + F[1] * edot[1] + turning
 
 
 def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -> Clearance:

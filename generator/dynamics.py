@@ -30,7 +30,7 @@ def dynamics_kernel(system: System, kkt: KKT) -> Kernel:
     if kkt.rows and not model.frictions:
         build.section("status")
         build.line("int pivot = 0;")
-    forces = _gravity(model)
+    forces = gravity(model)
     for element in model.elements.values():
         element.add_to(forces)
     for index, clearance in enumerate(model.clearances):
@@ -66,7 +66,7 @@ def dynamics_kernel(system: System, kkt: KKT) -> Kernel:
     return replace(kernel, sections=(held, *kernel.sections))
 
 
-def _gravity(model: Model) -> list[sp.Expr]:
+def gravity(model: Model) -> list[sp.Expr]:
     """Generalized forces before clearances: weight, as slots of `prepare`."""
     derive = model.slots.derive
     forces: list[sp.Expr] = []
@@ -92,16 +92,12 @@ def _clearance_call(
     arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in omegas)])
     build.line(f"clearance_{name}({arguments}, &memory->latch[{index}], p, side, g, &{out});", omegas)
     F = [build.local(f"F_{name}_{axis}", f"{out}.F{axis}") for axis in "xy"]
-    power = F[0] * edot[0] + F[1] * edot[1]
-    for point, sign, which in ((clearance.first, -1, "first"), (clearance.second, 1, "second")):
-        if point.body is not None:
-            moment = build.local(f"M_{name}_{which}", f"{out}.moment_{which}")
-            power += moment * point.omega
-            k = point.body.index
-            forces[k] += sign * F[0]
-            forces[k + 1] += sign * F[1]
-            forces[k + 2] += sign * (point.arm[0] * F[1] - point.arm[1] * F[0]) + moment
-    build.out(f"{out}.power", power)
+    moments = [
+        ZERO if point.body is None else build.local(f"M_{name}_{which}", f"{out}.moment_{which}")
+        for point, which in ((clearance.first, "first"), (clearance.second, "second"))
+    ]
+    clearance.add_to(forces, F, moments)
+    build.out(f"{out}.power", clearance.power(F, edot, moments))
 
 
 def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT) -> dict[int, sp.Expr]:

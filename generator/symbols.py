@@ -21,6 +21,7 @@ delta deltadot ratio F_n F_t v_t epsilon w_n w_t root W factor rows force rhs po
 reactions torques series max_of min_of sign_of solve_dependent errno stdin stdout stderr signgam
 side side_of
 e_x e_y de_x de_y de_t omega_i omega_j n_x n_y stored a_i a_j share F_r T0 F_x F_y F_along_n F_along_t M_i M_j
+eta eta_row eta_stick lin r s u x depth unclipped dF value slope film
 """
 _TAKEN = frozenset(_WORDS.split())
 

@@ -21,6 +21,7 @@ from gudgeon.generator.system import System, absolute
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
+from gudgeon.generator.targets.c.newton_code import jacobian_code, newton_code, tangent_code
 from gudgeon.kernel_source import KernelSource
 
 COMMON_CDEF = """\
@@ -36,6 +37,11 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *mem
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
     double *series, double *friction, double *energy, double *power, long *failed);
+"""
+NEWTON_CDEF = """\
+int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t);
+int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
+    const double *r, double *u);
 """
 METHOD_CDEF = {
     "kinematic": """\
@@ -58,8 +64,8 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 }
 
 
-def emit(model: Model) -> KernelSource:
-    """The whole scene as C text with its description."""
+def emit(model: Model, *, newton: bool = True) -> KernelSource:
+    """The whole scene as C text with its description; `newton`: with the Jacobian, where there is integration."""
     method = "rk4" if model.degrees_of_freedom or model.clearances or model.frictions else "kinematic"
     system = absolute(model)
     kkt = KKT(system)
@@ -75,8 +81,10 @@ def emit(model: Model) -> KernelSource:
         start_pivots = projection_kkt.pivots
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
+    newton = newton and method != "kinematic"
+    linearized, linear_kernels = _newton(model, system) if newton else ("", [])
     prepare = interface.prepare_kernel(model, printer.expression)
-    loops = _kinematic(model) if method == "kinematic" else _integrators(model, system, kkt)
+    loops = _kinematic(model) if method == "kinematic" else _integrators(model, system, kkt, linearized)
     files = {
         "model.h": render("model.h.jinja", **_header(model)),
         "parameters.c": _kernels(prepare),
@@ -88,10 +96,12 @@ def emit(model: Model) -> KernelSource:
         **loops,
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
+    cdef = COMMON_CDEF + METHOD_CDEF[method] + (NEWTON_CDEF if newton else "")
+    kernels = [dynamics, *around, prepare, *linear_kernels]
     methods = ("kinematic",) if method == "kinematic" else ("rk4", "dop853", "rodas5p")
     return describe(
-        model, files=files, main="scene.c", cdef=COMMON_CDEF + METHOD_CDEF[method], methods=methods,
-        pivots=kkt.pivots, start_pivots=start_pivots, operations=_operations(model, [dynamics, *around, prepare]),
+        model, files=files, main="scene.c", cdef=cdef, methods=methods, pivots=kkt.pivots,
+        start_pivots=start_pivots, operations=_operations(model, kernels),
     )  # fmt: skip
 
 
@@ -99,7 +109,7 @@ def _kinematic(model: Model) -> dict[str, str]:
     return {"kinematic.c": render("kinematic.c.jinja", **_counts(model))}
 
 
-def _integrators(model: Model, system: System, kkt: KKT) -> dict[str, str]:
+def _integrators(model: Model, system: System, kkt: KKT, linearized: str) -> dict[str, str]:
     """The time loops, in the order in which they call each other."""
     pivots, counts = _friction_pivots(kkt), _counts(model)
     kind = "friction" if pivots else "no_friction"
@@ -107,7 +117,7 @@ def _integrators(model: Model, system: System, kkt: KKT) -> dict[str, str]:
     common = {**counts, "floors": _floors(model), "clearances": _own_clearances(model)}
     return {
         "projection.c": _kernels(closing_kernel(system)),
-        "newton.c": render("no_newton.c.jinja"),
+        "newton.c": linearized,
         "run.c": render("run.c.jinja", **common, friction_modes=modes, angles=_angles(system)),
         "rk4.c": render("rk4.c.jinja", **common, friction_events=events),
         "step.c": render("step.c.jinja", **counts),
@@ -139,6 +149,13 @@ def _rodas5p() -> dict[str, Any]:
         "nodes": rodas5p.NODES, "time": rodas5p.TIME, "gamma": rodas5p.GAMMA, "a": rodas5p.A, "c": rodas5p.C,
         "dense": rodas5p.H,
     }  # fmt: skip
+
+
+def _newton(model: Model, system: System) -> tuple[str, list[Kernel]]:
+    """The linearized equations: Newton's matrix, Jacobian."""
+    tangents, slopes = tangent_code(model, render)
+    text, kernels = newton_code(system, render)
+    return tangents + text + jacobian_code(model, render), [*kernels, *slopes]
 
 
 def render(name: str, /, **values: Any) -> str:
