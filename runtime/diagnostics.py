@@ -47,8 +47,6 @@ class Diagnostics:
     stiff_steps: int = 0  # of the steps, those of the stiff method
     jacobians: int = 0
     horizon: float = float("nan")  # s, to which the trace can be trusted; inf: to the end, NaN: not asked
-    interrupted: bool = False
-    notes: tuple[str, ...] = ()
 
     def peak(self, joint: str) -> Peak:
         """The peak at a joint with play; KeyError for any other."""

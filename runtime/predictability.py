@@ -1,10 +1,11 @@
 """How far a run can be trusted: impacts multiply small differences until two honest runs have nothing in common.
 
-`simulate(..., horizon=True)` repeats the run twice, once with a tolerance a hundred times tighter (a step four times
-smaller), once from a start that is moved by 1e-12. While they agree, the trace belongs to the scene; beyond, it is
-one of many that the same numbers allow, and only its statistics mean anything. The horizon is the last of the
-compared times before the run and one of its repetitions are a tenth apart: of the radial clearance, in the path of a
-journal; in a scene without play of the mechanism's size, of 1 rad in an angle.
+`simulate(..., horizon=True)` repeats the run at narrow output times, with a tolerance a hundred times tighter (a step
+four times smaller), and from a start that is moved by 1e-12. While they agree, the trace belongs to the scene; beyond,
+it is one of many that the same numbers allow, and only its statistics mean anything. The horizon is the last of the
+compared times before the run and one of its repetitions are 1e-2 apart: of the radial clearance, in the path of a
+journal (a contact then begins earlier or later by some percent of its length); in a scene without play of the
+mechanism's size, of 1 rad in an angle.
 
 It is a figure of the run, not of the scene alone: each digit of tolerance buys some time, until rounding is what grows.
 """
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from gudgeon.results import Result, State
     from gudgeon.simulation import Simulation
 
-APART = 0.1  # see above
+APART = 1e-2  # see above
 MOVED = 1e-12  # a relative tolerance (integrators/adaptive.py): as much as one step of such a run may err
 TIGHTER, SHORTER = 100.0, 4.0  # tolerance, step
 TIMES = 4000  # intervals between compared times: the horizon's resolution
@@ -39,11 +40,11 @@ def with_horizon(simulation: Simulation, run: Result, progress: Progress | None 
     return replace(run, diagnostics=replace(run.diagnostics, horizon=horizon(simulation, run, progress)))
 
 
-def horizon(simulation: Simulation, run: Result, progress: Progress | None = None) -> float:
-    """Time (s) up to which a run agrees with its two repetitions; inf: to its end.
+def horizon(simulation: Simulation, run: Result, progress: Progress | None = None, apart: float = APART) -> float:
+    """Time (s) up to which a run agrees with its repetitions; inf: to its end.
 
     The runs are those of `run.diagnostics.method`, from the run's first sample to its last one. A repetition that
-    ends early (an error) is compared as far as it came. NaN after Ctrl-C.
+    ends early (an error) is compared as far as it came. NaN after Ctrl-C. `apart`: see above.
     """
     source, t0, t1 = simulation.source, float(run.t[0]), float(run.t[-1])
     if source.degrees_of_freedom == 0 or not t1 > t0:
@@ -61,15 +62,15 @@ def horizon(simulation: Simulation, run: Result, progress: Progress | None = Non
             runs.append(error.partial)
         if runs[-1].diagnostics.interrupted:
             return math.nan
-    return _agreement(simulation, runs)
+    return _agreement(simulation, runs, apart)
 
 
-def _agreement(simulation: Simulation, runs: list[Result]) -> float:
-    """The last compared time at which the first run is no further than APART from each of the others."""
+def _agreement(simulation: Simulation, runs: list[Result], limit: float) -> float:
+    """The last compared time at which the first run is no further than `limit` from each of the others."""
     count = min(len(run.t) for run in runs)
     paths = [_path(simulation, run)[:count] for run in runs]
     gaps = [np.abs(path - paths[0]).max(axis=1) for path in paths[1:]]
-    apart = np.flatnonzero(~(np.maximum(*gaps) <= APART))
+    apart = np.flatnonzero(~(np.maximum(*gaps) <= limit))
     t = runs[0].t
     if len(apart):
         return float(t[max(int(apart[0]) - 1, 0)])

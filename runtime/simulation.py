@@ -112,7 +112,7 @@ class Simulation:
           step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
           unchanged, without error control;
         - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/python_driver.py).
-        `horizon`: repeat the run twice to find the time to which it can be trusted (predictability.py).
+        `horizon`: run thrice more to find the time to which it can be trusted (predictability.py).
         `parameters`: {address or parameter name: float in SI or '0.5 mm'}. Ctrl-C ends the run and keeps
         what was computed.
 
@@ -183,7 +183,8 @@ class Simulation:
                 f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
                 "  remove a drive or a joint; `gudgeon check -v` lists the rows"
             )
-        fitting = (*self.source.methods, *(("adaptive", *python_driver.NAMES) if "dop853" in self.source.methods else ()))
+        adaptive_too = ("adaptive", *python_driver.NAMES) if "dop853" in self.source.methods else ()
+        fitting = (*self.source.methods, *adaptive_too)
         if method == "auto":
             return fitting[0] if len(fitting) == 1 or fixed else "adaptive"
         if method not in METHODS:

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.compiled import Array, CompiledModel
 
@@ -49,7 +50,7 @@ class View:
 class Contacts:
     """What a run remembers of its joints with play. `memory` (n_clearances,): δ̇⁻, NaN while free."""
 
-    def __init__(self, compiled: CompiledModel, p: Array, memory: Array, state: Array | None) -> None:
+    def __init__(self, compiled: CompiledModel, p: Array, memory: Array, state: NDArray[np.int8] | None) -> None:
         self.compiled, self.p = compiled, p
         joints = compiled.source.clearances
         self.count = len(joints)
@@ -64,13 +65,13 @@ class Contacts:
         self.ratio = (np.inf, -np.inf)
 
     @property
-    def closed(self) -> Array:
-        """(n_clearances,) bool."""
+    def closed(self) -> NDArray[np.bool_]:
+        """(n_clearances,)."""
         return ~np.isnan(self.memory)
 
     @property
-    def codes(self) -> Array:
-        """0 free, 1 impact, 2 contact."""
+    def codes(self) -> NDArray[np.int8]:
+        """(n_clearances,) 0 free, 1 impact, 2 contact."""
         return np.where(self.closed, 2 - self.compressing, 0).astype(np.int8)
 
     def view(self, t: Array, y: Array) -> View:
@@ -118,9 +119,9 @@ class Contacts:
             self.peaks[k, 2] = max(self.peaks[k, 2], view.e[:, k].max())
 
     def _peak(self, k: int, t: float, F: float) -> None:
-        if F > self.peaks[k, 0]:
+        if self.peaks[k, 0] < F:
             self.peaks[k, :2] = F, t
-        if self.closed[k] and F > self.open[k][1]:
+        if self.closed[k] and self.open[k][1] < F:
             self.open[k] = (self.open[k][0], F, t)
 
     def end_of_step(self, t: float, y: Array) -> int | None:

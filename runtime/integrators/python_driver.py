@@ -14,8 +14,10 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.compiled import N_WORK, Array
 from gudgeon.errors import BadValueError, NonFiniteError, SolverError
@@ -41,8 +43,8 @@ class Equations:
         self.size = 2 * self.compiled.n + N_WORK
         self.calls = self.jacobians = 0
         self.failure: SolverError | None = None  # of a call inside the integrator, which may swallow it
-        exact = getattr(self.compiled, "jacobian", None)
-        self.jacobian: Callable[[float, Array], Array] | None = None if exact is None else self._jacobian
+        exact = hasattr(self.compiled.lib, "gudgeon_jacobian")
+        self.jacobian: Callable[[float, Array], Array] | None = self._jacobian if exact else None  # None: differences
 
     def rates(self, t: float, y: Array) -> Array:
         """(2n + 3,); NaN where the equations cannot be solved, so that a smaller step is tried."""
@@ -55,8 +57,7 @@ class Equations:
 
     def _jacobian(self, t: float, y: Array) -> Array:
         self.jacobians += 1
-        matrix: Array = self.compiled.jacobian(t, y, self.p, self.contacts.memory)[0]  # type: ignore[attr-defined]
-        return matrix
+        return self.compiled.jacobian(t, y, self.p, self.contacts.memory)[0]
 
     def project(self, t: float, y: Array) -> Array:
         """The nearest consistent state; the works stay."""
@@ -130,7 +131,7 @@ class _Driver:
         self.speed, self.controlled = np.zeros(2), np.zeros(2)
         self.steps = self.stuck = 0
         self.worst = np.zeros(2)  # |Φ|, |Φ̇|
-        self.samples: list[tuple[Array, Array, Array, Array]] = []  # y, a, memory, codes
+        self.samples: list[tuple[NDArray[Any], ...]] = []  # y, a, memory, codes
 
     def run(self) -> Trajectory:
         """As far as it goes."""
@@ -209,7 +210,7 @@ class _Driver:
         lost = self.contacts.end_of_step(self.t, self.y) if self.contacts.count else None
         if lost is not None:
             name = self.problem.compiled.source.clearances[lost].name
-            raise SolverError(f"a contact was lost at t = {self.t:.9g} s: the free journal of {name} is outside", self.t)
+            raise SolverError(f"a contact was lost at t = {self.t:.9g} s: a free journal of {name} is outside", self.t)
 
     def _go_on(self, event: bool, end: Array) -> None:
         """Restart, move the integrator onto the constraints, or leave it as it is."""
