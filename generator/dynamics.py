@@ -17,6 +17,10 @@ STATE = (Argument("const double", "t"), Argument("const double *", "q"), Argumen
 MEMORY = Argument("const Memory *", "memory")
 PARAMETERS = Argument("const Parameters *", "p")
 ZERO = sp.Integer(0)
+# Corners in functions that nobody asks for their switching functions.
+HELD_SIDES = Section("corners: the sides that are held, if any", (
+    "const double *const side = memory->held ? memory->side : NULL;", "double g[N_SWITCHES + 1];",
+))  # fmt: skip
 
 
 def dynamics_kernel(system: System, kkt: KKT) -> Kernel:

@@ -20,7 +20,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.dynamics import MEMORY, PARAMETERS, STATE
+from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE
 from gudgeon.generator.factorization import choose_elimination
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement
 from gudgeon.generator.kkt import NEARLY_SINGULAR, SINGULAR, is_simple
@@ -31,9 +31,6 @@ from gudgeon.generator.tangents import Tangents
 
 ZERO = sp.Integer(0)
 ETA, ETA_ROW, ETA_STICK = (sp.Symbol(name, real=True) for name in ("eta", "eta_row", "eta_stick"))
-_HELD = Section("corners: the sides that are held, if any", (
-    "const double *const side = memory->held ? memory->side : NULL;", "double g[N_SWITCHES + 1];",
-))  # fmt: skip
 
 
 class Newton:
@@ -75,7 +72,7 @@ class Newton:
         kernel = build.build(arguments, owner="", prune=True)
         if not self.model.clearances and not self.model.symbols.switches.of(""):
             return kernel
-        return replace(kernel, sections=(_HELD, *kernel.sections))
+        return replace(kernel, sections=(HELD_SIDES, *kernel.sections))
 
     def _pooled(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
         """The parts with each value in the pool, once up to its sign."""

@@ -25,6 +25,7 @@ from gudgeon.start import mechanism_size
 
 ORDERS = {"dop853": (8, 7), "rodas5p": (5, 4)}  # of the method, of its dense output
 CHOICES = {"dop853": 0, "rodas5p": 1, "adaptive": 2}
+BEGIN_STIFF = 3  # adaptive in a scene with a film: stiff from rest on (physics.md, section 6)
 RTOL = 1e-8  # of a plain run
 SMALLEST = 1e-14  # rounding would be controlled below it
 CHUNK = 4_000  # steps between two looks of Python: some 20 ms
@@ -36,6 +37,8 @@ def run(problem: Problem) -> Trajectory:
     scale, floor = tolerances(problem.compiled, problem.p, problem.rtol, float(problem.t[-1] - problem.t[0]))
     fixed = 0.0 if math.isinf(problem.step) else problem.step
     choice = CHOICES[problem.method]
+    if problem.method == "adaptive" and any(joint.film for joint in problem.compiled.source.clearances):
+        choice = BEGIN_STIFF
     session.lib.gudgeon_adaptive_setup(session.run, choice, session.pointer(scale), session.pointer(floor), 0.0, fixed)
     interrupted, stopped = False, None
     try:

@@ -3,7 +3,7 @@
  * crosses zero. The place is the root of the step's interpolant; what is looked at is a range of signs, not a
  * crossing alone, so that a contact that starts again on the wrong side of zero is not lost.
  */
-enum { ROOT_STEPS = 100, PEAK_STEPS = 12 };
+enum { ROOT_STEPS = 100, GRAZE_STEPS = 12 };
 
 static int make_dense(Run *run, const Parameters *p, Step *step)
 {
@@ -24,7 +24,7 @@ static int state_at(Run *run, const Step *step, double s, const Parameters *p, d
     else
         dop853_interpolate(run, step, s, y);
     const double t = step->t + s * step->h;
-    project_state(t, y, p);
+    project_state(&run->memory, t, y, p);
     return rates(run, t, y, p, dy, aside);
 }
 
@@ -35,27 +35,41 @@ static double margin_at(Run *run, const Step *step, double s, int k, const Param
     return state_at(run, step, s, p, y, dy, &aside) ? NAN : margin(&run->memory, &aside, k);
 }
 
-/* The first share at which margin k is below zero, from a bracket of it: Illinois, then halving. */
+/* Where the parabola x(f) through three points, or the line through two, meets f = 0. */
+static double inverse_zero(const double *x, const double *f, int n)
+{
+    const double a = f[0], b = f[1], c = f[2];
+    const double line = x[0] - a * (x[1] - x[0]) / (b - a);
+    if (n < 3 || a == c || b == c)
+        return line;
+    return x[0] * b * c / ((a - b) * (a - c)) + x[1] * a * c / ((b - a) * (b - c)) + x[2] * a * b / ((c - a) * (c - b));
+}
+
+/*
+ * The first share at which margin k is below zero, from a bracket of it: inverse interpolation, a look just across
+ * the root once it is known so well, and halving where neither helps.
+ */
 static double root(Run *run, const Step *step, int k, double low, double at_low, double high, double at_high,
     const Parameters *p)
 {
-    const double close = fmax(0.5e-12, 2.0 * DBL_EPSILON * fabs(step->t)) / step->h;
-    double below = at_high, above = at_low;
+    const double close = fmax(1e-12, 4.0 * DBL_EPSILON * fabs(step->t)) / step->h;
+    double x[3] = {low, high, 0.0}, f[3] = {at_low, at_high, 0.0};
     for (int i = 0; i < ROOT_STEPS && high - low > close; i++) {
-        double s = i < 40 ? low + (high - low) * above / (above - below) : 0.5 * (low + high);
-        s = fmin(fmax(s, low + 0.5 * close), high - 0.5 * close);
+        double s = inverse_zero(x, f, i + 2);
+        if (!(s > low && s < high) || i % 12 == 11)
+            s = 0.5 * (low + high);
+        if (s - low < 2.0 * close)
+            s = fmin(s + 0.75 * close, low + 0.9 * (high - low));
+        else if (high - s < 2.0 * close)
+            s = fmax(s - 0.75 * close, high - 0.9 * (high - low));
         const double now = margin_at(run, step, s, k, p);
-        if (!(now >= 0.0)) {
-            high = s;
-            below = now;
-            above *= 0.5;
-        } else {
+        if (now >= 0.0)
             low = s;
-            above = now;
-            below *= 0.5;
-        }
-        if (!isfinite(above / (above - below)))
-            above = 1.0, below = -1.0;
+        else
+            high = s;
+        x[2] = x[1], f[2] = f[1];
+        x[1] = x[0], f[1] = f[0];
+        x[0] = s, f[0] = now;
     }
     return high;
 }
@@ -85,7 +99,7 @@ static int may_graze(const Run *run, const Step *step, int i, double *s)
 static double lowest(Run *run, const Step *step, int k, double s, const Parameters *p, double *least)
 {
     double width = 0.125, best = margin_at(run, step, s, k, p);
-    for (int i = 0; i < PEAK_STEPS && best >= 0.0; i++) {
+    for (int i = 0; i < GRAZE_STEPS && best >= 0.0; i++) {
         const double a = fmax(s - width, 0.0), b = fmin(s + width, 1.0);
         const double left = margin_at(run, step, a, k, p), right = margin_at(run, step, b, k, p);
         if (left < best || right < best) {
@@ -166,40 +180,59 @@ static double force_at(Run *run, const Step *step, double s, int i, const Parame
         return 0.0;
     const double F = hypot(aside.clearance[i].F_n, aside.clearance[i].F_t);
     peak(run, i, step->t + s * step->h, F);
+    run->e_max[i] = max_of(aside.clearance[i].e, run->e_max[i]);
     return F;
 }
 
-/* Peaks of the joints' forces inside a step up to `share`: where a stage saw more than both ends. */
-static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
+/* The top of joint i's force inside a step up to `share`, by parabolas through three of its points. */
+static void inner_peak(Run *run, const Step *step, double share, int i, const Parameters *p)
 {
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
-        const double known = run->memory.latch[i].closed ? run->open[i].F_peak : run->F_peak[i];
-        double s = step->F_node[i], width = 0.25, best;
-        if (!(step->F[i] > fmax(hypot(a->F_n, a->F_t), hypot(b->F_n, b->F_t))) || step->F[i] < 0.9 * known || s > share)
-            continue;
-        if (make_dense(run, p, step))
-            return;
-        best = force_at(run, step, s, i, p);
-        for (int j = 0; j < PEAK_STEPS && best > 0.0; j++) { /* the top of a parabola through three */
-            const double low = fmax(s - width, 0.0), high = fmin(s + width, share);
-            const double left = force_at(run, step, low, i, p), right = force_at(run, step, high, i, p);
-            const double bend = (right - best) * (s - low) - (best - left) * (high - s);
-            double top = left > right ? low : high, found = fmax(left, right);
-            if (found <= best && bend < 0.0) {
-                const double x = s - low, z = high - s;
-                top = s + 0.5 * ((left - best) * z * z - (right - best) * x * x) / bend * -1.0;
-                top = fmin(fmax(top, low), high);
-                found = force_at(run, step, top, i, p);
-            }
-            const double moved = fabs(top - s);
-            if (found > best) {
-                best = found;
-                s = top;
-            }
-            width = fmin(0.5 * width, fmax(2.0 * moved, 1e-4));
-            if (width <= 1e-4)
-                break;
+    double s = 0.5 * share, best = force_at(run, step, s, i, p);
+    for (double width = 0.5 * share; width > 0.002 && best > 0.0; width *= 0.2) {
+        const double low = fmax(s - width, 0.0), high = fmin(s + width, share), x = s - low, z = high - s;
+        const double left = force_at(run, step, low, i, p) - best, right = force_at(run, step, high, i, p) - best;
+        const double bend = right * x + left * z;
+        double top = left > right ? low : high;
+        if (bend < 0.0)
+            top = fmin(fmax(s - 0.5 * (right * x * x - left * z * z) / bend, low), high);
+        const double found = force_at(run, step, top, i, p);
+        if (found > best || fmax(left, right) > 0.0) {
+            best = fmax(found, best);
+            s = found >= best ? top : left > right ? low : high;
         }
+    }
+}
+
+/*
+ * Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end.
+ * The slope at the end is told by a very short way along the motion.
+ */
+static void inner_peaks(Run *run, Step *step, double share, const double *y, const double *dy, const Aside *end,
+    const Parameters *p)
+{
+    double before[1], after[1];
+    int near = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *a = &run->aside.clearance[i], *b = &end->clearance[i];
+        const double known = run->memory.latch[i].closed ? run->open[i].F_peak : run->F_peak[i];
+        before[i] = hypot(a->F_n, a->F_t), after[i] = hypot(b->F_n, b->F_t);
+        const int looked = fmax(before[i], after[i]) > 0.9 * known && after[i] > 0.0;
+        run->rising[i] = looked ? run->rising[i] : 1;
+        near |= looked << i % 16;
+    }
+    if (!near)
+        return;
+    double x[N_Y], dx[N_Y];
+    Aside aside;
+    const double e = 1e-4 * share * step->h;
+    for (int k = 0; k < N_Y; k++)
+        x[k] = y[k] + e * dy[k];
+    if (rates(run, step->t + share * step->h + e, x, p, dx, &aside))
+        return;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const double slope = hypot(aside.clearance[i].F_n, aside.clearance[i].F_t) - after[i];
+        if ((near >> i % 16 & 1) && run->rising[i] && slope < 0.0 && make_dense(run, p, step) == 0)
+            inner_peak(run, step, share, i, p);
+        run->rising[i] = slope > 0.0;
     }
 }

@@ -37,14 +37,12 @@ static int rodas5p_try(Run *run, double h, const Parameters *p, Step *step)
     Aside aside;
     step->t = run->t, step->h = h, step->stiff = 1, step->dense_ready = 0;
     forget_stages(step);
-    int status = 0;
     if (!run->linear_ready) {
-        status = linearize(run->t, run->y, run->y + N_X, &run->memory, p, run->dy + N_X, &run->aside, &run->linear);
+        linearize(run->t, run->y, run->y + N_X, &run->memory, p, run->dy + N_X, &run->aside, &run->linear);
         run->jacobians++;
-        run->linear_ready = !status;
+        run->linear_ready = 1;
     }
-    if (!status)
-        status = newton_factor(hg, &run->linear);
+    int status = newton_factor(hg, &run->linear) ? NOT_FINITE : 0;
     double change = 0.0, way = 0.0;
     for (int s = 0; s < 8 && !status; s++) {
         for (int i = 0; i < N_Y; i++) {

@@ -2,9 +2,10 @@
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
  * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
  */
-static int closing_step(const double t, const double *q, const double *v, const Parameters *p, double *dq,
-    double *dv, double *worst)
+static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *dq, double *dv, double *worst)
 {
+    (void)memory;
     /* coordinates, velocities, time */
     const double L1_x = q[0];
     const double L1_y = q[1];
@@ -162,333 +163,333 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double phi_dot_crank4_2 = L4_omega - crank4_rate;
 
     /* L D L^T of the KKT matrix */
-    const double scale_guide_angle_2 = inverse_S9_inertia;
-    if (!(scale_guide_angle_2 > 1e-13 * scale_guide_angle_2)) return 1;
-    const double inverse_pivot_guide_angle_2 = 1.0/scale_guide_angle_2;
-    const double l_P2_x__L2_theta_2 = -arm_L2_head_y*inverse_L2_inertia;
-    const double l_P2_y__L2_theta_2 = arm_L2_head_x*inverse_L2_inertia;
-    const double l_P3_x__L3_theta_2 = -arm_L3_head_y*inverse_L3_inertia;
-    const double l_P3_y__L3_theta_2 = arm_L3_head_x*inverse_L3_inertia;
-    const double scale_guide_offset_2 = inverse_S9_mass;
-    if (!(scale_guide_offset_2 > 1e-13 * scale_guide_offset_2)) return 2;
-    const double inverse_pivot_guide_offset_2 = 1.0/scale_guide_offset_2;
-    const double l_slider_x__guide_offset_2 = inverse_S9_mass*inverse_pivot_guide_offset_2;
-    const double l_O1_x__L1_theta_2 = -arm_L1_head_y*inverse_L1_inertia;
-    const double l_O1_y__L1_theta_2 = arm_L1_head_x*inverse_L1_inertia;
-    const double scale_O1_x_2 = -arm_L1_head_y*l_O1_x__L1_theta_2 + inverse_L1_mass;
-    if (!(scale_O1_x_2 > 1e-13 * scale_O1_x_2)) return 3;
-    const double inverse_pivot_O1_x_2 = 1.0/scale_O1_x_2;
-    const double w_O1_y__O1_x_2 = arm_L1_head_y*l_O1_y__L1_theta_2;
-    const double l_O1_y__O1_x_2 = -inverse_pivot_O1_x_2*w_O1_y__O1_x_2;
+    const double scale_guide_angle_3 = inverse_S9_inertia;
+    if (!(scale_guide_angle_3 > 1e-13 * scale_guide_angle_3)) return 1;
+    const double inverse_pivot_guide_angle_3 = 1.0/scale_guide_angle_3;
+    const double l_P2_x__L2_theta_3 = -arm_L2_head_y*inverse_L2_inertia;
+    const double l_P2_y__L2_theta_3 = arm_L2_head_x*inverse_L2_inertia;
+    const double l_P3_x__L3_theta_3 = -arm_L3_head_y*inverse_L3_inertia;
+    const double l_P3_y__L3_theta_3 = arm_L3_head_x*inverse_L3_inertia;
+    const double scale_guide_offset_3 = inverse_S9_mass;
+    if (!(scale_guide_offset_3 > 1e-13 * scale_guide_offset_3)) return 2;
+    const double inverse_pivot_guide_offset_3 = 1.0/scale_guide_offset_3;
+    const double l_slider_x__guide_offset_3 = inverse_S9_mass*inverse_pivot_guide_offset_3;
+    const double l_O1_x__L1_theta_3 = -arm_L1_head_y*inverse_L1_inertia;
+    const double l_O1_y__L1_theta_3 = arm_L1_head_x*inverse_L1_inertia;
+    const double scale_O1_x_3 = -arm_L1_head_y*l_O1_x__L1_theta_3 + inverse_L1_mass;
+    if (!(scale_O1_x_3 > 1e-13 * scale_O1_x_3)) return 3;
+    const double inverse_pivot_O1_x_3 = 1.0/scale_O1_x_3;
+    const double w_O1_y__O1_x_2 = arm_L1_head_y*l_O1_y__L1_theta_3;
+    const double l_O1_y__O1_x_3 = -inverse_pivot_O1_x_3*w_O1_y__O1_x_2;
     const double w_crank1__O1_x_2 = arm_L1_head_y*inverse_L1_inertia;
-    const double l_crank1__O1_x_2 = -inverse_pivot_O1_x_2*w_crank1__O1_x_2;
-    const double scale_O1_y_2 = arm_L1_head_x*l_O1_y__L1_theta_2 + inverse_L1_mass;
-    const double pivot_O1_y_2 = l_O1_y__O1_x_2*w_O1_y__O1_x_2 + scale_O1_y_2;
-    if (!(pivot_O1_y_2 > 1e-13 * scale_O1_y_2)) return 4;
-    const double inverse_pivot_O1_y_2 = 1.0/pivot_O1_y_2;
-    const double w_crank1__O1_y_2 = -arm_L1_head_x*inverse_L1_inertia - l_crank1__O1_x_2*w_O1_y__O1_x_2;
-    const double l_crank1__O1_y_2 = -inverse_pivot_O1_y_2*w_crank1__O1_y_2;
-    const double scale_crank1_2 = inverse_L1_inertia;
-    const double pivot_crank1_2 = l_crank1__O1_x_2*w_crank1__O1_x_2 + l_crank1__O1_y_2*w_crank1__O1_y_2 +
-        scale_crank1_2;
-    if (!(pivot_crank1_2 > 1e-13 * scale_crank1_2)) return 5;
-    const double inverse_pivot_crank1_2 = 1.0/pivot_crank1_2;
-    const double l_O4_x__L4_theta_2 = -arm_L4_head_y*inverse_L4_inertia;
-    const double l_O4_y__L4_theta_2 = arm_L4_head_x*inverse_L4_inertia;
-    const double scale_O4_x_2 = -arm_L4_head_y*l_O4_x__L4_theta_2 + inverse_L4_mass;
-    if (!(scale_O4_x_2 > 1e-13 * scale_O4_x_2)) return 6;
-    const double inverse_pivot_O4_x_2 = 1.0/scale_O4_x_2;
-    const double w_O4_y__O4_x_2 = arm_L4_head_y*l_O4_y__L4_theta_2;
-    const double l_O4_y__O4_x_2 = -inverse_pivot_O4_x_2*w_O4_y__O4_x_2;
+    const double l_crank1__O1_x_3 = -inverse_pivot_O1_x_3*w_crank1__O1_x_2;
+    const double scale_O1_y_3 = arm_L1_head_x*l_O1_y__L1_theta_3 + inverse_L1_mass;
+    const double pivot_O1_y_3 = l_O1_y__O1_x_3*w_O1_y__O1_x_2 + scale_O1_y_3;
+    if (!(pivot_O1_y_3 > 1e-13 * scale_O1_y_3)) return 4;
+    const double inverse_pivot_O1_y_3 = 1.0/pivot_O1_y_3;
+    const double w_crank1__O1_y_2 = -arm_L1_head_x*inverse_L1_inertia - l_crank1__O1_x_3*w_O1_y__O1_x_2;
+    const double l_crank1__O1_y_3 = -inverse_pivot_O1_y_3*w_crank1__O1_y_2;
+    const double scale_crank1_3 = inverse_L1_inertia;
+    const double pivot_crank1_3 = l_crank1__O1_x_3*w_crank1__O1_x_2 + l_crank1__O1_y_3*w_crank1__O1_y_2 +
+        scale_crank1_3;
+    if (!(pivot_crank1_3 > 1e-13 * scale_crank1_3)) return 5;
+    const double inverse_pivot_crank1_3 = 1.0/pivot_crank1_3;
+    const double l_O4_x__L4_theta_3 = -arm_L4_head_y*inverse_L4_inertia;
+    const double l_O4_y__L4_theta_3 = arm_L4_head_x*inverse_L4_inertia;
+    const double scale_O4_x_3 = -arm_L4_head_y*l_O4_x__L4_theta_3 + inverse_L4_mass;
+    if (!(scale_O4_x_3 > 1e-13 * scale_O4_x_3)) return 6;
+    const double inverse_pivot_O4_x_3 = 1.0/scale_O4_x_3;
+    const double w_O4_y__O4_x_2 = arm_L4_head_y*l_O4_y__L4_theta_3;
+    const double l_O4_y__O4_x_3 = -inverse_pivot_O4_x_3*w_O4_y__O4_x_2;
     const double w_crank4__O4_x_2 = arm_L4_head_y*inverse_L4_inertia;
-    const double l_crank4__O4_x_2 = -inverse_pivot_O4_x_2*w_crank4__O4_x_2;
-    const double scale_O4_y_2 = arm_L4_head_x*l_O4_y__L4_theta_2 + inverse_L4_mass;
-    const double pivot_O4_y_2 = l_O4_y__O4_x_2*w_O4_y__O4_x_2 + scale_O4_y_2;
-    if (!(pivot_O4_y_2 > 1e-13 * scale_O4_y_2)) return 7;
-    const double inverse_pivot_O4_y_2 = 1.0/pivot_O4_y_2;
-    const double w_crank4__O4_y_2 = -arm_L4_head_x*inverse_L4_inertia - l_crank4__O4_x_2*w_O4_y__O4_x_2;
-    const double l_crank4__O4_y_2 = -inverse_pivot_O4_y_2*w_crank4__O4_y_2;
-    const double scale_crank4_2 = inverse_L4_inertia;
-    const double pivot_crank4_2 = l_crank4__O4_x_2*w_crank4__O4_x_2 + l_crank4__O4_y_2*w_crank4__O4_y_2 +
-        scale_crank4_2;
-    if (!(pivot_crank4_2 > 1e-13 * scale_crank4_2)) return 8;
-    const double inverse_pivot_crank4_2 = 1.0/pivot_crank4_2;
-    const double l_O6_x__L6_theta_2 = -arm_L6_head_y*inverse_L6_inertia;
-    const double l_O6_y__L6_theta_2 = arm_L6_head_x*inverse_L6_inertia;
-    const double l_Q6_x__L6_theta_2 = arm_L6_head_y*inverse_L6_inertia;
-    const double l_Q6_y__L6_theta_2 = -arm_L6_head_x*inverse_L6_inertia;
-    const double scale_O6_x_2 = -arm_L6_head_y*l_O6_x__L6_theta_2 + inverse_L6_mass;
-    if (!(scale_O6_x_2 > 1e-13 * scale_O6_x_2)) return 9;
-    const double inverse_pivot_O6_x_2 = 1.0/scale_O6_x_2;
-    const double w_O6_y__O6_x_2 = arm_L6_head_y*l_O6_y__L6_theta_2;
-    const double l_O6_y__O6_x_2 = -inverse_pivot_O6_x_2*w_O6_y__O6_x_2;
-    const double w_Q6_x__O6_x_2 = arm_L6_head_y*l_Q6_x__L6_theta_2 - inverse_L6_mass;
-    const double l_Q6_x__O6_x_2 = -inverse_pivot_O6_x_2*w_Q6_x__O6_x_2;
-    const double w_Q6_y__O6_x_2 = arm_L6_head_y*l_Q6_y__L6_theta_2;
-    const double l_Q6_y__O6_x_2 = -inverse_pivot_O6_x_2*w_Q6_y__O6_x_2;
-    const double scale_O6_y_2 = arm_L6_head_x*l_O6_y__L6_theta_2 + inverse_L6_mass;
-    const double pivot_O6_y_2 = l_O6_y__O6_x_2*w_O6_y__O6_x_2 + scale_O6_y_2;
-    if (!(pivot_O6_y_2 > 1e-13 * scale_O6_y_2)) return 10;
-    const double inverse_pivot_O6_y_2 = 1.0/pivot_O6_y_2;
-    const double w_Q6_x__O6_y_2 = -arm_L6_head_x*l_Q6_x__L6_theta_2 - l_Q6_x__O6_x_2*w_O6_y__O6_x_2;
-    const double l_Q6_x__O6_y_2 = -inverse_pivot_O6_y_2*w_Q6_x__O6_y_2;
-    const double w_Q6_y__O6_y_2 = -arm_L6_head_x*l_Q6_y__L6_theta_2 - inverse_L6_mass -
-        l_Q6_y__O6_x_2*w_O6_y__O6_x_2;
-    const double l_Q6_y__O6_y_2 = -inverse_pivot_O6_y_2*w_Q6_y__O6_y_2;
-    const double l_slider_x__L8_theta_2 = -arm_L8_head_y*inverse_L8_inertia;
-    const double l_slider_y__L8_theta_2 = arm_L8_head_x*inverse_L8_inertia;
-    const double l_Q8_x__L8_theta_2 = -arm_L8_head_y*inverse_L8_inertia;
-    const double l_Q8_y__L8_theta_2 = arm_L8_head_x*inverse_L8_inertia;
-    const double scale_slider_x_2 = -arm_L8_head_y*l_slider_x__L8_theta_2 + inverse_L8_mass + inverse_S9_mass;
-    const double pivot_slider_x_2 = -inverse_S9_mass*l_slider_x__guide_offset_2 + scale_slider_x_2;
-    if (!(pivot_slider_x_2 > 1e-13 * scale_slider_x_2)) return 11;
-    const double inverse_pivot_slider_x_2 = 1.0/pivot_slider_x_2;
-    const double w_slider_y__slider_x_2 = arm_L8_head_y*l_slider_y__L8_theta_2;
-    const double l_slider_y__slider_x_2 = -inverse_pivot_slider_x_2*w_slider_y__slider_x_2;
-    const double w_Q8_x__slider_x_2 = arm_L8_head_y*l_Q8_x__L8_theta_2 + inverse_L8_mass;
-    const double l_Q8_x__slider_x_2 = -inverse_pivot_slider_x_2*w_Q8_x__slider_x_2;
-    const double w_Q8_y__slider_x_2 = arm_L8_head_y*l_Q8_y__L8_theta_2;
-    const double l_Q8_y__slider_x_2 = -inverse_pivot_slider_x_2*w_Q8_y__slider_x_2;
-    const double scale_slider_y_2 = arm_L8_head_x*l_slider_y__L8_theta_2 + inverse_L8_mass + inverse_S9_mass;
-    const double pivot_slider_y_2 = l_slider_y__slider_x_2*w_slider_y__slider_x_2 + scale_slider_y_2;
-    if (!(pivot_slider_y_2 > 1e-13 * scale_slider_y_2)) return 12;
-    const double inverse_pivot_slider_y_2 = 1.0/pivot_slider_y_2;
-    const double w_Q8_x__slider_y_2 = -arm_L8_head_x*l_Q8_x__L8_theta_2 -
-        l_Q8_x__slider_x_2*w_slider_y__slider_x_2;
-    const double l_Q8_x__slider_y_2 = -inverse_pivot_slider_y_2*w_Q8_x__slider_y_2;
-    const double w_Q8_y__slider_y_2 = -arm_L8_head_x*l_Q8_y__L8_theta_2 + inverse_L8_mass -
-        l_Q8_y__slider_x_2*w_slider_y__slider_x_2;
-    const double l_Q8_y__slider_y_2 = -inverse_pivot_slider_y_2*w_Q8_y__slider_y_2;
-    const double l_P2_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
-    const double l_P2_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
-    const double l_P3_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
-    const double l_P3_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
-    const double l_Q6_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
-    const double l_Q6_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
-    const double l_Q8_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
-    const double l_Q8_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
-    const double scale_P2_x_2 = -arm_L2_head_y*l_P2_x__L2_theta_2 - arm_L7_head_y*l_P2_x__L7_theta_2 +
+    const double l_crank4__O4_x_3 = -inverse_pivot_O4_x_3*w_crank4__O4_x_2;
+    const double scale_O4_y_3 = arm_L4_head_x*l_O4_y__L4_theta_3 + inverse_L4_mass;
+    const double pivot_O4_y_3 = l_O4_y__O4_x_3*w_O4_y__O4_x_2 + scale_O4_y_3;
+    if (!(pivot_O4_y_3 > 1e-13 * scale_O4_y_3)) return 7;
+    const double inverse_pivot_O4_y_3 = 1.0/pivot_O4_y_3;
+    const double w_crank4__O4_y_2 = -arm_L4_head_x*inverse_L4_inertia - l_crank4__O4_x_3*w_O4_y__O4_x_2;
+    const double l_crank4__O4_y_3 = -inverse_pivot_O4_y_3*w_crank4__O4_y_2;
+    const double scale_crank4_3 = inverse_L4_inertia;
+    const double pivot_crank4_3 = l_crank4__O4_x_3*w_crank4__O4_x_2 + l_crank4__O4_y_3*w_crank4__O4_y_2 +
+        scale_crank4_3;
+    if (!(pivot_crank4_3 > 1e-13 * scale_crank4_3)) return 8;
+    const double inverse_pivot_crank4_3 = 1.0/pivot_crank4_3;
+    const double l_O6_x__L6_theta_3 = -arm_L6_head_y*inverse_L6_inertia;
+    const double l_O6_y__L6_theta_3 = arm_L6_head_x*inverse_L6_inertia;
+    const double l_Q6_x__L6_theta_3 = arm_L6_head_y*inverse_L6_inertia;
+    const double l_Q6_y__L6_theta_3 = -arm_L6_head_x*inverse_L6_inertia;
+    const double scale_O6_x_3 = -arm_L6_head_y*l_O6_x__L6_theta_3 + inverse_L6_mass;
+    if (!(scale_O6_x_3 > 1e-13 * scale_O6_x_3)) return 9;
+    const double inverse_pivot_O6_x_3 = 1.0/scale_O6_x_3;
+    const double w_O6_y__O6_x_2 = arm_L6_head_y*l_O6_y__L6_theta_3;
+    const double l_O6_y__O6_x_3 = -inverse_pivot_O6_x_3*w_O6_y__O6_x_2;
+    const double w_Q6_x__O6_x_2 = arm_L6_head_y*l_Q6_x__L6_theta_3 - inverse_L6_mass;
+    const double l_Q6_x__O6_x_3 = -inverse_pivot_O6_x_3*w_Q6_x__O6_x_2;
+    const double w_Q6_y__O6_x_2 = arm_L6_head_y*l_Q6_y__L6_theta_3;
+    const double l_Q6_y__O6_x_3 = -inverse_pivot_O6_x_3*w_Q6_y__O6_x_2;
+    const double scale_O6_y_3 = arm_L6_head_x*l_O6_y__L6_theta_3 + inverse_L6_mass;
+    const double pivot_O6_y_3 = l_O6_y__O6_x_3*w_O6_y__O6_x_2 + scale_O6_y_3;
+    if (!(pivot_O6_y_3 > 1e-13 * scale_O6_y_3)) return 10;
+    const double inverse_pivot_O6_y_3 = 1.0/pivot_O6_y_3;
+    const double w_Q6_x__O6_y_2 = -arm_L6_head_x*l_Q6_x__L6_theta_3 - l_Q6_x__O6_x_3*w_O6_y__O6_x_2;
+    const double l_Q6_x__O6_y_3 = -inverse_pivot_O6_y_3*w_Q6_x__O6_y_2;
+    const double w_Q6_y__O6_y_2 = -arm_L6_head_x*l_Q6_y__L6_theta_3 - inverse_L6_mass -
+        l_Q6_y__O6_x_3*w_O6_y__O6_x_2;
+    const double l_Q6_y__O6_y_3 = -inverse_pivot_O6_y_3*w_Q6_y__O6_y_2;
+    const double l_slider_x__L8_theta_3 = -arm_L8_head_y*inverse_L8_inertia;
+    const double l_slider_y__L8_theta_3 = arm_L8_head_x*inverse_L8_inertia;
+    const double l_Q8_x__L8_theta_3 = -arm_L8_head_y*inverse_L8_inertia;
+    const double l_Q8_y__L8_theta_3 = arm_L8_head_x*inverse_L8_inertia;
+    const double scale_slider_x_3 = -arm_L8_head_y*l_slider_x__L8_theta_3 + inverse_L8_mass + inverse_S9_mass;
+    const double pivot_slider_x_3 = -inverse_S9_mass*l_slider_x__guide_offset_3 + scale_slider_x_3;
+    if (!(pivot_slider_x_3 > 1e-13 * scale_slider_x_3)) return 11;
+    const double inverse_pivot_slider_x_3 = 1.0/pivot_slider_x_3;
+    const double w_slider_y__slider_x_2 = arm_L8_head_y*l_slider_y__L8_theta_3;
+    const double l_slider_y__slider_x_3 = -inverse_pivot_slider_x_3*w_slider_y__slider_x_2;
+    const double w_Q8_x__slider_x_2 = arm_L8_head_y*l_Q8_x__L8_theta_3 + inverse_L8_mass;
+    const double l_Q8_x__slider_x_3 = -inverse_pivot_slider_x_3*w_Q8_x__slider_x_2;
+    const double w_Q8_y__slider_x_2 = arm_L8_head_y*l_Q8_y__L8_theta_3;
+    const double l_Q8_y__slider_x_3 = -inverse_pivot_slider_x_3*w_Q8_y__slider_x_2;
+    const double scale_slider_y_3 = arm_L8_head_x*l_slider_y__L8_theta_3 + inverse_L8_mass + inverse_S9_mass;
+    const double pivot_slider_y_3 = l_slider_y__slider_x_3*w_slider_y__slider_x_2 + scale_slider_y_3;
+    if (!(pivot_slider_y_3 > 1e-13 * scale_slider_y_3)) return 12;
+    const double inverse_pivot_slider_y_3 = 1.0/pivot_slider_y_3;
+    const double w_Q8_x__slider_y_2 = -arm_L8_head_x*l_Q8_x__L8_theta_3 -
+        l_Q8_x__slider_x_3*w_slider_y__slider_x_2;
+    const double l_Q8_x__slider_y_3 = -inverse_pivot_slider_y_3*w_Q8_x__slider_y_2;
+    const double w_Q8_y__slider_y_2 = -arm_L8_head_x*l_Q8_y__L8_theta_3 + inverse_L8_mass -
+        l_Q8_y__slider_x_3*w_slider_y__slider_x_2;
+    const double l_Q8_y__slider_y_3 = -inverse_pivot_slider_y_3*w_Q8_y__slider_y_2;
+    const double l_P2_x__L7_theta_3 = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_P2_y__L7_theta_3 = arm_L7_head_x*inverse_L7_inertia;
+    const double l_P3_x__L7_theta_3 = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_P3_y__L7_theta_3 = arm_L7_head_x*inverse_L7_inertia;
+    const double l_Q6_x__L7_theta_3 = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_Q6_y__L7_theta_3 = arm_L7_head_x*inverse_L7_inertia;
+    const double l_Q8_x__L7_theta_3 = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_Q8_y__L7_theta_3 = arm_L7_head_x*inverse_L7_inertia;
+    const double scale_P2_x_3 = -arm_L2_head_y*l_P2_x__L2_theta_3 - arm_L7_head_y*l_P2_x__L7_theta_3 +
         inverse_L2_mass + inverse_L7_mass;
-    if (!(scale_P2_x_2 > 1e-13 * scale_P2_x_2)) return 13;
-    const double inverse_pivot_P2_x_2 = 1.0/scale_P2_x_2;
-    const double w_P2_y__P2_x_2 = arm_L2_head_y*l_P2_y__L2_theta_2 + arm_L7_head_y*l_P2_y__L7_theta_2;
-    const double l_P2_y__P2_x_2 = -inverse_pivot_P2_x_2*w_P2_y__P2_x_2;
-    const double w_P3_x__P2_x_2 = arm_L7_head_y*l_P3_x__L7_theta_2 - inverse_L7_mass;
-    const double l_P3_x__P2_x_2 = -inverse_pivot_P2_x_2*w_P3_x__P2_x_2;
-    const double w_P3_y__P2_x_2 = arm_L7_head_y*l_P3_y__L7_theta_2;
-    const double l_P3_y__P2_x_2 = -inverse_pivot_P2_x_2*w_P3_y__P2_x_2;
-    const double w_Q6_x__P2_x_2 = arm_L7_head_y*l_Q6_x__L7_theta_2 + inverse_L7_mass;
-    const double l_Q6_x__P2_x_2 = -inverse_pivot_P2_x_2*w_Q6_x__P2_x_2;
-    const double w_Q6_y__P2_x_2 = arm_L7_head_y*l_Q6_y__L7_theta_2;
-    const double l_Q6_y__P2_x_2 = -inverse_pivot_P2_x_2*w_Q6_y__P2_x_2;
-    const double w_Q8_x__P2_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_2 + inverse_L7_mass;
-    const double l_Q8_x__P2_x_2 = -inverse_pivot_P2_x_2*w_Q8_x__P2_x_2;
-    const double w_Q8_y__P2_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2;
-    const double l_Q8_y__P2_x_2 = -inverse_pivot_P2_x_2*w_Q8_y__P2_x_2;
-    const double scale_P2_y_2 = arm_L2_head_x*l_P2_y__L2_theta_2 + arm_L7_head_x*l_P2_y__L7_theta_2 +
+    if (!(scale_P2_x_3 > 1e-13 * scale_P2_x_3)) return 13;
+    const double inverse_pivot_P2_x_3 = 1.0/scale_P2_x_3;
+    const double w_P2_y__P2_x_2 = arm_L2_head_y*l_P2_y__L2_theta_3 + arm_L7_head_y*l_P2_y__L7_theta_3;
+    const double l_P2_y__P2_x_3 = -inverse_pivot_P2_x_3*w_P2_y__P2_x_2;
+    const double w_P3_x__P2_x_2 = arm_L7_head_y*l_P3_x__L7_theta_3 - inverse_L7_mass;
+    const double l_P3_x__P2_x_3 = -inverse_pivot_P2_x_3*w_P3_x__P2_x_2;
+    const double w_P3_y__P2_x_2 = arm_L7_head_y*l_P3_y__L7_theta_3;
+    const double l_P3_y__P2_x_3 = -inverse_pivot_P2_x_3*w_P3_y__P2_x_2;
+    const double w_Q6_x__P2_x_2 = arm_L7_head_y*l_Q6_x__L7_theta_3 + inverse_L7_mass;
+    const double l_Q6_x__P2_x_3 = -inverse_pivot_P2_x_3*w_Q6_x__P2_x_2;
+    const double w_Q6_y__P2_x_2 = arm_L7_head_y*l_Q6_y__L7_theta_3;
+    const double l_Q6_y__P2_x_3 = -inverse_pivot_P2_x_3*w_Q6_y__P2_x_2;
+    const double w_Q8_x__P2_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_3 + inverse_L7_mass;
+    const double l_Q8_x__P2_x_3 = -inverse_pivot_P2_x_3*w_Q8_x__P2_x_2;
+    const double w_Q8_y__P2_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_3;
+    const double l_Q8_y__P2_x_3 = -inverse_pivot_P2_x_3*w_Q8_y__P2_x_2;
+    const double scale_P2_y_3 = arm_L2_head_x*l_P2_y__L2_theta_3 + arm_L7_head_x*l_P2_y__L7_theta_3 +
         inverse_L2_mass + inverse_L7_mass;
-    const double pivot_P2_y_2 = l_P2_y__P2_x_2*w_P2_y__P2_x_2 + scale_P2_y_2;
-    if (!(pivot_P2_y_2 > 1e-13 * scale_P2_y_2)) return 14;
-    const double inverse_pivot_P2_y_2 = 1.0/pivot_P2_y_2;
-    const double w_P3_x__P2_y_2 = -arm_L7_head_x*l_P3_x__L7_theta_2 - l_P3_x__P2_x_2*w_P2_y__P2_x_2;
-    const double l_P3_x__P2_y_2 = -inverse_pivot_P2_y_2*w_P3_x__P2_y_2;
-    const double w_P3_y__P2_y_2 = -arm_L7_head_x*l_P3_y__L7_theta_2 - inverse_L7_mass -
-        l_P3_y__P2_x_2*w_P2_y__P2_x_2;
-    const double l_P3_y__P2_y_2 = -inverse_pivot_P2_y_2*w_P3_y__P2_y_2;
-    const double w_Q6_x__P2_y_2 = -arm_L7_head_x*l_Q6_x__L7_theta_2 - l_Q6_x__P2_x_2*w_P2_y__P2_x_2;
-    const double l_Q6_x__P2_y_2 = -inverse_pivot_P2_y_2*w_Q6_x__P2_y_2;
-    const double w_Q6_y__P2_y_2 = -arm_L7_head_x*l_Q6_y__L7_theta_2 + inverse_L7_mass -
-        l_Q6_y__P2_x_2*w_P2_y__P2_x_2;
-    const double l_Q6_y__P2_y_2 = -inverse_pivot_P2_y_2*w_Q6_y__P2_y_2;
-    const double w_Q8_x__P2_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_P2_y__P2_x_2;
-    const double l_Q8_x__P2_y_2 = -inverse_pivot_P2_y_2*w_Q8_x__P2_y_2;
-    const double w_Q8_y__P2_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 + inverse_L7_mass -
-        l_Q8_y__P2_x_2*w_P2_y__P2_x_2;
-    const double l_Q8_y__P2_y_2 = -inverse_pivot_P2_y_2*w_Q8_y__P2_y_2;
-    const double scale_P3_x_2 = -arm_L3_head_y*l_P3_x__L3_theta_2 - arm_L7_head_y*l_P3_x__L7_theta_2 +
+    const double pivot_P2_y_3 = l_P2_y__P2_x_3*w_P2_y__P2_x_2 + scale_P2_y_3;
+    if (!(pivot_P2_y_3 > 1e-13 * scale_P2_y_3)) return 14;
+    const double inverse_pivot_P2_y_3 = 1.0/pivot_P2_y_3;
+    const double w_P3_x__P2_y_2 = -arm_L7_head_x*l_P3_x__L7_theta_3 - l_P3_x__P2_x_3*w_P2_y__P2_x_2;
+    const double l_P3_x__P2_y_3 = -inverse_pivot_P2_y_3*w_P3_x__P2_y_2;
+    const double w_P3_y__P2_y_2 = -arm_L7_head_x*l_P3_y__L7_theta_3 - inverse_L7_mass -
+        l_P3_y__P2_x_3*w_P2_y__P2_x_2;
+    const double l_P3_y__P2_y_3 = -inverse_pivot_P2_y_3*w_P3_y__P2_y_2;
+    const double w_Q6_x__P2_y_2 = -arm_L7_head_x*l_Q6_x__L7_theta_3 - l_Q6_x__P2_x_3*w_P2_y__P2_x_2;
+    const double l_Q6_x__P2_y_3 = -inverse_pivot_P2_y_3*w_Q6_x__P2_y_2;
+    const double w_Q6_y__P2_y_2 = -arm_L7_head_x*l_Q6_y__L7_theta_3 + inverse_L7_mass -
+        l_Q6_y__P2_x_3*w_P2_y__P2_x_2;
+    const double l_Q6_y__P2_y_3 = -inverse_pivot_P2_y_3*w_Q6_y__P2_y_2;
+    const double w_Q8_x__P2_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_3 - l_Q8_x__P2_x_3*w_P2_y__P2_x_2;
+    const double l_Q8_x__P2_y_3 = -inverse_pivot_P2_y_3*w_Q8_x__P2_y_2;
+    const double w_Q8_y__P2_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_3 + inverse_L7_mass -
+        l_Q8_y__P2_x_3*w_P2_y__P2_x_2;
+    const double l_Q8_y__P2_y_3 = -inverse_pivot_P2_y_3*w_Q8_y__P2_y_2;
+    const double scale_P3_x_3 = -arm_L3_head_y*l_P3_x__L3_theta_3 - arm_L7_head_y*l_P3_x__L7_theta_3 +
         inverse_L3_mass + inverse_L7_mass;
-    const double pivot_P3_x_2 = l_P3_x__P2_x_2*w_P3_x__P2_x_2 + l_P3_x__P2_y_2*w_P3_x__P2_y_2 + scale_P3_x_2;
-    if (!(pivot_P3_x_2 > 1e-13 * scale_P3_x_2)) return 15;
-    const double inverse_pivot_P3_x_2 = 1.0/pivot_P3_x_2;
-    const double w_P3_y__P3_x_2 = arm_L3_head_y*l_P3_y__L3_theta_2 + arm_L7_head_y*l_P3_y__L7_theta_2 -
-        l_P3_y__P2_x_2*w_P3_x__P2_x_2 - l_P3_y__P2_y_2*w_P3_x__P2_y_2;
-    const double l_P3_y__P3_x_2 = -inverse_pivot_P3_x_2*w_P3_y__P3_x_2;
-    const double w_Q6_x__P3_x_2 = arm_L7_head_y*l_Q6_x__L7_theta_2 + inverse_L7_mass -
-        l_Q6_x__P2_x_2*w_P3_x__P2_x_2 - l_Q6_x__P2_y_2*w_P3_x__P2_y_2;
-    const double l_Q6_x__P3_x_2 = -inverse_pivot_P3_x_2*w_Q6_x__P3_x_2;
-    const double w_Q6_y__P3_x_2 = arm_L7_head_y*l_Q6_y__L7_theta_2 - l_Q6_y__P2_x_2*w_P3_x__P2_x_2 -
-        l_Q6_y__P2_y_2*w_P3_x__P2_y_2;
-    const double l_Q6_y__P3_x_2 = -inverse_pivot_P3_x_2*w_Q6_y__P3_x_2;
-    const double w_Q8_x__P3_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_2 + inverse_L7_mass -
-        l_Q8_x__P2_x_2*w_P3_x__P2_x_2 - l_Q8_x__P2_y_2*w_P3_x__P2_y_2;
-    const double l_Q8_x__P3_x_2 = -inverse_pivot_P3_x_2*w_Q8_x__P3_x_2;
-    const double w_Q8_y__P3_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 - l_Q8_y__P2_x_2*w_P3_x__P2_x_2 -
-        l_Q8_y__P2_y_2*w_P3_x__P2_y_2;
-    const double l_Q8_y__P3_x_2 = -inverse_pivot_P3_x_2*w_Q8_y__P3_x_2;
-    const double scale_P3_y_2 = arm_L3_head_x*l_P3_y__L3_theta_2 + arm_L7_head_x*l_P3_y__L7_theta_2 +
+    const double pivot_P3_x_3 = l_P3_x__P2_x_3*w_P3_x__P2_x_2 + l_P3_x__P2_y_3*w_P3_x__P2_y_2 + scale_P3_x_3;
+    if (!(pivot_P3_x_3 > 1e-13 * scale_P3_x_3)) return 15;
+    const double inverse_pivot_P3_x_3 = 1.0/pivot_P3_x_3;
+    const double w_P3_y__P3_x_2 = arm_L3_head_y*l_P3_y__L3_theta_3 + arm_L7_head_y*l_P3_y__L7_theta_3 -
+        l_P3_y__P2_x_3*w_P3_x__P2_x_2 - l_P3_y__P2_y_3*w_P3_x__P2_y_2;
+    const double l_P3_y__P3_x_3 = -inverse_pivot_P3_x_3*w_P3_y__P3_x_2;
+    const double w_Q6_x__P3_x_2 = arm_L7_head_y*l_Q6_x__L7_theta_3 + inverse_L7_mass -
+        l_Q6_x__P2_x_3*w_P3_x__P2_x_2 - l_Q6_x__P2_y_3*w_P3_x__P2_y_2;
+    const double l_Q6_x__P3_x_3 = -inverse_pivot_P3_x_3*w_Q6_x__P3_x_2;
+    const double w_Q6_y__P3_x_2 = arm_L7_head_y*l_Q6_y__L7_theta_3 - l_Q6_y__P2_x_3*w_P3_x__P2_x_2 -
+        l_Q6_y__P2_y_3*w_P3_x__P2_y_2;
+    const double l_Q6_y__P3_x_3 = -inverse_pivot_P3_x_3*w_Q6_y__P3_x_2;
+    const double w_Q8_x__P3_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_3 + inverse_L7_mass -
+        l_Q8_x__P2_x_3*w_P3_x__P2_x_2 - l_Q8_x__P2_y_3*w_P3_x__P2_y_2;
+    const double l_Q8_x__P3_x_3 = -inverse_pivot_P3_x_3*w_Q8_x__P3_x_2;
+    const double w_Q8_y__P3_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_3 - l_Q8_y__P2_x_3*w_P3_x__P2_x_2 -
+        l_Q8_y__P2_y_3*w_P3_x__P2_y_2;
+    const double l_Q8_y__P3_x_3 = -inverse_pivot_P3_x_3*w_Q8_y__P3_x_2;
+    const double scale_P3_y_3 = arm_L3_head_x*l_P3_y__L3_theta_3 + arm_L7_head_x*l_P3_y__L7_theta_3 +
         inverse_L3_mass + inverse_L7_mass;
-    const double pivot_P3_y_2 = l_P3_y__P2_x_2*w_P3_y__P2_x_2 + l_P3_y__P2_y_2*w_P3_y__P2_y_2 +
-        l_P3_y__P3_x_2*w_P3_y__P3_x_2 + scale_P3_y_2;
-    if (!(pivot_P3_y_2 > 1e-13 * scale_P3_y_2)) return 16;
-    const double inverse_pivot_P3_y_2 = 1.0/pivot_P3_y_2;
-    const double w_Q6_x__P3_y_2 = -arm_L7_head_x*l_Q6_x__L7_theta_2 - l_Q6_x__P2_x_2*w_P3_y__P2_x_2 -
-        l_Q6_x__P2_y_2*w_P3_y__P2_y_2 - l_Q6_x__P3_x_2*w_P3_y__P3_x_2;
-    const double l_Q6_x__P3_y_2 = -inverse_pivot_P3_y_2*w_Q6_x__P3_y_2;
-    const double w_Q6_y__P3_y_2 = -arm_L7_head_x*l_Q6_y__L7_theta_2 + inverse_L7_mass -
-        l_Q6_y__P2_x_2*w_P3_y__P2_x_2 - l_Q6_y__P2_y_2*w_P3_y__P2_y_2 - l_Q6_y__P3_x_2*w_P3_y__P3_x_2;
-    const double l_Q6_y__P3_y_2 = -inverse_pivot_P3_y_2*w_Q6_y__P3_y_2;
-    const double w_Q8_x__P3_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_P3_y__P2_x_2 -
-        l_Q8_x__P2_y_2*w_P3_y__P2_y_2 - l_Q8_x__P3_x_2*w_P3_y__P3_x_2;
-    const double l_Q8_x__P3_y_2 = -inverse_pivot_P3_y_2*w_Q8_x__P3_y_2;
-    const double w_Q8_y__P3_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 + inverse_L7_mass -
-        l_Q8_y__P2_x_2*w_P3_y__P2_x_2 - l_Q8_y__P2_y_2*w_P3_y__P2_y_2 - l_Q8_y__P3_x_2*w_P3_y__P3_x_2;
-    const double l_Q8_y__P3_y_2 = -inverse_pivot_P3_y_2*w_Q8_y__P3_y_2;
-    const double scale_Q6_x_2 = arm_L6_head_y*l_Q6_x__L6_theta_2 - arm_L7_head_y*l_Q6_x__L7_theta_2 +
+    const double pivot_P3_y_3 = l_P3_y__P2_x_3*w_P3_y__P2_x_2 + l_P3_y__P2_y_3*w_P3_y__P2_y_2 +
+        l_P3_y__P3_x_3*w_P3_y__P3_x_2 + scale_P3_y_3;
+    if (!(pivot_P3_y_3 > 1e-13 * scale_P3_y_3)) return 16;
+    const double inverse_pivot_P3_y_3 = 1.0/pivot_P3_y_3;
+    const double w_Q6_x__P3_y_2 = -arm_L7_head_x*l_Q6_x__L7_theta_3 - l_Q6_x__P2_x_3*w_P3_y__P2_x_2 -
+        l_Q6_x__P2_y_3*w_P3_y__P2_y_2 - l_Q6_x__P3_x_3*w_P3_y__P3_x_2;
+    const double l_Q6_x__P3_y_3 = -inverse_pivot_P3_y_3*w_Q6_x__P3_y_2;
+    const double w_Q6_y__P3_y_2 = -arm_L7_head_x*l_Q6_y__L7_theta_3 + inverse_L7_mass -
+        l_Q6_y__P2_x_3*w_P3_y__P2_x_2 - l_Q6_y__P2_y_3*w_P3_y__P2_y_2 - l_Q6_y__P3_x_3*w_P3_y__P3_x_2;
+    const double l_Q6_y__P3_y_3 = -inverse_pivot_P3_y_3*w_Q6_y__P3_y_2;
+    const double w_Q8_x__P3_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_3 - l_Q8_x__P2_x_3*w_P3_y__P2_x_2 -
+        l_Q8_x__P2_y_3*w_P3_y__P2_y_2 - l_Q8_x__P3_x_3*w_P3_y__P3_x_2;
+    const double l_Q8_x__P3_y_3 = -inverse_pivot_P3_y_3*w_Q8_x__P3_y_2;
+    const double w_Q8_y__P3_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_3 + inverse_L7_mass -
+        l_Q8_y__P2_x_3*w_P3_y__P2_x_2 - l_Q8_y__P2_y_3*w_P3_y__P2_y_2 - l_Q8_y__P3_x_3*w_P3_y__P3_x_2;
+    const double l_Q8_y__P3_y_3 = -inverse_pivot_P3_y_3*w_Q8_y__P3_y_2;
+    const double scale_Q6_x_3 = arm_L6_head_y*l_Q6_x__L6_theta_3 - arm_L7_head_y*l_Q6_x__L7_theta_3 +
         inverse_L6_mass + inverse_L7_mass;
-    const double pivot_Q6_x_2 = l_Q6_x__O6_x_2*w_Q6_x__O6_x_2 + l_Q6_x__O6_y_2*w_Q6_x__O6_y_2 +
-        l_Q6_x__P2_x_2*w_Q6_x__P2_x_2 + l_Q6_x__P2_y_2*w_Q6_x__P2_y_2 + l_Q6_x__P3_x_2*w_Q6_x__P3_x_2 +
-        l_Q6_x__P3_y_2*w_Q6_x__P3_y_2 + scale_Q6_x_2;
-    if (!(pivot_Q6_x_2 > 1e-13 * scale_Q6_x_2)) return 17;
-    const double inverse_pivot_Q6_x_2 = 1.0/pivot_Q6_x_2;
-    const double w_Q6_y__Q6_x_2 = -arm_L6_head_y*l_Q6_y__L6_theta_2 + arm_L7_head_y*l_Q6_y__L7_theta_2 -
-        l_Q6_y__O6_x_2*w_Q6_x__O6_x_2 - l_Q6_y__O6_y_2*w_Q6_x__O6_y_2 - l_Q6_y__P2_x_2*w_Q6_x__P2_x_2 -
-        l_Q6_y__P2_y_2*w_Q6_x__P2_y_2 - l_Q6_y__P3_x_2*w_Q6_x__P3_x_2 - l_Q6_y__P3_y_2*w_Q6_x__P3_y_2;
-    const double l_Q6_y__Q6_x_2 = -inverse_pivot_Q6_x_2*w_Q6_y__Q6_x_2;
-    const double w_Q8_x__Q6_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_2 - inverse_L7_mass -
-        l_Q8_x__P2_x_2*w_Q6_x__P2_x_2 - l_Q8_x__P2_y_2*w_Q6_x__P2_y_2 - l_Q8_x__P3_x_2*w_Q6_x__P3_x_2 -
-        l_Q8_x__P3_y_2*w_Q6_x__P3_y_2;
-    const double l_Q8_x__Q6_x_2 = -inverse_pivot_Q6_x_2*w_Q8_x__Q6_x_2;
-    const double w_Q8_y__Q6_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 - l_Q8_y__P2_x_2*w_Q6_x__P2_x_2 -
-        l_Q8_y__P2_y_2*w_Q6_x__P2_y_2 - l_Q8_y__P3_x_2*w_Q6_x__P3_x_2 - l_Q8_y__P3_y_2*w_Q6_x__P3_y_2;
-    const double l_Q8_y__Q6_x_2 = -inverse_pivot_Q6_x_2*w_Q8_y__Q6_x_2;
-    const double scale_Q6_y_2 = -arm_L6_head_x*l_Q6_y__L6_theta_2 + arm_L7_head_x*l_Q6_y__L7_theta_2 +
+    const double pivot_Q6_x_3 = l_Q6_x__O6_x_3*w_Q6_x__O6_x_2 + l_Q6_x__O6_y_3*w_Q6_x__O6_y_2 +
+        l_Q6_x__P2_x_3*w_Q6_x__P2_x_2 + l_Q6_x__P2_y_3*w_Q6_x__P2_y_2 + l_Q6_x__P3_x_3*w_Q6_x__P3_x_2 +
+        l_Q6_x__P3_y_3*w_Q6_x__P3_y_2 + scale_Q6_x_3;
+    if (!(pivot_Q6_x_3 > 1e-13 * scale_Q6_x_3)) return 17;
+    const double inverse_pivot_Q6_x_3 = 1.0/pivot_Q6_x_3;
+    const double w_Q6_y__Q6_x_2 = -arm_L6_head_y*l_Q6_y__L6_theta_3 + arm_L7_head_y*l_Q6_y__L7_theta_3 -
+        l_Q6_y__O6_x_3*w_Q6_x__O6_x_2 - l_Q6_y__O6_y_3*w_Q6_x__O6_y_2 - l_Q6_y__P2_x_3*w_Q6_x__P2_x_2 -
+        l_Q6_y__P2_y_3*w_Q6_x__P2_y_2 - l_Q6_y__P3_x_3*w_Q6_x__P3_x_2 - l_Q6_y__P3_y_3*w_Q6_x__P3_y_2;
+    const double l_Q6_y__Q6_x_3 = -inverse_pivot_Q6_x_3*w_Q6_y__Q6_x_2;
+    const double w_Q8_x__Q6_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_3 - inverse_L7_mass -
+        l_Q8_x__P2_x_3*w_Q6_x__P2_x_2 - l_Q8_x__P2_y_3*w_Q6_x__P2_y_2 - l_Q8_x__P3_x_3*w_Q6_x__P3_x_2 -
+        l_Q8_x__P3_y_3*w_Q6_x__P3_y_2;
+    const double l_Q8_x__Q6_x_3 = -inverse_pivot_Q6_x_3*w_Q8_x__Q6_x_2;
+    const double w_Q8_y__Q6_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_3 - l_Q8_y__P2_x_3*w_Q6_x__P2_x_2 -
+        l_Q8_y__P2_y_3*w_Q6_x__P2_y_2 - l_Q8_y__P3_x_3*w_Q6_x__P3_x_2 - l_Q8_y__P3_y_3*w_Q6_x__P3_y_2;
+    const double l_Q8_y__Q6_x_3 = -inverse_pivot_Q6_x_3*w_Q8_y__Q6_x_2;
+    const double scale_Q6_y_3 = -arm_L6_head_x*l_Q6_y__L6_theta_3 + arm_L7_head_x*l_Q6_y__L7_theta_3 +
         inverse_L6_mass + inverse_L7_mass;
-    const double pivot_Q6_y_2 = l_Q6_y__O6_x_2*w_Q6_y__O6_x_2 + l_Q6_y__O6_y_2*w_Q6_y__O6_y_2 +
-        l_Q6_y__P2_x_2*w_Q6_y__P2_x_2 + l_Q6_y__P2_y_2*w_Q6_y__P2_y_2 + l_Q6_y__P3_x_2*w_Q6_y__P3_x_2 +
-        l_Q6_y__P3_y_2*w_Q6_y__P3_y_2 + l_Q6_y__Q6_x_2*w_Q6_y__Q6_x_2 + scale_Q6_y_2;
-    if (!(pivot_Q6_y_2 > 1e-13 * scale_Q6_y_2)) return 18;
-    const double inverse_pivot_Q6_y_2 = 1.0/pivot_Q6_y_2;
-    const double w_Q8_x__Q6_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_Q6_y__P2_x_2 -
-        l_Q8_x__P2_y_2*w_Q6_y__P2_y_2 - l_Q8_x__P3_x_2*w_Q6_y__P3_x_2 - l_Q8_x__P3_y_2*w_Q6_y__P3_y_2 -
-        l_Q8_x__Q6_x_2*w_Q6_y__Q6_x_2;
-    const double l_Q8_x__Q6_y_2 = -inverse_pivot_Q6_y_2*w_Q8_x__Q6_y_2;
-    const double w_Q8_y__Q6_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 - inverse_L7_mass -
-        l_Q8_y__P2_x_2*w_Q6_y__P2_x_2 - l_Q8_y__P2_y_2*w_Q6_y__P2_y_2 - l_Q8_y__P3_x_2*w_Q6_y__P3_x_2 -
-        l_Q8_y__P3_y_2*w_Q6_y__P3_y_2 - l_Q8_y__Q6_x_2*w_Q6_y__Q6_x_2;
-    const double l_Q8_y__Q6_y_2 = -inverse_pivot_Q6_y_2*w_Q8_y__Q6_y_2;
-    const double scale_Q8_x_2 = -arm_L7_head_y*l_Q8_x__L7_theta_2 - arm_L8_head_y*l_Q8_x__L8_theta_2 +
+    const double pivot_Q6_y_3 = l_Q6_y__O6_x_3*w_Q6_y__O6_x_2 + l_Q6_y__O6_y_3*w_Q6_y__O6_y_2 +
+        l_Q6_y__P2_x_3*w_Q6_y__P2_x_2 + l_Q6_y__P2_y_3*w_Q6_y__P2_y_2 + l_Q6_y__P3_x_3*w_Q6_y__P3_x_2 +
+        l_Q6_y__P3_y_3*w_Q6_y__P3_y_2 + l_Q6_y__Q6_x_3*w_Q6_y__Q6_x_2 + scale_Q6_y_3;
+    if (!(pivot_Q6_y_3 > 1e-13 * scale_Q6_y_3)) return 18;
+    const double inverse_pivot_Q6_y_3 = 1.0/pivot_Q6_y_3;
+    const double w_Q8_x__Q6_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_3 - l_Q8_x__P2_x_3*w_Q6_y__P2_x_2 -
+        l_Q8_x__P2_y_3*w_Q6_y__P2_y_2 - l_Q8_x__P3_x_3*w_Q6_y__P3_x_2 - l_Q8_x__P3_y_3*w_Q6_y__P3_y_2 -
+        l_Q8_x__Q6_x_3*w_Q6_y__Q6_x_2;
+    const double l_Q8_x__Q6_y_3 = -inverse_pivot_Q6_y_3*w_Q8_x__Q6_y_2;
+    const double w_Q8_y__Q6_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_3 - inverse_L7_mass -
+        l_Q8_y__P2_x_3*w_Q6_y__P2_x_2 - l_Q8_y__P2_y_3*w_Q6_y__P2_y_2 - l_Q8_y__P3_x_3*w_Q6_y__P3_x_2 -
+        l_Q8_y__P3_y_3*w_Q6_y__P3_y_2 - l_Q8_y__Q6_x_3*w_Q6_y__Q6_x_2;
+    const double l_Q8_y__Q6_y_3 = -inverse_pivot_Q6_y_3*w_Q8_y__Q6_y_2;
+    const double scale_Q8_x_3 = -arm_L7_head_y*l_Q8_x__L7_theta_3 - arm_L8_head_y*l_Q8_x__L8_theta_3 +
         inverse_L7_mass + inverse_L8_mass;
-    const double pivot_Q8_x_2 = l_Q8_x__P2_x_2*w_Q8_x__P2_x_2 + l_Q8_x__P2_y_2*w_Q8_x__P2_y_2 +
-        l_Q8_x__P3_x_2*w_Q8_x__P3_x_2 + l_Q8_x__P3_y_2*w_Q8_x__P3_y_2 + l_Q8_x__Q6_x_2*w_Q8_x__Q6_x_2 +
-        l_Q8_x__Q6_y_2*w_Q8_x__Q6_y_2 + l_Q8_x__slider_x_2*w_Q8_x__slider_x_2 +
-        l_Q8_x__slider_y_2*w_Q8_x__slider_y_2 + scale_Q8_x_2;
-    if (!(pivot_Q8_x_2 > 1e-13 * scale_Q8_x_2)) return 19;
-    const double inverse_pivot_Q8_x_2 = 1.0/pivot_Q8_x_2;
-    const double w_Q8_y__Q8_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 + arm_L8_head_y*l_Q8_y__L8_theta_2 -
-        l_Q8_y__P2_x_2*w_Q8_x__P2_x_2 - l_Q8_y__P2_y_2*w_Q8_x__P2_y_2 - l_Q8_y__P3_x_2*w_Q8_x__P3_x_2 -
-        l_Q8_y__P3_y_2*w_Q8_x__P3_y_2 - l_Q8_y__Q6_x_2*w_Q8_x__Q6_x_2 - l_Q8_y__Q6_y_2*w_Q8_x__Q6_y_2 -
-        l_Q8_y__slider_x_2*w_Q8_x__slider_x_2 - l_Q8_y__slider_y_2*w_Q8_x__slider_y_2;
-    const double l_Q8_y__Q8_x_2 = -inverse_pivot_Q8_x_2*w_Q8_y__Q8_x_2;
-    const double scale_Q8_y_2 = arm_L7_head_x*l_Q8_y__L7_theta_2 + arm_L8_head_x*l_Q8_y__L8_theta_2 +
+    const double pivot_Q8_x_3 = l_Q8_x__P2_x_3*w_Q8_x__P2_x_2 + l_Q8_x__P2_y_3*w_Q8_x__P2_y_2 +
+        l_Q8_x__P3_x_3*w_Q8_x__P3_x_2 + l_Q8_x__P3_y_3*w_Q8_x__P3_y_2 + l_Q8_x__Q6_x_3*w_Q8_x__Q6_x_2 +
+        l_Q8_x__Q6_y_3*w_Q8_x__Q6_y_2 + l_Q8_x__slider_x_3*w_Q8_x__slider_x_2 +
+        l_Q8_x__slider_y_3*w_Q8_x__slider_y_2 + scale_Q8_x_3;
+    if (!(pivot_Q8_x_3 > 1e-13 * scale_Q8_x_3)) return 19;
+    const double inverse_pivot_Q8_x_3 = 1.0/pivot_Q8_x_3;
+    const double w_Q8_y__Q8_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_3 + arm_L8_head_y*l_Q8_y__L8_theta_3 -
+        l_Q8_y__P2_x_3*w_Q8_x__P2_x_2 - l_Q8_y__P2_y_3*w_Q8_x__P2_y_2 - l_Q8_y__P3_x_3*w_Q8_x__P3_x_2 -
+        l_Q8_y__P3_y_3*w_Q8_x__P3_y_2 - l_Q8_y__Q6_x_3*w_Q8_x__Q6_x_2 - l_Q8_y__Q6_y_3*w_Q8_x__Q6_y_2 -
+        l_Q8_y__slider_x_3*w_Q8_x__slider_x_2 - l_Q8_y__slider_y_3*w_Q8_x__slider_y_2;
+    const double l_Q8_y__Q8_x_3 = -inverse_pivot_Q8_x_3*w_Q8_y__Q8_x_2;
+    const double scale_Q8_y_3 = arm_L7_head_x*l_Q8_y__L7_theta_3 + arm_L8_head_x*l_Q8_y__L8_theta_3 +
         inverse_L7_mass + inverse_L8_mass;
-    const double pivot_Q8_y_2 = l_Q8_y__P2_x_2*w_Q8_y__P2_x_2 + l_Q8_y__P2_y_2*w_Q8_y__P2_y_2 +
-        l_Q8_y__P3_x_2*w_Q8_y__P3_x_2 + l_Q8_y__P3_y_2*w_Q8_y__P3_y_2 + l_Q8_y__Q6_x_2*w_Q8_y__Q6_x_2 +
-        l_Q8_y__Q6_y_2*w_Q8_y__Q6_y_2 + l_Q8_y__Q8_x_2*w_Q8_y__Q8_x_2 + l_Q8_y__slider_x_2*w_Q8_y__slider_x_2
-        + l_Q8_y__slider_y_2*w_Q8_y__slider_y_2 + scale_Q8_y_2;
-    if (!(pivot_Q8_y_2 > 1e-13 * scale_Q8_y_2)) return 20;
-    const double inverse_pivot_Q8_y_2 = 1.0/pivot_Q8_y_2;
+    const double pivot_Q8_y_3 = l_Q8_y__P2_x_3*w_Q8_y__P2_x_2 + l_Q8_y__P2_y_3*w_Q8_y__P2_y_2 +
+        l_Q8_y__P3_x_3*w_Q8_y__P3_x_2 + l_Q8_y__P3_y_3*w_Q8_y__P3_y_2 + l_Q8_y__Q6_x_3*w_Q8_y__Q6_x_2 +
+        l_Q8_y__Q6_y_3*w_Q8_y__Q6_y_2 + l_Q8_y__Q8_x_3*w_Q8_y__Q8_x_2 + l_Q8_y__slider_x_3*w_Q8_y__slider_x_2
+        + l_Q8_y__slider_y_3*w_Q8_y__slider_y_2 + scale_Q8_y_3;
+    if (!(pivot_Q8_y_3 > 1e-13 * scale_Q8_y_3)) return 20;
+    const double inverse_pivot_Q8_y_3 = 1.0/pivot_Q8_y_3;
 
     /* forward substitution */
-    const double dq_z_O1_y = -l_O1_y__O1_x_2*phi_O1_x_2 + phi_O1_y_2;
-    const double dq_z_crank1 = -dq_z_O1_y*l_crank1__O1_y_2 - l_crank1__O1_x_2*phi_O1_x_2 + phi_crank1_2;
-    const double dq_z_O4_y = -l_O4_y__O4_x_2*phi_O4_x_2 + phi_O4_y_2;
-    const double dq_z_crank4 = -dq_z_O4_y*l_crank4__O4_y_2 - l_crank4__O4_x_2*phi_O4_x_2 + phi_crank4_2;
-    const double dq_z_O6_y = -l_O6_y__O6_x_2*phi_O6_x_2 + phi_O6_y_2;
-    const double dq_z_slider_x = -l_slider_x__guide_offset_2*phi_guide_offset_2 + phi_slider_x_2;
-    const double dq_z_slider_y = -dq_z_slider_x*l_slider_y__slider_x_2 + phi_slider_y_2;
-    const double dq_z_P2_y = -l_P2_y__P2_x_2*phi_P2_x_2 + phi_P2_y_2;
-    const double dq_z_P3_x = -dq_z_P2_y*l_P3_x__P2_y_2 - l_P3_x__P2_x_2*phi_P2_x_2 + phi_P3_x_2;
-    const double dq_z_P3_y = -dq_z_P2_y*l_P3_y__P2_y_2 - dq_z_P3_x*l_P3_y__P3_x_2 - l_P3_y__P2_x_2*phi_P2_x_2
+    const double dq_z_O1_y = -l_O1_y__O1_x_3*phi_O1_x_2 + phi_O1_y_2;
+    const double dq_z_crank1 = -dq_z_O1_y*l_crank1__O1_y_3 - l_crank1__O1_x_3*phi_O1_x_2 + phi_crank1_2;
+    const double dq_z_O4_y = -l_O4_y__O4_x_3*phi_O4_x_2 + phi_O4_y_2;
+    const double dq_z_crank4 = -dq_z_O4_y*l_crank4__O4_y_3 - l_crank4__O4_x_3*phi_O4_x_2 + phi_crank4_2;
+    const double dq_z_O6_y = -l_O6_y__O6_x_3*phi_O6_x_2 + phi_O6_y_2;
+    const double dq_z_slider_x = -l_slider_x__guide_offset_3*phi_guide_offset_2 + phi_slider_x_2;
+    const double dq_z_slider_y = -dq_z_slider_x*l_slider_y__slider_x_3 + phi_slider_y_2;
+    const double dq_z_P2_y = -l_P2_y__P2_x_3*phi_P2_x_2 + phi_P2_y_2;
+    const double dq_z_P3_x = -dq_z_P2_y*l_P3_x__P2_y_3 - l_P3_x__P2_x_3*phi_P2_x_2 + phi_P3_x_2;
+    const double dq_z_P3_y = -dq_z_P2_y*l_P3_y__P2_y_3 - dq_z_P3_x*l_P3_y__P3_x_3 - l_P3_y__P2_x_3*phi_P2_x_2
         + phi_P3_y_2;
-    const double dq_z_Q6_x = -dq_z_O6_y*l_Q6_x__O6_y_2 - dq_z_P2_y*l_Q6_x__P2_y_2 - dq_z_P3_x*l_Q6_x__P3_x_2 -
-        dq_z_P3_y*l_Q6_x__P3_y_2 - l_Q6_x__O6_x_2*phi_O6_x_2 - l_Q6_x__P2_x_2*phi_P2_x_2 + phi_Q6_x_2;
-    const double dq_z_Q6_y = -dq_z_O6_y*l_Q6_y__O6_y_2 - dq_z_P2_y*l_Q6_y__P2_y_2 - dq_z_P3_x*l_Q6_y__P3_x_2 -
-        dq_z_P3_y*l_Q6_y__P3_y_2 - dq_z_Q6_x*l_Q6_y__Q6_x_2 - l_Q6_y__O6_x_2*phi_O6_x_2 -
-        l_Q6_y__P2_x_2*phi_P2_x_2 + phi_Q6_y_2;
-    const double dq_z_Q8_x = -dq_z_P2_y*l_Q8_x__P2_y_2 - dq_z_P3_x*l_Q8_x__P3_x_2 - dq_z_P3_y*l_Q8_x__P3_y_2 -
-        dq_z_Q6_x*l_Q8_x__Q6_x_2 - dq_z_Q6_y*l_Q8_x__Q6_y_2 - dq_z_slider_x*l_Q8_x__slider_x_2 -
-        dq_z_slider_y*l_Q8_x__slider_y_2 - l_Q8_x__P2_x_2*phi_P2_x_2 + phi_Q8_x_2;
-    const double dq_z_Q8_y = -dq_z_P2_y*l_Q8_y__P2_y_2 - dq_z_P3_x*l_Q8_y__P3_x_2 - dq_z_P3_y*l_Q8_y__P3_y_2 -
-        dq_z_Q6_x*l_Q8_y__Q6_x_2 - dq_z_Q6_y*l_Q8_y__Q6_y_2 - dq_z_Q8_x*l_Q8_y__Q8_x_2 -
-        dq_z_slider_x*l_Q8_y__slider_x_2 - dq_z_slider_y*l_Q8_y__slider_y_2 - l_Q8_y__P2_x_2*phi_P2_x_2 +
+    const double dq_z_Q6_x = -dq_z_O6_y*l_Q6_x__O6_y_3 - dq_z_P2_y*l_Q6_x__P2_y_3 - dq_z_P3_x*l_Q6_x__P3_x_3 -
+        dq_z_P3_y*l_Q6_x__P3_y_3 - l_Q6_x__O6_x_3*phi_O6_x_2 - l_Q6_x__P2_x_3*phi_P2_x_2 + phi_Q6_x_2;
+    const double dq_z_Q6_y = -dq_z_O6_y*l_Q6_y__O6_y_3 - dq_z_P2_y*l_Q6_y__P2_y_3 - dq_z_P3_x*l_Q6_y__P3_x_3 -
+        dq_z_P3_y*l_Q6_y__P3_y_3 - dq_z_Q6_x*l_Q6_y__Q6_x_3 - l_Q6_y__O6_x_3*phi_O6_x_2 -
+        l_Q6_y__P2_x_3*phi_P2_x_2 + phi_Q6_y_2;
+    const double dq_z_Q8_x = -dq_z_P2_y*l_Q8_x__P2_y_3 - dq_z_P3_x*l_Q8_x__P3_x_3 - dq_z_P3_y*l_Q8_x__P3_y_3 -
+        dq_z_Q6_x*l_Q8_x__Q6_x_3 - dq_z_Q6_y*l_Q8_x__Q6_y_3 - dq_z_slider_x*l_Q8_x__slider_x_3 -
+        dq_z_slider_y*l_Q8_x__slider_y_3 - l_Q8_x__P2_x_3*phi_P2_x_2 + phi_Q8_x_2;
+    const double dq_z_Q8_y = -dq_z_P2_y*l_Q8_y__P2_y_3 - dq_z_P3_x*l_Q8_y__P3_x_3 - dq_z_P3_y*l_Q8_y__P3_y_3 -
+        dq_z_Q6_x*l_Q8_y__Q6_x_3 - dq_z_Q6_y*l_Q8_y__Q6_y_3 - dq_z_Q8_x*l_Q8_y__Q8_x_3 -
+        dq_z_slider_x*l_Q8_y__slider_x_3 - dq_z_slider_y*l_Q8_y__slider_y_3 - l_Q8_y__P2_x_3*phi_P2_x_2 +
         phi_Q8_y_2;
 
     /* backward substitution */
-    const double dq_lambda_Q8_y = -dq_z_Q8_y*inverse_pivot_Q8_y_2;
-    const double dq_lambda_Q8_x = -dq_lambda_Q8_y*l_Q8_y__Q8_x_2 - dq_z_Q8_x*inverse_pivot_Q8_x_2;
-    const double dq_lambda_Q6_y = -dq_lambda_Q8_x*l_Q8_x__Q6_y_2 - dq_lambda_Q8_y*l_Q8_y__Q6_y_2 -
-        dq_z_Q6_y*inverse_pivot_Q6_y_2;
-    const double dq_lambda_Q6_x = -dq_lambda_Q6_y*l_Q6_y__Q6_x_2 - dq_lambda_Q8_x*l_Q8_x__Q6_x_2 -
-        dq_lambda_Q8_y*l_Q8_y__Q6_x_2 - dq_z_Q6_x*inverse_pivot_Q6_x_2;
-    const double dq_lambda_P3_y = -dq_lambda_Q6_x*l_Q6_x__P3_y_2 - dq_lambda_Q6_y*l_Q6_y__P3_y_2 -
-        dq_lambda_Q8_x*l_Q8_x__P3_y_2 - dq_lambda_Q8_y*l_Q8_y__P3_y_2 - dq_z_P3_y*inverse_pivot_P3_y_2;
-    const double dq_lambda_P3_x = -dq_lambda_P3_y*l_P3_y__P3_x_2 - dq_lambda_Q6_x*l_Q6_x__P3_x_2 -
-        dq_lambda_Q6_y*l_Q6_y__P3_x_2 - dq_lambda_Q8_x*l_Q8_x__P3_x_2 - dq_lambda_Q8_y*l_Q8_y__P3_x_2 -
-        dq_z_P3_x*inverse_pivot_P3_x_2;
-    const double dq_lambda_P2_y = -dq_lambda_P3_x*l_P3_x__P2_y_2 - dq_lambda_P3_y*l_P3_y__P2_y_2 -
-        dq_lambda_Q6_x*l_Q6_x__P2_y_2 - dq_lambda_Q6_y*l_Q6_y__P2_y_2 - dq_lambda_Q8_x*l_Q8_x__P2_y_2 -
-        dq_lambda_Q8_y*l_Q8_y__P2_y_2 - dq_z_P2_y*inverse_pivot_P2_y_2;
-    const double dq_lambda_P2_x = -dq_lambda_P2_y*l_P2_y__P2_x_2 - dq_lambda_P3_x*l_P3_x__P2_x_2 -
-        dq_lambda_P3_y*l_P3_y__P2_x_2 - dq_lambda_Q6_x*l_Q6_x__P2_x_2 - dq_lambda_Q6_y*l_Q6_y__P2_x_2 -
-        dq_lambda_Q8_x*l_Q8_x__P2_x_2 - dq_lambda_Q8_y*l_Q8_y__P2_x_2 - inverse_pivot_P2_x_2*phi_P2_x_2;
-    const double dq_acceleration_L7_theta = -dq_lambda_P2_x*l_P2_x__L7_theta_2 -
-        dq_lambda_P2_y*l_P2_y__L7_theta_2 - dq_lambda_P3_x*l_P3_x__L7_theta_2 -
-        dq_lambda_P3_y*l_P3_y__L7_theta_2 - dq_lambda_Q6_x*l_Q6_x__L7_theta_2 -
-        dq_lambda_Q6_y*l_Q6_y__L7_theta_2 - dq_lambda_Q8_x*l_Q8_x__L7_theta_2 -
-        dq_lambda_Q8_y*l_Q8_y__L7_theta_2;
-    const double dq_lambda_slider_y = -dq_lambda_Q8_x*l_Q8_x__slider_y_2 - dq_lambda_Q8_y*l_Q8_y__slider_y_2 -
-        dq_z_slider_y*inverse_pivot_slider_y_2;
-    const double dq_lambda_slider_x = -dq_lambda_Q8_x*l_Q8_x__slider_x_2 - dq_lambda_Q8_y*l_Q8_y__slider_x_2 -
-        dq_lambda_slider_y*l_slider_y__slider_x_2 - dq_z_slider_x*inverse_pivot_slider_x_2;
-    const double dq_acceleration_L8_theta = -dq_lambda_Q8_x*l_Q8_x__L8_theta_2 -
-        dq_lambda_Q8_y*l_Q8_y__L8_theta_2 - dq_lambda_slider_x*l_slider_x__L8_theta_2 -
-        dq_lambda_slider_y*l_slider_y__L8_theta_2;
+    const double dq_lambda_Q8_y = -dq_z_Q8_y*inverse_pivot_Q8_y_3;
+    const double dq_lambda_Q8_x = -dq_lambda_Q8_y*l_Q8_y__Q8_x_3 - dq_z_Q8_x*inverse_pivot_Q8_x_3;
+    const double dq_lambda_Q6_y = -dq_lambda_Q8_x*l_Q8_x__Q6_y_3 - dq_lambda_Q8_y*l_Q8_y__Q6_y_3 -
+        dq_z_Q6_y*inverse_pivot_Q6_y_3;
+    const double dq_lambda_Q6_x = -dq_lambda_Q6_y*l_Q6_y__Q6_x_3 - dq_lambda_Q8_x*l_Q8_x__Q6_x_3 -
+        dq_lambda_Q8_y*l_Q8_y__Q6_x_3 - dq_z_Q6_x*inverse_pivot_Q6_x_3;
+    const double dq_lambda_P3_y = -dq_lambda_Q6_x*l_Q6_x__P3_y_3 - dq_lambda_Q6_y*l_Q6_y__P3_y_3 -
+        dq_lambda_Q8_x*l_Q8_x__P3_y_3 - dq_lambda_Q8_y*l_Q8_y__P3_y_3 - dq_z_P3_y*inverse_pivot_P3_y_3;
+    const double dq_lambda_P3_x = -dq_lambda_P3_y*l_P3_y__P3_x_3 - dq_lambda_Q6_x*l_Q6_x__P3_x_3 -
+        dq_lambda_Q6_y*l_Q6_y__P3_x_3 - dq_lambda_Q8_x*l_Q8_x__P3_x_3 - dq_lambda_Q8_y*l_Q8_y__P3_x_3 -
+        dq_z_P3_x*inverse_pivot_P3_x_3;
+    const double dq_lambda_P2_y = -dq_lambda_P3_x*l_P3_x__P2_y_3 - dq_lambda_P3_y*l_P3_y__P2_y_3 -
+        dq_lambda_Q6_x*l_Q6_x__P2_y_3 - dq_lambda_Q6_y*l_Q6_y__P2_y_3 - dq_lambda_Q8_x*l_Q8_x__P2_y_3 -
+        dq_lambda_Q8_y*l_Q8_y__P2_y_3 - dq_z_P2_y*inverse_pivot_P2_y_3;
+    const double dq_lambda_P2_x = -dq_lambda_P2_y*l_P2_y__P2_x_3 - dq_lambda_P3_x*l_P3_x__P2_x_3 -
+        dq_lambda_P3_y*l_P3_y__P2_x_3 - dq_lambda_Q6_x*l_Q6_x__P2_x_3 - dq_lambda_Q6_y*l_Q6_y__P2_x_3 -
+        dq_lambda_Q8_x*l_Q8_x__P2_x_3 - dq_lambda_Q8_y*l_Q8_y__P2_x_3 - inverse_pivot_P2_x_3*phi_P2_x_2;
+    const double dq_acceleration_L7_theta = -dq_lambda_P2_x*l_P2_x__L7_theta_3 -
+        dq_lambda_P2_y*l_P2_y__L7_theta_3 - dq_lambda_P3_x*l_P3_x__L7_theta_3 -
+        dq_lambda_P3_y*l_P3_y__L7_theta_3 - dq_lambda_Q6_x*l_Q6_x__L7_theta_3 -
+        dq_lambda_Q6_y*l_Q6_y__L7_theta_3 - dq_lambda_Q8_x*l_Q8_x__L7_theta_3 -
+        dq_lambda_Q8_y*l_Q8_y__L7_theta_3;
+    const double dq_lambda_slider_y = -dq_lambda_Q8_x*l_Q8_x__slider_y_3 - dq_lambda_Q8_y*l_Q8_y__slider_y_3 -
+        dq_z_slider_y*inverse_pivot_slider_y_3;
+    const double dq_lambda_slider_x = -dq_lambda_Q8_x*l_Q8_x__slider_x_3 - dq_lambda_Q8_y*l_Q8_y__slider_x_3 -
+        dq_lambda_slider_y*l_slider_y__slider_x_3 - dq_z_slider_x*inverse_pivot_slider_x_3;
+    const double dq_acceleration_L8_theta = -dq_lambda_Q8_x*l_Q8_x__L8_theta_3 -
+        dq_lambda_Q8_y*l_Q8_y__L8_theta_3 - dq_lambda_slider_x*l_slider_x__L8_theta_3 -
+        dq_lambda_slider_y*l_slider_y__L8_theta_3;
     const double dq_acceleration_L7_y = dq_lambda_P2_y*inverse_L7_mass + dq_lambda_P3_y*inverse_L7_mass -
         dq_lambda_Q6_y*inverse_L7_mass - dq_lambda_Q8_y*inverse_L7_mass;
     const double dq_acceleration_L7_x = dq_lambda_P2_x*inverse_L7_mass + dq_lambda_P3_x*inverse_L7_mass -
         dq_lambda_Q6_x*inverse_L7_mass - dq_lambda_Q8_x*inverse_L7_mass;
-    const double dq_lambda_O6_y = -dq_lambda_Q6_x*l_Q6_x__O6_y_2 - dq_lambda_Q6_y*l_Q6_y__O6_y_2 -
-        dq_z_O6_y*inverse_pivot_O6_y_2;
-    const double dq_lambda_O6_x = -dq_lambda_O6_y*l_O6_y__O6_x_2 - dq_lambda_Q6_x*l_Q6_x__O6_x_2 -
-        dq_lambda_Q6_y*l_Q6_y__O6_x_2 - inverse_pivot_O6_x_2*phi_O6_x_2;
-    const double dq_acceleration_L6_theta = -dq_lambda_O6_x*l_O6_x__L6_theta_2 -
-        dq_lambda_O6_y*l_O6_y__L6_theta_2 - dq_lambda_Q6_x*l_Q6_x__L6_theta_2 -
-        dq_lambda_Q6_y*l_Q6_y__L6_theta_2;
-    const double dq_lambda_crank4 = -dq_z_crank4*inverse_pivot_crank4_2;
-    const double dq_lambda_O4_y = -dq_lambda_crank4*l_crank4__O4_y_2 - dq_z_O4_y*inverse_pivot_O4_y_2;
-    const double dq_lambda_O4_x = -dq_lambda_O4_y*l_O4_y__O4_x_2 - dq_lambda_crank4*l_crank4__O4_x_2 -
-        inverse_pivot_O4_x_2*phi_O4_x_2;
-    const double dq_acceleration_L4_theta = -dq_lambda_O4_x*l_O4_x__L4_theta_2 -
-        dq_lambda_O4_y*l_O4_y__L4_theta_2 - dq_lambda_crank4*inverse_L4_inertia;
-    const double dq_lambda_crank1 = -dq_z_crank1*inverse_pivot_crank1_2;
-    const double dq_lambda_O1_y = -dq_lambda_crank1*l_crank1__O1_y_2 - dq_z_O1_y*inverse_pivot_O1_y_2;
-    const double dq_lambda_O1_x = -dq_lambda_O1_y*l_O1_y__O1_x_2 - dq_lambda_crank1*l_crank1__O1_x_2 -
-        inverse_pivot_O1_x_2*phi_O1_x_2;
-    const double dq_acceleration_L1_theta = -dq_lambda_O1_x*l_O1_x__L1_theta_2 -
-        dq_lambda_O1_y*l_O1_y__L1_theta_2 - dq_lambda_crank1*inverse_L1_inertia;
-    const double dq_lambda_guide_offset = -dq_lambda_slider_x*l_slider_x__guide_offset_2 -
-        inverse_pivot_guide_offset_2*phi_guide_offset_2;
+    const double dq_lambda_O6_y = -dq_lambda_Q6_x*l_Q6_x__O6_y_3 - dq_lambda_Q6_y*l_Q6_y__O6_y_3 -
+        dq_z_O6_y*inverse_pivot_O6_y_3;
+    const double dq_lambda_O6_x = -dq_lambda_O6_y*l_O6_y__O6_x_3 - dq_lambda_Q6_x*l_Q6_x__O6_x_3 -
+        dq_lambda_Q6_y*l_Q6_y__O6_x_3 - inverse_pivot_O6_x_3*phi_O6_x_2;
+    const double dq_acceleration_L6_theta = -dq_lambda_O6_x*l_O6_x__L6_theta_3 -
+        dq_lambda_O6_y*l_O6_y__L6_theta_3 - dq_lambda_Q6_x*l_Q6_x__L6_theta_3 -
+        dq_lambda_Q6_y*l_Q6_y__L6_theta_3;
+    const double dq_lambda_crank4 = -dq_z_crank4*inverse_pivot_crank4_3;
+    const double dq_lambda_O4_y = -dq_lambda_crank4*l_crank4__O4_y_3 - dq_z_O4_y*inverse_pivot_O4_y_3;
+    const double dq_lambda_O4_x = -dq_lambda_O4_y*l_O4_y__O4_x_3 - dq_lambda_crank4*l_crank4__O4_x_3 -
+        inverse_pivot_O4_x_3*phi_O4_x_2;
+    const double dq_acceleration_L4_theta = -dq_lambda_O4_x*l_O4_x__L4_theta_3 -
+        dq_lambda_O4_y*l_O4_y__L4_theta_3 - dq_lambda_crank4*inverse_L4_inertia;
+    const double dq_lambda_crank1 = -dq_z_crank1*inverse_pivot_crank1_3;
+    const double dq_lambda_O1_y = -dq_lambda_crank1*l_crank1__O1_y_3 - dq_z_O1_y*inverse_pivot_O1_y_3;
+    const double dq_lambda_O1_x = -dq_lambda_O1_y*l_O1_y__O1_x_3 - dq_lambda_crank1*l_crank1__O1_x_3 -
+        inverse_pivot_O1_x_3*phi_O1_x_2;
+    const double dq_acceleration_L1_theta = -dq_lambda_O1_x*l_O1_x__L1_theta_3 -
+        dq_lambda_O1_y*l_O1_y__L1_theta_3 - dq_lambda_crank1*inverse_L1_inertia;
+    const double dq_lambda_guide_offset = -dq_lambda_slider_x*l_slider_x__guide_offset_3 -
+        inverse_pivot_guide_offset_3*phi_guide_offset_2;
     const double dq_acceleration_S9_x = dq_lambda_guide_offset*inverse_S9_mass +
         dq_lambda_slider_x*inverse_S9_mass;
     const double dq_acceleration_L8_y = dq_lambda_Q8_y*inverse_L8_mass - dq_lambda_slider_y*inverse_L8_mass;
     const double dq_acceleration_L8_x = dq_lambda_Q8_x*inverse_L8_mass - dq_lambda_slider_x*inverse_L8_mass;
     const double dq_acceleration_L6_y = dq_lambda_O6_y*inverse_L6_mass + dq_lambda_Q6_y*inverse_L6_mass;
     const double dq_acceleration_L6_x = dq_lambda_O6_x*inverse_L6_mass + dq_lambda_Q6_x*inverse_L6_mass;
-    const double dq_acceleration_L3_theta = -dq_lambda_P3_x*l_P3_x__L3_theta_2 -
-        dq_lambda_P3_y*l_P3_y__L3_theta_2;
-    const double dq_acceleration_L2_theta = -dq_lambda_P2_x*l_P2_x__L2_theta_2 -
-        dq_lambda_P2_y*l_P2_y__L2_theta_2;
-    const double dq_lambda_guide_angle = -inverse_pivot_guide_angle_2*phi_guide_angle_2;
+    const double dq_acceleration_L3_theta = -dq_lambda_P3_x*l_P3_x__L3_theta_3 -
+        dq_lambda_P3_y*l_P3_y__L3_theta_3;
+    const double dq_acceleration_L2_theta = -dq_lambda_P2_x*l_P2_x__L2_theta_3 -
+        dq_lambda_P2_y*l_P2_y__L2_theta_3;
+    const double dq_lambda_guide_angle = -inverse_pivot_guide_angle_3*phi_guide_angle_2;
     const double dq_acceleration_S9_theta = -dq_lambda_guide_angle*inverse_S9_inertia;
     const double dq_acceleration_S9_y = dq_lambda_slider_y*inverse_S9_mass;
     const double dq_acceleration_L4_y = dq_lambda_O4_y*inverse_L4_mass;
@@ -501,99 +502,99 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double dq_acceleration_L1_x = dq_lambda_O1_x*inverse_L1_mass;
 
     /* forward substitution */
-    const double dv_z_O1_y = -l_O1_y__O1_x_2*phi_dot_O1_x_2 + phi_dot_O1_y_2;
-    const double dv_z_crank1 = -dv_z_O1_y*l_crank1__O1_y_2 - l_crank1__O1_x_2*phi_dot_O1_x_2 +
+    const double dv_z_O1_y = -l_O1_y__O1_x_3*phi_dot_O1_x_2 + phi_dot_O1_y_2;
+    const double dv_z_crank1 = -dv_z_O1_y*l_crank1__O1_y_3 - l_crank1__O1_x_3*phi_dot_O1_x_2 +
         phi_dot_crank1_2;
-    const double dv_z_O4_y = -l_O4_y__O4_x_2*phi_dot_O4_x_2 + phi_dot_O4_y_2;
-    const double dv_z_crank4 = -dv_z_O4_y*l_crank4__O4_y_2 - l_crank4__O4_x_2*phi_dot_O4_x_2 +
+    const double dv_z_O4_y = -l_O4_y__O4_x_3*phi_dot_O4_x_2 + phi_dot_O4_y_2;
+    const double dv_z_crank4 = -dv_z_O4_y*l_crank4__O4_y_3 - l_crank4__O4_x_3*phi_dot_O4_x_2 +
         phi_dot_crank4_2;
-    const double dv_z_O6_y = -l_O6_y__O6_x_2*phi_dot_O6_x_2 + phi_dot_O6_y_2;
-    const double dv_z_slider_x = -l_slider_x__guide_offset_2*phi_dot_guide_offset_2 + phi_dot_slider_x_2;
-    const double dv_z_slider_y = -dv_z_slider_x*l_slider_y__slider_x_2 + phi_dot_slider_y_2;
-    const double dv_z_P2_y = -l_P2_y__P2_x_2*phi_dot_P2_x_2 + phi_dot_P2_y_2;
-    const double dv_z_P3_x = -dv_z_P2_y*l_P3_x__P2_y_2 - l_P3_x__P2_x_2*phi_dot_P2_x_2 + phi_dot_P3_x_2;
-    const double dv_z_P3_y = -dv_z_P2_y*l_P3_y__P2_y_2 - dv_z_P3_x*l_P3_y__P3_x_2 -
-        l_P3_y__P2_x_2*phi_dot_P2_x_2 + phi_dot_P3_y_2;
-    const double dv_z_Q6_x = -dv_z_O6_y*l_Q6_x__O6_y_2 - dv_z_P2_y*l_Q6_x__P2_y_2 - dv_z_P3_x*l_Q6_x__P3_x_2 -
-        dv_z_P3_y*l_Q6_x__P3_y_2 - l_Q6_x__O6_x_2*phi_dot_O6_x_2 - l_Q6_x__P2_x_2*phi_dot_P2_x_2 +
+    const double dv_z_O6_y = -l_O6_y__O6_x_3*phi_dot_O6_x_2 + phi_dot_O6_y_2;
+    const double dv_z_slider_x = -l_slider_x__guide_offset_3*phi_dot_guide_offset_2 + phi_dot_slider_x_2;
+    const double dv_z_slider_y = -dv_z_slider_x*l_slider_y__slider_x_3 + phi_dot_slider_y_2;
+    const double dv_z_P2_y = -l_P2_y__P2_x_3*phi_dot_P2_x_2 + phi_dot_P2_y_2;
+    const double dv_z_P3_x = -dv_z_P2_y*l_P3_x__P2_y_3 - l_P3_x__P2_x_3*phi_dot_P2_x_2 + phi_dot_P3_x_2;
+    const double dv_z_P3_y = -dv_z_P2_y*l_P3_y__P2_y_3 - dv_z_P3_x*l_P3_y__P3_x_3 -
+        l_P3_y__P2_x_3*phi_dot_P2_x_2 + phi_dot_P3_y_2;
+    const double dv_z_Q6_x = -dv_z_O6_y*l_Q6_x__O6_y_3 - dv_z_P2_y*l_Q6_x__P2_y_3 - dv_z_P3_x*l_Q6_x__P3_x_3 -
+        dv_z_P3_y*l_Q6_x__P3_y_3 - l_Q6_x__O6_x_3*phi_dot_O6_x_2 - l_Q6_x__P2_x_3*phi_dot_P2_x_2 +
         phi_dot_Q6_x_2;
-    const double dv_z_Q6_y = -dv_z_O6_y*l_Q6_y__O6_y_2 - dv_z_P2_y*l_Q6_y__P2_y_2 - dv_z_P3_x*l_Q6_y__P3_x_2 -
-        dv_z_P3_y*l_Q6_y__P3_y_2 - dv_z_Q6_x*l_Q6_y__Q6_x_2 - l_Q6_y__O6_x_2*phi_dot_O6_x_2 -
-        l_Q6_y__P2_x_2*phi_dot_P2_x_2 + phi_dot_Q6_y_2;
-    const double dv_z_Q8_x = -dv_z_P2_y*l_Q8_x__P2_y_2 - dv_z_P3_x*l_Q8_x__P3_x_2 - dv_z_P3_y*l_Q8_x__P3_y_2 -
-        dv_z_Q6_x*l_Q8_x__Q6_x_2 - dv_z_Q6_y*l_Q8_x__Q6_y_2 - dv_z_slider_x*l_Q8_x__slider_x_2 -
-        dv_z_slider_y*l_Q8_x__slider_y_2 - l_Q8_x__P2_x_2*phi_dot_P2_x_2 + phi_dot_Q8_x_2;
-    const double dv_z_Q8_y = -dv_z_P2_y*l_Q8_y__P2_y_2 - dv_z_P3_x*l_Q8_y__P3_x_2 - dv_z_P3_y*l_Q8_y__P3_y_2 -
-        dv_z_Q6_x*l_Q8_y__Q6_x_2 - dv_z_Q6_y*l_Q8_y__Q6_y_2 - dv_z_Q8_x*l_Q8_y__Q8_x_2 -
-        dv_z_slider_x*l_Q8_y__slider_x_2 - dv_z_slider_y*l_Q8_y__slider_y_2 - l_Q8_y__P2_x_2*phi_dot_P2_x_2 +
+    const double dv_z_Q6_y = -dv_z_O6_y*l_Q6_y__O6_y_3 - dv_z_P2_y*l_Q6_y__P2_y_3 - dv_z_P3_x*l_Q6_y__P3_x_3 -
+        dv_z_P3_y*l_Q6_y__P3_y_3 - dv_z_Q6_x*l_Q6_y__Q6_x_3 - l_Q6_y__O6_x_3*phi_dot_O6_x_2 -
+        l_Q6_y__P2_x_3*phi_dot_P2_x_2 + phi_dot_Q6_y_2;
+    const double dv_z_Q8_x = -dv_z_P2_y*l_Q8_x__P2_y_3 - dv_z_P3_x*l_Q8_x__P3_x_3 - dv_z_P3_y*l_Q8_x__P3_y_3 -
+        dv_z_Q6_x*l_Q8_x__Q6_x_3 - dv_z_Q6_y*l_Q8_x__Q6_y_3 - dv_z_slider_x*l_Q8_x__slider_x_3 -
+        dv_z_slider_y*l_Q8_x__slider_y_3 - l_Q8_x__P2_x_3*phi_dot_P2_x_2 + phi_dot_Q8_x_2;
+    const double dv_z_Q8_y = -dv_z_P2_y*l_Q8_y__P2_y_3 - dv_z_P3_x*l_Q8_y__P3_x_3 - dv_z_P3_y*l_Q8_y__P3_y_3 -
+        dv_z_Q6_x*l_Q8_y__Q6_x_3 - dv_z_Q6_y*l_Q8_y__Q6_y_3 - dv_z_Q8_x*l_Q8_y__Q8_x_3 -
+        dv_z_slider_x*l_Q8_y__slider_x_3 - dv_z_slider_y*l_Q8_y__slider_y_3 - l_Q8_y__P2_x_3*phi_dot_P2_x_2 +
         phi_dot_Q8_y_2;
 
     /* backward substitution */
-    const double dv_lambda_Q8_y = -dv_z_Q8_y*inverse_pivot_Q8_y_2;
-    const double dv_lambda_Q8_x = -dv_lambda_Q8_y*l_Q8_y__Q8_x_2 - dv_z_Q8_x*inverse_pivot_Q8_x_2;
-    const double dv_lambda_Q6_y = -dv_lambda_Q8_x*l_Q8_x__Q6_y_2 - dv_lambda_Q8_y*l_Q8_y__Q6_y_2 -
-        dv_z_Q6_y*inverse_pivot_Q6_y_2;
-    const double dv_lambda_Q6_x = -dv_lambda_Q6_y*l_Q6_y__Q6_x_2 - dv_lambda_Q8_x*l_Q8_x__Q6_x_2 -
-        dv_lambda_Q8_y*l_Q8_y__Q6_x_2 - dv_z_Q6_x*inverse_pivot_Q6_x_2;
-    const double dv_lambda_P3_y = -dv_lambda_Q6_x*l_Q6_x__P3_y_2 - dv_lambda_Q6_y*l_Q6_y__P3_y_2 -
-        dv_lambda_Q8_x*l_Q8_x__P3_y_2 - dv_lambda_Q8_y*l_Q8_y__P3_y_2 - dv_z_P3_y*inverse_pivot_P3_y_2;
-    const double dv_lambda_P3_x = -dv_lambda_P3_y*l_P3_y__P3_x_2 - dv_lambda_Q6_x*l_Q6_x__P3_x_2 -
-        dv_lambda_Q6_y*l_Q6_y__P3_x_2 - dv_lambda_Q8_x*l_Q8_x__P3_x_2 - dv_lambda_Q8_y*l_Q8_y__P3_x_2 -
-        dv_z_P3_x*inverse_pivot_P3_x_2;
-    const double dv_lambda_P2_y = -dv_lambda_P3_x*l_P3_x__P2_y_2 - dv_lambda_P3_y*l_P3_y__P2_y_2 -
-        dv_lambda_Q6_x*l_Q6_x__P2_y_2 - dv_lambda_Q6_y*l_Q6_y__P2_y_2 - dv_lambda_Q8_x*l_Q8_x__P2_y_2 -
-        dv_lambda_Q8_y*l_Q8_y__P2_y_2 - dv_z_P2_y*inverse_pivot_P2_y_2;
-    const double dv_lambda_P2_x = -dv_lambda_P2_y*l_P2_y__P2_x_2 - dv_lambda_P3_x*l_P3_x__P2_x_2 -
-        dv_lambda_P3_y*l_P3_y__P2_x_2 - dv_lambda_Q6_x*l_Q6_x__P2_x_2 - dv_lambda_Q6_y*l_Q6_y__P2_x_2 -
-        dv_lambda_Q8_x*l_Q8_x__P2_x_2 - dv_lambda_Q8_y*l_Q8_y__P2_x_2 - inverse_pivot_P2_x_2*phi_dot_P2_x_2;
-    const double dv_acceleration_L7_theta = -dv_lambda_P2_x*l_P2_x__L7_theta_2 -
-        dv_lambda_P2_y*l_P2_y__L7_theta_2 - dv_lambda_P3_x*l_P3_x__L7_theta_2 -
-        dv_lambda_P3_y*l_P3_y__L7_theta_2 - dv_lambda_Q6_x*l_Q6_x__L7_theta_2 -
-        dv_lambda_Q6_y*l_Q6_y__L7_theta_2 - dv_lambda_Q8_x*l_Q8_x__L7_theta_2 -
-        dv_lambda_Q8_y*l_Q8_y__L7_theta_2;
-    const double dv_lambda_slider_y = -dv_lambda_Q8_x*l_Q8_x__slider_y_2 - dv_lambda_Q8_y*l_Q8_y__slider_y_2 -
-        dv_z_slider_y*inverse_pivot_slider_y_2;
-    const double dv_lambda_slider_x = -dv_lambda_Q8_x*l_Q8_x__slider_x_2 - dv_lambda_Q8_y*l_Q8_y__slider_x_2 -
-        dv_lambda_slider_y*l_slider_y__slider_x_2 - dv_z_slider_x*inverse_pivot_slider_x_2;
-    const double dv_acceleration_L8_theta = -dv_lambda_Q8_x*l_Q8_x__L8_theta_2 -
-        dv_lambda_Q8_y*l_Q8_y__L8_theta_2 - dv_lambda_slider_x*l_slider_x__L8_theta_2 -
-        dv_lambda_slider_y*l_slider_y__L8_theta_2;
+    const double dv_lambda_Q8_y = -dv_z_Q8_y*inverse_pivot_Q8_y_3;
+    const double dv_lambda_Q8_x = -dv_lambda_Q8_y*l_Q8_y__Q8_x_3 - dv_z_Q8_x*inverse_pivot_Q8_x_3;
+    const double dv_lambda_Q6_y = -dv_lambda_Q8_x*l_Q8_x__Q6_y_3 - dv_lambda_Q8_y*l_Q8_y__Q6_y_3 -
+        dv_z_Q6_y*inverse_pivot_Q6_y_3;
+    const double dv_lambda_Q6_x = -dv_lambda_Q6_y*l_Q6_y__Q6_x_3 - dv_lambda_Q8_x*l_Q8_x__Q6_x_3 -
+        dv_lambda_Q8_y*l_Q8_y__Q6_x_3 - dv_z_Q6_x*inverse_pivot_Q6_x_3;
+    const double dv_lambda_P3_y = -dv_lambda_Q6_x*l_Q6_x__P3_y_3 - dv_lambda_Q6_y*l_Q6_y__P3_y_3 -
+        dv_lambda_Q8_x*l_Q8_x__P3_y_3 - dv_lambda_Q8_y*l_Q8_y__P3_y_3 - dv_z_P3_y*inverse_pivot_P3_y_3;
+    const double dv_lambda_P3_x = -dv_lambda_P3_y*l_P3_y__P3_x_3 - dv_lambda_Q6_x*l_Q6_x__P3_x_3 -
+        dv_lambda_Q6_y*l_Q6_y__P3_x_3 - dv_lambda_Q8_x*l_Q8_x__P3_x_3 - dv_lambda_Q8_y*l_Q8_y__P3_x_3 -
+        dv_z_P3_x*inverse_pivot_P3_x_3;
+    const double dv_lambda_P2_y = -dv_lambda_P3_x*l_P3_x__P2_y_3 - dv_lambda_P3_y*l_P3_y__P2_y_3 -
+        dv_lambda_Q6_x*l_Q6_x__P2_y_3 - dv_lambda_Q6_y*l_Q6_y__P2_y_3 - dv_lambda_Q8_x*l_Q8_x__P2_y_3 -
+        dv_lambda_Q8_y*l_Q8_y__P2_y_3 - dv_z_P2_y*inverse_pivot_P2_y_3;
+    const double dv_lambda_P2_x = -dv_lambda_P2_y*l_P2_y__P2_x_3 - dv_lambda_P3_x*l_P3_x__P2_x_3 -
+        dv_lambda_P3_y*l_P3_y__P2_x_3 - dv_lambda_Q6_x*l_Q6_x__P2_x_3 - dv_lambda_Q6_y*l_Q6_y__P2_x_3 -
+        dv_lambda_Q8_x*l_Q8_x__P2_x_3 - dv_lambda_Q8_y*l_Q8_y__P2_x_3 - inverse_pivot_P2_x_3*phi_dot_P2_x_2;
+    const double dv_acceleration_L7_theta = -dv_lambda_P2_x*l_P2_x__L7_theta_3 -
+        dv_lambda_P2_y*l_P2_y__L7_theta_3 - dv_lambda_P3_x*l_P3_x__L7_theta_3 -
+        dv_lambda_P3_y*l_P3_y__L7_theta_3 - dv_lambda_Q6_x*l_Q6_x__L7_theta_3 -
+        dv_lambda_Q6_y*l_Q6_y__L7_theta_3 - dv_lambda_Q8_x*l_Q8_x__L7_theta_3 -
+        dv_lambda_Q8_y*l_Q8_y__L7_theta_3;
+    const double dv_lambda_slider_y = -dv_lambda_Q8_x*l_Q8_x__slider_y_3 - dv_lambda_Q8_y*l_Q8_y__slider_y_3 -
+        dv_z_slider_y*inverse_pivot_slider_y_3;
+    const double dv_lambda_slider_x = -dv_lambda_Q8_x*l_Q8_x__slider_x_3 - dv_lambda_Q8_y*l_Q8_y__slider_x_3 -
+        dv_lambda_slider_y*l_slider_y__slider_x_3 - dv_z_slider_x*inverse_pivot_slider_x_3;
+    const double dv_acceleration_L8_theta = -dv_lambda_Q8_x*l_Q8_x__L8_theta_3 -
+        dv_lambda_Q8_y*l_Q8_y__L8_theta_3 - dv_lambda_slider_x*l_slider_x__L8_theta_3 -
+        dv_lambda_slider_y*l_slider_y__L8_theta_3;
     const double dv_acceleration_L7_y = dv_lambda_P2_y*inverse_L7_mass + dv_lambda_P3_y*inverse_L7_mass -
         dv_lambda_Q6_y*inverse_L7_mass - dv_lambda_Q8_y*inverse_L7_mass;
     const double dv_acceleration_L7_x = dv_lambda_P2_x*inverse_L7_mass + dv_lambda_P3_x*inverse_L7_mass -
         dv_lambda_Q6_x*inverse_L7_mass - dv_lambda_Q8_x*inverse_L7_mass;
-    const double dv_lambda_O6_y = -dv_lambda_Q6_x*l_Q6_x__O6_y_2 - dv_lambda_Q6_y*l_Q6_y__O6_y_2 -
-        dv_z_O6_y*inverse_pivot_O6_y_2;
-    const double dv_lambda_O6_x = -dv_lambda_O6_y*l_O6_y__O6_x_2 - dv_lambda_Q6_x*l_Q6_x__O6_x_2 -
-        dv_lambda_Q6_y*l_Q6_y__O6_x_2 - inverse_pivot_O6_x_2*phi_dot_O6_x_2;
-    const double dv_acceleration_L6_theta = -dv_lambda_O6_x*l_O6_x__L6_theta_2 -
-        dv_lambda_O6_y*l_O6_y__L6_theta_2 - dv_lambda_Q6_x*l_Q6_x__L6_theta_2 -
-        dv_lambda_Q6_y*l_Q6_y__L6_theta_2;
-    const double dv_lambda_crank4 = -dv_z_crank4*inverse_pivot_crank4_2;
-    const double dv_lambda_O4_y = -dv_lambda_crank4*l_crank4__O4_y_2 - dv_z_O4_y*inverse_pivot_O4_y_2;
-    const double dv_lambda_O4_x = -dv_lambda_O4_y*l_O4_y__O4_x_2 - dv_lambda_crank4*l_crank4__O4_x_2 -
-        inverse_pivot_O4_x_2*phi_dot_O4_x_2;
-    const double dv_acceleration_L4_theta = -dv_lambda_O4_x*l_O4_x__L4_theta_2 -
-        dv_lambda_O4_y*l_O4_y__L4_theta_2 - dv_lambda_crank4*inverse_L4_inertia;
-    const double dv_lambda_crank1 = -dv_z_crank1*inverse_pivot_crank1_2;
-    const double dv_lambda_O1_y = -dv_lambda_crank1*l_crank1__O1_y_2 - dv_z_O1_y*inverse_pivot_O1_y_2;
-    const double dv_lambda_O1_x = -dv_lambda_O1_y*l_O1_y__O1_x_2 - dv_lambda_crank1*l_crank1__O1_x_2 -
-        inverse_pivot_O1_x_2*phi_dot_O1_x_2;
-    const double dv_acceleration_L1_theta = -dv_lambda_O1_x*l_O1_x__L1_theta_2 -
-        dv_lambda_O1_y*l_O1_y__L1_theta_2 - dv_lambda_crank1*inverse_L1_inertia;
-    const double dv_lambda_guide_offset = -dv_lambda_slider_x*l_slider_x__guide_offset_2 -
-        inverse_pivot_guide_offset_2*phi_dot_guide_offset_2;
+    const double dv_lambda_O6_y = -dv_lambda_Q6_x*l_Q6_x__O6_y_3 - dv_lambda_Q6_y*l_Q6_y__O6_y_3 -
+        dv_z_O6_y*inverse_pivot_O6_y_3;
+    const double dv_lambda_O6_x = -dv_lambda_O6_y*l_O6_y__O6_x_3 - dv_lambda_Q6_x*l_Q6_x__O6_x_3 -
+        dv_lambda_Q6_y*l_Q6_y__O6_x_3 - inverse_pivot_O6_x_3*phi_dot_O6_x_2;
+    const double dv_acceleration_L6_theta = -dv_lambda_O6_x*l_O6_x__L6_theta_3 -
+        dv_lambda_O6_y*l_O6_y__L6_theta_3 - dv_lambda_Q6_x*l_Q6_x__L6_theta_3 -
+        dv_lambda_Q6_y*l_Q6_y__L6_theta_3;
+    const double dv_lambda_crank4 = -dv_z_crank4*inverse_pivot_crank4_3;
+    const double dv_lambda_O4_y = -dv_lambda_crank4*l_crank4__O4_y_3 - dv_z_O4_y*inverse_pivot_O4_y_3;
+    const double dv_lambda_O4_x = -dv_lambda_O4_y*l_O4_y__O4_x_3 - dv_lambda_crank4*l_crank4__O4_x_3 -
+        inverse_pivot_O4_x_3*phi_dot_O4_x_2;
+    const double dv_acceleration_L4_theta = -dv_lambda_O4_x*l_O4_x__L4_theta_3 -
+        dv_lambda_O4_y*l_O4_y__L4_theta_3 - dv_lambda_crank4*inverse_L4_inertia;
+    const double dv_lambda_crank1 = -dv_z_crank1*inverse_pivot_crank1_3;
+    const double dv_lambda_O1_y = -dv_lambda_crank1*l_crank1__O1_y_3 - dv_z_O1_y*inverse_pivot_O1_y_3;
+    const double dv_lambda_O1_x = -dv_lambda_O1_y*l_O1_y__O1_x_3 - dv_lambda_crank1*l_crank1__O1_x_3 -
+        inverse_pivot_O1_x_3*phi_dot_O1_x_2;
+    const double dv_acceleration_L1_theta = -dv_lambda_O1_x*l_O1_x__L1_theta_3 -
+        dv_lambda_O1_y*l_O1_y__L1_theta_3 - dv_lambda_crank1*inverse_L1_inertia;
+    const double dv_lambda_guide_offset = -dv_lambda_slider_x*l_slider_x__guide_offset_3 -
+        inverse_pivot_guide_offset_3*phi_dot_guide_offset_2;
     const double dv_acceleration_S9_x = dv_lambda_guide_offset*inverse_S9_mass +
         dv_lambda_slider_x*inverse_S9_mass;
     const double dv_acceleration_L8_y = dv_lambda_Q8_y*inverse_L8_mass - dv_lambda_slider_y*inverse_L8_mass;
     const double dv_acceleration_L8_x = dv_lambda_Q8_x*inverse_L8_mass - dv_lambda_slider_x*inverse_L8_mass;
     const double dv_acceleration_L6_y = dv_lambda_O6_y*inverse_L6_mass + dv_lambda_Q6_y*inverse_L6_mass;
     const double dv_acceleration_L6_x = dv_lambda_O6_x*inverse_L6_mass + dv_lambda_Q6_x*inverse_L6_mass;
-    const double dv_acceleration_L3_theta = -dv_lambda_P3_x*l_P3_x__L3_theta_2 -
-        dv_lambda_P3_y*l_P3_y__L3_theta_2;
-    const double dv_acceleration_L2_theta = -dv_lambda_P2_x*l_P2_x__L2_theta_2 -
-        dv_lambda_P2_y*l_P2_y__L2_theta_2;
-    const double dv_lambda_guide_angle = -inverse_pivot_guide_angle_2*phi_dot_guide_angle_2;
+    const double dv_acceleration_L3_theta = -dv_lambda_P3_x*l_P3_x__L3_theta_3 -
+        dv_lambda_P3_y*l_P3_y__L3_theta_3;
+    const double dv_acceleration_L2_theta = -dv_lambda_P2_x*l_P2_x__L2_theta_3 -
+        dv_lambda_P2_y*l_P2_y__L2_theta_3;
+    const double dv_lambda_guide_angle = -inverse_pivot_guide_angle_3*phi_dot_guide_angle_2;
     const double dv_acceleration_S9_theta = -dv_lambda_guide_angle*inverse_S9_inertia;
     const double dv_acceleration_S9_y = dv_lambda_slider_y*inverse_S9_mass;
     const double dv_acceleration_L4_y = dv_lambda_O4_y*inverse_L4_mass;
@@ -654,12 +655,27 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dv[22] = dv_acceleration_S9_y;
     dq[23] = dq_acceleration_S9_theta;
     dv[23] = dv_acceleration_S9_theta;
-    *worst =
-        max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(fabs(phi_O1_x_2),
-        fabs(phi_O1_y_2)), fabs(phi_O4_x_2)), fabs(phi_O4_y_2)), fabs(phi_O6_x_2)), fabs(phi_O6_y_2)),
-        fabs(phi_P2_x_2)), fabs(phi_P2_y_2)), fabs(phi_P3_x_2)), fabs(phi_P3_y_2)), fabs(phi_Q6_x_2)),
-        fabs(phi_Q6_y_2)), fabs(phi_Q8_x_2)), fabs(phi_Q8_y_2)), fabs(phi_crank1_2)), fabs(phi_crank4_2)),
-        fabs(phi_guide_angle_2)), fabs(phi_guide_offset_2)), fabs(phi_slider_x_2)), fabs(phi_slider_y_2));
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_O1_x_2), *worst);
+    *worst = fmax(fabs(phi_O1_y_2), *worst);
+    *worst = fmax(fabs(phi_O4_x_2), *worst);
+    *worst = fmax(fabs(phi_O4_y_2), *worst);
+    *worst = fmax(fabs(phi_P2_x_2), *worst);
+    *worst = fmax(fabs(phi_P2_y_2), *worst);
+    *worst = fmax(fabs(phi_P3_x_2), *worst);
+    *worst = fmax(fabs(phi_P3_y_2), *worst);
+    *worst = fmax(fabs(phi_Q6_x_2), *worst);
+    *worst = fmax(fabs(phi_Q6_y_2), *worst);
+    *worst = fmax(fabs(phi_Q8_x_2), *worst);
+    *worst = fmax(fabs(phi_Q8_y_2), *worst);
+    *worst = fmax(fabs(phi_O6_x_2), *worst);
+    *worst = fmax(fabs(phi_O6_y_2), *worst);
+    *worst = fmax(fabs(phi_slider_x_2), *worst);
+    *worst = fmax(fabs(phi_slider_y_2), *worst);
+    *worst = fmax(fabs(phi_guide_offset_2), *worst);
+    *worst = fmax(fabs(phi_guide_angle_2), *worst);
+    *worst = fmax(fabs(phi_crank1_2), *worst);
+    *worst = fmax(fabs(phi_crank4_2), *worst);
     return 0;
 }
 

@@ -27,7 +27,6 @@ typedef struct {
     int dense_ready, stiff;
     double least[12], where[12]; /* smallest margin of the stages, its node */
     double rate[2][2];   /* smallest and largest d delta/dt of the stages */
-    double F[2], F_node[2]; /* largest force of the stages */
 } Step;
 
 static const unsigned char is_angle[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
@@ -44,8 +43,9 @@ typedef struct {
     long steps, evaluations, onsets, grazes, ratio_outside, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max;
     /* of methods that choose their step (adaptive.c) */
-    double h, fixed, accept, stability, scale[2 * N_X], speed[2], speed_floor[2];
-    int choice, stiff, votes, stuck, linear_ready;
+    double h, fixed, accept, stability, error_before, h_first[2], *first, scale[2 * N_X], speed[2], speed_floor[2];
+    int rising[2]; /* whether a joint's force rose at the end of the last step */
+    int choice, stiff, votes, patience, since, stuck, linear_ready;
     Linear linear;
     Step step;
 } Run;
@@ -79,6 +79,7 @@ static void close_joint(Run *run, int i, double t, double deltadot, double floor
     run->memory.latch[i].closed = 1;
     run->memory.latch[i].deltadot_minus = max_of(deltadot, floor);
     run->compressing[i] = 1;
+    run->rising[i] = 1;
     run->onsets++;
     run->open[i] = (Impact){t, NAN, run->memory.latch[i].deltadot_minus, 0.0, t, i};
 }

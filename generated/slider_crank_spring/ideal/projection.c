@@ -2,10 +2,11 @@
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
  * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
  */
-static int closing_step(const double t, const double *q, const double *v, const Parameters *p, double *dq,
-    double *dv, double *worst)
+static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *dq, double *dv, double *worst)
 {
     (void)t;
+    (void)memory;
     /* coordinates, velocities, time */
     const double crank_x = q[0];
     const double crank_y = q[1];
@@ -53,81 +54,81 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double phi_dot_slider_offset_2 = rod_vy;
 
     /* L D L^T of the KKT matrix */
-    const double scale_O_x_2 = inverse_crank_mass;
-    if (!(scale_O_x_2 > 1e-13 * scale_O_x_2)) return 1;
-    const double inverse_pivot_O_x_2 = 1.0/scale_O_x_2;
-    const double l_pin_x__O_x_2 = -inverse_crank_mass*inverse_pivot_O_x_2;
-    const double scale_O_y_2 = inverse_crank_mass;
-    if (!(scale_O_y_2 > 1e-13 * scale_O_y_2)) return 2;
-    const double inverse_pivot_O_y_2 = 1.0/scale_O_y_2;
-    const double l_pin_y__O_y_2 = -inverse_crank_mass*inverse_pivot_O_y_2;
-    const double l_pin_x__crank_theta_2 = -arm_crank_head_y*inverse_crank_inertia;
-    const double l_pin_y__crank_theta_2 = arm_crank_head_x*inverse_crank_inertia;
-    const double scale_slider_offset_2 = inverse_rod_mass;
-    if (!(scale_slider_offset_2 > 1e-13 * scale_slider_offset_2)) return 3;
-    const double inverse_pivot_slider_offset_2 = 1.0/scale_slider_offset_2;
-    const double l_pin_y__slider_offset_2 = -inverse_pivot_slider_offset_2*inverse_rod_mass;
-    const double l_pin_x__rod_theta_2 = arm_rod_crankpin_y*inverse_rod_inertia;
-    const double l_pin_y__rod_theta_2 = -arm_rod_crankpin_x*inverse_rod_inertia;
-    const double scale_pin_x_2 = -arm_crank_head_y*l_pin_x__crank_theta_2 +
-        arm_rod_crankpin_y*l_pin_x__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
-    const double pivot_pin_x_2 = inverse_crank_mass*l_pin_x__O_x_2 + scale_pin_x_2;
-    if (!(pivot_pin_x_2 > 1e-13 * scale_pin_x_2)) return 4;
-    const double inverse_pivot_pin_x_2 = 1.0/pivot_pin_x_2;
-    const double w_pin_y__pin_x_2 = arm_crank_head_y*l_pin_y__crank_theta_2 -
-        arm_rod_crankpin_y*l_pin_y__rod_theta_2;
-    const double l_pin_y__pin_x_2 = -inverse_pivot_pin_x_2*w_pin_y__pin_x_2;
-    const double scale_pin_y_2 = arm_crank_head_x*l_pin_y__crank_theta_2 -
-        arm_rod_crankpin_x*l_pin_y__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
-    const double pivot_pin_y_2 = inverse_crank_mass*l_pin_y__O_y_2 + inverse_rod_mass*l_pin_y__slider_offset_2
-        + l_pin_y__pin_x_2*w_pin_y__pin_x_2 + scale_pin_y_2;
-    if (!(pivot_pin_y_2 > 1e-13 * scale_pin_y_2)) return 5;
-    const double inverse_pivot_pin_y_2 = 1.0/pivot_pin_y_2;
+    const double scale_O_x_3 = inverse_crank_mass;
+    if (!(scale_O_x_3 > 1e-13 * scale_O_x_3)) return 1;
+    const double inverse_pivot_O_x_3 = 1.0/scale_O_x_3;
+    const double l_pin_x__O_x_3 = -inverse_crank_mass*inverse_pivot_O_x_3;
+    const double scale_O_y_3 = inverse_crank_mass;
+    if (!(scale_O_y_3 > 1e-13 * scale_O_y_3)) return 2;
+    const double inverse_pivot_O_y_3 = 1.0/scale_O_y_3;
+    const double l_pin_y__O_y_3 = -inverse_crank_mass*inverse_pivot_O_y_3;
+    const double l_pin_x__crank_theta_3 = -arm_crank_head_y*inverse_crank_inertia;
+    const double l_pin_y__crank_theta_3 = arm_crank_head_x*inverse_crank_inertia;
+    const double scale_slider_offset_3 = inverse_rod_mass;
+    if (!(scale_slider_offset_3 > 1e-13 * scale_slider_offset_3)) return 3;
+    const double inverse_pivot_slider_offset_3 = 1.0/scale_slider_offset_3;
+    const double l_pin_y__slider_offset_2 = -inverse_pivot_slider_offset_3*inverse_rod_mass;
+    const double l_pin_x__rod_theta_3 = arm_rod_crankpin_y*inverse_rod_inertia;
+    const double l_pin_y__rod_theta_3 = -arm_rod_crankpin_x*inverse_rod_inertia;
+    const double scale_pin_x_3 = -arm_crank_head_y*l_pin_x__crank_theta_3 +
+        arm_rod_crankpin_y*l_pin_x__rod_theta_3 + inverse_crank_mass + inverse_rod_mass;
+    const double pivot_pin_x_3 = inverse_crank_mass*l_pin_x__O_x_3 + scale_pin_x_3;
+    if (!(pivot_pin_x_3 > 1e-13 * scale_pin_x_3)) return 4;
+    const double inverse_pivot_pin_x_3 = 1.0/pivot_pin_x_3;
+    const double w_pin_y__pin_x_2 = arm_crank_head_y*l_pin_y__crank_theta_3 -
+        arm_rod_crankpin_y*l_pin_y__rod_theta_3;
+    const double l_pin_y__pin_x_3 = -inverse_pivot_pin_x_3*w_pin_y__pin_x_2;
+    const double scale_pin_y_3 = arm_crank_head_x*l_pin_y__crank_theta_3 -
+        arm_rod_crankpin_x*l_pin_y__rod_theta_3 + inverse_crank_mass + inverse_rod_mass;
+    const double pivot_pin_y_3 = inverse_crank_mass*l_pin_y__O_y_3 + inverse_rod_mass*l_pin_y__slider_offset_2
+        + l_pin_y__pin_x_3*w_pin_y__pin_x_2 + scale_pin_y_3;
+    if (!(pivot_pin_y_3 > 1e-13 * scale_pin_y_3)) return 5;
+    const double inverse_pivot_pin_y_3 = 1.0/pivot_pin_y_3;
 
     /* forward substitution */
-    const double dq_z_pin_x = -l_pin_x__O_x_2*phi_O_x_2 + phi_pin_x_2;
-    const double dq_z_pin_y = -dq_z_pin_x*l_pin_y__pin_x_2 - l_pin_y__O_y_2*phi_O_y_2 -
+    const double dq_z_pin_x = -l_pin_x__O_x_3*phi_O_x_2 + phi_pin_x_2;
+    const double dq_z_pin_y = -dq_z_pin_x*l_pin_y__pin_x_3 - l_pin_y__O_y_3*phi_O_y_2 -
         l_pin_y__slider_offset_2*phi_slider_offset_2 + phi_pin_y_2;
 
     /* backward substitution */
-    const double dq_lambda_pin_y = -dq_z_pin_y*inverse_pivot_pin_y_2;
-    const double dq_lambda_pin_x = -dq_lambda_pin_y*l_pin_y__pin_x_2 - dq_z_pin_x*inverse_pivot_pin_x_2;
-    const double dq_acceleration_rod_theta = -dq_lambda_pin_x*l_pin_x__rod_theta_2 -
-        dq_lambda_pin_y*l_pin_y__rod_theta_2;
+    const double dq_lambda_pin_y = -dq_z_pin_y*inverse_pivot_pin_y_3;
+    const double dq_lambda_pin_x = -dq_lambda_pin_y*l_pin_y__pin_x_3 - dq_z_pin_x*inverse_pivot_pin_x_3;
+    const double dq_acceleration_rod_theta = -dq_lambda_pin_x*l_pin_x__rod_theta_3 -
+        dq_lambda_pin_y*l_pin_y__rod_theta_3;
     const double dq_lambda_slider_offset = -dq_lambda_pin_y*l_pin_y__slider_offset_2 -
-        inverse_pivot_slider_offset_2*phi_slider_offset_2;
+        inverse_pivot_slider_offset_3*phi_slider_offset_2;
     const double dq_acceleration_rod_y = dq_lambda_pin_y*inverse_rod_mass -
         dq_lambda_slider_offset*inverse_rod_mass;
-    const double dq_acceleration_crank_theta = -dq_lambda_pin_x*l_pin_x__crank_theta_2 -
-        dq_lambda_pin_y*l_pin_y__crank_theta_2;
-    const double dq_lambda_O_y = -dq_lambda_pin_y*l_pin_y__O_y_2 - inverse_pivot_O_y_2*phi_O_y_2;
+    const double dq_acceleration_crank_theta = -dq_lambda_pin_x*l_pin_x__crank_theta_3 -
+        dq_lambda_pin_y*l_pin_y__crank_theta_3;
+    const double dq_lambda_O_y = -dq_lambda_pin_y*l_pin_y__O_y_3 - inverse_pivot_O_y_3*phi_O_y_2;
     const double dq_acceleration_crank_y = dq_lambda_O_y*inverse_crank_mass -
         dq_lambda_pin_y*inverse_crank_mass;
-    const double dq_lambda_O_x = -dq_lambda_pin_x*l_pin_x__O_x_2 - inverse_pivot_O_x_2*phi_O_x_2;
+    const double dq_lambda_O_x = -dq_lambda_pin_x*l_pin_x__O_x_3 - inverse_pivot_O_x_3*phi_O_x_2;
     const double dq_acceleration_crank_x = dq_lambda_O_x*inverse_crank_mass -
         dq_lambda_pin_x*inverse_crank_mass;
     const double dq_acceleration_rod_x = dq_lambda_pin_x*inverse_rod_mass;
 
     /* forward substitution */
-    const double dv_z_pin_x = -l_pin_x__O_x_2*phi_dot_O_x_2 + phi_dot_pin_x_2;
-    const double dv_z_pin_y = -dv_z_pin_x*l_pin_y__pin_x_2 - l_pin_y__O_y_2*phi_dot_O_y_2 -
+    const double dv_z_pin_x = -l_pin_x__O_x_3*phi_dot_O_x_2 + phi_dot_pin_x_2;
+    const double dv_z_pin_y = -dv_z_pin_x*l_pin_y__pin_x_3 - l_pin_y__O_y_3*phi_dot_O_y_2 -
         l_pin_y__slider_offset_2*phi_dot_slider_offset_2 + phi_dot_pin_y_2;
 
     /* backward substitution */
-    const double dv_lambda_pin_y = -dv_z_pin_y*inverse_pivot_pin_y_2;
-    const double dv_lambda_pin_x = -dv_lambda_pin_y*l_pin_y__pin_x_2 - dv_z_pin_x*inverse_pivot_pin_x_2;
-    const double dv_acceleration_rod_theta = -dv_lambda_pin_x*l_pin_x__rod_theta_2 -
-        dv_lambda_pin_y*l_pin_y__rod_theta_2;
+    const double dv_lambda_pin_y = -dv_z_pin_y*inverse_pivot_pin_y_3;
+    const double dv_lambda_pin_x = -dv_lambda_pin_y*l_pin_y__pin_x_3 - dv_z_pin_x*inverse_pivot_pin_x_3;
+    const double dv_acceleration_rod_theta = -dv_lambda_pin_x*l_pin_x__rod_theta_3 -
+        dv_lambda_pin_y*l_pin_y__rod_theta_3;
     const double dv_lambda_slider_offset = -dv_lambda_pin_y*l_pin_y__slider_offset_2 -
-        inverse_pivot_slider_offset_2*phi_dot_slider_offset_2;
+        inverse_pivot_slider_offset_3*phi_dot_slider_offset_2;
     const double dv_acceleration_rod_y = dv_lambda_pin_y*inverse_rod_mass -
         dv_lambda_slider_offset*inverse_rod_mass;
-    const double dv_acceleration_crank_theta = -dv_lambda_pin_x*l_pin_x__crank_theta_2 -
-        dv_lambda_pin_y*l_pin_y__crank_theta_2;
-    const double dv_lambda_O_y = -dv_lambda_pin_y*l_pin_y__O_y_2 - inverse_pivot_O_y_2*phi_dot_O_y_2;
+    const double dv_acceleration_crank_theta = -dv_lambda_pin_x*l_pin_x__crank_theta_3 -
+        dv_lambda_pin_y*l_pin_y__crank_theta_3;
+    const double dv_lambda_O_y = -dv_lambda_pin_y*l_pin_y__O_y_3 - inverse_pivot_O_y_3*phi_dot_O_y_2;
     const double dv_acceleration_crank_y = dv_lambda_O_y*inverse_crank_mass -
         dv_lambda_pin_y*inverse_crank_mass;
-    const double dv_lambda_O_x = -dv_lambda_pin_x*l_pin_x__O_x_2 - inverse_pivot_O_x_2*phi_dot_O_x_2;
+    const double dv_lambda_O_x = -dv_lambda_pin_x*l_pin_x__O_x_3 - inverse_pivot_O_x_3*phi_dot_O_x_2;
     const double dv_acceleration_crank_x = dv_lambda_O_x*inverse_crank_mass -
         dv_lambda_pin_x*inverse_crank_mass;
     const double dv_acceleration_rod_x = dv_lambda_pin_x*inverse_rod_mass;
@@ -145,8 +146,12 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dv[4] = dv_acceleration_rod_y;
     dq[5] = dq_acceleration_rod_theta;
     dv[5] = dv_acceleration_rod_theta;
-    *worst = max_of(max_of(max_of(max_of(fabs(phi_O_x_2), fabs(phi_O_y_2)), fabs(phi_pin_x_2)),
-        fabs(phi_pin_y_2)), fabs(phi_slider_offset_2));
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_O_x_2), *worst);
+    *worst = fmax(fabs(phi_O_y_2), *worst);
+    *worst = fmax(fabs(phi_pin_x_2), *worst);
+    *worst = fmax(fabs(phi_pin_y_2), *worst);
+    *worst = fmax(fabs(phi_slider_offset_2), *worst);
     return 0;
 }
 
