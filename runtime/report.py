@@ -213,11 +213,17 @@ def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("max |Φ̇|", [f"{d.phi_dot_max:.2e}" for d in every]),
         ("energy residual", [quantity(d.energy_residual, "J", 3) for d in every]),
         ("of turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),
+        ("trusted until", [_until(d.horizon) for d in every]),
         ("onsets", [str(d.onsets) if p else "–" for d, p in zip(every, play, strict=True)]),
         ("grazes", [str(d.grazes) if p and d.grazes else "–" for d, p in zip(every, play, strict=True)]),
         ("δ̇/δ̇⁻ while latched", ratio),
         ("steps with it outside ±1", [str(d.ratio_outside) if math.isfinite(d.ratio_min) else "–" for d in every]),
     ]
+
+
+def _until(horizon: float) -> str:
+    """See predictability.py; NaN: nobody asked."""
+    return "to the end" if horizon == math.inf else quantity(horizon, "s", 3)
 
 
 def _cost_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:

@@ -15,7 +15,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.dead_centre import dependent_rows
 from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
-from gudgeon.integrators import adaptive, kinematic, rk4
+from gudgeon.integrators import adaptive, kinematic, python_driver, rk4
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.left_out import check_start, contradiction
 from gudgeon.parameters import number, prepare, without_baumgarte
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 METHODS = {
     "rk4": rk4.run, "dop853": adaptive.run, "rodas5p": adaptive.run, "adaptive": adaptive.run,
-    "kinematic": kinematic.run,
+    "kinematic": kinematic.run, **dict.fromkeys(python_driver.NAMES, python_driver.run),
 }  # fmt: skip
 ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
 DEFAULT_OUTPUT = 1000
@@ -99,7 +99,7 @@ class Simulation:
         self, t_end: float | str | None = None, *, output: int | ArrayLike | None = None, method: str = "auto",
         rtol: float | None = None, step: float | str | None = None,
         parameters: Mapping[str, float | str] | None = None, start: State | None = None,
-        progress: Progress | None = None,
+        progress: Progress | None = None, horizon: bool = False,
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
@@ -110,7 +110,9 @@ class Simulation:
         - "rk4" with fixed `step` (s), the longest; each interval between outputs is divided evenly;
         - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-8): the error of a
           step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
-          unchanged, without error control.
+          unchanged, without error control;
+        - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/python_driver.py).
+        `horizon`: run thrice more to find the time to which it can be trusted (predictability.py).
         `parameters`: {address or parameter name: float in SI or '0.5 mm'}. Ctrl-C ends the run and keeps
         what was computed.
 
@@ -140,6 +142,10 @@ class Simulation:
         if stopped is not None:
             stopped.partial = result
             raise stopped
+        if horizon and not trajectory.interrupted:
+            from gudgeon.predictability import with_horizon
+
+            result = with_horizon(self, result, progress)
         return result
 
     def _begin(self, p: Array, start: State | None) -> tuple[Array, Array, Array]:
@@ -177,7 +183,8 @@ class Simulation:
                 f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
                 "  remove a drive or a joint; `gudgeon check -v` lists the rows"
             )
-        fitting = (*self.source.methods, *(["adaptive"] if "dop853" in self.source.methods else []))
+        adaptive_too = ("adaptive", *python_driver.NAMES) if "dop853" in self.source.methods else ()
+        fitting = (*self.source.methods, *adaptive_too)
         if method == "auto":
             return fitting[0] if len(fitting) == 1 or fixed else "adaptive"
         if method not in METHODS:

@@ -43,6 +43,7 @@ class Request:
     rtol: float | None
     watch: tuple[str, ...]
     out: Path
+    horizon: bool
     regenerate: bool
     json: bool
 
@@ -146,7 +147,7 @@ def _simulate(
             try:
                 run = simulation.simulate(
                     until, output=request.output, method="auto" if name == IDEAL else request.method, step=step,
-                    rtol=request.rtol,
+                    rtol=request.rtol, horizon=request.horizon,
                     parameters=_own(settings, simulation), progress=bar(name),
                 )  # fmt: skip
             except (AssemblyError, SolverError) as error:  # the other scenes are worth having
