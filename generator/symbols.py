@@ -48,6 +48,24 @@ class Symbols:
         self.definitions: dict[sp.Symbol, sp.Expr] = {}
         self.rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
         self._names: set[str] = set()
+        self._shared: Symbols | None = None  # who else has the members of Parameters
+
+    def beside(self) -> Symbols:
+        """Other symbols for other functions of the same library: they share the members of Parameters only."""
+        other = Symbols()
+        other._shared = self
+        for symbol, info in self.info.items():
+            if info.home.startswith("p->"):
+                other.adopt(symbol)
+        return other
+
+    def adopt(self, symbol: sp.Symbol) -> None:
+        """Takes over a member of Parameters that was made on the other side."""
+        if self._shared is not None and symbol not in self.info:
+            self.info[symbol] = self._shared.info[symbol]
+            self._names.add(symbol.name)
+            if symbol in self._shared.definitions:
+                self.definitions[symbol] = self._shared.definitions[symbol]
 
     def unique(self, wanted: str) -> str:
         """`wanted` as a C identifier that nothing else has."""
@@ -64,14 +82,22 @@ class Symbols:
     def new(self, wanted: str, home: str = "", meaning: str = "", unit: str = "") -> sp.Symbol:
         """A new real symbol; `{}` in `home` stands for the C name that it gets."""
         name = self.unique(wanted)
+        shared = self._shared if home.startswith("p->") else None
+        while shared is not None and name in shared._names:
+            name = self.unique(wanted)
         symbol = sp.Symbol(name, real=True)
         self.info[symbol] = SymbolInfo(home.replace("{}", name), meaning, unit)
+        if shared is not None:
+            shared._names.add(name)
+            shared.info[symbol] = self.info[symbol]
         return symbol
 
     def define(self, wanted: str, expression: sp.Expr, home: str = "", meaning: str = "", unit: str = "") -> sp.Symbol:
         """A new symbol that stands for `expression`."""
         symbol = self.new(wanted, home, meaning, unit)
         self.definitions[symbol] = expression
+        if self._shared is not None and home.startswith("p->"):
+            self._shared.definitions[symbol] = expression
         return symbol
 
     def diff(self, expression: sp.Expr, by: sp.Symbol) -> sp.Expr:

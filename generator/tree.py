@@ -1,0 +1,251 @@
+"""Which coordinates describe a linkage: angles that are free, and a tree of joints that place the bodies.
+
+Rows that are linear in angles with constant coefficients (a weld, a slide, gears, a driven angle) express angles
+by others. What is left of the joints is a graph of bodies; along a spanning tree of it each body is placed by its
+parent, and only the joints that are not in the tree stay as loop closures (R. Featherstone, Rigid Body Dynamics
+Algorithms, 2008, chapters 4 and 8). Angles are absolute: in the plane the position of a point is then a sum of
+arms, each of which turns with one angle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from gudgeon.generator.constraints import Row
+from gudgeon.generator.factorization import choose_elimination
+from gudgeon.generator.joints.joint_type import joint_types
+from gudgeon.generator.mechanism import GROUND, Joint
+from gudgeon.generator.model import Model
+
+Affine = Mapping[str, sp.Expr]  # coefficients by coordinate; the constant is under ""
+CONSTANT = ""
+DEPTHS = (None, 8, 3)  # how many bodies a chain may have before it is cut
+SEARCHED = 40  # more coordinates than that: the tree is not improved by exchanges
+# operations: an entry of M with its velocity term, an entry of a closure's row, a product of the elimination
+PAIR, ENTRY, PRODUCT = 8, 8, 2
+
+
+@dataclass(frozen=True)
+class Link:
+    """A body with the one that places it: `joint` None is a body that moves freely (two slides of its own)."""
+
+    body: str
+    parent: str
+    joint: Joint | None = None
+
+    @property
+    def slides(self) -> bool:
+        """Whether the body is carried along an axis."""
+        return self.joint is not None and len(joint_types()[self.joint.kind].carries) == 1
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the slides that the link brings."""
+        if self.joint is None:
+            return f"{self.body}.x", f"{self.body}.y"
+        return (f"{self.joint.name}.slide",) if self.slides else ()
+
+    @property
+    def rows(self) -> tuple[str, ...]:
+        """Rows of Φ that hold by themselves."""
+        if self.joint is None:
+            return ()
+        return tuple(f"{self.joint.name}.{row}" for row in joint_types()[self.joint.kind].carries)
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Angles of the bodies in free ones ("L7") and drives ("crank1"); links, parents before children."""
+
+    angles: Mapping[str, Affine]
+    free: tuple[str, ...]  # bodies whose angles are coordinates
+    links: tuple[Link, ...]
+    rows: frozenset[str]  # those that the angles and the links make hold by themselves
+
+
+def solve_angles(model: Model) -> tuple[dict[str, Affine], frozenset[str]]:
+    """The angles by free ones and drives, with the rows that this uses up."""
+    angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
+    used = set()
+    for row in sorted(model.rows, key=lambda row: row.kind != "drive"):  # what a drive prescribes is never free
+        total = _linear(model, row, angles)
+        pivots = {b: c for b, c in (total or {}).items() if b in angles and c != 0}
+        if total is None or not pivots:
+            continue
+        order = list(angles)
+        pivot = max(pivots, key=lambda b: (abs(pivots[b]) == 1, order.index(b)))
+        solved = {k: -c / pivots[pivot] for k, c in total.items() if k != pivot}
+        angles = {b: substitute(a, pivot, solved) for b, a in angles.items()}
+        used.add(row.name)
+    return angles, frozenset(used)
+
+
+def substitute(affine: Affine, name: str, value: Affine) -> Affine:
+    """`affine` with the coordinate `name` replaced by what it is."""
+    if name not in affine:
+        return affine
+    out = {k: c for k, c in affine.items() if k != name}
+    for k, c in value.items():
+        out[k] = sp.expand(out.get(k, sp.Integer(0)) + affine[name] * c)
+    return {k: c for k, c in out.items() if c != 0}
+
+
+def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | None:
+    """The row in free angles, or None where it is not linear in angles with constant coefficients."""
+    body_of = {body.theta: body.name for body in model.bodies}
+    if not all(q in body_of and model.slots.is_constant(c) for q, c in row.phi_q.items()):
+        return None
+    drives = {value: name for name, (value, *_) in model.constraints.drive_angles.items()}
+    rest = sp.expand(row.phi - sum(c * q for q, c in row.phi_q.items()))
+    total: Affine = {}
+    for value in sorted(rest.free_symbols & set(drives), key=lambda s: s.name):
+        total[drives[value]] = rest.coeff(value)
+        rest = rest - rest.coeff(value) * value
+    if not model.slots.is_constant(rest):
+        return None
+    total = {**total, CONSTANT: rest}
+    for q, c in row.phi_q.items():
+        total = substitute({**total, "?": c}, "?", angles[body_of[q]])
+    return total
+
+
+def choose_tree(model: Model) -> Tree:
+    """The tree of the least estimated operations among a few, improved by exchanges of joints in loops."""
+    angles, used = solve_angles(model)
+    free = tuple(b for b in angles if angles[b] == {b: 1})
+    edges = _edges(model, angles)
+    estimate = _Estimate(model, angles, used)
+    best = min((_grow(model, edges, edges, depth) for depth in DEPTHS), key=estimate)
+    if len(free) <= SEARCHED and best == _grow(model, edges, edges, None):
+        best = _exchange(model, edges, best, estimate)
+    return Tree(angles, free, best, used.union(*(link.rows for link in best)))
+
+
+def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
+    """Joints that can place a body: all their rows are kept, and a slide's bodies turn together."""
+    kept = {row.name for row in model.rows}
+
+    def turning(body: str) -> dict[str, sp.Expr]:
+        return {k: c for k, c in angles.get(body, {}).items() if k != CONSTANT}
+
+    found = []
+    for joint in model.scene.mechanism.joints.values():
+        carries = joint_types()[joint.kind].carries
+        if carries and all(f"{joint.name}.{row}" in kept for row in carries):
+            if len(carries) == 2 or turning(joint.first.body) == turning(joint.second.body):
+                found.append(joint)
+    return found
+
+
+def _grow(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: int | None) -> tuple[Link, ...]:
+    """Breadth first from the ground along the wanted joints; bodies that nothing reaches move freely."""
+    near: dict[str, list[Joint]] = {name: [] for name in (GROUND, *model.geometry.bodies)}
+    names = {joint.name for joint in wanted}
+    for joint in edges:
+        if joint.name in names:
+            near[joint.first.body].append(joint)
+            near[joint.second.body].append(joint)
+    links: list[Link] = []
+    placed: dict[str, int] = {GROUND: 0}
+    waiting = [GROUND]
+    bodies = list(model.geometry.bodies)
+    while waiting or len(placed) <= len(bodies):
+        if not waiting:
+            root = next(b for b in bodies if b not in placed)
+            links.append(Link(root, GROUND))
+            placed[root] = 1
+            waiting = [root]
+        body = waiting.pop(0)
+        for joint in near[body]:
+            other = joint.second.body if joint.first.body == body else joint.first.body
+            if other not in placed and (depth is None or placed[body] < depth):
+                links.append(Link(other, body, joint))
+                placed[other] = placed[body] + 1
+                waiting.append(other)
+    return tuple(links)
+
+
+def _exchange(
+    model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: _Estimate
+) -> tuple[Link, ...]:
+    """While a joint that closes a loop is better in the tree than one of the loop, they change places."""
+    best = estimate(links)
+    improved = True
+    while improved:
+        improved = False
+        inside = [link.joint for link in links if link.joint]
+        for joint in [j for j in edges if j not in inside]:
+            for other in _loop(links, joint):
+                candidate = _grow(model, edges, [j for j in (*inside, joint) if j is not other], None)
+                if len(candidate) == len(links) and (cost := estimate(candidate)) < best:
+                    links, best, improved = candidate, cost, True
+                    break
+            if improved:
+                break
+    return links
+
+
+def path(links: Iterable[Link], body: str) -> list[Link]:
+    """The links from the root to a body."""
+    by_body = {link.body: link for link in links}
+    found: list[Link] = []
+    while body != GROUND:
+        found.append(by_body[body])
+        body = by_body[body].parent
+    return found[::-1]
+
+
+def _loop(links: Sequence[Link], joint: Joint) -> list[Joint]:
+    """The tree's joints in the loop that `joint` closes."""
+    one, two = path(links, joint.first.body), path(links, joint.second.body)
+    return [link.joint for link in (*one, *two) if (link in one) != (link in two) and link.joint]
+
+
+class _Estimate:
+    """Operations of a tree's right-hand side, counted from which coordinates meet where."""
+
+    def __init__(self, model: Model, angles: Mapping[str, Affine], used: frozenset[str]) -> None:
+        body_of = {q: body.name for body in model.bodies for q in body.q}
+        self.angles = angles
+        self.turns = {b: frozenset(k for k in a if k in angles) for b, a in angles.items()}
+        self.rows = [
+            (row.name, sorted({body_of[q] for q in row.phi_q})) for row in model.rows if row.name not in used
+        ]
+
+    def __call__(self, links: tuple[Link, ...]) -> int:
+        held = {row for link in links for row in link.rows}
+        paths: dict[str, list[Link]] = {}
+        columns: dict[str, frozenset[str]] = {GROUND: frozenset()}
+        for link in links:
+            paths[link.body] = [*paths.get(link.parent, []), link]
+            columns[link.body] = columns[link.parent] | self.turns[link.body] | set(link.coordinates)
+        place = {name: k for k, name in enumerate(sorted(frozenset().union(*columns.values())))}
+        near: list[set[int]] = [set() for _ in place]
+        for column in columns.values():
+            for name in column:
+                near[place[name]] |= {place[other] for other in column if other != name}
+        pairs, entries = sum(map(len, near)) // 2, 0
+        for name, bodies in self.rows:
+            if name not in held:
+                keys = {place[key] for key in self._moving(paths, bodies)}
+                entries += len(keys)
+                near.append(keys)
+                for key in keys:
+                    near[key] = near[key] | {len(near) - 1}
+        cost = PAIR * pairs + ENTRY * entries
+        if len(near) <= 2 * SEARCHED:
+            cost += PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).products
+        return cost
+
+    def _moving(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
+        """Coordinates between the bodies of a row: what they share of their way from the root does not count."""
+        shared = 0
+        if len(bodies) == 2:
+            one, two = (paths[b] for b in bodies)
+            parted = (k for k, (a, b) in enumerate(zip(one, two, strict=False)) if a is not b)
+            shared = max(next(parted, min(len(one), len(two))) - 1, 0)
+        links = [link for b in bodies for link in paths[b][shared:]]
+        return {key for link in links for key in (*self.turns[link.body], *link.coordinates)}
