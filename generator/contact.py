@@ -95,9 +95,13 @@ def after_film(film: LawEquations) -> list[Step]:
     ]
 
 
-def blend(clearance: Clearance) -> Step:
-    """The share of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq. 17)."""
-    return Step(share, sp.Max(0, sp.Min(1, delta / clearance.transition)))
+def blend(clearance: Clearance, closed: bool = False) -> Step:
+    """The share of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq. 17).
+
+    Of a `closed` contact: without the corner at e = c, which closing and opening it stand for.
+    """
+    of_closed = sp.Min(1, delta / clearance.transition)
+    return Step(share, of_closed if closed else sp.Max(0, of_closed))
 
 
 def resultant(clearance: Clearance) -> list[Step]:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import sympy as sp
 
 from gudgeon.generator.clearance import Clearance
 from gudgeon.generator.constraints import Row
-from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder
+from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR
 from gudgeon.generator.model import Model
 from gudgeon.generator.system import System
 
 STATE = (Argument("const double", "t"), Argument("const double *", "q"), Argument("const double *", "v"))
+MEMORY = Argument("const Memory *", "memory")
 PARAMETERS = Argument("const Parameters *", "p")
 ZERO = sp.Integer(0)
 
@@ -53,9 +56,14 @@ def dynamics_kernel(system: System, kkt: KKT) -> Kernel:
         _dependent_rows(build, kkt, b)
     _powers(model, build, kkt)
     build.line("return pivot;" if kkt.rows and not model.frictions else "return 0;")
-    memory = (Argument("const Memory *", "memory"),) if model.clearances or model.frictions else ()
-    arguments = (*STATE, *memory, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
-    return build.build(arguments, "int")
+    arguments = (*STATE, MEMORY, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
+    kernel = build.build(arguments, "int", owner="")
+    if not model.clearances and not model.symbols.switches.of(""):
+        return kernel
+    held = Section("corners: the sides that are held, if any", (
+        "const double *const side = memory->held ? memory->side : NULL;", "double *const g = aside->g;",
+    ))  # fmt: skip
+    return replace(kernel, sections=(held, *kernel.sections))
 
 
 def _gravity(model: Model) -> list[sp.Expr]:
@@ -82,7 +90,7 @@ def _clearance_call(
     ]
     omegas = (clearance.first.omega, clearance.second.omega)
     arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in omegas)])
-    build.line(f"clearance_{name}({arguments}, &memory->latch[{index}], p, &{out});", omegas)
+    build.line(f"clearance_{name}({arguments}, &memory->latch[{index}], p, side, g, &{out});", omegas)
     F = [build.local(f"F_{name}_{axis}", f"{out}.F{axis}") for axis in "xy"]
     power = F[0] * edot[0] + F[1] * edot[1]
     for point, sign, which in ((clearance.first, -1, "first"), (clearance.second, 1, "second")):

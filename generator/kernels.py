@@ -7,10 +7,11 @@ coordinates and parameters that they read and the definitions (cosines, arms, dr
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from gudgeon.generator.switches import Switches
 from gudgeon.generator.symbols import Symbols
 
 
@@ -64,6 +65,23 @@ def count_operations(expression: sp.Expr) -> int:
     return int(count.subs({sp.Symbol("NEG"): 0}).replace(lambda e: e.is_Symbol, lambda e: sp.Integer(1)))
 
 
+def hold_sides(switches: Switches, owner: str, sections: Iterable[Section]) -> list[Section]:
+    """The sections with every corner as the side of its switch; a side is told before it is first read."""
+    known: dict[sp.Symbol, sp.Expr] = {}
+    held = []
+    for section in sections:
+        statements: list[Statement | str] = []
+        for statement in section.statements:
+            if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
+                before = len(known)
+                value = switches.hold(statement.value, owner, known)
+                statements += [Statement(s.name, side) for s, side in list(known.items())[before:]]
+                statement = replace(statement, value=value)
+            statements.append(statement)
+        held.append(Section(section.title, tuple(statements)))
+    return held
+
+
 class KernelBuilder:
     """Collects statements in sections, then resolves what they read."""
 
@@ -94,8 +112,14 @@ class KernelBuilder:
         """`target = value;`"""
         self._sections[-1][1].append(Statement(target, value, False, comment))
 
-    def build(self, arguments: Sequence[Argument], returns: str = "void", inline: bool = False) -> Kernel:
-        """The kernel, with its inputs and definitions in front."""
+    def build(
+        self, arguments: Sequence[Argument], returns: str = "void", inline: bool = False, owner: str | None = None
+    ) -> Kernel:
+        """The kernel, with its inputs and definitions in front.
+
+        With an `owner` ("": the scene) corners are sides of switches: the function then reads `side` and
+        writes `g` (switches.py).
+        """
         statements = [s for _, group in self._sections for s in group if isinstance(s, Statement)]
         declared = {s.target for s in statements if s.local}
         expressions = [s.value for s in statements if isinstance(s.value, sp.Expr)] + self._needed
@@ -111,6 +135,8 @@ class KernelBuilder:
             ),
         ]
         sections = front + [Section(title, tuple(group)) for title, group in self._sections]
+        if owner is not None:
+            sections = hold_sides(self._symbols.switches, owner, sections)
         kept = tuple(section for section in sections if section.statements)
         return Kernel(self._name, self._doc, tuple(arguments), kept, returns, inline)
 

@@ -15,7 +15,6 @@ import sympy as sp
 
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.factorization import Elimination, choose_elimination
-from gudgeon.generator.friction import Friction
 from gudgeon.generator.kernels import KernelBuilder
 from gudgeon.generator.system import System
 

@@ -10,6 +10,9 @@ from gudgeon.generator.forces.law import RESULTS
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement
 from gudgeon.generator.symbols import Symbols
 
+# Corners: the sides that are held over a step (NULL: none), and where the switching functions go.
+SIDES = (Argument("const double *", "side"), Argument("double *", "g"))
+
 
 def law_kernels(symbols: Symbols, clearance: Clearance) -> list[Kernel]:
     """`normal_<joint>`, `friction_<joint>`, `film_<joint>`, as far as the joint has them."""
@@ -44,10 +47,11 @@ def _law_kernel(symbols: Symbols, clearance: Clearance, equations: LawEquations)
             build.line_statement(Statement(name, value))
     variables = (Argument("double", symbol.name) for symbol in equations.variables)
     outs = (Argument("double *", f"{name}_out") for name in results)
-    return build.build((*variables, PARAMETERS, *outs), inline=True)
+    return build.build((*variables, PARAMETERS, *SIDES, *outs), inline=True, owner=clearance.name)
 
 
 def _no_friction(clearance: Clearance) -> Kernel:
-    arguments = (Argument("double", "F_n"), Argument("double", "v_t"), PARAMETERS, Argument("double *", "F_t_out"))
+    variables = (Argument("double", "F_n"), Argument("double", "v_t"))
+    arguments = (*variables, PARAMETERS, *SIDES, Argument("double *", "F_t_out"))
     none = Section("no friction law", (Statement("*F_t_out", sp.Integer(0), False),))
     return Kernel(f"friction_{clearance.name}_force", ("No friction in this joint.",), arguments, (none,), inline=True)

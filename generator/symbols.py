@@ -12,11 +12,14 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from gudgeon.generator.switches import Switches
+
 # What emitted code itself calls its functions, arguments and locals (tests/generator/test_names_in_c.py finds them).
 _WORDS = """
 t q v y p g f b x a dy phi nu gamma e nx ny tx ty out given is_given latch memory pivot status scale aside
 delta deltadot ratio F_n F_t v_t epsilon w_n w_t root W factor rows force rhs powers dependent
 reactions torques series max_of min_of sign_of solve_dependent errno stdin stdout stderr signgam
+side side_of
 e_x e_y de_x de_y de_t omega_i omega_j n_x n_y stored a_i a_j share F_r T0 F_x F_y F_along_n F_along_t M_i M_j
 """
 _TAKEN = frozenset(_WORDS.split())
@@ -28,7 +31,7 @@ _MACRO = re.compile(
     r"|(sa|si|st|sched|math)_\w+"
 )
 # Functions that are called where a parameter of that name is a local; parts of a clearance joint's force.
-_FUNCTION = re.compile(r"clearance_\w+|(F_along_[nt]|M_[ij])_(dry|film)")
+_FUNCTION = re.compile(r"clearance_\w+|side_\d+|(F_along_[nt]|M_[ij])_(dry|film)")
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,7 @@ class Symbols:
         self.info: dict[sp.Symbol, SymbolInfo] = {}
         self.definitions: dict[sp.Symbol, sp.Expr] = {}
         self.rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
+        self.switches = Switches()
         self._names: set[str] = set()
         self._shared: Symbols | None = None  # who else has the members of Parameters
 

@@ -26,12 +26,15 @@ FACTORS: Mapping[str, Callable[[Any], Any]] = {
 
 
 def normal_force(s: LawInputs, K: Any, factor: str) -> Any:
-    """K δⁿ (1 + a δ̇/δ̇⁻), never negative: what every law with hysteresis damping is."""
+    """K δⁿ (1 + a δ̇/δ̇⁻), never negative: what every law with hysteresis damping is.
+
+    The corner is that of 1 + a δ̇/δ̇⁻ alone: with δⁿ in it, it would be one at every separation.
+    """
     import sympy as sp
 
     a = s.derive("hysteresis", FACTORS[factor](s.parameters["restitution"]), "hysteresis damping factor a")
     delta, ratio = s.variables["delta"], s.variables["ratio"]
-    return sp.Max(K * delta ** s.parameters["exponent"] * (1 + a * ratio), 0)
+    return K * delta ** s.parameters["exponent"] * sp.Max(1 + a * ratio, 0)
 
 
 def _exp(x: Any) -> Any:

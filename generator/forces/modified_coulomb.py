@@ -1,6 +1,8 @@
 """Modified Coulomb friction: no force below the slip v0, the full Coulomb force above v1.
 
-    F_t = −c_f c_d F_n sgn(v_t),   c_d = clip((|v_t| − v0)/(v1 − v0), 0, 1)
+    F_t = −c_f c_d F_n,   c_d = clip((v_t − v0)/(v1 − v0), 0, 1) − clip((−v_t − v0)/(v1 − v0), 0, 1)
+
+which is the usual c_d(|v_t|) sgn(v_t), written without a corner at v_t = 0, where there is no force.
 
 J. A. C. Ambrósio's form of Coulomb's law, as in the paper (physics.md, section 3). It depends on the
 slip alone, so it cannot hold stick.
@@ -20,8 +22,8 @@ def build(s: LawInputs) -> dict[str, Any]:
 
     v0, v1, v_t = s.parameters["v0"], s.parameters["v1"], s.variables["v_t"]
     slope = s.derive("friction_slope", 1 / (v1 - v0), "1/(v1 - v0)")
-    c_d = sp.Max(sp.Min((sp.Abs(v_t) - v0) * slope, 1), 0)
-    return {"F_t": -s.parameters["mu"] * c_d * s.variables["F_n"] * sp.sign(v_t)}
+    forward, backward = (sp.Max(sp.Min((v - v0) * slope, 1), 0) for v in (v_t, -v_t))
+    return {"F_t": -s.parameters["mu"] * (forward - backward) * s.variables["F_n"]}
 
 
 LAW = Law(

@@ -4,7 +4,8 @@
  * Valid: a point or a line contact whose stiffness is known; penetrations small against the radii.
  * Options: dissipation: hunt_crossley.
  */
-static inline void normal_fall_force(double delta, double ratio, const Parameters *p, double *F_n_out)
+static inline void normal_fall_force(double delta, double ratio, const Parameters *p, const double *side,
+    double *g, double *F_n_out)
 {
     /* parameters */
     const double damped_normal_stiffness = p->damped_normal_stiffness;
@@ -12,29 +13,34 @@ static inline void normal_fall_force(double delta, double ratio, const Parameter
     const double damped_floor_hysteresis = p->damped_floor_hysteresis;
 
     /* law of joint fall */
-    *F_n_out = max_of(damped_normal_stiffness*pow(delta,
-        damped_normal_exponent)*(damped_floor_hysteresis*ratio + 1.0), 0.0);
+    const double side_0 = side_of(side, g, 0, damped_floor_hysteresis*ratio + 1.0);
+    *F_n_out = damped_normal_stiffness*pow(delta, damped_normal_exponent)*(side_0 < 0.0 ? 0.0 :
+        damped_floor_hysteresis*ratio + 1.0);
 }
 
 /*
  * No friction in this joint.
  */
-static inline void friction_fall_force(double F_n, double v_t, const Parameters *p, double *F_t_out)
+static inline void friction_fall_force(double F_n, double v_t, const Parameters *p, const double *side,
+    double *g, double *F_t_out)
 {
     (void)F_n;
     (void)v_t;
     (void)p;
+    (void)side;
+    (void)g;
     /* no friction law */
     *F_t_out = 0.0;
 }
 
 /*
- * Dry contact in joint fall, delta > 0 (physics.md, section 3).
+ * Dry contact in joint fall (physics.md, section 3); none for delta < 0, where a step may look that ends
+ * at the separation.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
 static inline PinForce dry_fall(double delta, double deltadot, double de_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p)
+    const Latch *latch, const Parameters *p, const double *side, double *g)
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
@@ -42,16 +48,16 @@ static inline PinForce dry_fall(double delta, double deltadot, double de_t, doub
     const double a_j = -0.5*delta + p->R_j_floor;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     double F_n, F_along_t_dry;
-    normal_fall_force(delta, ratio, p, &F_n);
-    friction_fall_force(F_n, v_t, p, &F_along_t_dry);
+    normal_fall_force(max_of(delta, 0.0), ratio, p, side, g, &F_n);
+    friction_fall_force(F_n, v_t, p, side, g, &F_along_t_dry);
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
-/* Joint fall: free while delta < 0, dry contact beyond. */
+/* Joint fall: free while delta < 0, dry contact beyond; a step holds what it began with. */
 static void clearance_fall(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, Clearance *out)
+    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double n_x = e > 0.0 ? e_x / e : 1.0;
@@ -60,8 +66,10 @@ static void clearance_fall(double e_x, double e_y, double de_x, double de_y, dou
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     PinForce F = {0};
-    if (delta > 0.0)
-        F = dry_fall(delta, deltadot, de_t, omega_i, omega_j, latch, p);
+    for (int k = 0; k < 1; k++)
+        g[k] = NAN; /* without contact nothing switches */
+    if (side ? latch->closed : delta > 0.0)
+        F = dry_fall(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};

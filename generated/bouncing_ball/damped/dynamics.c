@@ -3,10 +3,14 @@
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters
-    *p, double *a, Aside *aside)
+static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *a, Aside *aside)
 {
     (void)t;
+    /* corners: the sides that are held, if any */
+    const double *const side = memory->held ? memory->side : NULL;
+    double *const g = aside->g;
+
     /* coordinates, velocities, time */
     const double ball_x = q[0];
     const double ball_y = q[1];
@@ -24,7 +28,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double e_fall_y = ball_y;
     const double edot_fall_x = ball_vx;
     const double edot_fall_y = ball_vy;
-    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, 0, ball_omega, &memory->latch[0], p, &aside->clearance[0]);
+    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, 0, ball_omega, &memory->latch[0], p, side, g, &aside->clearance[0]);
     const double F_fall_x = aside->clearance[0].Fx;
     const double F_fall_y = aside->clearance[0].Fy;
     const double M_fall_second = aside->clearance[0].moment_second;

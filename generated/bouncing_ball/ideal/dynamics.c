@@ -3,9 +3,10 @@
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static int dynamics(const double t, const double *q, const double *v, const Parameters *p, double *a, Aside
-    *aside)
+static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *a, Aside *aside)
 {
+    (void)memory;
     /* coordinates, velocities, time */
     const double ball_x = q[0];
     const double ball_y = q[1];

@@ -217,8 +217,8 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
 /*
  * gamma: Phi_q a = gamma.
  */
-static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double
-    *gamma_rows)
+static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
+    double *gamma_rows)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -309,8 +309,8 @@ static void start_values(const Parameters *p, double *guess, double *set, double
  * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
-static void outputs(const double t, const double *q, const double *v, const Parameters *p, const double
-    *lambda, double *reactions, double *torques, double *series, double *energy)
+static void outputs(const double t, const double *q, const double *v, const Parameters *p, const
+    double *lambda, double *reactions, double *torques, double *series, double *energy)
 {
     (void)t;
     (void)torques;

@@ -4,7 +4,8 @@
  * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
  * Options: geometry: external.
  */
-static inline void normal_A_force(double delta, double ratio, const Parameters *p, double *F_n_out)
+static inline void normal_A_force(double delta, double ratio, const Parameters *p, const double *side,
+    double *g, double *F_n_out)
 {
     /* parameters */
     const double dry_normal_exponent = p->dry_normal_exponent;
@@ -12,7 +13,9 @@ static inline void normal_A_force(double delta, double ratio, const Parameters *
     const double dry_pin_hysteresis = p->dry_pin_hysteresis;
 
     /* law of joint A */
-    *F_n_out = max_of(pow(delta, dry_normal_exponent)*dry_pin_K*(dry_pin_hysteresis*ratio + 1.0), 0.0);
+    const double side_0 = side_of(side, g, 0, dry_pin_hysteresis*ratio + 1.0);
+    *F_n_out = pow(delta, dry_normal_exponent)*dry_pin_K*(side_0 < 0.0 ? 0.0 : dry_pin_hysteresis*ratio +
+        1.0);
 }
 
 /*
@@ -20,7 +23,8 @@ static inline void normal_A_force(double delta, double ratio, const Parameters *
  * Source: physics.md section 3, after J. A. C. Ambrosio.
  * Valid: sliding; creeps below v1 where Coulomb's law would stick.
  */
-static inline void friction_A_force(double F_n, double v_t, const Parameters *p, double *F_t_out)
+static inline void friction_A_force(double F_n, double v_t, const Parameters *p, const double *side,
+    double *g, double *F_t_out)
 {
     /* parameters */
     const double dry_friction_mu = p->dry_friction_mu;
@@ -28,17 +32,25 @@ static inline void friction_A_force(double F_n, double v_t, const Parameters *p,
     const double dry_pin_friction_slope = p->dry_pin_friction_slope;
 
     /* law of joint A */
-    *F_t_out = -F_n*dry_friction_mu*sign_of(v_t)*max_of(min_of(dry_pin_friction_slope*(-dry_friction_v0 +
-        fabs(v_t)), 1.0), 0.0);
+    const double side_1 = side_of(side, g, 1, -dry_pin_friction_slope*(-dry_friction_v0 - v_t) + 1.0);
+    const double side_2 = side_of(side, g, 2, (side_1 < 0.0 ? 1.0 : dry_pin_friction_slope*(-dry_friction_v0 -
+        v_t)));
+    const double side_3 = side_of(side, g, 3, -dry_pin_friction_slope*(-dry_friction_v0 + v_t) + 1.0);
+    const double side_4 = side_of(side, g, 4, (side_3 < 0.0 ? 1.0 : dry_pin_friction_slope*(-dry_friction_v0 +
+        v_t)));
+    *F_t_out = -F_n*dry_friction_mu*(-(side_2 < 0.0 ? 0.0 : (side_1 < 0.0 ? 1.0 :
+        dry_pin_friction_slope*(-dry_friction_v0 - v_t))) + (side_4 < 0.0 ? 0.0 : (side_3 < 0.0 ? 1.0 :
+        dry_pin_friction_slope*(-dry_friction_v0 + v_t))));
 }
 
 /*
- * Dry contact in joint A, delta > 0 (physics.md, section 3).
+ * Dry contact in joint A (physics.md, section 3); none for delta < 0, where a step may look that ends
+ * at the separation.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
 static inline PinForce dry_A(double delta, double deltadot, double de_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p)
+    const Latch *latch, const Parameters *p, const double *side, double *g)
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
@@ -46,16 +58,16 @@ static inline PinForce dry_A(double delta, double deltadot, double de_t, double 
     const double a_j = -0.5*delta + p->R_j_pin;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     double F_n, F_along_t_dry;
-    normal_A_force(delta, ratio, p, &F_n);
-    friction_A_force(F_n, v_t, p, &F_along_t_dry);
+    normal_A_force(max_of(delta, 0.0), ratio, p, side, g, &F_n);
+    friction_A_force(F_n, v_t, p, side, g, &F_along_t_dry);
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
-/* Joint A: free while delta < 0, dry contact beyond. */
+/* Joint A: free while delta < 0, dry contact beyond; a step holds what it began with. */
 static void clearance_A(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, Clearance *out)
+    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double n_x = e > 0.0 ? e_x / e : 1.0;
@@ -64,8 +76,10 @@ static void clearance_A(double e_x, double e_y, double de_x, double de_y, double
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     PinForce F = {0};
-    if (delta > 0.0)
-        F = dry_A(delta, deltadot, de_t, omega_i, omega_j, latch, p);
+    for (int k = 0; k < 5; k++)
+        g[k] = NAN; /* without contact nothing switches */
+    if (side ? latch->closed : delta > 0.0)
+        F = dry_A(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};
@@ -77,7 +91,8 @@ static void clearance_A(double e_x, double e_y, double de_x, double de_y, double
  * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
  * Options: geometry: external.
  */
-static inline void normal_B_force(double delta, double ratio, const Parameters *p, double *F_n_out)
+static inline void normal_B_force(double delta, double ratio, const Parameters *p, const double *side,
+    double *g, double *F_n_out)
 {
     /* parameters */
     const double dry_normal_exponent = p->dry_normal_exponent;
@@ -85,7 +100,9 @@ static inline void normal_B_force(double delta, double ratio, const Parameters *
     const double dry_pin_hysteresis = p->dry_pin_hysteresis;
 
     /* law of joint B */
-    *F_n_out = max_of(pow(delta, dry_normal_exponent)*dry_pin_K*(dry_pin_hysteresis*ratio + 1.0), 0.0);
+    const double side_5 = side_of(side, g, 5, dry_pin_hysteresis*ratio + 1.0);
+    *F_n_out = pow(delta, dry_normal_exponent)*dry_pin_K*(side_5 < 0.0 ? 0.0 : dry_pin_hysteresis*ratio +
+        1.0);
 }
 
 /*
@@ -93,7 +110,8 @@ static inline void normal_B_force(double delta, double ratio, const Parameters *
  * Source: physics.md section 3, after J. A. C. Ambrosio.
  * Valid: sliding; creeps below v1 where Coulomb's law would stick.
  */
-static inline void friction_B_force(double F_n, double v_t, const Parameters *p, double *F_t_out)
+static inline void friction_B_force(double F_n, double v_t, const Parameters *p, const double *side,
+    double *g, double *F_t_out)
 {
     /* parameters */
     const double dry_friction_mu = p->dry_friction_mu;
@@ -101,17 +119,25 @@ static inline void friction_B_force(double F_n, double v_t, const Parameters *p,
     const double dry_pin_friction_slope = p->dry_pin_friction_slope;
 
     /* law of joint B */
-    *F_t_out = -F_n*dry_friction_mu*sign_of(v_t)*max_of(min_of(dry_pin_friction_slope*(-dry_friction_v0 +
-        fabs(v_t)), 1.0), 0.0);
+    const double side_6 = side_of(side, g, 6, -dry_pin_friction_slope*(-dry_friction_v0 - v_t) + 1.0);
+    const double side_7 = side_of(side, g, 7, (side_6 < 0.0 ? 1.0 : dry_pin_friction_slope*(-dry_friction_v0 -
+        v_t)));
+    const double side_8 = side_of(side, g, 8, -dry_pin_friction_slope*(-dry_friction_v0 + v_t) + 1.0);
+    const double side_9 = side_of(side, g, 9, (side_8 < 0.0 ? 1.0 : dry_pin_friction_slope*(-dry_friction_v0 +
+        v_t)));
+    *F_t_out = -F_n*dry_friction_mu*(-(side_7 < 0.0 ? 0.0 : (side_6 < 0.0 ? 1.0 :
+        dry_pin_friction_slope*(-dry_friction_v0 - v_t))) + (side_9 < 0.0 ? 0.0 : (side_8 < 0.0 ? 1.0 :
+        dry_pin_friction_slope*(-dry_friction_v0 + v_t))));
 }
 
 /*
- * Dry contact in joint B, delta > 0 (physics.md, section 3).
+ * Dry contact in joint B (physics.md, section 3); none for delta < 0, where a step may look that ends
+ * at the separation.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
 static inline PinForce dry_B(double delta, double deltadot, double de_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p)
+    const Latch *latch, const Parameters *p, const double *side, double *g)
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
@@ -119,16 +145,16 @@ static inline PinForce dry_B(double delta, double deltadot, double de_t, double 
     const double a_j = -0.5*delta + p->R_j_pin;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     double F_n, F_along_t_dry;
-    normal_B_force(delta, ratio, p, &F_n);
-    friction_B_force(F_n, v_t, p, &F_along_t_dry);
+    normal_B_force(max_of(delta, 0.0), ratio, p, side, g, &F_n);
+    friction_B_force(F_n, v_t, p, side, g, &F_along_t_dry);
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
-/* Joint B: free while delta < 0, dry contact beyond. */
+/* Joint B: free while delta < 0, dry contact beyond; a step holds what it began with. */
 static void clearance_B(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, Clearance *out)
+    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double n_x = e > 0.0 ? e_x / e : 1.0;
@@ -137,8 +163,10 @@ static void clearance_B(double e_x, double e_y, double de_x, double de_y, double
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     PinForce F = {0};
-    if (delta > 0.0)
-        F = dry_B(delta, deltadot, de_t, omega_i, omega_j, latch, p);
+    for (int k = 5; k < 10; k++)
+        g[k] = NAN; /* without contact nothing switches */
+    if (side ? latch->closed : delta > 0.0)
+        F = dry_B(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};

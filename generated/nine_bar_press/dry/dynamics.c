@@ -3,9 +3,13 @@
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters
-    *p, double *a, Aside *aside)
+static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *a, Aside *aside)
 {
+    /* corners: the sides that are held, if any */
+    const double *const side = memory->held ? memory->side : NULL;
+    double *const g = aside->g;
+
     /* coordinates, velocities, time */
     const double L1_x = q[0];
     const double L1_y = q[1];
@@ -140,7 +144,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double e_A_y = -L1_y + L2_y - arm_L1_head_y - arm_L2_head_y;
     const double edot_A_x = L1_omega*arm_L1_head_y - L1_vx + L2_omega*arm_L2_head_y + L2_vx;
     const double edot_A_y = -L1_omega*arm_L1_head_x - L1_vy - L2_omega*arm_L2_head_x + L2_vy;
-    clearance_A(e_A_x, e_A_y, edot_A_x, edot_A_y, L1_omega, L2_omega, &memory->latch[0], p, &aside->clearance[0]);
+    clearance_A(e_A_x, e_A_y, edot_A_x, edot_A_y, L1_omega, L2_omega, &memory->latch[0], p, side, g, &aside->clearance[0]);
     const double F_A_x = aside->clearance[0].Fx;
     const double F_A_y = aside->clearance[0].Fy;
     const double M_A_first = aside->clearance[0].moment_first;
@@ -152,7 +156,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double e_B_y = L3_y - L4_y - arm_L3_head_y - arm_L4_head_y;
     const double edot_B_x = L3_omega*arm_L3_head_y + L3_vx + L4_omega*arm_L4_head_y - L4_vx;
     const double edot_B_y = -L3_omega*arm_L3_head_x + L3_vy - L4_omega*arm_L4_head_x - L4_vy;
-    clearance_B(e_B_x, e_B_y, edot_B_x, edot_B_y, L4_omega, L3_omega, &memory->latch[1], p, &aside->clearance[1]);
+    clearance_B(e_B_x, e_B_y, edot_B_x, edot_B_y, L4_omega, L3_omega, &memory->latch[1], p, side, g, &aside->clearance[1]);
     const double F_B_x = aside->clearance[1].Fx;
     const double F_B_y = aside->clearance[1].Fy;
     const double M_B_first = aside->clearance[1].moment_first;

@@ -17,6 +17,7 @@ enum {
     N_DRIVES = 0,
     N_CLEARANCES = 0,        /* joints with play */
     N_FRICTIONS = 0,         /* slips that friction may hold */
+    N_SWITCHES = 0,          /* corners of min, max, abs and sign */
     N_SERIES = 0,            /* results of force elements */
     N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
     N_Y = 2 * N_Q + N_WORK
@@ -33,11 +34,14 @@ typedef struct {
 
 /*
  * What the right-hand side remembers beside the state: latches, and each friction's mode: 0 stick, 1 or -1 the
- * sign of its slip, 2 no force at all, where others hold the slip at zero.
+ * sign of its slip, 2 no force at all, where others hold the slip at zero. While it is `held`, contacts and the
+ * sides of all corners stay as they are here, whatever the state says.
  */
 typedef struct {
     Latch latch[1];
     double mode[1];
+    double side[1];
+    int held;
 } Memory;
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
@@ -66,9 +70,16 @@ typedef struct {
     double power[N_WORK];
     Clearance clearance[1];
     Friction friction[1];
+    double g[1]; /* switching functions; NaN: does not act */
 } Aside;
 
 /* min, max, sign that keep a NaN in x. */
 static inline double max_of(double x, double y) { return x < y ? y : x; }
 static inline double min_of(double x, double y) { return x > y ? y : x; }
 static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
+/* The side of corner k: as it is held, or where g is. */
+static inline double side_of(const double *side, double *g, int k, double value)
+{
+    g[k] = value;
+    return side ? side[k] : sign_of(value);
+}

@@ -3,9 +3,13 @@
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters
-    *p, double *a, Aside *aside)
+static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *a, Aside *aside)
 {
+    /* corners: the sides that are held, if any */
+    const double *const side = memory->held ? memory->side : NULL;
+    double *const g = aside->g;
+
     /* coordinates, velocities, time */
     const double crank_x = q[0];
     const double crank_y = q[1];
@@ -61,7 +65,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double e_wristpin_y = -arm_rod_head_y - rod_y + slider_y;
     const double edot_wristpin_x = arm_rod_head_y*rod_omega - rod_vx + slider_vx;
     const double edot_wristpin_y = -arm_rod_head_x*rod_omega - rod_vy + slider_vy;
-    clearance_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega, &memory->latch[0], p, &aside->clearance[0]);
+    clearance_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega, &memory->latch[0], p, side, g, &aside->clearance[0]);
     const double F_wristpin_x = aside->clearance[0].Fx;
     const double F_wristpin_y = aside->clearance[0].Fy;
     const double M_wristpin_first = aside->clearance[0].moment_first;

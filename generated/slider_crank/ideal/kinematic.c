@@ -129,7 +129,7 @@ int gudgeon_kinematic(long n, const double *t, const double *p, double reach, do
             return status;
         Aside aside;
         double a[N_Q];
-        const int singular = dynamics(t[i + 1], now, rate, (const Parameters *)p, a, &aside);
+        const int singular = dynamics(t[i + 1], now, rate, &(Memory){0}, (const Parameters *)p, a, &aside);
         if (singular)
             return singular;
         constraints(t[i + 1], now, (const Parameters *)p, phi);

@@ -3,8 +3,7 @@
  */
 static int state_equation(double t, const double *y, const Memory *memory, const Parameters *p, double *dy, Aside *aside)
 {
-    (void)memory;
-    const int status = dynamics(t, y, y + N_Q, p, dy + N_Q, aside);
+    const int status = dynamics(t, y, y + N_Q, memory, p, dy + N_Q, aside);
     for (int k = 0; k < N_Q; k++)
         dy[k] = y[N_Q + k];
     for (int k = 0; k < N_WORK; k++)
@@ -21,6 +20,7 @@ static void read_memory(const double *sample, Memory *memory)
     }
     for (int i = 0; i < N_FRICTIONS; i++)
         memory->mode[i] = sample[N_CLEARANCES + i];
+    memory->held = 0;
 }
 
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)

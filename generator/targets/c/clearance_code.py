@@ -9,7 +9,7 @@ import sympy as sp
 from gudgeon.generator import contact
 from gudgeon.generator.clearance import Clearance
 from gudgeon.generator.contact import Step
-from gudgeon.generator.kernels import Statement
+from gudgeon.generator.kernels import Section, Statement, hold_sides
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
 from gudgeon.generator.targets.c import printer
@@ -18,7 +18,7 @@ Render = Callable[..., str]  # template name, substitutions -> text
 
 _ARGUMENTS = (
     "double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,\n"
-    "    const Latch *latch, const Parameters *p, Clearance *out"
+    "    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out"
 )
 # At e = 0 any direction will do for the normal: the force is isotropic there.
 _GUARDED = {contact.n_x: "e > 0.0 ? e_x / e : 1.0", contact.n_y: "e > 0.0 ? e_y / e : 0.0"}
@@ -27,42 +27,54 @@ _STORE = """\
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};"""
 _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
-_CLIPPED = f"max_of(min_of({_RATIO}, 1.0), -1.0)"
+_UNCLIPPED = sp.Symbol("unclipped", real=True)
 
 
 def clearance_code(model: Model, clearance: Clearance, render: Render) -> str:
     """Law functions, then the joint's own function."""
     joint, film = clearance.name, clearance.film
     parts = [printer.kernel(kernel) for kernel in law_kernels(model.symbols, clearance)]
+    owner = clearance.name
     if clearance.normal is not None:
-        before = [step for step in contact.before_dry(clearance) if step.symbol != contact.ratio]
+        before = [_in_c(step) for step in contact.before_dry(clearance)]
         parts.append(
             render(
-                "dry.c.jinja", joint=joint, ratio=_CLIPPED if clearance.clip_ratio else _RATIO,
-                before=_lines(model, before), after=_lines(model, contact.after_dry()),
+                "dry.c.jinja", joint=joint, ratio=_RATIO, ratio_name="unclipped" if clearance.clip_ratio else "ratio",
+                before=_lines(model, before, owner), after=_lines(model, contact.after_dry(), owner),
             )
         )  # fmt: skip
     if film is not None:
         before, after = contact.before_film(clearance, film), contact.after_film(film)
-        parts.append(render("film.c.jinja", joint=joint, before=_lines(model, before), after=_lines(model, after)))
-    share = [contact.blend(clearance)] if _template(clearance) == "clearance_transition.c.jinja" else []
+        parts.append(
+            render("film.c.jinja", joint=joint, before=_lines(model, before, owner), after=_lines(model, after, owner))
+        )
+    share = [contact.blend(clearance, closed=True)] if _template(clearance) == "clearance_transition.c.jinja" else []
+    gap, blend = _lines(model, contact.gap(clearance), owner), _lines(model, share, owner)
+    switches = [switch.index for switch in model.symbols.switches.of(owner)]
     parts.append(
         render(
-            _template(clearance), joint=joint, arguments=_ARGUMENTS, gap=_lines(model, contact.gap(clearance)),
-            share=_lines(model, share), store=_STORE,
+            _template(clearance), joint=joint, arguments=_ARGUMENTS, gap=gap, share=blend, store=_STORE,
+            first=min(switches, default=0), last=max(switches, default=-1) + 1,
         )
     )  # fmt: skip
     return "\n".join(parts)
 
 
-def _lines(model: Model, steps: Sequence[Step]) -> str:
-    """Steps as C statements, parameters read in place."""
-    lines = []
+def _in_c(step: Step) -> Step:
+    """The ratio of velocities is C's own (latched or not): only its clipping is an equation."""
+    stored = contact.deltadot / contact.stored
+    return Step(step.symbol, step.value.subs(stored, _UNCLIPPED)) if step.symbol == contact.ratio else step
+
+
+def _lines(model: Model, steps: Sequence[Step], owner: str) -> str:
+    """Steps as C statements, parameters read in place, corners as sides of switches."""
+    statements = []
     for step in steps:
         slots = {s: sp.Symbol(f"p->{s.name}") for s in step.value.free_symbols if s in model.symbols.info}
         value = _GUARDED.get(step.symbol) or step.value.xreplace(slots)
-        lines.append(printer.statement(Statement(step.symbol.name, value)))
-    return "\n".join(lines)
+        statements.append(Statement(step.symbol.name, value))
+    (section,) = hold_sides(model.symbols.switches, owner, [Section("", tuple(statements))])
+    return "\n".join(map(printer.statement, section.statements))
 
 
 def _template(clearance: Clearance) -> str:

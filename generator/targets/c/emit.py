@@ -77,7 +77,7 @@ def emit(model: Model) -> KernelSource:
         "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
         **({"singular.c": _singular(model)} if model.rows and not model.frictions else {}),
         "dynamics.c": _kernels(dynamics),
-        "system.c": render("system.c.jinja", **_counts(model), **_memory(model)),
+        "system.c": render("system.c.jinja", **_counts(model)),
         f"{method}.c": _method(model, kkt, method),
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
@@ -121,6 +121,7 @@ def _counts(model: Model) -> dict[str, int]:
         "n_drives": len(model.scene.mechanism.drives),
         "n_clearances": len(model.clearances),
         "n_frictions": len(model.frictions),
+        "n_switches": len(model.symbols.switches.found),
         "n_series": len(interface.element_series(model)),
     }
 
@@ -133,12 +134,6 @@ def _header(model: Model) -> dict[str, Any]:
         "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
         "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived, **_counts(model),
     }  # fmt: skip
-
-
-def _memory(model: Model) -> dict[str, str]:
-    """A scene without play and friction has nothing to remember."""
-    remembers = bool(model.clearances or model.frictions)
-    return {"memory": "memory, " if remembers else "", "unused_memory": "" if remembers else "(void)memory;"}
 
 
 def _singular(model: Model) -> str:

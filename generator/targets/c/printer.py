@@ -76,6 +76,16 @@ class CPrinter(C99CodePrinter):
         return f"({self._print(expr.args[0])} >= 0.0 ? 1.0 : 0.0)"
 
 
+    def _print_SideOf(self, expr: sp.Expr) -> str:
+        """From switches.py."""
+        return f"side_of(side, g, {int(expr.args[0])}, {self._print(expr.args[1])})"
+
+    def _print_Pick(self, expr: sp.Expr) -> str:
+        """Not below zero picks the first: a NaN stays in it."""
+        side, a, b = (self._print(argument) for argument in expr.args)
+        return f"({side} < 0.0 ? {b} : {a})"
+
+
 def _double(number: sp.Expr) -> str:
     """A number as binary64; one that is too large is what the arithmetic of C would make of it."""
     value = float(sp.Float(number, 17))
@@ -131,5 +141,6 @@ def kernel(item: Kernel) -> str:
     voids = "".join(f"    (void){name};\n" for name in unused)
     doc = "\n".join(f" * {comment_text(line)}" for line in item.doc)
     head = f"static {'inline ' if item.inline else ''}{item.returns} {item.name}({arguments(item.arguments)})"
-    head = "\n".join(textwrap.wrap(head, WIDTH, subsequent_indent="    "))
+    wrapped = textwrap.wrap(head.replace(" *", "\0*"), WIDTH, subsequent_indent="    ")  # no break inside a type
+    head = "\n".join(wrapped).replace("\0*", " *")
     return f"/*\n{doc}\n */\n{head}\n{{\n{voids}{body}\n}}\n"

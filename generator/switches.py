@@ -1,0 +1,92 @@
+"""Switching functions: where min, max, abs and sign of the equations have their corners.
+
+Each corner is the zero of a function g of the state. In emitted code its `side` (the sign of g) is either
+taken from g itself or held fixed over a step, so that a method of high order sees a smooth right-hand
+side, and its Jacobian the same branch; a zero of g then ends the step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+
+class SideOf(sp.Function):
+    """SideOf(k, g): the side of switch k, −1 or 1 (0 only where g is 0 and nothing is held)."""
+
+    nargs = 2
+    is_real = True
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """A side is constant over a step."""
+        return sp.Integer(0)
+
+
+class Pick(sp.Function):
+    """Pick(side, a, b): b on the side below zero, else a."""
+
+    nargs = 3
+    is_real = True
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """The derivative of the branch that is picked."""
+        if argindex == 1:
+            return sp.Integer(0)
+        return Pick(self.args[0], sp.Integer(argindex == 2), sp.Integer(argindex == 3))
+
+
+@dataclass(frozen=True)
+class Switch:
+    """One corner: `owner` is the joint with play that it belongs to, "" for the scene."""
+
+    index: int
+    owner: str
+    g: sp.Expr
+
+
+@dataclass
+class Switches:
+    """The corners of a scene, each once."""
+
+    found: dict[tuple[str, sp.Expr], Switch] = field(default_factory=dict)
+
+    def side(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
+        """The switch of g, and −1 where it is known by −g."""
+        for sign in (1, -1):
+            if (known := self.found.get((owner, sp.expand(sign * g)))) is not None:
+                return known, sign
+        switch = Switch(len(self.found), owner, g)
+        self.found[owner, sp.expand(g)] = switch
+        return switch, 1
+
+    def of(self, owner: str) -> list[Switch]:
+        """The switches of one joint with play, in their order."""
+        return [switch for switch in self.found.values() if switch.owner == owner]
+
+    def hold(self, expression: sp.Expr, owner: str, sides: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+        """`expression` with its corners as sides; the symbols that it then reads are added to `sides`."""
+        if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside):
+            return expression
+        arguments = [self.hold(a, owner, sides) for a in expression.args]
+
+        def side(g: sp.Expr) -> sp.Expr:
+            switch, sign = self.side(owner, g)
+            symbol = sp.Symbol(f"side_{switch.index}", real=True)
+            sides.setdefault(symbol, SideOf(sp.Integer(switch.index), switch.g))
+            return sign * symbol
+
+        match expression:
+            case sp.Abs():
+                return side(arguments[0]) * arguments[0]
+            case sp.sign():
+                return side(arguments[0])
+            case sp.Heaviside():
+                return Pick(side(arguments[0]), sp.Integer(1), sp.Integer(0))
+            case sp.Max() | sp.Min():
+                ordered = sorted(arguments, key=lambda a: (a.is_Number, str(a)))
+                value, up = ordered[0], isinstance(expression, sp.Max)
+                for other in ordered[1:]:
+                    value = Pick(side(value - other if up else other - value), value, other)
+                return value
+        return expression.func(*arguments)
