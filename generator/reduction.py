@@ -14,13 +14,13 @@ import sympy as sp
 
 from gudgeon.generator.clearance import make_clearance
 from gudgeon.generator.constraints import Constraints, Row
-from gudgeon.generator.elements import apply_element
+from gudgeon.generator.elements import PointLoad, apply_element
 from gudgeon.generator.friction import make_friction
 from gudgeon.generator.geometry import BodySymbols, PointFrame
 from gudgeon.generator.inertia import Inertia
 from gudgeon.generator.mechanism import PointRef
 from gudgeon.generator.model import Model
-from gudgeon.generator.system import Given, Motion, PointLoad, System
+from gudgeon.generator.system import Given, Motion, System
 from gudgeon.generator.tree import CONSTANT, Affine, Tree, choose_tree, substitute
 from gudgeon.generator.tree_frames import ONE, ZERO, Coordinate, Motions
 from gudgeon.generator.tree_geometry import TreeGeometry, TreePoint

@@ -57,7 +57,7 @@ class Symbols:
     def beside(self) -> Symbols:
         """Other symbols for other functions of the same library: they share the members of Parameters only."""
         other = Symbols()
-        other._shared = self
+        other._shared, other.switches = self, self.switches.beside()
         for symbol, info in self.info.items():
             if info.home.startswith("p->"):
                 other.adopt(symbol)

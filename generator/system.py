@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import sympy as sp
 
 from gudgeon.generator.constraints import Row
+from gudgeon.generator.elements import PointLoad
 from gudgeon.generator.friction import Friction
-from gudgeon.generator.geometry import PointFrame
 from gudgeon.generator.model import Model
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)
@@ -28,15 +27,6 @@ class Motion:
 
     jacobian: tuple[Mapping[int, sp.Expr], ...]
     bias: tuple[sp.Expr, ...]
-
-
-class PointLoad(NamedTuple):
-    """A force (ground axes) at a point, and a moment, on the point's body."""
-
-    point: PointFrame
-    x: sp.Expr
-    y: sp.Expr
-    moment: sp.Expr
 
 
 @dataclass(frozen=True)
