@@ -18,6 +18,7 @@ from gudgeon.generator.system import absolute
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
+from gudgeon.generator.targets.c.reduced_code import ReducedCode, reduced_code
 from gudgeon.kernel_source import KernelSource
 
 COMMON_CDEF = """\
@@ -69,21 +70,25 @@ def emit(model: Model) -> KernelSource:
         start_pivots = projection_kkt.pivots
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
+    reduced = reduced_code(model, render, _kernels)
     prepare = interface.prepare_kernel(model, printer.expression)
     files = {
-        "model.h": render("model.h.jinja", **_header(model)),
+        "model.h": render("model.h.jinja", **_header(model, reduced)),
         "parameters.c": _kernels(prepare),
         "constraints.c": _kernels(*around),
         "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
         **({"singular.c": _singular(model)} if model.rows and not model.frictions else {}),
         "dynamics.c": _kernels(dynamics),
         "system.c": render("system.c.jinja", **_counts(model)),
+        **reduced.files,
         f"{method}.c": _method(model, kkt, method),
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
     return describe(
-        model, files=files, main="scene.c", cdef=COMMON_CDEF + METHOD_CDEF[method], methods=(method,),
-        pivots=kkt.pivots, start_pivots=start_pivots, operations=_operations(model, [dynamics, *around, prepare]),
+        model, files=files, main="scene.c", cdef=COMMON_CDEF + reduced.cdef + METHOD_CDEF[method], methods=(method,),
+        pivots=kkt.pivots, start_pivots=start_pivots,
+        operations=_operations(model, [dynamics, *around, *reduced.kernels, prepare]),
+        tree=reduced.system.unknowns, closures=tuple(row.name for row in reduced.system.rows),
     )  # fmt: skip
 
 
@@ -126,13 +131,15 @@ def _counts(model: Model) -> dict[str, int]:
     }
 
 
-def _header(model: Model) -> dict[str, Any]:
+def _header(model: Model, reduced: ReducedCode) -> dict[str, Any]:
     mechanism, info = model.scene.mechanism, model.symbols.info
     slots = [(entry.symbol.name, printer.comment_text(entry.address)) for entry in model.slots.entries.values()]
     derived = [(symbol.name, printer.comment_text(info[symbol].meaning)) for symbol in model.slots.derived]
     return {
         "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
         "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived, **_counts(model),
+        "n_tree": len(reduced.system.q), "n_closures": len(reduced.system.rows),
+        "n_switches": max(model.symbols.switches.count, reduced.system.model.symbols.switches.count),
     }  # fmt: skip
 
 
