@@ -13,6 +13,7 @@ from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.kkt import KKT
 from gudgeon.generator.model import Model
 from gudgeon.generator.reduction import TreeSystem
+from gudgeon.generator.sine_pairs import side_by_side
 from gudgeon.generator.tree import Link
 
 _DOC = (
@@ -37,7 +38,7 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
     kkt = KKT(system)
     dynamics = dynamics_kernel(system, kkt, "reduced_dynamics", _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
-    return [*_closures(system), dynamics, projection], kkt
+    return [side_by_side(kernel) for kernel in (*_closures(system), dynamics, projection)], kkt
 
 
 def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:

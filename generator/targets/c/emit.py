@@ -74,6 +74,7 @@ def emit(model: Model) -> KernelSource:
     prepare = interface.prepare_kernel(model, printer.expression)
     files = {
         "model.h": render("model.h.jinja", **_header(model, reduced)),
+        "trigonometry.c": render("trigonometry.c.jinja"),
         "parameters.c": _kernels(prepare),
         "constraints.c": _kernels(*around),
         "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
