@@ -237,7 +237,7 @@ class _Estimate:
                     near[key] = near[key] | {len(near) - 1}
         cost = PAIR * pairs + ENTRY * entries
         if len(near) <= 2 * SEARCHED:
-            cost += PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).products
+            cost += PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).cost
         return cost
 
     def _moving(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
