@@ -22,10 +22,11 @@ from gudgeon.generator.model import Model
 
 Affine = Mapping[str, sp.Expr]  # coefficients by coordinate; the constant is under ""
 CONSTANT = ""
-DEPTHS = (None, 8, 3)  # how many bodies a chain may have before it is cut
+DEPTHS = (None, 5, 3, 2, 1)  # how many bodies a chain may have before it is cut
 SEARCHED = 40  # more coordinates than that: the tree is not improved by exchanges
 # operations: an entry of M with its velocity term, an entry of a closure's row, a product of the elimination
-PAIR, ENTRY, PRODUCT = 8, 8, 2
+PAIR, ENTRY, PRODUCT = 14, 4, 2
+PLAIN = 5  # an entry of M with x or y of a body that moves freely
 
 
 @dataclass(frozen=True)
@@ -204,6 +205,16 @@ def _loop(links: Sequence[Link], joint: Joint) -> list[Joint]:
     return [link.joint for link in (*one, *two) if (link in one) != (link in two) and link.joint]
 
 
+def _coupled(place: Mapping[str, int], moving: Iterable[frozenset[str]], plain: set[int]) -> list[set[int]]:
+    """Who meets whom in M; x and y of a body that moves freely do not."""
+    near: list[set[int]] = [set() for _ in place]
+    for keys in moving:
+        numbers = {place[name] for name in keys}
+        for k in numbers:
+            near[k] |= numbers - {k} - (plain if k in plain else set())
+    return near
+
+
 class _Estimate:
     """Operations of a tree's right-hand side, counted from which coordinates meet where."""
 
@@ -218,27 +229,24 @@ class _Estimate:
     def __call__(self, links: tuple[Link, ...]) -> int:
         held = {row for link in links for row in link.rows}
         paths: dict[str, list[Link]] = {}
-        columns: dict[str, frozenset[str]] = {GROUND: frozenset()}
+        reach: dict[str, frozenset[str]] = {GROUND: frozenset()}  # what a body's points move with
+        moving: list[frozenset[str]] = []  # what a centre of mass moves with
         for link in links:
             paths[link.body] = [*paths.get(link.parent, []), link]
-            columns[link.body] = columns[link.parent] | self.turns[link.body] | set(link.coordinates)
-        place = {name: k for k, name in enumerate(sorted(frozenset().union(*columns.values())))}
-        near: list[set[int]] = [set() for _ in place]
-        for column in columns.values():
-            for name in column:
-                near[place[name]] |= {place[other] for other in column if other != name}
-        pairs, entries = sum(map(len, near)) // 2, 0
+            reach[link.body] = reach[link.parent] | self.turns[link.body] | set(link.coordinates)
+            moving.append(frozenset(link.coordinates) if link.joint is None else reach[link.body])
+        place = {name: k for k, name in enumerate(sorted(frozenset().union(*reach.values())))}
+        plain = {place[name] for link in links if link.joint is None for name in link.coordinates}
+        near = _coupled(place, moving, plain)
+        cost = sum(PLAIN if k in plain or j in plain else PAIR for k, js in enumerate(near) for j in js if j < k)
         for name, bodies in self.rows:
             if name not in held:
                 keys = {place[key] for key in self._moving(paths, bodies)}
-                entries += len(keys)
+                cost += sum(1 if key in plain else ENTRY for key in keys)
                 near.append(keys)
                 for key in keys:
                     near[key] = near[key] | {len(near) - 1}
-        cost = PAIR * pairs + ENTRY * entries
-        if len(near) <= 2 * SEARCHED:
-            cost += PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).cost
-        return cost
+        return cost + PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).cost
 
     def _moving(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
         """Coordinates between the bodies of a row: what they share of their way from the root does not count."""
