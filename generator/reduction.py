@@ -115,7 +115,8 @@ def _closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[R
     for drive in mechanism.drives.values():
         if drive.name in owners:
             derived |= {row.name: row for row in constraints.drive_rows(drive)}
-    return tuple(derived[name] for name in wanted)
+    pairs = [row for joint in tree.closing for row in constraints.joint_rows(joint)]
+    return (*(derived[name] for name in wanted), *pairs)
 
 
 def _known_slide(

@@ -16,6 +16,7 @@ import sympy as sp
 
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.factorization import choose_elimination
+from gudgeon.generator.hubs import Hub, find_hubs
 from gudgeon.generator.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Joint
 from gudgeon.generator.model import Model
@@ -64,7 +65,21 @@ class Tree:
     angles: Mapping[str, Affine]
     free: tuple[str, ...]  # bodies whose angles are coordinates
     links: tuple[Link, ...]
-    rows: frozenset[str]  # those that the angles and the links make hold by themselves
+    rows: frozenset[str]  # those that the angles and the links make hold by themselves, or hubs say otherwise
+    closing: tuple[Joint, ...]  # pairs of bodies that meet in a hub and are not joined by the tree
+    hubs: tuple[Hub, ...]
+
+    def multiplier(self, row: str) -> dict[str, int]:
+        """A closure's multiplier in those of the file's rows."""
+        name, _, which = row.rpartition(".")
+        for hub in self.hubs:
+            for joint in self.closing:
+                if joint in hub.pairs and joint.name == name:
+                    spanning = [link.joint for link in self.links if link.joint in hub.pairs]
+                    spanning += [other for other in self.closing if other in hub.pairs]
+                    shares = hub.share([j for j in spanning if j is not None], joint)
+                    return {f"{owner}.{which}": sign for owner, sign in shares.items()}
+        return {row: 1}
 
 
 def solve_angles(model: Model) -> tuple[dict[str, Affine], frozenset[str]]:
@@ -118,11 +133,15 @@ def choose_tree(model: Model) -> Tree:
     angles, used = solve_angles(model)
     free = tuple(b for b in angles if angles[b] == {b: 1})
     edges = _edges(model, angles)
-    estimate = _Estimate(model, angles, used)
+    hubs = find_hubs(edges)
+    gathered = {joint.name for hub in hubs for joint in hub.joints}
+    edges = [j for j in edges if j.name not in gathered] + [j for hub in hubs for j in hub.pairs]
+    estimate = _Estimate(model, angles, used, hubs)
     best = min((_grow(model, edges, edges, depth) for depth in DEPTHS), key=estimate)
     if len(free) <= SEARCHED and best == _grow(model, edges, edges, None):
         best = _exchange(model, edges, best, estimate)
-    return Tree(angles, free, best, used.union(*(link.rows for link in best)))
+    rows = used.union(*(link.rows for link in best), *(hub.rows for hub in hubs))
+    return Tree(angles, free, best, rows, tuple(estimate.closing(best)), tuple(hubs))
 
 
 def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
@@ -218,13 +237,15 @@ def _coupled(place: Mapping[str, int], moving: Iterable[frozenset[str]], plain: 
 class _Estimate:
     """Operations of a tree's right-hand side, counted from which coordinates meet where."""
 
-    def __init__(self, model: Model, angles: Mapping[str, Affine], used: frozenset[str]) -> None:
+    def __init__(
+        self, model: Model, angles: Mapping[str, Affine], used: frozenset[str], hubs: Sequence[Hub]
+    ) -> None:
+        self.hubs = hubs
         body_of = {q: body.name for body in model.bodies for q in body.q}
         self.angles = angles
         self.turns = {b: frozenset(k for k in a if k in angles) for b, a in angles.items()}
-        self.rows = [
-            (row.name, sorted({body_of[q] for q in row.phi_q})) for row in model.rows if row.name not in used
-        ]
+        said = used.union(*(hub.rows for hub in hubs))
+        self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in said]
 
     def __call__(self, links: tuple[Link, ...]) -> int:
         held = {row for link in links for row in link.rows}
@@ -239,7 +260,8 @@ class _Estimate:
         plain = {place[name] for link in links if link.joint is None for name in link.coordinates}
         near = _coupled(place, moving, plain)
         cost = sum(PLAIN if k in plain or j in plain else PAIR for k, js in enumerate(near) for j in js if j < k)
-        for name, bodies in self.rows:
+        open_pairs = [(joint.name, [joint.first.body, joint.second.body]) for joint in self.closing(links)]
+        for name, bodies in (*self.rows, *open_pairs, *open_pairs):  # two rows each
             if name not in held:
                 keys = {place[key] for key in self._moving(paths, bodies)}
                 cost += sum(1 if key in plain else ENTRY for key in keys)
@@ -248,12 +270,24 @@ class _Estimate:
                     near[key] = near[key] | {len(near) - 1}
         return cost + PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).cost
 
+    def closing(self, links: tuple[Link, ...]) -> list[Joint]:
+        """Pairs that the hubs need beside the tree's."""
+        paths: dict[str, list[Link]] = {}
+        for link in links:
+            paths[link.body] = [*paths.get(link.parent, []), link]
+
+        def cost(joint: Joint) -> int:
+            return len(self._moving(paths, [joint.first.body, joint.second.body]))
+
+        inside = [link.joint for link in links if link.joint]
+        return [joint for hub in self.hubs for joint in hub.closing(inside, cost)]
+
     def _moving(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
         """Coordinates between the bodies of a row: what they share of their way from the root does not count."""
         shared = 0
         if len(bodies) == 2:
-            one, two = (paths[b] for b in bodies)
+            one, two = (paths.get(b, []) for b in bodies)
             parted = (k for k, (a, b) in enumerate(zip(one, two, strict=False)) if a is not b)
             shared = max(next(parted, min(len(one), len(two))) - 1, 0)
-        links = [link for b in bodies for link in paths[b][shared:]]
+        links = [link for b in bodies for link in paths.get(b, [])[shared:]]
         return {key for link in links for key in (*self.turns[link.body], *link.coordinates)}

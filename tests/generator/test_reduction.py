@@ -75,8 +75,9 @@ def check_state(
         got[i] += value * a[k]
     assert close(got, want.a[0], 1e-9, 1.0)
     index = {row.name: r for r, row in enumerate(library.source.rows)}
-    kept = [index[name] for name in library.source.closures]
-    assert close(multipliers, want.multipliers[0][kept], 1e-8, float(abs(want.multipliers).max(initial=0.1)))
+    shares = [numbers.system.tree.multiplier(name) for name in library.source.closures]
+    carried = [sum(sign * want.multipliers[0][index[row]] for row, sign in share.items()) for share in shares]
+    assert close(multipliers, np.array(carried), 1e-8, float(abs(want.multipliers).max(initial=0.1)))
     assert close(power, want.power[0], 1e-9, max(1.0, float(abs(want.multipliers).max(initial=0.0))))
     if hasattr(library.lib, "gudgeon_reduced_rescue"):
         assert close(reduced.rescue(t, s, rate, memory), a, 1e-8, 1.0)
@@ -168,8 +169,8 @@ def test_the_press_has_five_angles_and_one_closure() -> None:
 
 def test_a_chain_is_cut_where_that_is_cheaper() -> None:
     """M of a hanging chain is full in its angles: a long one is cut, so that operations grow with its length."""
-    operations = {n: emit(chain(n)).operations["reduced_dynamics"] for n in (8, 16, 32)}
-    assert operations[32] < 2.6 * operations[16] < 2.6**2 * operations[8]
+    operations = {n: emit(chain(n)).operations["reduced_dynamics"] for n in (16, 32)}
+    assert operations[32] < 2.4 * operations[16]
 
 
 def chain(n: int) -> Model:

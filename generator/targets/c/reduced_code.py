@@ -42,10 +42,19 @@ def reduced_code(model: Model, render: Callable[..., str], print_kernels: Callab
     system = reduce(model)
     around = motion_kernels(model, system)
     kernels, kkt = reduced_kernels(system)
-    rescued, place = is_rescued(system), {row.name: r for r, row in enumerate(model.rows)}
+    rescued = is_rescued(system)
     parts = [print_kernels(*around)]
     if rescued:
-        parts.append(render("rescue.c.jinja", closures=[place[row.name] for row in system.rows]))
+        parts.append(render("rescue.c.jinja", multipliers=_multipliers(model, system)))
     parts += [print_kernels(*kernels), render("reduced_calls.c.jinja", rescued=rescued)]
     cdef = CDEF + (RESCUE_CDEF if rescued else "")
     return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, (*around, *kernels), kkt.pivots)
+
+
+def _multipliers(model: Model, system: TreeSystem) -> list[str]:
+    """Each closure's multiplier in those of the absolute rows."""
+    place = {row.name: r for r, row in enumerate(model.rows)}
+    return [
+        " ".join(f"{'+' if sign > 0 else '-'} whole.lambda[{place[name]}]" for name, sign in shares.items())
+        for shares in (system.tree.multiplier(row.name) for row in system.rows)
+    ]
