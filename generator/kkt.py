@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import sympy as sp
 
@@ -27,6 +28,9 @@ SINGULAR = 1e-13
 # Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
 # The rank-revealing way (templates/c/singular.c.jinja) leaves it out for the moment if the others agree.
 NEARLY_SINGULAR = 1e-8
+# The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
+# and the other way to solve is exact.
+EARLY = 1e-5
 
 
 @dataclass(frozen=True)
@@ -44,7 +48,11 @@ class Factor:
 class KKT:
     """Emits factorization and solution of a scene's KKT system; nodes are coordinates, then rows."""
 
-    def __init__(self, system: System, rows: Sequence[Row] | None = None) -> None:
+    def __init__(self, system: System, rows: Sequence[Row] | None = None, daring: bool = False) -> None:
+        """`daring`: the pairs of rows of a joint may be eliminated early; where links stand in one line such a
+
+        pivot vanishes although the system is regular: what `failed` does in `factorize` must then solve it.
+        """
         self.system, self.n = system, len(system.q)
         self.rows = system.rows if rows is None else tuple(rows)
         self.frictions, self.first_friction = system.frictions if rows is None else (), self.n + len(self.rows)
@@ -56,12 +64,22 @@ class KKT:
         for r, c in self.entry:
             near[r].add(c)
             near[c].add(r)
-        self.elimination: Elimination = choose_elimination(tuple(map(frozenset, near)), self.n, self.first_friction)
+        pattern = tuple(map(frozenset, near))
+        pairs = self._row_pairs(pattern) if daring else {}
+        self.elimination: Elimination = choose_elimination(pattern, self.n, self.first_friction, pairs)
         names = [row.name for row in self.rows] + [friction.name for friction in self.frictions]
         self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in names]
         self.blocks = self._blocks()
         self.sticks: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
         self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
+
+    def _row_pairs(self, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
+        """Two rows of a joint in the same coordinates, of which there are more than two."""
+        pairs: dict[int, int] = {}
+        for r, (row, other) in enumerate(pairwise(self.rows), self.n):
+            if row.owner == other.owner and r not in pairs and pattern[r] == pattern[r + 1] and len(pattern[r]) > 2:
+                pairs |= {r: r + 1, r + 1: r}
+        return pairs
 
     def _blocks(self) -> list[list[int]]:
         """Pivots that follow each other, both changed by elimination and coupled, two by two."""
@@ -138,6 +156,8 @@ class KKT:
         cross = self._named(build, f"pivot_{name[0]}__{name[1]}", left(second, first, lambda j: True))
         determinant = build.local(f"determinant_{name[0]}__{name[1]}", own[0] * own[1] - cross**2)
         if rows:
+            early = any(i < self.n for i in self.elimination.structure[second])
+            share = max(share, EARLY) if early else share
             build.line(f"if (!({own[0]} > {share!r} * {scale[0]})) {failed[0]};")
             build.line(f"if (!({determinant} > {share!r} * {scale[1]} * {own[0]})) {failed[1]};")
         inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)

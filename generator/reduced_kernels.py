@@ -35,7 +35,7 @@ def motion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
 
 def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
     """Closures, right-hand side and projection in tree coordinates; the order of the pivots."""
-    kkt = KKT(system)
+    kkt = KKT(system, daring=is_rescued(system))
     dynamics = dynamics_kernel(system, kkt, "reduced_dynamics", _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
     return [side_by_side(kernel) for kernel in (*_closures(system), dynamics, projection)], kkt
