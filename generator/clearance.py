@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
 
+from gudgeon.generator.elements import PointLoad
 from gudgeon.generator.forces.law import RESULTS, VARIABLES, Law, LawInputs, PairSymbols, laws
 from gudgeon.generator.geometry import Geometry, PointFrame
 from gudgeon.generator.mechanism import Bearing, Joint, LawUse, Play
@@ -51,6 +52,15 @@ class Clearance:
     def eccentricity_rate(self) -> tuple[sp.Expr, sp.Expr]:
         (vx_i, vy_i), (vx_j, vy_j) = self.first.velocity, self.second.velocity
         return vx_j - vx_i, vy_j - vy_i
+
+    def on_points(self, F: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> list[PointLoad]:
+        """F on the journal, −F on the bearing, and both moments."""
+        return [PointLoad(self.first, -F[0], -F[1], moments[0]), PointLoad(self.second, F[0], F[1], moments[1])]
+
+    def power(self, F: Sequence[sp.Expr], edot: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> sp.Expr:
+        """F · ė + M_i ω_i + M_j ω_j (W)."""
+        turning = moments[0] * self.first.omega + moments[1] * self.second.omega
+        return F[0] * edot[0] + F[1] * edot[1] + turning
 
 
 def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -> Clearance:

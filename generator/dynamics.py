@@ -9,11 +9,11 @@ import sympy as sp
 
 from gudgeon.generator.clearance import Clearance
 from gudgeon.generator.elements import PointLoad
-from gudgeon.generator.constraints import Row
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR
-from gudgeon.generator.model import Model
+from gudgeon.generator.model import BAUMGARTE, Model
 from gudgeon.generator.system import System
+from gudgeon.generator.units import dimension
 
 STATE = (Argument("const double", "t"), Argument("const double *", "q"), Argument("const double *", "v"))
 MEMORY = Argument("const Memory *", "memory")
@@ -90,14 +90,12 @@ def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> l
     arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in omegas)])
     build.line(f"clearance_{name}({arguments}, &memory->latch[{index}], p, side, g, &{out});", omegas)
     F = [build.local(f"F_{name}_{axis}", f"{out}.F{axis}") for axis in "xy"]
-    power, loads = F[0] * edot[0] + F[1] * edot[1], []
-    for point, sign, which in ((clearance.first, -1, "first"), (clearance.second, 1, "second")):
-        if point.body is not None:
-            moment = build.local(f"M_{name}_{which}", f"{out}.moment_{which}")
-            power += moment * point.omega
-            loads.append(PointLoad(point, sign * F[0], sign * F[1], moment))
-    build.out(f"{out}.power", power)
-    return loads
+    moments = [
+        ZERO if point.body is None else build.local(f"M_{name}_{which}", f"{out}.moment_{which}")
+        for point, which in ((clearance.first, "first"), (clearance.second, "second"))
+    ]
+    build.out(f"{out}.power", clearance.power(F, edot, moments))
+    return clearance.on_points(F, moments)
 
 
 def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bool) -> dict[int, sp.Expr]:
@@ -129,7 +127,10 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
     if kkt.frictions:
         build.section("friction: slip, or stick as a row")
     place = {q: k for k, q in enumerate(kkt.system.q)}
-    two_alpha = model.slots.derive("two_alpha", 2 * model.baumgarte[0], "2 alpha")
+    gain = ZERO
+    if kkt.frictions:  # of its own: methods that project have no other stabilisation
+        gain = 2 * model.slots.constant("baumgarte.stick", "alpha_stick", BAUMGARTE, dimension(time=-1))
+    two_alpha = model.slots.derive("two_alpha_stick", gain, "2 alpha of a stick")
     for r, friction in enumerate(kkt.frictions):
         name, node = friction.name, kkt.first_friction + r
         v = build.local(f"slip_{name}", friction.slip.v)
@@ -191,26 +192,3 @@ def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> 
     )
     build.out("aside->power[1]", sp.Add(*(element.loads.power for element in model.elements.values())) + friction)
     build.out("aside->power[2]", clearances or ZERO)
-
-
-def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
-    """x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r: the smallest x, in the metric of M, with Φ_q x = r."""
-    model, kkt = system.model, KKT(system, rows)
-    build = KernelBuilder(model.symbols, name, [
-        "The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of",
-        "the closed linkage, redundant ones are not looked at.",
-        "Returns 0, or the number of the pivot that vanished.",
-    ])  # fmt: skip
-    build.section("right-hand side")
-    place = {row.name: k for k, row in enumerate(model.all_rows)}
-    r = {
-        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", f"r[{place[row.name]}]")
-        for k, row in enumerate(kkt.rows)
-    }
-    x = kkt.solve(build, kkt.factorize(build), r, "step_")
-    build.section("results")
-    for k, _ in enumerate(system.q):
-        build.out(f"x[{k}]", x[k])
-    build.line("return 0;")
-    arguments = (*STATE[:2], Argument("const double *", "r"), PARAMETERS, Argument("double *", "x"))
-    return build.build(arguments, "int"), kkt

@@ -6,12 +6,13 @@ coordinates and parameters that they read and the definitions (cosines, arms, dr
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from gudgeon.generator.switches import Switches
+from gudgeon.generator.switches import SideOf, Switches
 from gudgeon.generator.symbols import Symbols
 
 
@@ -73,6 +74,11 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section]) -> l
         statements: list[Statement | str] = []
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
+                if isinstance(statement.value, SideOf):  # told by the author of the kernel: once is enough
+                    if (told := sp.Symbol(statement.target, real=True)) not in known:
+                        known[told] = statement.value
+                        statements.append(statement)
+                    continue
                 before = len(known)
                 value = switches.hold(statement.value, owner, known)
                 statements += [Statement(s.name, side) for s, side in list(known.items())[before:]]
@@ -80,6 +86,22 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section]) -> l
             statements.append(statement)
         held.append(Section(section.title, tuple(statements)))
     return held
+
+
+def without_unread(sections: Iterable[tuple[str, list[Statement | str]]]) -> list[tuple[str, list[Statement | str]]]:
+    """The sections without locals that nothing behind them reads."""
+    read: set[str] = set()
+    kept = []
+    for title, group in reversed(list(sections)):
+        statements: list[Statement | str] = []
+        for item in reversed(group):
+            if isinstance(item, Statement) and item.local and item.target not in read:
+                continue
+            value = item if isinstance(item, str) else item.value
+            read |= set(re.findall(r"\w+", value)) if isinstance(value, str) else {s.name for s in value.free_symbols}
+            statements.append(item)
+        kept.append((title, statements[::-1]))
+    return kept[::-1]
 
 
 class KernelBuilder:
@@ -113,23 +135,29 @@ class KernelBuilder:
         self._sections[-1][1].append(Statement(target, value, False, comment))
 
     def build(
-        self, arguments: Sequence[Argument], returns: str = "void", inline: bool = False, owner: str | None = None
-    ) -> Kernel:
+        self, arguments: Sequence[Argument], returns: str = "void", inline: bool = False, owner: str | None = None,
+        prune: bool = False,
+    ) -> Kernel:  # fmt: skip
         """The kernel, with its inputs and definitions in front.
 
         With an `owner` ("": the scene) corners are sides of switches: the function then reads `side` and
-        writes `g` (switches.py).
+        writes `g` (switches.py). `prune`: locals that nothing reads are left out.
         """
+        if prune:
+            self._sections = without_unread(self._sections)
         statements = [s for _, group in self._sections for s in group if isinstance(s, Statement)]
         declared = {s.target for s in statements if s.local}
         expressions = [s.value for s in statements if isinstance(s.value, sp.Expr)] + self._needed
         definitions, inputs = self._resolve(expressions, declared)
         info = self._symbols.info
-        states = [s for s in inputs if not info[s].home.startswith("p->")]
-        parameters = [s for s in inputs if info[s].home.startswith("p->")]
+        groups: dict[str, list[Statement | str]] = {"p->": [], "lin->": [], "": []}  # by the struct that holds them
+        for s in inputs:
+            group = next(start for start in groups if info[s].home.startswith(start))
+            groups[group].append(Statement(s.name, info[s].home))
         front = [
-            Section("coordinates, velocities, time", tuple(Statement(s.name, info[s].home) for s in states)),
-            Section("parameters", tuple(Statement(s.name, info[s].home) for s in parameters)),
+            Section("coordinates, velocities, time", tuple(groups[""])),
+            Section("linearization", tuple(groups["lin->"])),
+            Section("parameters", tuple(groups["p->"])),
             Section(
                 "directions, arms, drives", tuple(Statement(s.name, self._symbols.definitions[s]) for s in definitions)
             ),

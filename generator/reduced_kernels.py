@@ -7,11 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 import sympy as sp
 
 from gudgeon.generator.constraints import Row
-from gudgeon.generator.dynamics import PARAMETERS, STATE, dynamics_kernel, projection_kernel
+from gudgeon.generator.dynamics import PARAMETERS, STATE, dynamics_kernel
 from gudgeon.generator.joint_fields import JointFields
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.kkt import KKT
 from gudgeon.generator.model import Model
+from gudgeon.generator.projection import projection_kernel
 from gudgeon.generator.reduction import TreeSystem
 from gudgeon.generator.sine_pairs import side_by_side
 from gudgeon.generator.tree import Link

@@ -29,11 +29,11 @@ class Pick(sp.Function):
     nargs = 3
     is_real = True
 
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """The derivative of the branch that is picked."""
-        if argindex == 1:
-            return sp.Integer(0)
-        return Pick(self.args[0], sp.Integer(argindex == 2), sp.Integer(argindex == 3))
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        """The derivative of the branch that is picked: that of the other may be infinite."""
+        side, a, b = self.args
+        da, db = sp.diff(a, s), sp.diff(b, s)
+        return da if da == db else Pick(side, da, db)
 
 
 @dataclass(frozen=True)

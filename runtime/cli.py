@@ -88,8 +88,9 @@ def run(
         str | None, typer.Option("--t-end", help="Until when, in s or with a unit. [default: the scene's, or 1 s]")
     ] = None,
     output: Annotated[int | None, typer.Option(min=1, help="Equal output intervals. [default: the scene's]")] = None,
-    step: Annotated[str | None, typer.Option(help="Integration step, in s or with a unit: 5us.")] = None,
-    method: Annotated[str, typer.Option(help="Integration method.")] = "auto",
+    step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
+    method: Annotated[str, typer.Option(help="auto, rk4, dop853, rodas5p, kinematic.")] = "auto",
+    rtol: Annotated[float | None, typer.Option(help="Tolerance of a step of auto, dop853, rodas5p: 1e-8.")] = None,
     watch: Annotated[
         list[str] | None,
         typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
@@ -109,7 +110,7 @@ def run(
     from gudgeon.commands.run import Request, run_scenes
 
     request = Request(
-        file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, tuple(watch or ()), out,
+        file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, rtol, tuple(watch or ()), out,
         regenerate, json,
     )  # fmt: skip
     return run_scenes(request)

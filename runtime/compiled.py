@@ -115,14 +115,44 @@ class CompiledModel:
 
         `memory` (n_clearances,) holds δ̇⁻ of closed contacts, NaN for free ones (the default).
         """
-        state = contiguous(y)
-        if state.ndim != 1 or len(state) not in (2 * self.n, 2 * self.n + N_WORK):
-            raise ValueError(f"y has shape {state.shape}, expected ({2 * self.n},)")
-        latched = self.memory_array(memory)
+        state, latched = self._full_state(y), self.memory_array(memory)
         out = np.empty(2 * self.n + N_WORK)
         status = self.lib.gudgeon_rhs(t, self.pointer(state), self.pointer(latched), self.pointer(p), self.pointer(out))
         self.check_pivot(status, t)
         return out
+
+    def jacobian(self, t: float, y: ArrayLike, p: Array, memory: ArrayLike | None = None) -> tuple[Array, Array]:
+        """∂f/∂y, (2n + 3, 2n + 3), and ∂f/∂t, (2n + 3,), of `rhs` f at y = (q, q̇), exact; SI.
+
+        Contacts, the sides of corners and the modes of friction are those of this state. Raises SingularError
+        where rows depend on each other, ValueError where nothing is integrated.
+        """
+        if not hasattr(self.lib, "gudgeon_jacobian"):
+            raise ValueError("this scene has no Jacobian: without a degree of freedom nothing is integrated")
+        state, latched = self._full_state(y), self.memory_array(memory)
+        J, f_t = np.empty((2 * self.n + N_WORK,) * 2), np.empty(2 * self.n + N_WORK)
+        arrays = (state, latched, p, J, f_t)
+        self.check_node(self.lib.gudgeon_jacobian(t, *(self.pointer(array) for array in arrays)), t)
+        return J, f_t
+
+    def newton(
+        self, t: float, y: ArrayLike, p: Array, eta: float, s: float, r: ArrayLike, memory: ArrayLike | None = None
+    ) -> Array:
+        """u, (2n + 3,), with u/η − J u = r + s f_t: a linear solve as the implicit methods do it."""
+        state, latched, given = self._full_state(y), self.memory_array(memory), contiguous(r)
+        u = np.empty(2 * self.n + N_WORK)
+        self._expect(given, len(u), "r")
+        arrays = (self.pointer(array) for array in (state, latched, p))
+        self.check_node(self.lib.gudgeon_newton(t, *arrays, eta, s, self.pointer(given), self.pointer(u)), t)
+        return u
+
+    def check_node(self, status: int, t: float) -> None:
+        """Raises SingularError for what the linearized equations return: −k is the k-th coordinate, row or friction."""
+        s = self.source
+        self.check_pivot(status, t)
+        if status < 0:
+            names = (*s.coordinates, *(row.name for row in s.rows), *s.frictions)
+            self.check_pivot(-status, t, names)
 
     def evaluate(self, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: Array) -> Evaluation:
         """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances)."""
@@ -177,6 +207,12 @@ class CompiledModel:
         arrays = [self._state(state) for state in states]
         getattr(self.lib, function)(t, *(self.pointer(a) for a in arrays), self.pointer(p), self.pointer(out))
         return out
+
+    def _full_state(self, y: ArrayLike) -> Array:
+        state = contiguous(y)
+        if state.ndim != 1 or len(state) not in (2 * self.n, 2 * self.n + N_WORK):
+            raise ValueError(f"y has shape {state.shape}, expected ({2 * self.n},)")
+        return state
 
     def _state(self, values: ArrayLike) -> Array:
         state = contiguous(values)

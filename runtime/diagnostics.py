@@ -25,7 +25,7 @@ class Diagnostics:
     """Of one run; NaN stands for what the method does not have (the step of a kinematic scene)."""
 
     method: str
-    step: float  # s, the largest that was used
+    step: float  # s, the largest that was used; NaN: the method chose it
     steps: int
     right_hand_sides: int
     onsets: int
@@ -42,6 +42,10 @@ class Diagnostics:
     seconds_per_simulated_second: float
     interrupted: bool = False
     notes: tuple[str, ...] = ()
+    rtol: float = float("nan")  # of a method that chose its step
+    rejected: int = 0  # steps tried and not taken
+    stiff_steps: int = 0  # of the steps, those of the stiff method
+    jacobians: int = 0
 
     def peak(self, joint: str) -> Peak:
         """The peak at a joint with play; KeyError for any other."""

@@ -49,6 +49,15 @@ def prepare(compiled: CompiledModel, parameters: Mapping[str, float | str]) -> t
     return p, given, is_given
 
 
+def without_baumgarte(compiled: CompiledModel, given: Array, is_given: Array) -> Array:
+    """p with both gains zero: for methods that project onto the constraints instead."""
+    place = {slot.address: k for k, slot in enumerate(compiled.source.slots)}
+    gains = [place[name] for name in ("baumgarte.alpha", "baumgarte.beta") if name in place]
+    values, mask = given.copy(), is_given.copy()
+    values[gains], mask[gains] = 0.0, True
+    return compiled.prepare(values, mask)
+
+
 def check(source: KernelSource, p: Array) -> None:
     """Every condition of the file again, on the values of this run."""
     value = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}

@@ -15,10 +15,10 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.dead_centre import dependent_rows
 from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
-from gudgeon.integrators import kinematic, rk4
+from gudgeon.integrators import adaptive, kinematic, rk4
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.left_out import check_start, contradiction
-from gudgeon.parameters import number, prepare
+from gudgeon.parameters import number, prepare, without_baumgarte
 from gudgeon.start import Start, assemble
 from gudgeon.step import scene_end, scene_step
 
@@ -27,7 +27,11 @@ if TYPE_CHECKING:
     from gudgeon.loading import Loading
     from gudgeon.results import Result, State
 
-METHODS = {"rk4": rk4.run, "kinematic": kinematic.run}
+METHODS = {
+    "rk4": rk4.run, "dop853": adaptive.run, "rodas5p": adaptive.run, "adaptive": adaptive.run,
+    "kinematic": kinematic.run,
+}  # fmt: skip
+ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
 DEFAULT_OUTPUT = 1000
 MAX_STEPS = 10**12
 DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
@@ -93,15 +97,22 @@ class Simulation:
 
     def simulate(
         self, t_end: float | str | None = None, *, output: int | ArrayLike | None = None, method: str = "auto",
-        step: float | str | None = None, parameters: Mapping[str, float | str] | None = None,
-        start: State | None = None, progress: Progress | None = None,
+        rtol: float | None = None, step: float | str | None = None,
+        parameters: Mapping[str, float | str] | None = None, start: State | None = None,
+        progress: Progress | None = None,
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
         `output`: so many equal intervals, both ends included, or an array of times (s). `method`:
-        "auto", "rk4", or "kinematic" (scenes without a degree of freedom). `step`: the longest RK4 step
-        (s); each interval between outputs is divided evenly. `parameters`: {address or parameter name:
-        float in SI or '0.5 mm'}. Ctrl-C ends the run and keeps what was computed.
+        - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else
+          "adaptive", which is "dop853" while steps are bounded by accuracy and "rodas5p" while stability
+          would bound them (integrators/adaptive.py);
+        - "rk4" with fixed `step` (s), the longest; each interval between outputs is divided evenly;
+        - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-8): the error of a
+          step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
+          unchanged, without error control.
+        `parameters`: {address or parameter name: float in SI or '0.5 mm'}. Ctrl-C ends the run and keeps
+        what was computed.
 
         Raises InputError for arguments, AssemblyError for a start that does not close, SolverError
         when the equations cannot be solved; its `partial` is the result up to there.
@@ -111,15 +122,16 @@ class Simulation:
         times = self._times(t0, t_end, output)
         if self.source.degrees_of_freedom < 0:
             assemble(self.compiled, p)  # names the joints that contradict each other
-        chosen = self._method(method)
+        chosen = self._method(method, step is not None)
         h = self._step(step, chosen, p, float(times[-1] - t0))
         if (times[-1] - t0) / h > MAX_STEPS:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         q, v, memory = self._begin(p, start)
         check_start(self.compiled, p, t0, q)
         problem = Problem(
-            self.compiled, p, times, q, v, memory, h, progress, None if start is None else start.state
-        )
+            self.compiled, p, times, q, v, memory, h, progress, None if start is None else start.state,
+            chosen, _tolerance(rtol), without_baumgarte(self.compiled, given, is_given),
+        )  # fmt: skip
         before = time.perf_counter()
         trajectory = METHODS[chosen](problem)
         seconds = time.perf_counter() - before
@@ -158,26 +170,26 @@ class Simulation:
             raise BadValueError(f"output is {intervals}: expected a number of intervals, 1 to 1e8")
         return np.linspace(t0, end, intervals + 1)
 
-    def _method(self, method: str) -> str:
+    def _method(self, method: str, fixed: bool) -> str:
         dof = self.source.degrees_of_freedom
         if dof < 0:
             raise AssemblyError(
                 f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
                 "  remove a drive or a joint; `gudgeon check -v` lists the rows"
             )
-        fitting = self.source.methods[0]
+        fitting = (*self.source.methods, *(["adaptive"] if "dop853" in self.source.methods else []))
         if method == "auto":
-            return fitting
+            return fitting[0] if len(fitting) == 1 or fixed else "adaptive"
         if method not in METHODS:
             raise BadValueError(f"method {method!r}: expected auto, {', '.join(METHODS)}")
-        if method != fitting:
+        if method not in fitting:
             raise BadValueError(
-                f"method {method!r} does not fit: this scene has {dof} degrees of freedom, use {fitting}"
+                f"method {method!r} does not fit: this scene has {dof} degrees of freedom, use {fitting[0]}"
             )
         return method
 
     def _step(self, step: float | str | None, method: str, p: Array, duration: float) -> float:
-        if method == "kinematic":
+        if method == "kinematic" or (step is None and method != "rk4"):
             return math.inf
         if step is None:
             return scene_step(self.compiled, p, duration)
@@ -199,6 +211,13 @@ class Simulation:
         )  # fmt: skip
 
 
+def _tolerance(rtol: float | None) -> float:
+    value = adaptive.RTOL if rtol is None else float(rtol)
+    if not 0.0 < value < 1.0:
+        raise BadValueError(f"rtol is {value:g}: expected a share between 0 and 1, such as 1e-8")
+    return max(value, adaptive.SMALLEST)
+
+
 def _seconds(name: str, value: float | str) -> float:
     from gudgeon.kernel_source import Slot
 
@@ -217,12 +236,18 @@ def diagnose(
         worst = float(np.abs(residual).max())
     except SolverError:
         worst = turned = math.nan
-    used = max(
-        (d / max(1, math.ceil(d / problem.step * (1 - 1e-12))) for d in np.diff(problem.t).tolist()), default=math.nan
-    )
+    used = problem.step
+    if method == "rk4":
+        used = max(
+            (d / max(1, math.ceil(d / used * (1 - 1e-12))) for d in np.diff(problem.t).tolist()), default=math.nan
+        )
     simulated = float(x.t[-1] - x.t[0])
+    if method == "adaptive":
+        method = "dop853+rodas5p" if 0 < counts.stiff_steps < counts.steps else ORDER_OF_CHOICE[counts.stiff_steps > 0]
     return Diagnostics(
         method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
+        rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
+        rejected=counts.rejected, stiff_steps=counts.stiff_steps, jacobians=counts.jacobians,
         right_hand_sides=counts.right_hand_sides, onsets=counts.onsets, grazes=counts.grazes,
         phi_max=counts.phi_max, phi_dot_max=counts.phi_dot_max, energy_residual=worst, energy_turned_over=turned,
         ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,

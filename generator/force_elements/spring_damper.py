@@ -31,7 +31,8 @@ def build(targets: Any, fields: Any) -> Loads:
         length = fields.named("length", sp.sqrt(squared))
         rate = fields.named("length_rate", (x * vx + y * vy) / length)
         force = fields.named("force", k * (length - l_0) + d * rate)
-        pull, potential, power = force / length, k * (length - l_0) ** 2 / 2, -d * rate**2
+        pull = fields.named("pull", force / length)
+        potential, power = k * (length - l_0) ** 2 / 2, -d * rate**2
         series = {"length": (length, "m")}
     loads = (Load(0, pull * x, pull * y, sp.Integer(0)), Load(1, -pull * x, -pull * y, sp.Integer(0)))
     return Loads(loads, potential, power, {"F": (force, "N"), **series})

@@ -16,8 +16,9 @@ from typing import Any
 from gudgeon.generator.forces.law import Law, LawInputs, LawOption, LawParameter
 from gudgeon.generator.units import LENGTH, VISCOSITY
 
-# Where W vanishes so does every numerator: this keeps 0/0 away and changes no other value.
-TINY = 1e-300
+# Where W vanishes so does every numerator: this keeps 0/0 away, in the derivatives (its square) too, and
+# changes no other value.
+TINY = 1e-150
 
 
 def build(s: LawInputs) -> dict[str, Any]:

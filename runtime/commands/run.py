@@ -40,6 +40,7 @@ class Request:
     output: int | None
     step: str | None
     method: str
+    rtol: float | None
     watch: tuple[str, ...]
     out: Path
     regenerate: bool
@@ -145,6 +146,7 @@ def _simulate(
             try:
                 run = simulation.simulate(
                     until, output=request.output, method="auto" if name == IDEAL else request.method, step=step,
+                    rtol=request.rtol,
                     parameters=_own(settings, simulation), progress=bar(name),
                 )  # fmt: skip
             except (AssemblyError, SolverError) as error:  # the other scenes are worth having

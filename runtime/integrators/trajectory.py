@@ -24,9 +24,12 @@ class Problem:
     q: Array  # (n,)
     v: Array
     memory: Array  # (n_clearances + n_frictions,) δ̇⁻ of closed contacts, modes of friction; NaN: free, unknown
-    step: float
+    step: float  # s, of a method with fixed step; inf: the method chooses
     progress: Progress | None = None
     state: NDArray[Any] | None = None  # (n_clearances,) int8 codes of the run that this one goes on from
+    method: str = "rk4"
+    rtol: float = 0.0  # of methods that choose their step
+    p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,10 @@ class Counts:
     ratio_min: float = float("nan")
     ratio_max: float = float("nan")
     ratio_outside: int = 0
+    switches: int = 0
+    rejected: int = 0
+    jacobians: int = 0
+    stiff_steps: int = 0
 
 
 @dataclass(frozen=True)

@@ -149,6 +149,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double spring_span_y = BDE_y - C_y + arm_BDE_D_y;
     const double spring_length = sqrt((spring_span_x * spring_span_x) + (spring_span_y * spring_span_y));
     const double spring_force = spring_stiffness*(-spring_free_length + spring_length);
+    const double spring_pull = spring_force/spring_length;
 
     /* status */
     int pivot = 0;
@@ -548,12 +549,11 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double inverse_pivot_E6_y = 1.0/pivot_E6_y;
 
     /* forward substitution */
-    const double z_BDE_x = -spring_force*spring_span_x/spring_length;
-    const double z_BDE_y = -spring_force*spring_span_y/spring_length;
+    const double z_BDE_x = -spring_pull*spring_span_x;
+    const double z_BDE_y = -spring_pull*spring_span_y;
     const double z_O_x = -l_O_x__OF_theta*motor_value + rhs_O_x;
     const double z_O_y = -l_O_y__OF_theta*motor_value - l_O_y__O_x*z_O_x + rhs_O_y;
-    const double z_BDE_theta = -arm_BDE_D_x*spring_force*spring_span_y/spring_length +
-        arm_BDE_D_y*spring_force*spring_span_x/spring_length;
+    const double z_BDE_theta = -arm_BDE_D_x*spring_pull*spring_span_y + arm_BDE_D_y*spring_pull*spring_span_x;
     const double z_B_x = inverse_BDE_mass*z_BDE_x - l_B_x__BDE_theta*z_BDE_theta + rhs_B_x;
     const double z_B_y = inverse_BDE_mass*z_BDE_y - l_B_y__BDE_theta*z_BDE_theta - l_B_y__B_x*z_B_x + rhs_B_y;
     const double z_A5_y = -l_A5_y__A5_x*rhs_A5_x + rhs_A5_y;
@@ -702,10 +702,9 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         force[3] = 0.0;
         force[4] = 0.0;
         force[5] = 0.0;
-        force[6] = -spring_force*spring_span_x/spring_length;
-        force[7] = -spring_force*spring_span_y/spring_length;
-        force[8] = -arm_BDE_D_x*spring_force*spring_span_y/spring_length +
-        arm_BDE_D_y*spring_force*spring_span_x/spring_length;
+        force[6] = -spring_pull*spring_span_x;
+        force[7] = -spring_pull*spring_span_y;
+        force[8] = -arm_BDE_D_x*spring_pull*spring_span_y + arm_BDE_D_y*spring_pull*spring_span_x;
         force[9] = 0.0;
         force[10] = 0.0;
         force[11] = 0.0;

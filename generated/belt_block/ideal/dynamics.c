@@ -22,6 +22,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double rub_speed = p->rub_speed;
     const double rub_static = p->rub_static;
     const double rub_kinetic = p->rub_kinetic;
+    const double two_alpha_stick = p->two_alpha_stick;
     const double two_alpha = p->two_alpha;
     const double beta_squared = p->beta_squared;
     const double inverse_block_mass = p->inverse_block_mass;
@@ -31,6 +32,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double spring_span_x = block_x - wall_x;
     const double spring_length = sqrt((block_y * block_y) + (spring_span_x * spring_span_x));
     const double spring_force = spring_stiffness*(-spring_free_length + spring_length);
+    const double spring_pull = spring_force/spring_length;
 
     /* friction: slip, or stick as a row */
     const double slip_rub = block_vx - rub_speed;
@@ -38,7 +40,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double stick_rub = mode_rub == 0.0 ? 1.0 : 0.0;
     const double sign_rub = fabs(mode_rub) > 1.0 ? 0.0 : mode_rub;
     const double kinetic_rub = -rub_kinetic*sign_rub;
-    const double rhs_rub = -slip_rub*two_alpha;
+    const double rhs_rub = -slip_rub*two_alpha_stick;
     aside->friction[0].v = slip_rub;
     aside->friction[0].static_limit = rub_static;
     aside->friction[0].speed = rub_speed;
@@ -68,8 +70,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double inverse_pivot_rub = stick_rub != 0.0 ? 1.0 / scale_rub : 0.0;
 
     /* forward substitution */
-    const double z_block_x = kinetic_rub - spring_force*spring_span_x/spring_length;
-    const double z_block_y = -block_y*spring_force/spring_length;
+    const double z_block_x = kinetic_rub - spring_pull*spring_span_x;
+    const double z_block_y = -block_y*spring_pull;
     const double z_guide_offset = -inverse_block_mass*z_block_y + rhs_guide_offset;
     const double z_rub = -inverse_block_mass*z_block_x + rhs_rub;
 

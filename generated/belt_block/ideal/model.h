@@ -20,11 +20,12 @@ enum {
     N_SWITCHES = 0,          /* corners of min, max, abs and sign */
     N_SERIES = 2,            /* results of force elements */
     N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
-    N_Y = 2 * N_Q + N_WORK
+    N_X = N_Q,                /* coordinates that are integrated */
+    N_Y = 2 * N_X + N_WORK
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double belt_speed;  /* parameters.belt_speed */    double start_at;  /* parameters.start_at */    double block_mass;  /* bodies.block.mass */    double block_inertia;  /* bodies.block.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double guide_axis_x;  /* joints.guide.axis.x */    double wall_x;  /* ground.wall.x */    double spring_stiffness;  /* forces.spring.stiffness */    double spring_free_length;  /* forces.spring.free_length */    double rub_direction_x;  /* forces.rub.direction.x */    double rub_speed;  /* forces.rub.speed */    double rub_static;  /* forces.rub.static */    double rub_kinetic;  /* forces.rub.kinetic */    double set_block_x;  /* start.set.block.x */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_block_mass;  /* 1/M */    double inverse_block_inertia;  /* 1/M */} Parameters;
+typedef struct {    double belt_speed;  /* parameters.belt_speed */    double start_at;  /* parameters.start_at */    double block_mass;  /* bodies.block.mass */    double block_inertia;  /* bodies.block.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double guide_axis_x;  /* joints.guide.axis.x */    double wall_x;  /* ground.wall.x */    double spring_stiffness;  /* forces.spring.stiffness */    double spring_free_length;  /* forces.spring.free_length */    double rub_direction_x;  /* forces.rub.direction.x */    double rub_speed;  /* forces.rub.speed */    double rub_static;  /* forces.rub.static */    double rub_kinetic;  /* forces.rub.kinetic */    double set_block_x;  /* start.set.block.x */    double alpha_stick;  /* baumgarte.stick */    double two_alpha_stick;  /* 2 alpha of a stick */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_block_mass;  /* 1/M */    double inverse_block_inertia;  /* 1/M */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {

@@ -34,8 +34,12 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->rub_kinetic = rub_kinetic;
     const double set_block_x = is_given[14] ? given[14] : start_at;  /* start.set.block.x */
     p->set_block_x = set_block_x;
+    const double alpha_stick = is_given[15] ? given[15] : 50.0;  /* baumgarte.stick */
+    p->alpha_stick = alpha_stick;
 
     /* derived */
+    const double two_alpha_stick = 2.0*alpha_stick;  /* 2 alpha of a stick */
+    p->two_alpha_stick = two_alpha_stick;
     const double two_alpha = 2.0*alpha;  /* 2 alpha */
     p->two_alpha = two_alpha;
     const double beta_squared = (beta * beta);  /* beta^2 */

@@ -33,7 +33,7 @@ static void constraints(const double t, const double *q, const Parameters *p, do
 
     /* parameters */
     const double length = p->length;
-    const double r = p->r;
+    const double par_r = p->par_r;
     const double omega = p->omega;
     const double axle_head_x = p->axle_head_x;
     const double road_head_x = p->road_head_x;
@@ -47,7 +47,7 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     const double sin_theta_axle = sin(axle_theta);
     const double arm_axle_head_x = axle_head_x*cos_theta_axle;
     const double arm_axle_head_y = axle_head_x*sin_theta_axle;
-    const double bump_value = asin(r*sin(omega*time)/length);
+    const double bump_value = asin(par_r*sin(omega*time)/length);
 
     /* rows */
     phi[0] = arm_road_head_x - road_x;  /* foot.x */
@@ -110,11 +110,11 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
 
     /* parameters */
     const double length = p->length;
-    const double r = p->r;
+    const double par_r = p->par_r;
     const double omega = p->omega;
 
     /* directions, arms, drives */
-    const double bump_rate = omega*r*cos(omega*time)/(length*sqrt(1.0 - (r * r)*(sin(omega*time) *
+    const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
         sin(omega*time))/(length * length)));
 
     /* rows */
@@ -146,7 +146,7 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
 
     /* parameters */
     const double length = p->length;
-    const double r = p->r;
+    const double par_r = p->par_r;
     const double omega = p->omega;
     const double axle_head_x = p->axle_head_x;
     const double road_head_x = p->road_head_x;
@@ -160,10 +160,10 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     const double sin_theta_axle = sin(axle_theta);
     const double arm_axle_head_x = axle_head_x*cos_theta_axle;
     const double arm_axle_head_y = axle_head_x*sin_theta_axle;
-    const double bump_acceleration = -(omega * omega)*r*sin(omega*time)/(length*sqrt(1.0 - (r *
-        r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(r * r *
-        r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 - (r *
-        r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
+    const double bump_acceleration = -(omega * omega)*par_r*sin(omega*time)/(length*sqrt(1.0 - (par_r *
+        par_r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(par_r * par_r *
+        par_r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 -
+        (par_r * par_r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
 
     /* rows */
     gamma_rows[0] = arm_road_head_x*(road_omega * road_omega);  /* foot.x */

@@ -24,7 +24,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
 
     /* parameters */
     const double length = p->length;
-    const double r = p->r;
+    const double par_r = p->par_r;
     const double omega = p->omega;
     const double axle_head_x = p->axle_head_x;
     const double road_head_x = p->road_head_x;
@@ -50,21 +50,23 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double sin_theta_axle = sin(axle_theta);
     const double arm_axle_head_x = axle_head_x*cos_theta_axle;
     const double arm_axle_head_y = axle_head_x*sin_theta_axle;
-    const double bump_value = asin(r*sin(omega*time)/length);
-    const double bump_rate = omega*r*cos(omega*time)/(length*sqrt(1.0 - (r * r)*(sin(omega*time) *
+    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
         sin(omega*time))/(length * length)));
-    const double bump_acceleration = -(omega * omega)*r*sin(omega*time)/(length*sqrt(1.0 - (r *
-        r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(r * r *
-        r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 - (r *
-        r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
+    const double bump_acceleration = -(omega * omega)*par_r*sin(omega*time)/(length*sqrt(1.0 - (par_r *
+        par_r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(par_r * par_r *
+        par_r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 -
+        (par_r * par_r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
     const double left_span_x = -arm_axle_head_x + axle_x;
     const double left_span_y = -arm_axle_head_y + axle_y;
     const double left_length = sqrt((left_span_x * left_span_x) + (left_span_y * left_span_y));
     const double left_force = left_stiffness*(-left_free_length + left_length);
+    const double left_pull = left_force/left_length;
     const double right_span_x = arm_axle_head_x - arm_road_head_x + axle_x - road_x;
     const double right_span_y = arm_axle_head_y - arm_road_head_y + axle_y - road_y;
     const double right_length = sqrt((right_span_x * right_span_x) + (right_span_y * right_span_y));
     const double right_force = right_stiffness*(-right_free_length + right_length);
+    const double right_pull = right_force/right_length;
 
     /* status */
     int pivot = 0;
@@ -154,17 +156,15 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double inverse_pivot_bump = 1.0/pivot_bump;
 
     /* forward substitution */
-    const double z_axle_x = -left_force*left_span_x/left_length - right_force*right_span_x/right_length;
-    const double z_axle_y = -left_force*left_span_y/left_length - right_force*right_span_y/right_length +
-        weight_axle_y;
-    const double z_axle_theta = arm_axle_head_x*left_force*left_span_y/left_length -
-        arm_axle_head_x*right_force*right_span_y/right_length -
-        arm_axle_head_y*left_force*left_span_x/left_length +
-        arm_axle_head_y*right_force*right_span_x/right_length;
-    const double z_road_x = right_force*right_span_x/right_length;
-    const double z_road_y = right_force*right_span_y/right_length + weight_road_y;
-    const double z_road_theta = arm_road_head_x*right_force*right_span_y/right_length -
-        arm_road_head_y*right_force*right_span_x/right_length;
+    const double z_axle_x = -left_pull*left_span_x - right_pull*right_span_x;
+    const double z_axle_y = -left_pull*left_span_y - right_pull*right_span_y + weight_axle_y;
+    const double z_axle_theta = arm_axle_head_x*left_pull*left_span_y -
+        arm_axle_head_x*right_pull*right_span_y - arm_axle_head_y*left_pull*left_span_x +
+        arm_axle_head_y*right_pull*right_span_x;
+    const double z_road_x = right_pull*right_span_x;
+    const double z_road_y = right_pull*right_span_y + weight_road_y;
+    const double z_road_theta = arm_road_head_x*right_pull*right_span_y -
+        arm_road_head_y*right_pull*right_span_x;
     const double z_foot_x = inverse_road_mass*z_road_x - l_foot_x__road_theta*z_road_theta + rhs_foot_x;
     const double z_foot_y = inverse_road_mass*z_road_y - l_foot_y__foot_x*z_foot_x -
         l_foot_y__road_theta*z_road_theta + rhs_foot_y;
@@ -211,17 +211,13 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     /* a pivot vanished: rows depend on each other here */
     dependent: {
         double force[N_Q], rhs[N_ROWS];
-        force[0] = -left_force*left_span_x/left_length - right_force*right_span_x/right_length;
-        force[1] = -left_force*left_span_y/left_length - right_force*right_span_y/right_length +
-        weight_axle_y;
-        force[2] = arm_axle_head_x*left_force*left_span_y/left_length -
-        arm_axle_head_x*right_force*right_span_y/right_length -
-        arm_axle_head_y*left_force*left_span_x/left_length +
-        arm_axle_head_y*right_force*right_span_x/right_length;
-        force[3] = right_force*right_span_x/right_length;
-        force[4] = right_force*right_span_y/right_length + weight_road_y;
-        force[5] = arm_road_head_x*right_force*right_span_y/right_length -
-        arm_road_head_y*right_force*right_span_x/right_length;
+        force[0] = -left_pull*left_span_x - right_pull*right_span_x;
+        force[1] = -left_pull*left_span_y - right_pull*right_span_y + weight_axle_y;
+        force[2] = arm_axle_head_x*left_pull*left_span_y - arm_axle_head_x*right_pull*right_span_y -
+        arm_axle_head_y*left_pull*left_span_x + arm_axle_head_y*right_pull*right_span_x;
+        force[3] = right_pull*right_span_x;
+        force[4] = right_pull*right_span_y + weight_road_y;
+        force[5] = arm_road_head_x*right_pull*right_span_y - arm_road_head_y*right_pull*right_span_x;
         rhs[0] = rhs_foot_x;
         rhs[1] = rhs_foot_y;
         rhs[2] = rhs_slot_offset;

@@ -8,8 +8,8 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->length = length;
     const double half_mass = is_given[1] ? given[1] : 0.0005;  /* parameters.half_mass */
     p->half_mass = half_mass;
-    const double r = is_given[2] ? given[2] : 0.1;  /* parameters.r */
-    p->r = r;
+    const double par_r = is_given[2] ? given[2] : 0.1;  /* parameters.r */
+    p->par_r = par_r;
     const double omega = is_given[3] ? given[3] : 10.0;  /* parameters.omega */
     p->omega = omega;
     const double axle_mass = is_given[4] ? given[4] : 2.0*half_mass;  /* bodies.axle.mass */

@@ -20,7 +20,8 @@ enum {
     N_SWITCHES = 10,          /* corners of min, max, abs and sign */
     N_SERIES = 0,            /* results of force elements */
     N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
-    N_Y = 2 * N_Q + N_WORK
+    N_X = N_Q,                /* coordinates that are integrated */
+    N_Y = 2 * N_X + N_WORK
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */

@@ -59,7 +59,7 @@ static inline void film_A_force(double epsilon, double w_n, double w_t, const Pa
     const double root = sqrt(1.0 - (epsilon * epsilon));
     const double W = sqrt((w_n * w_n) + (w_t * w_t));
     const double side_5 = side_of(side, g, 5, w_n);
-    const double factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*side_5*w_n + 1e-300) + 1.0;
+    const double factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*side_5*w_n + 1e-150) + 1.0;
     *F_r_out = -oil_pin_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) +
         3.141592653589793*factor*w_n)/(root * root * root);
     *F_t_out = -2.0*3.141592653589793*factor*oil_pin_S*w_t/(root*((epsilon * epsilon) + 2.0));
@@ -205,7 +205,7 @@ static inline void film_B_force(double epsilon, double w_n, double w_t, const Pa
     const double root = sqrt(1.0 - (epsilon * epsilon));
     const double W = sqrt((w_n * w_n) + (w_t * w_t));
     const double side_13 = side_of(side, g, 13, w_n);
-    const double factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*side_13*w_n + 1e-300) + 1.0;
+    const double factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*side_13*w_n + 1e-150) + 1.0;
     *F_r_out = -oil_pin_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) +
         3.141592653589793*factor*w_n)/(root * root * root);
     *F_t_out = -2.0*3.141592653589793*factor*oil_pin_S*w_t/(root*((epsilon * epsilon) + 2.0));

@@ -61,6 +61,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double coil_length_rate = (coil_span_rate_x*coil_span_x + coil_span_rate_y*coil_span_y)/coil_length;
     const double coil_force = coil_damping*coil_length_rate + coil_stiffness*(-coil_free_length +
         coil_length);
+    const double coil_pull = coil_force/coil_length;
     const double arm_rod_tip_y = rod_points_tip_x*sin_theta_rod;
 
     /* status */
@@ -130,17 +131,17 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double inverse_pivot_pin_y = 1.0/pivot_pin_y;
 
     /* forward substitution */
-    const double z_rod_x = -coil_force*coil_span_x/coil_length + push_value_x;
-    const double z_crank_x = coil_force*coil_span_x/coil_length;
+    const double z_rod_x = -coil_pull*coil_span_x + push_value_x;
+    const double z_crank_x = coil_pull*coil_span_x;
     const double z_O_x = inverse_crank_mass*z_crank_x + rhs_O_x;
-    const double z_crank_y = coil_force*coil_span_y/coil_length;
+    const double z_crank_y = coil_pull*coil_span_y;
     const double z_O_y = inverse_crank_mass*z_crank_y + rhs_O_y;
-    const double z_crank_theta = arm_crank_middle_x*coil_force*coil_span_y/coil_length -
-        arm_crank_middle_y*coil_force*coil_span_x/coil_length;
-    const double z_rod_y = -coil_force*coil_span_y/coil_length;
+    const double z_crank_theta = arm_crank_middle_x*coil_pull*coil_span_y -
+        arm_crank_middle_y*coil_pull*coil_span_x;
+    const double z_rod_y = -coil_pull*coil_span_y;
     const double z_slider_offset = -inverse_rod_mass*z_rod_y + rhs_slider_offset;
-    const double z_rod_theta = -arm_rod_middle_x*coil_force*coil_span_y/coil_length +
-        arm_rod_middle_y*coil_force*coil_span_x/coil_length - arm_rod_tip_y*push_value_x;
+    const double z_rod_theta = -arm_rod_middle_x*coil_pull*coil_span_y +
+        arm_rod_middle_y*coil_pull*coil_span_x - arm_rod_tip_y*push_value_x;
     const double z_pin_x = -inverse_crank_mass*z_crank_x + inverse_rod_mass*z_rod_x - l_pin_x__O_x*z_O_x -
         l_pin_x__crank_theta*z_crank_theta - l_pin_x__rod_theta*z_rod_theta + rhs_pin_x;
     const double z_pin_y = -inverse_crank_mass*z_crank_y + inverse_rod_mass*z_rod_y - l_pin_y__O_y*z_O_y -
@@ -183,14 +184,13 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     /* a pivot vanished: rows depend on each other here */
     dependent: {
         double force[N_Q], rhs[N_ROWS];
-        force[0] = coil_force*coil_span_x/coil_length;
-        force[1] = coil_force*coil_span_y/coil_length;
-        force[2] = arm_crank_middle_x*coil_force*coil_span_y/coil_length -
-        arm_crank_middle_y*coil_force*coil_span_x/coil_length;
-        force[3] = -coil_force*coil_span_x/coil_length + push_value_x;
-        force[4] = -coil_force*coil_span_y/coil_length;
-        force[5] = -arm_rod_middle_x*coil_force*coil_span_y/coil_length +
-        arm_rod_middle_y*coil_force*coil_span_x/coil_length - arm_rod_tip_y*push_value_x;
+        force[0] = coil_pull*coil_span_x;
+        force[1] = coil_pull*coil_span_y;
+        force[2] = arm_crank_middle_x*coil_pull*coil_span_y - arm_crank_middle_y*coil_pull*coil_span_x;
+        force[3] = -coil_pull*coil_span_x + push_value_x;
+        force[4] = -coil_pull*coil_span_y;
+        force[5] = -arm_rod_middle_x*coil_pull*coil_span_y + arm_rod_middle_y*coil_pull*coil_span_x -
+        arm_rod_tip_y*push_value_x;
         rhs[0] = rhs_O_x;
         rhs[1] = rhs_O_y;
         rhs[2] = rhs_pin_x;

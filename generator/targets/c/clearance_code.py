@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-import sympy as sp
-
 from gudgeon.generator import contact
 from gudgeon.generator.clearance import Clearance
 from gudgeon.generator.contact import Step
+from gudgeon.generator.contact_slopes import in_place, unlatched
 from gudgeon.generator.kernels import Section, Statement, hold_sides
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
@@ -27,7 +26,6 @@ _STORE = """\
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};"""
 _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
-_UNCLIPPED = sp.Symbol("unclipped", real=True)
 
 
 def clearance_code(model: Model, clearance: Clearance, render: Render) -> str:
@@ -36,7 +34,7 @@ def clearance_code(model: Model, clearance: Clearance, render: Render) -> str:
     parts = [printer.kernel(kernel) for kernel in law_kernels(model.symbols, clearance)]
     owner = clearance.name
     if clearance.normal is not None:
-        before = [_in_c(step) for step in contact.before_dry(clearance)]
+        before = [unlatched(step) for step in contact.before_dry(clearance)]
         parts.append(
             render(
                 "dry.c.jinja", joint=joint, ratio=_RATIO, ratio_name="unclipped" if clearance.clip_ratio else "ratio",
@@ -60,18 +58,11 @@ def clearance_code(model: Model, clearance: Clearance, render: Render) -> str:
     return "\n".join(parts)
 
 
-def _in_c(step: Step) -> Step:
-    """The ratio of velocities is C's own (latched or not): only its clipping is an equation."""
-    stored = contact.deltadot / contact.stored
-    return Step(step.symbol, step.value.subs(stored, _UNCLIPPED)) if step.symbol == contact.ratio else step
-
-
 def _lines(model: Model, steps: Sequence[Step], owner: str) -> str:
     """Steps as C statements, parameters read in place, corners as sides of switches."""
     statements = []
     for step in steps:
-        slots = {s: sp.Symbol(f"p->{s.name}") for s in step.value.free_symbols if s in model.symbols.info}
-        value = _GUARDED.get(step.symbol) or step.value.xreplace(slots)
+        value = _GUARDED.get(step.symbol) or in_place(model, step.value)
         statements.append(Statement(step.symbol.name, value))
     (section,) = hold_sides(model.symbols.switches, owner, [Section("", tuple(statements))])
     return "\n".join(map(printer.statement, section.statements))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib import resources
 from typing import Any
 
@@ -9,15 +10,18 @@ import jinja2
 import sympy as sp
 
 from gudgeon.generator import interface
-from gudgeon.generator.dynamics import dynamics_kernel, projection_kernel
+from gudgeon.generator.dynamics import dynamics_kernel
 from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
+from gudgeon.generator.methods import dop853, rodas5p
 from gudgeon.generator.model import Model
-from gudgeon.generator.system import absolute
+from gudgeon.generator.projection import closing_kernel, projection_kernel
+from gudgeon.generator.system import System, absolute
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
+from gudgeon.generator.targets.c.newton_code import jacobian_code, newton_code, tangent_code
 from gudgeon.generator.targets.c.reduced_code import ReducedCode, reduced_code
 from gudgeon.kernel_source import KernelSource
 
@@ -35,6 +39,11 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
     double *series, double *friction, double *energy, double *power, long *failed);
 """
+NEWTON_CDEF = """\
+int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t);
+int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
+    const double *r, double *u);
+"""
 METHOD_CDEF = {
     "kinematic": """\
 int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double extent, double *q, double *v,
@@ -48,13 +57,16 @@ int gudgeon_run_steps(void *memory, const double *parameters, double t0, double 
     long *taken);
 void gudgeon_run_sample(const void *memory, double *y, double *a, double *latched, signed char *state);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double h, double fixed);
+int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
+    double *y, double *a, double *latched, signed char *state, long *done);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
 """,
 }
 
 
-def emit(model: Model) -> KernelSource:
-    """The whole scene as C text with its description."""
+def emit(model: Model, *, newton: bool = True) -> KernelSource:
+    """The whole scene as C text with its description; `newton`: with the Jacobian, where there is integration."""
     method = "rk4" if model.degrees_of_freedom or model.clearances or model.frictions else "kinematic"
     system = absolute(model)
     kkt = KKT(system)
@@ -70,8 +82,11 @@ def emit(model: Model) -> KernelSource:
         start_pivots = projection_kkt.pivots
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
+    newton = newton and method != "kinematic"
+    linearized, linear_kernels = _newton(model, system) if newton else ("", [])
     reduced = reduced_code(model, render, _kernels)
     prepare = interface.prepare_kernel(model, printer.expression)
+    loops = _kinematic(model) if method == "kinematic" else _integrators(model, system, kkt, linearized)
     files = {
         "model.h": render("model.h.jinja", **_header(model, reduced)),
         "trigonometry.c": render("trigonometry.c.jinja"),
@@ -82,22 +97,70 @@ def emit(model: Model) -> KernelSource:
         "dynamics.c": _kernels(dynamics),
         "system.c": render("system.c.jinja", **_counts(model)),
         **reduced.files,
-        f"{method}.c": _method(model, kkt, method),
+        **loops,
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
+    cdef = COMMON_CDEF + reduced.cdef + METHOD_CDEF[method] + (NEWTON_CDEF if newton else "")
+    kernels = [dynamics, *around, *reduced.kernels, prepare, *linear_kernels]
+    methods = ("kinematic",) if method == "kinematic" else ("rk4", "dop853", "rodas5p")
     return describe(
-        model, files=files, main="scene.c", cdef=COMMON_CDEF + reduced.cdef + METHOD_CDEF[method], methods=(method,),
-        pivots=kkt.pivots, start_pivots=start_pivots,
-        operations=_operations(model, [dynamics, *around, *reduced.kernels, prepare]),
+        model, files=files, main="scene.c", cdef=cdef, methods=methods, pivots=kkt.pivots,
+        start_pivots=start_pivots, operations=_operations(model, kernels),
         tree=reduced.system.unknowns, closures=tuple(row.name for row in reduced.system.rows),
     )  # fmt: skip
 
 
-def _method(model: Model, kkt: KKT, method: str) -> str:
-    """The time loop."""
-    pivots = _friction_pivots(kkt)
-    friction = (render("friction.c.jinja", pivots=pivots) if pivots else render("no_friction.c.jinja")).strip()
-    return render(f"{method}.c.jinja", **_counts(model), floors=_floors(model), friction_events=friction)
+def _kinematic(model: Model) -> dict[str, str]:
+    return {"kinematic.c": render("kinematic.c.jinja", **_counts(model))}
+
+
+def _integrators(model: Model, system: System, kkt: KKT, linearized: str) -> dict[str, str]:
+    """The time loops, in the order in which they call each other."""
+    pivots, counts = _friction_pivots(kkt), _counts(model)
+    kind = "friction" if pivots else "no_friction"
+    modes, events = (render(f"{name}.c.jinja", pivots=pivots).strip() for name in (kind, f"{kind}_events"))
+    common = {**counts, "floors": _floors(model), "clearances": _own_clearances(model)}
+    return {
+        "projection.c": _kernels(closing_kernel(system)),
+        "newton.c": linearized,
+        "run.c": render("run.c.jinja", **common, friction_modes=modes, angles=_angles(system)),
+        "rk4.c": render("rk4.c.jinja", **common, friction_events=events),
+        "step.c": render("step.c.jinja", **counts),
+        "dop853.c": render("dop853.c.jinja", **_dop853()),
+        "rodas5p.c": render("rodas5p.c.jinja", **_rodas5p()),
+        "events.c": render("events.c.jinja", **counts),
+        "adaptive.c": render("adaptive.c.jinja", **common),
+    }
+
+
+def _angles(system: System) -> list[int]:
+    """1 for an angle, 0 for a length, by coordinate."""
+    return [int(system.model.symbols.info[q].meaning.endswith(".theta")) for q in system.q]
+
+
+def _dop853() -> dict[str, Any]:
+    def terms(row: Mapping[int, float], of: str) -> str:
+        return " + ".join(f"{value!r} * {of}[{j}][i]" for j, value in row.items())
+
+    return {
+        "nodes": dop853.C, "stages": [terms(row, "k") for row in dop853.A[1:]], "n_stages": dop853.STAGES,
+        "error_3": terms(dop853.E[0], "k"), "error_5": terms(dop853.E[1], "k"),
+        "dense": [terms(row, "k") for row in dop853.D],
+    }  # fmt: skip
+
+
+def _rodas5p() -> dict[str, Any]:
+    return {
+        "nodes": rodas5p.NODES, "time": rodas5p.TIME, "gamma": rodas5p.GAMMA, "a": rodas5p.A, "c": rodas5p.C,
+        "dense": rodas5p.H,
+    }  # fmt: skip
+
+
+def _newton(model: Model, system: System) -> tuple[str, list[Kernel]]:
+    """The linearized equations: Newton's matrix, Jacobian."""
+    tangents, slopes = tangent_code(model, render)
+    text, kernels = newton_code(system, render)
+    return tangents + text + jacobian_code(model, render), [*kernels, *slopes]
 
 
 def render(name: str, /, **values: Any) -> str:
@@ -128,6 +191,8 @@ def _counts(model: Model) -> dict[str, int]:
         "n_clearances": len(model.clearances),
         "n_frictions": len(model.frictions),
         "n_switches": len(model.symbols.switches.found),
+        "n_memory": len(model.clearances) + len(model.frictions),
+        "n_margins": len(model.clearances) + len(model.symbols.switches.found) + len(model.frictions),
         "n_series": len(interface.element_series(model)),
     }
 
@@ -162,6 +227,12 @@ def _floors(model: Model) -> list[str]:
         for c in model.clearances
     ]
     return names or ["0.0"]
+
+
+def _own_clearances(model: Model) -> list[str]:
+    """c of each joint with play."""
+    read = {s: sp.Symbol(f"p->{s.name}") for s in model.symbols.info}
+    return [printer.expression(sp.sympify(c.pair.c).xreplace(read)) for c in model.clearances] or ["0.0"]
 
 
 def _operations(model: Model, kernels: list[Kernel]) -> dict[str, int]:

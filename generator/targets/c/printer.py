@@ -137,7 +137,8 @@ def section(item: Section) -> str:
 def kernel(item: Kernel) -> str:
     """A whole function, its doc comment in front; arguments that it does not read are voided."""
     body = "\n\n".join(section(s) for s in item.sections)
-    unused = [a.name for a in item.arguments if not re.search(rf"\b{re.escape(a.name)}\b", body)]
+    code = re.sub(r"/\*.*?\*/", "", body, flags=re.S)
+    unused = [a.name for a in item.arguments if not re.search(rf"\b{re.escape(a.name)}\b", code)]
     voids = "".join(f"    (void){name};\n" for name in unused)
     doc = "\n".join(f" * {comment_text(line)}" for line in item.doc)
     head = f"static {'inline ' if item.inline else ''}{item.returns} {item.name}({arguments(item.arguments)})"

@@ -1,0 +1,238 @@
+/*
+ * Events: contacts, corners of laws and expressions, and friction that may stick end a step where their margin
+ * crosses zero. The place is the root of the step's interpolant; what is looked at is a range of signs, not a
+ * crossing alone, so that a contact that starts again on the wrong side of zero is not lost.
+ */
+enum { ROOT_STEPS = 100, GRAZE_STEPS = 12 };
+
+static int make_dense(Run *run, const Parameters *p, Step *step)
+{
+    if (step->dense_ready)
+        return 0;
+    step->dense_ready = 1;
+    if (!step->stiff)
+        return dop853_dense(run, p, step);
+    rodas5p_dense(run, step);
+    return 0;
+}
+
+/* State, projected, and right-hand side at share s of the step. */
+static int state_at(Run *run, const Step *step, double s, const Parameters *p, double *y, double *dy, Aside *aside)
+{
+    if (step->stiff)
+        rodas5p_interpolate(run, step, s, y);
+    else
+        dop853_interpolate(run, step, s, y);
+    const double t = step->t + s * step->h;
+    project_state(t, y, p);
+    return rates(run, t, y, p, dy, aside);
+}
+
+static double margin_at(Run *run, const Step *step, double s, int k, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    return state_at(run, step, s, p, y, dy, &aside) ? NAN : margin(&run->memory, &aside, k);
+}
+
+/* Where the parabola x(f) through three points, or the line through two, meets f = 0. */
+static double inverse_zero(const double *x, const double *f, int n)
+{
+    const double a = f[0], b = f[1], c = f[2];
+    const double line = x[0] - a * (x[1] - x[0]) / (b - a);
+    if (n < 3 || a == c || b == c)
+        return line;
+    return x[0] * b * c / ((a - b) * (a - c)) + x[1] * a * c / ((b - a) * (b - c)) + x[2] * a * b / ((c - a) * (c - b));
+}
+
+/*
+ * The first share at which margin k is below zero, from a bracket of it: inverse interpolation, a look just across
+ * the root once it is known so well, and halving where neither helps.
+ */
+static double root(Run *run, const Step *step, int k, double low, double at_low, double high, double at_high,
+    const Parameters *p)
+{
+    const double close = fmax(1e-12, 4.0 * DBL_EPSILON * fabs(step->t)) / step->h;
+    double x[3] = {low, high, 0.0}, f[3] = {at_low, at_high, 0.0};
+    for (int i = 0; i < ROOT_STEPS && high - low > close; i++) {
+        double s = inverse_zero(x, f, i + 2);
+        if (!(s > low && s < high) || i % 12 == 11)
+            s = 0.5 * (low + high);
+        if (s - low < 2.0 * close)
+            s = fmin(s + 0.75 * close, low + 0.9 * (high - low));
+        else if (high - s < 2.0 * close)
+            s = fmax(s - 0.75 * close, high - 0.9 * (high - low));
+        const double now = margin_at(run, step, s, k, p);
+        if (now >= 0.0)
+            low = s;
+        else
+            high = s;
+        x[2] = x[1], f[2] = f[1];
+        x[1] = x[0], f[1] = f[0];
+        x[0] = s, f[0] = now;
+    }
+    return high;
+}
+
+/* Whether a free joint may have touched and left again between what was looked at; its share of the step in `s`. */
+static int may_graze(const Run *run, const Step *step, int i, double *s)
+{
+    const Clearance *before = &run->aside.clearance[i], *after = &step->aside.clearance[i];
+    const double h = step->h, bend = (step->rate[i][1] - step->rate[i][0]) / h;
+    double highest = fmax(before->delta, after->delta);
+    *s = before->delta > after->delta ? 0.0 : 1.0;
+    if (run->memory.latch[i].closed || !(before->deltadot > 0.0) || !(after->deltadot < 0.0))
+        return 0;
+    for (int j = 1; j < 16; j++) { /* the cubic through both ends */
+        const double x = j / 16.0, u = 1.0 - x;
+        const double d = u * u * (1.0 + 2.0 * x) * before->delta + x * u * u * h * before->deltadot
+            + x * x * (3.0 - 2.0 * x) * after->delta - x * x * u * h * after->deltadot;
+        if (d > highest) {
+            highest = d;
+            *s = x;
+        }
+    }
+    return highest + bend * h * h / 64.0 > 0.0;
+}
+
+/* The share near s at which margin k is least, by parabolas; its value in `least`. */
+static double lowest(Run *run, const Step *step, int k, double s, const Parameters *p, double *least)
+{
+    double width = 0.125, best = margin_at(run, step, s, k, p);
+    for (int i = 0; i < GRAZE_STEPS && best >= 0.0; i++) {
+        const double a = fmax(s - width, 0.0), b = fmin(s + width, 1.0);
+        const double left = margin_at(run, step, a, k, p), right = margin_at(run, step, b, k, p);
+        if (left < best || right < best) {
+            s = left < right ? a : b;
+            best = fmin(left, right);
+        } else {
+            width *= 0.5;
+        }
+    }
+    *least = best;
+    return s;
+}
+
+/* The bracket's upper end for margin k: a share at which it is below zero; 0 if there is none. */
+static double violated(Run *run, Step *step, int k, const Parameters *p, double *value)
+{
+    const double end = margin(&run->memory, &step->aside, k);
+    double s = step->where[k];
+    if (step->least[k] < 0.0 && s < 1.0 && make_dense(run, p, step) == 0) {
+        *value = margin_at(run, step, s, k, p);
+        if (*value < 0.0)
+            return s;
+    }
+    *value = end;
+    if (end < 0.0)
+        return 1.0;
+    if (k < N_CLEARANCES && may_graze(run, step, k, &s) && make_dense(run, p, step) == 0) {
+        s = lowest(run, step, k, s, p, value);
+        if (*value < 0.0)
+            return s;
+    }
+    return 0.0;
+}
+
+/* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
+static double first_event(Run *run, Step *step, const Parameters *p, int *event)
+{
+    double first = 1.0;
+    *event = -1;
+    for (int k = 0; k < N_MARGINS; k++) {
+        double at_high, at_low = margin(&run->memory, &run->aside, k), low = 0.0;
+        double high = violated(run, step, k, p, &at_high);
+        if (high == 0.0 || make_dense(run, p, step))
+            continue;
+        if (*event >= 0 && margin_at(run, step, first, k, p) >= 0.0)
+            continue; /* later than what was found */
+        for (int j = 1; j < 4 && !(at_low >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
+            const double s = 0.25 * j * high, now = margin_at(run, step, s, k, p);
+            if (now >= 0.0)
+                low = s, at_low = now;
+        }
+        const double s = at_low >= 0.0 ? root(run, step, k, low, at_low, high, at_high, p) : 0.0;
+        if (*event < 0 || s < first) {
+            first = s;
+            *event = k;
+        }
+    }
+    return first;
+}
+
+static void peak(Run *run, int i, double t, double F)
+{
+    if (F > run->F_peak[i]) {
+        run->F_peak[i] = F;
+        run->t_peak[i] = t;
+    }
+    if (run->memory.latch[i].closed && F > run->open[i].F_peak) {
+        run->open[i].F_peak = F;
+        run->open[i].t_peak = t;
+    }
+}
+
+static double force_at(Run *run, const Step *step, double s, int i, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    if (state_at(run, step, s, p, y, dy, &aside))
+        return 0.0;
+    const double F = hypot(aside.clearance[i].F_n, aside.clearance[i].F_t);
+    peak(run, i, step->t + s * step->h, F);
+    run->e_max[i] = max_of(aside.clearance[i].e, run->e_max[i]);
+    return F;
+}
+
+/* The top of joint i's force inside a step up to `share`, by parabolas through three of its points. */
+static void inner_peak(Run *run, const Step *step, double share, int i, const Parameters *p)
+{
+    double s = 0.5 * share, best = force_at(run, step, s, i, p);
+    for (double width = 0.5 * share; width > 0.002 && best > 0.0; width *= 0.2) {
+        const double low = fmax(s - width, 0.0), high = fmin(s + width, share), x = s - low, z = high - s;
+        const double left = force_at(run, step, low, i, p) - best, right = force_at(run, step, high, i, p) - best;
+        const double bend = right * x + left * z;
+        double top = left > right ? low : high;
+        if (bend < 0.0)
+            top = fmin(fmax(s - 0.5 * (right * x * x - left * z * z) / bend, low), high);
+        const double found = force_at(run, step, top, i, p);
+        if (found > best || fmax(left, right) > 0.0) {
+            best = fmax(found, best);
+            s = found >= best ? top : left > right ? low : high;
+        }
+    }
+}
+
+/*
+ * Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end.
+ * The slope at the end is told by a very short way along the motion.
+ */
+static void inner_peaks(Run *run, Step *step, double share, const double *y, const double *dy, const Aside *end,
+    const Parameters *p)
+{
+    double before[1], after[1];
+    int near = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *a = &run->aside.clearance[i], *b = &end->clearance[i];
+        const double known = run->memory.latch[i].closed ? run->open[i].F_peak : run->F_peak[i];
+        before[i] = hypot(a->F_n, a->F_t), after[i] = hypot(b->F_n, b->F_t);
+        const int looked = fmax(before[i], after[i]) > 0.9 * known && after[i] > 0.0;
+        run->rising[i] = looked ? run->rising[i] : 1;
+        near |= looked << i % 16;
+    }
+    if (!near)
+        return;
+    double x[N_Y], dx[N_Y];
+    Aside aside;
+    const double e = 1e-4 * share * step->h;
+    for (int k = 0; k < N_Y; k++)
+        x[k] = y[k] + e * dy[k];
+    if (rates(run, step->t + share * step->h + e, x, p, dx, &aside))
+        return;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const double slope = hypot(aside.clearance[i].F_n, aside.clearance[i].F_t) - after[i];
+        if ((near >> i % 16 & 1) && run->rising[i] && slope < 0.0 && make_dense(run, p, step) == 0)
+            inner_peak(run, step, share, i, p);
+        run->rising[i] = slope > 0.0;
+    }
+}

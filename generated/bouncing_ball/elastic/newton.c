@@ -1,0 +1,500 @@
+/* (F along n, F along t, M_i, M_j) of a joint with play and their derivatives by (e, deltadot, de_t, omega_i, omega_j). */
+typedef struct {
+    double value[4], slope[4][5];
+} PinSlopes;
+
+/*
+ * As a share of the clearance: nearer to the centre the derivatives are those at the centre. There a force along the
+ * normal and the normal's own turning cancel, which leaves some DBL_EPSILON c/e of rounding.
+ */
+#define CENTRED 1e-8
+
+/*
+ * From n, t to ground axes. Where e moves by de = (along n, along t) = (x, y), n turns by y/e: F by F rotated, and
+ * deltadot, de_t by (de_t, -deltadot) y/e.
+ */
+static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, double deltadot, double de_t, double per_e,
+    double dF[4][6])
+{
+    double by[4][6];
+    for (int i = 0; i < 4; i++) {
+        const double *slope = F->slope[i];
+        by[i][0] = slope[0];
+        by[i][1] = (slope[1] * de_t - slope[2] * deltadot) * per_e;
+        by[i][2] = slope[1];
+        by[i][3] = slope[2];
+        dF[i][4] = slope[3];
+        dF[i][5] = slope[4];
+    }
+    by[0][1] -= F->value[1] * per_e;
+    by[1][1] += F->value[0] * per_e;
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 4; k += 2) {
+            dF[i][k] = by[i][k] * n_x - by[i][k + 1] * n_y;
+            dF[i][k + 1] = by[i][k] * n_y + by[i][k + 1] * n_x;
+        }
+    for (int k = 0; k < 6; k++) {
+        const double along_n = dF[0][k], along_t = dF[1][k];
+        dF[0][k] = along_n * n_x - along_t * n_y;
+        dF[1][k] = along_n * n_y + along_t * n_x;
+    }
+}
+
+
+/*
+ * Joint fall, dry: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t,
+ * omega_i, omega_j (forward differentiation of the same steps).
+ */
+static inline void dry_slopes_fall(double e, double deltadot, double de_t, double omega_i, double omega_j,
+    const Latch *latch, const Parameters *p, const double *side, double *g, PinSlopes *out)
+{
+    (void)deltadot;
+    (void)de_t;
+    (void)omega_i;
+    (void)omega_j;
+    (void)latch;
+    (void)side;
+    (void)g;
+    /* parameters */
+    const double elastic_normal_stiffness = p->elastic_normal_stiffness;
+    const double elastic_normal_exponent = p->elastic_normal_exponent;
+
+    /* penetration, ratio of velocities, slip */
+    const double delta = e - p->floor_clearance;
+    const double par_depth = max_of(delta, 0.0);
+    const double depth_by_e = delta > 0.0 ? 1.0 : 0.0;
+    const double a_i = (0.5)*delta + p->floor_radius;
+    const double a_j = -0.5*delta + p->R_j_floor;
+
+    /* contact of joint fall */
+    const double F_n = elastic_normal_stiffness*pow(par_depth, elastic_normal_exponent);
+    const double F_n_by_par_depth = elastic_normal_exponent*elastic_normal_stiffness*pow(par_depth,
+        elastic_normal_exponent - 1.0);
+    const double F_n_by_e = F_n_by_par_depth*depth_by_e;
+    const double F_along_t_dry = 0.0;
+    const double M_i_dry = -F_along_t_dry*a_i;
+    const double M_i_dry_by_e = -0.5*F_along_t_dry;
+    const double M_j_dry = F_along_t_dry*a_j;
+    const double M_j_dry_by_e = -0.5*F_along_t_dry;
+
+    /* results */
+    out->value[0] = -F_n;
+    out->slope[0][0] = -F_n_by_e;
+    out->slope[0][1] = 0.0;
+    out->slope[0][2] = 0.0;
+    out->slope[0][3] = 0.0;
+    out->slope[0][4] = 0.0;
+    out->value[1] = F_along_t_dry;
+    out->slope[1][0] = 0.0;
+    out->slope[1][1] = 0.0;
+    out->slope[1][2] = 0.0;
+    out->slope[1][3] = 0.0;
+    out->slope[1][4] = 0.0;
+    out->value[2] = M_i_dry;
+    out->slope[2][0] = M_i_dry_by_e;
+    out->slope[2][1] = 0.0;
+    out->slope[2][2] = 0.0;
+    out->slope[2][3] = 0.0;
+    out->slope[2][4] = 0.0;
+    out->value[3] = M_j_dry;
+    out->slope[3][0] = M_j_dry_by_e;
+    out->slope[3][1] = 0.0;
+    out->slope[3][2] = 0.0;
+    out->slope[3][3] = 0.0;
+    out->slope[3][4] = 0.0;
+}
+
+/*
+ * Joint fall: the derivatives of (F_x, F_y, M_i, M_j) by (e_x, e_y, de_x, de_y, omega_i, omega_j), on the same
+ * side of every corner as the force itself.
+ */
+static void slopes_fall(double e, double deltadot, double de_t, double omega_i, double omega_j, const Latch *latch,
+    const Parameters *p, const double *side, double *g, PinSlopes *out)
+{
+    const double delta = e - p->floor_clearance;
+    *out = (PinSlopes){0};
+    if (side ? latch->closed : delta > 0.0)
+        dry_slopes_fall(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, out);
+}
+
+static void tangent_fall(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
+    const Latch *latch, const Parameters *p, const double *side, double *g, double dF[4][6])
+{
+    PinSlopes F;
+    const double e = sqrt(e_x * e_x + e_y * e_y);
+    if (e > CENTRED * p->floor_clearance) {
+        const double n_x = e_x / e, n_y = e_y / e;
+        const double deltadot = de_x * n_x + de_y * n_y, de_t = de_y * n_x - de_x * n_y;
+        slopes_fall(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
+        in_ground_axes(&F, n_x, n_y, deltadot, de_t, 1.0 / e, dF);
+        return;
+    }
+    /* at the centre each axis in turn is the normal */
+    slopes_fall(e, de_x, de_y, omega_i, omega_j, latch, p, side, g, &F);
+    in_ground_axes(&F, 1.0, 0.0, de_x, de_y, 0.0, dF);
+    slopes_fall(e, de_y, -de_x, omega_i, omega_j, latch, p, side, g, &F);
+    dF[0][1] = -F.slope[1][0];
+    dF[1][1] = F.slope[0][0];
+    dF[2][1] = F.slope[2][0];
+    dF[3][1] = F.slope[3][0];
+}
+/* The equations of motion linearized at a state, and Newton's matrix factorized. */
+typedef struct {
+    const Parameters *p;
+    double value[20]; /* what linearize() found */
+    double lu[9];    /* L, U and inverse pivots */
+} Linear;
+
+/*
+ * The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:
+ * non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.
+ */
+static void linearize(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, const double *a, const Aside *aside, Linear *lin)
+{
+    (void)t;
+    (void)a;
+    /* corners: the sides that are held, if any */
+    const double *const side = memory->held ? memory->side : NULL;
+    double g[N_SWITCHES + 1];
+
+    /* coordinates, velocities, time */
+    const double ball_x = q[0];
+    const double ball_y = q[1];
+    const double ball_vx = v[0];
+    const double ball_vy = v[1];
+    const double ball_omega = v[2];
+    const double fall_Fx = aside->clearance[0].Fx;
+    const double fall_Fy = aside->clearance[0].Fy;
+    const double fall_moment_second = aside->clearance[0].moment_second;
+
+    /* clearance joint fall */
+    const double e_fall_x_2 = ball_x;
+    const double e_fall_y_2 = ball_y;
+    const double edot_fall_x_2 = ball_vx;
+    const double edot_fall_y_2 = ball_vy;
+    double slopes_fall[4][6];
+    tangent_fall(e_fall_x_2, e_fall_y_2, edot_fall_x_2, edot_fall_y_2, 0, ball_omega, &memory->latch[0], p, side, g, slopes_fall);
+    const double fall_Fx_by_e_x = slopes_fall[0][0];
+    const double fall_Fx_by_e_y = slopes_fall[0][1];
+    const double fall_Fx_by_de_x = slopes_fall[0][2];
+    const double fall_Fx_by_de_y = slopes_fall[0][3];
+    const double fall_Fx_by_omega_j = slopes_fall[0][5];
+    const double fall_Fy_by_e_x = slopes_fall[1][0];
+    const double fall_Fy_by_e_y = slopes_fall[1][1];
+    const double fall_Fy_by_de_x = slopes_fall[1][2];
+    const double fall_Fy_by_de_y = slopes_fall[1][3];
+    const double fall_Fy_by_omega_j = slopes_fall[1][5];
+    const double fall_moment_second_by_e_x = slopes_fall[3][0];
+    const double fall_moment_second_by_e_y = slopes_fall[3][1];
+    const double fall_moment_second_by_de_x = slopes_fall[3][2];
+    const double fall_moment_second_by_de_y = slopes_fall[3][3];
+    const double fall_moment_second_by_omega_j = slopes_fall[3][5];
+
+    /* results */
+    lin->value[0] = -fall_Fx_by_e_x;
+    lin->value[1] = -fall_Fx_by_e_y;
+    lin->value[2] = -fall_Fy_by_e_x;
+    lin->value[3] = -fall_Fy_by_e_y;
+    lin->value[4] = -fall_moment_second_by_e_x;
+    lin->value[5] = -fall_moment_second_by_e_y;
+    lin->value[6] = -fall_Fx_by_de_x;
+    lin->value[7] = -fall_Fx_by_de_y;
+    lin->value[8] = -fall_Fx_by_omega_j;
+    lin->value[9] = -fall_Fy_by_de_x;
+    lin->value[10] = -fall_Fy_by_de_y;
+    lin->value[11] = -fall_Fy_by_omega_j;
+    lin->value[12] = -fall_moment_second_by_de_x;
+    lin->value[13] = -fall_moment_second_by_de_y;
+    lin->value[14] = -fall_moment_second_by_omega_j;
+    lin->value[15] = ball_omega*fall_moment_second_by_e_x + ball_vx*fall_Fx_by_e_x + ball_vy*fall_Fy_by_e_x;
+    lin->value[16] = ball_omega*fall_moment_second_by_e_y + ball_vx*fall_Fx_by_e_y + ball_vy*fall_Fy_by_e_y;
+    lin->value[17] = ball_omega*fall_moment_second_by_omega_j + ball_vx*fall_Fx_by_omega_j +
+        ball_vy*fall_Fy_by_omega_j + fall_moment_second;
+    lin->value[18] = ball_omega*fall_moment_second_by_de_x + ball_vx*fall_Fx_by_de_x + ball_vy*fall_Fy_by_de_x
+        + fall_Fx;
+    lin->value[19] = ball_omega*fall_moment_second_by_de_y + ball_vx*fall_Fx_by_de_y + ball_vy*fall_Fy_by_de_y
+        + fall_Fy;
+    lin->p = p;
+}
+
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ */
+static int newton_factor(double eta, Linear *lin)
+{
+    /* numbers of the run */
+    const Parameters *const p = lin->p;
+
+    /* linearization */
+    const double by_q_ball_x_ball_x = lin->value[0];
+    const double by_q_ball_x_ball_y = lin->value[1];
+    const double by_q_ball_y_ball_x = lin->value[2];
+    const double by_q_ball_y_ball_y = lin->value[3];
+    const double by_q_ball_theta_ball_x = lin->value[4];
+    const double by_q_ball_theta_ball_y = lin->value[5];
+    const double by_v_ball_x_ball_x = lin->value[6];
+    const double by_v_ball_x_ball_y = lin->value[7];
+    const double by_v_ball_x_ball_theta = lin->value[8];
+    const double by_v_ball_y_ball_x = lin->value[9];
+    const double by_v_ball_y_ball_y = lin->value[10];
+    const double by_v_ball_y_ball_theta = lin->value[11];
+    const double by_v_ball_theta_ball_x = lin->value[12];
+    const double by_v_ball_theta_ball_y = lin->value[13];
+    const double by_v_ball_theta_ball_theta = lin->value[14];
+
+    /* parameters */
+    const double ball_mass = p->ball_mass;
+    const double ball_inertia = p->ball_inertia;
+
+    /* matrix */
+    const double n_ball_x__ball_x = ball_mass + eta*(by_q_ball_x_ball_x*eta + by_v_ball_x_ball_x);
+    const double n_ball_x__ball_y = eta*(by_q_ball_x_ball_y*eta + by_v_ball_x_ball_y);
+    const double n_ball_x__ball_theta = by_v_ball_x_ball_theta*eta;
+    const double n_ball_y__ball_x = eta*(by_q_ball_y_ball_x*eta + by_v_ball_y_ball_x);
+    const double n_ball_y__ball_y = ball_mass + eta*(by_q_ball_y_ball_y*eta + by_v_ball_y_ball_y);
+    const double n_ball_y__ball_theta = by_v_ball_y_ball_theta*eta;
+    const double n_ball_theta__ball_x = eta*(by_q_ball_theta_ball_x*eta + by_v_ball_theta_ball_x);
+    const double n_ball_theta__ball_y = eta*(by_q_ball_theta_ball_y*eta + by_v_ball_theta_ball_y);
+    const double n_ball_theta__ball_theta = ball_inertia + by_v_ball_theta_ball_theta*eta;
+
+    /* L U */
+    const double scale_ball_x = n_ball_x__ball_x;
+    if (!(fabs(scale_ball_x) > 1e-13 * fabs(n_ball_x__ball_x)))
+        return 1;
+    const double inverse_pivot_ball_x = 1.0/scale_ball_x;
+    lin->lu[0] = inverse_pivot_ball_x;
+    const double l_ball_y__ball_x = inverse_pivot_ball_x*n_ball_y__ball_x;
+    lin->lu[1] = l_ball_y__ball_x;
+    lin->lu[2] = n_ball_x__ball_y;
+    const double l_ball_theta__ball_x = inverse_pivot_ball_x*n_ball_theta__ball_x;
+    lin->lu[3] = l_ball_theta__ball_x;
+    lin->lu[4] = n_ball_x__ball_theta;
+    const double scale_ball_y = -l_ball_y__ball_x*n_ball_x__ball_y + n_ball_y__ball_y;
+    if (!(fabs(scale_ball_y) > 1e-13 * fabs(n_ball_y__ball_y)))
+        return 2;
+    const double inverse_pivot_ball_y = 1.0/scale_ball_y;
+    lin->lu[5] = inverse_pivot_ball_y;
+    const double l_ball_theta__ball_y = inverse_pivot_ball_y*(-l_ball_theta__ball_x*n_ball_x__ball_y +
+        n_ball_theta__ball_y);
+    lin->lu[6] = l_ball_theta__ball_y;
+    const double u_ball_y__ball_theta = -l_ball_y__ball_x*n_ball_x__ball_theta + n_ball_y__ball_theta;
+    lin->lu[7] = u_ball_y__ball_theta;
+    const double scale_ball_theta = -l_ball_theta__ball_x*n_ball_x__ball_theta -
+        l_ball_theta__ball_y*u_ball_y__ball_theta + n_ball_theta__ball_theta;
+    if (!(fabs(scale_ball_theta) > 1e-13 * fabs(n_ball_theta__ball_theta)))
+        return 3;
+    const double inverse_pivot_ball_theta = 1.0/scale_ball_theta;
+    lin->lu[8] = inverse_pivot_ball_theta;
+    return 0;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ */
+static void newton_substitute(const Linear *lin, double *x)
+{
+    /* linearization */
+    const double inverse_pivot_ball_x = lin->lu[0];
+    const double l_ball_y__ball_x = lin->lu[1];
+    const double n_ball_x__ball_y = lin->lu[2];
+    const double l_ball_theta__ball_x = lin->lu[3];
+    const double n_ball_x__ball_theta = lin->lu[4];
+    const double inverse_pivot_ball_y = lin->lu[5];
+    const double l_ball_theta__ball_y = lin->lu[6];
+    const double u_ball_y__ball_theta = lin->lu[7];
+    const double inverse_pivot_ball_theta = lin->lu[8];
+
+    /* forward */
+    const double b_ball_x = x[0];
+    const double b_ball_y = -b_ball_x*l_ball_y__ball_x + x[1];
+    const double b_ball_theta = -b_ball_x*l_ball_theta__ball_x - b_ball_y*l_ball_theta__ball_y + x[2];
+
+    /* backward */
+    const double x_ball_theta = b_ball_theta*inverse_pivot_ball_theta;
+    x[2] = x_ball_theta;
+    const double x_ball_y = inverse_pivot_ball_y*(b_ball_y - u_ball_y__ball_theta*x_ball_theta);
+    x[1] = x_ball_y;
+    const double x_ball_x = inverse_pivot_ball_x*(b_ball_x - n_ball_x__ball_theta*x_ball_theta -
+        n_ball_x__ball_y*x_ball_y);
+    x[0] = x_ball_x;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ */
+static void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u)
+{
+    (void)s;
+    /* numbers of the run */
+    const Parameters *const p = lin->p;
+
+    /* linearization */
+    const double by_q_ball_x_ball_x = lin->value[0];
+    const double by_q_ball_x_ball_y = lin->value[1];
+    const double by_q_ball_y_ball_x = lin->value[2];
+    const double by_q_ball_y_ball_y = lin->value[3];
+    const double by_q_ball_theta_ball_x = lin->value[4];
+    const double by_q_ball_theta_ball_y = lin->value[5];
+    const double power_q_2_ball_x = lin->value[15];
+    const double power_q_2_ball_y = lin->value[16];
+    const double power_v_2_ball_theta = lin->value[17];
+    const double power_v_2_ball_x = lin->value[18];
+    const double power_v_2_ball_y = lin->value[19];
+
+    /* parameters */
+    const double ball_mass = p->ball_mass;
+    const double ball_inertia = p->ball_inertia;
+
+    /* right-hand side */
+    double x[3];
+    x[0] = eta*(ball_mass*r[3] - by_q_ball_x_ball_x*eta*r[0] - by_q_ball_x_ball_y*eta*r[1]);
+    x[1] = eta*(ball_mass*r[4] - by_q_ball_y_ball_x*eta*r[0] - by_q_ball_y_ball_y*eta*r[1]);
+    x[2] = eta*(ball_inertia*r[5] - by_q_ball_theta_ball_x*eta*r[0] - by_q_ball_theta_ball_y*eta*r[1]);
+    newton_substitute(lin, x);
+
+    /* solution */
+    u[0] = eta*(r[0] + x[0]);
+    u[3] = x[0];
+    u[1] = eta*(r[1] + x[1]);
+    u[4] = x[1];
+    u[2] = eta*(r[2] + x[2]);
+    u[5] = x[2];
+    u[6] = eta*r[6];
+    u[7] = eta*r[7];
+    u[8] = eta*(power_q_2_ball_x*u[0] + power_q_2_ball_y*u[1] + power_v_2_ball_theta*u[5] +
+        power_v_2_ball_x*u[3] + power_v_2_ball_y*u[4] + r[8]);
+}
+
+/* Where a part of the linearization is in `value`. */
+typedef struct {
+    int row, column, value, sign;
+} LinearEntry;
+static const LinearEntry phi_q_entries[] = {
+    {0, 0, 0, 0}
+};
+static const LinearEntry residual_entries[] = {
+    {0, 0, 0, 1}, {0, 1, 1, 1}, {1, 0, 2, 1}, {1, 1, 3, 1}, {2, 0, 4, 1}, {2, 1, 5, 1}, {0, 3, 6, 1}, {0, 4,
+    7, 1}, {0, 5, 8, 1}, {1, 3, 9, 1}, {1, 4, 10, 1}, {1, 5, 11, 1}, {2, 3, 12, 1}, {2, 4, 13, 1}, {2, 5, 14,
+    1}
+};
+static const LinearEntry residual_t_entries[] = {
+    {0, 0, 0, 0}
+};
+static const LinearEntry power_entries[] = {
+    {2, 0, 15, 1}, {2, 1, 16, 1}, {2, 5, 17, 1}, {2, 3, 18, 1}, {2, 4, 19, 1}
+};
+static const LinearEntry power_row_entries[] = {
+    {0, 0, 0, 0}
+};
+static const LinearEntry power_t_entries[] = {
+    {0, 0, 0, 0}
+};
+enum {
+    N_PHI_Q = 0,
+    N_RESIDUAL = 15,
+    N_RESIDUAL_T = 0,
+    N_POWER = 5,
+    N_POWER_ROW = 0,
+    N_POWER_T = 0,
+    N_NODES = 3,
+};
+/*
+ * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_Q - 1) or of R1_t, R2_t (2 N_Q); 0 if all
+ * are zero.
+ */
+static int residual_column(const Linear *lin, int column, const double *gain, double *x)
+{
+    int found = 0;
+    for (int i = 0; i < N_NODES; i++)
+        x[i] = 0.0;
+    for (int i = 0; i < N_RESIDUAL && column < 2 * N_Q; i++) {
+        const LinearEntry *at = &residual_entries[i];
+        if (at->column == column) {
+            x[at->row] -= at->sign * lin->value[at->value];
+            found = 1;
+        }
+    }
+    for (int i = 0; i < N_PHI_Q && column < 2 * N_Q; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
+        const LinearEntry *at = &phi_q_entries[i];
+        if (at->column == column % N_Q && (column >= N_Q || at->row < N_Q + N_ROWS)) {
+            x[at->row] -= gain[column / N_Q] * at->sign * lin->value[at->value];
+            found = 1;
+        }
+    }
+    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_Q; i++) {
+        x[residual_t_entries[i].row] -= residual_t_entries[i].sign * lin->value[residual_t_entries[i].value];
+        found = 1;
+    }
+    return found;
+}
+
+/* The column of the Jacobian that follows from x, the change of accelerations and multipliers; `out` has a stride. */
+static void jacobian_column(const Linear *lin, int column, const double *x, double *out, size_t stride)
+{
+    for (int k = 0; k < N_Q; k++) {
+        out[k * stride] = column == N_Q + k ? 1.0 : 0.0;
+        out[(N_Q + k) * stride] = x[k];
+    }
+    for (int w = 0; w < N_WORK; w++)
+        out[(2 * N_Q + w) * stride] = 0.0;
+    for (int i = 0; i < N_POWER_ROW; i++) {
+        const LinearEntry *at = &power_row_entries[i];
+        out[(2 * N_Q + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
+    }
+    for (int i = 0; i < N_POWER; i++)
+        if (power_entries[i].column == column)
+            out[(2 * N_Q + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
+    for (int i = 0; i < N_POWER_T && column == 2 * N_Q; i++)
+        out[(2 * N_Q + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
+}
+
+/* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
+static int linearized(double t, const double *y, const double *memory, const Parameters *p, double eta, Linear *lin)
+{
+    Memory now;
+    Aside aside;
+    double dy[N_Y];
+    read_memory(memory, &now);
+    const int status = state_equation(t, y, &now, p, dy, &aside);
+    if (status)
+        return status;
+    linearize(t, y, y + N_Q, &now, p, dy + N_Q, &aside, lin);
+    return -newton_factor(eta, lin);
+}
+
+/*
+ * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
+ * KKT matrix. Contacts, corners and modes of friction stay as they are.
+ */
+int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
+{
+    Linear lin;
+    const double gain[2] = {((const Parameters *)p)->beta_squared, ((const Parameters *)p)->two_alpha};
+    const int status = linearized(t, y, memory, (const Parameters *)p, 0.0, &lin);
+    if (status)
+        return status;
+    for (int column = 0; column <= 2 * N_Q; column++) {
+        double x[N_NODES];
+        if (residual_column(&lin, column, gain, x))
+            newton_substitute(&lin, x);
+        jacobian_column(&lin, column, x, column < 2 * N_Q ? J + column : f_t, column < 2 * N_Q ? N_Y : 1);
+    }
+    for (int k = 0; k < N_Y; k++) /* nothing depends on the works */
+        for (int w = 0; w < N_WORK; w++)
+            J[k * N_Y + 2 * N_Q + w] = 0.0;
+    return 0;
+}
+
+/* (1/eta - J) u = r + s f_t at a state. */
+int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
+    const double *r, double *u)
+{
+    Linear lin;
+    const int status = linearized(t, y, memory, (const Parameters *)p, eta, &lin);
+    if (status)
+        return status;
+    newton_solve(&lin, eta, s, r, u);
+    return 0;
+}

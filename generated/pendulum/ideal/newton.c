@@ -1,0 +1,314 @@
+/* The equations of motion linearized at a state, and Newton's matrix factorized. */
+typedef struct {
+    const Parameters *p;
+    double value[7]; /* what linearize() found */
+    double lu[5];    /* L, U and inverse pivots */
+} Linear;
+
+/*
+ * The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:
+ * non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.
+ */
+static void linearize(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, const double *a, const Aside *aside, Linear *lin)
+{
+    (void)t;
+    (void)memory;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_y = q[1];
+    const double bob_vx = v[0];
+    const double bob_vy = v[1];
+    const double acceleration_bob_x_2 = a[0];
+    const double acceleration_bob_y_2 = a[1];
+    const double multiplier_rod_length_2 = aside->lambda[0];
+
+    /* parameters */
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+    const double two_alpha = p->two_alpha;
+
+    /* results */
+    lin->value[0] = 2.0*bob_x*rod_half_inverse_length;
+    lin->value[1] = 2.0*bob_y*rod_half_inverse_length;
+    lin->value[2] = 2.0*acceleration_bob_x_2*rod_half_inverse_length +
+        2.0*bob_vx*rod_half_inverse_length*two_alpha;
+    lin->value[3] = 2.0*acceleration_bob_y_2*rod_half_inverse_length +
+        2.0*bob_vy*rod_half_inverse_length*two_alpha;
+    lin->value[4] = 2.0*multiplier_rod_length_2*rod_half_inverse_length;
+    lin->value[5] = 4.0*bob_vx*rod_half_inverse_length;
+    lin->value[6] = 4.0*bob_vy*rod_half_inverse_length;
+    lin->p = p;
+}
+
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ */
+static int newton_factor(double eta, Linear *lin)
+{
+    /* numbers of the run */
+    const Parameters *const p = lin->p;
+
+    /* linearization */
+    const double phi_rod_length_bob_x = lin->value[0];
+    const double phi_rod_length_bob_y = lin->value[1];
+    const double by_q_rod_length_bob_x = lin->value[2];
+    const double by_q_rod_length_bob_y = lin->value[3];
+    const double by_q_bob_x_bob_x = lin->value[4];
+    const double by_v_rod_length_bob_x = lin->value[5];
+    const double by_v_rod_length_bob_y = lin->value[6];
+
+    /* parameters */
+    const double bob_mass = p->bob_mass;
+    const double two_alpha = p->two_alpha;
+    const double beta_squared = p->beta_squared;
+
+    /* eta/kappa */
+    const double eta_row = eta/(eta*(beta_squared*eta + two_alpha) + 1.0);
+
+    /* matrix */
+    const double n_bob_x__bob_x = bob_mass + by_q_bob_x_bob_x*(eta * eta);
+    const double n_bob_y__bob_y = bob_mass + by_q_bob_x_bob_x*(eta * eta);
+    const double n_rod_length__bob_x = eta_row*(by_q_rod_length_bob_x*eta + by_v_rod_length_bob_x) +
+        phi_rod_length_bob_x;
+    const double n_rod_length__bob_y = eta_row*(by_q_rod_length_bob_y*eta + by_v_rod_length_bob_y) +
+        phi_rod_length_bob_y;
+
+    /* L U */
+    const double scale_bob_x = n_bob_x__bob_x;
+    if (!(fabs(scale_bob_x) > 1e-13 * fabs(n_bob_x__bob_x)))
+        return 1;
+    const double inverse_pivot_bob_x = 1.0/scale_bob_x;
+    lin->lu[0] = inverse_pivot_bob_x;
+    const double l_rod_length__bob_x_2 = inverse_pivot_bob_x*n_rod_length__bob_x;
+    lin->lu[1] = l_rod_length__bob_x_2;
+    const double scale_bob_y = n_bob_y__bob_y;
+    if (!(fabs(scale_bob_y) > 1e-13 * fabs(n_bob_y__bob_y)))
+        return 2;
+    const double inverse_pivot_bob_y = 1.0/scale_bob_y;
+    lin->lu[2] = inverse_pivot_bob_y;
+    const double l_rod_length__bob_y_2 = inverse_pivot_bob_y*n_rod_length__bob_y;
+    lin->lu[3] = l_rod_length__bob_y_2;
+    const double scale_rod_length_2 = -l_rod_length__bob_x_2*phi_rod_length_bob_x -
+        l_rod_length__bob_y_2*phi_rod_length_bob_y;
+    if (!(fabs(scale_rod_length_2) > 1e-08 * fabs(scale_rod_length_2)))
+        return 4;
+    const double inverse_pivot_rod_length_2 = 1.0/scale_rod_length_2;
+    lin->lu[4] = inverse_pivot_rod_length_2;
+    return 0;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ */
+static void newton_substitute(const Linear *lin, double *x)
+{
+    /* numbers of the run */
+    const Parameters *const p = lin->p;
+
+    /* linearization */
+    const double phi_rod_length_bob_x = lin->value[0];
+    const double phi_rod_length_bob_y = lin->value[1];
+    const double inverse_pivot_bob_x = lin->lu[0];
+    const double l_rod_length__bob_x_2 = lin->lu[1];
+    const double inverse_pivot_bob_y = lin->lu[2];
+    const double l_rod_length__bob_y_2 = lin->lu[3];
+    const double inverse_pivot_rod_length_2 = lin->lu[4];
+
+    /* parameters */
+    const double inverse_bob_inertia = p->inverse_bob_inertia;
+
+    /* forward */
+    const double b_bob_theta = x[2];
+    const double b_bob_x = x[0];
+    const double b_bob_y = x[1];
+    const double b_rod_length = -b_bob_x*l_rod_length__bob_x_2 - b_bob_y*l_rod_length__bob_y_2 + x[3];
+
+    /* backward */
+    const double x_rod_length = b_rod_length*inverse_pivot_rod_length_2;
+    x[3] = x_rod_length;
+    const double x_bob_y = inverse_pivot_bob_y*(b_bob_y - phi_rod_length_bob_y*x_rod_length);
+    x[1] = x_bob_y;
+    const double x_bob_x = inverse_pivot_bob_x*(b_bob_x - phi_rod_length_bob_x*x_rod_length);
+    x[0] = x_bob_x;
+    const double x_bob_theta = b_bob_theta*inverse_bob_inertia;
+    x[2] = x_bob_theta;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ */
+static void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u)
+{
+    (void)s;
+    /* numbers of the run */
+    const Parameters *const p = lin->p;
+
+    /* linearization */
+    const double phi_rod_length_bob_x = lin->value[0];
+    const double phi_rod_length_bob_y = lin->value[1];
+    const double by_q_rod_length_bob_x = lin->value[2];
+    const double by_q_rod_length_bob_y = lin->value[3];
+    const double by_q_bob_x_bob_x = lin->value[4];
+
+    /* parameters */
+    const double bob_mass = p->bob_mass;
+    const double bob_inertia = p->bob_inertia;
+    const double two_alpha = p->two_alpha;
+    const double beta_squared = p->beta_squared;
+
+    /* eta/kappa */
+    const double eta_row = eta/(eta*(beta_squared*eta + two_alpha) + 1.0);
+
+    /* right-hand side */
+    double x[4];
+    const double shifted_bob_x = -beta_squared*eta*r[0] + r[3];
+    const double shifted_bob_y = -beta_squared*eta*r[1] + r[4];
+    x[0] = eta*(bob_mass*r[3] - by_q_bob_x_bob_x*eta*r[0]);
+    x[1] = eta*(bob_mass*r[4] - by_q_bob_x_bob_x*eta*r[1]);
+    x[2] = bob_inertia*eta*r[5];
+    x[3] = eta_row*(-by_q_rod_length_bob_x*eta*r[0] - by_q_rod_length_bob_y*eta*r[1] +
+        phi_rod_length_bob_x*shifted_bob_x + phi_rod_length_bob_y*shifted_bob_y);
+    newton_substitute(lin, x);
+
+    /* solution */
+    u[0] = eta*(r[0] + x[0]);
+    u[3] = x[0];
+    u[1] = eta*(r[1] + x[1]);
+    u[4] = x[1];
+    u[2] = eta*(r[2] + x[2]);
+    u[5] = x[2];
+    u[6] = eta*r[6];
+    u[7] = eta*r[7];
+    u[8] = eta*r[8];
+}
+
+/* Where a part of the linearization is in `value`. */
+typedef struct {
+    int row, column, value, sign;
+} LinearEntry;
+static const LinearEntry phi_q_entries[] = {
+    {3, 0, 0, 1}, {3, 1, 1, 1}
+};
+static const LinearEntry residual_entries[] = {
+    {3, 0, 2, 1}, {3, 1, 3, 1}, {0, 0, 4, 1}, {1, 1, 4, 1}, {3, 3, 5, 1}, {3, 4, 6, 1}
+};
+static const LinearEntry residual_t_entries[] = {
+    {0, 0, 0, 0}
+};
+static const LinearEntry power_entries[] = {
+    {0, 0, 0, 0}
+};
+static const LinearEntry power_row_entries[] = {
+    {0, 0, 0, 0}
+};
+static const LinearEntry power_t_entries[] = {
+    {0, 0, 0, 0}
+};
+enum {
+    N_PHI_Q = 2,
+    N_RESIDUAL = 6,
+    N_RESIDUAL_T = 0,
+    N_POWER = 0,
+    N_POWER_ROW = 0,
+    N_POWER_T = 0,
+    N_NODES = 4,
+};
+/*
+ * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_Q - 1) or of R1_t, R2_t (2 N_Q); 0 if all
+ * are zero.
+ */
+static int residual_column(const Linear *lin, int column, const double *gain, double *x)
+{
+    int found = 0;
+    for (int i = 0; i < N_NODES; i++)
+        x[i] = 0.0;
+    for (int i = 0; i < N_RESIDUAL && column < 2 * N_Q; i++) {
+        const LinearEntry *at = &residual_entries[i];
+        if (at->column == column) {
+            x[at->row] -= at->sign * lin->value[at->value];
+            found = 1;
+        }
+    }
+    for (int i = 0; i < N_PHI_Q && column < 2 * N_Q; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
+        const LinearEntry *at = &phi_q_entries[i];
+        if (at->column == column % N_Q && (column >= N_Q || at->row < N_Q + N_ROWS)) {
+            x[at->row] -= gain[column / N_Q] * at->sign * lin->value[at->value];
+            found = 1;
+        }
+    }
+    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_Q; i++) {
+        x[residual_t_entries[i].row] -= residual_t_entries[i].sign * lin->value[residual_t_entries[i].value];
+        found = 1;
+    }
+    return found;
+}
+
+/* The column of the Jacobian that follows from x, the change of accelerations and multipliers; `out` has a stride. */
+static void jacobian_column(const Linear *lin, int column, const double *x, double *out, size_t stride)
+{
+    for (int k = 0; k < N_Q; k++) {
+        out[k * stride] = column == N_Q + k ? 1.0 : 0.0;
+        out[(N_Q + k) * stride] = x[k];
+    }
+    for (int w = 0; w < N_WORK; w++)
+        out[(2 * N_Q + w) * stride] = 0.0;
+    for (int i = 0; i < N_POWER_ROW; i++) {
+        const LinearEntry *at = &power_row_entries[i];
+        out[(2 * N_Q + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
+    }
+    for (int i = 0; i < N_POWER; i++)
+        if (power_entries[i].column == column)
+            out[(2 * N_Q + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
+    for (int i = 0; i < N_POWER_T && column == 2 * N_Q; i++)
+        out[(2 * N_Q + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
+}
+
+/* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
+static int linearized(double t, const double *y, const double *memory, const Parameters *p, double eta, Linear *lin)
+{
+    Memory now;
+    Aside aside;
+    double dy[N_Y];
+    read_memory(memory, &now);
+    const int status = state_equation(t, y, &now, p, dy, &aside);
+    if (status)
+        return status;
+    linearize(t, y, y + N_Q, &now, p, dy + N_Q, &aside, lin);
+    return -newton_factor(eta, lin);
+}
+
+/*
+ * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
+ * KKT matrix. Contacts, corners and modes of friction stay as they are.
+ */
+int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
+{
+    Linear lin;
+    const double gain[2] = {((const Parameters *)p)->beta_squared, ((const Parameters *)p)->two_alpha};
+    const int status = linearized(t, y, memory, (const Parameters *)p, 0.0, &lin);
+    if (status)
+        return status;
+    for (int column = 0; column <= 2 * N_Q; column++) {
+        double x[N_NODES];
+        if (residual_column(&lin, column, gain, x))
+            newton_substitute(&lin, x);
+        jacobian_column(&lin, column, x, column < 2 * N_Q ? J + column : f_t, column < 2 * N_Q ? N_Y : 1);
+    }
+    for (int k = 0; k < N_Y; k++) /* nothing depends on the works */
+        for (int w = 0; w < N_WORK; w++)
+            J[k * N_Y + 2 * N_Q + w] = 0.0;
+    return 0;
+}
+
+/* (1/eta - J) u = r + s f_t at a state. */
+int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
+    const double *r, double *u)
+{
+    Linear lin;
+    const int status = linearized(t, y, memory, (const Parameters *)p, eta, &lin);
+    if (status)
+        return status;
+    newton_solve(&lin, eta, s, r, u);
+    return 0;
+}

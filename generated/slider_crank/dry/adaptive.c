@@ -1,0 +1,253 @@
+/*
+ * Methods that choose their step: error control by component, projection, events, samples from the interpolant,
+ * and the choice between the explicit and the stiff method from what the steps themselves measure.
+ */
+enum { EXPLICIT = 0, STIFF = 1, AUTOMATIC = 2, MAX_STUCK = 200 };
+#define STABLE 6.0    /* h rho at which the explicit method is bounded by stability */
+#define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
+
+/* Sides of all corners that act from their functions; the one that was just crossed keeps what it was given. */
+static int settle_sides(Run *run, int crossed, const Parameters *p)
+{
+    for (int pass = 0; pass < 6; pass++) {
+        int changed = 0;
+        const int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+        if (status)
+            return status;
+        for (int k = 0; k < N_SWITCHES; k++)
+            if (k != crossed && run->memory.side[k] * run->aside.g[k] < 0.0) {
+                run->memory.side[k] = -run->memory.side[k];
+                changed = 1;
+            }
+        if (!changed)
+            return 0;
+    }
+    return 0;
+}
+
+/* A contact begins with no longer a step than the last one could begin with, free flight likewise. */
+static void cross_contact(Run *run, int i, double floor)
+{
+    const int opens = run->memory.latch[i].closed;
+    if (opens)
+        open_joint(run, i, run->t);
+    else
+        close_joint(run, i, run->t, run->aside.clearance[i].deltadot, floor);
+    if (run->h_first[opens] > 0.0)
+        run->h = fmin(run->h, 2.0 * run->h_first[opens]);
+    run->first = &run->h_first[opens];
+}
+
+static void cross(Run *run, int k, const Parameters *p)
+{
+    const double floors[] = {p->velocity_floor};
+    (void)p;
+    if (k < N_CLEARANCES)
+        cross_contact(run, k, floors[k]);
+    else if (k < N_CLEARANCES + N_SWITCHES)
+        run->memory.side[k - N_CLEARANCES] *= -1.0;
+}
+
+/* At an event: everything whose margin is used up changes, then the right-hand side is that of what follows. */
+static int change(Run *run, int event, const Parameters *p)
+{
+    for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
+        if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < 0.0))
+            cross(run, k, p);
+    const int corner = event - N_CLEARANCES;
+    int status = settle_sides(run, corner >= 0 && corner < N_SWITCHES ? corner : -1, p);
+    if (!status && event >= N_CLEARANCES + N_SWITCHES)
+        status = switch_friction(run, p);
+    return status;
+}
+
+/* A free journal never lies outside its bearing, whatever the method thought of its contact. */
+static int check_contacts(const Run *run, const Parameters *p)
+{
+    const double clearance[] = {p->pin_clearance};
+    (void)p;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (!run->memory.latch[i].closed && run->aside.clearance[i].delta > 1e-9 + 1e-3 * clearance[i])
+            return LOST;
+    return 0;
+}
+
+/* Takes a step, or its part up to an event, as the new state. */
+static int commit(Run *run, Step *step, double share, double t_new, int event, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    int status = share < 1.0 ? state_at(run, step, share, p, y, dy, &aside) : 0;
+    if (status)
+        return status;
+    inner_peaks(run, step, share, share < 1.0 ? y : step->y, share < 1.0 ? dy : step->dy,
+        share < 1.0 ? &aside : &step->aside, p);
+    for (int k = 0; k < N_Y; k++) {
+        run->y[k] = share < 1.0 ? y[k] : step->y[k];
+        run->dy[k] = share < 1.0 ? dy[k] : step->dy[k];
+    }
+    run->aside = share < 1.0 ? aside : step->aside;
+    run->stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->stuck + 1 : 0;
+    run->t = t_new;
+    run->steps++;
+    run->stiff_steps += step->stiff;
+    run->linear_ready = 0;
+    note_speed(run);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (run->memory.latch[i].closed && run->aside.clearance[i].deltadot <= 0.0)
+            run->compressing[i] = 0;
+    status = watch(run);
+    if (!status && event >= 0)
+        status = run->stuck > MAX_STUCK ? CHATTERING : change(run, event, p);
+    return status ? status : check_contacts(run, p);
+}
+
+/* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
+static void choose(Run *run)
+{
+    if (run->choice != AUTOMATIC)
+        return;
+    const int against = run->stiff ? run->stability < SLACK : run->stability > STABLE;
+    run->votes = against ? run->votes + 1 : 0;
+    if (run->votes >= (run->stiff ? 8 : 4)) {
+        run->stiff = !run->stiff;
+        run->votes = 0;
+    }
+}
+
+/* One accepted step towards t_end; the next step's length in run->h. Events are not looked for here. */
+static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step)
+{
+    const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * fmax(fabs(run->t), fabs(t_end));
+    double h = run->fixed > 0.0 ? run->fixed : run->h;
+    int again = 0;
+    if (h > left * (1.0 - 1e-9))
+        h = left;
+    for (;;) {
+        const double power = run->stiff ? 0.2 : 0.125;
+        const int status = run->stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
+        if (status && run->fixed > 0.0)
+            return status;
+        if (!status && step->error <= run->accept) {
+            const double error = fmax(step->error, 1e-12);
+            double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
+            factor = fmin(fmax(factor, 0.3), again ? 1.0 : 6.0);
+            run->error_before = fmax(error, 1e-4);
+            if (run->first)
+                *run->first = h;
+            run->first = NULL;
+            if (h * factor > run->h || h < left || factor < 1.0)
+                run->h = h * factor;
+            return 0;
+        }
+        again = 1;
+        run->rejected++;
+        h *= status ? 0.25 : fmin(fmax(0.9 * pow(step->error, -power), 0.1), 0.9);
+        if (!(h > least))
+            return status ? status : TOO_SMALL;
+    }
+}
+
+/* A first step from the size of the motion's first two rates. */
+static int first_size(Run *run, double left, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
+    Aside aside;
+    for (int k = 0; k < 2 * N_X; k++)
+        one = fmax(fabs(run->dy[k]) / tolerance(run, k), one);
+    double h = fmin(1e-2 * left, one > 0.0 ? 1.0 / one : INFINITY);
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    if (status)
+        return status;
+    for (int k = 0; k < 2 * N_X; k++)
+        two = fmax(fabs(dy[k] - run->dy[k]) / h / tolerance(run, k), two);
+    const double most = fmax(one, sqrt(two));
+    run->h = fmin(fmax(h, most > 0.0 ? pow(0.01, 0.125) / most : left), 1e-2 * left);
+    return 0;
+}
+
+/* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
+static int begin_adaptive(Run *run, double left, const Parameters *p)
+{
+    int status = run->ready ? 0 : begin(run, p);
+    for (int k = 0; k < N_SWITCHES; k++)
+        run->memory.side[k] = run->aside.g[k] < 0.0 ? -1.0 : 1.0;
+    run->memory.held = 1;
+    if (!status)
+        status = settle_sides(run, -1, p);
+    note_speed(run);
+    return status || run->h > 0.0 ? status : first_size(run, left, p);
+}
+
+/* choice: 0 explicit, 1 stiff, 2 automatic; scale (2 N_X): tolerances, those of velocities a unit of speed. */
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double h, double fixed)
+{
+    Run *run = memory;
+    run->choice = choice;
+    run->stiff = choice == STIFF;
+    run->h = h;
+    run->fixed = fixed;
+    run->error_before = 1e-4;
+    run->accept = fixed > 0.0 ? INFINITY : 1.0;
+    for (int k = 0; k < 2 * N_X; k++)
+        run->scale[k] = scale[k];
+    run->speed_floor[0] = floor[0];
+    run->speed_floor[1] = floor[1];
+}
+
+/* Samples of the step before `t_new`, from its interpolant. */
+static int sample_step(Run *run, Step *step, double t_new, long n, const double *t, const Parameters *p,
+    double *y, double *a, double *latched, signed char *state, long *done)
+{
+    const long evaluations = run->evaluations;
+    while (*done < n && t[*done] < t_new) {
+        double now[N_Y], dy[N_Y];
+        Aside aside;
+        int status = make_dense(run, p, step);
+        if (!status)
+            status = state_at(run, step, (t[*done] - step->t) / step->h, p, now, dy, &aside);
+        if (status)
+            return status;
+        store_sample(run, now, dy, *done, y, a, latched, state);
+        ++*done;
+    }
+    run->evaluations = evaluations; /* samples are output, not integration */
+    return 0;
+}
+
+/*
+ * Towards the last of n output times, at most `limit` steps: samples go to row `done` and on. Returns 0 (at the end,
+ * or to be called again), EVENTS_FULL, or what went wrong.
+ */
+int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
+    double *y, double *a, double *latched, signed char *state, long *done)
+{
+    Run *run = memory;
+    const Parameters *p = (const Parameters *)parameters;
+    const double t_end = t[n - 1];
+    int status = run->memory.held ? 0 : begin_adaptive(run, t_end - run->t, p);
+    for (long i = 0; !status; i++) {
+        while (*done < n && t[*done] <= run->t) {
+            store_sample(run, run->y, run->dy, *done, y, a, latched, state);
+            ++*done;
+        }
+        if (*done == n || i == limit)
+            return 0;
+        if (run->n_impacts > 0 && run->n_impacts > N_IMPACTS - 1)
+            return EVENTS_FULL;
+        Step *step = &run->step;
+        status = accepted_step(run, t_end, p, step);
+        if (status)
+            break;
+        choose(run);
+        int event;
+        const double share = first_event(run, step, p, &event);
+        const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
+        status = sample_step(run, step, t_new, n, t, p, y, a, latched, state, done);
+        if (!status)
+            status = commit(run, step, share, t_new, event, p);
+    }
+    return status;
+}

@@ -1,0 +1,80 @@
+"""Methods that choose their step, with located events and projection (templates/c/adaptive.c.jinja).
+
+- `dop853`: explicit, order 8, dense output of order 7 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
+  Differential Equations I, 1993, section II.5).
+- `rodas5p`: Rosenbrock, order 5, L-stable, exact Jacobian, dense output of order 4 (G. Steinebach, BIT 63:27, 2023).
+- `auto`: both, by what the steps measure: explicit until h ρ(J) reaches its bound of stability for some
+  steps, stiff until h ρ(J) is so small that the explicit method would need no more steps.
+
+The error of a step is controlled component by component: lengths to rtol · L, angles to rtol · L/S, velocities
+to rtol times the largest speed of their kind so far. S is the mechanism's size; L is S in a scene without play
+and the smallest radial clearance in a scene with play, since what happens in the clearance decides the motion.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gudgeon.compiled import Array, CompiledModel
+from gudgeon.errors import SolverError
+from gudgeon.integrators.session import EVENTS_FULL, Session
+from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.start import mechanism_size
+
+ORDERS = {"dop853": (8, 7), "rodas5p": (5, 4)}  # of the method, of its dense output
+CHOICES = {"dop853": 0, "rodas5p": 1, "adaptive": 2}
+BEGIN_STIFF = 3  # adaptive in a scene with a film: stiff from rest on (physics.md, section 6)
+RTOL = 1e-8  # of a plain run
+SMALLEST = 1e-14  # rounding would be controlled below it
+CHUNK = 4_000  # steps between two looks of Python: some 20 ms
+
+
+def run(problem: Problem) -> Trajectory:
+    """Integrate over the output times; samples come from the interpolant, projected."""
+    session = Session(problem, problem.p_free)
+    scale, floor = tolerances(problem.compiled, problem.p, problem.rtol, float(problem.t[-1] - problem.t[0]))
+    fixed = 0.0 if math.isinf(problem.step) else problem.step
+    choice = CHOICES[problem.method]
+    if problem.method == "adaptive" and any(joint.film for joint in problem.compiled.source.clearances):
+        choice = BEGIN_STIFF
+    session.lib.gudgeon_adaptive_setup(session.run, choice, session.pointer(scale), session.pointer(floor), 0.0, fixed)
+    interrupted, stopped = False, None
+    try:
+        while session.done < len(problem.t):
+            _chunk(session)
+    except KeyboardInterrupt:
+        interrupted = True
+    except SolverError as error:
+        stopped = error
+    return session.trajectory(interrupted, stopped)
+
+
+def _chunk(session: Session) -> None:
+    """Some steps in C; raises SolverError."""
+    problem, done = session.problem, session.compiled.ffi.new("long *")
+    done[0] = session.done
+    status = session.lib.gudgeon_adaptive_run(
+        session.run, session.pointer(session.p), len(problem.t), session.pointer(problem.t), CHUNK,
+        *session.rows(0), done,
+    )  # fmt: skip
+    session.done = int(done[0])
+    t = session.report()[0]
+    if status == EVENTS_FULL:
+        session.fetch_impacts(last=False)
+    elif status:
+        session.fail(status, t, "the motion may leave what the model holds for; look at the last samples")
+    if problem.progress:
+        problem.progress((t - problem.t[0]) / max(problem.t[-1] - problem.t[0], 1e-300), "integrating")
+
+
+def tolerances(compiled: CompiledModel, p: Array, rtol: float, duration: float) -> tuple[Array, Array]:
+    """Tolerances of a step, (2n,): of coordinates, and of velocities a unit of speed; speeds never counted below."""
+    size = mechanism_size(compiled, p)
+    play = [float(p[joint.clearance]) for joint in compiled.source.clearances]
+    length = min([c for c in play if c > 0.0], default=size)
+    is_angle = np.array([name.endswith(".theta") for name in compiled.source.coordinates])
+    of_q = rtol * np.where(is_angle, length / size, length)
+    floor = np.array([length, length / size]) / max(duration, 1e-300)
+    return np.concatenate([of_q, np.full(len(of_q), rtol)]), floor
