@@ -67,7 +67,9 @@ def choose_elimination(
         return (node >= end, wait, *fill(graph, node, wait))
 
     keys = (degree, fill, bodies_first, untouched, shallow, early)
-    candidates = [_eliminate(pattern, coordinates, key, which) for which in (NO_PAIRS, pairs)[: 1 + bool(pairs)] for key in keys]
+    candidates = [
+        _eliminate(pattern, coordinates, key, which) for which in (NO_PAIRS, pairs)[: 1 + bool(pairs)] for key in keys
+    ]
     return min(candidates, key=lambda e: e.cost)
 
 
@@ -122,12 +124,12 @@ def _depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], coord
     """Pivots that elimination does not change are known beforehand; two that follow each other are one."""
     changed = set[int]().union(*structure.values())
     waits = dict.fromkeys(order, 0)
-    paired: int | None = None
-    for k, following in zip(order, (*order[1:], None), strict=True):
+    paired = -1
+    for place, k in enumerate(order):
         own = k != paired and (k >= coordinates or k in changed)
-        paired = following if own and k != paired and structure[k] == (following, *structure.get(following, ())) else None
+        following = order[place + 1] if place + 1 < len(order) else -1
+        paired = following if own and structure[k] == (following, *structure.get(following, ())) else -1
+        waits[k] += own
         for i in structure[k][:1]:
-            waits[i] = max(waits[i], waits[k] + own)
-        last = waits[k] + own
-        waits[k] = last
+            waits[i] = max(waits[i], waits[k])
     return max(waits.values(), default=0)

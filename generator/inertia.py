@@ -78,7 +78,10 @@ class Inertia:
             name = "_".join(part.replace(".", "_") for part in (*T, *U) if part)
             derive = self.slots.derive
             alpha, beta = (sp.expand(x) for x in self._alpha[T, U])
-            alpha, beta = derive(f"inertia_{name}", alpha, "sum of m w.w"), derive(f"twist_{name}", beta, "sum of m wxw")
+            alpha, beta = (
+                derive(f"inertia_{name}", alpha, "sum of m w.w"),
+                derive(f"twist_{name}", beta, "sum of m wxw"),
+            )
             cos, sin = self._angles_between(one, two)
             P, Q = alpha * cos - beta * sin, alpha * sin + beta * cos
             if cos != 1:

@@ -141,7 +141,9 @@ class KKT:
         L, W = made
         first, second = block
         rows = first >= self.n
-        mass = {(i, k): ZERO if rows else self.system.mass.get((max(i, k), min(i, k)), ZERO) for i in block for k in block}
+        mass = {
+            (i, k): ZERO if rows else self.system.mass.get((max(i, k), min(i, k)), ZERO) for i in block for k in block
+        }
 
         def left(i: int, k: int, of: Callable[[int], bool]) -> sp.Expr:
             done = sum((L[i, j] * W[k, j] for j in earlier[i] if (k, j) in L and of(j)), ZERO)

@@ -22,7 +22,7 @@ from gudgeon.generator.mechanism import PointRef
 from gudgeon.generator.model import Model
 from gudgeon.generator.system import Given, Motion, System
 from gudgeon.generator.tree import CONSTANT, Affine, Tree, choose_tree, substitute
-from gudgeon.generator.tree_frames import ONE, ZERO, Coordinate, Motions
+from gudgeon.generator.tree_frames import ZERO, Coordinate, Motions
 from gudgeon.generator.tree_geometry import TreeGeometry, TreePoint
 
 
@@ -162,7 +162,9 @@ def _system(
     mass = {(place[k], place[j]): value for (k, j), value in inertia.mass.items()
             if k in place and j in place and place[k] >= place[j]}  # fmt: skip
     drives = tuple(
-        Given(name, c.v, {place[k]: inertia.mass[name, k] for k in unknowns if (name, k) in inertia.mass}, applied(name))
+        Given(
+            name, c.v, {place[k]: inertia.mass[name, k] for k in unknowns if (name, k) in inertia.mass}, applied(name)
+        )
         for name, c in given.items()
     )
     return TreeSystem(
@@ -176,7 +178,8 @@ def _model(model: Model, geometry: TreeGeometry, constraints: TreeConstraints, r
     """The model as its kernels see it: the same scene on the geometry of the tree."""
     mechanism, symbols, t = model.scene.mechanism, geometry.symbols, constraints.t
     clearances = tuple(
-        make_clearance(mechanism.joints[name], play, geometry, geometry.slots) for name, play in model.scene.play.items()
+        make_clearance(mechanism.joints[name], play, geometry, geometry.slots)
+        for name, play in model.scene.play.items()
     )
     elements = {e.name: apply_element(e, geometry, t) for e in mechanism.forces.values()}
     pairs = [(c.q, c.v) for c in geometry.motions.coordinates.values() if c.acceleration is None]

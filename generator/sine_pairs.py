@@ -35,7 +35,8 @@ def _grouped(section: Section) -> Section:
     places = {s.target: k for k, s in enumerate(statements)}
     needs: list[frozenset[int]] = []  # earlier statements that each one reads, directly or not
     for k, s in enumerate(statements):
-        direct = [places[x.name] for x in s.value.free_symbols if places.get(x.name, k) < k]
+        reads = s.value.free_symbols if isinstance(s.value, sp.Expr) else set()
+        direct = [places[x.name] for x in reads if places.get(x.name, k) < k]
         needs.append(frozenset(direct).union(*(needs[j] for j in direct)))
     turned = [k for k, s in enumerate(statements) if _angle(s) is not None]
     turned = [k for k in turned if not needs[k] & set(turned)]

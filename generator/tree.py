@@ -116,16 +116,16 @@ def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | No
         return None
     drives = {value: name for name, (value, *_) in model.constraints.drive_angles.items()}
     rest = sp.expand(row.phi - sum(c * q for q, c in row.phi_q.items()))
-    total: Affine = {}
+    total: dict[str, sp.Expr] = {}
     for value in sorted(rest.free_symbols & set(drives), key=lambda s: s.name):
         total[drives[value]] = rest.coeff(value)
         rest = rest - rest.coeff(value) * value
     if not model.slots.is_constant(rest):
         return None
-    total = {**total, CONSTANT: rest}
+    affine: Affine = {**total, CONSTANT: rest}
     for q, c in row.phi_q.items():
-        total = substitute({**total, "?": c}, "?", angles[body_of[q]])
-    return total
+        affine = substitute({**affine, "?": c}, "?", angles[body_of[q]])
+    return affine
 
 
 def choose_tree(model: Model) -> Tree:
@@ -151,13 +151,13 @@ def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
     def turning(body: str) -> dict[str, sp.Expr]:
         return {k: c for k, c in angles.get(body, {}).items() if k != CONSTANT}
 
-    found = []
-    for joint in model.scene.mechanism.joints.values():
-        carries = joint_types()[joint.kind].carries
-        if carries and all(f"{joint.name}.{row}" in kept for row in carries):
-            if len(carries) == 2 or turning(joint.first.body) == turning(joint.second.body):
-                found.append(joint)
-    return found
+    def carries(joint: Joint) -> bool:
+        rows = joint_types()[joint.kind].carries
+        if not rows or not all(f"{joint.name}.{row}" in kept for row in rows):
+            return False
+        return len(rows) == 2 or turning(joint.first.body) == turning(joint.second.body)
+
+    return list(filter(carries, model.scene.mechanism.joints.values()))
 
 
 def _grow(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: int | None) -> tuple[Link, ...]:
@@ -188,9 +188,7 @@ def _grow(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: 
     return tuple(links)
 
 
-def _exchange(
-    model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: _Estimate
-) -> tuple[Link, ...]:
+def _exchange(model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: _Estimate) -> tuple[Link, ...]:
     """While a joint that closes a loop is better in the tree than one of the loop, they change places."""
     best = estimate(links)
     improved = True
@@ -237,9 +235,7 @@ def _coupled(place: Mapping[str, int], moving: Iterable[frozenset[str]], plain: 
 class _Estimate:
     """Operations of a tree's right-hand side, counted from which coordinates meet where."""
 
-    def __init__(
-        self, model: Model, angles: Mapping[str, Affine], used: frozenset[str], hubs: Sequence[Hub]
-    ) -> None:
+    def __init__(self, model: Model, angles: Mapping[str, Affine], used: frozenset[str], hubs: Sequence[Hub]) -> None:
         self.hubs = hubs
         body_of = {q: body.name for body in model.bodies for q in body.q}
         self.angles = angles

@@ -262,7 +262,7 @@ class TreeGeometry(Geometry):
         """The centre of mass."""
         return self._coms[body]
 
-    def angle(self, body: BodySymbols) -> tuple[sp.Expr, sp.Expr]:  # type: ignore[override]
+    def angle(self, body: BodySymbols) -> tuple[sp.Expr, sp.Expr]:
         """cos θ and sin θ of a body."""
         x, y = self.turn(body, (ONE, ZERO), f"axis_{body.name}")
         return x, y

@@ -139,11 +139,11 @@ class KernelSource:
     conditions: tuple[Condition, ...]
     outputs: Mapping[str, Any]  # name -> expression tree as nested lists
     simulate: Mapping[str, float]  # the scene's own t_end, step, output, if given
-    tree: tuple[str, ...]  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
-    closures: tuple[str, ...]  # its rows
     operations: Mapping[str, int]  # kernel -> operation count
     notes: tuple[str, ...]  # what was skipped and why (check -v)
     gravity: bool
+    tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
+    closures: tuple[str, ...] = ()  # its rows
 
     @property
     def degrees_of_freedom(self) -> int:

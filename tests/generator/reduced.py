@@ -10,8 +10,8 @@ import sympy as sp
 
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.generator.model import Model
-from gudgeon.generator.redundancy import MODULES
 from gudgeon.generator.reduction import TreeSystem, reduce
+from gudgeon.generator.redundancy import MODULES
 
 
 @dataclass(frozen=True)

@@ -63,7 +63,9 @@ def check_state(
     library = reduced.library
     q, v = reduced.expand(t, s, rate)
     assert close(library.phi(t, q, reduced.p), np.zeros(len(library.source.rows)), 1e-12, 1.0)
-    assert close(library.phi_q(t, q, reduced.p) @ v - library.nu(t, q, reduced.p), np.zeros(1), 1e-11, abs(v).max() + 1.0)
+    assert close(
+        library.phi_q(t, q, reduced.p) @ v - library.nu(t, q, reduced.p), np.zeros(1), 1e-11, abs(v).max() + 1.0
+    )
     want = library.evaluate([t], q[None], v[None], memory[None], reduced.p)
     a, multipliers, power = reduced.accelerations(t, s, rate, memory)
     system = numbers.system
@@ -124,8 +126,14 @@ def test_random_mechanisms(seed: int) -> None:
     assert close(v, case.v, 1e-11, 1.0)
     check_state(reduced, numbers, 0.0, s, rate, NAN)
     a, _ = numpy_linkage.accelerations(case.linkage, 0.0, case.q, case.v, 0.0, 0.0)
-    picked = [3 * int(name[1:]) + 2 for name in reduced.library.source.tree if f"{name}.theta" in reduced.library.source.coordinates]
-    angles = [k for k, name in enumerate(reduced.library.source.tree) if f"{name}.theta" in reduced.library.source.coordinates]
+    picked = [
+        3 * int(name[1:]) + 2
+        for name in reduced.library.source.tree
+        if f"{name}.theta" in reduced.library.source.coordinates
+    ]
+    angles = [
+        k for k, name in enumerate(reduced.library.source.tree) if f"{name}.theta" in reduced.library.source.coordinates
+    ]
     assert close(reduced.accelerations(0.0, s, rate, NAN)[0][angles], a[picked], 1e-9, 1.0)
 
 
@@ -183,7 +191,9 @@ def chain(n: int) -> Model:
 
 def test_sines_and_cosines() -> None:
     """The vector of four against the library, small and large angles: a few units in the last place."""
-    angles = np.concatenate([np.random.default_rng(0).uniform(-scale, scale, 400) for scale in (1e-3, 1.0, 50.0, 9e4, 1e9)])
+    angles = np.concatenate(
+        [np.random.default_rng(0).uniform(-scale, scale, 400) for scale in (1e-3, 1.0, 50.0, 9e4, 1e9)]
+    )
     _, simulation = shipped("nine_bar_press", "ideal")
     reduced = Reduced(simulation.compiled, simulation.p)
     names = [f"{body.name}.theta" for body in simulation.source.bodies]

@@ -80,7 +80,8 @@ def describe(
         ),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_simulate(model),
-        tree=tree, closures=closures, operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
+        operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
+        tree=tree, closures=closures,
     )  # fmt: skip
 
 
