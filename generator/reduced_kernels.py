@@ -9,7 +9,7 @@ import sympy as sp
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.dynamics import PARAMETERS, STATE, dynamics_kernel
 from gudgeon.generator.joint_fields import JointFields
-from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder
+from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, without_unused
 from gudgeon.generator.kkt import KKT
 from gudgeon.generator.model import Model
 from gudgeon.generator.projection import projection_kernel
@@ -39,7 +39,7 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
     kkt = KKT(system, daring=is_rescued(system))
     dynamics = dynamics_kernel(system, kkt, "reduced_dynamics", _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
-    return [side_by_side(kernel) for kernel in (*_closures(system), dynamics, projection)], kkt
+    return [side_by_side(without_unused(kernel)) for kernel in (*_closures(system), dynamics, projection)], kkt
 
 
 def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
