@@ -7,6 +7,7 @@ coordinates and parameters that they read and the definitions (cosines, arms, dr
 from __future__ import annotations
 
 import re
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
@@ -182,3 +183,24 @@ class KernelBuilder:
                 waiting.extend(definitions[symbol].free_symbols)
         ordered = [symbol for symbol in info if symbol in seen]
         return [s for s in ordered if not info[s].home], [s for s in ordered if info[s].home]
+
+
+def without_unused(kernel: Kernel) -> Kernel:
+    """The kernel without locals that nothing reads, such as pivots of coordinates that no row touches."""
+    used: set[str] = set()
+    sections: list[Section] = []
+    for section in reversed(kernel.sections):
+        kept: list[Statement | str] = []
+        for statement in reversed(section.statements):
+            if isinstance(statement, str):
+                used |= set(re.findall(r"\w+", statement))
+            elif statement.local and statement.target not in used:
+                continue
+            elif isinstance(statement.value, str):
+                used |= set(re.findall(r"\w+", statement.value))
+            else:
+                used |= {symbol.name for symbol in statement.value.free_symbols}
+            kept.append(statement)
+        if kept:
+            sections.append(Section(section.title, tuple(reversed(kept))))
+    return replace(kernel, sections=tuple(reversed(sections)))

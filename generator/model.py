@@ -139,8 +139,9 @@ def make_model(scene: Scene) -> Model:
     clearances = [make_clearance(mechanism.joints[name], play, geometry, slots) for name, play in scene.play.items()]
     gravity = geometry.ground_vector(mechanism.gravity) if mechanism.gravity else (sp.Integer(0), sp.Integer(0))
     elements = {e.name: apply_element(e, geometry, constraints.t) for e in mechanism.forces.values()}
+    pairs = [(q, v) for body in geometry.bodies.values() for q, v in zip(body.q, body.v, strict=True)]
     frictions = tuple(
-        make_friction(name, e.loads.slip, geometry, constraints.t, symbols)
+        make_friction(name, e.loads.slip, pairs, constraints.t, symbols)
         for name, e in elements.items()
         if e.loads.slip
     )

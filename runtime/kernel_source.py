@@ -142,6 +142,8 @@ class KernelSource:
     operations: Mapping[str, int]  # kernel -> operation count
     notes: tuple[str, ...]  # what was skipped and why (check -v)
     gravity: bool
+    tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
+    closures: tuple[str, ...] = ()  # its rows
 
     @property
     def degrees_of_freedom(self) -> int:

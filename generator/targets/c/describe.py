@@ -30,7 +30,7 @@ from gudgeon.kernel_source import (
 def describe(
     model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "", cdef: str = "",
     methods: tuple[str, ...] = (), pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
-    operations: Mapping[str, int] = MappingProxyType({}),
+    operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
 ) -> KernelSource:  # fmt: skip
     """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
     scene, mechanism = model.scene, model.scene.mechanism
@@ -81,6 +81,7 @@ def describe(
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_simulate(model),
         operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
+        tree=tree, closures=closures,
     )  # fmt: skip
 
 

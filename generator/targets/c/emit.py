@@ -22,6 +22,7 @@ from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.newton_code import jacobian_code, newton_code, tangent_code
+from gudgeon.generator.targets.c.reduced_code import ReducedCode, reduced_code
 from gudgeon.kernel_source import KernelSource
 
 COMMON_CDEF = """\
@@ -83,25 +84,29 @@ def emit(model: Model, *, newton: bool = True) -> KernelSource:
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
     newton = newton and method != "kinematic"
     linearized, linear_kernels = _newton(model, system) if newton else ("", [])
+    reduced = reduced_code(model, render, _kernels)
     prepare = interface.prepare_kernel(model, printer.expression)
     loops = _kinematic(model) if method == "kinematic" else _integrators(model, system, kkt, linearized)
     files = {
-        "model.h": render("model.h.jinja", **_header(model)),
+        "model.h": render("model.h.jinja", **_header(model, reduced)),
+        "trigonometry.c": render("trigonometry.c.jinja"),
         "parameters.c": _kernels(prepare),
         "constraints.c": _kernels(*around),
         "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
         **({"singular.c": _singular(model)} if model.rows and not model.frictions else {}),
         "dynamics.c": _kernels(dynamics),
         "system.c": render("system.c.jinja", **_counts(model)),
+        **reduced.files,
         **loops,
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
-    cdef = COMMON_CDEF + METHOD_CDEF[method] + (NEWTON_CDEF if newton else "")
-    kernels = [dynamics, *around, prepare, *linear_kernels]
+    cdef = COMMON_CDEF + reduced.cdef + METHOD_CDEF[method] + (NEWTON_CDEF if newton else "")
+    kernels = [dynamics, *around, *reduced.kernels, prepare, *linear_kernels]
     methods = ("kinematic",) if method == "kinematic" else ("rk4", "dop853", "rodas5p")
     return describe(
         model, files=files, main="scene.c", cdef=cdef, methods=methods, pivots=kkt.pivots,
         start_pivots=start_pivots, operations=_operations(model, kernels),
+        tree=reduced.system.unknowns, closures=tuple(row.name for row in reduced.system.rows),
     )  # fmt: skip
 
 
@@ -192,13 +197,15 @@ def _counts(model: Model) -> dict[str, int]:
     }
 
 
-def _header(model: Model) -> dict[str, Any]:
+def _header(model: Model, reduced: ReducedCode) -> dict[str, Any]:
     mechanism, info = model.scene.mechanism, model.symbols.info
     slots = [(entry.symbol.name, printer.comment_text(entry.address)) for entry in model.slots.entries.values()]
     derived = [(symbol.name, printer.comment_text(info[symbol].meaning)) for symbol in model.slots.derived]
     return {
         "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
         "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived, **_counts(model),
+        "n_tree": len(reduced.system.q), "n_closures": len(reduced.system.rows),
+        "n_switches": max(model.symbols.switches.count, reduced.system.model.symbols.switches.count),
     }  # fmt: skip
 
 
