@@ -34,6 +34,7 @@ def dynamics_kernel(system: System, kkt: KKT) -> Kernel:
     if kkt.rows and not model.frictions:
         build.section("status")
         build.line("int pivot = 0;")
+    _events(model, build)
     forces = gravity(model)
     for element in model.elements.values():
         element.add_to(forces)
@@ -68,6 +69,14 @@ def dynamics_kernel(system: System, kkt: KKT) -> Kernel:
         "const double *const side = memory->held ? memory->side : NULL;", "double *const g = aside->g;",
     ))  # fmt: skip
     return replace(kernel, sections=(held, *kernel.sections))
+
+
+def _events(model: Model, build: KernelBuilder) -> None:
+    """What the user watches: known at every state, also where a pivot vanishes."""
+    if model.events:
+        build.section("events")
+    for index, event in enumerate(model.events):
+        build.out(f"aside->event[{index}]", event.expression, event.name)
 
 
 def gravity(model: Model) -> list[sp.Expr]:

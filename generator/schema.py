@@ -99,10 +99,17 @@ class SimulateShape(Shape):
     step: Text | None = None
 
 
+class EventShape(Shape):
+    zero: Text
+    direction: Text | None = None
+    action: Text | None = None
+
+
 class SceneShape(Shape):
     extends: Text | None = None
     play: dict[Text, PlayShape] = {}
     parameters: dict[Text, Text] = {}
+    events: dict[Text, EventShape] = {}
     simulate: SimulateShape | None = None
 
 
@@ -123,6 +130,7 @@ class FileShape(Shape):
     start: StartShape | None = None
     bearings: dict[Text, BearingShape] = {}
     contacts: dict[Text, ContactShape] = {}
+    events: dict[Text, EventShape] = {}
     scenes: dict[Text, SceneShape] = {}
     outputs: dict[Text, Text] = {}
 

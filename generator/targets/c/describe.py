@@ -18,6 +18,7 @@ from gudgeon.kernel_source import (
     ClearanceInfo,
     Condition,
     DriveInfo,
+    EventInfo,
     JointInfo,
     KernelSource,
     PointInfo,
@@ -81,6 +82,7 @@ def describe(
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_simulate(model),
         operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
+        events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
     )  # fmt: skip
 
 
@@ -135,7 +137,7 @@ def _simulate(model: Model) -> dict[str, float]:
 
 
 def scene_notes(model: Model) -> tuple[str, ...]:
-    """What this scene does not have, and so does not pay for."""
+    """What this scene does not have, and so does not pay for; what is watched in it."""
     notes = []
     if model.redundancy.dropped:
         notes.append(
@@ -155,6 +157,10 @@ def scene_notes(model: Model) -> tuple[str, ...]:
         notes.append("no film: dry contact only")
     if all(component == 0 for component in model.gravity):
         notes.append("no gravity: no weight terms")
+    if model.events:
+        does = {"record": "recorded", "stop": "ends the run"}
+        watched = (f"{event.name} ({event.direction}, {does[event.action]})" for event in model.events)
+        notes.append(f"events: {', '.join(watched)}")
     jumps = [d.name for d in model.scene.mechanism.drives.values() if "ramp" in functions(d.value.value)]
     if jumps and model.degrees_of_freedom:
         notes.append(

@@ -11,6 +11,7 @@ import sympy as sp
 
 from gudgeon.generator import interface
 from gudgeon.generator.dynamics import dynamics_kernel
+from gudgeon.generator.events import SIGNS
 from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
@@ -188,6 +189,7 @@ def _counts(model: Model) -> dict[str, int]:
         "n_switches": len(model.symbols.switches.found),
         "n_memory": len(model.clearances) + len(model.frictions),
         "n_margins": len(model.clearances) + len(model.symbols.switches.found) + len(model.frictions),
+        "n_events": len(model.events),
         "n_series": len(interface.element_series(model)),
     }
 
@@ -199,6 +201,8 @@ def _header(model: Model) -> dict[str, Any]:
     return {
         "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
         "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived, **_counts(model),
+        "event_directions": [SIGNS[event.direction] for event in model.events] or [0],
+        "event_stops": [int(event.action == "stop") for event in model.events] or [0],
     }  # fmt: skip
 
 
