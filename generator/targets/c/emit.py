@@ -49,6 +49,11 @@ METHOD_CDEF = {
 int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double extent, double *q, double *v,
     double *phi_max, double *phi_dot_max, long *steps, long *done);
 """,
+    "kinematic_events": """\
+int gudgeon_kinematic_events(long n, const double *t, const double *parameters, double reach, double extent,
+    const double *q, const double *v, double start, int stop, signed char *side, long capacity, double *at,
+    int *event, long *found, long *done);
+""",
     "rk4": """\
 size_t gudgeon_run_size(void);
 void gudgeon_run_start(void *memory, double t, const double *y, const double *latched);
@@ -100,6 +105,8 @@ def emit(model: Model, *, newton: bool = True) -> KernelSource:
     cdef = COMMON_CDEF + METHOD_CDEF[method] + (NEWTON_CDEF if newton else "")
     kernels = [dynamics, *around, prepare, *linear_kernels]
     methods = ("kinematic",) if method == "kinematic" else ("rk4", "dop853", "rodas5p")
+    if "kinematic_events.c" in files:
+        cdef += METHOD_CDEF["kinematic_events"]
     return describe(
         model, files=files, main="scene.c", cdef=cdef, methods=methods, pivots=kkt.pivots,
         start_pivots=start_pivots, operations=_operations(model, kernels),
@@ -107,7 +114,10 @@ def emit(model: Model, *, newton: bool = True) -> KernelSource:
 
 
 def _kinematic(model: Model) -> dict[str, str]:
-    return {"kinematic.c": render("kinematic.c.jinja", **_counts(model))}
+    loops = {"kinematic.c": render("kinematic.c.jinja", **_counts(model))}
+    if model.events:
+        loops["kinematic_events.c"] = render("kinematic_events.c.jinja")
+    return loops
 
 
 def _integrators(model: Model, system: System, kkt: KKT, linearized: str) -> dict[str, str]:
