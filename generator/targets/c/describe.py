@@ -137,7 +137,7 @@ def _simulate(model: Model) -> dict[str, float]:
 
 
 def scene_notes(model: Model) -> tuple[str, ...]:
-    """What this scene does not have, and so does not pay for; what is watched in it."""
+    """What this scene does not have, and so does not pay for."""
     notes = []
     if model.redundancy.dropped:
         notes.append(
@@ -157,10 +157,6 @@ def scene_notes(model: Model) -> tuple[str, ...]:
         notes.append("no film: dry contact only")
     if all(component == 0 for component in model.gravity):
         notes.append("no gravity: no weight terms")
-    if model.events:
-        does = {"record": "recorded", "stop": "ends the run"}
-        watched = (f"{event.name} ({event.direction}, {does[event.action]})" for event in model.events)
-        notes.append(f"events: {', '.join(watched)}")
     jumps = [d.name for d in model.scene.mechanism.drives.values() if "ramp" in functions(d.value.value)]
     if jumps and model.degrees_of_freedom:
         notes.append(
