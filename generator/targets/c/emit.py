@@ -44,15 +44,15 @@ int gudgeon_jacobian(double t, const double *y, const double *memory, const doub
 int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
     const double *r, double *u);
 """
+EVENTS_CDEF = """\
+int gudgeon_kinematic_events(long n, const double *t, const double *parameters, double reach, double extent,
+    const double *q, const double *v, double start, int stop, signed char *side, long capacity, double *at,
+    int *event, long *found, long *done);
+"""
 METHOD_CDEF = {
     "kinematic": """\
 int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double extent, double *q, double *v,
     double *phi_max, double *phi_dot_max, long *steps, long *done);
-""",
-    "kinematic_events": """\
-int gudgeon_kinematic_events(long n, const double *t, const double *parameters, double reach, double extent,
-    const double *q, const double *v, double start, int stop, signed char *side, long capacity, double *at,
-    int *event, long *found, long *done);
 """,
     "rk4": """\
 size_t gudgeon_run_size(void);
@@ -102,11 +102,9 @@ def emit(model: Model, *, newton: bool = True) -> KernelSource:
         **loops,
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
-    cdef = COMMON_CDEF + METHOD_CDEF[method] + (NEWTON_CDEF if newton else "")
     kernels = [dynamics, *around, prepare, *linear_kernels]
     methods = ("kinematic",) if method == "kinematic" else ("rk4", "dop853", "rodas5p")
-    if "kinematic_events.c" in files:
-        cdef += METHOD_CDEF["kinematic_events"]
+    cdef = COMMON_CDEF + METHOD_CDEF[method] + NEWTON_CDEF * newton + EVENTS_CDEF * ("kinematic_events.c" in files)
     return describe(
         model, files=files, main="scene.c", cdef=cdef, methods=methods, pivots=kkt.pivots,
         start_pivots=start_pivots, operations=_operations(model, kernels),
