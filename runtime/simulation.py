@@ -99,7 +99,7 @@ class Simulation:
         self, t_end: float | str | None = None, *, output: int | ArrayLike | None = None, method: str = "auto",
         rtol: float | None = None, step: float | str | None = None,
         parameters: Mapping[str, float | str] | None = None, start: State | None = None,
-        progress: Progress | None = None, horizon: bool = False,
+        progress: Progress | None = None, horizon: bool = False, stop: bool = True,
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
@@ -114,7 +114,7 @@ class Simulation:
         - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/python_driver.py).
         `horizon`: run thrice more to find the time to which it can be trusted (predictability.py).
         `parameters`: {address or parameter name: float in SI or '0.5 mm'}. Ctrl-C ends the run and keeps
-        what was computed.
+        what was computed. `stop` False: events that would end the run are recorded only.
 
         Raises InputError for arguments, AssemblyError for a start that does not close, SolverError
         when the equations cannot be solved; its `partial` is the result up to there.
@@ -132,7 +132,7 @@ class Simulation:
         check_start(self.compiled, p, t0, q)
         problem = Problem(
             self.compiled, p, times, q, v, memory, h, progress, None if start is None else start.state,
-            chosen, _tolerance(rtol), without_baumgarte(self.compiled, given, is_given),
+            chosen, _tolerance(rtol), without_baumgarte(self.compiled, given, is_given), stop,
         )  # fmt: skip
         before = time.perf_counter()
         trajectory = METHODS[chosen](problem)
@@ -214,7 +214,7 @@ class Simulation:
         return Result(
             compiled=self.compiled, source=self.source, p=problem.p, given=given, is_given=is_given, t=trajectory.t,
             q=trajectory.q, v=trajectory.v, a=trajectory.a, state=trajectory.state, memory=trajectory.memory,
-            work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics,
+            work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics, events=trajectory.events,
         )  # fmt: skip
 
 
@@ -272,6 +272,10 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
             f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"
             " start.rates leave open were taken least: give a rate of each body that may move"
         )
+    if problem.stop and len(trajectory.events):
+        last = compiled.source.events[trajectory.events["event"][-1]]
+        if last.action == "stop":
+            notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
     for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - c
