@@ -45,7 +45,7 @@ class _Slopes:
     def step(self, step: Step) -> None:
         """symbol = value of contact.py, and its tangent."""
         value = in_place(self.model, step.value)
-        held = self.tangents.held(value)
+        held = self.tangents.shared(self.tangents.held(value))
         self.build.line_statement(Statement(step.symbol.name, held))
         self.tangents.know(step.symbol, self.tangents.gradient(value, step.symbol))
 
@@ -55,7 +55,7 @@ class _Slopes:
         results = {}
         for name, equation in equations.steps.items():
             symbol, value = sp.Symbol(name, real=True), sp.sympify(equation)
-            self.build.line_statement(Statement(name, inner.held(value)))
+            self.build.line_statement(Statement(name, inner.shared(inner.held(value))))
             inner.know(symbol, inner.gradient(value, symbol))
             if name in RESULTS[equations.law.role]:
                 results[name] = symbol
