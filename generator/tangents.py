@@ -24,10 +24,16 @@ TINY = sp.Float(1e-150)
 
 
 class Tangents:
-    """Tangents in one kernel; corners are sides of the switches of `owner` (switches.py)."""
+    """Tangents in one kernel; corners are sides of the switches of `owner` (switches.py).
 
-    def __init__(self, symbols: Symbols, build: KernelBuilder, bases: Iterable[sp.Symbol], owner: str = "") -> None:
-        self._symbols, self._build, self._owner = symbols, build, owner
+    `share_powers`: x^n with n ≥ 1, as in contact laws, is written as x · x^(n−1), which its derivative needs too.
+    """
+
+    def __init__(
+        self, symbols: Symbols, build: KernelBuilder, bases: Iterable[sp.Symbol], owner: str = "",
+        share_powers: bool = False,
+    ) -> None:  # fmt: skip
+        self._symbols, self._build, self._owner, self._share_powers = symbols, build, owner, share_powers
         self._sides: dict[sp.Symbol, sp.Expr] = {}
         self._renamed: Mapping[sp.Symbol, sp.Symbol] = {}
         self._powers: dict[sp.Expr, sp.Symbol] = {}
@@ -35,7 +41,7 @@ class Tangents:
 
     def inside(self, renamed: Mapping[sp.Symbol, sp.Symbol]) -> Tangents:
         """Tangents in the same kernel of expressions in other variables, by what these are called here."""
-        inner = Tangents(self._symbols, self._build, renamed.values(), self._owner)
+        inner = Tangents(self._symbols, self._build, renamed.values(), self._owner, self._share_powers)
         inner._sides, inner._powers, inner._renamed = self._sides, self._powers, renamed
         return inner
 
@@ -89,19 +95,22 @@ class Tangents:
         return self._build.local(f"{symbol.name}_by_{base.name}", self.shared(value))
 
     def shared(self, value: sp.Expr) -> sp.Expr:
-        """The value with what a function and its derivatives share as locals: denominators, x^(n−1) of x^n."""
+        """The value with what a function and its derivatives share as locals: denominators, powers of contact laws."""
         if not value.has(sp.Pow):
             return value
         divided = value.replace(
             lambda part: part.is_Pow and part.exp.is_Integer and part.exp < 0 and bool(part.free_symbols),
             lambda part: self._local("inverse", 1 / part.base) ** -part.exp,
         )
+        if not self._share_powers:
+            return divided
         return divided.replace(lambda part: part.is_Pow and bool(part.exp.free_symbols), self._power)
 
-    def _power(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
-        if exponent.as_coeff_Add()[0] == -1:
-            return self._local("power", base**exponent)
-        return base * self._local("power", base ** (exponent - 1))
+    def _power(self, power: sp.Pow) -> sp.Expr:
+        """x^n as x · x^(n−1)."""
+        if power.exp.as_coeff_Add()[0] == -1:
+            return self._local("power", power)
+        return power.base * self._local("power", power.base ** (power.exp - 1))
 
     def _local(self, what: str, value: sp.Expr) -> sp.Symbol:
         """The local that holds a power; named after its base where that is a symbol."""
