@@ -40,7 +40,8 @@ class Newton:
         self.system, self.model, self.prefix = system, system.model, prefix
         self.n, self.m = len(system.q), len(system.rows)
         self.nodes = self.n + self.m + len(system.frictions)
-        self.names = [q.name for q in system.q] + [x.name.replace(".", "_") for x in (*system.rows, *system.frictions)]
+        named = [row.name for row in system.rows] + [friction.name for friction in system.frictions]
+        self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named]
         self.values = Pool(system.model.symbols, "lin->value")
         self.factors = Pool(system.model.symbols, "lin->lu")
         self.lin = Argument(f"const {prefix.title()}Linear *", "lin")
@@ -78,7 +79,7 @@ class Newton:
         """The parts with each value in the pool, once up to its sign."""
 
         def keep(value: sp.Expr, name: str) -> sp.Expr:
-            return self.values.keep(build, tangents.undivided(value), name)
+            return self.values.keep(build, tangents.shared(value), name)
 
         def pooled(what: str, part: Mapping[Place, sp.Expr], rows: Sequence[str]) -> dict[Place, sp.Expr]:
             return {(i, j): keep(value, f"{what}_{rows[i]}_{self.names[j]}") for (i, j), value in part.items()}
@@ -174,7 +175,8 @@ class Newton:
         """x becomes the solution of N x = b, which it holds at first; nodes are coordinates, rows, frictions."""
         build = self._builder("newton_substitute", ["x (all nodes) holds b and becomes the solution of N x = b."])
         build.section("forward")
-        order, x = self.elimination.order, {}
+        order = self.elimination.order
+        x: dict[int, sp.Symbol] = {}
         earlier: dict[int, list[int]] = {k: [] for k in order}
         for i, j in self.lower:
             earlier[i].append(j)

@@ -71,6 +71,15 @@ class Simulation:
         """ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
         return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.compiled.n]
 
+    def jacobian(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
+        """∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; exact, SI.
+
+        Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, corners of min, max, abs
+        and sign, and modes of friction stay as they are at y; `memory` as in CompiledModel.rhs.
+        Raises SingularError where constraint rows depend on each other, ValueError where nothing is integrated.
+        """
+        return self.compiled.jacobian(t, y, self.p, memory)[0][: 2 * self.compiled.n, : 2 * self.compiled.n]
+
     def phi(self, t: float, q: ArrayLike) -> Array:
         """Φ(q, t), (m,)."""
         return self.compiled.phi(t, q, self.p)
