@@ -31,10 +31,14 @@ class Event:
 
 
 def make_event(event: EventSpec, geometry: Geometry, t: sp.Symbol) -> Event:
-    """One event of a scene. Raises BadValueError for an expression that is finite for no motion, or cancels out."""
+    """One event of a scene. Raises BadValueError for an expression that is finite for no motion."""
     expression = quantity_to_sympy(event.zero, VariableNames(geometry, t))
+    return Event(event.name, expression, event.action, event.direction)
+
+
+def refuse_constant(event: EventSpec, made: Event, geometry: Geometry, t: sp.Symbol) -> None:
+    """Raise BadValueError where nothing that moves is left in the expression; geometry: of absolute coordinates."""
     moving = {t, *(symbol for body in geometry.bodies.values() for symbol in (*body.q, *body.v))}
-    if not geometry.symbols.explicit(expression).free_symbols & moving:
+    if not geometry.symbols.explicit(made.expression).free_symbols & moving:
         message, hint = f"{event.zero.address} never changes: its terms cancel", "expected an expression that varies"
         raise BadValueError(message, event.zero.where, hint)
-    return Event(event.name, expression, event.action, event.direction)

@@ -15,6 +15,7 @@ from gudgeon.compiler import find_compiler
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.generator.pipeline import derive, generate
 from gudgeon.generator.read_yaml import read_mechanism
+from gudgeon.generator.targets.latex import equations_text
 from gudgeon.kernel_source import EventInfo, KernelSource
 
 SLIDER = resources.files("gudgeon.mechanisms").joinpath("slider_crank.yaml").read_text(encoding="utf-8")
@@ -103,23 +104,56 @@ int main(void)
 """
 
 
+def values(source: KernelSource, driver: str, states: np.ndarray, folder: Path) -> np.ndarray:
+    """What a driver prints of states (N, …) that it reads."""
+    for name, text in {**source.files, "driver.c": driver}.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    command = [*find_compiler(), "-std=c11", "-O1", "driver.c", "-o", "driver", "-lm"]
+    subprocess.run(command, cwd=folder, check=True, capture_output=True)
+    text = "\n".join(" ".join(f"{x:.17g}" for x in state) for state in states)
+    done = subprocess.run(["./driver"], cwd=folder, input=text, check=True, capture_output=True, text=True)
+    return np.array(done.stdout.split(), dtype=float)
+
+
+IN_TREE = DRIVER.replace("N_Q; k++", "N_TREE; k++").replace("k < N_Q", "k < N_TREE").replace("k - N_Q", "k - N_TREE")
+BOTH = """\
+        Aside tree;
+        double all_q[N_Q], all_v[N_Q];
+        expand(t, q, v, &p, all_q, all_v);
+        (void)dynamics(t, all_q, all_v, &(Memory){0}, &p, a, &aside);
+        (void)reduced_dynamics(t, q, v, &(Memory){0}, &p, a, &tree);
+        for (int i = 0; i < N_USER_EVENTS; i++)
+            printf("%.17g %.17g ", aside.event[i], tree.event[i]);
+    }
+"""
+
+
+def test_both_formulations_agree(tmp_path: Path) -> None:
+    """At random places of the tree, corners in the same order."""
+    source = generate(file(), "slider.yaml", "dry")
+    driver = IN_TREE[: IN_TREE.index("        (void)dynamics")] + BOTH + "    return 0;\n}\n"
+    states = np.random.default_rng(5).uniform(-1.0, 1.0, (20, 1 + 2 * len(source.tree)))
+    states[:, 0] += 1.5  # t
+    found = values(source, driver, states, tmp_path).reshape(20, 3, 2)
+    np.testing.assert_allclose(found[..., 1], found[..., 0], rtol=1e-12, atol=1e-13)
+
+
 @pytest.mark.parametrize("scene", ["ideal", "dry"])
 def test_values_at_random_states(scene: str, tmp_path: Path) -> None:
     """Against the same expressions written by hand; the bars are 50 and 120 mm long, c is 0.2 mm, ω 20π rad/s."""
-    source = generate(file(), "slider.yaml", scene)
-    for name, text in {**source.files, "driver.c": DRIVER}.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    command = [*find_compiler(), "-std=c11", "-O1", "driver.c", "-o", "driver", "-lm"]
-    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
     states = np.random.default_rng(4).uniform(-1.0, 1.0, (20, 19))
     states[:, 0] += 1.5  # t
-    text = "\n".join(" ".join(f"{x:.17g}" for x in state) for state in states)
-    done = subprocess.run(["./driver"], cwd=tmp_path, input=text, check=True, capture_output=True, text=True)
     t, q, v = states[:, 0], states[:, 1:10].T, states[:, 10:].T
     wanted = [
         q[0] + 0.025 * np.cos(q[2]) - 2 * 0.2e-3,
         v[4] + v[5] * 0.06 * np.cos(q[5]) - 3.0 + q[7] / (t + 1.0),
         np.abs(q[5]) - 0.3 * v[2] / (20 * np.pi),
     ]
-    found = np.array(done.stdout.split(), dtype=float).reshape(20, 3)
+    found = values(generate(file(), "slider.yaml", scene), DRIVER, states, tmp_path).reshape(20, 3)
     np.testing.assert_allclose(found, np.transpose(wanted), rtol=1e-13, atol=1e-14)
+
+
+def test_written_equations_hold_them() -> None:
+    text = equations_text(derive(file(), "slider.yaml", "ideal"))
+    assert "corner: where it falls through zero the run ends:" in text
+    assert "z_reach = " in text and "lift: where it crosses zero the time is recorded:" in text

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import re
 import shutil
 from importlib import resources
 from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import gudgeon
+from gudgeon.cli import app
 from gudgeon.errors import UnknownNameError
 from gudgeon.simulation import Simulation
 
@@ -93,6 +97,23 @@ def test_a_file_gives_the_events_back(slider: Simulation, tmp_path: Path) -> Non
     assert back.events.dtype == run.events.dtype and back.events.tobytes() == run.events.tobytes()
     assert back.source.events == run.source.events
     assert (back.events_of("dead") == run.events_of("dead")).all()
+
+
+def test_commands_tell_of_events(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The ideal run that the scene with play is compared with goes on where the ideal scene itself ends."""
+    load(folder, "slider_crank", EVENTS + "  soon: {zero: crank.theta - 0.4, action: stop}\n")
+    monkeypatch.chdir(tmp_path)
+    file = str(folder / "slider_crank.yaml")
+    done = CliRunner().invoke(app, ["check", "-v", file])
+    assert "ideal: events dead (both, recorded), inner (rising, recorded)" in done.output
+    assert "soon (both, ends the run)" in done.output
+    done = CliRunner().invoke(app, ["run", file, "--t-end", "0.01", "--output", "10"])
+    assert done.exit_code == 0, done.output
+    assert re.search(r"soon +at 0\.00636619[78] s", done.output) and re.search(r"clock +none", done.output)
+    assert re.search(r"slider\.x +– +-?[\d.]+ mm at", done.output)
+    done = CliRunner().invoke(app, ["run", file, "--t-end", "0.01", "--output", "10", "--scene", "ideal", "--json"])
+    (soon,) = json.loads(done.stdout)["scenes"]["ideal"]["events"]["soon"]
+    assert abs(soon - 0.4 / OMEGA) < CLOSE
 
 
 SWING = "\nevents:\n  below: {zero: bob.x}\n  third: {zero: t - 2.75, action: stop}\n"
