@@ -151,6 +151,8 @@ class KernelSource:
     operations: Mapping[str, int]  # kernel -> operation count
     notes: tuple[str, ...]  # what was skipped and why (check -v)
     gravity: bool
+    formulation: str = "full"  # what is integrated: "reduced" or "full"
+    motion_pivots: tuple[str, ...] = ()  # as pivots, of what is integrated
     tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
     closures: tuple[str, ...] = ()  # its rows
     events: tuple[EventInfo, ...] = ()

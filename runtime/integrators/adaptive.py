@@ -14,6 +14,7 @@ and the smallest radial clearance in a scene with play, since what happens in th
 from __future__ import annotations
 
 import math
+from time import perf_counter
 
 import numpy as np
 
@@ -55,10 +56,10 @@ def _chunk(session: Session) -> None:
     """Some steps in C; raises SolverError."""
     problem, done = session.problem, session.compiled.ffi.new("long *")
     done[0] = session.done
-    status = session.lib.gudgeon_adaptive_run(
-        session.run, session.pointer(session.p), len(problem.t), session.pointer(problem.t), CHUNK,
-        *session.rows(0), done,
-    )  # fmt: skip
+    arguments = (session.pointer(session.p), len(problem.t), session.pointer(problem.t), CHUNK, *session.rows(0), done)
+    before = perf_counter()
+    status = session.lib.gudgeon_adaptive_run(session.run, *arguments)
+    session.seconds += perf_counter() - before
     session.done = int(done[0])
     t = session.report()[0]
     if status == EVENTS_FULL:
@@ -70,11 +71,15 @@ def _chunk(session: Session) -> None:
 
 
 def tolerances(compiled: CompiledModel, p: Array, rtol: float, duration: float) -> tuple[Array, Array]:
-    """Tolerances of a step, (2n,): of coordinates, and of velocities a unit of speed; speeds never counted below."""
+    """Tolerances of a step, (2 n_x,): of coordinates, of velocities a unit of speed; what a speed counts at least."""
     size = mechanism_size(compiled, p)
     play = [float(p[joint.clearance]) for joint in compiled.source.clearances]
     length = min([c for c in play if c > 0.0], default=size)
-    is_angle = np.array([name.endswith(".theta") for name in compiled.source.coordinates])
+    source = compiled.source
+    if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
+        is_angle = np.array(["." not in name for name in source.tree])
+    else:
+        is_angle = np.array([name.endswith(".theta") for name in source.coordinates])
     of_q = rtol * np.where(is_angle, length / size, length)
     floor = np.array([length, length / size]) / max(duration, 1e-300)
     return np.concatenate([of_q, np.full(len(of_q), rtol)]), floor

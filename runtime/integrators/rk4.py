@@ -7,6 +7,7 @@ sees Ctrl-C. Constraints are stabilised by Baumgarte's terms (physics.md, sectio
 from __future__ import annotations
 
 import math
+from time import perf_counter
 
 from gudgeon.errors import SolverError
 from gudgeon.integrators.session import EVENTS_FULL, Session
@@ -53,7 +54,9 @@ def _steps(session: Session, t0: float, t1: float, total: int, first: int, count
     """Up to `count` steps in C; the number that was made. Raises SolverError."""
     taken = session.compiled.ffi.new("long *")
     p = session.pointer(session.p)
+    before = perf_counter()
     status = session.lib.gudgeon_run_steps(session.run, p, t0, t1, total, first, count, taken)
+    session.seconds += perf_counter() - before
     if status == EVENTS_FULL:
         session.fetch_impacts(last=False)
     elif status:

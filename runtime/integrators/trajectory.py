@@ -71,7 +71,7 @@ class Trajectory:
     t: Array
     q: Array  # (N, n)
     v: Array
-    a: Array
+    a: Array | None  # None: not looked at by the method
     memory: Array  # (N, n_clearances + n_frictions)
     state: NDArray[Any]  # (N, n_clearances) int8
     work: Array  # (N, 3) J: drives, applied forces, clearance forces
@@ -80,4 +80,5 @@ class Trajectory:
     counts: Counts
     interrupted: bool = False
     stopped: SolverError | None = None
+    seconds: float | None = None  # spent in the time loop; None: not measured
     events: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE, by time

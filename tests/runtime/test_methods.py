@@ -39,7 +39,7 @@ def observed_order(
 ) -> float:
     """Slope of the error over fixed steps, at the end or at 200 times between, over errors 1e-3 … 1e-12."""
     simulation = scene_of(name)
-    between = np.sort(np.random.default_rng(1).uniform(0.0, t_end, 200)) if inside else []
+    between = np.sort(np.random.default_rng(1).uniform(0.0, t_end, 200 * inside))
     times = np.concatenate([[0.0], between, [t_end]])
     numbers = FREE if method == "rk4" else {}
     exact = simulation.simulate(output=times, method="dop853", rtol=1e-14)
@@ -61,7 +61,8 @@ def test_rodas5p_has_order_5_and_its_interpolant_4(inside: bool) -> None:
 
 @pytest.mark.parametrize("inside", [False, True])
 def test_dop853_has_order_8_and_its_interpolant_7(inside: bool) -> None:
-    assert observed_order("slider_crank_spring", "dop853", 10.0, (4, 60, 24), inside, False) == pytest.approx(8.0, abs=0.4)
+    found = observed_order("slider_crank_spring", "dop853", 10.0, (4, 60, 24), inside, False)
+    assert found == pytest.approx(8.0, abs=0.4)
 
 
 def test_rk4_has_order_4() -> None:

@@ -1,6 +1,6 @@
 /*
- * The classical Runge-Kutta method of order 4 with fixed step (W. Kutta, Z. Math. Phys. 46, 1901), constraints
- * stabilised by Baumgarte's terms.
+ * The classical Runge-Kutta method of order 4 with fixed step (W. Kutta, Z. Math. Phys. 46, 1901).
+ * Constraints are closed after every step.
  */
 
 /* Where a step would lead: the new state, its right-hand side, and which joints touched on the way. */
@@ -35,6 +35,7 @@ static int rk4_trial(Run *run, double h, const Parameters *p, Trial *trial)
             trial->touched[i] |= trial->aside.clearance[i].delta > 0.0;
         slope = k;
     }
+    project_state(run, run->t + h, trial->y, p);
     return rates(run, run->t + h, trial->y, p, trial->dy, &trial->aside);
 }
 
@@ -59,7 +60,7 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
     int status = 0;
     if (update_latches(run, t, h, before.clearance, run->aside.clearance, trial->touched, p))
         status = rates(run, t_new, run->y, p, run->dy, &run->aside);
-    return status ? status : watch(run);
+    return status ? status : watch(run, p);
 }
 
 /* One step to t_new; where friction changes on the way, in parts that end there. */

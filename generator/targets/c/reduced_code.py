@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from gudgeon.generator.kernels import Kernel
+from gudgeon.generator.kernels import Kernel, without_unused
 from gudgeon.generator.model import Model
 from gudgeon.generator.reduced_kernels import is_rescued, motion_kernels, reduced_kernels
 from gudgeon.generator.reduction import TreeSystem, reduce
+from gudgeon.generator.sine_pairs import side_by_side
+from gudgeon.generator.targets.c.loops import Integrated
 
 CDEF = """\
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v);
@@ -28,13 +30,13 @@ int gudgeon_reduced_rescue(double t, const double *q, const double *v, const dou
 
 @dataclass(frozen=True)
 class ReducedCode:
-    """`files` go behind system.c; `pivots` are the rows in their order of elimination."""
+    """`files` go behind system.c."""
 
     system: TreeSystem
     files: Mapping[str, str]
     cdef: str
     kernels: tuple[Kernel, ...]
-    pivots: tuple[str, ...]
+    integrated: Integrated
 
 
 def reduced_code(model: Model, render: Callable[..., str], print_kernels: Callable[..., str]) -> ReducedCode:
@@ -48,7 +50,9 @@ def reduced_code(model: Model, render: Callable[..., str], print_kernels: Callab
         parts.append(render("rescue.c.jinja", multipliers=_multipliers(model, system)))
     parts += [print_kernels(*kernels), render("reduced_calls.c.jinja", rescued=rescued)]
     cdef = CDEF + (RESCUE_CDEF if rescued else "")
-    return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, (*around, *kernels), kkt.pivots)
+    angles = tuple(int("." not in name) for name in system.unknowns)
+    integrated = Integrated(system, kkt, angles, True, lambda kernel: side_by_side(without_unused(kernel)))
+    return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, (*around, *kernels), integrated)
 
 
 def _multipliers(model: Model, system: TreeSystem) -> list[str]:
