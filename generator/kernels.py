@@ -7,7 +7,6 @@ coordinates and parameters that they read and the definitions (cosines, arms, dr
 from __future__ import annotations
 
 import re
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
