@@ -19,6 +19,10 @@ STATE = (Argument("const double", "t"), Argument("const double *", "q"), Argumen
 MEMORY = Argument("const Memory *", "memory")
 PARAMETERS = Argument("const Parameters *", "p")
 ZERO = sp.Integer(0)
+# Corners in functions that nobody asks for their switching functions.
+HELD_SIDES = Section("corners: the sides that are held, if any", (
+    "const double *const side = memory->held ? memory->side : NULL;", "double g[N_SWITCHES + 1];",
+))  # fmt: skip
 
 
 _DOC = (
@@ -43,6 +47,7 @@ def dynamics_kernel(
     if kkt.rows and not model.frictions:
         build.section("status")
         build.line("int pivot = 0;")
+    _events(model, build)
     loads = [load for element in model.elements.values() for load in element.on_points()]
     for index, clearance in enumerate(model.clearances):
         loads += _clearance_call(build, index, clearance)
@@ -76,6 +81,14 @@ def dynamics_kernel(
         "const double *const side = memory->held ? memory->side : NULL;", "double *const g = aside->g;",
     ))  # fmt: skip
     return replace(kernel, sections=(held, *kernel.sections))
+
+
+def _events(model: Model, build: KernelBuilder) -> None:
+    """What the user watches: known at every state, also where a pivot vanishes."""
+    if model.events:
+        build.section("events")
+    for index, event in enumerate(model.events):
+        build.out(f"aside->event[{index}]", event.expression, event.name)
 
 
 def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:

@@ -58,9 +58,9 @@ class Linearization:
         self.q, self.v = ({s: k for k, s in enumerate(group)} for group in (system.q, system.v))
         self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, self.t))
         self.parts = Parts()
-        self.a = [self._held(f"acceleration_{q.name}", f"a[{k}]") for k, q in enumerate(system.q)]
+        self.a = [self._held(f"a_{q.name}", f"a[{k}]") for k, q in enumerate(system.q)]
         self.multiplier = [
-            self._held(f"multiplier_{row.name}", f"aside->lambda[{r}]") for r, row in enumerate(system.rows)
+            self._held(f"held_lambda_{row.name}", f"aside->lambda[{r}]") for r, row in enumerate(system.rows)
         ]
         self.sticks: list[sp.Symbol] = []  # 1 in stick, 0 in slip
         self.powers: list[sp.Expr] = [ZERO] * N_WORK

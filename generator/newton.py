@@ -20,7 +20,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.dynamics import MEMORY, PARAMETERS, STATE
+from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE
 from gudgeon.generator.factorization import choose_elimination
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement
 from gudgeon.generator.kkt import NEARLY_SINGULAR, SINGULAR, is_simple
@@ -31,9 +31,6 @@ from gudgeon.generator.tangents import Tangents
 
 ZERO = sp.Integer(0)
 ETA, ETA_ROW, ETA_STICK = (sp.Symbol(name, real=True) for name in ("eta", "eta_row", "eta_stick"))
-_HELD = Section("corners: the sides that are held, if any", (
-    "const double *const side = memory->held ? memory->side : NULL;", "double g[N_SWITCHES + 1];",
-))  # fmt: skip
 
 
 class Newton:
@@ -43,7 +40,8 @@ class Newton:
         self.system, self.model, self.prefix = system, system.model, prefix
         self.n, self.m = len(system.q), len(system.rows)
         self.nodes = self.n + self.m + len(system.frictions)
-        self.names = [q.name for q in system.q] + [x.name.replace(".", "_") for x in (*system.rows, *system.frictions)]
+        named = [row.name for row in system.rows] + [friction.name for friction in system.frictions]
+        self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named]
         self.values = Pool(system.model.symbols, "lin->value")
         self.factors = Pool(system.model.symbols, "lin->lu")
         self.lin = Argument(f"const {prefix.title()}Linear *", "lin")
@@ -75,13 +73,13 @@ class Newton:
         kernel = build.build(arguments, owner="", prune=True)
         if not self.model.clearances and not self.model.symbols.switches.of(""):
             return kernel
-        return replace(kernel, sections=(_HELD, *kernel.sections))
+        return replace(kernel, sections=(HELD_SIDES, *kernel.sections))
 
     def _pooled(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
         """The parts with each value in the pool, once up to its sign."""
 
         def keep(value: sp.Expr, name: str) -> sp.Expr:
-            return self.values.keep(build, tangents.undivided(value), name)
+            return self.values.keep(build, tangents.shared(value), name)
 
         def pooled(what: str, part: Mapping[Place, sp.Expr], rows: Sequence[str]) -> dict[Place, sp.Expr]:
             return {(i, j): keep(value, f"{what}_{rows[i]}_{self.names[j]}") for (i, j), value in part.items()}
@@ -177,7 +175,8 @@ class Newton:
         """x becomes the solution of N x = b, which it holds at first; nodes are coordinates, rows, frictions."""
         build = self._builder("newton_substitute", ["x (all nodes) holds b and becomes the solution of N x = b."])
         build.section("forward")
-        order, x = self.elimination.order, {}
+        order = self.elimination.order
+        x: dict[int, sp.Symbol] = {}
         earlier: dict[int, list[int]] = {k: [] for k in order}
         for i, j in self.lower:
             earlier[i].append(j)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import sympy as sp
+from dataclasses import replace
 
 from gudgeon.generator.constraints import Row
-from gudgeon.generator.dynamics import PARAMETERS, STATE
+from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.kkt import KKT
 from gudgeon.generator.system import System
@@ -53,7 +53,12 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     for k, _ in enumerate(system.q):
         build.out(f"dq[{k}]", x[k])
         build.out(f"dv[{k}]", u[k])
-    build.out("*worst", sp.Max(0, *(sp.Abs(value) for value in phi.values())))
+    build.line("*worst = 0.0;")
+    for value in phi.values():  # text: this maximum is no corner of the motion
+        build.line(f"*worst = fmax(fabs({value}), *worst);")
     build.line("return 0;")
     outs = (Argument("double *", name) for name in ("dq", "dv", "worst"))
-    return build.build((*STATE, PARAMETERS, *outs), "int")
+    kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), "int", owner="")
+    if not system.model.symbols.switches.of(""):
+        return kernel
+    return replace(kernel, sections=(HELD_SIDES, *kernel.sections))

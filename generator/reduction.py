@@ -15,6 +15,7 @@ import sympy as sp
 from gudgeon.generator.clearance import make_clearance
 from gudgeon.generator.constraints import Constraints, Row
 from gudgeon.generator.elements import PointLoad, apply_element
+from gudgeon.generator.events import make_event
 from gudgeon.generator.friction import make_friction
 from gudgeon.generator.geometry import BodySymbols, PointFrame
 from gudgeon.generator.inertia import Inertia
@@ -186,12 +187,13 @@ def _model(model: Model, geometry: TreeGeometry, constraints: TreeConstraints, r
     frictions = tuple(
         make_friction(name, e.loads.slip, pairs, t, symbols) for name, e in elements.items() if e.loads.slip
     )
+    events = tuple(make_event(event, geometry, t) for event in model.scene.events.values())
     bodies = {name: geometry.bodies[name] for name in model.geometry.bodies}
     geometry.bodies.clear()
     geometry.bodies.update(bodies)  # in the order of the file again
     return replace(
         model, symbols=symbols, slots=geometry.slots, geometry=geometry, constraints=constraints, all_rows=rows,
-        rows=rows, clearances=clearances, elements=elements, frictions=frictions,
+        rows=rows, clearances=clearances, elements=elements, frictions=frictions, events=events,
     )  # fmt: skip
 
 

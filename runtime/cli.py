@@ -89,12 +89,15 @@ def run(
     ] = None,
     output: Annotated[int | None, typer.Option(min=1, help="Equal output intervals. [default: the scene's]")] = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
-    method: Annotated[str, typer.Option(help="auto, rk4, dop853, rodas5p, kinematic.")] = "auto",
+    method: Annotated[str, typer.Option(help="auto, rk4, dop853, rodas5p, kinematic, scipy:Radau …")] = "auto",
     rtol: Annotated[float | None, typer.Option(help="Tolerance of a step of auto, dop853, rodas5p: 1e-8.")] = None,
     watch: Annotated[
         list[str] | None,
         typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
     ] = None,
+    horizon: Annotated[
+        bool, typer.Option("--horizon", help="Run thrice more to find the time to which each trace can be trusted.")
+    ] = False,
     out: Out = Path("out"),
     regenerate: Annotated[
         bool, typer.Option("--regenerate", help="Derive and compile again, whatever the cache has.")
@@ -111,7 +114,7 @@ def run(
 
     request = Request(
         file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, rtol, tuple(watch or ()), out,
-        regenerate, json,
+        horizon, regenerate, json,
     )  # fmt: skip
     return run_scenes(request)
 

@@ -46,6 +46,7 @@ class Diagnostics:
     rejected: int = 0  # steps tried and not taken
     stiff_steps: int = 0  # of the steps, those of the stiff method
     jacobians: int = 0
+    horizon: float = float("nan")  # s, to which the trace can be trusted; inf: to the end, NaN: not asked
 
     def peak(self, joint: str) -> Peak:
         """The peak at a joint with play; KeyError for any other."""

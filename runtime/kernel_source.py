@@ -93,6 +93,15 @@ class SeriesInfo:
 
 
 @dataclass(frozen=True)
+class EventInfo:
+    """An event of the user: action "record" or "stop", direction "rising", "falling" or "both"."""
+
+    name: str
+    action: str
+    direction: str
+
+
+@dataclass(frozen=True)
 class ClearanceInfo:
     """A joint with play: journal on the second body, bearing on the first."""
 
@@ -144,6 +153,7 @@ class KernelSource:
     gravity: bool
     tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
     closures: tuple[str, ...] = ()  # its rows
+    events: tuple[EventInfo, ...] = ()
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -161,10 +171,10 @@ class KernelSource:
         kinds = {
             "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
-            "slots": Slot, "conditions": Condition, "series": SeriesInfo,
+            "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
         }  # fmt: skip
         for key, kind in kinds.items():
-            data[key] = tuple(kind(**_tuples(item)) for item in data[key])
+            data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))
         for key, value in data.items():
             if isinstance(value, list) and key not in kinds:
                 data[key] = tuple(value)

@@ -59,6 +59,7 @@ class Plot:
             for name, colour in zip(names, _cycle(len(names)), strict=True):
                 ax.plot(run.t, run[name] * factor, color=colour, lw=1.0, label=name)
             ax.set(xlabel="t [s]", ylabel=label(names[0] if len(names) == 1 else "", text), title=_caption(run))
+            mark_horizon(ax, run, IDEAL)
             if len(names) > 1:
                 ax.legend()
         return ax
@@ -100,6 +101,14 @@ def _caption(run: Result) -> str:
 def reach(run: Result, joint: str) -> float:
     """Half the side of a square, in units of c, that holds the orbit and the circle."""
     return 1.04 * max(1.0, _peak(run[f"{joint}.eps"]))
+
+
+def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
+    """Over time: a thin line where the trace can no longer be trusted, and grey beyond; nothing where it always can."""
+    horizon = run.diagnostics.horizon
+    if np.isfinite(horizon) and horizon < run.t[-1]:
+        ax.axvspan(horizon, float(run.t[-1]), color="#888888", alpha=0.1, lw=0, zorder=0)
+        ax.axvline(horizon, color=colour, lw=0.8, ls=":", zorder=1)
 
 
 def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half: float) -> None:
@@ -172,6 +181,7 @@ def _draw_motion(
         factor, text = scale(max(map(_peak, found.values())), runs[next(iter(found))].unit(series))
         for scene, values in found.items():
             ax.plot(runs[scene].t, values * factor, color=colours[scene], lw=0.9)
+            mark_horizon(ax, runs[scene], colours[scene])
         word = f"error of {series}" if compared else series
         _over_time(ax, label(word, text), [runs[scene].t for scene in found], row == len(names) - 1)
 
@@ -191,6 +201,7 @@ def _draw_forces(
         for t, values, colour, width, dashes in curves:
             ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
         for scene, run in runs.items():  # the largest of all steps, which samples may miss
+            mark_horizon(ax, run, colours[scene])
             for peak in (peak for peak in run.diagnostics.peaks if peak.joint == joint):
                 ax.plot([peak.t], [peak.F * factor], "v", color=colours[scene], ms=4, clip_on=False)
         ax.set_ylim(bottom=0)

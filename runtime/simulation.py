@@ -15,7 +15,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.dead_centre import dependent_rows
 from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
-from gudgeon.integrators import adaptive, kinematic, rk4
+from gudgeon.integrators import adaptive, kinematic, python_driver, rk4
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.left_out import check_start, contradiction
 from gudgeon.parameters import number, prepare, without_baumgarte
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 METHODS = {
     "rk4": rk4.run, "dop853": adaptive.run, "rodas5p": adaptive.run, "adaptive": adaptive.run,
-    "kinematic": kinematic.run,
+    "kinematic": kinematic.run, **dict.fromkeys(python_driver.NAMES, python_driver.run),
 }  # fmt: skip
 ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
 DEFAULT_OUTPUT = 1000
@@ -71,6 +71,15 @@ class Simulation:
         """ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
         return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.compiled.n]
 
+    def jacobian(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
+        """∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; exact, SI.
+
+        Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, corners of min, max, abs
+        and sign, and modes of friction stay as they are at y; `memory` as in CompiledModel.rhs.
+        Raises SingularError where constraint rows depend on each other, ValueError where nothing is integrated.
+        """
+        return self.compiled.jacobian(t, y, self.p, memory)[0][: 2 * self.compiled.n, : 2 * self.compiled.n]
+
     def phi(self, t: float, q: ArrayLike) -> Array:
         """Φ(q, t), (m,)."""
         return self.compiled.phi(t, q, self.p)
@@ -99,7 +108,7 @@ class Simulation:
         self, t_end: float | str | None = None, *, output: int | ArrayLike | None = None, method: str = "auto",
         rtol: float | None = None, step: float | str | None = None,
         parameters: Mapping[str, float | str] | None = None, start: State | None = None,
-        progress: Progress | None = None,
+        progress: Progress | None = None, horizon: bool = False, stop: bool = True,
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
@@ -110,9 +119,11 @@ class Simulation:
         - "rk4" with fixed `step` (s), the longest; each interval between outputs is divided evenly;
         - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-8): the error of a
           step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
-          unchanged, without error control.
+          unchanged, without error control;
+        - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/python_driver.py).
+        `horizon`: run thrice more to find the time to which it can be trusted (predictability.py).
         `parameters`: {address or parameter name: float in SI or '0.5 mm'}. Ctrl-C ends the run and keeps
-        what was computed.
+        what was computed. `stop` False: events that would end the run are recorded only.
 
         Raises InputError for arguments, AssemblyError for a start that does not close, SolverError
         when the equations cannot be solved; its `partial` is the result up to there.
@@ -130,7 +141,7 @@ class Simulation:
         check_start(self.compiled, p, t0, q)
         problem = Problem(
             self.compiled, p, times, q, v, memory, h, progress, None if start is None else start.state,
-            chosen, _tolerance(rtol), without_baumgarte(self.compiled, given, is_given),
+            chosen, _tolerance(rtol), without_baumgarte(self.compiled, given, is_given), stop,
         )  # fmt: skip
         before = time.perf_counter()
         trajectory = METHODS[chosen](problem)
@@ -140,6 +151,10 @@ class Simulation:
         if stopped is not None:
             stopped.partial = result
             raise stopped
+        if horizon and not trajectory.interrupted:
+            from gudgeon.predictability import with_horizon
+
+            result = with_horizon(self, result, progress)
         return result
 
     def _begin(self, p: Array, start: State | None) -> tuple[Array, Array, Array]:
@@ -177,7 +192,8 @@ class Simulation:
                 f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
                 "  remove a drive or a joint; `gudgeon check -v` lists the rows"
             )
-        fitting = (*self.source.methods, *(["adaptive"] if "dop853" in self.source.methods else []))
+        adaptive_too = ("adaptive", *python_driver.NAMES) if "dop853" in self.source.methods else ()
+        fitting = (*self.source.methods, *adaptive_too)
         if method == "auto":
             return fitting[0] if len(fitting) == 1 or fixed else "adaptive"
         if method not in METHODS:
@@ -207,7 +223,7 @@ class Simulation:
         return Result(
             compiled=self.compiled, source=self.source, p=problem.p, given=given, is_given=is_given, t=trajectory.t,
             q=trajectory.q, v=trajectory.v, a=trajectory.a, state=trajectory.state, memory=trajectory.memory,
-            work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics,
+            work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics, events=trajectory.events,
         )  # fmt: skip
 
 
@@ -265,6 +281,10 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
             f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"
             " start.rates leave open were taken least: give a rate of each body that may move"
         )
+    if problem.stop and len(trajectory.events):
+        last = compiled.source.events[trajectory.events["event"][-1]]
+        if last.action == "stop":
+            notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
     for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - c

@@ -43,6 +43,7 @@ class Request:
     rtol: float | None
     watch: tuple[str, ...]
     out: Path
+    horizon: bool
     regenerate: bool
     json: bool
 
@@ -146,7 +147,7 @@ def _simulate(
             try:
                 run = simulation.simulate(
                     until, output=request.output, method="auto" if name == IDEAL else request.method, step=step,
-                    rtol=request.rtol,
+                    rtol=request.rtol, horizon=request.horizon,
                     parameters=_own(settings, simulation), progress=bar(name),
                 )  # fmt: skip
             except (AssemblyError, SolverError) as error:  # the other scenes are worth having
@@ -198,7 +199,7 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
     for other in (session.runs.get(IDEAL), *session.references.values()):
         if other and np.array_equal(other.t, run.t) and all(other.parameters[a] == v for a, v in values.items()):
             return other
-    return ideal.simulate(output=run.t, parameters=values)
+    return ideal.simulate(output=run.t, parameters=values, stop=False)
 
 
 def _write(

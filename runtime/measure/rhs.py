@@ -59,10 +59,10 @@ def _touching(simulation: Simulation, longest: float) -> Result | None:
     step = natural_step(simulation)
     try:
         work = window(simulation, longest, step)
-        impacts = simulation.simulate(work.t_end, output=1, step=step).impacts
+        impacts = simulation.simulate(work.t_end, output=1, step=step, stop=False).impacts
         if not len(impacts):
             return None
-        run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, step=step)
+        run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, step=step, stop=False)
     except SolverError:
         return None
     return run if run.state[-1].any() else None

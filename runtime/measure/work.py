@@ -88,7 +88,7 @@ def attempt(
 ) -> Attempt:
     """A run that may fail. Ctrl-C is passed on, unlike in `simulate`: half a comparison is none."""
     try:
-        run = simulation.simulate(output=times, step=step, parameters=parameters, progress=progress)
+        run = simulation.simulate(output=times, step=step, parameters=parameters, progress=progress, stop=False)
     except SolverError as error:
         return Attempt(step, error.partial, str(error).partition("\n")[0], error.time)
     if run.diagnostics.interrupted:

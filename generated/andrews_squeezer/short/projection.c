@@ -2,10 +2,11 @@
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
  * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
  */
-static int closing_step(const double t, const double *q, const double *v, const Parameters *p, double *dq,
-    double *dv, double *worst)
+static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *dq, double *dv, double *worst)
 {
     (void)t;
+    (void)memory;
     /* coordinates, velocities, time */
     const double OF_x = q[0];
     const double OF_y = q[1];
@@ -715,12 +716,27 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dv[19] = dv_acceleration_AH_y;
     dq[20] = dq_acceleration_AH_theta;
     dv[20] = dv_acceleration_AH_theta;
-    *worst =
-        max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(fabs(phi_A5_x_2),
-        fabs(phi_A5_y_2)), fabs(phi_A7_x_2)), fabs(phi_A7_y_2)), fabs(phi_B_x_2)), fabs(phi_B_y_2)),
-        fabs(phi_E3_x_2)), fabs(phi_E3_y_2)), fabs(phi_E4_x_2)), fabs(phi_E4_y_2)), fabs(phi_E6_x_2)),
-        fabs(phi_E6_y_2)), fabs(phi_F_x_2)), fabs(phi_F_y_2)), fabs(phi_G_x_2)), fabs(phi_G_y_2)),
-        fabs(phi_H_x_2)), fabs(phi_H_y_2)), fabs(phi_O_x_2)), fabs(phi_O_y_2));
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_O_x_2), *worst);
+    *worst = fmax(fabs(phi_O_y_2), *worst);
+    *worst = fmax(fabs(phi_B_x_2), *worst);
+    *worst = fmax(fabs(phi_B_y_2), *worst);
+    *worst = fmax(fabs(phi_A5_x_2), *worst);
+    *worst = fmax(fabs(phi_A5_y_2), *worst);
+    *worst = fmax(fabs(phi_A7_x_2), *worst);
+    *worst = fmax(fabs(phi_A7_y_2), *worst);
+    *worst = fmax(fabs(phi_F_x_2), *worst);
+    *worst = fmax(fabs(phi_F_y_2), *worst);
+    *worst = fmax(fabs(phi_E3_x_2), *worst);
+    *worst = fmax(fabs(phi_E3_y_2), *worst);
+    *worst = fmax(fabs(phi_E4_x_2), *worst);
+    *worst = fmax(fabs(phi_E4_y_2), *worst);
+    *worst = fmax(fabs(phi_E6_x_2), *worst);
+    *worst = fmax(fabs(phi_E6_y_2), *worst);
+    *worst = fmax(fabs(phi_G_x_2), *worst);
+    *worst = fmax(fabs(phi_G_y_2), *worst);
+    *worst = fmax(fabs(phi_H_x_2), *worst);
+    *worst = fmax(fabs(phi_H_y_2), *worst);
     return 0;
 }
 

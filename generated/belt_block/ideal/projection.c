@@ -2,10 +2,11 @@
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
  * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
  */
-static int closing_step(const double t, const double *q, const double *v, const Parameters *p, double *dq,
-    double *dv, double *worst)
+static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *dq, double *dv, double *worst)
 {
     (void)t;
+    (void)memory;
     /* coordinates, velocities, time */
     const double block_y = q[1];
     const double block_theta = q[2];
@@ -51,7 +52,9 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dv[1] = dv_acceleration_block_y;
     dq[2] = dq_acceleration_block_theta;
     dv[2] = dv_acceleration_block_theta;
-    *worst = max_of(fabs(phi_guide_angle_2), fabs(phi_guide_offset_2));
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_guide_offset_2), *worst);
+    *worst = fmax(fabs(phi_guide_angle_2), *worst);
     return 0;
 }
 

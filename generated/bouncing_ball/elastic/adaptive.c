@@ -2,8 +2,9 @@
  * Methods that choose their step: error control by component, projection, events, samples from the interpolant,
  * and the choice between the explicit and the stiff method from what the steps themselves measure.
  */
-enum { EXPLICIT = 0, STIFF = 1, AUTOMATIC = 2, MAX_STUCK = 200 };
-#define STABLE 6.0    /* h rho at which the explicit method is bounded by stability */
+enum { EXPLICIT = 0, STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, PATIENCE = 8 };
+#define UNSTABLE 6.5  /* h rho beyond which the explicit method's error estimate means nothing */
+#define BOUNDED 5.0   /* h rho at which stability bounds its steps */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
 
 /* Sides of all corners that act from their functions; the one that was just crossed keeps what it was given. */
@@ -55,6 +56,11 @@ static int change(Run *run, int event, const Parameters *p)
         if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < 0.0))
             cross(run, k, p);
     const int corner = event - N_CLEARANCES;
+    if (corner >= 0 && corner < N_SWITCHES) { /* a drive whose rate jumps moves the linkage by an impulse */
+        const double before = kinetic_energy(run->y, p);
+        project_state(&run->memory, run->t, run->y, p);
+        run->y[2 * N_X] += kinetic_energy(run->y, p) - before;
+    }
     int status = settle_sides(run, corner >= 0 && corner < N_SWITCHES ? corner : -1, p);
     if (!status && event >= N_CLEARANCES + N_SWITCHES)
         status = switch_friction(run, p);
@@ -102,17 +108,24 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     return status ? status : check_contacts(run, p);
 }
 
+/* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
+static void change_method(Run *run)
+{
+    if (!run->stiff)
+        run->patience = run->since > 100 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
+    run->stiff = !run->stiff;
+    run->votes = 0;
+    run->since = 0;
+}
+
 /* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
 static void choose(Run *run)
 {
-    if (run->choice != AUTOMATIC)
-        return;
-    const int against = run->stiff ? run->stability < SLACK : run->stability > STABLE;
+    const int against = run->stiff ? run->stability < SLACK : run->stability > BOUNDED;
     run->votes = against ? run->votes + 1 : 0;
-    if (run->votes >= (run->stiff ? 8 : 4)) {
-        run->stiff = !run->stiff;
-        run->votes = 0;
-    }
+    run->since++;
+    if (run->choice == AUTOMATIC && run->votes >= (run->stiff ? run->patience : 3))
+        change_method(run);
 }
 
 /* One accepted step towards t_end; the next step's length in run->h. Events are not looked for here. */
@@ -128,6 +141,11 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
         const int status = run->stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
         if (status && run->fixed > 0.0)
             return status;
+        if (!status && step->error <= run->accept && run->choice == AUTOMATIC && !run->stiff && run->stability > UNSTABLE) {
+            change_method(run);
+            run->rejected++;
+            continue;
+        }
         if (!status && step->error <= run->accept) {
             const double error = fmax(step->error, 1e-12);
             double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
@@ -181,12 +199,13 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     return status || run->h > 0.0 ? status : first_size(run, left, p);
 }
 
-/* choice: 0 explicit, 1 stiff, 2 automatic; scale (2 N_X): tolerances, those of velocities a unit of speed. */
+/* choice: 0 explicit, 1 stiff, 2 automatic, 3 automatic from stiff; scale (2 N_X): tolerances, those of velocities a unit of speed. */
 void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double h, double fixed)
 {
     Run *run = memory;
-    run->choice = choice;
-    run->stiff = choice == STIFF;
+    run->choice = choice == BEGIN_STIFF ? AUTOMATIC : choice;
+    run->stiff = choice == STIFF || choice == BEGIN_STIFF;
+    run->patience = choice == BEGIN_STIFF ? 4 * PATIENCE : PATIENCE;
     run->h = h;
     run->fixed = fixed;
     run->error_before = 1e-4;
@@ -245,7 +264,8 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         int event;
         const double share = first_event(run, step, p, &event);
         const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
-        status = sample_step(run, step, t_new, n, t, p, y, a, latched, state, done);
+        const double close = event < 0 ? 0.0 : fmax(2e-12, 8.0 * DBL_EPSILON * fabs(t_new)); /* is at the event */
+        status = sample_step(run, step, t_new - close, n, t, p, y, a, latched, state, done);
         if (!status)
             status = commit(run, step, share, t_new, event, p);
     }

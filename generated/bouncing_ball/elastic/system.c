@@ -23,6 +23,16 @@ static void read_memory(const double *sample, Memory *memory)
     memory->held = 0;
 }
 
+/* Of all bodies, J. */
+static double kinetic_energy(const double *y, const Parameters *p)
+{
+    double m[N_Q], sum = 0.0;
+    mass_matrix(p, m);
+    for (int k = 0; k < N_Q; k++)
+        sum += 0.5 * m[k] * y[N_Q + k] * y[N_Q + k];
+    return sum;
+}
+
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
 {
     prepare(given, is_given, (Parameters *)p);

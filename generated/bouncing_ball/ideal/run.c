@@ -45,7 +45,7 @@ typedef struct {
     /* of methods that choose their step (adaptive.c) */
     double h, fixed, accept, stability, error_before, h_first[2], *first, scale[2 * N_X], speed[2], speed_floor[2];
     int rising[1]; /* whether a joint's force rose at the end of the last step */
-    int choice, stiff, votes, stuck, linear_ready;
+    int choice, stiff, votes, patience, since, stuck, linear_ready;
     Linear linear;
     Step step;
 } Run;

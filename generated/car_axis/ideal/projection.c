@@ -2,9 +2,10 @@
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
  * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
  */
-static int closing_step(const double t, const double *q, const double *v, const Parameters *p, double *dq,
-    double *dv, double *worst)
+static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *dq, double *dv, double *worst)
 {
+    (void)memory;
     /* coordinates, velocities, time */
     const double axle_x = q[0];
     const double axle_y = q[1];
@@ -176,8 +177,11 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dv[4] = dv_acceleration_road_y;
     dq[5] = dq_acceleration_road_theta;
     dv[5] = dv_acceleration_road_theta;
-    *worst = max_of(max_of(max_of(fabs(phi_bump_2), fabs(phi_foot_x_2)), fabs(phi_foot_y_2)),
-        fabs(phi_slot_offset_2));
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_foot_x_2), *worst);
+    *worst = fmax(fabs(phi_foot_y_2), *worst);
+    *worst = fmax(fabs(phi_slot_offset_2), *worst);
+    *worst = fmax(fabs(phi_bump_2), *worst);
     return 0;
 }
 

@@ -2,10 +2,11 @@
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
  * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
  */
-static int closing_step(const double t, const double *q, const double *v, const Parameters *p, double *dq,
-    double *dv, double *worst)
+static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *dq, double *dv, double *worst)
 {
     (void)t;
+    (void)memory;
     /* coordinates, velocities, time */
     const double crank0_x = q[0];
     const double crank0_y = q[1];
@@ -503,11 +504,21 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dv[13] = dv_acceleration_coupler2_y;
     dq[14] = dq_acceleration_coupler2_theta;
     dv[14] = dv_acceleration_coupler2_theta;
-    *worst =
-        max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(fabs(phi_A0_x_2),
-        fabs(phi_A0_y_2)), fabs(phi_A1_x_2)), fabs(phi_A1_y_2)), fabs(phi_B1_x_2)), fabs(phi_B1_y_2)),
-        fabs(phi_B2_x_2)), fabs(phi_B2_y_2)), fabs(phi_O0_x_2)), fabs(phi_O0_y_2)), fabs(phi_O1_x_2)),
-        fabs(phi_O1_y_2)), fabs(phi_O2_x_2)), fabs(phi_O2_y_2));
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_O0_x_2), *worst);
+    *worst = fmax(fabs(phi_O0_y_2), *worst);
+    *worst = fmax(fabs(phi_O1_x_2), *worst);
+    *worst = fmax(fabs(phi_O1_y_2), *worst);
+    *worst = fmax(fabs(phi_O2_x_2), *worst);
+    *worst = fmax(fabs(phi_O2_y_2), *worst);
+    *worst = fmax(fabs(phi_A0_x_2), *worst);
+    *worst = fmax(fabs(phi_A0_y_2), *worst);
+    *worst = fmax(fabs(phi_B1_x_2), *worst);
+    *worst = fmax(fabs(phi_B1_y_2), *worst);
+    *worst = fmax(fabs(phi_A1_x_2), *worst);
+    *worst = fmax(fabs(phi_A1_y_2), *worst);
+    *worst = fmax(fabs(phi_B2_x_2), *worst);
+    *worst = fmax(fabs(phi_B2_y_2), *worst);
     return 0;
 }
 

@@ -24,7 +24,7 @@ static int state_at(Run *run, const Step *step, double s, const Parameters *p, d
     else
         dop853_interpolate(run, step, s, y);
     const double t = step->t + s * step->h;
-    project_state(t, y, p);
+    project_state(&run->memory, t, y, p);
     return rates(run, t, y, p, dy, aside);
 }
 

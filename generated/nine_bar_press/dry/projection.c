@@ -2,9 +2,10 @@
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
  * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
  */
-static int closing_step(const double t, const double *q, const double *v, const Parameters *p, double *dq,
-    double *dv, double *worst)
+static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *dq, double *dv, double *worst)
 {
+    (void)memory;
     /* coordinates, velocities, time */
     const double L1_x = q[0];
     const double L1_y = q[1];
@@ -654,12 +655,27 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dv[22] = dv_acceleration_S9_y;
     dq[23] = dq_acceleration_S9_theta;
     dv[23] = dv_acceleration_S9_theta;
-    *worst =
-        max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(max_of(fabs(phi_O1_x_2),
-        fabs(phi_O1_y_2)), fabs(phi_O4_x_2)), fabs(phi_O4_y_2)), fabs(phi_O6_x_2)), fabs(phi_O6_y_2)),
-        fabs(phi_P2_x_2)), fabs(phi_P2_y_2)), fabs(phi_P3_x_2)), fabs(phi_P3_y_2)), fabs(phi_Q6_x_2)),
-        fabs(phi_Q6_y_2)), fabs(phi_Q8_x_2)), fabs(phi_Q8_y_2)), fabs(phi_crank1_2)), fabs(phi_crank4_2)),
-        fabs(phi_guide_angle_2)), fabs(phi_guide_offset_2)), fabs(phi_slider_x_2)), fabs(phi_slider_y_2));
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_O1_x_2), *worst);
+    *worst = fmax(fabs(phi_O1_y_2), *worst);
+    *worst = fmax(fabs(phi_O4_x_2), *worst);
+    *worst = fmax(fabs(phi_O4_y_2), *worst);
+    *worst = fmax(fabs(phi_P2_x_2), *worst);
+    *worst = fmax(fabs(phi_P2_y_2), *worst);
+    *worst = fmax(fabs(phi_P3_x_2), *worst);
+    *worst = fmax(fabs(phi_P3_y_2), *worst);
+    *worst = fmax(fabs(phi_Q6_x_2), *worst);
+    *worst = fmax(fabs(phi_Q6_y_2), *worst);
+    *worst = fmax(fabs(phi_Q8_x_2), *worst);
+    *worst = fmax(fabs(phi_Q8_y_2), *worst);
+    *worst = fmax(fabs(phi_O6_x_2), *worst);
+    *worst = fmax(fabs(phi_O6_y_2), *worst);
+    *worst = fmax(fabs(phi_slider_x_2), *worst);
+    *worst = fmax(fabs(phi_slider_y_2), *worst);
+    *worst = fmax(fabs(phi_guide_offset_2), *worst);
+    *worst = fmax(fabs(phi_guide_angle_2), *worst);
+    *worst = fmax(fabs(phi_crank1_2), *worst);
+    *worst = fmax(fabs(phi_crank4_2), *worst);
     return 0;
 }
 

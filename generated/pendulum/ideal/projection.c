@@ -2,10 +2,11 @@
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
  * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
  */
-static int closing_step(const double t, const double *q, const double *v, const Parameters *p, double *dq,
-    double *dv, double *worst)
+static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *dq, double *dv, double *worst)
 {
     (void)t;
+    (void)memory;
     /* coordinates, velocities, time */
     const double bob_x = q[0];
     const double bob_y = q[1];
@@ -52,7 +53,8 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dv[1] = dv_acceleration_bob_y;
     dq[2] = dq_acceleration_bob_theta;
     dv[2] = dv_acceleration_bob_theta;
-    *worst = fabs(phi_rod_length_2);
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_rod_length_2), *worst);
     return 0;
 }
 

@@ -2,9 +2,10 @@
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
  * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
  */
-static int closing_step(const double t, const double *q, const double *v, const Parameters *p, double *dq,
-    double *dv, double *worst)
+static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *dq, double *dv, double *worst)
 {
+    (void)memory;
     /* coordinates, velocities, time */
     const double crank_x = q[0];
     const double crank_y = q[1];
@@ -227,9 +228,14 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dv[7] = dv_acceleration_slider_y;
     dq[8] = dq_acceleration_slider_theta;
     dv[8] = dv_acceleration_slider_theta;
-    *worst = max_of(max_of(max_of(max_of(max_of(max_of(fabs(phi_O_x_2), fabs(phi_O_y_2)),
-        fabs(phi_crankpin_x_2)), fabs(phi_crankpin_y_2)), fabs(phi_cylinder_angle_2)),
-        fabs(phi_cylinder_offset_2)), fabs(phi_motor_2));
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_O_x_2), *worst);
+    *worst = fmax(fabs(phi_O_y_2), *worst);
+    *worst = fmax(fabs(phi_crankpin_x_2), *worst);
+    *worst = fmax(fabs(phi_crankpin_y_2), *worst);
+    *worst = fmax(fabs(phi_cylinder_offset_2), *worst);
+    *worst = fmax(fabs(phi_cylinder_angle_2), *worst);
+    *worst = fmax(fabs(phi_motor_2), *worst);
     return 0;
 }
 

@@ -2,10 +2,11 @@
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
  * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
  */
-static int closing_step(const double t, const double *q, const double *v, const Parameters *p, double *dq,
-    double *dv, double *worst)
+static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *dq, double *dv, double *worst)
 {
     (void)t;
+    (void)memory;
     /* coordinates, velocities, time */
     const double crank_x = q[0];
     const double crank_y = q[1];
@@ -145,8 +146,12 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dv[4] = dv_acceleration_rod_y;
     dq[5] = dq_acceleration_rod_theta;
     dv[5] = dv_acceleration_rod_theta;
-    *worst = max_of(max_of(max_of(max_of(fabs(phi_O_x_2), fabs(phi_O_y_2)), fabs(phi_pin_x_2)),
-        fabs(phi_pin_y_2)), fabs(phi_slider_offset_2));
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_O_x_2), *worst);
+    *worst = fmax(fabs(phi_O_y_2), *worst);
+    *worst = fmax(fabs(phi_pin_x_2), *worst);
+    *worst = fmax(fabs(phi_pin_y_2), *worst);
+    *worst = fmax(fabs(phi_slider_offset_2), *worst);
     return 0;
 }
 

@@ -18,6 +18,7 @@ from gudgeon.kernel_source import (
     ClearanceInfo,
     Condition,
     DriveInfo,
+    EventInfo,
     JointInfo,
     KernelSource,
     PointInfo,
@@ -82,6 +83,7 @@ def describe(
         simulate=_simulate(model),
         operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
         tree=tree, closures=closures,
+        events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
     )  # fmt: skip
 
 

@@ -11,6 +11,7 @@ import sympy as sp
 
 from gudgeon.generator import interface
 from gudgeon.generator.dynamics import dynamics_kernel
+from gudgeon.generator.events import SIGNS
 from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
@@ -43,6 +44,11 @@ NEWTON_CDEF = """\
 int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t);
 int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
     const double *r, double *u);
+"""
+EVENTS_CDEF = """\
+int gudgeon_kinematic_events(long n, const double *t, const double *parameters, double reach, double extent,
+    const double *q, const double *v, double start, int stop, signed char *side, long capacity, double *at,
+    int *event, long *found, long *done);
 """
 METHOD_CDEF = {
     "kinematic": """\
@@ -100,9 +106,10 @@ def emit(model: Model, *, newton: bool = True) -> KernelSource:
         **loops,
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
-    cdef = COMMON_CDEF + reduced.cdef + METHOD_CDEF[method] + (NEWTON_CDEF if newton else "")
     kernels = [dynamics, *around, *reduced.kernels, prepare, *linear_kernels]
     methods = ("kinematic",) if method == "kinematic" else ("rk4", "dop853", "rodas5p")
+    cdef = COMMON_CDEF + reduced.cdef + METHOD_CDEF[method] + NEWTON_CDEF * newton
+    cdef += EVENTS_CDEF * ("kinematic_events.c" in files)
     return describe(
         model, files=files, main="scene.c", cdef=cdef, methods=methods, pivots=kkt.pivots,
         start_pivots=start_pivots, operations=_operations(model, kernels),
@@ -111,7 +118,10 @@ def emit(model: Model, *, newton: bool = True) -> KernelSource:
 
 
 def _kinematic(model: Model) -> dict[str, str]:
-    return {"kinematic.c": render("kinematic.c.jinja", **_counts(model))}
+    loops = {"kinematic.c": render("kinematic.c.jinja", **_counts(model))}
+    if model.events:
+        loops["kinematic_events.c"] = render("kinematic_events.c.jinja")
+    return loops
 
 
 def _integrators(model: Model, system: System, kkt: KKT, linearized: str) -> dict[str, str]:
@@ -193,6 +203,7 @@ def _counts(model: Model) -> dict[str, int]:
         "n_switches": len(model.symbols.switches.found),
         "n_memory": len(model.clearances) + len(model.frictions),
         "n_margins": len(model.clearances) + len(model.symbols.switches.found) + len(model.frictions),
+        "n_events": len(model.events),
         "n_series": len(interface.element_series(model)),
     }
 
@@ -206,6 +217,8 @@ def _header(model: Model, reduced: ReducedCode) -> dict[str, Any]:
         "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived, **_counts(model),
         "n_tree": len(reduced.system.q), "n_closures": len(reduced.system.rows),
         "n_switches": max(model.symbols.switches.count, reduced.system.model.symbols.switches.count),
+        "event_directions": [SIGNS[event.direction] for event in model.events] or [0],
+        "event_stops": [int(event.action == "stop") for event in model.events] or [0],
     }  # fmt: skip
 
 

@@ -1,0 +1,59 @@
+"""The ideal press by hand (press_ideal.c): dense Newton in C at every sample, with velocities and accelerations.
+
+A revolution at ω = 2π in 1001 samples. Error: the largest |Δy9| over the stroke, or, if that is greater, |Δv9| and
+|Δa9| over their largest values, against the closed form (intersections of circles).
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from cffi import FFI
+
+from benchmarks.peers import press
+from tests.oracles import ideal_press, press_dense
+
+SAMPLES, T_END = 1001, 1.0
+DECLARATIONS = press.DECLARATIONS[: press.DECLARATIONS.index("typedef struct { Press press;")]
+DECLARATIONS += "int ideal_run(const Press *, double, long, const double *, double *);"
+
+
+@cache
+def library() -> tuple[FFI, Any]:
+    """cffi's view of press_ideal.c."""
+    return press.compile_library("press_ideal.c", DECLARATIONS)
+
+
+@cache
+def exact() -> np.ndarray:
+    """y9, v9, a9 by the closed form, (SAMPLES, 3); l5 = .25 m as in the other works."""
+    motion = ideal_press.motion(np.linspace(0.0, T_END, SAMPLES), press.work("dry").press.geometry)
+    return np.stack([motion.q[:, 22], motion.v[:, 22], motion.a[:, 22]], axis=1)
+
+
+def error(found: np.ndarray) -> float:
+    """See the module's head; found (SAMPLES, 3)."""
+    true = exact()
+    scale = np.array([np.ptp(true[:, 0]), *np.abs(true[:, 1:]).max(axis=0)])
+    return float((np.abs(found - true).max(axis=0) / scale).max())
+
+
+def dense(_: float) -> tuple[float, float, int]:
+    """(error, seconds of one sample, −1)."""
+    ffi, c = library()
+    data = press.work("dry").press
+    struct = ffi.new("Press *")
+    raw = bytes(press_dense._struct(data))
+    ffi.memmove(struct, raw, len(raw))
+    guess, rows = press_dense.start(data)[:24].copy(), np.empty((SAMPLES, 72))
+    arguments = (struct, T_END / (SAMPLES - 1), SAMPLES, ffi.from_buffer("double[]", guess))
+    out = ffi.from_buffer("double[]", rows)
+    begin = perf_counter()
+    bad = c.ideal_run(*arguments, out)
+    seconds = perf_counter() - begin
+    if bad:
+        raise FloatingPointError(f"ideal press: {bad}")
+    return error(rows[:, [22, 46, 70]]), seconds / SAMPLES, -1

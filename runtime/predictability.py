@@ -1,0 +1,120 @@
+"""How far a run can be trusted: impacts multiply small differences until two honest runs have nothing in common.
+
+`simulate(..., horizon=True)` repeats the run at narrow output times, with a tolerance a hundred times tighter (a step
+four times smaller), and from a start that is moved by 1e-12. While they agree, the trace belongs to the scene; beyond,
+it is one of many that the same numbers allow, and only its statistics mean anything. The horizon is the last of the
+compared times before the run and one of its repetitions part by a quarter: of the radial clearance, in the path of a
+journal (orbits part for the eye); in a scene without play of the
+mechanism's size, of 1 rad in an angle.
+
+It is a figure of the run, not of the scene alone: each digit of tolerance buys some time, until rounding is what grows.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.compiled import Array
+from gudgeon.errors import SolverError
+from gudgeon.integrators.adaptive import SMALLEST, tolerances
+from gudgeon.integrators.projection import project
+from gudgeon.start import mechanism_size
+
+if TYPE_CHECKING:
+    from gudgeon.integrators.trajectory import Progress
+    from gudgeon.results import Result, State
+    from gudgeon.simulation import Simulation
+
+APART = 0.25  # see above: of the clearance, where orbits part for the eye; dry motion is on a plateau below it
+MOVED = 1e-12  # a relative tolerance (integrators/adaptive.py): as much as one step of such a run may err
+TIGHTER, SHORTER = 100.0, 4.0  # tolerance, step
+TIMES = 4000  # intervals between compared times: the horizon's resolution
+
+
+def with_horizon(simulation: Simulation, run: Result, progress: Progress | None = None) -> Result:
+    """The run with diagnostics.horizon; see `horizon`."""
+    return replace(run, diagnostics=replace(run.diagnostics, horizon=horizon(simulation, run, progress)))
+
+
+def horizon(simulation: Simulation, run: Result, progress: Progress | None = None, apart: float = APART) -> float:
+    """Time (s) up to which a run agrees with its repetitions; inf: to its end.
+
+    The runs are those of `run.diagnostics.method`, from the run's first sample to its last one. A repetition that
+    ends early (an error) is compared as far as it came. NaN after Ctrl-C. `apart`: see above.
+    """
+    source, t0, t1 = simulation.source, float(run.t[0]), float(run.t[-1])
+    if source.degrees_of_freedom == 0 or not t1 > t0:
+        return math.inf
+    times = np.linspace(t0, t1, TIMES + 1)
+    begin = _state(run)
+    usual, tighter = _settings(run)
+    runs = []
+    for start, settings in ((begin, usual), (begin, tighter), (_moved(simulation, run, begin), usual)):
+        try:
+            runs.append(simulation.simulate(output=times, start=start, progress=progress, **settings))
+        except SolverError as error:
+            if error.partial is None:
+                return t0
+            runs.append(error.partial)
+        if runs[-1].diagnostics.interrupted:
+            return math.nan
+    return _agreement(simulation, runs, apart)
+
+
+def _agreement(simulation: Simulation, runs: list[Result], limit: float) -> float:
+    """The last compared time at which the first run is no further than `limit` from each of the others."""
+    count = min(len(run.t) for run in runs)
+    paths = [_path(simulation, run)[:count] for run in runs]
+    gaps = [np.abs(path - paths[0]).max(axis=1) for path in paths[1:]]
+    apart = np.flatnonzero(~(np.maximum(*gaps) <= limit))
+    t = runs[0].t
+    if len(apart):
+        return float(t[max(int(apart[0]) - 1, 0)])
+    return math.inf if all(len(run.t) == len(t) for run in runs) else float(t[count - 1])
+
+
+def _path(simulation: Simulation, run: Result) -> Array:
+    """What is compared, (N, …): e/c of all journals, or all coordinates of a scene without play."""
+    if run.source.clearances:
+        scaled = [run[f"{joint.name}.{axis}"] / run.p[joint.clearance]
+                  for joint in run.source.clearances for axis in ("ex", "ey")]  # fmt: skip
+        return np.stack(scaled, axis=1)
+    return np.asarray(run.q / np.where(_angles(run), 1.0, mechanism_size(simulation.compiled, run.p)))
+
+
+def _angles(run: Result) -> Any:
+    return np.array([name.endswith(".theta") for name in run.source.coordinates])
+
+
+def _settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Arguments of simulate for the run as it was, and for the more exact one."""
+    from gudgeon.simulation import METHODS
+
+    d = run.diagnostics
+    method = d.method if d.method in METHODS else "adaptive"  # what its steps were made with is not one name
+    usual = {"method": method, "parameters": dict(run.final.parameters)}
+    if math.isfinite(d.step):
+        return usual | {"step": d.step}, usual | {"step": d.step / SHORTER}
+    # at the tightest tolerance that there is, the other run is the looser one
+    other = d.rtol / TIGHTER if d.rtol >= TIGHTER * SMALLEST else d.rtol * TIGHTER
+    return usual | {"rtol": d.rtol}, usual | {"rtol": other}
+
+
+def _state(run: Result) -> State:
+    """The run's first sample, to start from."""
+    return replace(run.final, t=float(run.t[0]), q=run.q[0], v=run.v[0], state=run.state[0], memory=run.memory[0])
+
+
+def _moved(simulation: Simulation, run: Result, start: State) -> State:
+    """The start moved by MOVED in a direction drawn once and for all, and back onto the constraints."""
+    angle, n = _angles(run), len(start.q)
+    draw = np.random.default_rng(1).uniform(-1.0, 1.0, 2 * n)
+    speed = [np.abs(start.v[angle == kind]).max(initial=0.0) for kind in (False, True)]
+    scale = draw * tolerances(simulation.compiled, run.p, MOVED, 1.0)[0]
+    q, v = start.q + scale[:n], start.v + scale[n:] * np.where(angle, speed[1], speed[0])
+    q, v = project(simulation.compiled, start.t, q, v, run.p)
+    return replace(start, q=q, v=v)

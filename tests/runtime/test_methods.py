@@ -1,0 +1,225 @@
+"""Methods that choose their step: observed order, constraints, events, and answers known to many digits."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.special import ellipj, ellipk
+
+import gudgeon
+from gudgeon.results import Result
+from gudgeon.simulation import Simulation
+from tests.oracles import golden
+
+pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+HERE = Path(__file__).parent.parent
+GOLDEN = golden.load()
+KNOWN = json.loads((HERE / "data/reference_problems.json").read_text(encoding="utf-8"))
+ADAPTIVE = ("dop853", "rodas5p", "auto")
+FREE = {"baumgarte.alpha": 0.0, "baumgarte.beta": 0.0}
+LUBRICATED = {"c": 0.6e-3, "omega": 5 * math.pi}
+
+
+@cache
+def scene_of(name: str, scene: str | None = None) -> Simulation:
+    file = HERE / f"mechanisms/methods/{name}.yaml"
+    return gudgeon.load(file if file.exists() else name, scene=scene)
+
+
+def observed_order(
+    name: str, method: str, t_end: float, steps: tuple[int, int, int], inside: bool, rates: bool
+) -> float:
+    """Slope of the error over fixed steps, at the end or at 200 times between, over errors 1e-3 … 1e-12."""
+    simulation = scene_of(name)
+    between = np.sort(np.random.default_rng(1).uniform(0.0, t_end, 200)) if inside else []
+    times = np.concatenate([[0.0], between, [t_end]])
+    numbers = FREE if method == "rk4" else {}
+    exact = simulation.simulate(output=times, method="dop853", rtol=1e-14)
+    h, errors = [], []
+    for count in np.unique(np.round(np.geomspace(*steps)).astype(int)):
+        run = simulation.simulate(output=times, method=method, step=t_end / count, parameters=numbers)
+        h.append(t_end / count)
+        errors.append(max(abs(run.q - exact.q).max(), abs(run.v - exact.v).max() if rates else 0.0))
+    kept = (np.array(errors) < 1e-3) & (np.array(errors) > 1e-12)
+    assert kept.sum() >= 8
+    return float(np.polyfit(np.log(np.array(h)[kept]), np.log(np.array(errors)[kept]), 1)[0])
+
+
+@pytest.mark.parametrize("inside", [False, True])
+def test_rodas5p_has_order_5_and_its_interpolant_4(inside: bool) -> None:
+    """An interpolant of order 4 errs by O(h⁵) on the way, which is as good as the ends of the steps."""
+    assert observed_order("swing", "rodas5p", 1.0, (12, 1600, 14), inside, True) == pytest.approx(5.0, abs=0.15)
+
+
+@pytest.mark.parametrize("inside", [False, True])
+def test_dop853_has_order_8_and_its_interpolant_7(inside: bool) -> None:
+    assert observed_order("slider_crank_spring", "dop853", 10.0, (4, 60, 24), inside, False) == pytest.approx(8.0, abs=0.4)
+
+
+def test_rk4_has_order_4() -> None:
+    assert observed_order("swing", "rk4", 1.0, (60, 4000, 12), False, True) == pytest.approx(4.0, abs=0.15)
+
+
+def digits(run: Result) -> float:
+    """Of Andrews' seven angles, absolute below one radian and relative above."""
+    names = ("beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon")
+    exact = np.array(KNOWN["andrews_squeezer"]["angles"])
+    errors = np.array([run[name][-1] for name in names]) - exact
+    return float(-np.log10((abs(errors) / (1 + abs(exact))).max()))
+
+
+def test_andrews_in_ten_digits_with_few_right_hand_sides() -> None:
+    run = scene_of("andrews_squeezer").simulate(0.03, output=1, method="dop853", rtol=1e-10)
+    assert digits(run) > 10.0
+    assert run.diagnostics.right_hand_sides <= 1600
+
+
+@pytest.mark.parametrize(("method", "rtol"), [("dop853", 1e-14), ("auto", 1e-14), ("rodas5p", 1e-13)])
+def test_andrews_in_twelve_digits(method: str, rtol: float) -> None:
+    assert digits(scene_of("andrews_squeezer").simulate(0.03, output=1, method=method, rtol=rtol)) > 12.0
+
+
+def test_pendulum_keeps_its_phase_for_two_thousand_seconds() -> None:
+    """From the horizontal: sin(θ/2) = k sn(K − ω t), k = sin 45°, θ from the vertical."""
+    run = scene_of("pendulum").simulate(2000.0, output=[0.0, 1999.5, 2000.0], method="dop853", rtol=1e-14)
+    k2 = 0.5
+    omega = 4.0 * ellipk(k2) / KNOWN["pendulum"]["period"]
+    phase = ellipk(k2) - omega * np.fmod(run.t[1:], KNOWN["pendulum"]["period"])
+    theta = 2.0 * np.arcsin(math.sqrt(k2) * ellipj(phase, k2)[0])
+    assert run["bob.x"][1:] == pytest.approx(np.sin(theta), abs=1e-6)
+    assert run["bob.y"][1:] == pytest.approx(-np.cos(theta), abs=1e-6)
+
+
+@pytest.mark.parametrize("method", ADAPTIVE)
+def test_lubricated_press_reaches_the_golden_figures(method: str) -> None:
+    want = GOLDEN["lubricated"]
+    numbers = {"omega": want["omega"], "c": want["c"], "contacts.oil.transition": want["transition"]}
+    press = scene_of("nine_bar_press", "lubricated")
+    run = press.simulate(output=[0.0, *want["t"]], method=method, rtol=1e-10, parameters=numbers)
+    assert run["S9.y"][1:] == pytest.approx(want["y9"], rel=5e-10)
+    assert run["S9.vy"][1:] == pytest.approx(want["v9"], rel=1e-7)
+    assert run["S9.ay"][1:] == pytest.approx(want["a9"], rel=1e-6)
+    assert run["A.F"][1:] == pytest.approx(want["F_A"], rel=1e-6)
+    assert run["B.F"][1:] == pytest.approx(want["F_B"], rel=1e-6)
+
+
+@pytest.mark.parametrize("method", ADAPTIVE)
+def test_dry_press_reaches_the_golden_first_contacts(method: str) -> None:
+    want = GOLDEN["dry"]
+    numbers = {"omega": want["omega"], "c": want["c"]}
+    press = scene_of("nine_bar_press", "dry")
+    run = press.simulate(want["t_end"], output=9, method=method, rtol=1e-12, parameters=numbers)
+    for joint in ("A", "B"):
+        peak = run.diagnostics.peak(joint)
+        assert peak.first_contact == pytest.approx(want["first_contact"][joint], abs=1e-9)
+        assert peak.first_peak == pytest.approx(want["first_peak"][joint], rel=5e-6)  # that RK4 sees ends of steps
+
+
+ONSETS = json.loads((HERE / "data/press_dry_onsets.json").read_text(encoding="utf-8"))
+
+
+@cache
+def race(method: str, rtol: float) -> Result:
+    numbers: dict[str, Any] = {"l5": 0.25, "gravity.y": 0.0}
+    return scene_of("nine_bar_press", "dry").simulate(0.05, output=1, method=method, rtol=rtol, parameters=numbers)
+
+
+@pytest.mark.parametrize(("method", "rtol"), [("dop853", 1e-13), ("auto", 1e-13), ("rodas5p", 1e-13)])
+def test_every_onset_of_the_dry_press(method: str, rtol: float) -> None:
+    """Against hand-written equations in long double by extrapolation of order 12 (benchmarks/peers)."""
+    run = race(method, rtol)
+    assert ["AB"[j] for j in run.impacts["joint"]] == [joint for joint, _, _ in ONSETS["onsets"]]
+    assert run.impacts["t_on"] == pytest.approx([t for _, t, _ in ONSETS["onsets"]], abs=1e-10)
+    assert run.impacts["deltadot"] == pytest.approx([v for _, _, v in ONSETS["onsets"]], rel=1e-7)
+    assert run["S9.y"][-1] == pytest.approx(ONSETS["S9.y"], abs=1e-11)
+
+
+def test_onsets_converge_with_the_tolerance() -> None:
+    exact = np.array([t for _, t, _ in ONSETS["onsets"]])
+    errors = [abs(race("dop853", rtol).impacts["t_on"] - exact).max() for rtol in (1e-8, 1e-10, 1e-12)]
+    assert errors[1] < 0.1 * errors[0] and errors[2] < 0.1 * errors[1]
+
+
+@pytest.mark.parametrize("method", ADAPTIVE)
+def test_energy_of_the_dry_press(method: str) -> None:
+    """At 1e-8 the balance closes to 1e-5 of what friction and the contacts' hysteresis took."""
+    run = race(method, 1e-8)
+    dissipated = -run.work[-1, 2]
+    assert dissipated > 1e-3
+    assert run.diagnostics.energy_residual < 1e-5 * dissipated
+
+
+def test_constraints_hold_to_rounding() -> None:
+    """100 s of the lubricated press, at every step and at samples between; the longest body has .35 m."""
+    press = scene_of("nine_bar_press", "lubricated")
+    run = press.simulate(100.0, output=1001, rtol=1e-5, parameters=LUBRICATED)
+    assert run.diagnostics.steps > 10_000
+    assert run.diagnostics.phi_max < 1e-15
+    assert run.diagnostics.phi_dot_max < 1e-13
+    for t, q, v in zip(run.t, run.q, run.v, strict=True):
+        assert abs(press.compiled.phi(t, q, run.p)).max() < 1e-15
+        assert abs(press.compiled.phi_q(t, q, run.p) @ v - press.compiled.nu(t, q, run.p)).max() < 1e-13
+
+
+@pytest.mark.parametrize(
+    ("beyond", "rtol", "off"),
+    [(1e-8, 1e-9, 1e-3), (1e-7, 1e-8, 1e-3), (1e-6, 1e-6, 3e-2), (1e-5, 1e-5, 0.2), (1e-5, 1e-9, 1e-4)],
+)
+def test_grazing_contacts_are_not_lost(beyond: float, rtol: float, off: float) -> None:
+    """A puck on a spring turns round just beyond its bearing's clearance, 64 times in 2 s.
+
+    A free flight is one or two steps, so every contact lies within a step. RK4 at 2e-6 s sees them all.
+    """
+    simulation = scene_of("graze", "loose")
+    c, omega = 1e-3, 100.0
+    still = simulation.simulate(1e-6, output=1, method="rk4", step=1e-6).final
+    v = np.array([(c + beyond) * omega, 0.0, 0.0])
+    start = replace(still, t=0.0, q=np.zeros(3), v=v, memory=np.array([np.nan]), state=np.zeros(1, dtype=np.int8))
+    exact = simulation.simulate(2.0, output=100, step=2e-6, start=start)
+    run = simulation.simulate(2.0, output=100, method="dop853", rtol=rtol, start=start)
+    assert run.diagnostics.onsets == exact.diagnostics.onsets >= 64
+    assert run.diagnostics.peaks[0].e_max < c + 1.1 * beyond
+    assert abs(run["puck.x"] - exact["puck.x"]).max() < off * c
+
+
+def test_a_drive_that_jumps_gives_an_impulse() -> None:
+    """A crank starts at full speed: the rod on its tip keeps its angular momentum about the tip."""
+    run = scene_of("jump").simulate(output=[0.0, 0.0999999999, 0.1000000001, 0.11], method="dop853", rtol=1e-12)
+    m, J, half, crank, rate = 0.3, 2e-3, 0.1, 0.1, math.radians(90.0) / 0.3
+    theta = run["L2.theta"][1]
+    jump = run["L2.omega"][2] - run["L2.omega"][1]
+    arm = half * np.array([math.cos(theta), math.sin(theta)])
+    tip = np.array([0.0, crank * rate])  # the crank lies along x
+    com = tip + jump * np.array([-arm[1], arm[0]])
+    assert J * jump + m * (arm[0] * com[1] - arm[1] * com[0]) == pytest.approx(0.0, abs=1e-10)
+    assert run.diagnostics.energy_residual < 1e-11
+
+
+def test_samples_at_an_event_hold_what_follows() -> None:
+    run = scene_of("jump").simulate(output=[0.0, 0.1, 0.2], method="dop853")
+    assert run["L1.omega"][1] == pytest.approx(math.radians(90.0) / 0.3, rel=1e-12)
+
+
+def test_auto_is_explicit_or_stiff_as_the_scene_is() -> None:
+    assert scene_of("andrews_squeezer").simulate(0.03, output=1).diagnostics.method == "dop853"
+    film = scene_of("nine_bar_press", "lubricated").simulate(0.4, output=1, rtol=1e-6, parameters=LUBRICATED)
+    assert film.diagnostics.stiff_steps > 0.9 * film.diagnostics.steps
+    explicit = scene_of("nine_bar_press", "lubricated").simulate(
+        0.4, output=1, rtol=1e-6, parameters=LUBRICATED, method="dop853"
+    )
+    assert explicit.diagnostics.right_hand_sides > 3 * film.diagnostics.right_hand_sides
+    assert abs(explicit.q - film.q).max() < 1e-8
+
+
+def test_tolerances_that_are_none() -> None:
+    for rtol in (0.0, -1e-6, 2.0, math.nan):
+        with pytest.raises(gudgeon.GudgeonError, match="rtol"):
+            scene_of("pendulum").simulate(1.0, rtol=rtol)

@@ -1,0 +1,81 @@
+"""The horizon of a run: infinite where nothing multiplies small differences, early where contacts do."""
+
+from __future__ import annotations
+
+import math
+import shutil
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.diagnostics import Diagnostics
+from gudgeon.plots import Plot, figure
+from gudgeon.predictability import horizon
+from gudgeon.report import compare, tables
+from gudgeon.results import Result
+
+compiled = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+PRESS = "nine_bar_press"
+
+
+@compiled
+def test_smooth_scenes_have_none() -> None:
+    for name, scene, t_end, method in (
+        ("pendulum", None, 5.0, "dop853"), (PRESS, "ideal", 0.1, "kinematic"), (PRESS, "lubricated", 0.005, "dop853"),
+    ):  # fmt: skip
+        run = gudgeon.load(name, scene=scene).simulate(t_end, output=10, method=method, horizon=True)
+        assert run.diagnostics.horizon == math.inf
+    asked_for_nothing = gudgeon.load("pendulum").simulate(0.1, output=2)
+    assert math.isnan(asked_for_nothing.diagnostics.horizon)
+
+
+@compiled
+def test_the_dry_press_is_chaotic() -> None:
+    """Tolerance buys time until rounding is what grows; paths a hundredth of the clearance apart come before."""
+    press = gudgeon.load(PRESS, scene="dry")
+    loose = press.simulate(0.4, output=10, method="dop853", rtol=1e-6, horizon=True)
+    tight = press.simulate(0.4, output=10, method="dop853", rtol=1e-13, horizon=True)
+    contact = loose.diagnostics.peak("A").first_contact
+    assert contact < loose.diagnostics.horizon < tight.diagnostics.horizon
+    assert 0.2 < tight.diagnostics.horizon < 0.4
+    assert contact < horizon(press, tight, apart=0.01) < tight.diagnostics.horizon
+
+
+@compiled
+def test_a_fixed_step_is_compared_with_a_smaller_one() -> None:
+    """RK4 at a step that leaves few of them to a contact: what it finds after the first ones is its own."""
+    run = gudgeon.load(PRESS, scene="dry").simulate(0.1, output=10, method="rk4", step=2e-5, horizon=True)
+    assert 0.006 < run.diagnostics.horizon < 0.08
+
+
+def with_horizon(run: Result, value: float) -> Result:
+    return replace(run, diagnostics=replace(run.diagnostics, horizon=value))
+
+
+def test_it_is_stored_and_shown(make: Callable[..., Result], tmp_path: Path) -> None:
+    run = with_horizon(make(), 0.28)
+    stored = Diagnostics.from_json(run.diagnostics.to_json())
+    assert stored.horizon == 0.28
+    assert Diagnostics.from_json(with_horizon(run, math.inf).diagnostics.to_json()).horizon == math.inf
+    for value, text in ((0.28, "0.28 s"), (math.inf, "to the end"), (math.nan, None)):
+        shown = with_horizon(run, value)
+        table = tables("", [compare(shown, None, ["S9.y"])], 200)[0]
+        names = list(table.columns[0].cells)
+        if text is None:
+            assert "  trusted until" not in names
+        else:
+            assert list(table.columns[1].cells)[names.index("  trusted until")] == text
+
+
+def test_figures_mark_it(make: Callable[..., Result]) -> None:
+    run, ideal = make(), make("ideal")
+    plain, marked = Plot(run).series("S9.y"), Plot(with_horizon(run, 0.28)).series("S9.y")
+    assert len(marked.lines) == len(plain.lines) + 1 and len(marked.patches) == len(plain.patches) + 1
+    assert np.asarray(marked.lines[-1].get_xdata())[0] == 0.28
+    pictures = [figure({"dry": shown}, ideal, ["S9.y"]) for shown in (run, with_horizon(run, 0.28))]
+    spans = [sum(len(ax.patches) for part in picture.subfigs for ax in part.axes) for picture in pictures]
+    assert spans[1] - spans[0] == 4  # three of the motion, one of the force
