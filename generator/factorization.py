@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 DIVISION = 20  # products in the time of one division and what waits for it (measured)
-
+LONG = 8  # divisions in a chain that is long
 Pattern = tuple[frozenset[int], ...]  # neighbours of each node in the graph of the matrix
 NO_PAIRS: Mapping[int, int] = MappingProxyType({})
 FIRST = (-1,)  # a key before all others
@@ -30,8 +30,8 @@ class Elimination:
 
     @property
     def cost(self) -> int:
-        """In products; each division waits for the one before."""
-        return self.products + DIVISION * self.depth
+        """In products; each division waits for the one before, in a long chain other work fills the time."""
+        return self.products + DIVISION * min(self.depth, LONG)
 
 
 def choose_elimination(

@@ -24,7 +24,7 @@ from gudgeon.generator.model import Model
 Affine = Mapping[str, sp.Expr]  # coefficients by coordinate; the constant is under ""
 CONSTANT = ""
 DEPTHS = (None, 5, 3, 2, 1)  # how many bodies a chain may have before it is cut
-SEARCHED = 40  # more coordinates than that: the tree is not improved by exchanges
+SEARCHED = 24  # more coordinates than that: the tree is not improved by exchanges
 # operations: an entry of M with its velocity term, an entry of a closure's row, a product of the elimination
 PAIR, ENTRY, PRODUCT = 14, 4, 2
 PLAIN = 5  # an entry of M with x or y of a body that moves freely

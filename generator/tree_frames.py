@@ -74,7 +74,7 @@ class Motions:
 
     def rate_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
         """The same of Σ column · rate, where the columns themselves move."""
-        by = [c.q for c in self.coordinates.values() if c.acceleration is None] + [self.t]
+        by = [self.coordinates[k].q for k in columns if self.coordinates[k].acceleration is None] + [self.t]
         rate = sp.Add(*(entry * self.coordinates[k].v for k, entry in columns.items()))
         rules = {q: value for q in by if (value := self.symbols.diff(rate, q)) != 0}
         for k, entry in columns.items():
