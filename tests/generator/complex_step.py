@@ -89,7 +89,7 @@ class ComplexStep:
         return (*joint.eccentricity, *joint.eccentricity_rate, joint.first.omega, joint.second.omega, joint.pair.c,
                 joint.pair.R_i, joint.pair.R_j, film, transition, *joint.first.arm, *joint.second.arm)  # fmt: skip
 
-    def __call__(self, t: complex, y: Complex, memory: Sequence[float]) -> Complex:
+    def __call__(self, t: complex, y: Complex, memory: Sequence[float] | np.ndarray) -> Complex:
         """(q̇, q̈, powers), (2n + 3,)."""
         model, n, m = self.model, self.n, len(self.model.rows)
         q, v = np.asarray(y[:n], dtype=complex), np.asarray(y[n : 2 * n], dtype=complex)
@@ -118,7 +118,7 @@ class ComplexStep:
         powers[1] -= sum(force * speed for force, (_, speed) in zip(x[n + m :], sticks, strict=True))
         return np.concatenate([v, x[:n], powers])
 
-    def jacobian(self, t: float, y: np.ndarray, memory: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
+    def jacobian(self, t: float, y: np.ndarray, memory: Sequence[float] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """∂f/∂y by (q, v), (2n + 3, 2n), and ∂f/∂t."""
         columns = []
         for k in range(2 * self.n):
