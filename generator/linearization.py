@@ -94,7 +94,7 @@ class Linearization:
         edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
         given = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
         arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in given[4:])])
-        slopes = self.symbols.unique(f"slopes_{name}")
+        slopes = self.symbols.unique(f"change_{name}")
         build.line(f"double {slopes}[4][6];")
         build.line(f"tangent_{name}({arguments}, &memory->latch[{index}], p, side, g, {slopes});", given[4:])
         inner = [self.tangents.gradient(x) for x in given]

@@ -23,7 +23,7 @@ import sympy as sp
 from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE
 from gudgeon.generator.factorization import choose_elimination
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement
-from gudgeon.generator.kkt import NEARLY_SINGULAR, SINGULAR, is_simple
+from gudgeon.generator.kkt import SINGULAR, is_simple
 from gudgeon.generator.linearization import N_WORK, Linearization, Parts, Place
 from gudgeon.generator.pool import Pool
 from gudgeon.generator.system import System
@@ -244,7 +244,6 @@ class _Factors:
         self.upper: dict[Place, sp.Expr] = {}  # (earlier, later), of U before its rows are divided by D
         self.inverse: dict[int, sp.Expr] = {}
         self._before: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
-        self.share = SINGULAR if newton.system.frictions else NEARLY_SINGULAR
 
     def eliminate(self, k: int, later: Sequence[int]) -> None:
         """Pivot k, its column of L and its row of U."""
@@ -274,7 +273,7 @@ class _Factors:
         if k < newton.n:
             test, size = f"!(fabs({pivot}) > {SINGULAR!r} * fabs({own}))", own
         else:
-            test, size = f"!(fabs({pivot}) > {self.share!r} * fabs({scale}))", scale
+            test, size = f"!(fabs({pivot}) > {SINGULAR!r} * fabs({scale}))", scale
         stick = newton.sticks[k - newton.n - newton.m] if k >= newton.n + newton.m else None
         build.line(f"if ({f'{stick} != 0.0 && ' if stick else ''}{test})", [size])
         build.line(f"    return {k + 1};", [stick] if stick else [])

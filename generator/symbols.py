@@ -34,7 +34,10 @@ _MACRO = re.compile(
     r"|(sa|si|st|sched|math)_\w+"
 )
 # Functions that are called where a parameter of that name is a local; parts of a clearance joint's force.
-_FUNCTION = re.compile(r"(angles|sines|cosines)_\d+|(clearance|tangent)_\w+|side_\d+|(F_along_[nt]|M_[ij])_(dry|film)")
+_FUNCTION = re.compile(
+    r"(angles|sines|cosines)_\d+|(clearance|tangent)_\w+|\w*newton_substitute|side_\d+"
+    r"|(F_along_[nt]|M_[ij])_(dry|film)"
+)
 
 
 @dataclass(frozen=True)

@@ -57,19 +57,20 @@ class ComplexStep:
         self._numbers = {s: sp.Float(x, 17) for s, x in defaults(model).items()} | given
         rows = (*model.Phi, *model.Phi_q, *model.nu, *model.gamma)
         elements = [element.loads.power for element in model.elements.values()]
-        self._rows = self._function(rows)
-        self._forces = self._function([*model.masses, *model.g, sp.Add(*elements), *model.baumgarte])
-        self._joints = [self._function(self._geometry(c)) for c in model.clearances]
+        self._rows = self.function(rows)
+        self._forces = self.function([*model.masses, *model.g, sp.Add(*elements), *model.baumgarte])
+        self._joints = [self.function(self._geometry(c)) for c in model.clearances]
         self._laws: dict[int, Callable[..., Any]] = {}
         self._slips = [
-            self._function([
+            self.function([
                 *(friction.jacobian.get(q, sp.Integer(0)) for q in model.q), friction.gamma, friction.slip.v,
                 friction.slip.speed, friction.slip.kinetic,
             ])
             for friction in model.frictions
         ]  # fmt: skip
 
-    def _function(self, expressions: Iterable[sp.Expr]) -> Callable[..., Complex]:
+    def function(self, expressions: Iterable[sp.Expr]) -> Callable[..., Complex]:
+        """Expressions in the model's symbols as a function of (t, q, v)."""
         state = [self.model.t, list(self.model.q), list(self.model.v)]
         return self._lambda(state, [self.model.symbols.explicit(sp.sympify(e)) for e in expressions])
 
@@ -88,7 +89,7 @@ class ComplexStep:
         return (*joint.eccentricity, *joint.eccentricity_rate, joint.first.omega, joint.second.omega, joint.pair.c,
                 joint.pair.R_i, joint.pair.R_j, film, transition, *joint.first.arm, *joint.second.arm)  # fmt: skip
 
-    def __call__(self, t: complex, y: Complex, memory: Sequence[float]) -> Complex:
+    def __call__(self, t: complex, y: Complex, memory: Sequence[float] | np.ndarray) -> Complex:
         """(q̇, q̈, powers), (2n + 3,)."""
         model, n, m = self.model, self.n, len(self.model.rows)
         q, v = np.asarray(y[:n], dtype=complex), np.asarray(y[n : 2 * n], dtype=complex)
@@ -117,7 +118,7 @@ class ComplexStep:
         powers[1] -= sum(force * speed for force, (_, speed) in zip(x[n + m :], sticks, strict=True))
         return np.concatenate([v, x[:n], powers])
 
-    def jacobian(self, t: float, y: np.ndarray, memory: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
+    def jacobian(self, t: float, y: np.ndarray, memory: Sequence[float] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """∂f/∂y by (q, v), (2n + 3, 2n), and ∂f/∂t."""
         columns = []
         for k in range(2 * self.n):
