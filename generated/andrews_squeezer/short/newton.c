@@ -427,7 +427,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[17] = l_E3_y__BDE_theta_3;
     const double scale_H_x_3 = -l_H_x__AH_theta_3*phi_H_x_AH_theta - l_H_x__BDE_theta_2*u_BDE_theta__H_x -
         l_H_x__HE_theta_3*phi_H_x_HE_theta;
-    if (!(fabs(scale_H_x_3) > 1e-08 * fabs(scale_H_x_3)))
+    if (!(fabs(scale_H_x_3) > 1e-13 * fabs(scale_H_x_3)))
         return 10;
     const double inverse_pivot_H_x_3 = 1.0/scale_H_x_3;
     lin->lu[18] = inverse_pivot_H_x_3;
@@ -448,7 +448,7 @@ static int newton_factor(double eta, Linear *lin)
     const double scale_H_y_3 = -l_H_y__AH_theta_3*phi_H_y_AH_theta - l_H_y__BDE_theta_2*u_BDE_theta__H_y -
         l_H_y__HE_theta_3*phi_H_y_HE_theta;
     const double pivot_H_y = -l_H_y__H_x*u_H_x__H_y + scale_H_y_3;
-    if (!(fabs(pivot_H_y) > 1e-08 * fabs(scale_H_y_3)))
+    if (!(fabs(pivot_H_y) > 1e-13 * fabs(scale_H_y_3)))
         return 11;
     const double inverse_pivot_H_y_3 = 1.0/pivot_H_y;
     lin->lu[25] = inverse_pivot_H_y_3;
@@ -531,7 +531,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[54] = u_FE_theta__E3_y;
     const double scale_G_x_3 = -l_G_x__AG_theta_3*phi_G_x_AG_theta - l_G_x__EG_theta_3*phi_G_x_EG_theta -
         l_G_x__FE_theta_2*u_FE_theta__G_x - l_G_x__OF_theta_2*u_OF_theta__G_x;
-    if (!(fabs(scale_G_x_3) > 1e-08 * fabs(scale_G_x_3)))
+    if (!(fabs(scale_G_x_3) > 1e-13 * fabs(scale_G_x_3)))
         return 8;
     const double inverse_pivot_G_x_3 = 1.0/scale_G_x_3;
     lin->lu[55] = inverse_pivot_G_x_3;
@@ -555,7 +555,7 @@ static int newton_factor(double eta, Linear *lin)
     const double scale_G_y_3 = -l_G_y__AG_theta_3*phi_G_y_AG_theta - l_G_y__EG_theta_3*phi_G_y_EG_theta -
         l_G_y__FE_theta_2*u_FE_theta__G_y - l_G_y__OF_theta_2*u_OF_theta__G_y;
     const double pivot_G_y = -l_G_y__G_x*u_G_x__G_y + scale_G_y_3;
-    if (!(fabs(pivot_G_y) > 1e-08 * fabs(scale_G_y_3)))
+    if (!(fabs(pivot_G_y) > 1e-13 * fabs(scale_G_y_3)))
         return 9;
     const double inverse_pivot_G_y_3 = 1.0/pivot_G_y;
     lin->lu[62] = inverse_pivot_G_y_3;
@@ -575,7 +575,7 @@ static int newton_factor(double eta, Linear *lin)
         l_E3_x__OF_theta_3*phi_G_x_OF_theta;
     const double pivot_E3_x_2 = -l_E3_x__G_x_2*u_G_x__E3_x - l_E3_x__G_y_2*u_G_y__E3_x -
         l_E3_x__H_x_2*u_H_x__E3_x - l_E3_x__H_y_2*u_H_y__E3_x + scale_E3_x_3;
-    if (!(fabs(pivot_E3_x_2) > 1e-08 * fabs(scale_E3_x_3)))
+    if (!(fabs(pivot_E3_x_2) > 1e-13 * fabs(scale_E3_x_3)))
         return 12;
     const double inverse_pivot_E3_x_3 = 1.0/pivot_E3_x_2;
     lin->lu[67] = inverse_pivot_E3_x_3;
@@ -591,7 +591,7 @@ static int newton_factor(double eta, Linear *lin)
         l_E3_y__OF_theta_3*phi_G_y_OF_theta;
     const double pivot_E3_y_2 = -l_E3_y__E3_x*u_E3_x__E3_y - l_E3_y__G_x_2*u_G_x__E3_y -
         l_E3_y__G_y_2*u_G_y__E3_y - l_E3_y__H_x_2*u_H_x__E3_y - l_E3_y__H_y_2*u_H_y__E3_y + scale_E3_y_3;
-    if (!(fabs(pivot_E3_y_2) > 1e-08 * fabs(scale_E3_y_3)))
+    if (!(fabs(pivot_E3_y_2) > 1e-13 * fabs(scale_E3_y_3)))
         return 13;
     const double inverse_pivot_E3_y_3 = 1.0/pivot_E3_y_2;
     lin->lu[70] = inverse_pivot_E3_y_3;

@@ -323,7 +323,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[13] = u_axle_theta__slot_offset;
     const double scale_slot_offset_3 = -l_slot_offset__axle_theta_3*u_axle_theta__slot_offset -
         l_slot_offset__axle_x_3*phi_slot_offset_axle_x - l_slot_offset__axle_y_3*u_axle_y__slot_offset;
-    if (!(fabs(scale_slot_offset_3) > 1e-08 * fabs(scale_slot_offset_3)))
+    if (!(fabs(scale_slot_offset_3) > 1e-13 * fabs(scale_slot_offset_3)))
         return 4;
     const double inverse_pivot_slot_offset_3 = 1.0/scale_slot_offset_3;
     lin->lu[14] = inverse_pivot_slot_offset_3;

@@ -348,7 +348,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[24] = l_B1_y__crank1_theta_3;
     const double scale_B2_x_3 = -l_B2_x__coupler2_theta_3*phi_B2_x_coupler2_theta -
         l_B2_x__crank1_theta_2*u_crank1_theta__B2_x - l_B2_x__crank2_theta_3*phi_B2_x_crank2_theta;
-    if (!(fabs(scale_B2_x_3) > 1e-08 * fabs(scale_B2_x_3)))
+    if (!(fabs(scale_B2_x_3) > 1e-13 * fabs(scale_B2_x_3)))
         return 6;
     const double inverse_pivot_B2_x_3 = 1.0/scale_B2_x_3;
     lin->lu[25] = inverse_pivot_B2_x_3;
@@ -369,7 +369,7 @@ static int newton_factor(double eta, Linear *lin)
     const double scale_B2_y_3 = -l_B2_y__coupler2_theta_3*phi_B2_y_coupler2_theta -
         l_B2_y__crank1_theta_2*u_crank1_theta__B2_y - l_B2_y__crank2_theta_3*phi_B2_y_crank2_theta;
     const double pivot_B2_y = -l_B2_y__B2_x*u_B2_x__B2_y + scale_B2_y_3;
-    if (!(fabs(pivot_B2_y) > 1e-08 * fabs(scale_B2_y_3)))
+    if (!(fabs(pivot_B2_y) > 1e-13 * fabs(scale_B2_y_3)))
         return 7;
     const double inverse_pivot_B2_y_3 = 1.0/pivot_B2_y;
     lin->lu[32] = inverse_pivot_B2_y_3;
@@ -386,7 +386,7 @@ static int newton_factor(double eta, Linear *lin)
     const double scale_B1_x_3 = -l_B1_x__coupler1_theta_3*u_coupler1_theta__B1_x -
         l_B1_x__crank0_theta_3*phi_B1_x_crank0_theta + l_B1_x__crank1_theta_3*phi_B2_x_crank1_theta;
     const double pivot_B1_x_2 = -l_B1_x__B2_x_2*u_B2_x__B1_x - l_B1_x__B2_y_2*u_B2_y__B1_x + scale_B1_x_3;
-    if (!(fabs(pivot_B1_x_2) > 1e-08 * fabs(scale_B1_x_3)))
+    if (!(fabs(pivot_B1_x_2) > 1e-13 * fabs(scale_B1_x_3)))
         return 8;
     const double inverse_pivot_B1_x_3 = 1.0/pivot_B1_x_2;
     lin->lu[37] = inverse_pivot_B1_x_3;
@@ -402,7 +402,7 @@ static int newton_factor(double eta, Linear *lin)
         l_B1_y__crank0_theta_3*phi_B1_y_crank0_theta + l_B1_y__crank1_theta_3*phi_B2_y_crank1_theta;
     const double pivot_B1_y_2 = -l_B1_y__B1_x*u_B1_x__B1_y - l_B1_y__B2_x_2*u_B2_x__B1_y -
         l_B1_y__B2_y_2*u_B2_y__B1_y + scale_B1_y_3;
-    if (!(fabs(pivot_B1_y_2) > 1e-08 * fabs(scale_B1_y_3)))
+    if (!(fabs(pivot_B1_y_2) > 1e-13 * fabs(scale_B1_y_3)))
         return 9;
     const double inverse_pivot_B1_y_3 = 1.0/pivot_B1_y_2;
     lin->lu[40] = inverse_pivot_B1_y_3;

@@ -107,7 +107,7 @@ static void expand(const double t, const double *q, const double *v, const Param
     const double L8_head_vx = L6_head_vx - L8_omega*span_L8_head_y;
     const double L8_head_y = span_L6_head_y + span_L8_head_y;
     const double L8_head_vy = L6_head_vy + L8_omega*span_L8_head_x;
-    const double S9_theta = M_PI_2;
+    const double S9_theta = (0.5)*3.141592653589793;
     const double S9_omega = 0.0;
 
     /* bodies */

@@ -735,8 +735,8 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double e_A_y_2 = L2_tail_y - span_L1_head_y;
     const double edot_A_x_2 = -L1_head_vx + L2_tail_vx;
     const double edot_A_y_2 = -L1_head_vy + L2_tail_vy;
-    double slopes_A[4][6];
-    tangent_A(e_A_x_2, e_A_y_2, edot_A_x_2, edot_A_y_2, crank1_rate, L2_omega, &memory->latch[0], p, side, g, slopes_A);
+    double change_A[4][6];
+    tangent_A(e_A_x_2, e_A_y_2, edot_A_x_2, edot_A_y_2, crank1_rate, L2_omega, &memory->latch[0], p, side, g, change_A);
     const double span_L1_head_x_by_time = -crank1_rate*span_L1_head_y;
     const double span_L1_head_y_by_time = crank1_rate*span_L1_head_x;
     const double L1_head_vx_by_time = -crank1_acceleration*span_L1_head_y - (crank1_rate *
@@ -749,12 +749,12 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double L2_tail_vy_by_L6_theta = -L6_omega*span_L6_head_y;
     const double L2_tail_vy_by_L7_theta = -L7_omega*span_L7_tail_y;
     const double L2_tail_vy_by_L2_theta = -L2_omega*span_L2_tail_y;
-    const double A_Fx_by_e_x = slopes_A[0][0];
-    const double A_Fx_by_e_y = slopes_A[0][1];
-    const double A_Fx_by_de_x = slopes_A[0][2];
-    const double A_Fx_by_de_y = slopes_A[0][3];
-    const double A_Fx_by_omega_i = slopes_A[0][4];
-    const double A_Fx_by_omega_j = slopes_A[0][5];
+    const double A_Fx_by_e_x = change_A[0][0];
+    const double A_Fx_by_e_y = change_A[0][1];
+    const double A_Fx_by_de_x = change_A[0][2];
+    const double A_Fx_by_de_y = change_A[0][3];
+    const double A_Fx_by_omega_i = change_A[0][4];
+    const double A_Fx_by_omega_j = change_A[0][5];
     const double A_Fx_by_L6_theta = A_Fx_by_de_x*L2_tail_vx_by_L6_theta + A_Fx_by_de_y*L2_tail_vy_by_L6_theta
         - A_Fx_by_e_x*span_L6_head_y + A_Fx_by_e_y*span_L6_head_x;
     const double A_Fx_by_L7_theta = A_Fx_by_de_x*L2_tail_vx_by_L7_theta + A_Fx_by_de_y*L2_tail_vy_by_L7_theta
@@ -768,12 +768,12 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double A_Fx_by_L7_omega = -A_Fx_by_de_x*span_L7_tail_y + A_Fx_by_de_y*span_L7_tail_x;
     const double A_Fx_by_L2_omega = -A_Fx_by_de_x*span_L2_tail_y + A_Fx_by_de_y*span_L2_tail_x +
         A_Fx_by_omega_j;
-    const double A_Fy_by_e_x = slopes_A[1][0];
-    const double A_Fy_by_e_y = slopes_A[1][1];
-    const double A_Fy_by_de_x = slopes_A[1][2];
-    const double A_Fy_by_de_y = slopes_A[1][3];
-    const double A_Fy_by_omega_i = slopes_A[1][4];
-    const double A_Fy_by_omega_j = slopes_A[1][5];
+    const double A_Fy_by_e_x = change_A[1][0];
+    const double A_Fy_by_e_y = change_A[1][1];
+    const double A_Fy_by_de_x = change_A[1][2];
+    const double A_Fy_by_de_y = change_A[1][3];
+    const double A_Fy_by_omega_i = change_A[1][4];
+    const double A_Fy_by_omega_j = change_A[1][5];
     const double A_Fy_by_L6_theta = A_Fy_by_de_x*L2_tail_vx_by_L6_theta + A_Fy_by_de_y*L2_tail_vy_by_L6_theta
         - A_Fy_by_e_x*span_L6_head_y + A_Fy_by_e_y*span_L6_head_x;
     const double A_Fy_by_L7_theta = A_Fy_by_de_x*L2_tail_vx_by_L7_theta + A_Fy_by_de_y*L2_tail_vy_by_L7_theta
@@ -787,12 +787,12 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double A_Fy_by_L7_omega = -A_Fy_by_de_x*span_L7_tail_y + A_Fy_by_de_y*span_L7_tail_x;
     const double A_Fy_by_L2_omega = -A_Fy_by_de_x*span_L2_tail_y + A_Fy_by_de_y*span_L2_tail_x +
         A_Fy_by_omega_j;
-    const double A_moment_first_by_e_x = slopes_A[2][0];
-    const double A_moment_first_by_e_y = slopes_A[2][1];
-    const double A_moment_first_by_de_x = slopes_A[2][2];
-    const double A_moment_first_by_de_y = slopes_A[2][3];
-    const double A_moment_first_by_omega_i = slopes_A[2][4];
-    const double A_moment_first_by_omega_j = slopes_A[2][5];
+    const double A_moment_first_by_e_x = change_A[2][0];
+    const double A_moment_first_by_e_y = change_A[2][1];
+    const double A_moment_first_by_de_x = change_A[2][2];
+    const double A_moment_first_by_de_y = change_A[2][3];
+    const double A_moment_first_by_omega_i = change_A[2][4];
+    const double A_moment_first_by_omega_j = change_A[2][5];
     const double A_moment_first_by_L6_theta = A_moment_first_by_de_x*L2_tail_vx_by_L6_theta +
         A_moment_first_by_de_y*L2_tail_vy_by_L6_theta - A_moment_first_by_e_x*span_L6_head_y +
         A_moment_first_by_e_y*span_L6_head_x;
@@ -811,12 +811,12 @@ static void linearize(const double t, const double *q, const double *v, const Me
         A_moment_first_by_de_y*span_L7_tail_x;
     const double A_moment_first_by_L2_omega = -A_moment_first_by_de_x*span_L2_tail_y +
         A_moment_first_by_de_y*span_L2_tail_x + A_moment_first_by_omega_j;
-    const double A_moment_second_by_e_x = slopes_A[3][0];
-    const double A_moment_second_by_e_y = slopes_A[3][1];
-    const double A_moment_second_by_de_x = slopes_A[3][2];
-    const double A_moment_second_by_de_y = slopes_A[3][3];
-    const double A_moment_second_by_omega_i = slopes_A[3][4];
-    const double A_moment_second_by_omega_j = slopes_A[3][5];
+    const double A_moment_second_by_e_x = change_A[3][0];
+    const double A_moment_second_by_e_y = change_A[3][1];
+    const double A_moment_second_by_de_x = change_A[3][2];
+    const double A_moment_second_by_de_y = change_A[3][3];
+    const double A_moment_second_by_omega_i = change_A[3][4];
+    const double A_moment_second_by_omega_j = change_A[3][5];
     const double A_moment_second_by_L6_theta = A_moment_second_by_de_x*L2_tail_vx_by_L6_theta +
         A_moment_second_by_de_y*L2_tail_vy_by_L6_theta - A_moment_second_by_e_x*span_L6_head_y +
         A_moment_second_by_e_y*span_L6_head_x;
@@ -841,8 +841,8 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double e_B_y_2 = L3_tail_y - L4_head_y;
     const double edot_B_x_2 = L3_tail_vx - L4_head_vx;
     const double edot_B_y_2 = L3_tail_vy - L4_head_vy;
-    double slopes_B[4][6];
-    tangent_B(e_B_x_2, e_B_y_2, edot_B_x_2, edot_B_y_2, crank4_rate, L3_omega, &memory->latch[1], p, side, g, slopes_B);
+    double change_B[4][6];
+    tangent_B(e_B_x_2, e_B_y_2, edot_B_x_2, edot_B_y_2, crank4_rate, L3_omega, &memory->latch[1], p, side, g, change_B);
     const double span_L4_head_x_by_time = -crank4_rate*span_L4_head_y;
     const double L4_head_y_by_time = crank4_rate*span_L4_head_x;
     const double L3_tail_vx_by_L6_theta = -L6_omega*span_L6_head_x;
@@ -855,12 +855,12 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double L3_tail_vy_by_L3_theta = -L3_omega*span_L3_tail_y;
     const double L4_head_vy_by_time = crank4_acceleration*span_L4_head_x - (crank4_rate *
         crank4_rate)*span_L4_head_y;
-    const double B_Fx_by_e_x = slopes_B[0][0];
-    const double B_Fx_by_e_y = slopes_B[0][1];
-    const double B_Fx_by_de_x = slopes_B[0][2];
-    const double B_Fx_by_de_y = slopes_B[0][3];
-    const double B_Fx_by_omega_i = slopes_B[0][4];
-    const double B_Fx_by_omega_j = slopes_B[0][5];
+    const double B_Fx_by_e_x = change_B[0][0];
+    const double B_Fx_by_e_y = change_B[0][1];
+    const double B_Fx_by_de_x = change_B[0][2];
+    const double B_Fx_by_de_y = change_B[0][3];
+    const double B_Fx_by_omega_i = change_B[0][4];
+    const double B_Fx_by_omega_j = change_B[0][5];
     const double B_Fx_by_L6_theta = B_Fx_by_de_x*L3_tail_vx_by_L6_theta + B_Fx_by_de_y*L3_tail_vy_by_L6_theta
         - B_Fx_by_e_x*span_L6_head_y + B_Fx_by_e_y*span_L6_head_x;
     const double B_Fx_by_L7_theta = B_Fx_by_de_x*L3_tail_vx_by_L7_theta + B_Fx_by_de_y*L3_tail_vy_by_L7_theta
@@ -874,12 +874,12 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double B_Fx_by_L7_omega = -B_Fx_by_de_x*span_L7_tail_y + B_Fx_by_de_y*span_L7_tail_x;
     const double B_Fx_by_L3_omega = -B_Fx_by_de_x*span_L3_tail_y + B_Fx_by_de_y*span_L3_tail_x +
         B_Fx_by_omega_j;
-    const double B_Fy_by_e_x = slopes_B[1][0];
-    const double B_Fy_by_e_y = slopes_B[1][1];
-    const double B_Fy_by_de_x = slopes_B[1][2];
-    const double B_Fy_by_de_y = slopes_B[1][3];
-    const double B_Fy_by_omega_i = slopes_B[1][4];
-    const double B_Fy_by_omega_j = slopes_B[1][5];
+    const double B_Fy_by_e_x = change_B[1][0];
+    const double B_Fy_by_e_y = change_B[1][1];
+    const double B_Fy_by_de_x = change_B[1][2];
+    const double B_Fy_by_de_y = change_B[1][3];
+    const double B_Fy_by_omega_i = change_B[1][4];
+    const double B_Fy_by_omega_j = change_B[1][5];
     const double B_Fy_by_L6_theta = B_Fy_by_de_x*L3_tail_vx_by_L6_theta + B_Fy_by_de_y*L3_tail_vy_by_L6_theta
         - B_Fy_by_e_x*span_L6_head_y + B_Fy_by_e_y*span_L6_head_x;
     const double B_Fy_by_L7_theta = B_Fy_by_de_x*L3_tail_vx_by_L7_theta + B_Fy_by_de_y*L3_tail_vy_by_L7_theta
@@ -893,12 +893,12 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double B_Fy_by_L7_omega = -B_Fy_by_de_x*span_L7_tail_y + B_Fy_by_de_y*span_L7_tail_x;
     const double B_Fy_by_L3_omega = -B_Fy_by_de_x*span_L3_tail_y + B_Fy_by_de_y*span_L3_tail_x +
         B_Fy_by_omega_j;
-    const double B_moment_first_by_e_x = slopes_B[2][0];
-    const double B_moment_first_by_e_y = slopes_B[2][1];
-    const double B_moment_first_by_de_x = slopes_B[2][2];
-    const double B_moment_first_by_de_y = slopes_B[2][3];
-    const double B_moment_first_by_omega_i = slopes_B[2][4];
-    const double B_moment_first_by_omega_j = slopes_B[2][5];
+    const double B_moment_first_by_e_x = change_B[2][0];
+    const double B_moment_first_by_e_y = change_B[2][1];
+    const double B_moment_first_by_de_x = change_B[2][2];
+    const double B_moment_first_by_de_y = change_B[2][3];
+    const double B_moment_first_by_omega_i = change_B[2][4];
+    const double B_moment_first_by_omega_j = change_B[2][5];
     const double B_moment_first_by_L6_theta = B_moment_first_by_de_x*L3_tail_vx_by_L6_theta +
         B_moment_first_by_de_y*L3_tail_vy_by_L6_theta - B_moment_first_by_e_x*span_L6_head_y +
         B_moment_first_by_e_y*span_L6_head_x;
@@ -917,12 +917,12 @@ static void linearize(const double t, const double *q, const double *v, const Me
         B_moment_first_by_de_y*span_L7_tail_x;
     const double B_moment_first_by_L3_omega = -B_moment_first_by_de_x*span_L3_tail_y +
         B_moment_first_by_de_y*span_L3_tail_x + B_moment_first_by_omega_j;
-    const double B_moment_second_by_e_x = slopes_B[3][0];
-    const double B_moment_second_by_e_y = slopes_B[3][1];
-    const double B_moment_second_by_de_x = slopes_B[3][2];
-    const double B_moment_second_by_de_y = slopes_B[3][3];
-    const double B_moment_second_by_omega_i = slopes_B[3][4];
-    const double B_moment_second_by_omega_j = slopes_B[3][5];
+    const double B_moment_second_by_e_x = change_B[3][0];
+    const double B_moment_second_by_e_y = change_B[3][1];
+    const double B_moment_second_by_de_x = change_B[3][2];
+    const double B_moment_second_by_de_y = change_B[3][3];
+    const double B_moment_second_by_omega_i = change_B[3][4];
+    const double B_moment_second_by_omega_j = change_B[3][5];
     const double B_moment_second_by_L6_theta = B_moment_second_by_de_x*L3_tail_vx_by_L6_theta +
         B_moment_second_by_de_y*L3_tail_vy_by_L6_theta - B_moment_second_by_e_x*span_L6_head_y +
         B_moment_second_by_e_y*span_L6_head_x;
@@ -1289,7 +1289,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[19] = u_L6_theta__guide_offset;
     const double scale_guide_offset_3 = -l_guide_offset__L6_theta_3*u_L6_theta__guide_offset -
         l_guide_offset__L8_theta_3*phi_guide_offset_L8_theta;
-    if (!(fabs(scale_guide_offset_3) > 1e-08 * fabs(scale_guide_offset_3)))
+    if (!(fabs(scale_guide_offset_3) > 1e-13 * fabs(scale_guide_offset_3)))
         return 6;
     const double inverse_pivot_guide_offset_3 = 1.0/scale_guide_offset_3;
     lin->lu[20] = inverse_pivot_guide_offset_3;

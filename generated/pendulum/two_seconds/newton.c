@@ -89,7 +89,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[3] = l_rod_length__bob_y_3;
     const double scale_rod_length_3 = -l_rod_length__bob_x_3*phi_rod_length_bob_x -
         l_rod_length__bob_y_3*phi_rod_length_bob_y;
-    if (!(fabs(scale_rod_length_3) > 1e-08 * fabs(scale_rod_length_3)))
+    if (!(fabs(scale_rod_length_3) > 1e-13 * fabs(scale_rod_length_3)))
         return 4;
     const double inverse_pivot_rod_length_3 = 1.0/scale_rod_length_3;
     lin->lu[4] = inverse_pivot_rod_length_3;

@@ -234,8 +234,8 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double e_wristpin_y_2 = -rod_head_y;
     const double edot_wristpin_x_2 = cylinder_slide_rate - rod_head_vx;
     const double edot_wristpin_y_2 = -rod_head_vy;
-    double slopes_wristpin[4][6];
-    tangent_wristpin(e_wristpin_x_2, e_wristpin_y_2, edot_wristpin_x_2, edot_wristpin_y_2, rod_omega, slider_omega, &memory->latch[0], p, side, g, slopes_wristpin);
+    double change_wristpin[4][6];
+    tangent_wristpin(e_wristpin_x_2, e_wristpin_y_2, edot_wristpin_x_2, edot_wristpin_y_2, rod_omega, slider_omega, &memory->latch[0], p, side, g, change_wristpin);
     const double rod_head_x_2_by_time = -motor_rate*span_crank_head_y;
     const double rod_head_y_by_time = motor_rate*span_crank_head_x;
     const double rod_head_vx_by_rod_theta = -rod_omega*span_rod_head_x;
@@ -244,11 +244,11 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double rod_head_vy_by_rod_theta = -rod_omega*span_rod_head_y;
     const double rod_head_vy_by_time = motor_acceleration*span_crank_head_x - (motor_rate *
         motor_rate)*span_crank_head_y;
-    const double wristpin_Fx_by_e_x = slopes_wristpin[0][0];
-    const double wristpin_Fx_by_e_y = slopes_wristpin[0][1];
-    const double wristpin_Fx_by_de_x = slopes_wristpin[0][2];
-    const double wristpin_Fx_by_de_y = slopes_wristpin[0][3];
-    const double wristpin_Fx_by_omega_i = slopes_wristpin[0][4];
+    const double wristpin_Fx_by_e_x = change_wristpin[0][0];
+    const double wristpin_Fx_by_e_y = change_wristpin[0][1];
+    const double wristpin_Fx_by_de_x = change_wristpin[0][2];
+    const double wristpin_Fx_by_de_y = change_wristpin[0][3];
+    const double wristpin_Fx_by_omega_i = change_wristpin[0][4];
     const double wristpin_Fx_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fx_by_de_x -
         rod_head_vy_by_rod_theta*wristpin_Fx_by_de_y - span_rod_head_x*wristpin_Fx_by_e_y +
         span_rod_head_y*wristpin_Fx_by_e_x;
@@ -257,11 +257,11 @@ static void linearize(const double t, const double *q, const double *v, const Me
         rod_head_y_by_time*wristpin_Fx_by_e_y;
     const double wristpin_Fx_by_rod_omega = -span_rod_head_x*wristpin_Fx_by_de_y +
         span_rod_head_y*wristpin_Fx_by_de_x + wristpin_Fx_by_omega_i;
-    const double wristpin_Fy_by_e_x = slopes_wristpin[1][0];
-    const double wristpin_Fy_by_e_y = slopes_wristpin[1][1];
-    const double wristpin_Fy_by_de_x = slopes_wristpin[1][2];
-    const double wristpin_Fy_by_de_y = slopes_wristpin[1][3];
-    const double wristpin_Fy_by_omega_i = slopes_wristpin[1][4];
+    const double wristpin_Fy_by_e_x = change_wristpin[1][0];
+    const double wristpin_Fy_by_e_y = change_wristpin[1][1];
+    const double wristpin_Fy_by_de_x = change_wristpin[1][2];
+    const double wristpin_Fy_by_de_y = change_wristpin[1][3];
+    const double wristpin_Fy_by_omega_i = change_wristpin[1][4];
     const double wristpin_Fy_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fy_by_de_x -
         rod_head_vy_by_rod_theta*wristpin_Fy_by_de_y - span_rod_head_x*wristpin_Fy_by_e_y +
         span_rod_head_y*wristpin_Fy_by_e_x;
@@ -270,11 +270,11 @@ static void linearize(const double t, const double *q, const double *v, const Me
         rod_head_y_by_time*wristpin_Fy_by_e_y;
     const double wristpin_Fy_by_rod_omega = -span_rod_head_x*wristpin_Fy_by_de_y +
         span_rod_head_y*wristpin_Fy_by_de_x + wristpin_Fy_by_omega_i;
-    const double wristpin_moment_first_by_e_x = slopes_wristpin[2][0];
-    const double wristpin_moment_first_by_e_y = slopes_wristpin[2][1];
-    const double wristpin_moment_first_by_de_x = slopes_wristpin[2][2];
-    const double wristpin_moment_first_by_de_y = slopes_wristpin[2][3];
-    const double wristpin_moment_first_by_omega_i = slopes_wristpin[2][4];
+    const double wristpin_moment_first_by_e_x = change_wristpin[2][0];
+    const double wristpin_moment_first_by_e_y = change_wristpin[2][1];
+    const double wristpin_moment_first_by_de_x = change_wristpin[2][2];
+    const double wristpin_moment_first_by_de_y = change_wristpin[2][3];
+    const double wristpin_moment_first_by_omega_i = change_wristpin[2][4];
     const double wristpin_moment_first_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_moment_first_by_de_x
         - rod_head_vy_by_rod_theta*wristpin_moment_first_by_de_y -
         span_rod_head_x*wristpin_moment_first_by_e_y + span_rod_head_y*wristpin_moment_first_by_e_x;
@@ -283,11 +283,11 @@ static void linearize(const double t, const double *q, const double *v, const Me
         - rod_head_y_by_time*wristpin_moment_first_by_e_y;
     const double wristpin_moment_first_by_rod_omega = -span_rod_head_x*wristpin_moment_first_by_de_y +
         span_rod_head_y*wristpin_moment_first_by_de_x + wristpin_moment_first_by_omega_i;
-    const double wristpin_moment_second_by_e_x = slopes_wristpin[3][0];
-    const double wristpin_moment_second_by_e_y = slopes_wristpin[3][1];
-    const double wristpin_moment_second_by_de_x = slopes_wristpin[3][2];
-    const double wristpin_moment_second_by_de_y = slopes_wristpin[3][3];
-    const double wristpin_moment_second_by_omega_i = slopes_wristpin[3][4];
+    const double wristpin_moment_second_by_e_x = change_wristpin[3][0];
+    const double wristpin_moment_second_by_e_y = change_wristpin[3][1];
+    const double wristpin_moment_second_by_de_x = change_wristpin[3][2];
+    const double wristpin_moment_second_by_de_y = change_wristpin[3][3];
+    const double wristpin_moment_second_by_omega_i = change_wristpin[3][4];
     const double wristpin_moment_second_by_rod_theta =
         -rod_head_vx_by_rod_theta*wristpin_moment_second_by_de_x -
         rod_head_vy_by_rod_theta*wristpin_moment_second_by_de_y -

@@ -252,7 +252,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[6] = u_rod_theta__slider_offset;
     const double scale_slider_offset_3 = -l_slider_offset__crank_theta_3*phi_slider_offset_crank_theta -
         l_slider_offset__rod_theta_3*u_rod_theta__slider_offset;
-    if (!(fabs(scale_slider_offset_3) > 1e-08 * fabs(scale_slider_offset_3)))
+    if (!(fabs(scale_slider_offset_3) > 1e-13 * fabs(scale_slider_offset_3)))
         return 3;
     const double inverse_pivot_slider_offset_3 = 1.0/scale_slider_offset_3;
     lin->lu[7] = inverse_pivot_slider_offset_3;
