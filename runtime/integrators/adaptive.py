@@ -20,7 +20,7 @@ import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import SolverError
-from gudgeon.integrators.session import EVENTS_FULL, Session
+from gudgeon.integrators.session import ENDED, EVENTS_FULL, RunEnded, Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.start import mechanism_size
 
@@ -45,6 +45,8 @@ def run(problem: Problem) -> Trajectory:
     try:
         while session.done < len(problem.t):
             _chunk(session)
+    except RunEnded:
+        pass
     except KeyboardInterrupt:
         interrupted = True
     except SolverError as error:
@@ -64,6 +66,9 @@ def _chunk(session: Session) -> None:
     t = session.report()[0]
     if status == EVENTS_FULL:
         session.fetch_impacts(last=False)
+        session.fetch_events()
+    elif status == ENDED:
+        session.end()
     elif status:
         session.fail(status, t, "the motion may leave what the model holds for; look at the last samples")
     if problem.progress:

@@ -119,7 +119,6 @@ def test_commands_tell_of_events(folder: Path, tmp_path: Path, monkeypatch: pyte
 SWING = "\nevents:\n  below: {zero: bob.x}\n  third: {zero: t - 2.75, action: stop}\n"
 
 
-@pytest.mark.xfail(reason="the methods that step do not look for events yet", strict=True)
 @pytest.mark.parametrize(
     ("method", "step", "rtol"), [("rk4", 1e-3, None), ("dop853", None, 1e-12), ("rodas5p", None, 1e-10)]
 )

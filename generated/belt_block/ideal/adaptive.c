@@ -73,8 +73,12 @@ static int change(Run *run, int event, const Parameters *p)
         run->y[2 * N_X] += kinetic_energy(run->t, run->y, p) - before;
     }
     int status = settle_sides(run, corner >= 0 && corner < N_SWITCHES ? corner : -1, p);
-    if (!status && event >= N_CLEARANCES + N_SWITCHES)
+    const int friction = corner - N_SWITCHES, watched = friction - N_FRICTIONS;
+    if (!status && friction >= 0 && watched < 0)
         status = switch_friction(run, p);
+    if (!status && watched >= 0 && event_crosses(watched, &run->memory.event_side[watched], run->aside.event[watched])
+        && note_event(run, watched, run->t))
+        status = ENDED;
     return status;
 }
 
@@ -114,6 +118,9 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         if (run->memory.latch[i].closed && run->aside.clearance[i].deltadot <= 0.0)
             run->compressing[i] = 0;
     status = watch(run, p);
+    for (int i = 0; i < N_USER_EVENTS; i++) /* begun on a zero: wherever it went */
+        if (run->memory.event_side[i] == 0)
+            event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
     if (!status && event >= 0)
         status = run->stuck > MAX_STUCK ? CHATTERING : change(run, event, p);
     return status ? status : check_contacts(run, p);
@@ -264,7 +271,7 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         }
         if (*done == n || i == limit)
             return 0;
-        if (run->n_impacts > 0 && run->n_impacts > N_IMPACTS - 1)
+        if (lists_full(run))
             return EVENTS_FULL;
         Step *step = &run->step;
         status = accepted_step(run, t_end, p, step);

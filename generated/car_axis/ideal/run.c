@@ -4,7 +4,7 @@
  */
 enum {
     N_IMPACTS = 256, MAX_PARTS = 50,
-    NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6
+    NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7
 };
 
 typedef struct {
@@ -14,7 +14,7 @@ typedef struct {
 
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
 enum {
-    N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS, /* what may end a step, in this order */
+    N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
     N_STAGES = 16, N_DENSE = 7
 };
 
@@ -39,6 +39,8 @@ typedef struct {
     int compressing[1];  /* from onset until the penetration first stops growing */
     double F_peak[1], t_peak[1], e_max[1];
     Impact impacts[N_IMPACTS];
+    double event_t[N_IMPACTS];
+    int event[N_IMPACTS], n_events, stop; /* user events found; whether they may end the run */
     int n_impacts, ready;
     long steps, evaluations, onsets, grazes, ratio_outside, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max;
@@ -175,6 +177,22 @@ static int begin_friction(Run *run, const Parameters *p)
     return 0;
 }
 
+/* User event i at time t; whether it ends the run. */
+static int note_event(Run *run, int i, double t)
+{
+    if (run->n_events < N_IMPACTS) {
+        run->event_t[run->n_events] = t;
+        run->event[run->n_events++] = i;
+    }
+    return run->stop && event_stops[i];
+}
+
+/* Whether the next step may find more than the lists hold. */
+static int lists_full(const Run *run)
+{
+    return run->n_impacts > N_IMPACTS - 1 || run->n_events > N_IMPACTS - 1;
+}
+
 /* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
 static int begin(Run *run, const Parameters *p)
 {
@@ -184,6 +202,8 @@ static int begin(Run *run, const Parameters *p)
         status = begin_friction(run, p);
     if (!status && update_latches(run, run->t, 0.0, run->aside.clearance, run->aside.clearance, touched, p))
         status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
     run->ready = 1;
     return status ? status : watch(run, p);
 }
@@ -227,6 +247,21 @@ void gudgeon_run_sample(const void *memory, const double *p, double *y, double *
 {
     const Run *run = memory;
     store_sample(run, run->t, run->y, (const Parameters *)p, 0, y, latched, state);
+}
+
+void gudgeon_run_stop(void *memory, int stop) { ((Run *)memory)->stop = stop; }
+
+/* Fetches and empties the list of user events. */
+int gudgeon_run_events(void *memory, double *t, int *event)
+{
+    Run *run = memory;
+    const int n = run->n_events;
+    for (int i = 0; i < n; i++) {
+        t[i] = run->event_t[i];
+        event[i] = run->event[i];
+    }
+    run->n_events = 0;
+    return n;
 }
 
 /* Fetches and empties the list of impacts: 5 numbers each, and the joint; with `last` the open ones too. */

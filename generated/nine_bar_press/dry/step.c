@@ -10,7 +10,10 @@ static double margin(const Memory *memory, const Aside *aside, int k)
     k -= N_CLEARANCES;
     if (k < N_SWITCHES)
         return memory->side[k] * aside->g[k];
-    return indicator(memory, aside, k - N_SWITCHES);
+    k -= N_SWITCHES;
+    if (k < N_FRICTIONS)
+        return indicator(memory, aside, k);
+    return memory->event_side[k - N_FRICTIONS] * aside->event[k - N_FRICTIONS];
 }
 
 static void forget_stages(Step *step)

@@ -20,6 +20,8 @@ static void read_memory(const double *sample, Memory *memory)
     }
     for (int i = 0; i < N_FRICTIONS; i++)
         memory->mode[i] = sample[N_CLEARANCES + i];
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        memory->event_side[i] = 0;
     memory->held = 0;
 }
 

@@ -61,6 +61,8 @@ void gudgeon_run_codes(void *memory, const signed char *state);
 int gudgeon_run_steps(void *memory, const double *parameters, double t0, double t1, long total, long first, long count,
     long *taken);
 void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state);
+void gudgeon_run_stop(void *memory, int stop);
+int gudgeon_run_events(void *memory, double *t, int *event);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
 void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double h, double fixed);
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
@@ -170,7 +172,7 @@ def _counts(model: Model, integrated: Integrated) -> dict[str, int]:
         "n_x": len(system.q),
         "n_loops": len(system.rows),
         "n_memory": len(model.clearances) + len(model.frictions),
-        "n_margins": len(model.clearances) + switches + len(model.frictions),
+        "n_margins": len(model.clearances) + switches + len(model.frictions) + len(model.events),
         "n_events": len(model.events),
         "n_series": len(interface.element_series(model)),
     }
