@@ -62,8 +62,8 @@ class Kernel:
 
 def count_operations(expression: sp.Expr) -> int:
     """SymPy's count, with a negation counted as nothing: it is folded into an addition."""
-    count = sp.count_ops(expression, visual=True)
-    return int(count.subs({sp.Symbol("NEG"): 0}).replace(lambda e: e.is_Symbol, lambda e: sp.Integer(1)))
+    counts = sp.sympify(sp.count_ops(expression, visual=True)).as_coefficients_dict()
+    return sum(int(count) for kind, count in counts.items() if kind.is_Symbol and kind.name != "NEG")
 
 
 def hold_sides(switches: Switches, owner: str, sections: Iterable[Section]) -> list[Section]:

@@ -8,7 +8,7 @@ leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2�
 
     u_w = η (r_w + P_q u_q + P_v u_v + P_λ μ + s P_t),   μ the multipliers' own change.
 
-At η = 0 the matrix is the KKT matrix. It is factorized as L D U without pivoting in an order chosen on its
+At η = 0 the matrix is the KKT matrix. It is factorized as L U without pivoting in an order chosen on its
 symmetric pattern, a row only after the coordinates in it. E. Hairer, G. Wanner, Solving Ordinary Differential
 Equations II, Springer (1996), IV.8 and VII.
 """
@@ -236,12 +236,12 @@ class Newton:
 
 
 class _Factors:
-    """L, U and 1/D as they come, column by column."""
+    """L, U and inverse pivots as they come, column by column."""
 
     def __init__(self, newton: Newton, build: KernelBuilder, entries: Mapping[Place, sp.Expr]) -> None:
         self.newton, self.build, self.entries = newton, build, entries
         self.lower: dict[Place, sp.Expr] = {}  # (later, earlier)
-        self.upper: dict[Place, sp.Expr] = {}  # (earlier, later), of U before its rows are divided by D
+        self.upper: dict[Place, sp.Expr] = {}  # (earlier, later)
         self.inverse: dict[int, sp.Expr] = {}
         self._before: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
 
@@ -261,7 +261,7 @@ class _Factors:
         return sp.Add(*(self.lower[i, j] * self.upper[j, k] for j in shared))
 
     def _pivot(self, k: int) -> sp.Expr:
-        """1/D; what is left of a diagonal is compared with what elimination took of it by coordinates."""
+        """1/pivot; what is left of a row is compared with what it would be if it were independent of the others."""
         newton, build, name = self.newton, self.build, self.newton.names[k]
         own = self.entries.get((k, k), ZERO)
         if not self._before[k] and own in newton.model.masses:

@@ -122,6 +122,12 @@ class Tangents:
 
 def partial(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
     """∂/∂by of smooth pieces; x^n gives n x^(n−1), not n x^n/x, which is 0/0 at 0."""
+    if expression.is_Add:
+        return sp.Add(*(partial(term, by) for term in expression.args if by in term.free_symbols))
+    if expression.is_Mul and by in expression.args:  # most terms are linear: SymPy's own way is slower
+        rest = [factor for factor in expression.args if factor != by]
+        if not any(by in factor.free_symbols for factor in rest):
+            return sp.Mul(*rest)
     derivative = sp.diff(expression, by)
     if any(power.exp.free_symbols and power.base.has(by) for power in expression.atoms(sp.Pow)):
         derivative = sp.powsimp(derivative, combine="exp")
