@@ -105,7 +105,7 @@ static double lowest(Run *run, const Step *step, int k, const Parameters *p, dou
             s = i * width;
         }
     }
-    for (; width > 1e-6 && best >= 0.0; width *= 0.5) { /* of the parabola through three points */
+    for (; width > 1e-6 && best >= 0.0 && s - width >= 0.0 && s + width <= 1.0; width *= 0.5) { /* of the parabola through three points */
         const double left = margin_at(run, step, s - width, k, p), right = margin_at(run, step, s + width, k, p);
         const double bend = left - 2.0 * best + right;
         const double top = bend > 0.0 ? s + 0.5 * width * (left - right) / bend : s;

@@ -64,7 +64,7 @@ static double kinetic_energy(double t, const double *y, const Parameters *p)
 static int change(Run *run, int event, const Parameters *p)
 {
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
-        if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < 0.0))
+        if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < -SHALLOW))
             cross(run, k, p);
     const int corner = event - N_CLEARANCES;
     if (corner >= 0 && corner < N_SWITCHES) { /* a drive whose rate jumps moves the linkage by an impulse */
