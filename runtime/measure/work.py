@@ -1,8 +1,9 @@
-"""What is run again and again, with which steps, and how two runs are compared."""
+"""What is run again and again, with which method and step or tolerance, and how two runs are compared."""
 
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -12,6 +13,7 @@ import numpy as np
 from gudgeon.compiled import Array
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.trajectory import Progress
+from gudgeon.measure.words import seconds
 from gudgeon.parameters import prepare
 from gudgeon.results import Result
 from gudgeon.simulation import Simulation
@@ -23,6 +25,7 @@ Parameters: TypeAlias = Mapping[str, float | str]  # as in `simulate`
 ONSETS = 4  # contacts that a window holds: after more of them dry motion is chaotic
 PILOTS = 6  # the first pilot run is 2^-6 of the longest window
 SAMPLES = 100  # at least so many in a window
+FIXED = ("rk4", "kinematic")  # methods that are given a step
 REPEATS, ENOUGH = 7, 0.6  # a timed run is repeated until it took so many seconds
 
 
@@ -34,15 +37,42 @@ class Error:
     path: float = NAN  # of a journal's centre, by the clearance
     force: float = NAN  # of a joint's force, or of its peak over all steps, by the peak force
 
+    @property
+    def largest(self) -> float:
+        """Of the three, those that there are."""
+        return max((x for x in (self.motion, self.path, self.force) if not math.isnan(x)), default=NAN)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A method with what it is asked for: a step (s) of rk4 and kinematic, else the tolerance of a step."""
+
+    method: str
+    value: float  # the step (s) or the tolerance
+
+    @property
+    def fixed(self) -> bool:
+        """Whether the value is a step."""
+        return self.method in FIXED
+
+    def finer(self, factor: float) -> Setting:
+        """The same method, its step or tolerance divided; as few digits, so that it is found again."""
+        return Setting(self.method, float(f"{self.value / factor:.6g}"))
+
+    def __str__(self) -> str:
+        return seconds(self.value) if self.fixed else f"{self.value:.0e}".replace("e-0", "e-")
+
 
 @dataclass(frozen=True)
 class Attempt:
     """One run: its result, as far as it came, and what stopped it ("" if nothing did)."""
 
-    step: float  # s, that was asked for
+    setting: Setting
     run: Result | None
     failure: str = ""
     failed_at: float = NAN  # s
+    outside: bool = False  # stopped because the model does not hold there, and said so
+    cpu: float = NAN  # s of this thread's own time, samples included
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,23 +83,24 @@ class Work:
     t_end: float
     parameters: Parameters = field(default_factory=dict)
     why: str = ""  # this window
+    limit: float = math.inf  # s of processor time that a run may take
 
     @property
     def spacing(self) -> float:
         """A power of ten, so that steps 1, 2, 5 · 10^k fit into it, or are multiples of it."""
         return 10.0 ** math.floor(math.log10(self.t_end / SAMPLES) + 1e-9)
 
-    def run(self, step: float, progress: Progress | None = None) -> Attempt:
+    def run(self, setting: Setting, progress: Progress | None = None) -> Attempt:
         """Sampled for comparison."""
-        stride = max(1, math.floor(step / self.spacing * (1 + 1e-9)))
+        stride = max(1, math.floor(setting.value / self.spacing * (1 + 1e-9))) if setting.fixed else 1
         count = max(1, math.floor(self.t_end / (stride * self.spacing) * (1 + 1e-9)))
-        return self.sampled(step, np.arange(count + 1, dtype=np.float64) * (stride * self.spacing), progress)
+        return self.sampled(setting, np.arange(count + 1, dtype=np.float64) * (stride * self.spacing), progress)
 
-    def seconds(self, step: float, output: int = 1, progress: Progress | None = None) -> float:
+    def seconds(self, setting: Setting, output: int = 1, progress: Progress | None = None) -> float:
         """Wall time of the integration (s), the least of several runs that store as little as possible."""
         best, spent = math.inf, 0.0
         for _ in range(REPEATS):
-            attempt = self.sampled(step, np.linspace(0.0, self.t_end, output + 1), progress)
+            attempt = self.sampled(setting, np.linspace(0.0, self.t_end, output + 1), progress)
             if attempt.run is None or attempt.failure:
                 return NAN
             best = min(best, attempt.run.diagnostics.seconds)
@@ -78,22 +109,51 @@ class Work:
                 break
         return best
 
-    def sampled(self, step: float, times: Array, progress: Progress | None = None) -> Attempt:
+    def sampled(self, setting: Setting, times: Array, progress: Progress | None = None) -> Attempt:
         """Sampled at these times (s)."""
-        return attempt(self.simulation, times, step, self.parameters, progress)
+        return attempt(self.simulation, times, setting, self.parameters, progress, self.limit)
+
+
+class _TooSlowError(Exception):
+    """A run took more processor time than it may."""
 
 
 def attempt(
-    simulation: Simulation, times: Array, step: float, parameters: Parameters, progress: Progress | None = None
-) -> Attempt:
-    """A run that may fail. Ctrl-C is passed on, unlike in `simulate`: half a comparison is none."""
+    simulation: Simulation, times: Array, setting: Setting, parameters: Parameters, progress: Progress | None = None,
+    limit: float = math.inf,
+) -> Attempt:  # fmt: skip
+    """A run that may fail, or be stopped after `limit` seconds of processor time.
+
+    Ctrl-C is passed on, unlike in `simulate`: half a comparison is none.
+    """
+    before = time.thread_time()
+    reached = 0.0
+
+    def watch(fraction: float, text: str) -> None:
+        nonlocal reached
+        reached = fraction
+        if time.thread_time() - before > limit:
+            raise _TooSlowError
+        if progress:
+            progress(fraction, text)
+
+    chosen: dict[str, Any] = {"rtol": setting.value}
+    if setting.fixed:
+        chosen = {} if setting.method == "kinematic" else {"step": setting.value}
     try:
-        run = simulation.simulate(output=times, step=step, parameters=parameters, progress=progress)
+        run = simulation.simulate(
+            output=times, method=setting.method, parameters=parameters, progress=watch, **chosen
+        )
+    except _TooSlowError:
+        told, at = f"more than {limit:.3g} s of processor time", float(times[0] + reached * (times[-1] - times[0]))
+        return Attempt(setting, None, told, at, cpu=limit)
     except SolverError as error:
-        return Attempt(step, error.partial, str(error).partition("\n")[0], error.time)
+        outside = bool(getattr(error, "outside_model", False))
+        first = str(error).partition("\n")[0]
+        return Attempt(setting, error.partial, first, error.time, outside, time.thread_time() - before)
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
-    return Attempt(step, run)
+    return Attempt(setting, run, cpu=time.thread_time() - before)
 
 
 def round_numbers(low: float, high: float) -> tuple[float, ...]:
@@ -109,7 +169,9 @@ def natural_step(simulation: Simulation, parameters: Parameters | None = None) -
     return scene_step(simulation.compiled, p, scene_end(simulation.source))
 
 
-def window(simulation: Simulation, longest: float, step: float, parameters: Parameters | None = None) -> Work:
+def window(
+    simulation: Simulation, longest: float, setting: Setting, parameters: Parameters | None = None
+) -> Work:
     """The work over the first few contacts, or over `longest` (s) where there are not so many.
 
     Two runs of a scene with dry contacts differ by any amount once an error has gone through many
@@ -120,7 +182,7 @@ def window(simulation: Simulation, longest: float, step: float, parameters: Para
     longest = min(longest, scene_end(simulation.source))
     for halvings in range(PILOTS, -1, -1) if simulation.source.clearances else ():
         span = longest / 2**halvings
-        pilot = attempt(simulation, np.linspace(0.0, span, 3), step, parameters)
+        pilot = attempt(simulation, np.linspace(0.0, span, 3), setting, parameters)
         onsets = np.zeros(0) if pilot.run is None else np.sort(pilot.run.impacts["t_on"])
         if len(onsets) > ONSETS:
             end = float(onsets[ONSETS - 1] + onsets[ONSETS]) / 2
