@@ -9,15 +9,16 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from gudgeon.compiled import Array
 from gudgeon.errors import BadValueError
+from gudgeon.integrators.trajectory import Progress
 from gudgeon.measure.cells import Cell, Limits, Pair, judge
-from gudgeon.measure.work import ONSETS, Attempt, Setting, Work
+from gudgeon.measure.work import ONSETS, Attempt, Parameters, Setting, Work
 from gudgeon.simulation import Simulation
 
 FINER = 100.0
@@ -66,12 +67,12 @@ def _point(ranges: Sequence[Range], shares: Sequence[float]) -> dict[str, float]
 
 
 def judge_point(
-    simulation: Simulation, parameters: Mapping[str, float], t_end: float, setting: Setting,
-    limits: Limits | None = None, limit: float = math.inf,
+    simulation: Simulation, parameters: Parameters, t_end: float, setting: Setting, limits: Limits | None = None,
+    limit: float = math.inf, progress: Progress | None = None,
 ) -> Cell:  # fmt: skip
     """One point of a box over [0, t_end] (s); `limit` (s) of processor time for its long run."""
     work = Work(simulation, t_end, parameters, limit=limit)
-    long = work.sampled(setting, np.linspace(0.0, t_end, DENSE + 1))
+    long = work.sampled(setting, np.linspace(0.0, t_end, DENSE + 1), progress)
     fails = bool(long.failure) or long.run is None
     return judge(parameters, long, [] if fails else [_pair(work, long)], limits)
 

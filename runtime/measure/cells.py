@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import partial
@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from gudgeon.measure.words import rough_share, seconds, share
-from gudgeon.measure.work import NAN, Attempt, Error, Setting, difference, size
+from gudgeon.measure.work import NAN, Attempt, Error, Parameters, Setting, difference, size
 from gudgeon.plot_units import quantity
 from gudgeon.results import Result
 
@@ -44,8 +44,8 @@ class Limits:
     thin: float = 0.01  # δ over the bearing radius: the same
 
 
-# Of methods that project and control their error: what they promise, not what a fixed step can do. The largest
-# error is that of a run at 1e-8 against one at 1e-10 over the first contacts.
+# Of methods that project and control their error: what they promise, not what a fixed step can do. Errors are
+# those against a hundred times tighter tolerance over the first contacts.
 STRICT = Limits(closed=1e-10, energy=1e-4, motion=1e-6, path=1e-3, force=1e-2)
 
 
@@ -59,7 +59,7 @@ class Cell:
     """One run: a method with its step or tolerance, and the parameters that are not the file's."""
 
     setting: Setting
-    parameters: Mapping[str, float]  # what to give to `simulate` to see the same
+    parameters: Parameters  # what to give to `simulate` to see the same
     status: Status
     reason: str  # for people, "" where there is nothing to say
     label: str  # the same in a few characters, for the map
@@ -74,9 +74,7 @@ class Cell:
         return self.status in (Status.INACCURATE, Status.DIVERGED)
 
 
-def judge(
-    parameters: Mapping[str, float], long: Attempt, pairs: Sequence[Pair], limits: Limits | None = None
-) -> Cell:
+def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: Limits | None = None) -> Cell:
     """`long`: the run over the long window. `pairs`: a run with the same setting, and one with a finer."""
     limits = limits or limits_of(long.setting)
     cell = partial(Cell, long.setting, parameters, seconds=long.cpu)

@@ -26,7 +26,7 @@ ONSETS = 4  # contacts that a window holds: after more of them dry motion is cha
 PILOTS = 6  # the first pilot run is 2^-6 of the longest window
 SAMPLES = 100  # at least so many in a window
 FIXED = ("rk4", "kinematic")  # methods that are given a step
-REPEATS, ENOUGH = 7, 0.6  # a timed run is repeated until it took so many seconds
+REPEATS, ENOUGH = 25, 0.5  # a timed run is repeated until it took so many seconds
 
 
 @dataclass(frozen=True)
@@ -141,9 +141,7 @@ def attempt(
     if setting.fixed:
         chosen = {} if setting.method == "kinematic" else {"step": setting.value}
     try:
-        run = simulation.simulate(
-            output=times, method=setting.method, parameters=parameters, progress=watch, **chosen
-        )
+        run = simulation.simulate(output=times, method=setting.method, parameters=parameters, progress=watch, **chosen)
     except _TooSlowError:
         told, at = f"more than {limit:.3g} s of processor time", float(times[0] + reached * (times[-1] - times[0]))
         return Attempt(setting, None, told, at, cpu=limit)
@@ -169,9 +167,7 @@ def natural_step(simulation: Simulation, parameters: Parameters | None = None) -
     return scene_step(simulation.compiled, p, scene_end(simulation.source))
 
 
-def window(
-    simulation: Simulation, longest: float, setting: Setting, parameters: Parameters | None = None
-) -> Work:
+def window(simulation: Simulation, longest: float, setting: Setting, parameters: Parameters | None = None) -> Work:
     """The work over the first few contacts, or over `longest` (s) where there are not so many.
 
     Two runs of a scene with dry contacts differ by any amount once an error has gone through many
