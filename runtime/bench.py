@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,6 +27,7 @@ REFERENCES = (Setting("dop853", 1e-13), Setting("rodas5p", 1e-12))
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 12))
 ADAPTIVE = ("dop853", "rodas5p", "auto")
 KINEMATIC = (10, 100, 1_000, 10_000)  # samples of a scene without a degree of freedom
+QUICK = 0.02  # s of timed runs
 TRUSTED = 20  # times the references' difference: smaller errors are not resolved
 SMALL = 1e-3  # the largest error that tells an order
 STRAIGHT = math.log(2.5)  # the deviation from a line that still tells one
@@ -110,8 +111,8 @@ def bench(
     """Measure one scene. `steps` (s) of rk4 default to 1, 2, 5 · 10^k around the step of a plain run.
 
     `tolerances` of the other methods default to 1e-3 … 1e-11. `t_end` (s) defaults to the first few contacts
-    or, without contact, to as many of the shortest steps as are affordable. `quick` takes fewer of both and
-    a tenth of the window.
+    or, without contact, to as many of the shortest steps as are affordable. `quick` takes fewer of both, a
+    tenth of the window and shorter measurements.
     """
     parameters = dict(parameters or {})
     if simulation.source.degrees_of_freedom == 0:
@@ -124,6 +125,7 @@ def bench(
     longest = max(REFERENCE_STEPS * steps[-1] / (10 if quick else 1), 2 * steps[0])
     pilot = Setting("rk4", usual)
     work = Work(simulation, t_end, parameters) if t_end else measured.window(simulation, longest, pilot, parameters)
+    work = replace(work, enough=QUICK if quick else work.enough)
     settings = [Setting("rk4", step) for step in steps]
     fitting = [m for m in ADAPTIVE if set(ADAPTIVE[:2]) <= set(simulation.source.methods)]
     settings += [Setting(method, tolerance) for method in fitting for tolerance in tolerances]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -26,7 +26,7 @@ ONSETS = 4  # contacts that a window holds: after more of them dry motion is cha
 PILOTS = 6  # the first pilot run is 2^-6 of the longest window
 SAMPLES = 100  # at least so many in a window
 FIXED = ("rk4", "kinematic")  # methods that are given a step
-REPEATS, ENOUGH = 25, 0.5  # a timed run is repeated until it took so many seconds
+REPEATS, ENOUGH = 25, 0.5  # a timed run is repeated so often, or until it took so many seconds
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,10 @@ class Error:
     def largest(self) -> float:
         """Of the three, those that there are."""
         return max((x for x in (self.motion, self.path, self.force) if not math.isnan(x)), default=NAN)
+
+    def beyond(self, motion: float, path: float, force: float) -> bool:
+        """Whether any of them is larger than that."""
+        return self.motion > motion or self.path > path or self.force > force
 
 
 @dataclass(frozen=True)
@@ -84,6 +88,7 @@ class Work:
     parameters: Parameters = field(default_factory=dict)
     why: str = ""  # this window
     limit: float = math.inf  # s of processor time that a run may take
+    enough: float = ENOUGH  # s, see above
 
     @property
     def spacing(self) -> float:
@@ -105,7 +110,7 @@ class Work:
                 return NAN
             best = min(best, attempt.run.diagnostics.seconds)
             spent += attempt.run.diagnostics.seconds
-            if spent > ENOUGH:
+            if spent > self.enough:
                 break
         return best
 
@@ -192,35 +197,41 @@ def difference(run: Result, reference: Result) -> Error:
     """`reference` is sampled as often as `run`, or a whole number of times as often."""
     if len(run.t) < 2 or len(reference.t) < 2:
         return Error()
+    motion, path, force = apart(run, reference)
+    highest = _peak(reference)
+    largest = float(force.max()) if highest > 0 else NAN
+    if abs(run.t[-1] - reference.t[-1]) < 0.5 * (run.t[1] - run.t[0]):  # the same window: peaks between samples too
+        for a, b in zip(run.diagnostics.peaks, reference.diagnostics.peaks, strict=True):
+            largest = max(largest, abs(a.F - b.F) / highest) if highest > 0 else largest
+    return Error(float(motion.max()), float(path.max()) if run.source.clearances else NAN, largest)
+
+
+def apart(run: Result, reference: Result) -> tuple[Array, Array, Array]:
+    """What `Error` has, of the worst coordinate and joint, at every common sample; zero where there is none."""
     stride = round((run.t[1] - run.t[0]) / (reference.t[1] - reference.t[0]))
     count = min(len(run.t), (len(reference.t) - 1) // stride + 1)
     ours, theirs = slice(0, count), slice(0, (count - 1) * stride + 1, stride)
-    source = run.source
+    source, highest = run.source, _peak(reference)
     scale = np.array([1.0 if name.endswith(".theta") else size(reference) for name in source.coordinates])
-    joints = [joint.name for joint in source.clearances or source.joints]
-    vector = {
-        name: _distance([run[f"{name}.F{axis}"][ours] - reference[f"{name}.F{axis}"][theirs] for axis in "xy"])
-        for name in joints
-    }
-    peak = max((float(np.abs(reference[f"{name}.F"]).max()) for name in joints), default=0.0)
-    for a, b in zip(run.diagnostics.peaks, reference.diagnostics.peaks, strict=True):
-        peak = max(peak, b.F)
-        if count == len(run.t) and count * stride == len(reference.t) + stride - 1:  # the same window
-            vector[a.joint] = max(vector[a.joint], abs(a.F - b.F))
-    paths = [
-        _distance([run[f"{j.name}.e{axis}"][ours] - reference[f"{j.name}.e{axis}"][theirs] for axis in "xy"])
-        / float(reference.p[j.clearance])
-        for j in source.clearances
-    ]
-    return Error(
-        float(np.abs((run.q[ours] - reference.q[theirs]) / scale).max()),
-        max(paths, default=NAN),
-        max(vector.values()) / peak if vector and peak > 0 else NAN,
-    )
+    motion: Array = np.abs((run.q[ours] - reference.q[theirs]) / scale).max(axis=1)
+    path, force = np.zeros(count), np.zeros(count)
+    for joint in source.clearances or source.joints:
+        force = np.maximum(force, _distance(run, reference, f"{joint.name}.F", ours, theirs))
+    for clearance in source.clearances:
+        gap = _distance(run, reference, f"{clearance.name}.e", ours, theirs)
+        path = np.maximum(path, gap / float(reference.p[clearance.clearance]))
+    return motion, path, force / highest if highest > 0 else np.zeros(count)
 
 
-def _distance(parts: Iterable[Any]) -> float:
-    return float(np.hypot(*parts).max())
+def _distance(run: Result, reference: Result, name: str, ours: slice, theirs: slice) -> Array:
+    return np.hypot(*(run[f"{name}{axis}"][ours] - reference[f"{name}{axis}"][theirs] for axis in "xy"))
+
+
+def _peak(run: Result) -> float:
+    """The largest force of a joint, samples and steps."""
+    joints = run.source.clearances or run.source.joints
+    samples = max((float(np.abs(run[f"{joint.name}.F"]).max()) for joint in joints), default=0.0)
+    return max([samples, *(peak.F for peak in run.diagnostics.peaks)])
 
 
 def size(run: Result) -> float:
