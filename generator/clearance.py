@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from gudgeon.generator.elements import PointLoad
 from gudgeon.generator.forces.law import RESULTS, VARIABLES, Law, LawInputs, PairSymbols, laws
 from gudgeon.generator.geometry import Geometry, PointFrame
 from gudgeon.generator.mechanism import Bearing, Joint, LawUse, Play
@@ -52,14 +53,9 @@ class Clearance:
         (vx_i, vy_i), (vx_j, vy_j) = self.first.velocity, self.second.velocity
         return vx_j - vx_i, vy_j - vy_i
 
-    def add_to(self, forces: list[sp.Expr], F: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> None:
-        """Adds F on the journal, -F on the bearing, and both moments to the forces of the bodies (three a body)."""
-        for point, sign, moment in ((self.first, -1, moments[0]), (self.second, 1, moments[1])):
-            if point.body is not None:
-                k = point.body.index
-                forces[k] += sign * F[0]
-                forces[k + 1] += sign * F[1]
-                forces[k + 2] += sign * (point.arm[0] * F[1] - point.arm[1] * F[0]) + moment
+    def on_points(self, F: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> list[PointLoad]:
+        """F on the journal, −F on the bearing, and both moments."""
+        return [PointLoad(self.first, -F[0], -F[1], moments[0]), PointLoad(self.second, F[0], F[1], moments[1])]
 
     def power(self, F: Sequence[sp.Expr], edot: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> sp.Expr:
         """F · ė + M_i ω_i + M_j ω_j (W)."""

@@ -10,7 +10,7 @@ import sympy as sp
 from gudgeon.generator.geometry import BodySymbols, Geometry, PointFrame
 from gudgeon.generator.joint_fields import JointFields
 from gudgeon.generator.joints.joint_type import joint_types
-from gudgeon.generator.mechanism import GROUND, Drive, Joint
+from gudgeon.generator.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbolic import quantity_to_sympy
 
 
@@ -40,7 +40,7 @@ class Constraints:
     def joint_rows(self, joint: Joint) -> list[Row]:
         """The rows of a joint, named "<joint>.<row>"."""
         kind = joint_types()[joint.kind]
-        first, second = self.geometry.point(joint.first), self.geometry.point(joint.second)
+        first, second = self._point(joint.first), self._point(joint.second)
         expressions = kind.rows(first, second, JointFields(joint, self.geometry))
         named = zip(kind.row_names, kind.row_units, expressions, strict=True)
         others = [joint.options[field.name] for field in kind.fields if field.kind == "body"]  # a gear's carrier
@@ -53,13 +53,20 @@ class Constraints:
     def drive_rows(self, drive: Drive) -> list[Row]:
         """What the drive prescribes, less f(t): one row, named as the drive."""
         measured, bodies, unit = self._measured(drive)
-        phi = measured - self._drive_value(drive)
+        phi = measured - self.drive_value(drive)
         return [self._row(drive.name, drive.name, "drive", unit, phi, bodies)]
+
+    def _point(self, ref: PointRef) -> PointFrame:
+        return self.geometry.point(ref)
+
+    def _pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
+        """Coordinates and velocities that the bodies move with."""
+        return [(q, v) for body in bodies for q, v in zip(body.q, body.v, strict=True)]
 
     def _measured(self, drive: Drive) -> tuple[sp.Expr, list[BodySymbols], str]:
         """The driven quantity with the bodies that it depends on."""
         if drive.kind == "distance":
-            first, second = (self.geometry.point(ref) for ref in drive.points)
+            first, second = (self._point(ref) for ref in drive.points)
             return self._distance(drive.name, first, second), self._bodies(first, second), "m"
         bodies = [self.geometry.bodies[name] for name in (drive.body, drive.reference) if name]
         if drive.kind == "coordinate" and drive.coordinate != "theta":
@@ -79,15 +86,19 @@ class Constraints:
         u_x, u_y = (define(f"{name}_along_{axis}", value / length, "", "its direction")
                     for axis, value in zip("xy", (x, y), strict=True))  # fmt: skip
         rules[length], rules[u_x], rules[u_y] = {}, {}, {}
-        for q in [q for body in self._bodies(first, second) for q in body.q]:
+        for q in [*(q for q, _ in self._pairs(self._bodies(first, second))), self.t]:
             dx, dy = (self.symbols.diff(value, q) for value in span)
+            if dx == dy == 0:
+                continue
             rules[length][q] = u_x * dx + u_y * dy
             turn = (u_x * dy - u_y * dx) / length
             rules[u_x][q], rules[u_y][q] = -u_y * turn, u_x * turn
         return length
 
-    def _drive_value(self, drive: Drive) -> sp.Symbol:
+    def drive_value(self, drive: Drive) -> sp.Symbol:
         """f(t), f′ and f″ as symbols that know that they are each other's derivatives."""
+        if drive.name in self.drive_angles:
+            return self.drive_angles[drive.name][0]
         slots, define = self.geometry.slots, self.symbols.define
 
         def symbol_of(path: str) -> sp.Symbol:
@@ -107,7 +118,7 @@ class Constraints:
 
     def _row(self, name: str, owner: str, kind: str, unit: str, phi: sp.Expr, bodies: list[BodySymbols]) -> Row:
         diff, t = self.symbols.diff, self.t
-        pairs = [(q, v) for body in bodies for q, v in zip(body.q, body.v, strict=True)]
+        pairs = self._pairs(bodies)
         phi_q = {q: entry for q, _ in pairs if (entry := sp.expand(diff(phi, q))) != 0}
         phi_q_v = sum((phi_q[q] * v for q, v in pairs if q in phi_q), sp.Integer(0))
         phi_t = diff(phi, t)

@@ -21,6 +21,7 @@ from gudgeon.generator.model import Model
 from gudgeon.generator.tangents import Tangent, Tangents
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
+DEPTH = sp.Symbol("depth", real=True)  # what the normal law is given for δ
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _ARGUMENTS = (
     *(Argument("double", symbol.name) for symbol in INPUTS), Argument("const Latch *", "latch"), PARAMETERS, *SIDES,
@@ -37,7 +38,7 @@ class _Slopes:
             f"Joint {clearance.name}, {part}: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t,",
             "omega_i, omega_j (forward differentiation of the same steps).",
         ])  # fmt: skip
-        self.tangents = Tangents(model.symbols, self.build, INPUTS, clearance.name)
+        self.tangents = Tangents(model.symbols, self.build, INPUTS, clearance.name, share_powers=True)
 
     def section(self, title: str) -> None:
         self.build.section(title)
@@ -45,7 +46,7 @@ class _Slopes:
     def step(self, step: Step) -> None:
         """symbol = value of contact.py, and its tangent."""
         value = in_place(self.model, step.value)
-        held = self.tangents.held(value)
+        held = self.tangents.shared(self.tangents.held(value))
         self.build.line_statement(Statement(step.symbol.name, held))
         self.tangents.know(step.symbol, self.tangents.gradient(value, step.symbol))
 
@@ -55,7 +56,7 @@ class _Slopes:
         results = {}
         for name, equation in equations.steps.items():
             symbol, value = sp.Symbol(name, real=True), sp.sympify(equation)
-            self.build.line_statement(Statement(name, inner.held(value)))
+            self.build.line_statement(Statement(name, inner.shared(inner.held(value))))
             inner.know(symbol, inner.gradient(value, symbol))
             if name in RESULTS[equations.law.role]:
                 results[name] = symbol
@@ -96,8 +97,8 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     build, tangents = slopes.build, slopes.tangents
     slopes.section("penetration, ratio of velocities, slip")
     slopes.step(contact.gap(clearance)[3])
-    depth = build.local("depth", "max_of(delta, 0.0)")
-    tangents.know(depth, {contact.e: build.local("depth_by_e", "delta > 0.0 ? 1.0 : 0.0")})
+    build.line_statement(Statement(DEPTH.name, "max_of(delta, 0.0)"))
+    tangents.know(DEPTH, {contact.e: build.local("depth_by_e", "delta > 0.0 ? 1.0 : 0.0")})
     ratio = UNCLIPPED if clearance.clip_ratio else contact.ratio
     build.line_statement(Statement(ratio.name, "latch->closed ? deltadot / latch->deltadot_minus : 1.0"))
     slope = build.local("ratio_by_deltadot", "latch->closed ? 1.0 / latch->deltadot_minus : 0.0")
@@ -105,7 +106,7 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     for step in contact.before_dry(clearance):
         slopes.step(unlatched(step))
     slopes.section(f"contact of joint {clearance.name}")
-    F_n = slopes.law(normal, (depth, contact.ratio))["F_n"]
+    F_n = slopes.law(normal, (DEPTH, contact.ratio))["F_n"]
     tangential = contact.of_part(contact.F_along_t, "dry")
     if clearance.friction is not None:
         force = slopes.law(clearance.friction, (F_n, contact.v_t))["F_t"]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import sympy as sp
 
 from gudgeon.generator.clearance import Clearance
+from gudgeon.generator.elements import PointLoad
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR
 from gudgeon.generator.model import BAUMGARTE, Model
@@ -23,26 +25,37 @@ HELD_SIDES = Section("corners: the sides that are held, if any", (
 ))  # fmt: skip
 
 
-def dynamics_kernel(system: System, kkt: KKT) -> Kernel:
-    """q̈ and λ at a state, clearance forces included."""
+_DOC = (
+    "Accelerations a (n) and multipliers in `aside` at a state:",
+    "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
+    "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
+)
+# What solves the system where a pivot vanishes: statements by the coordinates' forces and the rows' right-hand sides.
+Rescue = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
+
+
+def dynamics_kernel(
+    system: System, kkt: KKT, name: str = "dynamics", doc: Sequence[str] = _DOC, stabilised: bool = True,
+    rescue: Rescue | None = None,
+) -> Kernel:  # fmt: skip
+    """q̈ and λ at a state, clearance forces included.
+
+    Without stabilisation the rows are γ alone and Φ, Φ̇ are not computed: for methods that project.
+    """
     model = system.model
-    build = KernelBuilder(model.symbols, "dynamics", [
-        "Accelerations a (n) and multipliers in `aside` at a state:",
-        "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
-        "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
-    ])  # fmt: skip
+    build = KernelBuilder(model.symbols, name, doc)
     if kkt.rows and not model.frictions:
         build.section("status")
         build.line("int pivot = 0;")
-    forces = gravity(model)
-    for element in model.elements.values():
-        element.add_to(forces)
+    _events(model, build)
+    loads = [load for element in model.elements.values() for load in element.on_points()]
     for index, clearance in enumerate(model.clearances):
-        _clearance_call(model, build, index, clearance, forces)
-    forces = system.generalized(forces)
+        loads += _clearance_call(build, index, clearance)
+    acting, on_given = system.generalized(loads)
+    forces = [own + load for own, load in zip(system.applied, acting, strict=True)]
     slips = _slips(model, build, kkt, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
-    b.update(_constraint_rhs(model, build, kkt))
+    b.update(_constraint_rhs(model, build, kkt, stabilised))
     b.update(slips)
     # where friction may stick, a vanishing pivot is told, not mended: rows come and go there
     if model.frictions:
@@ -57,8 +70,8 @@ def dynamics_kernel(system: System, kkt: KKT) -> Kernel:
         build.out(f"aside->lambda[{r}]", x[kkt.n + r])
     _friction_forces(build, kkt, x)
     if kkt.rows and not model.frictions:
-        _dependent_rows(build, kkt, b)
-    _powers(model, build, kkt)
+        (rescue or _dependent_rows)(build, kkt, b)
+    _powers(build, kkt, on_given)
     build.line("return pivot;" if kkt.rows and not model.frictions else "return 0;")
     arguments = (*STATE, MEMORY, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
     kernel = build.build(arguments, "int", owner="")
@@ -70,22 +83,16 @@ def dynamics_kernel(system: System, kkt: KKT) -> Kernel:
     return replace(kernel, sections=(held, *kernel.sections))
 
 
-def gravity(model: Model) -> list[sp.Expr]:
-    """Generalized forces before clearances: weight, as slots of `prepare`."""
-    derive = model.slots.derive
-    forces: list[sp.Expr] = []
-    for body in model.bodies:
-        for axis, component in zip("xy", model.gravity, strict=True):
-            weight = body.mass * component
-            forces.append(ZERO if weight == 0 else derive(f"weight_{body.name}_{axis}", weight, "weight"))
-        forces.append(ZERO)
-    return forces
+def _events(model: Model, build: KernelBuilder) -> None:
+    """What the user watches: known at every state, also where a pivot vanishes."""
+    if model.events:
+        build.section("events")
+    for index, event in enumerate(model.events):
+        build.out(f"aside->event[{index}]", event.expression, event.name)
 
 
-def _clearance_call(
-    model: Model, build: KernelBuilder, index: int, clearance: Clearance, forces: list[sp.Expr]
-) -> None:
-    """Calls the joint's force function and spreads its result over both bodies."""
+def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
+    """Calls the joint's force function; its result acts on both bodies."""
     name, out = clearance.name, f"aside->clearance[{index}]"
     build.section(f"clearance joint {name}")
     e = [build.local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)]
@@ -100,12 +107,17 @@ def _clearance_call(
         ZERO if point.body is None else build.local(f"M_{name}_{which}", f"{out}.moment_{which}")
         for point, which in ((clearance.first, "first"), (clearance.second, "second"))
     ]
-    clearance.add_to(forces, F, moments)
     build.out(f"{out}.power", clearance.power(F, edot, moments))
+    return clearance.on_points(F, moments)
 
 
-def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT) -> dict[int, sp.Expr]:
+def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bool) -> dict[int, sp.Expr]:
     """γ − 2αΦ̇ − β²Φ a row; the residuals are kept in `aside` for the diagnostics."""
+    if not stabilised:
+        if kkt.rows:
+            build.section("constraints: gamma")
+        named = (build.local(f"rhs_{row.name.replace('.', '_')}", row.gamma) for row in kkt.rows)
+        return {kkt.n + r: rhs for r, rhs in enumerate(named)}
     alpha, beta = model.baumgarte
     two_alpha = model.slots.derive("two_alpha", 2 * alpha, "2 alpha")
     beta_squared = model.slots.derive("beta_squared", beta**2, "beta^2")
@@ -159,7 +171,7 @@ def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> N
         build.out(f"    aside->friction[{r}].force", -x[kkt.first_friction + r], f"stick of {friction.name}")
 
 
-def _dependent_rows(build: KernelBuilder, kkt: KKT, b: dict[int, sp.Expr]) -> None:
+def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     """The way out when a pivot vanishes (templates/c/singular.c.jinja)."""
     build.line("goto powers;")
     build.section("a pivot vanished: rows depend on each other here")
@@ -174,10 +186,17 @@ def _dependent_rows(build: KernelBuilder, kkt: KKT, b: dict[int, sp.Expr]) -> No
     build.line("powers:")
 
 
-def _powers(model: Model, build: KernelBuilder, kkt: KKT) -> None:
-    """Power of the drives, −λᵀν, of the force elements that store nothing, of the clearance forces (W)."""
+def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> None:
+    """Power of the drives, of the force elements that store nothing, of the clearance forces (W).
+
+    A drive does −λᵀν, and what inertia and loads need at a coordinate that it prescribes.
+    """
+    model = kkt.system.model
     multipliers = {r: sp.Symbol(f"aside->lambda[{r}]") for r, row in enumerate(kkt.rows) if row.nu != 0}
     drives = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
+    for given in kkt.system.given:
+        needed = sp.Add(*(m * sp.Symbol(f"a[{k}]") for k, m in given.mass.items())) - given.applied
+        drives += given.rate * (needed - on_given.get(given.name, ZERO))
     clearances = " + ".join(f"aside->clearance[{i}].power" for i in range(len(model.clearances)))
     build.out("aside->power[0]", drives)
     rubs = [f"aside->friction[{r}]" for r in range(len(kkt.frictions))]

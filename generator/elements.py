@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import sympy as sp
 
@@ -12,6 +13,15 @@ from gudgeon.generator.joint_fields import ElementFields
 from gudgeon.generator.mechanism import ForceElement
 
 
+class PointLoad(NamedTuple):
+    """A force (ground axes) at a point, and a moment, on the point's body."""
+
+    point: PointFrame
+    x: sp.Expr
+    y: sp.Expr
+    moment: sp.Expr
+
+
 @dataclass(frozen=True)
 class AppliedElement:
     """An element with its targets' frames and its equations."""
@@ -19,6 +29,11 @@ class AppliedElement:
     element: ForceElement
     targets: tuple[PointFrame, ...]
     loads: Loads
+
+    def on_points(self) -> list[PointLoad]:
+        """Its loads with the points at which they act."""
+        loads = self.loads.loads
+        return [PointLoad(self.targets[load.target], load.x, load.y, load.moment) for load in loads]
 
     def add_to(self, forces: list[sp.Expr]) -> None:
         """Adds to the generalized forces (n): F at the centre of mass, moment arm × F + M."""

@@ -6,13 +6,12 @@ second body along u, so its generalized force is Jᵀ f: −Jᵀ λ in stick, �
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
 
 from gudgeon.generator.force_elements.element_type import Slip
-from gudgeon.generator.geometry import Geometry
 from gudgeon.generator.symbols import Symbols
 
 
@@ -26,9 +25,10 @@ class Friction:
     gamma: sp.Expr
 
 
-def make_friction(name: str, slip: Slip, geometry: Geometry, t: sp.Symbol, symbols: Symbols) -> Friction:
-    """J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t."""
-    pairs = [(q, v) for body in geometry.bodies.values() for q, v in zip(body.q, body.v, strict=True)]
-    jacobian = {q: entry for q, v in pairs if slip.v.has(v) and (entry := sp.expand(sp.diff(slip.v, v))) != 0}
+def make_friction(
+    name: str, slip: Slip, pairs: Sequence[tuple[sp.Symbol, sp.Symbol]], t: sp.Symbol, symbols: Symbols
+) -> Friction:
+    """J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t; `pairs` are coordinates with their velocities."""
+    jacobian = {q: entry for q, v in pairs if (entry := sp.expand(symbols.diff(slip.v, v))) != 0}
     gamma = -sum((symbols.diff(slip.v, q) * v for q, v in pairs), sp.Integer(0)) - symbols.diff(slip.v, t)
     return Friction(name, slip, jacobian, sp.expand(gamma))

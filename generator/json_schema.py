@@ -19,6 +19,7 @@ from gudgeon.generator.names import IDENTIFIER
 from gudgeon.generator.names import MAX_LENGTH as LONGEST_NAME
 from gudgeon.generator.read_contacts import ROLES
 from gudgeon.generator.read_drives import DRIVES
+from gudgeon.generator.read_events import ACTIONS, DIRECTIONS
 from gudgeon.generator.read_fields import Field
 from gudgeon.generator.read_start import COORDINATES, RATES
 from gudgeon.generator.schema import FORMAT, ContactShape, FileShape, Shape, inner
@@ -43,6 +44,8 @@ _WORDS = {  # fields of the shapes whose text is no number
     "bearing_material": {"$ref": "#/$defs/name"},
     "journal_material": {"$ref": "#/$defs/name"},
     "clip_ratio": _FLAG,
+    "direction": {"enum": list(DIRECTIONS)},
+    "action": {"enum": list(ACTIONS)},
 }  # fmt: skip
 
 

@@ -62,8 +62,8 @@ class Kernel:
 
 def count_operations(expression: sp.Expr) -> int:
     """SymPy's count, with a negation counted as nothing: it is folded into an addition."""
-    count = sp.count_ops(expression, visual=True)
-    return int(count.subs({sp.Symbol("NEG"): 0}).replace(lambda e: e.is_Symbol, lambda e: sp.Integer(1)))
+    counts = sp.sympify(sp.count_ops(expression, visual=True)).as_coefficients_dict()
+    return sum(int(count) for kind, count in counts.items() if kind.is_Symbol and kind.name != "NEG")
 
 
 def hold_sides(switches: Switches, owner: str, sections: Iterable[Section]) -> list[Section]:
@@ -182,3 +182,24 @@ class KernelBuilder:
                 waiting.extend(definitions[symbol].free_symbols)
         ordered = [symbol for symbol in info if symbol in seen]
         return [s for s in ordered if not info[s].home], [s for s in ordered if info[s].home]
+
+
+def without_unused(kernel: Kernel) -> Kernel:
+    """The kernel without locals that nothing reads, such as pivots of coordinates that no row touches."""
+    used: set[str] = set()
+    sections: list[Section] = []
+    for section in reversed(kernel.sections):
+        kept: list[Statement | str] = []
+        for statement in reversed(section.statements):
+            if isinstance(statement, str):
+                used |= set(re.findall(r"\w+", statement))
+            elif statement.local and statement.target not in used:
+                continue
+            elif isinstance(statement.value, str):
+                used |= set(re.findall(r"\w+", statement.value))
+            else:
+                used |= {symbol.name for symbol in statement.value.free_symbols}
+            kept.append(statement)
+        if kept:
+            sections.append(Section(section.title, tuple(reversed(kept))))
+    return replace(kernel, sections=tuple(reversed(sections)))

@@ -8,8 +8,9 @@ independent of the others.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import sympy as sp
 
@@ -18,26 +19,40 @@ from gudgeon.generator.factorization import Elimination, choose_elimination
 from gudgeon.generator.kernels import KernelBuilder
 from gudgeon.generator.system import System
 
+ZERO = sp.Integer(0)
+Entries = dict[tuple[int, int], sp.Expr]
+
 # A row counts as dependent when less than this share of its pivot is left after elimination: the
 # share is the squared sine of the angle between the row and the others, rounding leaves some 1e-15.
 SINGULAR = 1e-13
 # Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
 # The rank-revealing way (templates/c/singular.c.jinja) leaves it out for the moment if the others agree.
 NEARLY_SINGULAR = 1e-8
+# The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
+# and the other way to solve is exact.
+EARLY = 1e-5
 
 
 @dataclass(frozen=True)
 class Factor:
-    """L by (row node, column node), 1/D by node: numbers, symbols, or negatives of symbols."""
+    """L by (row node, column node), D⁻¹ by nodes: numbers, symbols, or negatives of symbols.
+
+    D has blocks of one and of two nodes: two that follow each other and couple need one division, not one
+    after the other.
+    """
 
     L: Mapping[tuple[int, int], sp.Expr]
-    inverse: Mapping[int, sp.Expr]
+    inverse: Mapping[int, Mapping[int, sp.Expr]]
 
 
 class KKT:
     """Emits factorization and solution of a scene's KKT system; nodes are coordinates, then rows."""
 
-    def __init__(self, system: System, rows: Sequence[Row] | None = None) -> None:
+    def __init__(self, system: System, rows: Sequence[Row] | None = None, daring: bool = False) -> None:
+        """`daring`: the pairs of rows of a joint may be eliminated early; where links stand in one line such a
+
+        pivot vanishes although the system is regular: what `failed` does in `factorize` must then solve it.
+        """
         self.system, self.n = system, len(system.q)
         self.rows = system.rows if rows is None else tuple(rows)
         self.frictions, self.first_friction = system.frictions if rows is None else (), self.n + len(self.rows)
@@ -49,34 +64,108 @@ class KKT:
         for r, c in self.entry:
             near[r].add(c)
             near[c].add(r)
-        self.elimination: Elimination = choose_elimination(tuple(map(frozenset, near)), self.n, self.first_friction)
+        pattern = tuple(map(frozenset, near))
+        pairs = self._row_pairs(pattern) if daring else {}
+        self.elimination: Elimination = choose_elimination(pattern, self.n, self.first_friction, pairs)
         names = [row.name for row in self.rows] + [friction.name for friction in self.frictions]
         self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in names]
+        self.blocks = self._blocks()
         self.sticks: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
         self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
+
+    def _row_pairs(self, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
+        """Two rows of a joint in the same coordinates, of which there are more than two."""
+        pairs: dict[int, int] = {}
+        for r, (row, other) in enumerate(pairwise(self.rows), self.n):
+            if row.owner == other.owner and r not in pairs and pattern[r] == pattern[r + 1] and len(pattern[r]) > 2:
+                pairs |= {r: r + 1, r + 1: r}
+        return pairs
+
+    def _blocks(self) -> list[list[int]]:
+        """Pivots that follow each other, both changed by elimination and coupled, two by two."""
+        order, structure = self.elimination.order, self.elimination.structure
+        changed = {i for column in structure.values() for i in column}
+        blocks: list[list[int]] = []
+        for k in order:
+            last = blocks[-1] if blocks else []
+            alike = len(last) == 1 and (last[0] < self.n) == (k < self.n) and {last[0], k} <= changed
+            if alike and k < self.first_friction and structure[last[0]] == (k, *structure[k]):
+                last.append(k)
+            else:
+                blocks.append([k])
+        return blocks
 
     def factorize(self, build: KernelBuilder, failed: str = "return {}", share: float = SINGULAR) -> Factor:
         """Statements for L and 1/D; `failed` is what a pivot below its `share` does, its number, from 1, for {}."""
         build.section("L D L^T of the KKT matrix")
-        L: dict[tuple[int, int], sp.Expr] = {}
-        W: dict[tuple[int, int], sp.Expr] = {}  # entries before the division by their pivot
-        inverse: dict[int, sp.Expr] = {}
+        L: Entries = {}
+        W: Entries = {}  # entries before the division by their pivot
+        inverse: dict[int, dict[int, sp.Expr]] = {}
         earlier: dict[int, list[int]] = {k: [] for k in self.elimination.order}  # columns with an entry in row k
         count = 0
-        for k in self.elimination.order:
-            if k < self.n:
-                inverse[k] = self._coordinate_pivot(build, k, earlier[k], L, W)
-            else:
-                count += 1
-                inverse[k] = self._row_pivot(build, k, earlier[k], L, W, failed.format(count), share)
-            for i in self.elimination.structure[k]:
-                shared = [j for j in earlier[k] if (i, j) in L]
-                value = self.entry.get((i, k), self.entry.get((k, i), sp.Integer(0)))
-                value -= sum((L[i, j] * W[k, j] for j in shared), sp.Integer(0))
-                W[i, k] = self._named(build, f"w_{self.names[i]}__{self.names[k]}", value)
-                L[i, k] = self._named(build, f"l_{self.names[i]}__{self.names[k]}", W[i, k] * inverse[k])
-                earlier[i].append(k)
+        for block in self.blocks:
+            inverse |= self._pivots(build, block, earlier, (L, W), (failed, count), share)
+            count += sum(k >= self.n for k in block)
+            later = [i for i in self.elimination.structure[block[-1]]]
+            for i in later:
+                for k in block:
+                    shared = [j for j in earlier[k] if (i, j) in L]
+                    value = self.entry.get((i, k), self.entry.get((k, i), ZERO))
+                    value -= sum((L[i, j] * W[k, j] for j in shared), ZERO)
+                    W[i, k] = self._named(build, f"w_{self.names[i]}__{self.names[k]}", value)
+                for k in block:
+                    value = sum((W[i, j] * entry for j, entry in inverse[k].items()), ZERO)
+                    L[i, k] = self._named(build, f"l_{self.names[i]}__{self.names[k]}", value)
+            for i in later:
+                earlier[i] += block
         return Factor(L, inverse)
+
+    def _pivots(
+        self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
+        made: tuple[Entries, Entries], failed: tuple[str, int], share: float,
+    ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
+        """D⁻¹ of a block; `made` are L and W, `failed` is what failing does and how many rows came before."""
+        (L, W), (what, count) = made, failed
+        if len(block) == 2:
+            return self._pair(build, block, earlier, made, [what.format(count + 1), what.format(count + 2)], share)
+        (k,) = block
+        if k < self.n:
+            return {k: {k: self._coordinate_pivot(build, k, earlier[k], L, W)}}
+        return {k: {k: self._row_pivot(build, k, earlier[k], L, W, what.format(count + 1), share)}}
+
+    def _pair(
+        self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
+        made: tuple[Entries, Entries], failed: Sequence[str], share: float,
+    ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
+        """The inverse of a 2 × 2 block by its determinant; of rows, D is negative."""
+        L, W = made
+        first, second = block
+        rows = first >= self.n
+        mass = {
+            (i, k): ZERO if rows else self.system.mass.get((max(i, k), min(i, k)), ZERO) for i in block for k in block
+        }
+
+        def left(i: int, k: int, of: Callable[[int], bool]) -> sp.Expr:
+            done = sum((L[i, j] * W[k, j] for j in earlier[i] if (k, j) in L and of(j)), ZERO)
+            return done if rows else mass[i, k] - done
+
+        name = [self.names[k] for k in block]
+        scales = [left(k, k, lambda j: j < self.n) for k in block] if rows else []
+        scale = [build.local(f"scale_{name[i]}", value) for i, value in enumerate(scales)]
+        pivots = [left(k, k, lambda j: j >= self.n or not rows) for k in block]
+        values = [own + of for own, of in zip(scale, pivots, strict=True)] if rows else pivots
+        own = [self._named(build, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
+        cross = self._named(build, f"pivot_{name[0]}__{name[1]}", left(second, first, lambda j: True))
+        determinant = build.local(f"determinant_{name[0]}__{name[1]}", own[0] * own[1] - cross**2)
+        if rows:
+            early = any(i < self.n for i in self.elimination.structure[second])
+            share = max(share, EARLY) if early else share
+            build.line(f"if (!({own[0]} > {share!r} * {scale[0]})) {failed[0]};")
+            build.line(f"if (!({determinant} > {share!r} * {scale[1]} * {own[0]})) {failed[1]};")
+        inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
+        one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
+        both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
+        return {first: {first: one, second: both}, second: {first: both, second: two}}
 
     def _coordinate_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],
@@ -136,8 +225,8 @@ class KKT:
         build.section("backward substitution")
         x: dict[int, sp.Expr] = {}
         for k in reversed(self.elimination.order):
-            value = z[k] * factor.inverse[k]
-            value -= sum((factor.L[i, k] * x[i] for i in self.elimination.structure[k]), sp.Integer(0))
+            value = sum((z[j] * entry for j, entry in factor.inverse[k].items()), ZERO)
+            value -= sum((factor.L[i, k] * x[i] for i in self.elimination.structure[k] if (i, k) in factor.L), ZERO)
             kind = "acceleration" if k < self.n else "lambda"
             x[k] = build.local(f"{prefix}{kind}_{self.names[k]}", value)
         return x

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from gudgeon.generator.clearance import Clearance
-from gudgeon.generator.dynamics import gravity
+from gudgeon.generator.elements import PointLoad
 from gudgeon.generator.friction import Friction
 from gudgeon.generator.kernels import KernelBuilder
 from gudgeon.generator.symbols import Symbols
@@ -58,23 +58,25 @@ class Linearization:
         self.q, self.v = ({s: k for k, s in enumerate(group)} for group in (system.q, system.v))
         self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, self.t))
         self.parts = Parts()
-        self.a = [self._held(f"acceleration_{q.name}", f"a[{k}]") for k, q in enumerate(system.q)]
+        self.a = [self._held(f"a_{q.name}", f"a[{k}]") for k, q in enumerate(system.q)]
         self.multiplier = [
-            self._held(f"multiplier_{row.name}", f"aside->lambda[{r}]") for r, row in enumerate(system.rows)
+            self._held(f"held_lambda_{row.name}", f"aside->lambda[{r}]") for r, row in enumerate(system.rows)
         ]
         self.sticks: list[sp.Symbol] = []  # 1 in stick, 0 in slip
         self.powers: list[sp.Expr] = [ZERO] * N_WORK
 
     def derive(self) -> Parts:
         """All parts."""
-        forces = gravity(self.model)
-        for element in self.model.elements.values():
-            element.add_to(forces)
+        loads = [load for element in self.model.elements.values() for load in element.on_points()]
         self.powers[0] = sp.Add(*(-x * row.nu for x, row in zip(self.multiplier, self.system.rows, strict=True)))
         self.powers[1] = sp.Add(*(element.loads.power for element in self.model.elements.values()))
         for index, clearance in enumerate(self.model.clearances):
-            self._clearance(index, clearance, forces)
-        residual = [-force for force in self.system.generalized(forces)]
+            loads += self._clearance(index, clearance)
+        acting, on_given = self.system.generalized(loads)
+        residual = [-own - load for own, load in zip(self.system.applied, acting, strict=True)]
+        for given in self.system.given:
+            needed = sp.Add(*(m * self.a[k] for k, m in given.mass.items())) - given.applied
+            self.powers[0] += given.rate * (needed - on_given.get(given.name, ZERO))
         self._rows()
         self._frictions(residual)
         self._coordinates(residual)
@@ -84,7 +86,7 @@ class Linearization:
     def _held(self, wanted: str, home: str) -> sp.Symbol:
         return self.symbols.new(wanted.replace(".", "_"), home)
 
-    def _clearance(self, index: int, clearance: Clearance, forces: list[sp.Expr]) -> None:
+    def _clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
         """The joint's force as symbols, with their tangents from its own function."""
         name, build, out = clearance.name, self.build, f"aside->clearance[{index}]"
         build.section(f"clearance joint {name}")
@@ -92,7 +94,7 @@ class Linearization:
         edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
         given = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
         arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in given[4:])])
-        slopes = self.symbols.unique(f"slopes_{name}")
+        slopes = self.symbols.unique(f"change_{name}")
         build.line(f"double {slopes}[4][6];")
         build.line(f"tangent_{name}({arguments}, &memory->latch[{index}], p, side, g, {slopes});", given[4:])
         inner = [self.tangents.gradient(x) for x in given]
@@ -106,8 +108,8 @@ class Linearization:
             values.append(symbol)
         moments = [x if end.body is not None else ZERO for x, end in zip(
             values[2:], (clearance.first, clearance.second), strict=True)]  # fmt: skip
-        clearance.add_to(forces, values[:2], moments)
         self.powers[2] += clearance.power(values[:2], clearance.eccentricity_rate, moments)
+        return clearance.on_points(values[:2], moments)
 
     def _rows(self) -> None:
         """Φ_q, V = R2_v − 2α Φ_q, Q = R2_q − β² Φ_q and R2_t of the constraints."""

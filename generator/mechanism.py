@@ -178,6 +178,17 @@ class Play:
 
 
 @dataclass(frozen=True)
+class EventSpec:
+    """The run is watched for `zero` crossing zero: "rising", "falling" or "both"; action "record" or "stop"."""
+
+    name: str
+    zero: Quantity  # an expression of t, parameters, coordinates and velocities, of any dimension
+    direction: str
+    action: str
+    where: Location
+
+
+@dataclass(frozen=True)
 class SceneSpec:
     """A scene as the file writes it, `extends` already followed."""
 
@@ -186,6 +197,7 @@ class SceneSpec:
     parameters: Mapping[str, Quantity]  # parameter name -> its value in this scene
     simulate: Mapping[str, Quantity]  # t_end, output, step
     where: Location
+    events: Mapping[str, EventSpec] = field(default_factory=dict)  # the file's, with the scene's own put in
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ import sympy as sp
 from gudgeon.generator.clearance import Clearance, make_clearance
 from gudgeon.generator.constraints import Constraints, Row
 from gudgeon.generator.elements import AppliedElement, apply_element
+from gudgeon.generator.events import Event, make_event, refuse_constant
 from gudgeon.generator.friction import Friction, make_friction
 from gudgeon.generator.geometry import BodySymbols, Geometry
 from gudgeon.generator.scene import Scene
@@ -51,6 +52,7 @@ class Model:
     redundancy: Redundancy  # rows that were left out
     gravity: tuple[sp.Expr, sp.Expr]
     baumgarte: tuple[sp.Symbol, sp.Symbol]
+    events: tuple[Event, ...] = ()  # what the user watches
 
     def without(self, redundancy: Redundancy) -> Model:
         """The same scene without the rows that say nothing new."""
@@ -139,13 +141,17 @@ def make_model(scene: Scene) -> Model:
     clearances = [make_clearance(mechanism.joints[name], play, geometry, slots) for name, play in scene.play.items()]
     gravity = geometry.ground_vector(mechanism.gravity) if mechanism.gravity else (sp.Integer(0), sp.Integer(0))
     elements = {e.name: apply_element(e, geometry, constraints.t) for e in mechanism.forces.values()}
+    pairs = [(q, v) for body in geometry.bodies.values() for q, v in zip(body.q, body.v, strict=True)]
     frictions = tuple(
-        make_friction(name, e.loads.slip, geometry, constraints.t, symbols)
+        make_friction(name, e.loads.slip, pairs, constraints.t, symbols)
         for name, e in elements.items()
         if e.loads.slip
     )
     kept = tuple(row for row in rows if row.owner not in scene.play)
+    events = tuple(make_event(event, geometry, constraints.t) for event in scene.events.values())
+    for event in events:
+        refuse_constant(scene.events[event.name], event, geometry, constraints.t)
     return Model(
         scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), elements, frictions,
-        Redundancy(), gravity, baumgarte,
+        Redundancy(), gravity, baumgarte, events,
     )  # fmt: skip

@@ -8,7 +8,7 @@ leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2�
 
     u_w = η (r_w + P_q u_q + P_v u_v + P_λ μ + s P_t),   μ the multipliers' own change.
 
-At η = 0 the matrix is the KKT matrix. It is factorized as L D U without pivoting in an order chosen on its
+At η = 0 the matrix is the KKT matrix. It is factorized as L U without pivoting in an order chosen on its
 symmetric pattern, a row only after the coordinates in it. E. Hairer, G. Wanner, Solving Ordinary Differential
 Equations II, Springer (1996), IV.8 and VII.
 """
@@ -23,7 +23,7 @@ import sympy as sp
 from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE
 from gudgeon.generator.factorization import choose_elimination
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement
-from gudgeon.generator.kkt import NEARLY_SINGULAR, SINGULAR, is_simple
+from gudgeon.generator.kkt import SINGULAR, is_simple
 from gudgeon.generator.linearization import N_WORK, Linearization, Parts, Place
 from gudgeon.generator.pool import Pool
 from gudgeon.generator.system import System
@@ -40,7 +40,8 @@ class Newton:
         self.system, self.model, self.prefix = system, system.model, prefix
         self.n, self.m = len(system.q), len(system.rows)
         self.nodes = self.n + self.m + len(system.frictions)
-        self.names = [q.name for q in system.q] + [x.name.replace(".", "_") for x in (*system.rows, *system.frictions)]
+        named = [row.name for row in system.rows] + [friction.name for friction in system.frictions]
+        self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named]
         self.values = Pool(system.model.symbols, "lin->value")
         self.factors = Pool(system.model.symbols, "lin->lu")
         self.lin = Argument(f"const {prefix.title()}Linear *", "lin")
@@ -78,7 +79,7 @@ class Newton:
         """The parts with each value in the pool, once up to its sign."""
 
         def keep(value: sp.Expr, name: str) -> sp.Expr:
-            return self.values.keep(build, tangents.undivided(value), name)
+            return self.values.keep(build, tangents.shared(value), name)
 
         def pooled(what: str, part: Mapping[Place, sp.Expr], rows: Sequence[str]) -> dict[Place, sp.Expr]:
             return {(i, j): keep(value, f"{what}_{rows[i]}_{self.names[j]}") for (i, j), value in part.items()}
@@ -174,7 +175,8 @@ class Newton:
         """x becomes the solution of N x = b, which it holds at first; nodes are coordinates, rows, frictions."""
         build = self._builder("newton_substitute", ["x (all nodes) holds b and becomes the solution of N x = b."])
         build.section("forward")
-        order, x = self.elimination.order, {}
+        order = self.elimination.order
+        x: dict[int, sp.Symbol] = {}
         earlier: dict[int, list[int]] = {k: [] for k in order}
         for i, j in self.lower:
             earlier[i].append(j)
@@ -234,15 +236,14 @@ class Newton:
 
 
 class _Factors:
-    """L, U and 1/D as they come, column by column."""
+    """L, U and inverse pivots as they come, column by column."""
 
     def __init__(self, newton: Newton, build: KernelBuilder, entries: Mapping[Place, sp.Expr]) -> None:
         self.newton, self.build, self.entries = newton, build, entries
         self.lower: dict[Place, sp.Expr] = {}  # (later, earlier)
-        self.upper: dict[Place, sp.Expr] = {}  # (earlier, later), of U before its rows are divided by D
+        self.upper: dict[Place, sp.Expr] = {}  # (earlier, later)
         self.inverse: dict[int, sp.Expr] = {}
         self._before: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
-        self.share = SINGULAR if newton.system.frictions else NEARLY_SINGULAR
 
     def eliminate(self, k: int, later: Sequence[int]) -> None:
         """Pivot k, its column of L and its row of U."""
@@ -260,7 +261,7 @@ class _Factors:
         return sp.Add(*(self.lower[i, j] * self.upper[j, k] for j in shared))
 
     def _pivot(self, k: int) -> sp.Expr:
-        """1/D; what is left of a diagonal is compared with what elimination took of it by coordinates."""
+        """1/pivot; what is left of a row is compared with what it would be if it were independent of the others."""
         newton, build, name = self.newton, self.build, self.newton.names[k]
         own = self.entries.get((k, k), ZERO)
         if not self._before[k] and own in newton.model.masses:
@@ -272,7 +273,7 @@ class _Factors:
         if k < newton.n:
             test, size = f"!(fabs({pivot}) > {SINGULAR!r} * fabs({own}))", own
         else:
-            test, size = f"!(fabs({pivot}) > {self.share!r} * fabs({scale}))", scale
+            test, size = f"!(fabs({pivot}) > {SINGULAR!r} * fabs({scale}))", scale
         stick = newton.sticks[k - newton.n - newton.m] if k >= newton.n + newton.m else None
         build.line(f"if ({f'{stick} != 0.0 && ' if stick else ''}{test})", [size])
         build.line(f"    return {k + 1};", [stick] if stick else [])

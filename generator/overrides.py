@@ -13,7 +13,7 @@ from gudgeon.generator.yaml_tree import Items, Map, Text, kind_of
 # What the file must name itself: an override changes it and makes no new one.
 _COLLECTIONS = frozenset(
     ("parameters", "materials", "bodies", "ground", "joints", "drives")
-    + ("forces", "bearings", "contacts", "scenes", "outputs")
+    + ("forces", "bearings", "contacts", "events", "scenes", "outputs")
 )
 _AXES = {"x": 0, "y": 1}
 

@@ -21,7 +21,8 @@ def derive(data: bytes, file: str, scene: str, overrides: Mapping[str, str | flo
 
 
 def generate(
-    data: bytes, file: str, scene: str, overrides: Mapping[str, str | float | bool] | None = None
-) -> KernelSource:
+    data: bytes, file: str, scene: str, overrides: Mapping[str, str | float | bool] | None = None,
+    formulation: str = "reduced",
+) -> KernelSource:  # fmt: skip
     """The C of one scene of a mechanism file, with the names of everything in it."""
-    return emit(derive(data, file, scene, overrides))
+    return emit(derive(data, file, scene, overrides), formulation)

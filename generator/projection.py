@@ -38,8 +38,8 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     """One Newton step onto Φ = 0 and one onto Φ̇ = 0, with one factorization."""
     kkt = KKT(system, system.rows)
     build = KernelBuilder(system.model.symbols, name, [
-        "The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the",
-        "largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.",
+        "The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.",
+        "`worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.",
     ])  # fmt: skip
     build.section("Phi and Phi_dot")
     phi, phi_dot = {}, {}

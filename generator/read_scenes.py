@@ -9,10 +9,11 @@ from gudgeon.errors import BadValueError, CycleError, InputError, Location
 from gudgeon.expression_tree import Expr
 from gudgeon.generator.inherit import parents_first
 from gudgeon.generator.joints.joint_type import joint_types
-from gudgeon.generator.mechanism import Bearing, Contact, Joint, Play, Quantity, SceneSpec
+from gudgeon.generator.mechanism import Bearing, Contact, EventSpec, Joint, Play, Quantity, SceneSpec
 from gudgeon.generator.names import check_label, unknown_name
 from gudgeon.generator.parameters import dependency_order
-from gudgeon.generator.reading import Reader
+from gudgeon.generator.read_events import read_events
+from gudgeon.generator.reading import Reader, ResultDimension
 from gudgeon.generator.schema import FileShape, PlayShape, SceneShape
 from gudgeon.generator.units import DIMENSIONLESS, TIME, Dimension
 from gudgeon.generator.yaml_tree import Text
@@ -29,7 +30,9 @@ class Parts:
     bearings: Mapping[str, Bearing]
     contacts: Mapping[str, Contact]
     parameters: Mapping[str, Quantity]
+    events: Mapping[str, EventSpec]
     shape: FileShape
+    motion: ResultDimension  # of the names that an event's expression may use
 
 
 @dataclass
@@ -39,32 +42,35 @@ class _Draft:
     play: dict[Text, PlayShape] = field(default_factory=dict)
     parameters: dict[Text, Text] = field(default_factory=dict)
     simulate: dict[str, Text] = field(default_factory=dict)
+    events: dict[str, EventSpec] = field(default_factory=dict)  # read where they are written
 
 
 def read_scenes(reader: Reader, parts: Parts) -> dict[str, SceneSpec]:
     """All scenes in the order of the file; `ideal` is the first and always there."""
     section = parts.shape.scenes
-    drafts: dict[str, _Draft] = {IDEAL: _Draft()}
-    found: dict[str, SceneSpec] = {IDEAL: SceneSpec(IDEAL, {}, {}, {}, Location(reader.file, 1, 1))}
+    plain = _Draft(events=dict(parts.events))
+    drafts: dict[str, _Draft] = {IDEAL: plain}
+    found: dict[str, SceneSpec] = {IDEAL: SceneSpec(IDEAL, {}, {}, {}, Location(reader.file, 1, 1), plain.events)}
     for name, scene in parents_first(reader, "scene", section, (IDEAL,)):
         with reader.collect():
             check_label(name, "scene", name.where)
             if name == IDEAL and (scene.play or scene.parameters or scene.extends):
-                raise BadValueError(
-                    "the scene ideal has no play, and the file's parameters", name.where, "expected simulate: only"
-                )
-        draft = _draft(drafts[scene.extends] if scene.extends else _Draft(), scene)
+                hint = "expected simulate: and events: only"
+                raise BadValueError("the scene ideal has no play, and the file's parameters", name.where, hint)
+        own = read_events(reader, scene.events, f"scenes.{name}.events", parts.motion)
+        draft = _draft(drafts[scene.extends] if scene.extends else plain, scene, own)
         drafts[str(name)] = draft
         found[str(name)] = _scene(reader, name, draft, parts)
     return {IDEAL: found[IDEAL]} | {str(name): found[name] for name in section if name in found}
 
 
-def _draft(parent: _Draft, scene: SceneShape) -> _Draft:
+def _draft(parent: _Draft, scene: SceneShape, events: Mapping[str, EventSpec]) -> _Draft:
     own = {key: getattr(scene.simulate, key) for key in SIMULATE} if scene.simulate else {}
     return _Draft(
         {**parent.play, **scene.play},
         {**parent.parameters, **scene.parameters},
         {**parent.simulate, **{key: text for key, text in own.items() if text is not None}},
+        {**parent.events, **events},
     )
 
 
@@ -91,7 +97,7 @@ def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec
                 reader.require(simulate[option], ">=", 1.0, "a run has at least one interval of output")
             else:
                 reader.require(simulate[option], ">", 0.0, "a time span is positive")
-    return SceneSpec(str(name), play, parameters, simulate, name.where)
+    return SceneSpec(str(name), play, parameters, simulate, name.where, draft.events)
 
 
 def _play(joint: Text, use: PlayShape, parts: Parts) -> Play | None:

@@ -15,6 +15,7 @@ from gudgeon.generator.parameters import read_parameters, settle
 from gudgeon.generator.read_bodies import Places, read_bodies, read_gravity, read_ground
 from gudgeon.generator.read_contacts import read_bearings, read_contacts, read_materials
 from gudgeon.generator.read_drives import read_drives
+from gudgeon.generator.read_events import read_events
 from gudgeon.generator.read_forces import read_forces
 from gudgeon.generator.read_joints import read_joints
 from gudgeon.generator.read_scenes import Parts, read_scenes
@@ -60,7 +61,8 @@ def _read(reader: Reader, shape: FileShape, sha256: str) -> Mechanism:
     start = read_start(reader, shape, places)
     bearings = read_bearings(reader, shape, read_materials(reader, shape))
     contacts = read_contacts(reader, shape)
-    scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, shape))
+    events = read_events(reader, shape.events, "events", motion)
+    scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, shape, motion))
     unread = {*shape.joints, *shape.drives, *shape.forces} - {*joints, *drives, *forces} | namespace.twice
     known = ResultNames(places, joints, drives, forces, shape.parameters, unread)
     outputs = _read_outputs(reader, shape, namespace, known)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from gudgeon.generator.mechanism import Mechanism, Play, Quantity
+from gudgeon.generator.mechanism import EventSpec, Mechanism, Play, Quantity
 from gudgeon.generator.names import unknown_name
 
 
@@ -22,6 +22,7 @@ class Scene:
     play: Mapping[str, Play]  # joint -> play
     parameters: Mapping[str, Quantity]
     simulate: Mapping[str, Quantity]  # t_end, output, step
+    events: Mapping[str, EventSpec]
 
 
 def make_scene(mechanism: Mechanism, name: str) -> Scene:
@@ -35,4 +36,4 @@ def make_scene(mechanism: Mechanism, name: str) -> Scene:
         else own
         for key, own in mechanism.parameters.items()
     }
-    return Scene(mechanism, name, spec.play, parameters, spec.simulate)
+    return Scene(mechanism, name, spec.play, parameters, spec.simulate, spec.events)

@@ -7,19 +7,11 @@ open to new files (joints, drives, force laws) is a Map here: their own fields s
 from __future__ import annotations
 
 import types
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Union, get_args, get_origin
 
-from pydantic import (
-    BaseModel,
-    ConfigDict,
-    Field,
-    PrivateAttr,
-    ValidationError,
-    ValidatorFunctionWrapHandler,
-    model_validator,
-)
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError, model_validator
 
 from gudgeon.errors import BadValueError, InputError, InputErrors, Location, MissingKeyError, UnknownKeyError
 from gudgeon.generator.names import known_hint, nearest, unknown_name
@@ -44,7 +36,7 @@ class Shape(BaseModel):
 
     @model_validator(mode="wrap")
     @classmethod
-    def _keep_place(cls, data: Any, handler: ValidatorFunctionWrapHandler) -> Any:
+    def _keep_place(cls, data: Any, handler: Callable[[Any], Any]) -> Any:
         made = handler(data)
         if isinstance(data, Map):
             made._where = data.where
@@ -99,10 +91,17 @@ class SimulateShape(Shape):
     step: Text | None = None
 
 
+class EventShape(Shape):
+    zero: Text
+    direction: Text | None = None
+    action: Text | None = None
+
+
 class SceneShape(Shape):
     extends: Text | None = None
     play: dict[Text, PlayShape] = {}
     parameters: dict[Text, Text] = {}
+    events: dict[Text, EventShape] = {}
     simulate: SimulateShape | None = None
 
 
@@ -123,6 +122,7 @@ class FileShape(Shape):
     start: StartShape | None = None
     bearings: dict[Text, BearingShape] = {}
     contacts: dict[Text, ContactShape] = {}
+    events: dict[Text, EventShape] = {}
     scenes: dict[Text, SceneShape] = {}
     outputs: dict[Text, Text] = {}
 

@@ -6,6 +6,7 @@ zero is structural and stays a zero. Derived numbers (inverse masses, K, S, …)
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass
 
 import sympy as sp
@@ -46,6 +47,17 @@ class Slots:
         for name in scene.parameters:
             self._parameter(name)
 
+    def beside(self, symbols: Symbols) -> Slots:
+        """The same slots for functions with other symbols (`Symbols.beside`)."""
+        other = copy.copy(self)
+        other.symbols = symbols
+        return other
+
+    def is_constant(self, expression: sp.Expr) -> bool:
+        """Whether `prepare` could compute it: nothing but slots and numbers in it."""
+        info = self.symbols.info
+        return all(s in info and info[s].home.startswith("p->") for s in expression.free_symbols)
+
     def _parameter(self, name: str) -> sp.Symbol:
         address = f"parameters.{name}"
         if address not in self.entries:
@@ -71,6 +83,7 @@ class Slots:
         if quantity.address not in self.entries:
             _, _, rest = quantity.address.partition(".")
             self._add(quantity.address, rest or quantity.address, quantity)
+        self.symbols.adopt(self.entries[quantity.address].symbol)
         return self.entries[quantity.address].symbol
 
     def constant(self, address: str, wanted: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
@@ -78,6 +91,7 @@ class Slots:
         if address not in self.entries:
             symbol = self.symbols.new(wanted, "p->{}", address)
             self.entries[address] = SlotEntry(symbol, address, sp.Float(default, 17), default, dimension)
+        self.symbols.adopt(self.entries[address].symbol)
         return self.entries[address].symbol
 
     def derive(self, wanted: str, expression: sp.Expr, meaning: str = "") -> sp.Expr:
@@ -88,6 +102,7 @@ class Slots:
             symbol = self.symbols.define(wanted, expression, "p->{}", meaning)
             self.derived[symbol] = expression
             self._derived_by[expression] = symbol
+        self.symbols.adopt(self._derived_by[expression])
         return self._derived_by[expression]
 
     def derive_signed(self, wanted: str, expression: sp.Expr, meaning: str = "") -> sp.Expr:

@@ -50,13 +50,24 @@ class Switches:
     """The corners of a scene, each once."""
 
     found: dict[tuple[str, sp.Expr], Switch] = field(default_factory=dict)
+    spare: list[int] = field(default_factory=list)  # numbers of the scene's own corners on the other side
+
+    def beside(self) -> Switches:
+        """For other functions of the same scene: the joints' corners are the same, the scene's are told anew."""
+        joints = {key: switch for key, switch in self.found.items() if switch.owner}
+        return Switches(joints, sorted(switch.index for switch in self.of("")))
+
+    @property
+    def count(self) -> int:
+        """How many numbers are taken."""
+        return 1 + max([*(switch.index for switch in self.found.values()), *self.spare], default=-1)
 
     def side(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
         """The switch of g, and −1 where it is known by −g."""
         for sign in (1, -1):
             if (known := self.found.get((owner, sp.expand(sign * g)))) is not None:
                 return known, sign
-        switch = Switch(len(self.found), owner, g)
+        switch = Switch(self.spare.pop(0) if self.spare and not owner else self.count, owner, g)
         self.found[owner, sp.expand(g)] = switch
         return switch, 1
 

@@ -20,6 +20,8 @@ t q v y p g f b x a dy phi nu gamma e nx ny tx ty out given is_given latch memor
 delta deltadot ratio F_n F_t v_t epsilon w_n w_t root W factor rows force rhs powers dependent
 reactions torques series max_of min_of sign_of solve_dependent errno stdin stdout stderr signgam
 side side_of
+r Four FourBits sines_and_cosines turned_by_library
+expand reduce_state reduce_accelerations solve_by_absolute all_q all_v all_a s s_rate whole closure
 e_x e_y de_x de_y de_t omega_i omega_j n_x n_y stored a_i a_j share F_r T0 F_x F_y F_along_n F_along_t M_i M_j
 eta eta_row eta_stick lin r s u x depth unclipped dF value slope film
 """
@@ -32,7 +34,10 @@ _MACRO = re.compile(
     r"|(sa|si|st|sched|math)_\w+"
 )
 # Functions that are called where a parameter of that name is a local; parts of a clearance joint's force.
-_FUNCTION = re.compile(r"clearance_\w+|side_\d+|(F_along_[nt]|M_[ij])_(dry|film)")
+_FUNCTION = re.compile(
+    r"(angles|sines|cosines)_\d+|(clearance|tangent)_\w+|\w*newton_substitute|side_\d+"
+    r"|(F_along_[nt]|M_[ij])_(dry|film)"
+)
 
 
 @dataclass(frozen=True)
@@ -53,6 +58,24 @@ class Symbols:
         self.rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
         self.switches = Switches()
         self._names: set[str] = set()
+        self._shared: Symbols | None = None  # who else has the members of Parameters
+
+    def beside(self) -> Symbols:
+        """Other symbols for other functions of the same library: they share the members of Parameters only."""
+        other = Symbols()
+        other._shared, other.switches = self, self.switches.beside()
+        for symbol, info in self.info.items():
+            if info.home.startswith("p->"):
+                other.adopt(symbol)
+        return other
+
+    def adopt(self, symbol: sp.Symbol) -> None:
+        """Takes over a member of Parameters that was made on the other side."""
+        if self._shared is not None and symbol not in self.info:
+            self.info[symbol] = self._shared.info[symbol]
+            self._names.add(symbol.name)
+            if symbol in self._shared.definitions:
+                self.definitions[symbol] = self._shared.definitions[symbol]
 
     def unique(self, wanted: str) -> str:
         """`wanted` as a C identifier that nothing else has."""
@@ -69,14 +92,22 @@ class Symbols:
     def new(self, wanted: str, home: str = "", meaning: str = "", unit: str = "") -> sp.Symbol:
         """A new real symbol; `{}` in `home` stands for the C name that it gets."""
         name = self.unique(wanted)
+        shared = self._shared if home.startswith("p->") else None
+        while shared is not None and name in shared._names:
+            name = self.unique(wanted)
         symbol = sp.Symbol(name, real=True)
         self.info[symbol] = SymbolInfo(home.replace("{}", name), meaning, unit)
+        if shared is not None:
+            shared._names.add(name)
+            shared.info[symbol] = self.info[symbol]
         return symbol
 
     def define(self, wanted: str, expression: sp.Expr, home: str = "", meaning: str = "", unit: str = "") -> sp.Symbol:
         """A new symbol that stands for `expression`."""
         symbol = self.new(wanted, home, meaning, unit)
         self.definitions[symbol] = expression
+        if self._shared is not None and home.startswith("p->"):
+            self._shared.definitions[symbol] = expression
         return symbol
 
     def diff(self, expression: sp.Expr, by: sp.Symbol) -> sp.Expr:

@@ -1,8 +1,9 @@
 """What is integrated: M q̈ + Φ_qᵀ λ = g with Φ(q, t) = 0, in whichever coordinates.
 
 A model's bodies move with the coordinates of a system: a body's (x, y, θ) have a Jacobian J in them, and
-r̈ = J q̈ + bias. In absolute coordinates J is the identity and M is diagonal; everything that is derived
-from a system (right-hand side, projection, Jacobians) holds for others as well.
+r̈ = J q̈ + bias. In absolute coordinates J is the identity and M is diagonal (`absolute`); in tree coordinates
+most of Φ is gone (generator/reduction.py). Everything that is derived from a system (right-hand side, projection,
+Jacobians) holds for both.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.constraints import Row
+from gudgeon.generator.elements import PointLoad
 from gudgeon.generator.friction import Friction
 from gudgeon.generator.model import Model
 
@@ -28,6 +30,16 @@ class Motion:
 
 
 @dataclass(frozen=True)
+class Given:
+    """A coordinate z(t) that a drive prescribes; its equation gives what the drive must do, not an acceleration."""
+
+    name: str
+    rate: sp.Expr
+    mass: Mapping[int, sp.Expr]  # its entries of M with the unknown coordinates
+    applied: sp.Expr  # as System.applied
+
+
+@dataclass(frozen=True)
 class System:
     """Coordinates q with velocities v; `mass` holds the lower triangle's non-zeros (i ≥ j) of M."""
 
@@ -36,19 +48,21 @@ class System:
     v: tuple[sp.Symbol, ...]
     motions: Mapping[str, Motion]  # by body
     mass: Mapping[tuple[int, int], sp.Expr]
+    applied: tuple[sp.Expr, ...]  # weights, and what the velocities and prescribed accelerations leave of J^T m a
+    given: tuple[Given, ...]
     rows: tuple[Row, ...]
     frictions: tuple[Friction, ...]
 
-    def generalized(self, forces: Sequence[sp.Expr]) -> list[sp.Expr]:
-        """Generalized forces (n) of the bodies' forces (three a body, in the model's order): Jᵀ (f − m bias)."""
+    def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
+        """Generalized forces (n) of loads, and those on given coordinates by name: Jᵀ f at each point."""
         total = [ZERO] * len(self.q)
-        for body in self.model.bodies:
-            motion, masses = self.motions[body.name], (body.mass, body.mass, body.inertia)
-            for c in range(3):
-                force = forces[body.index + c] - masses[c] * motion.bias[c]
-                for k, entry in motion.jacobian[c].items():
-                    total[k] += entry * force
-        return total
+        for point, x, y, moment in loads:
+            if point.body is not None:
+                k = point.body.index
+                total[k] += x
+                total[k + 1] += y
+                total[k + 2] += point.arm[0] * y - point.arm[1] * x + moment
+        return total, {}
 
 
 def absolute(model: Model) -> System:
@@ -57,4 +71,16 @@ def absolute(model: Model) -> System:
         body.name: Motion(tuple({body.index + c: ONE} for c in range(3)), (ZERO, ZERO, ZERO)) for body in model.bodies
     }
     mass = {(k, k): m for k, m in enumerate(model.masses)}
-    return System(model, model.q, model.v, motions, mass, model.rows, model.frictions)
+    return System(model, model.q, model.v, motions, mass, _weights(model), (), model.rows, model.frictions)
+
+
+def _weights(model: Model) -> tuple[sp.Expr, ...]:
+    """Weights of the bodies (n), as numbers of `prepare`."""
+    forces: list[sp.Expr] = []
+    for body in model.bodies:
+        for axis, component in zip("xy", model.gravity, strict=True):
+            weight = body.mass * component
+            named = ZERO if weight == 0 else model.slots.derive(f"weight_{body.name}_{axis}", weight, "weight")
+            forces.append(named)
+        forces.append(ZERO)
+    return tuple(forces)

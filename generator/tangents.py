@@ -24,19 +24,25 @@ TINY = sp.Float(1e-150)
 
 
 class Tangents:
-    """Tangents in one kernel; corners are sides of the switches of `owner` (switches.py)."""
+    """Tangents in one kernel; corners are sides of the switches of `owner` (switches.py).
 
-    def __init__(self, symbols: Symbols, build: KernelBuilder, bases: Iterable[sp.Symbol], owner: str = "") -> None:
-        self._symbols, self._build, self._owner = symbols, build, owner
+    `share_powers`: x^n with n ≥ 1, as in contact laws, is written as x · x^(n−1), which its derivative needs too.
+    """
+
+    def __init__(
+        self, symbols: Symbols, build: KernelBuilder, bases: Iterable[sp.Symbol], owner: str = "",
+        share_powers: bool = False,
+    ) -> None:  # fmt: skip
+        self._symbols, self._build, self._owner, self._share_powers = symbols, build, owner, share_powers
         self._sides: dict[sp.Symbol, sp.Expr] = {}
         self._renamed: Mapping[sp.Symbol, sp.Symbol] = {}
-        self._inverses: dict[sp.Expr, sp.Symbol] = {}
+        self._powers: dict[sp.Expr, sp.Symbol] = {}
         self._known: dict[sp.Symbol, Tangent] = {base: {base: ONE} for base in bases}
 
     def inside(self, renamed: Mapping[sp.Symbol, sp.Symbol]) -> Tangents:
         """Tangents in the same kernel of expressions in other variables, by what these are called here."""
-        inner = Tangents(self._symbols, self._build, renamed.values(), self._owner)
-        inner._sides, inner._inverses, inner._renamed = self._sides, self._inverses, renamed
+        inner = Tangents(self._symbols, self._build, renamed.values(), self._owner, self._share_powers)
+        inner._sides, inner._powers, inner._renamed = self._sides, self._powers, renamed
         return inner
 
     def know(self, symbol: sp.Symbol, tangent: Tangent) -> None:
@@ -86,24 +92,42 @@ class Tangents:
     def _named(self, symbol: sp.Symbol, base: sp.Symbol, value: sp.Expr) -> sp.Expr:
         if value.is_Number or value.is_Symbol or (-value).is_Symbol:
             return value
-        return self._build.local(f"{symbol.name}_by_{base.name}", self.undivided(value))
+        return self._build.local(f"{symbol.name}_by_{base.name}", self.shared(value))
 
-    def undivided(self, value: sp.Expr) -> sp.Expr:
-        """The value with every denominator as a local of its own: the derivatives of a quotient share it."""
-        return value.replace(
+    def shared(self, value: sp.Expr) -> sp.Expr:
+        """The value with what a function and its derivatives share as locals: denominators, powers of contact laws."""
+        if not value.has(sp.Pow):
+            return value
+        divided = value.replace(
             lambda part: part.is_Pow and part.exp.is_Integer and part.exp < 0 and bool(part.free_symbols),
-            lambda part: self._inverse(part.base) ** -part.exp,
+            lambda part: self._local("inverse", 1 / part.base) ** -part.exp,
         )
+        if not self._share_powers:
+            return divided
+        return divided.replace(lambda part: part.is_Pow and bool(part.exp.free_symbols), self._power)
 
-    def _inverse(self, base: sp.Expr) -> sp.Symbol:
-        if base not in self._inverses:
-            name = base.name.removeprefix("p->") if base.is_Symbol else "denominator"
-            self._inverses[base] = self._build.local(f"inverse_{name}", 1 / base)
-        return self._inverses[base]
+    def _power(self, power: sp.Pow) -> sp.Expr:
+        """x^n as x · x^(n−1)."""
+        if power.exp.as_coeff_Add()[0] == -1:
+            return self._local("power", power)
+        return power.base * self._local("power", power.base ** (power.exp - 1))
+
+    def _local(self, what: str, value: sp.Expr) -> sp.Symbol:
+        """The local that holds a power; named after its base where that is a symbol."""
+        if value not in self._powers:
+            name = value.base.name.removeprefix("p->") if value.base.is_Symbol else "sum"
+            self._powers[value] = self._build.local(f"{what}_{name}", value)
+        return self._powers[value]
 
 
 def partial(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
     """∂/∂by of smooth pieces; x^n gives n x^(n−1), not n x^n/x, which is 0/0 at 0."""
+    if expression.is_Add:
+        return sp.Add(*(partial(term, by) for term in expression.args if by in term.free_symbols))
+    if expression.is_Mul and by in expression.args:  # most terms are linear: SymPy's own way is slower
+        rest = [factor for factor in expression.args if factor != by]
+        if not any(by in factor.free_symbols for factor in rest):
+            return sp.Mul(*rest)
     derivative = sp.diff(expression, by)
     if any(power.exp.free_symbols and power.base.has(by) for power in expression.atoms(sp.Pow)):
         derivative = sp.powsimp(derivative, combine="exp")

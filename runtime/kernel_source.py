@@ -93,6 +93,15 @@ class SeriesInfo:
 
 
 @dataclass(frozen=True)
+class EventInfo:
+    """An event of the user: action "record" or "stop", direction "rising", "falling" or "both"."""
+
+    name: str
+    action: str
+    direction: str
+
+
+@dataclass(frozen=True)
 class ClearanceInfo:
     """A joint with play: journal on the second body, bearing on the first."""
 
@@ -142,6 +151,11 @@ class KernelSource:
     operations: Mapping[str, int]  # kernel -> operation count
     notes: tuple[str, ...]  # what was skipped and why (check -v)
     gravity: bool
+    formulation: str = "full"  # what is integrated: "reduced" or "full"
+    motion_pivots: tuple[str, ...] = ()  # as pivots, of what is integrated
+    tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
+    closures: tuple[str, ...] = ()  # its rows
+    events: tuple[EventInfo, ...] = ()
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -159,10 +173,10 @@ class KernelSource:
         kinds = {
             "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
-            "slots": Slot, "conditions": Condition, "series": SeriesInfo,
+            "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
         }  # fmt: skip
         for key, kind in kinds.items():
-            data[key] = tuple(kind(**_tuples(item)) for item in data[key])
+            data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))
         for key, value in data.items():
             if isinstance(value, list) and key not in kinds:
                 data[key] = tuple(value)

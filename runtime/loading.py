@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 Overrides = Mapping[str, str | float | bool]
 DEFAULT_SCENE = "ideal"  # it exists in every file
-FORMULATIONS = ("full",)
+FORMULATIONS = ("reduced", "full")
 SOURCE = "source.json"
 
 
@@ -42,7 +42,7 @@ def load(
     scene: str | None = None,
     *,
     overrides: Overrides | None = None,
-    formulation: str = "full",
+    formulation: str = "reduced",
     portable: bool = False,
     regenerate: bool = False,
 ) -> Simulation:
@@ -51,7 +51,9 @@ def load(
     mechanism: text with "/" or ending in ".yaml" is a path, other text the name of a shipped mechanism.
     scene: a scene of the file; None is "ideal", which has no play and exists in every file.
     overrides: values by address that may change the structure. portable: compile for any CPU of this
-    kind. regenerate: derive and compile even if the cache has both.
+    kind. formulation: what is integrated, "reduced" (coordinates of a tree) or "full" (absolute ones, with the
+    Jacobian of their state equation); results are the same. regenerate: derive and compile even if the
+    cache has both.
     Raises InputError if the file is wrong, BuildError if its C cannot be compiled.
     """
     start = perf_counter()
@@ -94,7 +96,7 @@ def kernel_source(
     scene: str | None = None,
     *,
     overrides: Overrides | None = None,
-    formulation: str = "full",
+    formulation: str = "reduced",
     regenerate: bool = False,
     cache: Cache | None = None,
 ) -> tuple[KernelSource, str]:
@@ -108,13 +110,13 @@ def kernel_source(
     def make(folder: Path) -> None:
         nonlocal origin
         source = None
-        if not (overrides or regenerate):
+        if not (overrides or regenerate or formulation != FORMULATIONS[0]):
             source = committed(file.stem, scene, sha256(data).hexdigest())
         origin = "generated" if source else "derived"
         if source is None:
             from gudgeon.generator.pipeline import generate
 
-            source = generate(data, str(file), scene, overrides)
+            source = generate(data, str(file), scene, overrides, formulation)
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
     entry = cache.fetch("models", key, make, renew=regenerate)

@@ -22,6 +22,7 @@ import numpy as np
 
 from gudgeon.diagnostics import Diagnostics
 from gudgeon.errors import GudgeonError, InputError
+from gudgeon.integrators.trajectory import EVENT_DTYPE
 from gudgeon.kernel_source import KernelSource
 from gudgeon.results import IMPACT_DTYPE, Array, Result
 from gudgeon.series import MOTION
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     import xarray
 
 FORMAT = "gudgeon-result/1"
-DIMENSIONS = ("time", "impact", "slot", "prepared")
+DIMENSIONS = ("time", "impact", "event", "slot", "prepared")
 IMPACTS = {
     "joint": ("", "index of the joint with play"),
     "t_on": ("s", "onset of the contact"),
@@ -39,6 +40,7 @@ IMPACTS = {
     "F_peak": ("N", "largest force of the contact"),
     "t_peak": ("s", "time of the largest force"),
 }
+EVENTS = {"event": ("", "index of the event"), "t": ("s", "time of the event")}
 NUMBERS = {
     "parameters.prepared": ("prepared", "slots, then what was derived from them, SI"),
     "parameters.given": ("slot", "overridden slots, SI"),
@@ -64,12 +66,14 @@ class Variable:
 
 
 def variables(run: Result) -> Iterator[Variable]:
-    """All series of a run over `time`, its impacts over `impact`, its run-time numbers over `slot`."""
+    """All series of a run over `time`, impacts over `impact`, events over `event`, run-time numbers over `slot`."""
     yield Variable("time", "time", run.t, "s", "time")
     for name, unit in run.names.items():
         yield Variable(_variable(name), "time", run[name], unit, run.meaning(name))
     for name, (unit, meaning) in IMPACTS.items():
         yield Variable(f"impact.{name}", "impact", run.impacts[name], unit, meaning)
+    for name, (unit, meaning) in EVENTS.items():
+        yield Variable(f"event.{name}", "event", run.events[name], unit, meaning)
     for name, values in zip(NUMBERS, (run.p, run.given, run.is_given.astype(np.int8)), strict=True):
         yield Variable(name, NUMBERS[name][0], values, "", NUMBERS[name][1])
 
@@ -82,6 +86,7 @@ def attributes(run: Result) -> dict[str, str]:
         "mechanism": run.source.mechanism,
         "scene": run.source.scene,
         "joints_with_play": " ".join(joint.name for joint in run.source.clearances),
+        "events": " ".join(event.name for event in run.source.events),
         "diagnostics": run.diagnostics.to_json(),
         "source": run.source.to_json(),
     }
@@ -116,7 +121,10 @@ def save(run: Result, path: str | os.PathLike[str]) -> None:
 
 def _write(file: Any, run: Result) -> None:
     """Dimensions first, then everything over them."""
-    sizes = {"time": len(run.t), "impact": len(run.impacts), "slot": len(run.given), "prepared": len(run.p)}
+    sizes = {
+        "time": len(run.t), "impact": len(run.impacts), "event": len(run.events), "slot": len(run.given),
+        "prepared": len(run.p),
+    }  # fmt: skip
     for index, name in enumerate(DIMENSIONS):
         is_time = name == "time"
         scale = file.create_dataset(name, data=run.t if is_time else np.zeros(sizes[name], ">f4"))
@@ -159,11 +167,9 @@ def _h5py() -> Any:
 def _result(data: dict[str, Array], attributes: dict[str, str]) -> Result:
     source = KernelSource.from_json(attributes["source"])
     t = data.pop("time")
-    apart = {*DIMENSIONS, *NUMBERS, *(f"impact.{name}" for name in IMPACTS)}
+    apart = {*DIMENSIONS, *NUMBERS, *(f"impact.{name}" for name in IMPACTS), *(f"event.{name}" for name in EVENTS)}
     stored = {name.removeprefix("output."): _read_only(data[name]) for name in data if name not in apart}
-    impacts = np.empty(len(data["impact.t_on"]), IMPACT_DTYPE)
-    for name in IMPACTS:
-        impacts[name] = data[f"impact.{name}"]
+    impacts, events = _table(data, "impact", IMPACT_DTYPE), _table(data, "event", EVENT_DTYPE)
     q, v, a = (_motion(source, stored, len(t), order) for order in range(3))
     return Result(
         compiled=None,
@@ -180,8 +186,18 @@ def _result(data: dict[str, Array], attributes: dict[str, str]) -> Result:
         work=_columns(stored, ["work.drives", "work.forces", "work.clearances"], len(t)),
         impacts=impacts,
         diagnostics=Diagnostics.from_json(attributes["diagnostics"]),
+        events=events,
         stored=stored,
     )
+
+
+def _table(data: dict[str, Array], what: str, dtype: np.dtype[Any]) -> Array:
+    """Impacts or events from their variables; none, where an older file has none."""
+    columns = {name: data.get(f"{what}.{name}", np.zeros(0)) for name in dtype.names or ()}
+    table = np.empty(len(next(iter(columns.values()))), dtype)
+    for name, values in columns.items():
+        table[name] = values
+    return table
 
 
 def _motion(source: KernelSource, stored: dict[str, Array], samples: int, order: int) -> Array:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -47,6 +47,7 @@ class SceneReport:
     forces: Mapping[str, tuple[float, float]]  # joint -> peak force, its time (all steps with play, else all samples)
     constants: Mapping[str, float]
     diagnostics: Diagnostics
+    events: Mapping[str, tuple[float, ...]] = field(default_factory=dict)  # event -> its times
 
 
 def default_watch(reference: Result) -> tuple[str, ...]:
@@ -75,7 +76,8 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
     for joint in run.source.joints if not run.source.clearances else ():
         reaction = _extreme("", "N", run.t, run[f"{joint.name}.F"])
         forces[joint.name] = reaction.peak, reaction.t
-    return SceneReport(run.source.scene, motion, errors, forces, run.constants, run.diagnostics)
+    events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
+    return SceneReport(run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events)
 
 
 def _extreme(name: str, unit: str, t: Any, values: Any) -> Extreme:
@@ -94,6 +96,7 @@ def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
             "errors": {e.name: asdict(e) for e in report.errors},
             "peak_forces": {joint: {"F": force, "t": t} for joint, (force, t) in report.forces.items()},
             "constants": dict(report.constants),
+            "events": {name: list(times) for name, times in report.events.items()},
             "diagnostics": asdict(report.diagnostics),
         }
     clean: dict[str, Any] = _finite(scenes)
@@ -151,6 +154,7 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("Motion", _motion_rows(reports)),
         ("Peak force", _force_rows(reports)),
         ("Joints with play", _play_rows(reports)),
+        ("Events", _event_rows(reports)),
         ("Trust", _trust_rows(reports)),
         ("Cost", _cost_rows(reports)),
     ):
@@ -202,6 +206,18 @@ def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
             values = [report.constants.get(f"{joint}.{name}", math.nan) for report in reports]
             rows.append((f"{joint} {name}{after}", [quantity(value, unit) for value in values]))
     return rows
+
+
+def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """How often, and when first; a dash in scenes that do not have the event."""
+
+    def cell(times: tuple[float, ...] | None) -> str:
+        if not times:
+            return "–" if times is None else "none"
+        return f"at {times[0]:.7g} s" if len(times) == 1 else f"{len(times)}, first at {times[0]:.7g} s"
+
+    names = dict.fromkeys(name for report in reports for name in report.events)
+    return [(name, [cell(report.events.get(name)) for report in reports]) for name in names]
 
 
 def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:

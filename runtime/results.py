@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from gudgeon.diagnostics import Diagnostics
 from gudgeon.errors import GudgeonError, UnknownNameError
+from gudgeon.integrators.trajectory import no_events
 from gudgeon.kernel_source import KernelSource
 
 if TYPE_CHECKING:
@@ -66,6 +67,7 @@ class Result:
     work: Array  # (N, 3) J: drives, applied forces, clearance forces
     impacts: Array  # IMPACT_DTYPE, one an onset
     diagnostics: Diagnostics
+    events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: what the file's `events` watch
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
 
     def __getitem__(self, name: str) -> Array:
@@ -113,6 +115,18 @@ class Result:
             found[f"{joint.name}.c"] = float(self.p[joint.clearance])
             found |= {f"{joint.name}.{name}": float(self.p[i]) for name, i in joint.constants.items()}
         return MappingProxyType(found)
+
+    def events_of(self, name: str) -> Array:
+        """Times at which an event of the file happened, (k,), s. UnknownNameError names the nearest event."""
+        names = [event.name for event in self.source.events]
+        if name not in names:
+            import difflib
+
+            nearest = difflib.get_close_matches(name, names, n=1)
+            hint = f"did you mean {nearest[0]!r}?" if nearest else f"its events: {', '.join(names) or 'none'}"
+            raise UnknownNameError(f"the scene {self.source.scene!r} has no event named {name!r}", hint=hint)
+        times: Array = self.events["t"][self.events["event"] == names.index(name)]
+        return times
 
     @property
     def final(self) -> State:

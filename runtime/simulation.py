@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.compiled import Array, CompiledModel
-from gudgeon.dead_centre import dependent_rows
-from gudgeon.diagnostics import Diagnostics, Peak
+from gudgeon.diagnose import diagnose
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive, kinematic, python_driver, rk4
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
@@ -31,10 +30,9 @@ METHODS = {
     "rk4": rk4.run, "dop853": adaptive.run, "rodas5p": adaptive.run, "adaptive": adaptive.run,
     "kinematic": kinematic.run, **dict.fromkeys(python_driver.NAMES, python_driver.run),
 }  # fmt: skip
-ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
 DEFAULT_OUTPUT = 1000
 MAX_STEPS = 10**12
-DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
+KEPT = 20_000  # samples whose reactions are kept at hand: they were computed for the energy balance
 
 
 class Simulation:
@@ -49,6 +47,7 @@ class Simulation:
         self._overrides = dict(overrides or {})
         self._model: Model | None = None
         self._p: Array | None = None
+        self._full: Simulation | None = None
 
     @property
     def model(self) -> Model:
@@ -61,6 +60,17 @@ class Simulation:
         return self._model
 
     @property
+    def full(self) -> Simulation:
+        """The same scene integrated in absolute coordinates, with the Jacobian of its state equation."""
+        if self.source.formulation == "full":
+            return self
+        if self._full is None:
+            from gudgeon.loading import load
+
+            self._full = load(self.file, self.source.scene, overrides=self._overrides, formulation="full")
+        return self._full
+
+    @property
     def p(self) -> Array:
         """Every run-time number with the file's defaults: slots, then derived."""
         if self._p is None:
@@ -70,6 +80,16 @@ class Simulation:
     def rhs(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
         """ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
         return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.compiled.n]
+
+    def jacobian(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
+        """∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; exact, SI.
+
+        Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, corners of min, max, abs
+        and sign, and modes of friction stay as they are at y; `memory` as in CompiledModel.rhs.
+        Raises SingularError where constraint rows depend on each other, ValueError where nothing is integrated.
+        """
+        full = self.full
+        return full.compiled.jacobian(t, y, full.p, memory)[0][: 2 * full.compiled.n, : 2 * full.compiled.n]
 
     def phi(self, t: float, q: ArrayLike) -> Array:
         """Φ(q, t), (m,)."""
@@ -99,7 +119,7 @@ class Simulation:
         self, t_end: float | str | None = None, *, output: int | ArrayLike | None = None, method: str = "auto",
         rtol: float | None = None, step: float | str | None = None,
         parameters: Mapping[str, float | str] | None = None, start: State | None = None,
-        progress: Progress | None = None, horizon: bool = False,
+        progress: Progress | None = None, horizon: bool = False, stop: bool = True,
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
@@ -114,11 +134,16 @@ class Simulation:
         - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/python_driver.py).
         `horizon`: run thrice more to find the time to which it can be trusted (predictability.py).
         `parameters`: {address or parameter name: float in SI or '0.5 mm'}. Ctrl-C ends the run and keeps
-        what was computed.
+        what was computed. `stop` False: events that would end the run are recorded only.
 
         Raises InputError for arguments, AssemblyError for a start that does not close, SolverError
         when the equations cannot be solved; its `partial` is the result up to there.
         """
+        if method in python_driver.NAMES and self.source.formulation != "full":
+            return self.full.simulate(
+                t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
+                progress=progress, horizon=horizon, stop=stop,
+            )  # fmt: skip
         p, given, is_given = prepare(self.compiled, parameters or {})
         t0 = 0.0 if start is None else start.t
         times = self._times(t0, t_end, output)
@@ -132,11 +157,11 @@ class Simulation:
         check_start(self.compiled, p, t0, q)
         problem = Problem(
             self.compiled, p, times, q, v, memory, h, progress, None if start is None else start.state,
-            chosen, _tolerance(rtol), without_baumgarte(self.compiled, given, is_given),
+            chosen, _tolerance(rtol), without_baumgarte(self.compiled, given, is_given), stop,
         )  # fmt: skip
         before = time.perf_counter()
         trajectory = METHODS[chosen](problem)
-        seconds = time.perf_counter() - before
+        seconds = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
         result = self._result(chosen, problem, trajectory, given, is_given, seconds)
         stopped = trajectory.stopped or contradiction(problem, trajectory)
         if stopped is not None:
@@ -210,12 +235,21 @@ class Simulation:
     ) -> Result:
         from gudgeon.results import Result
 
-        diagnostics = diagnose(self.compiled, method, problem, trajectory, seconds)
-        return Result(
+        x = trajectory
+        try:
+            evaluation = self.compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p)
+        except SolverError:
+            evaluation = None
+        a = x.a if x.a is not None else np.full_like(x.q, np.nan) if evaluation is None else evaluation.a
+        diagnostics = diagnose(self.compiled, method, problem, trajectory, evaluation, seconds)
+        result = Result(
             compiled=self.compiled, source=self.source, p=problem.p, given=given, is_given=is_given, t=trajectory.t,
-            q=trajectory.q, v=trajectory.v, a=trajectory.a, state=trajectory.state, memory=trajectory.memory,
-            work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics,
+            q=trajectory.q, v=trajectory.v, a=a, state=trajectory.state, memory=trajectory.memory,
+            work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics, events=trajectory.events,
         )  # fmt: skip
+        if evaluation is not None and len(x.t) <= KEPT:
+            result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
+        return result
 
 
 def _tolerance(rtol: float | None) -> float:
@@ -229,72 +263,3 @@ def _seconds(name: str, value: float | str) -> float:
     from gudgeon.kernel_source import Slot
 
     return number(value, Slot(name, "s", 0.0, False, (0, 0, 1)))
-
-
-def diagnose(
-    compiled: CompiledModel, method: str, problem: Problem, trajectory: Trajectory, seconds: float
-) -> Diagnostics:
-    """What a run says about itself, from its trajectory."""
-    x, counts = trajectory, trajectory.counts
-    try:
-        energy = compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p).energy
-        residual = energy.sum(axis=1) - energy[0].sum() - x.work.sum(axis=1)
-        turned = float(np.abs(np.diff(x.work, axis=0)).sum() + np.ptp(energy[:, 0]))
-        worst = float(np.abs(residual).max())
-    except SolverError:
-        worst = turned = math.nan
-    used = problem.step
-    if method == "rk4":
-        used = max(
-            (d / max(1, math.ceil(d / used * (1 - 1e-12))) for d in np.diff(problem.t).tolist()), default=math.nan
-        )
-    simulated = float(x.t[-1] - x.t[0])
-    if method == "adaptive":
-        method = "dop853+rodas5p" if 0 < counts.stiff_steps < counts.steps else ORDER_OF_CHOICE[counts.stiff_steps > 0]
-    return Diagnostics(
-        method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
-        rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
-        rejected=counts.rejected, stiff_steps=counts.stiff_steps, jacobians=counts.jacobians,
-        right_hand_sides=counts.right_hand_sides, onsets=counts.onsets, grazes=counts.grazes,
-        phi_max=counts.phi_max, phi_dot_max=counts.phi_dot_max, energy_residual=worst, energy_turned_over=turned,
-        ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
-        peaks=_peaks(compiled, x), seconds=seconds,
-        seconds_per_simulated_second=seconds / simulated if simulated > 0 else math.nan,
-        interrupted=x.interrupted, notes=_notes(compiled, problem, trajectory),
-    )  # fmt: skip
-
-
-def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
-    """What a reader of this run should know before trusting it."""
-    p, notes, counts = problem.p, [], trajectory.counts
-    if problem.state is None and (tied := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
-        notes.append(
-            f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"
-            " start.rates leave open were taken least: give a rate of each body that may move"
-        )
-    for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
-        c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
-        deepest = float(e_max) - c
-        if deepest > min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius):
-            notes.append(
-                f"{joint.name}: the journal goes {deepest:.3g} m into its bearing (c {c:.3g} m, radius {radius:.3g} m):"
-                " outside what contact laws hold for; a step too long does this too"
-            )
-    if compiled.source.indeterminate:
-        notes.append(
-            f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"
-            " by rigid bodies (NaN)"
-        )
-    if counts.grazes:
-        notes.append(f"{counts.grazes} steps touched and left again within: take a smaller step to resolve them")
-    return tuple(notes)
-
-
-def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
-    peaks = []
-    for i, joint in enumerate(compiled.source.clearances):
-        own = trajectory.impacts[trajectory.impacts["joint"] == i]
-        first = (float(own["t_on"][0]), float(own["F_peak"][0])) if len(own) else (math.nan, math.nan)
-        F, t, e_max = (float(x) for x in trajectory.peaks[i])
-        peaks.append(Peak(joint.name, F, t, e_max, *first))
-    return tuple(peaks)

@@ -46,6 +46,9 @@ class JointType:
     rows: Callable[..., list[Any]]
     joins: str = "points"  # "points": [L1.head, L2.tail]; "bodies": [L1, L4]
     reaction_at: str = "second"  # the point of which body the reaction is given at
+    # rows that hold by themselves where tree coordinates place one body by the other: two rows where the points
+    # coincide, one where the second's point slides along the first's `axis` (generator/tree.py)
+    carries: tuple[str, ...] = ()
 
 
 @cache

@@ -19,4 +19,4 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
     return [first.x - second.x, first.y - second.y]
 
 
-JOINT = JointType("revolute", "revolute joint", (), True, ("x", "y"), ("m", "m"), rows)
+JOINT = JointType("revolute", "revolute joint", (), True, ("x", "y"), ("m", "m"), rows, carries=("x", "y"))

@@ -25,4 +25,5 @@ JOINT = JointType(
     ("x", "y", "angle"),
     ("m", "m", "rad"),
     rows,
+    carries=("x", "y"),
 )

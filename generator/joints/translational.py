@@ -35,4 +35,5 @@ JOINT = JointType(
     ("offset", "angle"),
     ("m", "rad"),
     rows,
+    carries=("offset",),
 )

@@ -83,6 +83,12 @@ def _facts(source: KernelSource) -> dict[str, int]:
     return facts | {_label(name): count for name, count in source.operations.items()}
 
 
+def _events(source: KernelSource) -> list[str]:
+    """What is watched: "top (falling, recorded)"."""
+    does = {"record": "recorded", "stop": "ends the run"}
+    return [f"{event.name} ({event.direction}, {does[event.action]})" for event in source.events]
+
+
 def _label(kernel: str) -> str:
     return kernel if " " in kernel else f"operations in {kernel}"
 
@@ -95,11 +101,12 @@ def _document(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> dict[
         "bodies": list(mechanism.bodies),
         "joints": list(mechanism.joints),
         "drives": list(mechanism.drives),
-        "scenes": {
-            name: {**_facts(scenes[name]), "notes": list(scenes[name].notes)} if name in scenes else {}
-            for name in mechanism.scenes
-        },
+        "scenes": {name: _of_scene(scenes[name]) if name in scenes else {} for name in mechanism.scenes},
     }
+
+
+def _of_scene(source: KernelSource) -> dict[str, Any]:
+    return {**_facts(source), "events": _events(source), "notes": list(source.notes)}
 
 
 def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
@@ -119,5 +126,7 @@ def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
         table.add_row(name, *(f"{found[name]:,}" if name in found else "–" for found in facts.values()))
     console.print(table)
     for scene, source in scenes.items():
+        if source.events:
+            console.print(f"{scene}: events {', '.join(_events(source))}", markup=False)
         for note in source.notes:
             console.print(f"{scene}: {note}", markup=False)

@@ -14,12 +14,13 @@ and the smallest radial clearance in a scene with play, since what happens in th
 from __future__ import annotations
 
 import math
+from time import perf_counter
 
 import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import SolverError
-from gudgeon.integrators.session import EVENTS_FULL, Session
+from gudgeon.integrators.session import ENDED, EVENTS_FULL, RunEnded, Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.start import mechanism_size
 
@@ -44,6 +45,8 @@ def run(problem: Problem) -> Trajectory:
     try:
         while session.done < len(problem.t):
             _chunk(session)
+    except RunEnded:
+        pass
     except KeyboardInterrupt:
         interrupted = True
     except SolverError as error:
@@ -55,14 +58,17 @@ def _chunk(session: Session) -> None:
     """Some steps in C; raises SolverError."""
     problem, done = session.problem, session.compiled.ffi.new("long *")
     done[0] = session.done
-    status = session.lib.gudgeon_adaptive_run(
-        session.run, session.pointer(session.p), len(problem.t), session.pointer(problem.t), CHUNK,
-        *session.rows(0), done,
-    )  # fmt: skip
+    arguments = (session.pointer(session.p), len(problem.t), session.pointer(problem.t), CHUNK, *session.rows(0), done)
+    before = perf_counter()
+    status = session.lib.gudgeon_adaptive_run(session.run, *arguments)
+    session.seconds += perf_counter() - before
     session.done = int(done[0])
     t = session.report()[0]
     if status == EVENTS_FULL:
         session.fetch_impacts(last=False)
+        session.fetch_events()
+    elif status == ENDED:
+        session.end()
     elif status:
         session.fail(status, t, "the motion may leave what the model holds for; look at the last samples")
     if problem.progress:
@@ -70,11 +76,15 @@ def _chunk(session: Session) -> None:
 
 
 def tolerances(compiled: CompiledModel, p: Array, rtol: float, duration: float) -> tuple[Array, Array]:
-    """Tolerances of a step, (2n,): of coordinates, and of velocities a unit of speed; speeds never counted below."""
+    """Tolerances of a step, (2 n_x,): of coordinates, of velocities a unit of speed; what a speed counts at least."""
     size = mechanism_size(compiled, p)
     play = [float(p[joint.clearance]) for joint in compiled.source.clearances]
     length = min([c for c in play if c > 0.0], default=size)
-    is_angle = np.array([name.endswith(".theta") for name in compiled.source.coordinates])
+    source = compiled.source
+    if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
+        is_angle = np.array(["." not in name for name in source.tree])
+    else:
+        is_angle = np.array([name.endswith(".theta") for name in source.coordinates])
     of_q = rtol * np.where(is_angle, length / size, length)
     floor = np.array([length, length / size]) / max(duration, 1e-300)
     return np.concatenate([of_q, np.full(len(of_q), rtol)]), floor

@@ -7,9 +7,10 @@ sees Ctrl-C. Constraints are stabilised by Baumgarte's terms (physics.md, sectio
 from __future__ import annotations
 
 import math
+from time import perf_counter
 
 from gudgeon.errors import SolverError
-from gudgeon.integrators.session import EVENTS_FULL, Session
+from gudgeon.integrators.session import ENDED, EVENTS_FULL, RunEnded, Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
 
 NAME, ORDER, SOURCE = "rk4", 4, "W. Kutta, Z. Math. Phys. 46 (1901) 435-453"
@@ -29,6 +30,8 @@ def run(problem: Problem) -> Trajectory:
             session.sample(i)
             if problem.progress:
                 problem.progress(i / (len(problem.t) - 1), "integrating")
+    except RunEnded:
+        pass
     except KeyboardInterrupt:
         interrupted = True
     except SolverError as error:
@@ -53,9 +56,14 @@ def _steps(session: Session, t0: float, t1: float, total: int, first: int, count
     """Up to `count` steps in C; the number that was made. Raises SolverError."""
     taken = session.compiled.ffi.new("long *")
     p = session.pointer(session.p)
+    before = perf_counter()
     status = session.lib.gudgeon_run_steps(session.run, p, t0, t1, total, first, count, taken)
+    session.seconds += perf_counter() - before
     if status == EVENTS_FULL:
         session.fetch_impacts(last=False)
+        session.fetch_events()
+    elif status == ENDED:
+        session.end()
     elif status:
         advice = f"the step {session.problem.step:.3g} s is too long for this scene: take a smaller one"
         session.fail(status, t0 + (first + taken[0]) * (t1 - t0) / total, advice)

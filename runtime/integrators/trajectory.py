@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
+import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import SolverError
 
 Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is being done
+
+
+EVENT_DTYPE = np.dtype([("event", "i4"), ("t", "f8")])  # index into KernelSource.events, s
+
+
+def no_events() -> NDArray[Any]:
+    """An empty list of events."""
+    return np.zeros(0, dtype=EVENT_DTYPE)
 
 
 @dataclass(frozen=True)
@@ -30,6 +39,7 @@ class Problem:
     method: str = "rk4"
     rtol: float = 0.0  # of methods that choose their step
     p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
+    stop: bool = True  # whether events may end the run; else they are recorded only
 
 
 @dataclass(frozen=True)
@@ -53,12 +63,15 @@ class Counts:
 
 @dataclass(frozen=True)
 class Trajectory:
-    """N samples or, when `stopped` or interrupted, as many as were reached."""
+    """N samples or, when `stopped` or interrupted, as many as were reached.
+
+    Where an event ended the run the last sample stands at its time, and `events` ends with it.
+    """
 
     t: Array
     q: Array  # (N, n)
     v: Array
-    a: Array
+    a: Array | None  # None: not looked at by the method
     memory: Array  # (N, n_clearances + n_frictions)
     state: NDArray[Any]  # (N, n_clearances) int8
     work: Array  # (N, 3) J: drives, applied forces, clearance forces
@@ -67,3 +80,5 @@ class Trajectory:
     counts: Counts
     interrupted: bool = False
     stopped: SolverError | None = None
+    seconds: float | None = None  # spent in the time loop; None: not measured
+    events: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE, by time

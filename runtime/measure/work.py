@@ -146,7 +146,9 @@ def attempt(
     if setting.fixed:
         chosen = {} if setting.method == "kinematic" else {"step": setting.value}
     try:
-        run = simulation.simulate(output=times, method=setting.method, parameters=parameters, progress=watch, **chosen)
+        run = simulation.simulate(
+            output=times, method=setting.method, parameters=parameters, progress=watch, stop=False, **chosen
+        )
     except _TooSlowError:
         told, at = f"more than {limit:.3g} s of processor time", float(times[0] + reached * (times[-1] - times[0]))
         return Attempt(setting, None, told, at, cpu=limit)

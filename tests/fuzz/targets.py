@@ -26,6 +26,7 @@ TOKENS = tuple(_TOKENS.split(" "))
 _YAML_TOKENS = (
     ": |\n|  |- |[|]|{|}|, |'|\"|&x |*x|!!python/object |<<: |? |> |%YAML 1.1|---\n|...\n|~|\t|# |format: gudgeon/1\n|"
     "name: n\n|bodies:\n|joints:\n|drives:\n|forces:\n|ground:\n|start: |guess: |scenes:\n|play: |outputs: |"
+    "events:\n|zero: |direction: |action: |"
     "parameters:\n|"
     "extends: |length: |mass: |inertia: |points: |com: |revolute: |rigid: |gear: |distance: |point_on_line: |"
     "spring_damper: |torque: |force: |angle: |coordinate: |value: |radii: |carrier: |axis: |ground.O|L1.head|L2.tail|"
@@ -45,7 +46,8 @@ start: {guess: {S.x: 1}}
 materials: {m: {E: 1, nu: 0.3}}
 bearings: {p: {radius: 1, clearance: 0.1, length: 1, bearing_material: m, journal_material: m}}
 contacts: {c: {normal: {law: lankarani_nikravesh, restitution: 0.9}}, e: {extends: c}}
-scenes: {x: {play: {O: {bearing: p, contact: e}}}, y: {extends: x, parameters: {r: 1}}}
+events: {w: {zero: L1.p.y - r, direction: rising}, z: {zero: t - 1, action: stop}}
+scenes: {x: {play: {O: {bearing: p, contact: e}}}, y: {extends: x, parameters: {r: 1}, events: {w: {zero: S.omega}}}}
 outputs: {o: s.F - O.Fx}
 """
 

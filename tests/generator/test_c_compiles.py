@@ -19,9 +19,7 @@ from gudgeon.shipped import shipped, shipped_file
 FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror"]
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 SCENES = [
-    (name, scene)
-    for name in shipped()
-    for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
+    (name, scene) for name in shipped() for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
 ]
 
 # Reads p, then t, q, v of a start; prints how a short run went. The scene is included, not linked.

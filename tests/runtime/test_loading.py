@@ -31,7 +31,7 @@ def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Ma
     """Stands in for the generator: what it was asked for is kept, the answer is tiny()."""
     asked: list[tuple[bytes, str, str, Mapping[str, object]]] = []
 
-    def generate(data: bytes, file: str, scene: str, overrides: Mapping[str, object]) -> KernelSource:
+    def generate(data: bytes, file: str, scene: str, overrides: Mapping[str, object], formulation: str) -> KernelSource:
         asked.append((data, file, scene, overrides))
         return tiny(scene=scene, sha256=sha256(data).hexdigest())
 

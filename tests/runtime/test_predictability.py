@@ -35,14 +35,14 @@ def test_smooth_scenes_have_none() -> None:
 
 @compiled
 def test_the_dry_press_is_chaotic() -> None:
-    """Tolerance buys time until rounding is what grows; paths a quarter of the clearance apart come later still."""
+    """Tolerance buys time until rounding is what grows; paths a hundredth of the clearance apart come before."""
     press = gudgeon.load(PRESS, scene="dry")
     loose = press.simulate(0.4, output=10, method="dop853", rtol=1e-6, horizon=True)
     tight = press.simulate(0.4, output=10, method="dop853", rtol=1e-13, horizon=True)
     contact = loose.diagnostics.peak("A").first_contact
     assert contact < loose.diagnostics.horizon < tight.diagnostics.horizon
-    assert 0.06 < tight.diagnostics.horizon < 0.2
-    assert tight.diagnostics.horizon < horizon(press, tight, apart=0.25) < math.inf
+    assert 0.2 < tight.diagnostics.horizon < 0.4
+    assert contact < horizon(press, tight, apart=0.01) < tight.diagnostics.horizon
 
 
 @compiled

@@ -10,7 +10,10 @@ static double margin(const Memory *memory, const Aside *aside, int k)
     k -= N_CLEARANCES;
     if (k < N_SWITCHES)
         return memory->side[k] * aside->g[k];
-    return indicator(memory, aside, k - N_SWITCHES);
+    k -= N_SWITCHES;
+    if (k < N_FRICTIONS)
+        return indicator(memory, aside, k);
+    return memory->event_side[k - N_FRICTIONS] * aside->event[k - N_FRICTIONS];
 }
 
 static void forget_stages(Step *step)
@@ -64,11 +67,11 @@ static int all_finite(const double *x, int n)
  * Back onto Phi = 0 and Phi_dot = 0 by the smallest changes of q and v, measured by M. The second time for the
  * velocities at the mended positions. A pivot that vanishes (links in line) leaves the state as it is.
  */
-static void project_state(const Memory *memory, double t, double *y, const Parameters *p)
+static void project_state(Run *run, double t, double *y, const Parameters *p)
 {
-    for (int pass = 0; pass < 3 && N_ROWS > 0; pass++) {
-        double dq[N_X], dv[N_X], worst = 0.0;
-        if (closing_step(t, y, y + N_X, memory, p, dq, dv, &worst) || !all_finite(dq, N_X) || !all_finite(dv, N_X))
+    for (int pass = 0; pass < 3 && N_LOOPS > 0; pass++) {
+        double dq[N_X], dv[N_X], worst;
+        if (closing_step(t, y, y + N_X, &run->memory, p, dq, dv, &worst) || !all_finite(dq, N_X) || !all_finite(dv, N_X))
             return;
         for (int k = 0; k < N_X; k++) {
             y[k] -= dq[k];
@@ -84,7 +87,7 @@ static int finish_step(Run *run, Step *step, const Parameters *p)
 {
     if (!all_finite(step->y, N_Y))
         return NOT_FINITE;
-    project_state(&run->memory, step->t + step->h, step->y, p);
+    project_state(run, step->t + step->h, step->y, p);
     const int status = rates(run, step->t + step->h, step->y, p, step->dy, &step->aside);
     return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;
 }

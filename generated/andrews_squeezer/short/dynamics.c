@@ -280,43 +280,45 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_F_x__OF_theta = -arm_OF_F_y*inverse_OF_inertia;
     const double l_F_y__OF_theta = arm_OF_F_x*inverse_OF_inertia;
     const double scale_O_x = arm_OF_O_y*l_O_x__OF_theta + inverse_OF_mass;
-    if (!(scale_O_x > 1e-08 * scale_O_x)) { pivot = 1; goto dependent; };
-    const double inverse_pivot_O_x = 1.0/scale_O_x;
-    const double w_O_y__O_x = -arm_OF_O_y*l_O_y__OF_theta;
-    const double l_O_y__O_x = -inverse_pivot_O_x*w_O_y__O_x;
-    const double w_F_x__O_x = -arm_OF_O_y*l_F_x__OF_theta + inverse_OF_mass;
-    const double l_F_x__O_x = -inverse_pivot_O_x*w_F_x__O_x;
-    const double w_F_y__O_x = -arm_OF_O_y*l_F_y__OF_theta;
-    const double l_F_y__O_x = -inverse_pivot_O_x*w_F_y__O_x;
     const double scale_O_y = -arm_OF_O_x*l_O_y__OF_theta + inverse_OF_mass;
-    const double pivot_O_y = l_O_y__O_x*w_O_y__O_x + scale_O_y;
-    if (!(pivot_O_y > 1e-08 * scale_O_y)) { pivot = 2; goto dependent; };
-    const double inverse_pivot_O_y = 1.0/pivot_O_y;
-    const double w_F_x__O_y = arm_OF_O_x*l_F_x__OF_theta - l_F_x__O_x*w_O_y__O_x;
-    const double l_F_x__O_y = -inverse_pivot_O_y*w_F_x__O_y;
-    const double w_F_y__O_y = arm_OF_O_x*l_F_y__OF_theta + inverse_OF_mass - l_F_y__O_x*w_O_y__O_x;
-    const double l_F_y__O_y = -inverse_pivot_O_y*w_F_y__O_y;
+    const double pivot_O_x__O_y = arm_OF_O_y*l_O_y__OF_theta;
+    const double determinant_O_x__O_y = -(pivot_O_x__O_y * pivot_O_x__O_y) + scale_O_x*scale_O_y;
+    if (!(scale_O_x > 1e-08 * scale_O_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_O_x__O_y > 1e-08 * scale_O_y * scale_O_x)) { pivot = 2; goto dependent; };
+    const double inverse_O_x__O_y = -1.0/determinant_O_x__O_y;
+    const double inverse_pivot_O_x = inverse_O_x__O_y*scale_O_y;
+    const double inverse_pivot_O_y = inverse_O_x__O_y*scale_O_x;
+    const double inverse_cross_O_x__O_y = -inverse_O_x__O_y*pivot_O_x__O_y;
+    const double w_F_x__O_x = -arm_OF_O_y*l_F_x__OF_theta + inverse_OF_mass;
+    const double w_F_x__O_y = arm_OF_O_x*l_F_x__OF_theta;
+    const double l_F_x__O_x = inverse_cross_O_x__O_y*w_F_x__O_y + inverse_pivot_O_x*w_F_x__O_x;
+    const double l_F_x__O_y = inverse_cross_O_x__O_y*w_F_x__O_x + inverse_pivot_O_y*w_F_x__O_y;
+    const double w_F_y__O_x = -arm_OF_O_y*l_F_y__OF_theta;
+    const double w_F_y__O_y = arm_OF_O_x*l_F_y__OF_theta + inverse_OF_mass;
+    const double l_F_y__O_x = inverse_cross_O_x__O_y*w_F_y__O_y + inverse_pivot_O_x*w_F_y__O_x;
+    const double l_F_y__O_y = inverse_cross_O_x__O_y*w_F_y__O_x + inverse_pivot_O_y*w_F_y__O_y;
     const double l_B_x__BDE_theta = arm_BDE_B_y*inverse_BDE_inertia;
     const double l_B_y__BDE_theta = -arm_BDE_B_x*inverse_BDE_inertia;
     const double l_E3_x__BDE_theta = arm_BDE_E_y*inverse_BDE_inertia;
     const double l_E3_y__BDE_theta = -arm_BDE_E_x*inverse_BDE_inertia;
     const double scale_B_x = arm_BDE_B_y*l_B_x__BDE_theta + inverse_BDE_mass;
-    if (!(scale_B_x > 1e-08 * scale_B_x)) { pivot = 3; goto dependent; };
-    const double inverse_pivot_B_x = 1.0/scale_B_x;
-    const double w_B_y__B_x = -arm_BDE_B_y*l_B_y__BDE_theta;
-    const double l_B_y__B_x = -inverse_pivot_B_x*w_B_y__B_x;
-    const double w_E3_x__B_x = -arm_BDE_B_y*l_E3_x__BDE_theta - inverse_BDE_mass;
-    const double l_E3_x__B_x = -inverse_pivot_B_x*w_E3_x__B_x;
-    const double w_E3_y__B_x = -arm_BDE_B_y*l_E3_y__BDE_theta;
-    const double l_E3_y__B_x = -inverse_pivot_B_x*w_E3_y__B_x;
     const double scale_B_y = -arm_BDE_B_x*l_B_y__BDE_theta + inverse_BDE_mass;
-    const double pivot_B_y = l_B_y__B_x*w_B_y__B_x + scale_B_y;
-    if (!(pivot_B_y > 1e-08 * scale_B_y)) { pivot = 4; goto dependent; };
-    const double inverse_pivot_B_y = 1.0/pivot_B_y;
-    const double w_E3_x__B_y = arm_BDE_B_x*l_E3_x__BDE_theta - l_E3_x__B_x*w_B_y__B_x;
-    const double l_E3_x__B_y = -inverse_pivot_B_y*w_E3_x__B_y;
-    const double w_E3_y__B_y = arm_BDE_B_x*l_E3_y__BDE_theta - inverse_BDE_mass - l_E3_y__B_x*w_B_y__B_x;
-    const double l_E3_y__B_y = -inverse_pivot_B_y*w_E3_y__B_y;
+    const double pivot_B_x__B_y = arm_BDE_B_y*l_B_y__BDE_theta;
+    const double determinant_B_x__B_y = -(pivot_B_x__B_y * pivot_B_x__B_y) + scale_B_x*scale_B_y;
+    if (!(scale_B_x > 1e-08 * scale_B_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * scale_B_x)) { pivot = 4; goto dependent; };
+    const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
+    const double inverse_pivot_B_x = inverse_B_x__B_y*scale_B_y;
+    const double inverse_pivot_B_y = inverse_B_x__B_y*scale_B_x;
+    const double inverse_cross_B_x__B_y = -inverse_B_x__B_y*pivot_B_x__B_y;
+    const double w_E3_x__B_x = -arm_BDE_B_y*l_E3_x__BDE_theta - inverse_BDE_mass;
+    const double w_E3_x__B_y = arm_BDE_B_x*l_E3_x__BDE_theta;
+    const double l_E3_x__B_x = inverse_cross_B_x__B_y*w_E3_x__B_y + inverse_pivot_B_x*w_E3_x__B_x;
+    const double l_E3_x__B_y = inverse_cross_B_x__B_y*w_E3_x__B_x + inverse_pivot_B_y*w_E3_x__B_y;
+    const double w_E3_y__B_x = -arm_BDE_B_y*l_E3_y__BDE_theta;
+    const double w_E3_y__B_y = arm_BDE_B_x*l_E3_y__BDE_theta - inverse_BDE_mass;
+    const double l_E3_y__B_x = inverse_cross_B_x__B_y*w_E3_y__B_y + inverse_pivot_B_x*w_E3_y__B_x;
+    const double l_E3_y__B_y = inverse_cross_B_x__B_y*w_E3_y__B_x + inverse_pivot_B_y*w_E3_y__B_y;
     const double l_G_x__EG_theta = -arm_EG_G_y*inverse_EG_inertia;
     const double l_G_y__EG_theta = arm_EG_G_x*inverse_EG_inertia;
     const double l_E4_x__EG_theta = arm_EG_E_y*inverse_EG_inertia;
@@ -326,44 +328,46 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_G_x__AG_theta = arm_AG_G_y*inverse_AG_inertia;
     const double l_G_y__AG_theta = -arm_AG_G_x*inverse_AG_inertia;
     const double scale_A5_x = arm_AG_A_y*l_A5_x__AG_theta + inverse_AG_mass;
-    if (!(scale_A5_x > 1e-08 * scale_A5_x)) { pivot = 5; goto dependent; };
-    const double inverse_pivot_A5_x = 1.0/scale_A5_x;
-    const double w_A5_y__A5_x = -arm_AG_A_y*l_A5_y__AG_theta;
-    const double l_A5_y__A5_x = -inverse_pivot_A5_x*w_A5_y__A5_x;
-    const double w_G_x__A5_x = -arm_AG_A_y*l_G_x__AG_theta - inverse_AG_mass;
-    const double l_G_x__A5_x = -inverse_pivot_A5_x*w_G_x__A5_x;
-    const double w_G_y__A5_x = -arm_AG_A_y*l_G_y__AG_theta;
-    const double l_G_y__A5_x = -inverse_pivot_A5_x*w_G_y__A5_x;
     const double scale_A5_y = -arm_AG_A_x*l_A5_y__AG_theta + inverse_AG_mass;
-    const double pivot_A5_y = l_A5_y__A5_x*w_A5_y__A5_x + scale_A5_y;
-    if (!(pivot_A5_y > 1e-08 * scale_A5_y)) { pivot = 6; goto dependent; };
-    const double inverse_pivot_A5_y = 1.0/pivot_A5_y;
-    const double w_G_x__A5_y = arm_AG_A_x*l_G_x__AG_theta - l_G_x__A5_x*w_A5_y__A5_x;
-    const double l_G_x__A5_y = -inverse_pivot_A5_y*w_G_x__A5_y;
-    const double w_G_y__A5_y = arm_AG_A_x*l_G_y__AG_theta - inverse_AG_mass - l_G_y__A5_x*w_A5_y__A5_x;
-    const double l_G_y__A5_y = -inverse_pivot_A5_y*w_G_y__A5_y;
+    const double pivot_A5_x__A5_y = arm_AG_A_y*l_A5_y__AG_theta;
+    const double determinant_A5_x__A5_y = -(pivot_A5_x__A5_y * pivot_A5_x__A5_y) + scale_A5_x*scale_A5_y;
+    if (!(scale_A5_x > 1e-08 * scale_A5_x)) { pivot = 5; goto dependent; };
+    if (!(determinant_A5_x__A5_y > 1e-08 * scale_A5_y * scale_A5_x)) { pivot = 6; goto dependent; };
+    const double inverse_A5_x__A5_y = -1.0/determinant_A5_x__A5_y;
+    const double inverse_pivot_A5_x = inverse_A5_x__A5_y*scale_A5_y;
+    const double inverse_pivot_A5_y = inverse_A5_x__A5_y*scale_A5_x;
+    const double inverse_cross_A5_x__A5_y = -inverse_A5_x__A5_y*pivot_A5_x__A5_y;
+    const double w_G_x__A5_x = -arm_AG_A_y*l_G_x__AG_theta - inverse_AG_mass;
+    const double w_G_x__A5_y = arm_AG_A_x*l_G_x__AG_theta;
+    const double l_G_x__A5_x = inverse_cross_A5_x__A5_y*w_G_x__A5_y + inverse_pivot_A5_x*w_G_x__A5_x;
+    const double l_G_x__A5_y = inverse_cross_A5_x__A5_y*w_G_x__A5_x + inverse_pivot_A5_y*w_G_x__A5_y;
+    const double w_G_y__A5_x = -arm_AG_A_y*l_G_y__AG_theta;
+    const double w_G_y__A5_y = arm_AG_A_x*l_G_y__AG_theta - inverse_AG_mass;
+    const double l_G_y__A5_x = inverse_cross_A5_x__A5_y*w_G_y__A5_y + inverse_pivot_A5_x*w_G_y__A5_x;
+    const double l_G_y__A5_y = inverse_cross_A5_x__A5_y*w_G_y__A5_x + inverse_pivot_A5_y*w_G_y__A5_y;
     const double scale_G_x = arm_AG_G_y*l_G_x__AG_theta - arm_EG_G_y*l_G_x__EG_theta + inverse_AG_mass +
         inverse_EG_mass;
-    const double pivot_G_x = l_G_x__A5_x*w_G_x__A5_x + l_G_x__A5_y*w_G_x__A5_y + scale_G_x;
-    if (!(pivot_G_x > 1e-08 * scale_G_x)) { pivot = 7; goto dependent; };
-    const double inverse_pivot_G_x = 1.0/pivot_G_x;
-    const double w_G_y__G_x = -arm_AG_G_y*l_G_y__AG_theta + arm_EG_G_y*l_G_y__EG_theta -
-        l_G_y__A5_x*w_G_x__A5_x - l_G_y__A5_y*w_G_x__A5_y;
-    const double l_G_y__G_x = -inverse_pivot_G_x*w_G_y__G_x;
-    const double w_E4_x__G_x = arm_EG_G_y*l_E4_x__EG_theta + inverse_EG_mass;
-    const double l_E4_x__G_x = -inverse_pivot_G_x*w_E4_x__G_x;
-    const double w_E4_y__G_x = arm_EG_G_y*l_E4_y__EG_theta;
-    const double l_E4_y__G_x = -inverse_pivot_G_x*w_E4_y__G_x;
     const double scale_G_y = -arm_AG_G_x*l_G_y__AG_theta + arm_EG_G_x*l_G_y__EG_theta + inverse_AG_mass +
         inverse_EG_mass;
-    const double pivot_G_y = l_G_y__A5_x*w_G_y__A5_x + l_G_y__A5_y*w_G_y__A5_y + l_G_y__G_x*w_G_y__G_x +
-        scale_G_y;
-    if (!(pivot_G_y > 1e-08 * scale_G_y)) { pivot = 8; goto dependent; };
-    const double inverse_pivot_G_y = 1.0/pivot_G_y;
-    const double w_E4_x__G_y = -arm_EG_G_x*l_E4_x__EG_theta - l_E4_x__G_x*w_G_y__G_x;
-    const double l_E4_x__G_y = -inverse_pivot_G_y*w_E4_x__G_y;
-    const double w_E4_y__G_y = -arm_EG_G_x*l_E4_y__EG_theta + inverse_EG_mass - l_E4_y__G_x*w_G_y__G_x;
-    const double l_E4_y__G_y = -inverse_pivot_G_y*w_E4_y__G_y;
+    const double pivot_G_x = l_G_x__A5_x*w_G_x__A5_x + l_G_x__A5_y*w_G_x__A5_y + scale_G_x;
+    const double pivot_G_y = l_G_y__A5_x*w_G_y__A5_x + l_G_y__A5_y*w_G_y__A5_y + scale_G_y;
+    const double pivot_G_x__G_y = arm_AG_G_y*l_G_y__AG_theta - arm_EG_G_y*l_G_y__EG_theta +
+        l_G_y__A5_x*w_G_x__A5_x + l_G_y__A5_y*w_G_x__A5_y;
+    const double determinant_G_x__G_y = pivot_G_x*pivot_G_y - (pivot_G_x__G_y * pivot_G_x__G_y);
+    if (!(pivot_G_x > 1e-08 * scale_G_x)) { pivot = 7; goto dependent; };
+    if (!(determinant_G_x__G_y > 1e-08 * scale_G_y * pivot_G_x)) { pivot = 8; goto dependent; };
+    const double inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
+    const double inverse_pivot_G_x = inverse_G_x__G_y*pivot_G_y;
+    const double inverse_pivot_G_y = inverse_G_x__G_y*pivot_G_x;
+    const double inverse_cross_G_x__G_y = -inverse_G_x__G_y*pivot_G_x__G_y;
+    const double w_E4_x__G_x = arm_EG_G_y*l_E4_x__EG_theta + inverse_EG_mass;
+    const double w_E4_x__G_y = -arm_EG_G_x*l_E4_x__EG_theta;
+    const double l_E4_x__G_x = inverse_cross_G_x__G_y*w_E4_x__G_y + inverse_pivot_G_x*w_E4_x__G_x;
+    const double l_E4_x__G_y = inverse_cross_G_x__G_y*w_E4_x__G_x + inverse_pivot_G_y*w_E4_x__G_y;
+    const double w_E4_y__G_x = arm_EG_G_y*l_E4_y__EG_theta;
+    const double w_E4_y__G_y = -arm_EG_G_x*l_E4_y__EG_theta + inverse_EG_mass;
+    const double l_E4_y__G_x = inverse_cross_G_x__G_y*w_E4_y__G_y + inverse_pivot_G_x*w_E4_y__G_x;
+    const double l_E4_y__G_y = inverse_cross_G_x__G_y*w_E4_y__G_x + inverse_pivot_G_y*w_E4_y__G_y;
     const double l_H_x__HE_theta = -arm_HE_H_y*inverse_HE_inertia;
     const double l_H_y__HE_theta = arm_HE_H_x*inverse_HE_inertia;
     const double l_E6_x__HE_theta = arm_HE_E_y*inverse_HE_inertia;
@@ -373,44 +377,46 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_H_x__AH_theta = arm_AH_H_y*inverse_AH_inertia;
     const double l_H_y__AH_theta = -arm_AH_H_x*inverse_AH_inertia;
     const double scale_A7_x = arm_AH_A_y*l_A7_x__AH_theta + inverse_AH_mass;
-    if (!(scale_A7_x > 1e-08 * scale_A7_x)) { pivot = 9; goto dependent; };
-    const double inverse_pivot_A7_x = 1.0/scale_A7_x;
-    const double w_A7_y__A7_x = -arm_AH_A_y*l_A7_y__AH_theta;
-    const double l_A7_y__A7_x = -inverse_pivot_A7_x*w_A7_y__A7_x;
-    const double w_H_x__A7_x = -arm_AH_A_y*l_H_x__AH_theta - inverse_AH_mass;
-    const double l_H_x__A7_x = -inverse_pivot_A7_x*w_H_x__A7_x;
-    const double w_H_y__A7_x = -arm_AH_A_y*l_H_y__AH_theta;
-    const double l_H_y__A7_x = -inverse_pivot_A7_x*w_H_y__A7_x;
     const double scale_A7_y = -arm_AH_A_x*l_A7_y__AH_theta + inverse_AH_mass;
-    const double pivot_A7_y = l_A7_y__A7_x*w_A7_y__A7_x + scale_A7_y;
-    if (!(pivot_A7_y > 1e-08 * scale_A7_y)) { pivot = 10; goto dependent; };
-    const double inverse_pivot_A7_y = 1.0/pivot_A7_y;
-    const double w_H_x__A7_y = arm_AH_A_x*l_H_x__AH_theta - l_H_x__A7_x*w_A7_y__A7_x;
-    const double l_H_x__A7_y = -inverse_pivot_A7_y*w_H_x__A7_y;
-    const double w_H_y__A7_y = arm_AH_A_x*l_H_y__AH_theta - inverse_AH_mass - l_H_y__A7_x*w_A7_y__A7_x;
-    const double l_H_y__A7_y = -inverse_pivot_A7_y*w_H_y__A7_y;
+    const double pivot_A7_x__A7_y = arm_AH_A_y*l_A7_y__AH_theta;
+    const double determinant_A7_x__A7_y = -(pivot_A7_x__A7_y * pivot_A7_x__A7_y) + scale_A7_x*scale_A7_y;
+    if (!(scale_A7_x > 1e-08 * scale_A7_x)) { pivot = 9; goto dependent; };
+    if (!(determinant_A7_x__A7_y > 1e-08 * scale_A7_y * scale_A7_x)) { pivot = 10; goto dependent; };
+    const double inverse_A7_x__A7_y = -1.0/determinant_A7_x__A7_y;
+    const double inverse_pivot_A7_x = inverse_A7_x__A7_y*scale_A7_y;
+    const double inverse_pivot_A7_y = inverse_A7_x__A7_y*scale_A7_x;
+    const double inverse_cross_A7_x__A7_y = -inverse_A7_x__A7_y*pivot_A7_x__A7_y;
+    const double w_H_x__A7_x = -arm_AH_A_y*l_H_x__AH_theta - inverse_AH_mass;
+    const double w_H_x__A7_y = arm_AH_A_x*l_H_x__AH_theta;
+    const double l_H_x__A7_x = inverse_cross_A7_x__A7_y*w_H_x__A7_y + inverse_pivot_A7_x*w_H_x__A7_x;
+    const double l_H_x__A7_y = inverse_cross_A7_x__A7_y*w_H_x__A7_x + inverse_pivot_A7_y*w_H_x__A7_y;
+    const double w_H_y__A7_x = -arm_AH_A_y*l_H_y__AH_theta;
+    const double w_H_y__A7_y = arm_AH_A_x*l_H_y__AH_theta - inverse_AH_mass;
+    const double l_H_y__A7_x = inverse_cross_A7_x__A7_y*w_H_y__A7_y + inverse_pivot_A7_x*w_H_y__A7_x;
+    const double l_H_y__A7_y = inverse_cross_A7_x__A7_y*w_H_y__A7_x + inverse_pivot_A7_y*w_H_y__A7_y;
     const double scale_H_x = arm_AH_H_y*l_H_x__AH_theta - arm_HE_H_y*l_H_x__HE_theta + inverse_AH_mass +
         inverse_HE_mass;
-    const double pivot_H_x = l_H_x__A7_x*w_H_x__A7_x + l_H_x__A7_y*w_H_x__A7_y + scale_H_x;
-    if (!(pivot_H_x > 1e-08 * scale_H_x)) { pivot = 11; goto dependent; };
-    const double inverse_pivot_H_x = 1.0/pivot_H_x;
-    const double w_H_y__H_x = -arm_AH_H_y*l_H_y__AH_theta + arm_HE_H_y*l_H_y__HE_theta -
-        l_H_y__A7_x*w_H_x__A7_x - l_H_y__A7_y*w_H_x__A7_y;
-    const double l_H_y__H_x = -inverse_pivot_H_x*w_H_y__H_x;
-    const double w_E6_x__H_x = arm_HE_H_y*l_E6_x__HE_theta + inverse_HE_mass;
-    const double l_E6_x__H_x = -inverse_pivot_H_x*w_E6_x__H_x;
-    const double w_E6_y__H_x = arm_HE_H_y*l_E6_y__HE_theta;
-    const double l_E6_y__H_x = -inverse_pivot_H_x*w_E6_y__H_x;
     const double scale_H_y = -arm_AH_H_x*l_H_y__AH_theta + arm_HE_H_x*l_H_y__HE_theta + inverse_AH_mass +
         inverse_HE_mass;
-    const double pivot_H_y = l_H_y__A7_x*w_H_y__A7_x + l_H_y__A7_y*w_H_y__A7_y + l_H_y__H_x*w_H_y__H_x +
-        scale_H_y;
-    if (!(pivot_H_y > 1e-08 * scale_H_y)) { pivot = 12; goto dependent; };
-    const double inverse_pivot_H_y = 1.0/pivot_H_y;
-    const double w_E6_x__H_y = -arm_HE_H_x*l_E6_x__HE_theta - l_E6_x__H_x*w_H_y__H_x;
-    const double l_E6_x__H_y = -inverse_pivot_H_y*w_E6_x__H_y;
-    const double w_E6_y__H_y = -arm_HE_H_x*l_E6_y__HE_theta + inverse_HE_mass - l_E6_y__H_x*w_H_y__H_x;
-    const double l_E6_y__H_y = -inverse_pivot_H_y*w_E6_y__H_y;
+    const double pivot_H_x = l_H_x__A7_x*w_H_x__A7_x + l_H_x__A7_y*w_H_x__A7_y + scale_H_x;
+    const double pivot_H_y = l_H_y__A7_x*w_H_y__A7_x + l_H_y__A7_y*w_H_y__A7_y + scale_H_y;
+    const double pivot_H_x__H_y = arm_AH_H_y*l_H_y__AH_theta - arm_HE_H_y*l_H_y__HE_theta +
+        l_H_y__A7_x*w_H_x__A7_x + l_H_y__A7_y*w_H_x__A7_y;
+    const double determinant_H_x__H_y = pivot_H_x*pivot_H_y - (pivot_H_x__H_y * pivot_H_x__H_y);
+    if (!(pivot_H_x > 1e-08 * scale_H_x)) { pivot = 11; goto dependent; };
+    if (!(determinant_H_x__H_y > 1e-08 * scale_H_y * pivot_H_x)) { pivot = 12; goto dependent; };
+    const double inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
+    const double inverse_pivot_H_x = inverse_H_x__H_y*pivot_H_y;
+    const double inverse_pivot_H_y = inverse_H_x__H_y*pivot_H_x;
+    const double inverse_cross_H_x__H_y = -inverse_H_x__H_y*pivot_H_x__H_y;
+    const double w_E6_x__H_x = arm_HE_H_y*l_E6_x__HE_theta + inverse_HE_mass;
+    const double w_E6_x__H_y = -arm_HE_H_x*l_E6_x__HE_theta;
+    const double l_E6_x__H_x = inverse_cross_H_x__H_y*w_E6_x__H_y + inverse_pivot_H_x*w_E6_x__H_x;
+    const double l_E6_x__H_y = inverse_cross_H_x__H_y*w_E6_x__H_x + inverse_pivot_H_y*w_E6_x__H_y;
+    const double w_E6_y__H_x = arm_HE_H_y*l_E6_y__HE_theta;
+    const double w_E6_y__H_y = -arm_HE_H_x*l_E6_y__HE_theta + inverse_HE_mass;
+    const double l_E6_y__H_x = inverse_cross_H_x__H_y*w_E6_y__H_y + inverse_pivot_H_x*w_E6_y__H_x;
+    const double l_E6_y__H_y = inverse_cross_H_x__H_y*w_E6_y__H_x + inverse_pivot_H_y*w_E6_y__H_y;
     const double l_F_x__FE_theta = arm_FE_F_y*inverse_FE_inertia;
     const double l_F_y__FE_theta = -arm_FE_F_x*inverse_FE_inertia;
     const double l_E3_x__FE_theta = -arm_FE_E_y*inverse_FE_inertia;
@@ -421,217 +427,225 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_E6_y__FE_theta = arm_FE_E_x*inverse_FE_inertia;
     const double scale_F_x = arm_FE_F_y*l_F_x__FE_theta - arm_OF_F_y*l_F_x__OF_theta + inverse_FE_mass +
         inverse_OF_mass;
-    const double pivot_F_x = l_F_x__O_x*w_F_x__O_x + l_F_x__O_y*w_F_x__O_y + scale_F_x;
-    if (!(pivot_F_x > 1e-08 * scale_F_x)) { pivot = 13; goto dependent; };
-    const double inverse_pivot_F_x = 1.0/pivot_F_x;
-    const double w_F_y__F_x = -arm_FE_F_y*l_F_y__FE_theta + arm_OF_F_y*l_F_y__OF_theta - l_F_y__O_x*w_F_x__O_x
-        - l_F_y__O_y*w_F_x__O_y;
-    const double l_F_y__F_x = -inverse_pivot_F_x*w_F_y__F_x;
-    const double w_E3_x__F_x = -arm_FE_F_y*l_E3_x__FE_theta + inverse_FE_mass;
-    const double l_E3_x__F_x = -inverse_pivot_F_x*w_E3_x__F_x;
-    const double w_E3_y__F_x = -arm_FE_F_y*l_E3_y__FE_theta;
-    const double l_E3_y__F_x = -inverse_pivot_F_x*w_E3_y__F_x;
-    const double w_E4_x__F_x = -arm_FE_F_y*l_E4_x__FE_theta + inverse_FE_mass;
-    const double l_E4_x__F_x = -inverse_pivot_F_x*w_E4_x__F_x;
-    const double w_E4_y__F_x = -arm_FE_F_y*l_E4_y__FE_theta;
-    const double l_E4_y__F_x = -inverse_pivot_F_x*w_E4_y__F_x;
-    const double w_E6_x__F_x = -arm_FE_F_y*l_E6_x__FE_theta + inverse_FE_mass;
-    const double l_E6_x__F_x = -inverse_pivot_F_x*w_E6_x__F_x;
-    const double w_E6_y__F_x = -arm_FE_F_y*l_E6_y__FE_theta;
-    const double l_E6_y__F_x = -inverse_pivot_F_x*w_E6_y__F_x;
     const double scale_F_y = -arm_FE_F_x*l_F_y__FE_theta + arm_OF_F_x*l_F_y__OF_theta + inverse_FE_mass +
         inverse_OF_mass;
-    const double pivot_F_y = l_F_y__F_x*w_F_y__F_x + l_F_y__O_x*w_F_y__O_x + l_F_y__O_y*w_F_y__O_y +
-        scale_F_y;
-    if (!(pivot_F_y > 1e-08 * scale_F_y)) { pivot = 14; goto dependent; };
-    const double inverse_pivot_F_y = 1.0/pivot_F_y;
-    const double w_E3_x__F_y = arm_FE_F_x*l_E3_x__FE_theta - l_E3_x__F_x*w_F_y__F_x;
-    const double l_E3_x__F_y = -inverse_pivot_F_y*w_E3_x__F_y;
-    const double w_E3_y__F_y = arm_FE_F_x*l_E3_y__FE_theta + inverse_FE_mass - l_E3_y__F_x*w_F_y__F_x;
-    const double l_E3_y__F_y = -inverse_pivot_F_y*w_E3_y__F_y;
-    const double w_E4_x__F_y = arm_FE_F_x*l_E4_x__FE_theta - l_E4_x__F_x*w_F_y__F_x;
-    const double l_E4_x__F_y = -inverse_pivot_F_y*w_E4_x__F_y;
-    const double w_E4_y__F_y = arm_FE_F_x*l_E4_y__FE_theta + inverse_FE_mass - l_E4_y__F_x*w_F_y__F_x;
-    const double l_E4_y__F_y = -inverse_pivot_F_y*w_E4_y__F_y;
-    const double w_E6_x__F_y = arm_FE_F_x*l_E6_x__FE_theta - l_E6_x__F_x*w_F_y__F_x;
-    const double l_E6_x__F_y = -inverse_pivot_F_y*w_E6_x__F_y;
-    const double w_E6_y__F_y = arm_FE_F_x*l_E6_y__FE_theta + inverse_FE_mass - l_E6_y__F_x*w_F_y__F_x;
-    const double l_E6_y__F_y = -inverse_pivot_F_y*w_E6_y__F_y;
+    const double pivot_F_x = l_F_x__O_x*w_F_x__O_x + l_F_x__O_y*w_F_x__O_y + scale_F_x;
+    const double pivot_F_y = l_F_y__O_x*w_F_y__O_x + l_F_y__O_y*w_F_y__O_y + scale_F_y;
+    const double pivot_F_x__F_y = arm_FE_F_y*l_F_y__FE_theta - arm_OF_F_y*l_F_y__OF_theta +
+        l_F_y__O_x*w_F_x__O_x + l_F_y__O_y*w_F_x__O_y;
+    const double determinant_F_x__F_y = pivot_F_x*pivot_F_y - (pivot_F_x__F_y * pivot_F_x__F_y);
+    if (!(pivot_F_x > 1e-08 * scale_F_x)) { pivot = 13; goto dependent; };
+    if (!(determinant_F_x__F_y > 1e-08 * scale_F_y * pivot_F_x)) { pivot = 14; goto dependent; };
+    const double inverse_F_x__F_y = -1.0/determinant_F_x__F_y;
+    const double inverse_pivot_F_x = inverse_F_x__F_y*pivot_F_y;
+    const double inverse_pivot_F_y = inverse_F_x__F_y*pivot_F_x;
+    const double inverse_cross_F_x__F_y = -inverse_F_x__F_y*pivot_F_x__F_y;
+    const double w_E3_x__F_x = -arm_FE_F_y*l_E3_x__FE_theta + inverse_FE_mass;
+    const double w_E3_x__F_y = arm_FE_F_x*l_E3_x__FE_theta;
+    const double l_E3_x__F_x = inverse_cross_F_x__F_y*w_E3_x__F_y + inverse_pivot_F_x*w_E3_x__F_x;
+    const double l_E3_x__F_y = inverse_cross_F_x__F_y*w_E3_x__F_x + inverse_pivot_F_y*w_E3_x__F_y;
+    const double w_E3_y__F_x = -arm_FE_F_y*l_E3_y__FE_theta;
+    const double w_E3_y__F_y = arm_FE_F_x*l_E3_y__FE_theta + inverse_FE_mass;
+    const double l_E3_y__F_x = inverse_cross_F_x__F_y*w_E3_y__F_y + inverse_pivot_F_x*w_E3_y__F_x;
+    const double l_E3_y__F_y = inverse_cross_F_x__F_y*w_E3_y__F_x + inverse_pivot_F_y*w_E3_y__F_y;
+    const double w_E4_x__F_x = -arm_FE_F_y*l_E4_x__FE_theta + inverse_FE_mass;
+    const double w_E4_x__F_y = arm_FE_F_x*l_E4_x__FE_theta;
+    const double l_E4_x__F_x = inverse_cross_F_x__F_y*w_E4_x__F_y + inverse_pivot_F_x*w_E4_x__F_x;
+    const double l_E4_x__F_y = inverse_cross_F_x__F_y*w_E4_x__F_x + inverse_pivot_F_y*w_E4_x__F_y;
+    const double w_E4_y__F_x = -arm_FE_F_y*l_E4_y__FE_theta;
+    const double w_E4_y__F_y = arm_FE_F_x*l_E4_y__FE_theta + inverse_FE_mass;
+    const double l_E4_y__F_x = inverse_cross_F_x__F_y*w_E4_y__F_y + inverse_pivot_F_x*w_E4_y__F_x;
+    const double l_E4_y__F_y = inverse_cross_F_x__F_y*w_E4_y__F_x + inverse_pivot_F_y*w_E4_y__F_y;
+    const double w_E6_x__F_x = -arm_FE_F_y*l_E6_x__FE_theta + inverse_FE_mass;
+    const double w_E6_x__F_y = arm_FE_F_x*l_E6_x__FE_theta;
+    const double l_E6_x__F_x = inverse_cross_F_x__F_y*w_E6_x__F_y + inverse_pivot_F_x*w_E6_x__F_x;
+    const double l_E6_x__F_y = inverse_cross_F_x__F_y*w_E6_x__F_x + inverse_pivot_F_y*w_E6_x__F_y;
+    const double w_E6_y__F_x = -arm_FE_F_y*l_E6_y__FE_theta;
+    const double w_E6_y__F_y = arm_FE_F_x*l_E6_y__FE_theta + inverse_FE_mass;
+    const double l_E6_y__F_x = inverse_cross_F_x__F_y*w_E6_y__F_y + inverse_pivot_F_x*w_E6_y__F_x;
+    const double l_E6_y__F_y = inverse_cross_F_x__F_y*w_E6_y__F_x + inverse_pivot_F_y*w_E6_y__F_y;
     const double scale_E3_x = arm_BDE_E_y*l_E3_x__BDE_theta - arm_FE_E_y*l_E3_x__FE_theta + inverse_BDE_mass +
         inverse_FE_mass;
-    const double pivot_E3_x = l_E3_x__B_x*w_E3_x__B_x + l_E3_x__B_y*w_E3_x__B_y + l_E3_x__F_x*w_E3_x__F_x +
-        l_E3_x__F_y*w_E3_x__F_y + scale_E3_x;
-    if (!(pivot_E3_x > 1e-08 * scale_E3_x)) { pivot = 15; goto dependent; };
-    const double inverse_pivot_E3_x = 1.0/pivot_E3_x;
-    const double w_E3_y__E3_x = -arm_BDE_E_y*l_E3_y__BDE_theta + arm_FE_E_y*l_E3_y__FE_theta -
-        l_E3_y__B_x*w_E3_x__B_x - l_E3_y__B_y*w_E3_x__B_y - l_E3_y__F_x*w_E3_x__F_x - l_E3_y__F_y*w_E3_x__F_y;
-    const double l_E3_y__E3_x = -inverse_pivot_E3_x*w_E3_y__E3_x;
-    const double w_E4_x__E3_x = arm_FE_E_y*l_E4_x__FE_theta - inverse_FE_mass - l_E4_x__F_x*w_E3_x__F_x -
-        l_E4_x__F_y*w_E3_x__F_y;
-    const double l_E4_x__E3_x = -inverse_pivot_E3_x*w_E4_x__E3_x;
-    const double w_E4_y__E3_x = arm_FE_E_y*l_E4_y__FE_theta - l_E4_y__F_x*w_E3_x__F_x -
-        l_E4_y__F_y*w_E3_x__F_y;
-    const double l_E4_y__E3_x = -inverse_pivot_E3_x*w_E4_y__E3_x;
-    const double w_E6_x__E3_x = arm_FE_E_y*l_E6_x__FE_theta - inverse_FE_mass - l_E6_x__F_x*w_E3_x__F_x -
-        l_E6_x__F_y*w_E3_x__F_y;
-    const double l_E6_x__E3_x = -inverse_pivot_E3_x*w_E6_x__E3_x;
-    const double w_E6_y__E3_x = arm_FE_E_y*l_E6_y__FE_theta - l_E6_y__F_x*w_E3_x__F_x -
-        l_E6_y__F_y*w_E3_x__F_y;
-    const double l_E6_y__E3_x = -inverse_pivot_E3_x*w_E6_y__E3_x;
     const double scale_E3_y = -arm_BDE_E_x*l_E3_y__BDE_theta + arm_FE_E_x*l_E3_y__FE_theta + inverse_BDE_mass
         + inverse_FE_mass;
-    const double pivot_E3_y = l_E3_y__B_x*w_E3_y__B_x + l_E3_y__B_y*w_E3_y__B_y + l_E3_y__E3_x*w_E3_y__E3_x +
-        l_E3_y__F_x*w_E3_y__F_x + l_E3_y__F_y*w_E3_y__F_y + scale_E3_y;
-    if (!(pivot_E3_y > 1e-08 * scale_E3_y)) { pivot = 16; goto dependent; };
-    const double inverse_pivot_E3_y = 1.0/pivot_E3_y;
-    const double w_E4_x__E3_y = -arm_FE_E_x*l_E4_x__FE_theta - l_E4_x__E3_x*w_E3_y__E3_x -
-        l_E4_x__F_x*w_E3_y__F_x - l_E4_x__F_y*w_E3_y__F_y;
-    const double l_E4_x__E3_y = -inverse_pivot_E3_y*w_E4_x__E3_y;
-    const double w_E4_y__E3_y = -arm_FE_E_x*l_E4_y__FE_theta - inverse_FE_mass - l_E4_y__E3_x*w_E3_y__E3_x -
-        l_E4_y__F_x*w_E3_y__F_x - l_E4_y__F_y*w_E3_y__F_y;
-    const double l_E4_y__E3_y = -inverse_pivot_E3_y*w_E4_y__E3_y;
-    const double w_E6_x__E3_y = -arm_FE_E_x*l_E6_x__FE_theta - l_E6_x__E3_x*w_E3_y__E3_x -
-        l_E6_x__F_x*w_E3_y__F_x - l_E6_x__F_y*w_E3_y__F_y;
-    const double l_E6_x__E3_y = -inverse_pivot_E3_y*w_E6_x__E3_y;
-    const double w_E6_y__E3_y = -arm_FE_E_x*l_E6_y__FE_theta - inverse_FE_mass - l_E6_y__E3_x*w_E3_y__E3_x -
-        l_E6_y__F_x*w_E3_y__F_x - l_E6_y__F_y*w_E3_y__F_y;
-    const double l_E6_y__E3_y = -inverse_pivot_E3_y*w_E6_y__E3_y;
+    const double pivot_E3_x = l_E3_x__B_x*w_E3_x__B_x + l_E3_x__B_y*w_E3_x__B_y + l_E3_x__F_x*w_E3_x__F_x +
+        l_E3_x__F_y*w_E3_x__F_y + scale_E3_x;
+    const double pivot_E3_y = l_E3_y__B_x*w_E3_y__B_x + l_E3_y__B_y*w_E3_y__B_y + l_E3_y__F_x*w_E3_y__F_x +
+        l_E3_y__F_y*w_E3_y__F_y + scale_E3_y;
+    const double pivot_E3_x__E3_y = arm_BDE_E_y*l_E3_y__BDE_theta - arm_FE_E_y*l_E3_y__FE_theta +
+        l_E3_y__B_x*w_E3_x__B_x + l_E3_y__B_y*w_E3_x__B_y + l_E3_y__F_x*w_E3_x__F_x + l_E3_y__F_y*w_E3_x__F_y;
+    const double determinant_E3_x__E3_y = pivot_E3_x*pivot_E3_y - (pivot_E3_x__E3_y * pivot_E3_x__E3_y);
+    if (!(pivot_E3_x > 1e-08 * scale_E3_x)) { pivot = 15; goto dependent; };
+    if (!(determinant_E3_x__E3_y > 1e-08 * scale_E3_y * pivot_E3_x)) { pivot = 16; goto dependent; };
+    const double inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
+    const double inverse_pivot_E3_x = inverse_E3_x__E3_y*pivot_E3_y;
+    const double inverse_pivot_E3_y = inverse_E3_x__E3_y*pivot_E3_x;
+    const double inverse_cross_E3_x__E3_y = -inverse_E3_x__E3_y*pivot_E3_x__E3_y;
+    const double w_E4_x__E3_x = arm_FE_E_y*l_E4_x__FE_theta - inverse_FE_mass - l_E4_x__F_x*w_E3_x__F_x -
+        l_E4_x__F_y*w_E3_x__F_y;
+    const double w_E4_x__E3_y = -arm_FE_E_x*l_E4_x__FE_theta - l_E4_x__F_x*w_E3_y__F_x -
+        l_E4_x__F_y*w_E3_y__F_y;
+    const double l_E4_x__E3_x = inverse_cross_E3_x__E3_y*w_E4_x__E3_y + inverse_pivot_E3_x*w_E4_x__E3_x;
+    const double l_E4_x__E3_y = inverse_cross_E3_x__E3_y*w_E4_x__E3_x + inverse_pivot_E3_y*w_E4_x__E3_y;
+    const double w_E4_y__E3_x = arm_FE_E_y*l_E4_y__FE_theta - l_E4_y__F_x*w_E3_x__F_x -
+        l_E4_y__F_y*w_E3_x__F_y;
+    const double w_E4_y__E3_y = -arm_FE_E_x*l_E4_y__FE_theta - inverse_FE_mass - l_E4_y__F_x*w_E3_y__F_x -
+        l_E4_y__F_y*w_E3_y__F_y;
+    const double l_E4_y__E3_x = inverse_cross_E3_x__E3_y*w_E4_y__E3_y + inverse_pivot_E3_x*w_E4_y__E3_x;
+    const double l_E4_y__E3_y = inverse_cross_E3_x__E3_y*w_E4_y__E3_x + inverse_pivot_E3_y*w_E4_y__E3_y;
+    const double w_E6_x__E3_x = arm_FE_E_y*l_E6_x__FE_theta - inverse_FE_mass - l_E6_x__F_x*w_E3_x__F_x -
+        l_E6_x__F_y*w_E3_x__F_y;
+    const double w_E6_x__E3_y = -arm_FE_E_x*l_E6_x__FE_theta - l_E6_x__F_x*w_E3_y__F_x -
+        l_E6_x__F_y*w_E3_y__F_y;
+    const double l_E6_x__E3_x = inverse_cross_E3_x__E3_y*w_E6_x__E3_y + inverse_pivot_E3_x*w_E6_x__E3_x;
+    const double l_E6_x__E3_y = inverse_cross_E3_x__E3_y*w_E6_x__E3_x + inverse_pivot_E3_y*w_E6_x__E3_y;
+    const double w_E6_y__E3_x = arm_FE_E_y*l_E6_y__FE_theta - l_E6_y__F_x*w_E3_x__F_x -
+        l_E6_y__F_y*w_E3_x__F_y;
+    const double w_E6_y__E3_y = -arm_FE_E_x*l_E6_y__FE_theta - inverse_FE_mass - l_E6_y__F_x*w_E3_y__F_x -
+        l_E6_y__F_y*w_E3_y__F_y;
+    const double l_E6_y__E3_x = inverse_cross_E3_x__E3_y*w_E6_y__E3_y + inverse_pivot_E3_x*w_E6_y__E3_x;
+    const double l_E6_y__E3_y = inverse_cross_E3_x__E3_y*w_E6_y__E3_x + inverse_pivot_E3_y*w_E6_y__E3_y;
     const double scale_E4_x = arm_EG_E_y*l_E4_x__EG_theta - arm_FE_E_y*l_E4_x__FE_theta + inverse_EG_mass +
+        inverse_FE_mass;
+    const double scale_E4_y = -arm_EG_E_x*l_E4_y__EG_theta + arm_FE_E_x*l_E4_y__FE_theta + inverse_EG_mass +
         inverse_FE_mass;
     const double pivot_E4_x = l_E4_x__E3_x*w_E4_x__E3_x + l_E4_x__E3_y*w_E4_x__E3_y + l_E4_x__F_x*w_E4_x__F_x
         + l_E4_x__F_y*w_E4_x__F_y + l_E4_x__G_x*w_E4_x__G_x + l_E4_x__G_y*w_E4_x__G_y + scale_E4_x;
+    const double pivot_E4_y = l_E4_y__E3_x*w_E4_y__E3_x + l_E4_y__E3_y*w_E4_y__E3_y + l_E4_y__F_x*w_E4_y__F_x
+        + l_E4_y__F_y*w_E4_y__F_y + l_E4_y__G_x*w_E4_y__G_x + l_E4_y__G_y*w_E4_y__G_y + scale_E4_y;
+    const double pivot_E4_x__E4_y = arm_EG_E_y*l_E4_y__EG_theta - arm_FE_E_y*l_E4_y__FE_theta +
+        l_E4_y__E3_x*w_E4_x__E3_x + l_E4_y__E3_y*w_E4_x__E3_y + l_E4_y__F_x*w_E4_x__F_x +
+        l_E4_y__F_y*w_E4_x__F_y + l_E4_y__G_x*w_E4_x__G_x + l_E4_y__G_y*w_E4_x__G_y;
+    const double determinant_E4_x__E4_y = pivot_E4_x*pivot_E4_y - (pivot_E4_x__E4_y * pivot_E4_x__E4_y);
     if (!(pivot_E4_x > 1e-08 * scale_E4_x)) { pivot = 17; goto dependent; };
-    const double inverse_pivot_E4_x = 1.0/pivot_E4_x;
-    const double w_E4_y__E4_x = -arm_EG_E_y*l_E4_y__EG_theta + arm_FE_E_y*l_E4_y__FE_theta -
-        l_E4_y__E3_x*w_E4_x__E3_x - l_E4_y__E3_y*w_E4_x__E3_y - l_E4_y__F_x*w_E4_x__F_x -
-        l_E4_y__F_y*w_E4_x__F_y - l_E4_y__G_x*w_E4_x__G_x - l_E4_y__G_y*w_E4_x__G_y;
-    const double l_E4_y__E4_x = -inverse_pivot_E4_x*w_E4_y__E4_x;
+    if (!(determinant_E4_x__E4_y > 1e-08 * scale_E4_y * pivot_E4_x)) { pivot = 18; goto dependent; };
+    const double inverse_E4_x__E4_y = -1.0/determinant_E4_x__E4_y;
+    const double inverse_pivot_E4_x = inverse_E4_x__E4_y*pivot_E4_y;
+    const double inverse_pivot_E4_y = inverse_E4_x__E4_y*pivot_E4_x;
+    const double inverse_cross_E4_x__E4_y = -inverse_E4_x__E4_y*pivot_E4_x__E4_y;
     const double w_E6_x__E4_x = arm_FE_E_y*l_E6_x__FE_theta - inverse_FE_mass - l_E6_x__E3_x*w_E4_x__E3_x -
         l_E6_x__E3_y*w_E4_x__E3_y - l_E6_x__F_x*w_E4_x__F_x - l_E6_x__F_y*w_E4_x__F_y;
-    const double l_E6_x__E4_x = -inverse_pivot_E4_x*w_E6_x__E4_x;
+    const double w_E6_x__E4_y = -arm_FE_E_x*l_E6_x__FE_theta - l_E6_x__E3_x*w_E4_y__E3_x -
+        l_E6_x__E3_y*w_E4_y__E3_y - l_E6_x__F_x*w_E4_y__F_x - l_E6_x__F_y*w_E4_y__F_y;
+    const double l_E6_x__E4_x = inverse_cross_E4_x__E4_y*w_E6_x__E4_y + inverse_pivot_E4_x*w_E6_x__E4_x;
+    const double l_E6_x__E4_y = inverse_cross_E4_x__E4_y*w_E6_x__E4_x + inverse_pivot_E4_y*w_E6_x__E4_y;
     const double w_E6_y__E4_x = arm_FE_E_y*l_E6_y__FE_theta - l_E6_y__E3_x*w_E4_x__E3_x -
         l_E6_y__E3_y*w_E4_x__E3_y - l_E6_y__F_x*w_E4_x__F_x - l_E6_y__F_y*w_E4_x__F_y;
-    const double l_E6_y__E4_x = -inverse_pivot_E4_x*w_E6_y__E4_x;
-    const double scale_E4_y = -arm_EG_E_x*l_E4_y__EG_theta + arm_FE_E_x*l_E4_y__FE_theta + inverse_EG_mass +
-        inverse_FE_mass;
-    const double pivot_E4_y = l_E4_y__E3_x*w_E4_y__E3_x + l_E4_y__E3_y*w_E4_y__E3_y +
-        l_E4_y__E4_x*w_E4_y__E4_x + l_E4_y__F_x*w_E4_y__F_x + l_E4_y__F_y*w_E4_y__F_y +
-        l_E4_y__G_x*w_E4_y__G_x + l_E4_y__G_y*w_E4_y__G_y + scale_E4_y;
-    if (!(pivot_E4_y > 1e-08 * scale_E4_y)) { pivot = 18; goto dependent; };
-    const double inverse_pivot_E4_y = 1.0/pivot_E4_y;
-    const double w_E6_x__E4_y = -arm_FE_E_x*l_E6_x__FE_theta - l_E6_x__E3_x*w_E4_y__E3_x -
-        l_E6_x__E3_y*w_E4_y__E3_y - l_E6_x__E4_x*w_E4_y__E4_x - l_E6_x__F_x*w_E4_y__F_x -
-        l_E6_x__F_y*w_E4_y__F_y;
-    const double l_E6_x__E4_y = -inverse_pivot_E4_y*w_E6_x__E4_y;
     const double w_E6_y__E4_y = -arm_FE_E_x*l_E6_y__FE_theta - inverse_FE_mass - l_E6_y__E3_x*w_E4_y__E3_x -
-        l_E6_y__E3_y*w_E4_y__E3_y - l_E6_y__E4_x*w_E4_y__E4_x - l_E6_y__F_x*w_E4_y__F_x -
-        l_E6_y__F_y*w_E4_y__F_y;
-    const double l_E6_y__E4_y = -inverse_pivot_E4_y*w_E6_y__E4_y;
+        l_E6_y__E3_y*w_E4_y__E3_y - l_E6_y__F_x*w_E4_y__F_x - l_E6_y__F_y*w_E4_y__F_y;
+    const double l_E6_y__E4_x = inverse_cross_E4_x__E4_y*w_E6_y__E4_y + inverse_pivot_E4_x*w_E6_y__E4_x;
+    const double l_E6_y__E4_y = inverse_cross_E4_x__E4_y*w_E6_y__E4_x + inverse_pivot_E4_y*w_E6_y__E4_y;
     const double scale_E6_x = -arm_FE_E_y*l_E6_x__FE_theta + arm_HE_E_y*l_E6_x__HE_theta + inverse_FE_mass +
+        inverse_HE_mass;
+    const double scale_E6_y = arm_FE_E_x*l_E6_y__FE_theta - arm_HE_E_x*l_E6_y__HE_theta + inverse_FE_mass +
         inverse_HE_mass;
     const double pivot_E6_x = l_E6_x__E3_x*w_E6_x__E3_x + l_E6_x__E3_y*w_E6_x__E3_y +
         l_E6_x__E4_x*w_E6_x__E4_x + l_E6_x__E4_y*w_E6_x__E4_y + l_E6_x__F_x*w_E6_x__F_x +
         l_E6_x__F_y*w_E6_x__F_y + l_E6_x__H_x*w_E6_x__H_x + l_E6_x__H_y*w_E6_x__H_y + scale_E6_x;
-    if (!(pivot_E6_x > 1e-08 * scale_E6_x)) { pivot = 19; goto dependent; };
-    const double inverse_pivot_E6_x = 1.0/pivot_E6_x;
-    const double w_E6_y__E6_x = arm_FE_E_y*l_E6_y__FE_theta - arm_HE_E_y*l_E6_y__HE_theta -
-        l_E6_y__E3_x*w_E6_x__E3_x - l_E6_y__E3_y*w_E6_x__E3_y - l_E6_y__E4_x*w_E6_x__E4_x -
-        l_E6_y__E4_y*w_E6_x__E4_y - l_E6_y__F_x*w_E6_x__F_x - l_E6_y__F_y*w_E6_x__F_y -
-        l_E6_y__H_x*w_E6_x__H_x - l_E6_y__H_y*w_E6_x__H_y;
-    const double l_E6_y__E6_x = -inverse_pivot_E6_x*w_E6_y__E6_x;
-    const double scale_E6_y = arm_FE_E_x*l_E6_y__FE_theta - arm_HE_E_x*l_E6_y__HE_theta + inverse_FE_mass +
-        inverse_HE_mass;
     const double pivot_E6_y = l_E6_y__E3_x*w_E6_y__E3_x + l_E6_y__E3_y*w_E6_y__E3_y +
-        l_E6_y__E4_x*w_E6_y__E4_x + l_E6_y__E4_y*w_E6_y__E4_y + l_E6_y__E6_x*w_E6_y__E6_x +
-        l_E6_y__F_x*w_E6_y__F_x + l_E6_y__F_y*w_E6_y__F_y + l_E6_y__H_x*w_E6_y__H_x + l_E6_y__H_y*w_E6_y__H_y
-        + scale_E6_y;
-    if (!(pivot_E6_y > 1e-08 * scale_E6_y)) { pivot = 20; goto dependent; };
-    const double inverse_pivot_E6_y = 1.0/pivot_E6_y;
+        l_E6_y__E4_x*w_E6_y__E4_x + l_E6_y__E4_y*w_E6_y__E4_y + l_E6_y__F_x*w_E6_y__F_x +
+        l_E6_y__F_y*w_E6_y__F_y + l_E6_y__H_x*w_E6_y__H_x + l_E6_y__H_y*w_E6_y__H_y + scale_E6_y;
+    const double pivot_E6_x__E6_y = -arm_FE_E_y*l_E6_y__FE_theta + arm_HE_E_y*l_E6_y__HE_theta +
+        l_E6_y__E3_x*w_E6_x__E3_x + l_E6_y__E3_y*w_E6_x__E3_y + l_E6_y__E4_x*w_E6_x__E4_x +
+        l_E6_y__E4_y*w_E6_x__E4_y + l_E6_y__F_x*w_E6_x__F_x + l_E6_y__F_y*w_E6_x__F_y +
+        l_E6_y__H_x*w_E6_x__H_x + l_E6_y__H_y*w_E6_x__H_y;
+    const double determinant_E6_x__E6_y = pivot_E6_x*pivot_E6_y - (pivot_E6_x__E6_y * pivot_E6_x__E6_y);
+    if (!(pivot_E6_x > 1e-08 * scale_E6_x)) { pivot = 19; goto dependent; };
+    if (!(determinant_E6_x__E6_y > 1e-08 * scale_E6_y * pivot_E6_x)) { pivot = 20; goto dependent; };
+    const double inverse_E6_x__E6_y = -1.0/determinant_E6_x__E6_y;
+    const double inverse_pivot_E6_x = inverse_E6_x__E6_y*pivot_E6_y;
+    const double inverse_pivot_E6_y = inverse_E6_x__E6_y*pivot_E6_x;
+    const double inverse_cross_E6_x__E6_y = -inverse_E6_x__E6_y*pivot_E6_x__E6_y;
 
     /* forward substitution */
     const double z_BDE_x = -spring_pull*spring_span_x;
     const double z_BDE_y = -spring_pull*spring_span_y;
     const double z_O_x = -l_O_x__OF_theta*motor_value + rhs_O_x;
-    const double z_O_y = -l_O_y__OF_theta*motor_value - l_O_y__O_x*z_O_x + rhs_O_y;
+    const double z_O_y = -l_O_y__OF_theta*motor_value + rhs_O_y;
     const double z_BDE_theta = -arm_BDE_D_x*spring_pull*spring_span_y + arm_BDE_D_y*spring_pull*spring_span_x;
     const double z_B_x = inverse_BDE_mass*z_BDE_x - l_B_x__BDE_theta*z_BDE_theta + rhs_B_x;
-    const double z_B_y = inverse_BDE_mass*z_BDE_y - l_B_y__BDE_theta*z_BDE_theta - l_B_y__B_x*z_B_x + rhs_B_y;
-    const double z_A5_y = -l_A5_y__A5_x*rhs_A5_x + rhs_A5_y;
-    const double z_G_x = -l_G_x__A5_x*rhs_A5_x - l_G_x__A5_y*z_A5_y + rhs_G_x;
-    const double z_G_y = -l_G_y__A5_x*rhs_A5_x - l_G_y__A5_y*z_A5_y - l_G_y__G_x*z_G_x + rhs_G_y;
-    const double z_A7_y = -l_A7_y__A7_x*rhs_A7_x + rhs_A7_y;
-    const double z_H_x = -l_H_x__A7_x*rhs_A7_x - l_H_x__A7_y*z_A7_y + rhs_H_x;
-    const double z_H_y = -l_H_y__A7_x*rhs_A7_x - l_H_y__A7_y*z_A7_y - l_H_y__H_x*z_H_x + rhs_H_y;
+    const double z_B_y = inverse_BDE_mass*z_BDE_y - l_B_y__BDE_theta*z_BDE_theta + rhs_B_y;
+    const double z_G_x = -l_G_x__A5_x*rhs_A5_x - l_G_x__A5_y*rhs_A5_y + rhs_G_x;
+    const double z_G_y = -l_G_y__A5_x*rhs_A5_x - l_G_y__A5_y*rhs_A5_y + rhs_G_y;
+    const double z_H_x = -l_H_x__A7_x*rhs_A7_x - l_H_x__A7_y*rhs_A7_y + rhs_H_x;
+    const double z_H_y = -l_H_y__A7_x*rhs_A7_x - l_H_y__A7_y*rhs_A7_y + rhs_H_y;
     const double z_F_x = -l_F_x__OF_theta*motor_value - l_F_x__O_x*z_O_x - l_F_x__O_y*z_O_y + rhs_F_x;
-    const double z_F_y = -l_F_y__F_x*z_F_x - l_F_y__OF_theta*motor_value - l_F_y__O_x*z_O_x - l_F_y__O_y*z_O_y
-        + rhs_F_y;
+    const double z_F_y = -l_F_y__OF_theta*motor_value - l_F_y__O_x*z_O_x - l_F_y__O_y*z_O_y + rhs_F_y;
     const double z_E3_x = inverse_BDE_mass*z_BDE_x - l_E3_x__BDE_theta*z_BDE_theta - l_E3_x__B_x*z_B_x -
         l_E3_x__B_y*z_B_y - l_E3_x__F_x*z_F_x - l_E3_x__F_y*z_F_y + rhs_E3_x;
     const double z_E3_y = inverse_BDE_mass*z_BDE_y - l_E3_y__BDE_theta*z_BDE_theta - l_E3_y__B_x*z_B_x -
-        l_E3_y__B_y*z_B_y - l_E3_y__E3_x*z_E3_x - l_E3_y__F_x*z_F_x - l_E3_y__F_y*z_F_y + rhs_E3_y;
+        l_E3_y__B_y*z_B_y - l_E3_y__F_x*z_F_x - l_E3_y__F_y*z_F_y + rhs_E3_y;
     const double z_E4_x = -l_E4_x__E3_x*z_E3_x - l_E4_x__E3_y*z_E3_y - l_E4_x__F_x*z_F_x - l_E4_x__F_y*z_F_y -
         l_E4_x__G_x*z_G_x - l_E4_x__G_y*z_G_y + rhs_E4_x;
-    const double z_E4_y = -l_E4_y__E3_x*z_E3_x - l_E4_y__E3_y*z_E3_y - l_E4_y__E4_x*z_E4_x - l_E4_y__F_x*z_F_x
-        - l_E4_y__F_y*z_F_y - l_E4_y__G_x*z_G_x - l_E4_y__G_y*z_G_y + rhs_E4_y;
+    const double z_E4_y = -l_E4_y__E3_x*z_E3_x - l_E4_y__E3_y*z_E3_y - l_E4_y__F_x*z_F_x - l_E4_y__F_y*z_F_y -
+        l_E4_y__G_x*z_G_x - l_E4_y__G_y*z_G_y + rhs_E4_y;
     const double z_E6_x = -l_E6_x__E3_x*z_E3_x - l_E6_x__E3_y*z_E3_y - l_E6_x__E4_x*z_E4_x -
         l_E6_x__E4_y*z_E4_y - l_E6_x__F_x*z_F_x - l_E6_x__F_y*z_F_y - l_E6_x__H_x*z_H_x - l_E6_x__H_y*z_H_y +
         rhs_E6_x;
     const double z_E6_y = -l_E6_y__E3_x*z_E3_x - l_E6_y__E3_y*z_E3_y - l_E6_y__E4_x*z_E4_x -
-        l_E6_y__E4_y*z_E4_y - l_E6_y__E6_x*z_E6_x - l_E6_y__F_x*z_F_x - l_E6_y__F_y*z_F_y - l_E6_y__H_x*z_H_x
-        - l_E6_y__H_y*z_H_y + rhs_E6_y;
+        l_E6_y__E4_y*z_E4_y - l_E6_y__F_x*z_F_x - l_E6_y__F_y*z_F_y - l_E6_y__H_x*z_H_x - l_E6_y__H_y*z_H_y +
+        rhs_E6_y;
 
     /* backward substitution */
-    const double lambda_E6_y = -inverse_pivot_E6_y*z_E6_y;
-    const double lambda_E6_x = -inverse_pivot_E6_x*z_E6_x - l_E6_y__E6_x*lambda_E6_y;
-    const double lambda_E4_y = -inverse_pivot_E4_y*z_E4_y - l_E6_x__E4_y*lambda_E6_x -
-        l_E6_y__E4_y*lambda_E6_y;
-    const double lambda_E4_x = -inverse_pivot_E4_x*z_E4_x - l_E4_y__E4_x*lambda_E4_y -
+    const double lambda_E6_y = inverse_cross_E6_x__E6_y*z_E6_x + inverse_pivot_E6_y*z_E6_y;
+    const double lambda_E6_x = inverse_cross_E6_x__E6_y*z_E6_y + inverse_pivot_E6_x*z_E6_x;
+    const double lambda_E4_y = inverse_cross_E4_x__E4_y*z_E4_x + inverse_pivot_E4_y*z_E4_y -
+        l_E6_x__E4_y*lambda_E6_x - l_E6_y__E4_y*lambda_E6_y;
+    const double lambda_E4_x = inverse_cross_E4_x__E4_y*z_E4_y + inverse_pivot_E4_x*z_E4_x -
         l_E6_x__E4_x*lambda_E6_x - l_E6_y__E4_x*lambda_E6_y;
-    const double lambda_E3_y = -inverse_pivot_E3_y*z_E3_y - l_E4_x__E3_y*lambda_E4_x -
-        l_E4_y__E3_y*lambda_E4_y - l_E6_x__E3_y*lambda_E6_x - l_E6_y__E3_y*lambda_E6_y;
-    const double lambda_E3_x = -inverse_pivot_E3_x*z_E3_x - l_E3_y__E3_x*lambda_E3_y -
+    const double lambda_E3_y = inverse_cross_E3_x__E3_y*z_E3_x + inverse_pivot_E3_y*z_E3_y -
+        l_E4_x__E3_y*lambda_E4_x - l_E4_y__E3_y*lambda_E4_y - l_E6_x__E3_y*lambda_E6_x -
+        l_E6_y__E3_y*lambda_E6_y;
+    const double lambda_E3_x = inverse_cross_E3_x__E3_y*z_E3_y + inverse_pivot_E3_x*z_E3_x -
         l_E4_x__E3_x*lambda_E4_x - l_E4_y__E3_x*lambda_E4_y - l_E6_x__E3_x*lambda_E6_x -
         l_E6_y__E3_x*lambda_E6_y;
-    const double lambda_F_y = -inverse_pivot_F_y*z_F_y - l_E3_x__F_y*lambda_E3_x - l_E3_y__F_y*lambda_E3_y -
-        l_E4_x__F_y*lambda_E4_x - l_E4_y__F_y*lambda_E4_y - l_E6_x__F_y*lambda_E6_x - l_E6_y__F_y*lambda_E6_y;
-    const double lambda_F_x = -inverse_pivot_F_x*z_F_x - l_E3_x__F_x*lambda_E3_x - l_E3_y__F_x*lambda_E3_y -
-        l_E4_x__F_x*lambda_E4_x - l_E4_y__F_x*lambda_E4_y - l_E6_x__F_x*lambda_E6_x - l_E6_y__F_x*lambda_E6_y
-        - l_F_y__F_x*lambda_F_y;
+    const double lambda_F_y = inverse_cross_F_x__F_y*z_F_x + inverse_pivot_F_y*z_F_y - l_E3_x__F_y*lambda_E3_x
+        - l_E3_y__F_y*lambda_E3_y - l_E4_x__F_y*lambda_E4_x - l_E4_y__F_y*lambda_E4_y -
+        l_E6_x__F_y*lambda_E6_x - l_E6_y__F_y*lambda_E6_y;
+    const double lambda_F_x = inverse_cross_F_x__F_y*z_F_y + inverse_pivot_F_x*z_F_x - l_E3_x__F_x*lambda_E3_x
+        - l_E3_y__F_x*lambda_E3_y - l_E4_x__F_x*lambda_E4_x - l_E4_y__F_x*lambda_E4_y -
+        l_E6_x__F_x*lambda_E6_x - l_E6_y__F_x*lambda_E6_y;
     const double acceleration_FE_theta = -l_E3_x__FE_theta*lambda_E3_x - l_E3_y__FE_theta*lambda_E3_y -
         l_E4_x__FE_theta*lambda_E4_x - l_E4_y__FE_theta*lambda_E4_y - l_E6_x__FE_theta*lambda_E6_x -
         l_E6_y__FE_theta*lambda_E6_y - l_F_x__FE_theta*lambda_F_x - l_F_y__FE_theta*lambda_F_y;
-    const double lambda_H_y = -inverse_pivot_H_y*z_H_y - l_E6_x__H_y*lambda_E6_x - l_E6_y__H_y*lambda_E6_y;
-    const double lambda_H_x = -inverse_pivot_H_x*z_H_x - l_E6_x__H_x*lambda_E6_x - l_E6_y__H_x*lambda_E6_y -
-        l_H_y__H_x*lambda_H_y;
-    const double lambda_A7_y = -inverse_pivot_A7_y*z_A7_y - l_H_x__A7_y*lambda_H_x - l_H_y__A7_y*lambda_H_y;
-    const double lambda_A7_x = -inverse_pivot_A7_x*rhs_A7_x - l_A7_y__A7_x*lambda_A7_y -
+    const double lambda_H_y = inverse_cross_H_x__H_y*z_H_x + inverse_pivot_H_y*z_H_y - l_E6_x__H_y*lambda_E6_x
+        - l_E6_y__H_y*lambda_E6_y;
+    const double lambda_H_x = inverse_cross_H_x__H_y*z_H_y + inverse_pivot_H_x*z_H_x - l_E6_x__H_x*lambda_E6_x
+        - l_E6_y__H_x*lambda_E6_y;
+    const double lambda_A7_y = inverse_cross_A7_x__A7_y*rhs_A7_x + inverse_pivot_A7_y*rhs_A7_y -
+        l_H_x__A7_y*lambda_H_x - l_H_y__A7_y*lambda_H_y;
+    const double lambda_A7_x = inverse_cross_A7_x__A7_y*rhs_A7_y + inverse_pivot_A7_x*rhs_A7_x -
         l_H_x__A7_x*lambda_H_x - l_H_y__A7_x*lambda_H_y;
     const double acceleration_AH_theta = -l_A7_x__AH_theta*lambda_A7_x - l_A7_y__AH_theta*lambda_A7_y -
         l_H_x__AH_theta*lambda_H_x - l_H_y__AH_theta*lambda_H_y;
     const double acceleration_HE_theta = -l_E6_x__HE_theta*lambda_E6_x - l_E6_y__HE_theta*lambda_E6_y -
         l_H_x__HE_theta*lambda_H_x - l_H_y__HE_theta*lambda_H_y;
-    const double lambda_G_y = -inverse_pivot_G_y*z_G_y - l_E4_x__G_y*lambda_E4_x - l_E4_y__G_y*lambda_E4_y;
-    const double lambda_G_x = -inverse_pivot_G_x*z_G_x - l_E4_x__G_x*lambda_E4_x - l_E4_y__G_x*lambda_E4_y -
-        l_G_y__G_x*lambda_G_y;
-    const double lambda_A5_y = -inverse_pivot_A5_y*z_A5_y - l_G_x__A5_y*lambda_G_x - l_G_y__A5_y*lambda_G_y;
-    const double lambda_A5_x = -inverse_pivot_A5_x*rhs_A5_x - l_A5_y__A5_x*lambda_A5_y -
+    const double lambda_G_y = inverse_cross_G_x__G_y*z_G_x + inverse_pivot_G_y*z_G_y - l_E4_x__G_y*lambda_E4_x
+        - l_E4_y__G_y*lambda_E4_y;
+    const double lambda_G_x = inverse_cross_G_x__G_y*z_G_y + inverse_pivot_G_x*z_G_x - l_E4_x__G_x*lambda_E4_x
+        - l_E4_y__G_x*lambda_E4_y;
+    const double lambda_A5_y = inverse_cross_A5_x__A5_y*rhs_A5_x + inverse_pivot_A5_y*rhs_A5_y -
+        l_G_x__A5_y*lambda_G_x - l_G_y__A5_y*lambda_G_y;
+    const double lambda_A5_x = inverse_cross_A5_x__A5_y*rhs_A5_y + inverse_pivot_A5_x*rhs_A5_x -
         l_G_x__A5_x*lambda_G_x - l_G_y__A5_x*lambda_G_y;
     const double acceleration_AG_theta = -l_A5_x__AG_theta*lambda_A5_x - l_A5_y__AG_theta*lambda_A5_y -
         l_G_x__AG_theta*lambda_G_x - l_G_y__AG_theta*lambda_G_y;
     const double acceleration_EG_theta = -l_E4_x__EG_theta*lambda_E4_x - l_E4_y__EG_theta*lambda_E4_y -
         l_G_x__EG_theta*lambda_G_x - l_G_y__EG_theta*lambda_G_y;
-    const double lambda_B_y = -inverse_pivot_B_y*z_B_y - l_E3_x__B_y*lambda_E3_x - l_E3_y__B_y*lambda_E3_y;
-    const double lambda_B_x = -inverse_pivot_B_x*z_B_x - l_B_y__B_x*lambda_B_y - l_E3_x__B_x*lambda_E3_x -
-        l_E3_y__B_x*lambda_E3_y;
+    const double lambda_B_y = inverse_cross_B_x__B_y*z_B_x + inverse_pivot_B_y*z_B_y - l_E3_x__B_y*lambda_E3_x
+        - l_E3_y__B_y*lambda_E3_y;
+    const double lambda_B_x = inverse_cross_B_x__B_y*z_B_y + inverse_pivot_B_x*z_B_x - l_E3_x__B_x*lambda_E3_x
+        - l_E3_y__B_x*lambda_E3_y;
     const double acceleration_BDE_theta = inverse_BDE_inertia*z_BDE_theta - l_B_x__BDE_theta*lambda_B_x -
         l_B_y__BDE_theta*lambda_B_y - l_E3_x__BDE_theta*lambda_E3_x - l_E3_y__BDE_theta*lambda_E3_y;
     const double acceleration_FE_y = -inverse_FE_mass*lambda_E3_y - inverse_FE_mass*lambda_E4_y -
         inverse_FE_mass*lambda_E6_y + inverse_FE_mass*lambda_F_y;
     const double acceleration_FE_x = -inverse_FE_mass*lambda_E3_x - inverse_FE_mass*lambda_E4_x -
         inverse_FE_mass*lambda_E6_x + inverse_FE_mass*lambda_F_x;
-    const double lambda_O_y = -inverse_pivot_O_y*z_O_y - l_F_x__O_y*lambda_F_x - l_F_y__O_y*lambda_F_y;
-    const double lambda_O_x = -inverse_pivot_O_x*z_O_x - l_F_x__O_x*lambda_F_x - l_F_y__O_x*lambda_F_y -
-        l_O_y__O_x*lambda_O_y;
+    const double lambda_O_y = inverse_cross_O_x__O_y*z_O_x + inverse_pivot_O_y*z_O_y - l_F_x__O_y*lambda_F_x -
+        l_F_y__O_y*lambda_F_y;
+    const double lambda_O_x = inverse_cross_O_x__O_y*z_O_y + inverse_pivot_O_x*z_O_x - l_F_x__O_x*lambda_F_x -
+        l_F_y__O_x*lambda_F_y;
     const double acceleration_OF_theta = inverse_OF_inertia*motor_value - l_F_x__OF_theta*lambda_F_x -
         l_F_y__OF_theta*lambda_F_y - l_O_x__OF_theta*lambda_O_x - l_O_y__OF_theta*lambda_O_y;
     const double acceleration_AH_y = inverse_AH_mass*lambda_A7_y + inverse_AH_mass*lambda_H_y;

@@ -58,7 +58,7 @@ static inline void dry_slopes_fall(double e, double deltadot, double de_t, doubl
 
     /* penetration, ratio of velocities, slip */
     const double delta = e - p->floor_clearance;
-    const double par_depth = max_of(delta, 0.0);
+    const double depth = max_of(delta, 0.0);
     const double depth_by_e = delta > 0.0 ? 1.0 : 0.0;
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
     const double ratio_by_deltadot = latch->closed ? 1.0 / latch->deltadot_minus : 0.0;
@@ -67,13 +67,14 @@ static inline void dry_slopes_fall(double e, double deltadot, double de_t, doubl
 
     /* contact of joint fall */
     const double side_0 = side_of(side, g, 0, damped_floor_hysteresis*ratio + 1.0);
-    const double F_n = damped_normal_stiffness*pow(par_depth, damped_normal_exponent)*(side_0 < 0.0 ? 0.0 :
+    const double power_depth = pow(depth, damped_normal_exponent - 1.0);
+    const double F_n = damped_normal_stiffness*depth*power_depth*(side_0 < 0.0 ? 0.0 :
         damped_floor_hysteresis*ratio + 1.0);
-    const double F_n_by_par_depth = damped_normal_exponent*damped_normal_stiffness*pow(par_depth,
-        damped_normal_exponent - 1.0)*(side_0 < 0.0 ? 0.0 : damped_floor_hysteresis*ratio + 1.0);
-    const double F_n_by_ratio = damped_normal_stiffness*pow(par_depth, damped_normal_exponent)*(side_0 < 0.0 ?
-        0.0 : damped_floor_hysteresis);
-    const double F_n_by_e = F_n_by_par_depth*depth_by_e;
+    const double F_n_by_depth = damped_normal_exponent*damped_normal_stiffness*power_depth*(side_0 < 0.0 ? 0.0
+        : damped_floor_hysteresis*ratio + 1.0);
+    const double F_n_by_ratio = damped_normal_stiffness*depth*power_depth*(side_0 < 0.0 ? 0.0 :
+        damped_floor_hysteresis);
+    const double F_n_by_e = F_n_by_depth*depth_by_e;
     const double F_n_by_deltadot = F_n_by_ratio*ratio_by_deltadot;
     const double F_along_t_dry = 0.0;
     const double M_i_dry = -F_along_t_dry*a_i;
@@ -164,9 +165,9 @@ static void linearize(const double t, const double *q, const double *v, const Me
 
     /* coordinates, velocities, time */
     const double ball_x = q[0];
+    const double ball_x_rate = v[0];
     const double ball_y = q[1];
-    const double ball_vx = v[0];
-    const double ball_vy = v[1];
+    const double ball_y_rate = v[1];
     const double ball_omega = v[2];
     const double fall_Fx = aside->clearance[0].Fx;
     const double fall_Fy = aside->clearance[0].Fy;
@@ -175,25 +176,25 @@ static void linearize(const double t, const double *q, const double *v, const Me
     /* clearance joint fall */
     const double e_fall_x_2 = ball_x;
     const double e_fall_y_2 = ball_y;
-    const double edot_fall_x_2 = ball_vx;
-    const double edot_fall_y_2 = ball_vy;
-    double slopes_fall[4][6];
-    tangent_fall(e_fall_x_2, e_fall_y_2, edot_fall_x_2, edot_fall_y_2, 0, ball_omega, &memory->latch[0], p, side, g, slopes_fall);
-    const double fall_Fx_by_e_x = slopes_fall[0][0];
-    const double fall_Fx_by_e_y = slopes_fall[0][1];
-    const double fall_Fx_by_de_x = slopes_fall[0][2];
-    const double fall_Fx_by_de_y = slopes_fall[0][3];
-    const double fall_Fx_by_omega_j = slopes_fall[0][5];
-    const double fall_Fy_by_e_x = slopes_fall[1][0];
-    const double fall_Fy_by_e_y = slopes_fall[1][1];
-    const double fall_Fy_by_de_x = slopes_fall[1][2];
-    const double fall_Fy_by_de_y = slopes_fall[1][3];
-    const double fall_Fy_by_omega_j = slopes_fall[1][5];
-    const double fall_moment_second_by_e_x = slopes_fall[3][0];
-    const double fall_moment_second_by_e_y = slopes_fall[3][1];
-    const double fall_moment_second_by_de_x = slopes_fall[3][2];
-    const double fall_moment_second_by_de_y = slopes_fall[3][3];
-    const double fall_moment_second_by_omega_j = slopes_fall[3][5];
+    const double edot_fall_x_2 = ball_x_rate;
+    const double edot_fall_y_2 = ball_y_rate;
+    double change_fall[4][6];
+    tangent_fall(e_fall_x_2, e_fall_y_2, edot_fall_x_2, edot_fall_y_2, 0, ball_omega, &memory->latch[0], p, side, g, change_fall);
+    const double fall_Fx_by_e_x = change_fall[0][0];
+    const double fall_Fx_by_e_y = change_fall[0][1];
+    const double fall_Fx_by_de_x = change_fall[0][2];
+    const double fall_Fx_by_de_y = change_fall[0][3];
+    const double fall_Fx_by_omega_j = change_fall[0][5];
+    const double fall_Fy_by_e_x = change_fall[1][0];
+    const double fall_Fy_by_e_y = change_fall[1][1];
+    const double fall_Fy_by_de_x = change_fall[1][2];
+    const double fall_Fy_by_de_y = change_fall[1][3];
+    const double fall_Fy_by_omega_j = change_fall[1][5];
+    const double fall_moment_second_by_e_x = change_fall[3][0];
+    const double fall_moment_second_by_e_y = change_fall[3][1];
+    const double fall_moment_second_by_de_x = change_fall[3][2];
+    const double fall_moment_second_by_de_y = change_fall[3][3];
+    const double fall_moment_second_by_omega_j = change_fall[3][5];
 
     /* results */
     lin->value[0] = -fall_Fx_by_e_x;
@@ -211,14 +212,16 @@ static void linearize(const double t, const double *q, const double *v, const Me
     lin->value[12] = -fall_moment_second_by_de_x;
     lin->value[13] = -fall_moment_second_by_de_y;
     lin->value[14] = -fall_moment_second_by_omega_j;
-    lin->value[15] = ball_omega*fall_moment_second_by_e_x + ball_vx*fall_Fx_by_e_x + ball_vy*fall_Fy_by_e_x;
-    lin->value[16] = ball_omega*fall_moment_second_by_e_y + ball_vx*fall_Fx_by_e_y + ball_vy*fall_Fy_by_e_y;
-    lin->value[17] = ball_omega*fall_moment_second_by_omega_j + ball_vx*fall_Fx_by_omega_j +
-        ball_vy*fall_Fy_by_omega_j + fall_moment_second;
-    lin->value[18] = ball_omega*fall_moment_second_by_de_x + ball_vx*fall_Fx_by_de_x + ball_vy*fall_Fy_by_de_x
-        + fall_Fx;
-    lin->value[19] = ball_omega*fall_moment_second_by_de_y + ball_vx*fall_Fx_by_de_y + ball_vy*fall_Fy_by_de_y
-        + fall_Fy;
+    lin->value[15] = ball_omega*fall_moment_second_by_e_x + ball_x_rate*fall_Fx_by_e_x +
+        ball_y_rate*fall_Fy_by_e_x;
+    lin->value[16] = ball_omega*fall_moment_second_by_e_y + ball_x_rate*fall_Fx_by_e_y +
+        ball_y_rate*fall_Fy_by_e_y;
+    lin->value[17] = ball_omega*fall_moment_second_by_omega_j + ball_x_rate*fall_Fx_by_omega_j +
+        ball_y_rate*fall_Fy_by_omega_j + fall_moment_second;
+    lin->value[18] = ball_omega*fall_moment_second_by_de_x + ball_x_rate*fall_Fx_by_de_x +
+        ball_y_rate*fall_Fy_by_de_x + fall_Fx;
+    lin->value[19] = ball_omega*fall_moment_second_by_de_y + ball_x_rate*fall_Fx_by_de_y +
+        ball_y_rate*fall_Fy_by_de_y + fall_Fy;
     lin->p = p;
 }
 
@@ -405,7 +408,7 @@ enum {
     N_NODES = 3,
 };
 /*
- * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_Q - 1) or of R1_t, R2_t (2 N_Q); 0 if all
+ * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_X - 1) or of R1_t, R2_t (2 N_X); 0 if all
  * are zero.
  */
 static int residual_column(const Linear *lin, int column, const double *gain, double *x)
@@ -413,21 +416,21 @@ static int residual_column(const Linear *lin, int column, const double *gain, do
     int found = 0;
     for (int i = 0; i < N_NODES; i++)
         x[i] = 0.0;
-    for (int i = 0; i < N_RESIDUAL && column < 2 * N_Q; i++) {
+    for (int i = 0; i < N_RESIDUAL && column < 2 * N_X; i++) {
         const LinearEntry *at = &residual_entries[i];
         if (at->column == column) {
             x[at->row] -= at->sign * lin->value[at->value];
             found = 1;
         }
     }
-    for (int i = 0; i < N_PHI_Q && column < 2 * N_Q; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
+    for (int i = 0; i < N_PHI_Q && column < 2 * N_X; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
         const LinearEntry *at = &phi_q_entries[i];
-        if (at->column == column % N_Q && (column >= N_Q || at->row < N_Q + N_ROWS)) {
-            x[at->row] -= gain[column / N_Q] * at->sign * lin->value[at->value];
+        if (at->column == column % N_X && (column >= N_X || at->row < N_X + N_LOOPS)) {
+            x[at->row] -= gain[column / N_X] * at->sign * lin->value[at->value];
             found = 1;
         }
     }
-    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_Q; i++) {
+    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_X; i++) {
         x[residual_t_entries[i].row] -= residual_t_entries[i].sign * lin->value[residual_t_entries[i].value];
         found = 1;
     }
@@ -437,21 +440,21 @@ static int residual_column(const Linear *lin, int column, const double *gain, do
 /* The column of the Jacobian that follows from x, the change of accelerations and multipliers; `out` has a stride. */
 static void jacobian_column(const Linear *lin, int column, const double *x, double *out, size_t stride)
 {
-    for (int k = 0; k < N_Q; k++) {
-        out[k * stride] = column == N_Q + k ? 1.0 : 0.0;
-        out[(N_Q + k) * stride] = x[k];
+    for (int k = 0; k < N_X; k++) {
+        out[k * stride] = column == N_X + k ? 1.0 : 0.0;
+        out[(N_X + k) * stride] = x[k];
     }
     for (int w = 0; w < N_WORK; w++)
-        out[(2 * N_Q + w) * stride] = 0.0;
+        out[(2 * N_X + w) * stride] = 0.0;
     for (int i = 0; i < N_POWER_ROW; i++) {
         const LinearEntry *at = &power_row_entries[i];
-        out[(2 * N_Q + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
+        out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
     }
     for (int i = 0; i < N_POWER; i++)
         if (power_entries[i].column == column)
-            out[(2 * N_Q + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
-    for (int i = 0; i < N_POWER_T && column == 2 * N_Q; i++)
-        out[(2 * N_Q + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
+            out[(2 * N_X + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
+    for (int i = 0; i < N_POWER_T && column == 2 * N_X; i++)
+        out[(2 * N_X + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
 }
 
 /* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
@@ -461,10 +464,10 @@ static int linearized(double t, const double *y, const double *memory, const Par
     Aside aside;
     double dy[N_Y];
     read_memory(memory, &now);
-    const int status = state_equation(t, y, &now, p, dy, &aside);
+    const int status = motion(t, y, &now, p, dy, &aside);
     if (status)
         return status;
-    linearize(t, y, y + N_Q, &now, p, dy + N_Q, &aside, lin);
+    linearize(t, y, y + N_X, &now, p, dy + N_X, &aside, lin);
     return -newton_factor(eta, lin);
 }
 
@@ -472,22 +475,22 @@ static int linearized(double t, const double *y, const double *memory, const Par
  * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
  * KKT matrix. Contacts, corners and modes of friction stay as they are.
  */
-int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
+int gudgeon_tree_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
 {
     Linear lin;
-    const double gain[2] = {((const Parameters *)p)->beta_squared, ((const Parameters *)p)->two_alpha};
+    const double gain[2] = {0.0, 0.0};
     const int status = linearized(t, y, memory, (const Parameters *)p, 0.0, &lin);
     if (status)
         return status;
-    for (int column = 0; column <= 2 * N_Q; column++) {
+    for (int column = 0; column <= 2 * N_X; column++) {
         double x[N_NODES];
         if (residual_column(&lin, column, gain, x))
             newton_substitute(&lin, x);
-        jacobian_column(&lin, column, x, column < 2 * N_Q ? J + column : f_t, column < 2 * N_Q ? N_Y : 1);
+        jacobian_column(&lin, column, x, column < 2 * N_X ? J + column : f_t, column < 2 * N_X ? N_Y : 1);
     }
     for (int k = 0; k < N_Y; k++) /* nothing depends on the works */
         for (int w = 0; w < N_WORK; w++)
-            J[k * N_Y + 2 * N_Q + w] = 0.0;
+            J[k * N_Y + 2 * N_X + w] = 0.0;
     return 0;
 }
 

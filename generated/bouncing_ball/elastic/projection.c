@@ -1,6 +1,6 @@
 /*
- * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot; `worst` is the
- * largest |Phi|. To be subtracted. Returns 0, or the number of the pivot that vanished.
+ * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
+ * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
 static int closing_step(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *dq, double *dv, double *worst)
@@ -30,4 +30,3 @@ static int closing_step(const double t, const double *q, const double *v, const 
     *worst = 0.0;
     return 0;
 }
-

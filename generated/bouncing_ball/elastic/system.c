@@ -20,17 +20,9 @@ static void read_memory(const double *sample, Memory *memory)
     }
     for (int i = 0; i < N_FRICTIONS; i++)
         memory->mode[i] = sample[N_CLEARANCES + i];
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        memory->event_side[i] = 0;
     memory->held = 0;
-}
-
-/* Of all bodies, J. */
-static double kinetic_energy(const double *y, const Parameters *p)
-{
-    double m[N_Q], sum = 0.0;
-    mass_matrix(p, m);
-    for (int k = 0; k < N_Q; k++)
-        sum += 0.5 * m[k] * y[N_Q + k] * y[N_Q + k];
-    return sum;
 }
 
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
@@ -78,8 +70,8 @@ int gudgeon_rhs(double t, const double *y, const double *memory, const double *p
 /* The same right-hand side many times over, for benchmarks; the sum keeps the calls alive. */
 double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p)
 {
-    double dy[N_Y], moved[N_Y], sum = 0.0;
-    for (int k = 0; k < N_Y; k++)
+    double dy[N_S], moved[N_S], sum = 0.0;
+    for (int k = 0; k < N_S; k++)
         moved[k] = y[k];
     for (long i = 0; i < count; i++) {
         gudgeon_rhs(t, moved, memory, p, dy);
@@ -98,7 +90,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
     for (long i = 0; i < n; i++) {
         Memory now;
         Aside aside;
-        double y[N_Y] = {0.0}, dy[N_Y];
+        double y[N_S] = {0.0}, dy[N_S];
         for (int k = 0; k < N_Q; k++) {
             y[k] = q[i * N_Q + k];
             y[N_Q + k] = v[i * N_Q + k];

@@ -121,39 +121,46 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         + axle_x*sin_theta_road - axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road;
     const double l_slot_offset__road_theta = inverse_road_inertia*w_slot_offset__road_theta;
     const double scale_foot_x = -arm_road_head_y*l_foot_x__road_theta + inverse_road_mass;
-    if (!(scale_foot_x > 1e-08 * scale_foot_x)) { pivot = 1; goto dependent; };
-    const double inverse_pivot_foot_x = 1.0/scale_foot_x;
-    const double w_foot_y__foot_x = arm_road_head_y*l_foot_y__road_theta;
-    const double l_foot_y__foot_x = -inverse_pivot_foot_x*w_foot_y__foot_x;
-    const double w_slot_offset__foot_x = arm_road_head_y*l_slot_offset__road_theta + l_slot_offset__road_x;
-    const double l_slot_offset__foot_x = -inverse_pivot_foot_x*w_slot_offset__foot_x;
-    const double w_bump__foot_x = arm_road_head_y*inverse_road_inertia;
-    const double l_bump__foot_x = -inverse_pivot_foot_x*w_bump__foot_x;
     const double scale_foot_y = arm_road_head_x*l_foot_y__road_theta + inverse_road_mass;
-    const double pivot_foot_y = l_foot_y__foot_x*w_foot_y__foot_x + scale_foot_y;
-    if (!(pivot_foot_y > 1e-08 * scale_foot_y)) { pivot = 2; goto dependent; };
-    const double inverse_pivot_foot_y = 1.0/pivot_foot_y;
-    const double w_slot_offset__foot_y = -arm_road_head_x*l_slot_offset__road_theta -
-        l_slot_offset__foot_x*w_foot_y__foot_x + l_slot_offset__road_y;
-    const double l_slot_offset__foot_y = -inverse_pivot_foot_y*w_slot_offset__foot_y;
-    const double w_bump__foot_y = -arm_road_head_x*inverse_road_inertia - l_bump__foot_x*w_foot_y__foot_x;
-    const double l_bump__foot_y = -inverse_pivot_foot_y*w_bump__foot_y;
+    const double pivot_foot_x__foot_y = -arm_road_head_y*l_foot_y__road_theta;
+    const double determinant_foot_x__foot_y = -(pivot_foot_x__foot_y * pivot_foot_x__foot_y) +
+        scale_foot_x*scale_foot_y;
+    if (!(scale_foot_x > 1e-08 * scale_foot_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_foot_x__foot_y > 1e-08 * scale_foot_y * scale_foot_x)) { pivot = 2; goto dependent; };
+    const double inverse_foot_x__foot_y = -1.0/determinant_foot_x__foot_y;
+    const double inverse_pivot_foot_x = inverse_foot_x__foot_y*scale_foot_y;
+    const double inverse_pivot_foot_y = inverse_foot_x__foot_y*scale_foot_x;
+    const double inverse_cross_foot_x__foot_y = -inverse_foot_x__foot_y*pivot_foot_x__foot_y;
+    const double w_slot_offset__foot_x = arm_road_head_y*l_slot_offset__road_theta + l_slot_offset__road_x;
+    const double w_slot_offset__foot_y = -arm_road_head_x*l_slot_offset__road_theta + l_slot_offset__road_y;
+    const double l_slot_offset__foot_x = inverse_cross_foot_x__foot_y*w_slot_offset__foot_y +
+        inverse_pivot_foot_x*w_slot_offset__foot_x;
+    const double l_slot_offset__foot_y = inverse_cross_foot_x__foot_y*w_slot_offset__foot_x +
+        inverse_pivot_foot_y*w_slot_offset__foot_y;
+    const double w_bump__foot_x = arm_road_head_y*inverse_road_inertia;
+    const double w_bump__foot_y = -arm_road_head_x*inverse_road_inertia;
+    const double l_bump__foot_x = inverse_cross_foot_x__foot_y*w_bump__foot_y +
+        inverse_pivot_foot_x*w_bump__foot_x;
+    const double l_bump__foot_y = inverse_cross_foot_x__foot_y*w_bump__foot_x +
+        inverse_pivot_foot_y*w_bump__foot_y;
     const double scale_slot_offset = -cos_theta_road*l_slot_offset__axle_x +
         cos_theta_road*l_slot_offset__road_x + l_slot_offset__axle_theta*w_slot_offset__axle_theta -
         l_slot_offset__axle_y*sin_theta_road + l_slot_offset__road_theta*w_slot_offset__road_theta +
         l_slot_offset__road_y*sin_theta_road;
+    const double scale_bump = inverse_road_inertia;
     const double pivot_slot_offset = l_slot_offset__foot_x*w_slot_offset__foot_x +
         l_slot_offset__foot_y*w_slot_offset__foot_y + scale_slot_offset;
+    const double pivot_bump = l_bump__foot_x*w_bump__foot_x + l_bump__foot_y*w_bump__foot_y + scale_bump;
+    const double pivot_slot_offset__bump = inverse_road_inertia*w_slot_offset__road_theta +
+        l_bump__foot_x*w_slot_offset__foot_x + l_bump__foot_y*w_slot_offset__foot_y;
+    const double determinant_slot_offset__bump = pivot_bump*pivot_slot_offset - (pivot_slot_offset__bump *
+        pivot_slot_offset__bump);
     if (!(pivot_slot_offset > 1e-08 * scale_slot_offset)) { pivot = 3; goto dependent; };
-    const double inverse_pivot_slot_offset = 1.0/pivot_slot_offset;
-    const double w_bump__slot_offset = -inverse_road_inertia*w_slot_offset__road_theta -
-        l_bump__foot_x*w_slot_offset__foot_x - l_bump__foot_y*w_slot_offset__foot_y;
-    const double l_bump__slot_offset = -inverse_pivot_slot_offset*w_bump__slot_offset;
-    const double scale_bump = inverse_road_inertia;
-    const double pivot_bump = l_bump__foot_x*w_bump__foot_x + l_bump__foot_y*w_bump__foot_y +
-        l_bump__slot_offset*w_bump__slot_offset + scale_bump;
-    if (!(pivot_bump > 1e-08 * scale_bump)) { pivot = 4; goto dependent; };
-    const double inverse_pivot_bump = 1.0/pivot_bump;
+    if (!(determinant_slot_offset__bump > 1e-08 * scale_bump * pivot_slot_offset)) { pivot = 4; goto dependent; };
+    const double inverse_slot_offset__bump = -1.0/determinant_slot_offset__bump;
+    const double inverse_pivot_slot_offset = inverse_slot_offset__bump*pivot_bump;
+    const double inverse_pivot_bump = inverse_slot_offset__bump*pivot_slot_offset;
+    const double inverse_cross_slot_offset__bump = -inverse_slot_offset__bump*pivot_slot_offset__bump;
 
     /* forward substitution */
     const double z_axle_x = -left_pull*left_span_x - right_pull*right_span_x;
@@ -166,23 +173,22 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double z_road_theta = arm_road_head_x*right_pull*right_span_y -
         arm_road_head_y*right_pull*right_span_x;
     const double z_foot_x = inverse_road_mass*z_road_x - l_foot_x__road_theta*z_road_theta + rhs_foot_x;
-    const double z_foot_y = inverse_road_mass*z_road_y - l_foot_y__foot_x*z_foot_x -
-        l_foot_y__road_theta*z_road_theta + rhs_foot_y;
+    const double z_foot_y = inverse_road_mass*z_road_y - l_foot_y__road_theta*z_road_theta + rhs_foot_y;
     const double z_slot_offset = -l_slot_offset__axle_theta*z_axle_theta - l_slot_offset__axle_x*z_axle_x -
         l_slot_offset__axle_y*z_axle_y - l_slot_offset__foot_x*z_foot_x - l_slot_offset__foot_y*z_foot_y -
         l_slot_offset__road_theta*z_road_theta - l_slot_offset__road_x*z_road_x -
         l_slot_offset__road_y*z_road_y + rhs_slot_offset;
     const double z_bump = -inverse_road_inertia*z_road_theta - l_bump__foot_x*z_foot_x -
-        l_bump__foot_y*z_foot_y - l_bump__slot_offset*z_slot_offset + rhs_bump;
+        l_bump__foot_y*z_foot_y + rhs_bump;
 
     /* backward substitution */
-    const double lambda_bump = -inverse_pivot_bump*z_bump;
-    const double lambda_slot_offset = -inverse_pivot_slot_offset*z_slot_offset -
-        l_bump__slot_offset*lambda_bump;
-    const double lambda_foot_y = -inverse_pivot_foot_y*z_foot_y - l_bump__foot_y*lambda_bump -
-        l_slot_offset__foot_y*lambda_slot_offset;
-    const double lambda_foot_x = -inverse_pivot_foot_x*z_foot_x - l_bump__foot_x*lambda_bump -
-        l_foot_y__foot_x*lambda_foot_y - l_slot_offset__foot_x*lambda_slot_offset;
+    const double lambda_bump = inverse_cross_slot_offset__bump*z_slot_offset + inverse_pivot_bump*z_bump;
+    const double lambda_slot_offset = inverse_cross_slot_offset__bump*z_bump +
+        inverse_pivot_slot_offset*z_slot_offset;
+    const double lambda_foot_y = inverse_cross_foot_x__foot_y*z_foot_x + inverse_pivot_foot_y*z_foot_y -
+        l_bump__foot_y*lambda_bump - l_slot_offset__foot_y*lambda_slot_offset;
+    const double lambda_foot_x = inverse_cross_foot_x__foot_y*z_foot_y + inverse_pivot_foot_x*z_foot_x -
+        l_bump__foot_x*lambda_bump - l_slot_offset__foot_x*lambda_slot_offset;
     const double acceleration_road_theta = -inverse_road_inertia*lambda_bump +
         inverse_road_inertia*z_road_theta - l_foot_x__road_theta*lambda_foot_x -
         l_foot_y__road_theta*lambda_foot_y - l_slot_offset__road_theta*lambda_slot_offset;

@@ -18,14 +18,17 @@ enum {
     N_CLEARANCES = 0,        /* joints with play */
     N_FRICTIONS = 0,         /* slips that friction may hold */
     N_SWITCHES = 0,          /* corners of min, max, abs and sign */
+    N_USER_EVENTS = 0,      /* expressions whose zeros are watched */
     N_SERIES = 4,            /* results of force elements */
     N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
-    N_X = N_Q,                /* coordinates that are integrated */
+    N_S = 2 * N_Q + N_WORK,   /* state of all bodies: q, v, works */
+    N_X = 3,                  /* coordinates that are integrated */
+    N_LOOPS = 1,              /* constraint rows of these */
     N_Y = 2 * N_X + N_WORK
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double length;  /* parameters.length */    double half_mass;  /* parameters.half_mass */    double par_r;  /* parameters.r */    double omega;  /* parameters.omega */    double axle_mass;  /* bodies.axle.mass */    double axle_inertia;  /* bodies.axle.inertia */    double road_mass;  /* bodies.road.mass */    double road_inertia;  /* bodies.road.inertia */    double axle_length;  /* bodies.axle.length */    double road_length;  /* bodies.road.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slot_direction_y;  /* joints.slot.direction.y */    double par_y;  /* gravity.y */    double left_stiffness;  /* forces.left.stiffness */    double left_free_length;  /* forces.left.free_length */    double right_stiffness;  /* forces.right.stiffness */    double right_free_length;  /* forces.right.free_length */    double set_axle_y;  /* start.set.axle.y */    double axle_head_x;  /* point from the centre of mass */    double road_head_x;  /* point from the centre of mass */    double weight_axle_y;  /* weight */    double weight_road_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_axle_mass;  /* 1/M */    double inverse_axle_inertia;  /* 1/M */    double inverse_road_mass;  /* 1/M */    double inverse_road_inertia;  /* 1/M */} Parameters;
+typedef struct {    double length;  /* parameters.length */    double half_mass;  /* parameters.half_mass */    double par_r;  /* parameters.r */    double omega;  /* parameters.omega */    double axle_mass;  /* bodies.axle.mass */    double axle_inertia;  /* bodies.axle.inertia */    double road_mass;  /* bodies.road.mass */    double road_inertia;  /* bodies.road.inertia */    double axle_length;  /* bodies.axle.length */    double road_length;  /* bodies.road.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slot_direction_y;  /* joints.slot.direction.y */    double par_y;  /* gravity.y */    double left_stiffness;  /* forces.left.stiffness */    double left_free_length;  /* forces.left.free_length */    double right_stiffness;  /* forces.right.stiffness */    double right_free_length;  /* forces.right.free_length */    double set_axle_y;  /* start.set.axle.y */    double axle_head_x;  /* point from the centre of mass */    double road_head_x;  /* point from the centre of mass */    double weight_axle_y;  /* weight */    double weight_road_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_axle_mass;  /* 1/M */    double inverse_axle_inertia;  /* 1/M */    double inverse_road_mass;  /* 1/M */    double inverse_road_inertia;  /* 1/M */    double axle_tail_span_x;  /* vector in its frame */    double road_head_span_x;  /* vector in its frame */    double inertia_road_road;  /* sum of m w.w */    double mass_bump_bump;  /* constant of M */    double weight_road__across;  /* weight */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -42,6 +45,7 @@ typedef struct {
     Latch latch[1];
     double mode[1];
     double side[1];
+    signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
 } Memory;
 
@@ -72,7 +76,24 @@ typedef struct {
     Clearance clearance[1];
     Friction friction[1];
     double g[1]; /* switching functions; NaN: does not act */
+    double event[1]; /* values of the expressions that are watched */
 } Aside;
+
+/* The expressions that are watched: which way they are to cross zero (1 rising, -1 falling, 0 both), and what then. */
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+
+/*
+ * Whether expression i, seen last on `side` of zero (1 or -1; 0: nowhere yet), has crossed to `value`; `side` is
+ * where it is then. A zero itself lies on neither side.
+ */
+static inline int event_crosses(int i, signed char *side, double value)
+{
+    const int from = *side, to = (value > 0.0) - (value < 0.0);
+    if (to)
+        *side = (signed char)to;
+    return from * to < 0 && event_direction[i] * to >= 0;
+}
 
 /* min, max, sign that keep a NaN in x. */
 static inline double max_of(double x, double y) { return x < y ? y : x; }

@@ -64,5 +64,15 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->inverse_road_mass = inverse_road_mass;
     const double inverse_road_inertia = 1.0/road_inertia;  /* 1/M */
     p->inverse_road_inertia = inverse_road_inertia;
+    const double axle_tail_span_x = -axle_head_x;  /* vector in its frame */
+    p->axle_tail_span_x = axle_tail_span_x;
+    const double road_head_span_x = 2.0*road_head_x;  /* vector in its frame */
+    p->road_head_span_x = road_head_span_x;
+    const double inertia_road_road = (road_head_x * road_head_x)*road_mass;  /* sum of m w.w */
+    p->inertia_road_road = inertia_road_road;
+    const double mass_bump_bump = inertia_road_road + road_inertia;  /* constant of M */
+    p->mass_bump_bump = mass_bump_bump;
+    const double weight_road__across = par_y*road_head_x*road_mass;  /* weight */
+    p->weight_road__across = weight_road__across;
 }
 

@@ -1,6 +1,6 @@
 /*
- * The classical Runge-Kutta method of order 4 with fixed step (W. Kutta, Z. Math. Phys. 46, 1901), constraints
- * stabilised by Baumgarte's terms.
+ * The classical Runge-Kutta method of order 4 with fixed step (W. Kutta, Z. Math. Phys. 46, 1901).
+ * Constraints are closed after every step.
  */
 
 /* Where a step would lead: the new state, its right-hand side, and which joints touched on the way. */
@@ -35,6 +35,7 @@ static int rk4_trial(Run *run, double h, const Parameters *p, Trial *trial)
             trial->touched[i] |= trial->aside.clearance[i].delta > 0.0;
         slope = k;
     }
+    project_state(run, run->t + h, trial->y, p);
     return rates(run, run->t + h, trial->y, p, trial->dy, &trial->aside);
 }
 
@@ -59,7 +60,46 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
     int status = 0;
     if (update_latches(run, t, h, before.clearance, run->aside.clearance, trial->touched, p))
         status = rates(run, t_new, run->y, p, run->dy, &run->aside);
-    return status ? status : watch(run);
+    return status ? status : watch(run, p);
+}
+
+/* Share of h at which watched expression i first lies beyond zero, by halving: the step is tried again up to there. */
+static double rk4_crossing(Run *run, int i, double h, const Parameters *p)
+{
+    const double close = fmax(1e-12, 4.0 * DBL_EPSILON * fabs(run->t)) / h;
+    double low = 0.0, high = 1.0;
+    while (high - low > close) {
+        const double share = 0.5 * (low + high);
+        Trial trial;
+        if (rk4_trial(run, share * h, p, &trial) || run->memory.event_side[i] * trial.aside.event[i] < 0.0)
+            high = share;
+        else
+            low = share;
+    }
+    return high;
+}
+
+/* User events on the way of a step; one that ends the run takes the step up to there. */
+static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *p)
+{
+    double share[1], end = INFINITY;
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        signed char side = run->memory.event_side[i];
+        share[i] = event_crosses(i, &side, trial->aside.event[i]) ? rk4_crossing(run, i, h, p) : INFINITY;
+        if (run->stop && event_stops[i])
+            end = fmin(end, share[i]);
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        event_crosses(i, &run->memory.event_side[i], trial->aside.event[i]);
+        if (share[i] <= end && isfinite(share[i]))
+            note_event(run, i, run->t + share[i] * h);
+    }
+    if (!isfinite(end))
+        return 0;
+    Trial last;
+    const int status = rk4_trial(run, end * h, p, &last);
+    const int failed = status ? status : accept(run, end * h, run->t + end * h, &last, p);
+    return failed ? failed : ENDED;
 }
 
 /* One step to t_new; where friction changes on the way, in parts that end there. */
@@ -72,8 +112,10 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p)
         if (status)
             return status;
         const double share = friction_event(run, h, p, &trial);
-        if (share >= 1.0)
-            return accept(run, h, t_new, &trial, p);
+        if (share >= 1.0) {
+            const int ended = rk4_events(run, h, &trial, p);
+            return ended ? ended : accept(run, h, t_new, &trial, p);
+        }
         int failed = share < 0.0 ? NOT_FINITE : accept(run, share * h, run->t + share * h, &trial, p);
         if (!failed)
             failed = switch_friction(run, p);
@@ -99,7 +141,7 @@ int gudgeon_run_steps(void *memory, const double *parameters, double t0, double 
     int status = run->ready ? 0 : begin(run, p);
     *taken = 0;
     while (!status && *taken < count) {
-        if (run->n_impacts > 0 && run->n_impacts > N_IMPACTS - 1)
+        if (lists_full(run))
             return EVENTS_FULL;
         const long i = first + *taken + 1;
         status = rk4_step(run, h, i == total ? t1 : t0 + (double)i * h, p);

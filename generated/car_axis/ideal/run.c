@@ -4,7 +4,7 @@
  */
 enum {
     N_IMPACTS = 256, MAX_PARTS = 50,
-    NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6
+    NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7
 };
 
 typedef struct {
@@ -14,7 +14,7 @@ typedef struct {
 
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
 enum {
-    N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS, /* what may end a step, in this order */
+    N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
     N_STAGES = 16, N_DENSE = 7
 };
 
@@ -29,7 +29,7 @@ typedef struct {
     double rate[1][2];   /* smallest and largest d delta/dt of the stages */
 } Step;
 
-static const unsigned char is_angle[] = {0, 0, 1, 0, 0, 1};
+static const unsigned char is_angle[] = {0, 0, 1};
 
 typedef struct {
     double t, y[N_Y], dy[N_Y];
@@ -39,6 +39,8 @@ typedef struct {
     int compressing[1];  /* from onset until the penetration first stops growing */
     double F_peak[1], t_peak[1], e_max[1];
     Impact impacts[N_IMPACTS];
+    double event_t[N_IMPACTS];
+    int event[N_IMPACTS], n_events, stop; /* user events found; whether they may end the run */
     int n_impacts, ready;
     long steps, evaluations, onsets, grazes, ratio_outside, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max;
@@ -53,7 +55,7 @@ typedef struct {
 static int rates(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
 {
     run->evaluations++;
-    return state_equation(t, y, &run->memory, p, dy, aside);
+    return motion(t, y, &run->memory, p, dy, aside);
 }
 
 /* Parameter s in [0, 1] at which the cubic through (d0, h r0) and (d1, h r1) crosses zero; its slope in `rate`. */
@@ -120,15 +122,19 @@ static int update_latches(Run *run, double t, double h, const Clearance *before,
 }
 
 /* Peaks, residuals and the ratio deltadot/deltadot_minus at an accepted state. */
-static int watch(Run *run)
+static int watch(Run *run, const Parameters *p)
 {
+    (void)p;
     const Aside *aside = &run->aside;
     double sum = 0.0;
     for (int k = 0; k < N_Y; k++)
         sum += run->dy[k] + run->y[k];
-    for (int r = 0; r < N_ROWS; r++) {
-        run->phi_max = max_of(fabs(aside->phi[r]), run->phi_max);
-        run->phi_dot_max = max_of(fabs(aside->phi_dot[r]), run->phi_dot_max);
+    double phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];
+    closures(run->t, run->y, p, phi);
+    closure_rates(run->t, run->y, run->y + N_X, p, phi_dot);
+    for (int r = 0; r < N_LOOPS; r++) {
+        run->phi_max = max_of(fabs(phi[r]), run->phi_max);
+        run->phi_dot_max = max_of(fabs(phi_dot[r]), run->phi_dot_max);
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &aside->clearance[i];
@@ -171,6 +177,22 @@ static int begin_friction(Run *run, const Parameters *p)
     return 0;
 }
 
+/* User event i at time t; whether it ends the run. */
+static int note_event(Run *run, int i, double t)
+{
+    if (run->n_events < N_IMPACTS) {
+        run->event_t[run->n_events] = t;
+        run->event[run->n_events++] = i;
+    }
+    return run->stop && event_stops[i];
+}
+
+/* Whether the next step may find more than the lists hold. */
+static int lists_full(const Run *run)
+{
+    return run->n_impacts > N_IMPACTS - 1 || run->n_events > N_IMPACTS - 1;
+}
+
 /* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
 static int begin(Run *run, const Parameters *p)
 {
@@ -180,18 +202,20 @@ static int begin(Run *run, const Parameters *p)
         status = begin_friction(run, p);
     if (!status && update_latches(run, run->t, 0.0, run->aside.clearance, run->aside.clearance, touched, p))
         status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
     run->ready = 1;
-    return status ? status : watch(run);
+    return status ? status : watch(run, p);
 }
 
 size_t gudgeon_run_size(void) { return sizeof(Run); }
 
-void gudgeon_run_start(void *memory, double t, const double *y, const double *latched)
+/* `y` is a state of all bodies. */
+void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched)
 {
     Run *run = memory;
     *run = (Run){.t = t, .ratio_min = INFINITY, .ratio_max = -INFINITY};
-    for (int k = 0; k < N_Y; k++)
-        run->y[k] = y[k];
+    from_absolute(t, y, (const Parameters *)p, run->y);
     read_memory(latched, &run->memory);
     for (int i = 0; i < N_CLEARANCES; i++)
         run->open[i] = (Impact){t, NAN, latched[i], 0.0, t, i};
@@ -205,15 +229,12 @@ void gudgeon_run_codes(void *memory, const signed char *state)
         run->compressing[i] = state[i] == 1;
 }
 
-/* State, accelerations, latches and codes (0 free, 1 impact, 2 contact) as row i of the samples. */
-static void store_sample(const Run *run, const double *now, const double *dy, long i, double *y, double *a,
+/* State of all bodies, latches and codes (0 free, 1 impact, 2 contact) as row i of the samples. */
+static void store_sample(const Run *run, double t, const double *now, const Parameters *p, long i, double *y,
     double *latched, signed char *state)
 {
     enum { MEMORY = 1, JOINTS = 1 };
-    for (int k = 0; k < N_Y; k++)
-        y[i * N_Y + k] = now[k];
-    for (int k = 0; k < N_X; k++)
-        a[i * N_X + k] = dy[N_X + k];
+    to_absolute(t, now, p, y + i * N_S);
     for (int k = 0; k < N_CLEARANCES; k++) {
         latched[i * MEMORY + k] = run->memory.latch[k].closed ? run->memory.latch[k].deltadot_minus : NAN;
         state[i * JOINTS + k] = (signed char)(run->memory.latch[k].closed ? 2 - run->compressing[k] : 0);
@@ -222,10 +243,25 @@ static void store_sample(const Run *run, const double *now, const double *dy, lo
         latched[i * MEMORY + N_CLEARANCES + k] = run->memory.mode[k];
 }
 
-void gudgeon_run_sample(const void *memory, double *y, double *a, double *latched, signed char *state)
+void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state)
 {
     const Run *run = memory;
-    store_sample(run, run->y, run->dy, 0, y, a, latched, state);
+    store_sample(run, run->t, run->y, (const Parameters *)p, 0, y, latched, state);
+}
+
+void gudgeon_run_stop(void *memory, int stop) { ((Run *)memory)->stop = stop; }
+
+/* Fetches and empties the list of user events. */
+int gudgeon_run_events(void *memory, double *t, int *event)
+{
+    Run *run = memory;
+    const int n = run->n_events;
+    for (int i = 0; i < n; i++) {
+        t[i] = run->event_t[i];
+        event[i] = run->event[i];
+    }
+    run->n_events = 0;
+    return n;
 }
 
 /* Fetches and empties the list of impacts: 5 numbers each, and the joint; with `last` the open ones too. */

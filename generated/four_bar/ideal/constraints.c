@@ -343,132 +343,146 @@ static int project(const double t, const double *q, const double *r, const Param
     const double l_B_x__rocker_theta_2 = arm_rocker_head_y*inverse_rocker_inertia;
     const double l_B_y__rocker_theta_2 = -arm_rocker_head_x*inverse_rocker_inertia;
     const double scale_B0_x_2 = -arm_rocker_head_y*l_B0_x__rocker_theta_2 + inverse_rocker_mass;
-    if (!(scale_B0_x_2 > 1e-13 * scale_B0_x_2)) return 1;
-    const double inverse_pivot_B0_x_2 = 1.0/scale_B0_x_2;
-    const double w_B0_y__B0_x_2 = arm_rocker_head_y*l_B0_y__rocker_theta_2;
-    const double l_B0_y__B0_x_2 = -inverse_pivot_B0_x_2*w_B0_y__B0_x_2;
-    const double w_B_x__B0_x_2 = arm_rocker_head_y*l_B_x__rocker_theta_2 - inverse_rocker_mass;
-    const double l_B_x__B0_x_2 = -inverse_pivot_B0_x_2*w_B_x__B0_x_2;
-    const double w_B_y__B0_x_2 = arm_rocker_head_y*l_B_y__rocker_theta_2;
-    const double l_B_y__B0_x_2 = -inverse_pivot_B0_x_2*w_B_y__B0_x_2;
     const double scale_B0_y_2 = arm_rocker_head_x*l_B0_y__rocker_theta_2 + inverse_rocker_mass;
-    const double pivot_B0_y_2 = l_B0_y__B0_x_2*w_B0_y__B0_x_2 + scale_B0_y_2;
-    if (!(pivot_B0_y_2 > 1e-13 * scale_B0_y_2)) return 2;
-    const double inverse_pivot_B0_y_2 = 1.0/pivot_B0_y_2;
-    const double w_B_x__B0_y_2 = -arm_rocker_head_x*l_B_x__rocker_theta_2 - l_B_x__B0_x_2*w_B0_y__B0_x_2;
-    const double l_B_x__B0_y_2 = -inverse_pivot_B0_y_2*w_B_x__B0_y_2;
-    const double w_B_y__B0_y_2 = -arm_rocker_head_x*l_B_y__rocker_theta_2 - inverse_rocker_mass -
-        l_B_y__B0_x_2*w_B0_y__B0_x_2;
-    const double l_B_y__B0_y_2 = -inverse_pivot_B0_y_2*w_B_y__B0_y_2;
+    const double pivot_B0_x__B0_y_2 = -arm_rocker_head_y*l_B0_y__rocker_theta_2;
+    const double determinant_B0_x__B0_y_2 = -(pivot_B0_x__B0_y_2 * pivot_B0_x__B0_y_2) +
+        scale_B0_x_2*scale_B0_y_2;
+    if (!(scale_B0_x_2 > 1e-13 * scale_B0_x_2)) return 1;
+    if (!(determinant_B0_x__B0_y_2 > 1e-13 * scale_B0_y_2 * scale_B0_x_2)) return 2;
+    const double inverse_B0_x__B0_y_2 = -1.0/determinant_B0_x__B0_y_2;
+    const double inverse_pivot_B0_x_2 = inverse_B0_x__B0_y_2*scale_B0_y_2;
+    const double inverse_pivot_B0_y_2 = inverse_B0_x__B0_y_2*scale_B0_x_2;
+    const double inverse_cross_B0_x__B0_y_2 = -inverse_B0_x__B0_y_2*pivot_B0_x__B0_y_2;
+    const double w_B_x__B0_x_2 = arm_rocker_head_y*l_B_x__rocker_theta_2 - inverse_rocker_mass;
+    const double w_B_x__B0_y_2 = -arm_rocker_head_x*l_B_x__rocker_theta_2;
+    const double l_B_x__B0_x_2 = inverse_cross_B0_x__B0_y_2*w_B_x__B0_y_2 +
+        inverse_pivot_B0_x_2*w_B_x__B0_x_2;
+    const double l_B_x__B0_y_2 = inverse_cross_B0_x__B0_y_2*w_B_x__B0_x_2 +
+        inverse_pivot_B0_y_2*w_B_x__B0_y_2;
+    const double w_B_y__B0_x_2 = arm_rocker_head_y*l_B_y__rocker_theta_2;
+    const double w_B_y__B0_y_2 = -arm_rocker_head_x*l_B_y__rocker_theta_2 - inverse_rocker_mass;
+    const double l_B_y__B0_x_2 = inverse_cross_B0_x__B0_y_2*w_B_y__B0_y_2 +
+        inverse_pivot_B0_x_2*w_B_y__B0_x_2;
+    const double l_B_y__B0_y_2 = inverse_cross_B0_x__B0_y_2*w_B_y__B0_x_2 +
+        inverse_pivot_B0_y_2*w_B_y__B0_y_2;
     const double scale_B_x_2 = -arm_coupler_head_y*l_B_x__coupler_theta_2 +
         arm_rocker_head_y*l_B_x__rocker_theta_2 + inverse_coupler_mass + inverse_rocker_mass;
-    const double pivot_B_x_2 = l_B_x__B0_x_2*w_B_x__B0_x_2 + l_B_x__B0_y_2*w_B_x__B0_y_2 + scale_B_x_2;
-    if (!(pivot_B_x_2 > 1e-13 * scale_B_x_2)) return 3;
-    const double inverse_pivot_B_x_2 = 1.0/pivot_B_x_2;
-    const double w_B_y__B_x_2 = arm_coupler_head_y*l_B_y__coupler_theta_2 -
-        arm_rocker_head_y*l_B_y__rocker_theta_2 - l_B_y__B0_x_2*w_B_x__B0_x_2 - l_B_y__B0_y_2*w_B_x__B0_y_2;
-    const double l_B_y__B_x_2 = -inverse_pivot_B_x_2*w_B_y__B_x_2;
-    const double w_A_x__B_x_2 = arm_coupler_head_y*l_A_x__coupler_theta_2 + inverse_coupler_mass;
-    const double l_A_x__B_x_2 = -inverse_pivot_B_x_2*w_A_x__B_x_2;
-    const double w_A_y__B_x_2 = arm_coupler_head_y*l_A_y__coupler_theta_2;
-    const double l_A_y__B_x_2 = -inverse_pivot_B_x_2*w_A_y__B_x_2;
     const double scale_B_y_2 = arm_coupler_head_x*l_B_y__coupler_theta_2 -
         arm_rocker_head_x*l_B_y__rocker_theta_2 + inverse_coupler_mass + inverse_rocker_mass;
-    const double pivot_B_y_2 = l_B_y__B0_x_2*w_B_y__B0_x_2 + l_B_y__B0_y_2*w_B_y__B0_y_2 +
-        l_B_y__B_x_2*w_B_y__B_x_2 + scale_B_y_2;
-    if (!(pivot_B_y_2 > 1e-13 * scale_B_y_2)) return 4;
-    const double inverse_pivot_B_y_2 = 1.0/pivot_B_y_2;
-    const double w_A_x__B_y_2 = -arm_coupler_head_x*l_A_x__coupler_theta_2 - l_A_x__B_x_2*w_B_y__B_x_2;
-    const double l_A_x__B_y_2 = -inverse_pivot_B_y_2*w_A_x__B_y_2;
-    const double w_A_y__B_y_2 = -arm_coupler_head_x*l_A_y__coupler_theta_2 + inverse_coupler_mass -
-        l_A_y__B_x_2*w_B_y__B_x_2;
-    const double l_A_y__B_y_2 = -inverse_pivot_B_y_2*w_A_y__B_y_2;
+    const double pivot_B_x_2 = l_B_x__B0_x_2*w_B_x__B0_x_2 + l_B_x__B0_y_2*w_B_x__B0_y_2 + scale_B_x_2;
+    const double pivot_B_y_2 = l_B_y__B0_x_2*w_B_y__B0_x_2 + l_B_y__B0_y_2*w_B_y__B0_y_2 + scale_B_y_2;
+    const double pivot_B_x__B_y_2 = -arm_coupler_head_y*l_B_y__coupler_theta_2 +
+        arm_rocker_head_y*l_B_y__rocker_theta_2 + l_B_y__B0_x_2*w_B_x__B0_x_2 + l_B_y__B0_y_2*w_B_x__B0_y_2;
+    const double determinant_B_x__B_y_2 = pivot_B_x_2*pivot_B_y_2 - (pivot_B_x__B_y_2 * pivot_B_x__B_y_2);
+    if (!(pivot_B_x_2 > 1e-13 * scale_B_x_2)) return 3;
+    if (!(determinant_B_x__B_y_2 > 1e-13 * scale_B_y_2 * pivot_B_x_2)) return 4;
+    const double inverse_B_x__B_y_2 = -1.0/determinant_B_x__B_y_2;
+    const double inverse_pivot_B_x_2 = inverse_B_x__B_y_2*pivot_B_y_2;
+    const double inverse_pivot_B_y_2 = inverse_B_x__B_y_2*pivot_B_x_2;
+    const double inverse_cross_B_x__B_y_2 = -inverse_B_x__B_y_2*pivot_B_x__B_y_2;
+    const double w_A_x__B_x_2 = arm_coupler_head_y*l_A_x__coupler_theta_2 + inverse_coupler_mass;
+    const double w_A_x__B_y_2 = -arm_coupler_head_x*l_A_x__coupler_theta_2;
+    const double l_A_x__B_x_2 = inverse_cross_B_x__B_y_2*w_A_x__B_y_2 + inverse_pivot_B_x_2*w_A_x__B_x_2;
+    const double l_A_x__B_y_2 = inverse_cross_B_x__B_y_2*w_A_x__B_x_2 + inverse_pivot_B_y_2*w_A_x__B_y_2;
+    const double w_A_y__B_x_2 = arm_coupler_head_y*l_A_y__coupler_theta_2;
+    const double w_A_y__B_y_2 = -arm_coupler_head_x*l_A_y__coupler_theta_2 + inverse_coupler_mass;
+    const double l_A_y__B_x_2 = inverse_cross_B_x__B_y_2*w_A_y__B_y_2 + inverse_pivot_B_x_2*w_A_y__B_x_2;
+    const double l_A_y__B_y_2 = inverse_cross_B_x__B_y_2*w_A_y__B_x_2 + inverse_pivot_B_y_2*w_A_y__B_y_2;
     const double l_A0_x__crank_theta_2 = -arm_crank_head_y*inverse_crank_inertia;
     const double l_A0_y__crank_theta_2 = arm_crank_head_x*inverse_crank_inertia;
     const double l_A_x__crank_theta_2 = -arm_crank_head_y*inverse_crank_inertia;
     const double l_A_y__crank_theta_2 = arm_crank_head_x*inverse_crank_inertia;
     const double scale_A0_x_2 = -arm_crank_head_y*l_A0_x__crank_theta_2 + inverse_crank_mass;
-    if (!(scale_A0_x_2 > 1e-13 * scale_A0_x_2)) return 5;
-    const double inverse_pivot_A0_x_2 = 1.0/scale_A0_x_2;
-    const double w_A0_y__A0_x_2 = arm_crank_head_y*l_A0_y__crank_theta_2;
-    const double l_A0_y__A0_x_2 = -inverse_pivot_A0_x_2*w_A0_y__A0_x_2;
-    const double w_A_x__A0_x_2 = arm_crank_head_y*l_A_x__crank_theta_2 + inverse_crank_mass;
-    const double l_A_x__A0_x_2 = -inverse_pivot_A0_x_2*w_A_x__A0_x_2;
-    const double w_A_y__A0_x_2 = arm_crank_head_y*l_A_y__crank_theta_2;
-    const double l_A_y__A0_x_2 = -inverse_pivot_A0_x_2*w_A_y__A0_x_2;
-    const double w_motor__A0_x_2 = arm_crank_head_y*inverse_crank_inertia;
-    const double l_motor__A0_x_2 = -inverse_pivot_A0_x_2*w_motor__A0_x_2;
     const double scale_A0_y_2 = arm_crank_head_x*l_A0_y__crank_theta_2 + inverse_crank_mass;
-    const double pivot_A0_y_2 = l_A0_y__A0_x_2*w_A0_y__A0_x_2 + scale_A0_y_2;
-    if (!(pivot_A0_y_2 > 1e-13 * scale_A0_y_2)) return 6;
-    const double inverse_pivot_A0_y_2 = 1.0/pivot_A0_y_2;
-    const double w_A_x__A0_y_2 = -arm_crank_head_x*l_A_x__crank_theta_2 - l_A_x__A0_x_2*w_A0_y__A0_x_2;
-    const double l_A_x__A0_y_2 = -inverse_pivot_A0_y_2*w_A_x__A0_y_2;
-    const double w_A_y__A0_y_2 = -arm_crank_head_x*l_A_y__crank_theta_2 + inverse_crank_mass -
-        l_A_y__A0_x_2*w_A0_y__A0_x_2;
-    const double l_A_y__A0_y_2 = -inverse_pivot_A0_y_2*w_A_y__A0_y_2;
-    const double w_motor__A0_y_2 = -arm_crank_head_x*inverse_crank_inertia - l_motor__A0_x_2*w_A0_y__A0_x_2;
-    const double l_motor__A0_y_2 = -inverse_pivot_A0_y_2*w_motor__A0_y_2;
+    const double pivot_A0_x__A0_y_2 = -arm_crank_head_y*l_A0_y__crank_theta_2;
+    const double determinant_A0_x__A0_y_2 = -(pivot_A0_x__A0_y_2 * pivot_A0_x__A0_y_2) +
+        scale_A0_x_2*scale_A0_y_2;
+    if (!(scale_A0_x_2 > 1e-13 * scale_A0_x_2)) return 5;
+    if (!(determinant_A0_x__A0_y_2 > 1e-13 * scale_A0_y_2 * scale_A0_x_2)) return 6;
+    const double inverse_A0_x__A0_y_2 = -1.0/determinant_A0_x__A0_y_2;
+    const double inverse_pivot_A0_x_2 = inverse_A0_x__A0_y_2*scale_A0_y_2;
+    const double inverse_pivot_A0_y_2 = inverse_A0_x__A0_y_2*scale_A0_x_2;
+    const double inverse_cross_A0_x__A0_y_2 = -inverse_A0_x__A0_y_2*pivot_A0_x__A0_y_2;
+    const double w_motor__A0_x_2 = arm_crank_head_y*inverse_crank_inertia;
+    const double w_motor__A0_y_2 = -arm_crank_head_x*inverse_crank_inertia;
+    const double l_motor__A0_x_2 = inverse_cross_A0_x__A0_y_2*w_motor__A0_y_2 +
+        inverse_pivot_A0_x_2*w_motor__A0_x_2;
+    const double l_motor__A0_y_2 = inverse_cross_A0_x__A0_y_2*w_motor__A0_x_2 +
+        inverse_pivot_A0_y_2*w_motor__A0_y_2;
+    const double w_A_x__A0_x_2 = arm_crank_head_y*l_A_x__crank_theta_2 + inverse_crank_mass;
+    const double w_A_x__A0_y_2 = -arm_crank_head_x*l_A_x__crank_theta_2;
+    const double l_A_x__A0_x_2 = inverse_cross_A0_x__A0_y_2*w_A_x__A0_y_2 +
+        inverse_pivot_A0_x_2*w_A_x__A0_x_2;
+    const double l_A_x__A0_y_2 = inverse_cross_A0_x__A0_y_2*w_A_x__A0_x_2 +
+        inverse_pivot_A0_y_2*w_A_x__A0_y_2;
+    const double w_A_y__A0_x_2 = arm_crank_head_y*l_A_y__crank_theta_2;
+    const double w_A_y__A0_y_2 = -arm_crank_head_x*l_A_y__crank_theta_2 + inverse_crank_mass;
+    const double l_A_y__A0_x_2 = inverse_cross_A0_x__A0_y_2*w_A_y__A0_y_2 +
+        inverse_pivot_A0_x_2*w_A_y__A0_x_2;
+    const double l_A_y__A0_y_2 = inverse_cross_A0_x__A0_y_2*w_A_y__A0_x_2 +
+        inverse_pivot_A0_y_2*w_A_y__A0_y_2;
+    const double scale_motor_2 = inverse_crank_inertia;
     const double scale_A_x_2 = -arm_coupler_head_y*l_A_x__coupler_theta_2 -
         arm_crank_head_y*l_A_x__crank_theta_2 + inverse_coupler_mass + inverse_crank_mass;
+    const double pivot_motor_2 = l_motor__A0_x_2*w_motor__A0_x_2 + l_motor__A0_y_2*w_motor__A0_y_2 +
+        scale_motor_2;
     const double pivot_A_x_2 = l_A_x__A0_x_2*w_A_x__A0_x_2 + l_A_x__A0_y_2*w_A_x__A0_y_2 +
         l_A_x__B_x_2*w_A_x__B_x_2 + l_A_x__B_y_2*w_A_x__B_y_2 + scale_A_x_2;
-    if (!(pivot_A_x_2 > 1e-13 * scale_A_x_2)) return 7;
-    const double inverse_pivot_A_x_2 = 1.0/pivot_A_x_2;
+    const double pivot_motor__A_x_2 = l_A_x__A0_x_2*w_motor__A0_x_2 + l_A_x__A0_y_2*w_motor__A0_y_2 +
+        l_A_x__crank_theta_2;
+    const double determinant_motor__A_x_2 = pivot_A_x_2*pivot_motor_2 - (pivot_motor__A_x_2 *
+        pivot_motor__A_x_2);
+    if (!(pivot_motor_2 > 1e-13 * scale_motor_2)) return 7;
+    if (!(determinant_motor__A_x_2 > 1e-13 * scale_A_x_2 * pivot_motor_2)) return 8;
+    const double inverse_motor__A_x_2 = -1.0/determinant_motor__A_x_2;
+    const double inverse_pivot_motor_2 = inverse_motor__A_x_2*pivot_A_x_2;
+    const double inverse_pivot_A_x_2 = inverse_motor__A_x_2*pivot_motor_2;
+    const double inverse_cross_motor__A_x_2 = -inverse_motor__A_x_2*pivot_motor__A_x_2;
+    const double w_A_y__motor_2 = -l_A_y__A0_x_2*w_motor__A0_x_2 - l_A_y__A0_y_2*w_motor__A0_y_2 -
+        l_A_y__crank_theta_2;
     const double w_A_y__A_x_2 = arm_coupler_head_y*l_A_y__coupler_theta_2 +
         arm_crank_head_y*l_A_y__crank_theta_2 - l_A_y__A0_x_2*w_A_x__A0_x_2 - l_A_y__A0_y_2*w_A_x__A0_y_2 -
         l_A_y__B_x_2*w_A_x__B_x_2 - l_A_y__B_y_2*w_A_x__B_y_2;
-    const double l_A_y__A_x_2 = -inverse_pivot_A_x_2*w_A_y__A_x_2;
-    const double w_motor__A_x_2 = arm_crank_head_y*inverse_crank_inertia - l_motor__A0_x_2*w_A_x__A0_x_2 -
-        l_motor__A0_y_2*w_A_x__A0_y_2;
-    const double l_motor__A_x_2 = -inverse_pivot_A_x_2*w_motor__A_x_2;
+    const double l_A_y__motor_2 = inverse_cross_motor__A_x_2*w_A_y__A_x_2 +
+        inverse_pivot_motor_2*w_A_y__motor_2;
+    const double l_A_y__A_x_2 = inverse_cross_motor__A_x_2*w_A_y__motor_2 + inverse_pivot_A_x_2*w_A_y__A_x_2;
     const double scale_A_y_2 = arm_coupler_head_x*l_A_y__coupler_theta_2 +
         arm_crank_head_x*l_A_y__crank_theta_2 + inverse_coupler_mass + inverse_crank_mass;
     const double pivot_A_y_2 = l_A_y__A0_x_2*w_A_y__A0_x_2 + l_A_y__A0_y_2*w_A_y__A0_y_2 +
-        l_A_y__A_x_2*w_A_y__A_x_2 + l_A_y__B_x_2*w_A_y__B_x_2 + l_A_y__B_y_2*w_A_y__B_y_2 + scale_A_y_2;
-    if (!(pivot_A_y_2 > 1e-13 * scale_A_y_2)) return 8;
+        l_A_y__A_x_2*w_A_y__A_x_2 + l_A_y__B_x_2*w_A_y__B_x_2 + l_A_y__B_y_2*w_A_y__B_y_2 +
+        l_A_y__motor_2*w_A_y__motor_2 + scale_A_y_2;
+    if (!(pivot_A_y_2 > 1e-13 * scale_A_y_2)) return 9;
     const double inverse_pivot_A_y_2 = 1.0/pivot_A_y_2;
-    const double w_motor__A_y_2 = -arm_crank_head_x*inverse_crank_inertia - l_motor__A0_x_2*w_A_y__A0_x_2 -
-        l_motor__A0_y_2*w_A_y__A0_y_2 - l_motor__A_x_2*w_A_y__A_x_2;
-    const double l_motor__A_y_2 = -inverse_pivot_A_y_2*w_motor__A_y_2;
-    const double scale_motor_2 = inverse_crank_inertia;
-    const double pivot_motor_2 = l_motor__A0_x_2*w_motor__A0_x_2 + l_motor__A0_y_2*w_motor__A0_y_2 +
-        l_motor__A_x_2*w_motor__A_x_2 + l_motor__A_y_2*w_motor__A_y_2 + scale_motor_2;
-    if (!(pivot_motor_2 > 1e-13 * scale_motor_2)) return 9;
-    const double inverse_pivot_motor_2 = 1.0/pivot_motor_2;
 
     /* forward substitution */
-    const double step_z_B0_y = -l_B0_y__B0_x_2*r_B0_x + r_B0_y;
-    const double step_z_B_x = -l_B_x__B0_x_2*r_B0_x - l_B_x__B0_y_2*step_z_B0_y + r_B_x;
-    const double step_z_B_y = -l_B_y__B0_x_2*r_B0_x - l_B_y__B0_y_2*step_z_B0_y - l_B_y__B_x_2*step_z_B_x +
-        r_B_y;
-    const double step_z_A0_y = -l_A0_y__A0_x_2*r_A0_x + r_A0_y;
-    const double step_z_A_x = -l_A_x__A0_x_2*r_A0_x - l_A_x__A0_y_2*step_z_A0_y - l_A_x__B_x_2*step_z_B_x -
+    const double step_z_B_x = -l_B_x__B0_x_2*r_B0_x - l_B_x__B0_y_2*r_B0_y + r_B_x;
+    const double step_z_B_y = -l_B_y__B0_x_2*r_B0_x - l_B_y__B0_y_2*r_B0_y + r_B_y;
+    const double step_z_motor = -l_motor__A0_x_2*r_A0_x - l_motor__A0_y_2*r_A0_y + r_motor;
+    const double step_z_A_x = -l_A_x__A0_x_2*r_A0_x - l_A_x__A0_y_2*r_A0_y - l_A_x__B_x_2*step_z_B_x -
         l_A_x__B_y_2*step_z_B_y + r_A_x;
-    const double step_z_A_y = -l_A_y__A0_x_2*r_A0_x - l_A_y__A0_y_2*step_z_A0_y - l_A_y__A_x_2*step_z_A_x -
-        l_A_y__B_x_2*step_z_B_x - l_A_y__B_y_2*step_z_B_y + r_A_y;
-    const double step_z_motor = -l_motor__A0_x_2*r_A0_x - l_motor__A0_y_2*step_z_A0_y -
-        l_motor__A_x_2*step_z_A_x - l_motor__A_y_2*step_z_A_y + r_motor;
+    const double step_z_A_y = -l_A_y__A0_x_2*r_A0_x - l_A_y__A0_y_2*r_A0_y - l_A_y__A_x_2*step_z_A_x -
+        l_A_y__B_x_2*step_z_B_x - l_A_y__B_y_2*step_z_B_y - l_A_y__motor_2*step_z_motor + r_A_y;
 
     /* backward substitution */
-    const double step_lambda_motor = -inverse_pivot_motor_2*step_z_motor;
-    const double step_lambda_A_y = -inverse_pivot_A_y_2*step_z_A_y - l_motor__A_y_2*step_lambda_motor;
-    const double step_lambda_A_x = -inverse_pivot_A_x_2*step_z_A_x - l_A_y__A_x_2*step_lambda_A_y -
-        l_motor__A_x_2*step_lambda_motor;
-    const double step_lambda_A0_y = -inverse_pivot_A0_y_2*step_z_A0_y - l_A_x__A0_y_2*step_lambda_A_x -
-        l_A_y__A0_y_2*step_lambda_A_y - l_motor__A0_y_2*step_lambda_motor;
-    const double step_lambda_A0_x = -inverse_pivot_A0_x_2*r_A0_x - l_A0_y__A0_x_2*step_lambda_A0_y -
+    const double step_lambda_A_y = -inverse_pivot_A_y_2*step_z_A_y;
+    const double step_lambda_A_x = inverse_cross_motor__A_x_2*step_z_motor + inverse_pivot_A_x_2*step_z_A_x -
+        l_A_y__A_x_2*step_lambda_A_y;
+    const double step_lambda_motor = inverse_cross_motor__A_x_2*step_z_A_x +
+        inverse_pivot_motor_2*step_z_motor - l_A_y__motor_2*step_lambda_A_y;
+    const double step_lambda_A0_y = inverse_cross_A0_x__A0_y_2*r_A0_x + inverse_pivot_A0_y_2*r_A0_y -
+        l_A_x__A0_y_2*step_lambda_A_x - l_A_y__A0_y_2*step_lambda_A_y - l_motor__A0_y_2*step_lambda_motor;
+    const double step_lambda_A0_x = inverse_cross_A0_x__A0_y_2*r_A0_y + inverse_pivot_A0_x_2*r_A0_x -
         l_A_x__A0_x_2*step_lambda_A_x - l_A_y__A0_x_2*step_lambda_A_y - l_motor__A0_x_2*step_lambda_motor;
     const double step_acceleration_crank_theta = -inverse_crank_inertia*step_lambda_motor -
         l_A0_x__crank_theta_2*step_lambda_A0_x - l_A0_y__crank_theta_2*step_lambda_A0_y -
         l_A_x__crank_theta_2*step_lambda_A_x - l_A_y__crank_theta_2*step_lambda_A_y;
-    const double step_lambda_B_y = -inverse_pivot_B_y_2*step_z_B_y - l_A_x__B_y_2*step_lambda_A_x -
-        l_A_y__B_y_2*step_lambda_A_y;
-    const double step_lambda_B_x = -inverse_pivot_B_x_2*step_z_B_x - l_A_x__B_x_2*step_lambda_A_x -
-        l_A_y__B_x_2*step_lambda_A_y - l_B_y__B_x_2*step_lambda_B_y;
-    const double step_lambda_B0_y = -inverse_pivot_B0_y_2*step_z_B0_y - l_B_x__B0_y_2*step_lambda_B_x -
-        l_B_y__B0_y_2*step_lambda_B_y;
-    const double step_lambda_B0_x = -inverse_pivot_B0_x_2*r_B0_x - l_B0_y__B0_x_2*step_lambda_B0_y -
+    const double step_lambda_B_y = inverse_cross_B_x__B_y_2*step_z_B_x + inverse_pivot_B_y_2*step_z_B_y -
+        l_A_x__B_y_2*step_lambda_A_x - l_A_y__B_y_2*step_lambda_A_y;
+    const double step_lambda_B_x = inverse_cross_B_x__B_y_2*step_z_B_y + inverse_pivot_B_x_2*step_z_B_x -
+        l_A_x__B_x_2*step_lambda_A_x - l_A_y__B_x_2*step_lambda_A_y;
+    const double step_lambda_B0_y = inverse_cross_B0_x__B0_y_2*r_B0_x + inverse_pivot_B0_y_2*r_B0_y -
+        l_B_x__B0_y_2*step_lambda_B_x - l_B_y__B0_y_2*step_lambda_B_y;
+    const double step_lambda_B0_x = inverse_cross_B0_x__B0_y_2*r_B0_y + inverse_pivot_B0_x_2*r_B0_x -
         l_B_x__B0_x_2*step_lambda_B_x - l_B_y__B0_x_2*step_lambda_B_y;
     const double step_acceleration_rocker_theta = -l_B0_x__rocker_theta_2*step_lambda_B0_x -
         l_B0_y__rocker_theta_2*step_lambda_B0_y - l_B_x__rocker_theta_2*step_lambda_B_x -

@@ -135,129 +135,132 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_B_x__rocker_theta = arm_rocker_head_y*inverse_rocker_inertia;
     const double l_B_y__rocker_theta = -arm_rocker_head_x*inverse_rocker_inertia;
     const double scale_B0_x = -arm_rocker_head_y*l_B0_x__rocker_theta + inverse_rocker_mass;
-    if (!(scale_B0_x > 1e-08 * scale_B0_x)) { pivot = 1; goto dependent; };
-    const double inverse_pivot_B0_x = 1.0/scale_B0_x;
-    const double w_B0_y__B0_x = arm_rocker_head_y*l_B0_y__rocker_theta;
-    const double l_B0_y__B0_x = -inverse_pivot_B0_x*w_B0_y__B0_x;
-    const double w_B_x__B0_x = arm_rocker_head_y*l_B_x__rocker_theta - inverse_rocker_mass;
-    const double l_B_x__B0_x = -inverse_pivot_B0_x*w_B_x__B0_x;
-    const double w_B_y__B0_x = arm_rocker_head_y*l_B_y__rocker_theta;
-    const double l_B_y__B0_x = -inverse_pivot_B0_x*w_B_y__B0_x;
     const double scale_B0_y = arm_rocker_head_x*l_B0_y__rocker_theta + inverse_rocker_mass;
-    const double pivot_B0_y = l_B0_y__B0_x*w_B0_y__B0_x + scale_B0_y;
-    if (!(pivot_B0_y > 1e-08 * scale_B0_y)) { pivot = 2; goto dependent; };
-    const double inverse_pivot_B0_y = 1.0/pivot_B0_y;
-    const double w_B_x__B0_y = -arm_rocker_head_x*l_B_x__rocker_theta - l_B_x__B0_x*w_B0_y__B0_x;
-    const double l_B_x__B0_y = -inverse_pivot_B0_y*w_B_x__B0_y;
-    const double w_B_y__B0_y = -arm_rocker_head_x*l_B_y__rocker_theta - inverse_rocker_mass -
-        l_B_y__B0_x*w_B0_y__B0_x;
-    const double l_B_y__B0_y = -inverse_pivot_B0_y*w_B_y__B0_y;
+    const double pivot_B0_x__B0_y = -arm_rocker_head_y*l_B0_y__rocker_theta;
+    const double determinant_B0_x__B0_y = -(pivot_B0_x__B0_y * pivot_B0_x__B0_y) + scale_B0_x*scale_B0_y;
+    if (!(scale_B0_x > 1e-08 * scale_B0_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_B0_x__B0_y > 1e-08 * scale_B0_y * scale_B0_x)) { pivot = 2; goto dependent; };
+    const double inverse_B0_x__B0_y = -1.0/determinant_B0_x__B0_y;
+    const double inverse_pivot_B0_x = inverse_B0_x__B0_y*scale_B0_y;
+    const double inverse_pivot_B0_y = inverse_B0_x__B0_y*scale_B0_x;
+    const double inverse_cross_B0_x__B0_y = -inverse_B0_x__B0_y*pivot_B0_x__B0_y;
+    const double w_B_x__B0_x = arm_rocker_head_y*l_B_x__rocker_theta - inverse_rocker_mass;
+    const double w_B_x__B0_y = -arm_rocker_head_x*l_B_x__rocker_theta;
+    const double l_B_x__B0_x = inverse_cross_B0_x__B0_y*w_B_x__B0_y + inverse_pivot_B0_x*w_B_x__B0_x;
+    const double l_B_x__B0_y = inverse_cross_B0_x__B0_y*w_B_x__B0_x + inverse_pivot_B0_y*w_B_x__B0_y;
+    const double w_B_y__B0_x = arm_rocker_head_y*l_B_y__rocker_theta;
+    const double w_B_y__B0_y = -arm_rocker_head_x*l_B_y__rocker_theta - inverse_rocker_mass;
+    const double l_B_y__B0_x = inverse_cross_B0_x__B0_y*w_B_y__B0_y + inverse_pivot_B0_x*w_B_y__B0_x;
+    const double l_B_y__B0_y = inverse_cross_B0_x__B0_y*w_B_y__B0_x + inverse_pivot_B0_y*w_B_y__B0_y;
     const double scale_B_x = -arm_coupler_head_y*l_B_x__coupler_theta + arm_rocker_head_y*l_B_x__rocker_theta
         + inverse_coupler_mass + inverse_rocker_mass;
-    const double pivot_B_x = l_B_x__B0_x*w_B_x__B0_x + l_B_x__B0_y*w_B_x__B0_y + scale_B_x;
-    if (!(pivot_B_x > 1e-08 * scale_B_x)) { pivot = 3; goto dependent; };
-    const double inverse_pivot_B_x = 1.0/pivot_B_x;
-    const double w_B_y__B_x = arm_coupler_head_y*l_B_y__coupler_theta - arm_rocker_head_y*l_B_y__rocker_theta
-        - l_B_y__B0_x*w_B_x__B0_x - l_B_y__B0_y*w_B_x__B0_y;
-    const double l_B_y__B_x = -inverse_pivot_B_x*w_B_y__B_x;
-    const double w_A_x__B_x = arm_coupler_head_y*l_A_x__coupler_theta + inverse_coupler_mass;
-    const double l_A_x__B_x = -inverse_pivot_B_x*w_A_x__B_x;
-    const double w_A_y__B_x = arm_coupler_head_y*l_A_y__coupler_theta;
-    const double l_A_y__B_x = -inverse_pivot_B_x*w_A_y__B_x;
     const double scale_B_y = arm_coupler_head_x*l_B_y__coupler_theta - arm_rocker_head_x*l_B_y__rocker_theta +
         inverse_coupler_mass + inverse_rocker_mass;
-    const double pivot_B_y = l_B_y__B0_x*w_B_y__B0_x + l_B_y__B0_y*w_B_y__B0_y + l_B_y__B_x*w_B_y__B_x +
-        scale_B_y;
-    if (!(pivot_B_y > 1e-08 * scale_B_y)) { pivot = 4; goto dependent; };
-    const double inverse_pivot_B_y = 1.0/pivot_B_y;
-    const double w_A_x__B_y = -arm_coupler_head_x*l_A_x__coupler_theta - l_A_x__B_x*w_B_y__B_x;
-    const double l_A_x__B_y = -inverse_pivot_B_y*w_A_x__B_y;
-    const double w_A_y__B_y = -arm_coupler_head_x*l_A_y__coupler_theta + inverse_coupler_mass -
-        l_A_y__B_x*w_B_y__B_x;
-    const double l_A_y__B_y = -inverse_pivot_B_y*w_A_y__B_y;
+    const double pivot_B_x = l_B_x__B0_x*w_B_x__B0_x + l_B_x__B0_y*w_B_x__B0_y + scale_B_x;
+    const double pivot_B_y = l_B_y__B0_x*w_B_y__B0_x + l_B_y__B0_y*w_B_y__B0_y + scale_B_y;
+    const double pivot_B_x__B_y = -arm_coupler_head_y*l_B_y__coupler_theta +
+        arm_rocker_head_y*l_B_y__rocker_theta + l_B_y__B0_x*w_B_x__B0_x + l_B_y__B0_y*w_B_x__B0_y;
+    const double determinant_B_x__B_y = pivot_B_x*pivot_B_y - (pivot_B_x__B_y * pivot_B_x__B_y);
+    if (!(pivot_B_x > 1e-08 * scale_B_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * pivot_B_x)) { pivot = 4; goto dependent; };
+    const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
+    const double inverse_pivot_B_x = inverse_B_x__B_y*pivot_B_y;
+    const double inverse_pivot_B_y = inverse_B_x__B_y*pivot_B_x;
+    const double inverse_cross_B_x__B_y = -inverse_B_x__B_y*pivot_B_x__B_y;
+    const double w_A_x__B_x = arm_coupler_head_y*l_A_x__coupler_theta + inverse_coupler_mass;
+    const double w_A_x__B_y = -arm_coupler_head_x*l_A_x__coupler_theta;
+    const double l_A_x__B_x = inverse_cross_B_x__B_y*w_A_x__B_y + inverse_pivot_B_x*w_A_x__B_x;
+    const double l_A_x__B_y = inverse_cross_B_x__B_y*w_A_x__B_x + inverse_pivot_B_y*w_A_x__B_y;
+    const double w_A_y__B_x = arm_coupler_head_y*l_A_y__coupler_theta;
+    const double w_A_y__B_y = -arm_coupler_head_x*l_A_y__coupler_theta + inverse_coupler_mass;
+    const double l_A_y__B_x = inverse_cross_B_x__B_y*w_A_y__B_y + inverse_pivot_B_x*w_A_y__B_x;
+    const double l_A_y__B_y = inverse_cross_B_x__B_y*w_A_y__B_x + inverse_pivot_B_y*w_A_y__B_y;
     const double l_A0_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
     const double l_A0_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
     const double l_A_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
     const double l_A_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
     const double scale_A0_x = -arm_crank_head_y*l_A0_x__crank_theta + inverse_crank_mass;
-    if (!(scale_A0_x > 1e-08 * scale_A0_x)) { pivot = 5; goto dependent; };
-    const double inverse_pivot_A0_x = 1.0/scale_A0_x;
-    const double w_A0_y__A0_x = arm_crank_head_y*l_A0_y__crank_theta;
-    const double l_A0_y__A0_x = -inverse_pivot_A0_x*w_A0_y__A0_x;
-    const double w_A_x__A0_x = arm_crank_head_y*l_A_x__crank_theta + inverse_crank_mass;
-    const double l_A_x__A0_x = -inverse_pivot_A0_x*w_A_x__A0_x;
-    const double w_A_y__A0_x = arm_crank_head_y*l_A_y__crank_theta;
-    const double l_A_y__A0_x = -inverse_pivot_A0_x*w_A_y__A0_x;
-    const double w_motor__A0_x = arm_crank_head_y*inverse_crank_inertia;
-    const double l_motor__A0_x = -inverse_pivot_A0_x*w_motor__A0_x;
     const double scale_A0_y = arm_crank_head_x*l_A0_y__crank_theta + inverse_crank_mass;
-    const double pivot_A0_y = l_A0_y__A0_x*w_A0_y__A0_x + scale_A0_y;
-    if (!(pivot_A0_y > 1e-08 * scale_A0_y)) { pivot = 6; goto dependent; };
-    const double inverse_pivot_A0_y = 1.0/pivot_A0_y;
-    const double w_A_x__A0_y = -arm_crank_head_x*l_A_x__crank_theta - l_A_x__A0_x*w_A0_y__A0_x;
-    const double l_A_x__A0_y = -inverse_pivot_A0_y*w_A_x__A0_y;
-    const double w_A_y__A0_y = -arm_crank_head_x*l_A_y__crank_theta + inverse_crank_mass -
-        l_A_y__A0_x*w_A0_y__A0_x;
-    const double l_A_y__A0_y = -inverse_pivot_A0_y*w_A_y__A0_y;
-    const double w_motor__A0_y = -arm_crank_head_x*inverse_crank_inertia - l_motor__A0_x*w_A0_y__A0_x;
-    const double l_motor__A0_y = -inverse_pivot_A0_y*w_motor__A0_y;
+    const double pivot_A0_x__A0_y = -arm_crank_head_y*l_A0_y__crank_theta;
+    const double determinant_A0_x__A0_y = -(pivot_A0_x__A0_y * pivot_A0_x__A0_y) + scale_A0_x*scale_A0_y;
+    if (!(scale_A0_x > 1e-08 * scale_A0_x)) { pivot = 5; goto dependent; };
+    if (!(determinant_A0_x__A0_y > 1e-08 * scale_A0_y * scale_A0_x)) { pivot = 6; goto dependent; };
+    const double inverse_A0_x__A0_y = -1.0/determinant_A0_x__A0_y;
+    const double inverse_pivot_A0_x = inverse_A0_x__A0_y*scale_A0_y;
+    const double inverse_pivot_A0_y = inverse_A0_x__A0_y*scale_A0_x;
+    const double inverse_cross_A0_x__A0_y = -inverse_A0_x__A0_y*pivot_A0_x__A0_y;
+    const double w_motor__A0_x = arm_crank_head_y*inverse_crank_inertia;
+    const double w_motor__A0_y = -arm_crank_head_x*inverse_crank_inertia;
+    const double l_motor__A0_x = inverse_cross_A0_x__A0_y*w_motor__A0_y + inverse_pivot_A0_x*w_motor__A0_x;
+    const double l_motor__A0_y = inverse_cross_A0_x__A0_y*w_motor__A0_x + inverse_pivot_A0_y*w_motor__A0_y;
+    const double w_A_x__A0_x = arm_crank_head_y*l_A_x__crank_theta + inverse_crank_mass;
+    const double w_A_x__A0_y = -arm_crank_head_x*l_A_x__crank_theta;
+    const double l_A_x__A0_x = inverse_cross_A0_x__A0_y*w_A_x__A0_y + inverse_pivot_A0_x*w_A_x__A0_x;
+    const double l_A_x__A0_y = inverse_cross_A0_x__A0_y*w_A_x__A0_x + inverse_pivot_A0_y*w_A_x__A0_y;
+    const double w_A_y__A0_x = arm_crank_head_y*l_A_y__crank_theta;
+    const double w_A_y__A0_y = -arm_crank_head_x*l_A_y__crank_theta + inverse_crank_mass;
+    const double l_A_y__A0_x = inverse_cross_A0_x__A0_y*w_A_y__A0_y + inverse_pivot_A0_x*w_A_y__A0_x;
+    const double l_A_y__A0_y = inverse_cross_A0_x__A0_y*w_A_y__A0_x + inverse_pivot_A0_y*w_A_y__A0_y;
+    const double scale_motor = inverse_crank_inertia;
     const double scale_A_x = -arm_coupler_head_y*l_A_x__coupler_theta - arm_crank_head_y*l_A_x__crank_theta +
         inverse_coupler_mass + inverse_crank_mass;
+    const double pivot_motor = l_motor__A0_x*w_motor__A0_x + l_motor__A0_y*w_motor__A0_y + scale_motor;
     const double pivot_A_x = l_A_x__A0_x*w_A_x__A0_x + l_A_x__A0_y*w_A_x__A0_y + l_A_x__B_x*w_A_x__B_x +
         l_A_x__B_y*w_A_x__B_y + scale_A_x;
-    if (!(pivot_A_x > 1e-08 * scale_A_x)) { pivot = 7; goto dependent; };
-    const double inverse_pivot_A_x = 1.0/pivot_A_x;
+    const double pivot_motor__A_x = l_A_x__A0_x*w_motor__A0_x + l_A_x__A0_y*w_motor__A0_y +
+        l_A_x__crank_theta;
+    const double determinant_motor__A_x = pivot_A_x*pivot_motor - (pivot_motor__A_x * pivot_motor__A_x);
+    if (!(pivot_motor > 1e-08 * scale_motor)) { pivot = 7; goto dependent; };
+    if (!(determinant_motor__A_x > 1e-08 * scale_A_x * pivot_motor)) { pivot = 8; goto dependent; };
+    const double inverse_motor__A_x = -1.0/determinant_motor__A_x;
+    const double inverse_pivot_motor = inverse_motor__A_x*pivot_A_x;
+    const double inverse_pivot_A_x = inverse_motor__A_x*pivot_motor;
+    const double inverse_cross_motor__A_x = -inverse_motor__A_x*pivot_motor__A_x;
+    const double w_A_y__motor = -l_A_y__A0_x*w_motor__A0_x - l_A_y__A0_y*w_motor__A0_y - l_A_y__crank_theta;
     const double w_A_y__A_x = arm_coupler_head_y*l_A_y__coupler_theta + arm_crank_head_y*l_A_y__crank_theta -
         l_A_y__A0_x*w_A_x__A0_x - l_A_y__A0_y*w_A_x__A0_y - l_A_y__B_x*w_A_x__B_x - l_A_y__B_y*w_A_x__B_y;
-    const double l_A_y__A_x = -inverse_pivot_A_x*w_A_y__A_x;
-    const double w_motor__A_x = arm_crank_head_y*inverse_crank_inertia - l_motor__A0_x*w_A_x__A0_x -
-        l_motor__A0_y*w_A_x__A0_y;
-    const double l_motor__A_x = -inverse_pivot_A_x*w_motor__A_x;
+    const double l_A_y__motor = inverse_cross_motor__A_x*w_A_y__A_x + inverse_pivot_motor*w_A_y__motor;
+    const double l_A_y__A_x = inverse_cross_motor__A_x*w_A_y__motor + inverse_pivot_A_x*w_A_y__A_x;
     const double scale_A_y = arm_coupler_head_x*l_A_y__coupler_theta + arm_crank_head_x*l_A_y__crank_theta +
         inverse_coupler_mass + inverse_crank_mass;
     const double pivot_A_y = l_A_y__A0_x*w_A_y__A0_x + l_A_y__A0_y*w_A_y__A0_y + l_A_y__A_x*w_A_y__A_x +
-        l_A_y__B_x*w_A_y__B_x + l_A_y__B_y*w_A_y__B_y + scale_A_y;
-    if (!(pivot_A_y > 1e-08 * scale_A_y)) { pivot = 8; goto dependent; };
+        l_A_y__B_x*w_A_y__B_x + l_A_y__B_y*w_A_y__B_y + l_A_y__motor*w_A_y__motor + scale_A_y;
+    if (!(pivot_A_y > 1e-08 * scale_A_y)) { pivot = 9; goto dependent; };
     const double inverse_pivot_A_y = 1.0/pivot_A_y;
-    const double w_motor__A_y = -arm_crank_head_x*inverse_crank_inertia - l_motor__A0_x*w_A_y__A0_x -
-        l_motor__A0_y*w_A_y__A0_y - l_motor__A_x*w_A_y__A_x;
-    const double l_motor__A_y = -inverse_pivot_A_y*w_motor__A_y;
-    const double scale_motor = inverse_crank_inertia;
-    const double pivot_motor = l_motor__A0_x*w_motor__A0_x + l_motor__A0_y*w_motor__A0_y +
-        l_motor__A_x*w_motor__A_x + l_motor__A_y*w_motor__A_y + scale_motor;
-    if (!(pivot_motor > 1e-08 * scale_motor)) { pivot = 9; goto dependent; };
-    const double inverse_pivot_motor = 1.0/pivot_motor;
 
     /* forward substitution */
-    const double z_B0_y = inverse_rocker_mass*weight_rocker_y - l_B0_y__B0_x*rhs_B0_x + rhs_B0_y;
+    const double z_B0_y = inverse_rocker_mass*weight_rocker_y + rhs_B0_y;
     const double z_B_x = -l_B_x__B0_x*rhs_B0_x - l_B_x__B0_y*z_B0_y + rhs_B_x;
     const double z_B_y = -inverse_coupler_mass*weight_coupler_y + inverse_rocker_mass*weight_rocker_y -
-        l_B_y__B0_x*rhs_B0_x - l_B_y__B0_y*z_B0_y - l_B_y__B_x*z_B_x + rhs_B_y;
-    const double z_A0_y = inverse_crank_mass*weight_crank_y - l_A0_y__A0_x*rhs_A0_x + rhs_A0_y;
+        l_B_y__B0_x*rhs_B0_x - l_B_y__B0_y*z_B0_y + rhs_B_y;
+    const double z_A0_y = inverse_crank_mass*weight_crank_y + rhs_A0_y;
+    const double z_motor = -l_motor__A0_x*rhs_A0_x - l_motor__A0_y*z_A0_y + rhs_motor;
     const double z_A_x = -l_A_x__A0_x*rhs_A0_x - l_A_x__A0_y*z_A0_y - l_A_x__B_x*z_B_x - l_A_x__B_y*z_B_y +
         rhs_A_x;
     const double z_A_y = inverse_coupler_mass*weight_coupler_y - inverse_crank_mass*weight_crank_y -
-        l_A_y__A0_x*rhs_A0_x - l_A_y__A0_y*z_A0_y - l_A_y__A_x*z_A_x - l_A_y__B_x*z_B_x - l_A_y__B_y*z_B_y +
-        rhs_A_y;
-    const double z_motor = -l_motor__A0_x*rhs_A0_x - l_motor__A0_y*z_A0_y - l_motor__A_x*z_A_x -
-        l_motor__A_y*z_A_y + rhs_motor;
+        l_A_y__A0_x*rhs_A0_x - l_A_y__A0_y*z_A0_y - l_A_y__A_x*z_A_x - l_A_y__B_x*z_B_x - l_A_y__B_y*z_B_y -
+        l_A_y__motor*z_motor + rhs_A_y;
 
     /* backward substitution */
-    const double lambda_motor = -inverse_pivot_motor*z_motor;
-    const double lambda_A_y = -inverse_pivot_A_y*z_A_y - l_motor__A_y*lambda_motor;
-    const double lambda_A_x = -inverse_pivot_A_x*z_A_x - l_A_y__A_x*lambda_A_y - l_motor__A_x*lambda_motor;
-    const double lambda_A0_y = -inverse_pivot_A0_y*z_A0_y - l_A_x__A0_y*lambda_A_x - l_A_y__A0_y*lambda_A_y -
-        l_motor__A0_y*lambda_motor;
-    const double lambda_A0_x = -inverse_pivot_A0_x*rhs_A0_x - l_A0_y__A0_x*lambda_A0_y -
+    const double lambda_A_y = -inverse_pivot_A_y*z_A_y;
+    const double lambda_A_x = inverse_cross_motor__A_x*z_motor + inverse_pivot_A_x*z_A_x -
+        l_A_y__A_x*lambda_A_y;
+    const double lambda_motor = inverse_cross_motor__A_x*z_A_x + inverse_pivot_motor*z_motor -
+        l_A_y__motor*lambda_A_y;
+    const double lambda_A0_y = inverse_cross_A0_x__A0_y*rhs_A0_x + inverse_pivot_A0_y*z_A0_y -
+        l_A_x__A0_y*lambda_A_x - l_A_y__A0_y*lambda_A_y - l_motor__A0_y*lambda_motor;
+    const double lambda_A0_x = inverse_cross_A0_x__A0_y*z_A0_y + inverse_pivot_A0_x*rhs_A0_x -
         l_A_x__A0_x*lambda_A_x - l_A_y__A0_x*lambda_A_y - l_motor__A0_x*lambda_motor;
     const double acceleration_crank_theta = -inverse_crank_inertia*lambda_motor -
         l_A0_x__crank_theta*lambda_A0_x - l_A0_y__crank_theta*lambda_A0_y - l_A_x__crank_theta*lambda_A_x -
         l_A_y__crank_theta*lambda_A_y;
-    const double lambda_B_y = -inverse_pivot_B_y*z_B_y - l_A_x__B_y*lambda_A_x - l_A_y__B_y*lambda_A_y;
-    const double lambda_B_x = -inverse_pivot_B_x*z_B_x - l_A_x__B_x*lambda_A_x - l_A_y__B_x*lambda_A_y -
-        l_B_y__B_x*lambda_B_y;
-    const double lambda_B0_y = -inverse_pivot_B0_y*z_B0_y - l_B_x__B0_y*lambda_B_x - l_B_y__B0_y*lambda_B_y;
-    const double lambda_B0_x = -inverse_pivot_B0_x*rhs_B0_x - l_B0_y__B0_x*lambda_B0_y -
+    const double lambda_B_y = inverse_cross_B_x__B_y*z_B_x + inverse_pivot_B_y*z_B_y - l_A_x__B_y*lambda_A_x -
+        l_A_y__B_y*lambda_A_y;
+    const double lambda_B_x = inverse_cross_B_x__B_y*z_B_y + inverse_pivot_B_x*z_B_x - l_A_x__B_x*lambda_A_x -
+        l_A_y__B_x*lambda_A_y;
+    const double lambda_B0_y = inverse_cross_B0_x__B0_y*rhs_B0_x + inverse_pivot_B0_y*z_B0_y -
+        l_B_x__B0_y*lambda_B_x - l_B_y__B0_y*lambda_B_y;
+    const double lambda_B0_x = inverse_cross_B0_x__B0_y*z_B0_y + inverse_pivot_B0_x*rhs_B0_x -
         l_B_x__B0_x*lambda_B_x - l_B_y__B0_x*lambda_B_y;
     const double acceleration_rocker_theta = -l_B0_x__rocker_theta*lambda_B0_x -
         l_B0_y__rocker_theta*lambda_B0_y - l_B_x__rocker_theta*lambda_B_x - l_B_y__rocker_theta*lambda_B_y;

@@ -18,14 +18,17 @@ enum {
     N_CLEARANCES = 0,        /* joints with play */
     N_FRICTIONS = 0,         /* slips that friction may hold */
     N_SWITCHES = 0,          /* corners of min, max, abs and sign */
+    N_USER_EVENTS = 0,      /* expressions whose zeros are watched */
     N_SERIES = 0,            /* results of force elements */
     N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
-    N_X = N_Q,                /* coordinates that are integrated */
+    N_S = 2 * N_Q + N_WORK,   /* state of all bodies: q, v, works */
+    N_X = 2,                  /* coordinates that are integrated */
+    N_LOOPS = 2,              /* constraint rows of these */
     N_Y = 2 * N_X + N_WORK
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double omega;  /* parameters.omega */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double coupler_mass;  /* bodies.coupler.mass */    double coupler_inertia;  /* bodies.coupler.inertia */    double rocker_mass;  /* bodies.rocker.mass */    double rocker_inertia;  /* bodies.rocker.inertia */    double crank_length;  /* bodies.crank.length */    double coupler_length;  /* bodies.coupler.length */    double coupler_points_tracer_x;  /* bodies.coupler.points.tracer.x */    double coupler_points_tracer_y;  /* bodies.coupler.points.tracer.y */    double rocker_length;  /* bodies.rocker.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double B0_x;  /* ground.B0.x */    double par_y;  /* gravity.y */    double guess_coupler_theta;  /* start.guess.coupler.theta */    double guess_rocker_theta;  /* start.guess.rocker.theta */    double crank_head_x;  /* point from the centre of mass */    double coupler_head_x;  /* point from the centre of mass */    double coupler_tracer_x;  /* point from the centre of mass */    double rocker_head_x;  /* point from the centre of mass */    double weight_crank_y;  /* weight */    double weight_coupler_y;  /* weight */    double weight_rocker_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_crank_mass;  /* 1/M */    double inverse_coupler_mass;  /* 1/M */    double inverse_rocker_mass;  /* 1/M */    double inverse_coupler_inertia;  /* 1/M */    double inverse_rocker_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */} Parameters;
+typedef struct {    double omega;  /* parameters.omega */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double coupler_mass;  /* bodies.coupler.mass */    double coupler_inertia;  /* bodies.coupler.inertia */    double rocker_mass;  /* bodies.rocker.mass */    double rocker_inertia;  /* bodies.rocker.inertia */    double crank_length;  /* bodies.crank.length */    double coupler_length;  /* bodies.coupler.length */    double coupler_points_tracer_x;  /* bodies.coupler.points.tracer.x */    double coupler_points_tracer_y;  /* bodies.coupler.points.tracer.y */    double rocker_length;  /* bodies.rocker.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double B0_x;  /* ground.B0.x */    double par_y;  /* gravity.y */    double guess_coupler_theta;  /* start.guess.coupler.theta */    double guess_rocker_theta;  /* start.guess.rocker.theta */    double crank_head_x;  /* point from the centre of mass */    double coupler_head_x;  /* point from the centre of mass */    double coupler_tracer_x;  /* point from the centre of mass */    double rocker_head_x;  /* point from the centre of mass */    double weight_crank_y;  /* weight */    double weight_coupler_y;  /* weight */    double weight_rocker_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_crank_mass;  /* 1/M */    double inverse_coupler_mass;  /* 1/M */    double inverse_rocker_mass;  /* 1/M */    double inverse_coupler_inertia;  /* 1/M */    double inverse_rocker_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double crank_head_span_x;  /* vector in its frame */    double coupler_head_span_x;  /* vector in its frame */    double rocker_head_span_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_coupler;  /* sum of m w.w */    double inertia_coupler_coupler;  /* sum of m w.w */    double inertia_rocker_rocker;  /* sum of m w.w */    double mass_motor_motor;  /* constant of M */    double mass_coupler_coupler;  /* constant of M */    double mass_rocker_rocker;  /* constant of M */    double weight_crank__across;  /* weight */    double weight_coupler__across;  /* weight */    double weight_rocker__across;  /* weight */    double inverse_mass_rocker_rocker;  /* 1/M */    double inverse_mass_coupler_coupler;  /* 1/M */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -42,6 +45,7 @@ typedef struct {
     Latch latch[1];
     double mode[1];
     double side[1];
+    signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
 } Memory;
 
@@ -72,7 +76,24 @@ typedef struct {
     Clearance clearance[1];
     Friction friction[1];
     double g[1]; /* switching functions; NaN: does not act */
+    double event[1]; /* values of the expressions that are watched */
 } Aside;
+
+/* The expressions that are watched: which way they are to cross zero (1 rising, -1 falling, 0 both), and what then. */
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+
+/*
+ * Whether expression i, seen last on `side` of zero (1 or -1; 0: nowhere yet), has crossed to `value`; `side` is
+ * where it is then. A zero itself lies on neither side.
+ */
+static inline int event_crosses(int i, signed char *side, double value)
+{
+    const int from = *side, to = (value > 0.0) - (value < 0.0);
+    if (to)
+        *side = (signed char)to;
+    return from * to < 0 && event_direction[i] * to >= 0;
+}
 
 /* min, max, sign that keep a NaN in x. */
 static inline double max_of(double x, double y) { return x < y ? y : x; }

@@ -72,5 +72,36 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->inverse_rocker_inertia = inverse_rocker_inertia;
     const double inverse_crank_inertia = 1.0/crank_inertia;  /* 1/M */
     p->inverse_crank_inertia = inverse_crank_inertia;
+    const double crank_head_span_x = 2.0*crank_head_x;  /* vector in its frame */
+    p->crank_head_span_x = crank_head_span_x;
+    const double coupler_head_span_x = 2.0*coupler_head_x;  /* vector in its frame */
+    p->coupler_head_span_x = coupler_head_span_x;
+    const double rocker_head_span_x = 2.0*rocker_head_x;  /* vector in its frame */
+    p->rocker_head_span_x = rocker_head_span_x;
+    const double inertia_crank_crank = coupler_mass*(crank_head_span_x * crank_head_span_x) + (crank_head_x *
+        crank_head_x)*crank_mass;  /* sum of m w.w */
+    p->inertia_crank_crank = inertia_crank_crank;
+    const double inertia_crank_coupler = coupler_head_x*coupler_mass*crank_head_span_x;  /* sum of m w.w */
+    p->inertia_crank_coupler = inertia_crank_coupler;
+    const double inertia_coupler_coupler = (coupler_head_x * coupler_head_x)*coupler_mass;  /* sum of m w.w */
+    p->inertia_coupler_coupler = inertia_coupler_coupler;
+    const double inertia_rocker_rocker = (rocker_head_x * rocker_head_x)*rocker_mass;  /* sum of m w.w */
+    p->inertia_rocker_rocker = inertia_rocker_rocker;
+    const double mass_motor_motor = crank_inertia + inertia_crank_crank;  /* constant of M */
+    p->mass_motor_motor = mass_motor_motor;
+    const double mass_coupler_coupler = coupler_inertia + inertia_coupler_coupler;  /* constant of M */
+    p->mass_coupler_coupler = mass_coupler_coupler;
+    const double mass_rocker_rocker = inertia_rocker_rocker + rocker_inertia;  /* constant of M */
+    p->mass_rocker_rocker = mass_rocker_rocker;
+    const double weight_crank__across = coupler_mass*crank_head_span_x*par_y + crank_head_x*crank_mass*par_y;  /* weight */
+    p->weight_crank__across = weight_crank__across;
+    const double weight_coupler__across = coupler_head_x*coupler_mass*par_y;  /* weight */
+    p->weight_coupler__across = weight_coupler__across;
+    const double weight_rocker__across = par_y*rocker_head_x*rocker_mass;  /* weight */
+    p->weight_rocker__across = weight_rocker__across;
+    const double inverse_mass_rocker_rocker = 1.0/mass_rocker_rocker;  /* 1/M */
+    p->inverse_mass_rocker_rocker = inverse_mass_rocker_rocker;
+    const double inverse_mass_coupler_coupler = 1.0/mass_coupler_coupler;  /* 1/M */
+    p->inverse_mass_coupler_coupler = inverse_mass_coupler_coupler;
 }
 

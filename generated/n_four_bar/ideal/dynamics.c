@@ -190,99 +190,99 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_A0_x__crank0_theta = -arm_crank0_head_y*inverse_crank0_inertia;
     const double l_A0_y__crank0_theta = arm_crank0_head_x*inverse_crank0_inertia;
     const double scale_O0_x = -arm_crank0_head_y*l_O0_x__crank0_theta + inverse_crank0_mass;
-    if (!(scale_O0_x > 1e-08 * scale_O0_x)) { pivot = 1; goto dependent; };
-    const double inverse_pivot_O0_x = 1.0/scale_O0_x;
-    const double w_O0_y__O0_x = arm_crank0_head_y*l_O0_y__crank0_theta;
-    const double l_O0_y__O0_x = -inverse_pivot_O0_x*w_O0_y__O0_x;
-    const double w_A0_x__O0_x = arm_crank0_head_y*l_A0_x__crank0_theta + inverse_crank0_mass;
-    const double l_A0_x__O0_x = -inverse_pivot_O0_x*w_A0_x__O0_x;
-    const double w_A0_y__O0_x = arm_crank0_head_y*l_A0_y__crank0_theta;
-    const double l_A0_y__O0_x = -inverse_pivot_O0_x*w_A0_y__O0_x;
     const double scale_O0_y = arm_crank0_head_x*l_O0_y__crank0_theta + inverse_crank0_mass;
-    const double pivot_O0_y = l_O0_y__O0_x*w_O0_y__O0_x + scale_O0_y;
-    if (!(pivot_O0_y > 1e-08 * scale_O0_y)) { pivot = 2; goto dependent; };
-    const double inverse_pivot_O0_y = 1.0/pivot_O0_y;
-    const double w_A0_x__O0_y = -arm_crank0_head_x*l_A0_x__crank0_theta - l_A0_x__O0_x*w_O0_y__O0_x;
-    const double l_A0_x__O0_y = -inverse_pivot_O0_y*w_A0_x__O0_y;
-    const double w_A0_y__O0_y = -arm_crank0_head_x*l_A0_y__crank0_theta + inverse_crank0_mass -
-        l_A0_y__O0_x*w_O0_y__O0_x;
-    const double l_A0_y__O0_y = -inverse_pivot_O0_y*w_A0_y__O0_y;
+    const double pivot_O0_x__O0_y = -arm_crank0_head_y*l_O0_y__crank0_theta;
+    const double determinant_O0_x__O0_y = -(pivot_O0_x__O0_y * pivot_O0_x__O0_y) + scale_O0_x*scale_O0_y;
+    if (!(scale_O0_x > 1e-08 * scale_O0_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_O0_x__O0_y > 1e-08 * scale_O0_y * scale_O0_x)) { pivot = 2; goto dependent; };
+    const double inverse_O0_x__O0_y = -1.0/determinant_O0_x__O0_y;
+    const double inverse_pivot_O0_x = inverse_O0_x__O0_y*scale_O0_y;
+    const double inverse_pivot_O0_y = inverse_O0_x__O0_y*scale_O0_x;
+    const double inverse_cross_O0_x__O0_y = -inverse_O0_x__O0_y*pivot_O0_x__O0_y;
+    const double w_A0_x__O0_x = arm_crank0_head_y*l_A0_x__crank0_theta + inverse_crank0_mass;
+    const double w_A0_x__O0_y = -arm_crank0_head_x*l_A0_x__crank0_theta;
+    const double l_A0_x__O0_x = inverse_cross_O0_x__O0_y*w_A0_x__O0_y + inverse_pivot_O0_x*w_A0_x__O0_x;
+    const double l_A0_x__O0_y = inverse_cross_O0_x__O0_y*w_A0_x__O0_x + inverse_pivot_O0_y*w_A0_x__O0_y;
+    const double w_A0_y__O0_x = arm_crank0_head_y*l_A0_y__crank0_theta;
+    const double w_A0_y__O0_y = -arm_crank0_head_x*l_A0_y__crank0_theta + inverse_crank0_mass;
+    const double l_A0_y__O0_x = inverse_cross_O0_x__O0_y*w_A0_y__O0_y + inverse_pivot_O0_x*w_A0_y__O0_x;
+    const double l_A0_y__O0_y = inverse_cross_O0_x__O0_y*w_A0_y__O0_x + inverse_pivot_O0_y*w_A0_y__O0_y;
     const double l_O2_x__crank2_theta = -arm_crank2_head_y*inverse_crank2_inertia;
     const double l_O2_y__crank2_theta = arm_crank2_head_x*inverse_crank2_inertia;
     const double l_B2_x__crank2_theta = arm_crank2_head_y*inverse_crank2_inertia;
     const double l_B2_y__crank2_theta = -arm_crank2_head_x*inverse_crank2_inertia;
     const double scale_O2_x = -arm_crank2_head_y*l_O2_x__crank2_theta + inverse_crank2_mass;
-    if (!(scale_O2_x > 1e-08 * scale_O2_x)) { pivot = 3; goto dependent; };
-    const double inverse_pivot_O2_x = 1.0/scale_O2_x;
-    const double w_O2_y__O2_x = arm_crank2_head_y*l_O2_y__crank2_theta;
-    const double l_O2_y__O2_x = -inverse_pivot_O2_x*w_O2_y__O2_x;
-    const double w_B2_x__O2_x = arm_crank2_head_y*l_B2_x__crank2_theta - inverse_crank2_mass;
-    const double l_B2_x__O2_x = -inverse_pivot_O2_x*w_B2_x__O2_x;
-    const double w_B2_y__O2_x = arm_crank2_head_y*l_B2_y__crank2_theta;
-    const double l_B2_y__O2_x = -inverse_pivot_O2_x*w_B2_y__O2_x;
     const double scale_O2_y = arm_crank2_head_x*l_O2_y__crank2_theta + inverse_crank2_mass;
-    const double pivot_O2_y = l_O2_y__O2_x*w_O2_y__O2_x + scale_O2_y;
-    if (!(pivot_O2_y > 1e-08 * scale_O2_y)) { pivot = 4; goto dependent; };
-    const double inverse_pivot_O2_y = 1.0/pivot_O2_y;
-    const double w_B2_x__O2_y = -arm_crank2_head_x*l_B2_x__crank2_theta - l_B2_x__O2_x*w_O2_y__O2_x;
-    const double l_B2_x__O2_y = -inverse_pivot_O2_y*w_B2_x__O2_y;
-    const double w_B2_y__O2_y = -arm_crank2_head_x*l_B2_y__crank2_theta - inverse_crank2_mass -
-        l_B2_y__O2_x*w_O2_y__O2_x;
-    const double l_B2_y__O2_y = -inverse_pivot_O2_y*w_B2_y__O2_y;
+    const double pivot_O2_x__O2_y = -arm_crank2_head_y*l_O2_y__crank2_theta;
+    const double determinant_O2_x__O2_y = -(pivot_O2_x__O2_y * pivot_O2_x__O2_y) + scale_O2_x*scale_O2_y;
+    if (!(scale_O2_x > 1e-08 * scale_O2_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_O2_x__O2_y > 1e-08 * scale_O2_y * scale_O2_x)) { pivot = 4; goto dependent; };
+    const double inverse_O2_x__O2_y = -1.0/determinant_O2_x__O2_y;
+    const double inverse_pivot_O2_x = inverse_O2_x__O2_y*scale_O2_y;
+    const double inverse_pivot_O2_y = inverse_O2_x__O2_y*scale_O2_x;
+    const double inverse_cross_O2_x__O2_y = -inverse_O2_x__O2_y*pivot_O2_x__O2_y;
+    const double w_B2_x__O2_x = arm_crank2_head_y*l_B2_x__crank2_theta - inverse_crank2_mass;
+    const double w_B2_x__O2_y = -arm_crank2_head_x*l_B2_x__crank2_theta;
+    const double l_B2_x__O2_x = inverse_cross_O2_x__O2_y*w_B2_x__O2_y + inverse_pivot_O2_x*w_B2_x__O2_x;
+    const double l_B2_x__O2_y = inverse_cross_O2_x__O2_y*w_B2_x__O2_x + inverse_pivot_O2_y*w_B2_x__O2_y;
+    const double w_B2_y__O2_x = arm_crank2_head_y*l_B2_y__crank2_theta;
+    const double w_B2_y__O2_y = -arm_crank2_head_x*l_B2_y__crank2_theta - inverse_crank2_mass;
+    const double l_B2_y__O2_x = inverse_cross_O2_x__O2_y*w_B2_y__O2_y + inverse_pivot_O2_x*w_B2_y__O2_x;
+    const double l_B2_y__O2_y = inverse_cross_O2_x__O2_y*w_B2_y__O2_x + inverse_pivot_O2_y*w_B2_y__O2_y;
     const double l_A0_x__coupler1_theta = -arm_coupler1_head_y*inverse_coupler1_inertia;
     const double l_A0_y__coupler1_theta = arm_coupler1_head_x*inverse_coupler1_inertia;
     const double l_B1_x__coupler1_theta = -arm_coupler1_head_y*inverse_coupler1_inertia;
     const double l_B1_y__coupler1_theta = arm_coupler1_head_x*inverse_coupler1_inertia;
     const double scale_A0_x = -arm_coupler1_head_y*l_A0_x__coupler1_theta -
         arm_crank0_head_y*l_A0_x__crank0_theta + inverse_coupler1_mass + inverse_crank0_mass;
-    const double pivot_A0_x = l_A0_x__O0_x*w_A0_x__O0_x + l_A0_x__O0_y*w_A0_x__O0_y + scale_A0_x;
-    if (!(pivot_A0_x > 1e-08 * scale_A0_x)) { pivot = 5; goto dependent; };
-    const double inverse_pivot_A0_x = 1.0/pivot_A0_x;
-    const double w_A0_y__A0_x = arm_coupler1_head_y*l_A0_y__coupler1_theta +
-        arm_crank0_head_y*l_A0_y__crank0_theta - l_A0_y__O0_x*w_A0_x__O0_x - l_A0_y__O0_y*w_A0_x__O0_y;
-    const double l_A0_y__A0_x = -inverse_pivot_A0_x*w_A0_y__A0_x;
-    const double w_B1_x__A0_x = arm_coupler1_head_y*l_B1_x__coupler1_theta + inverse_coupler1_mass;
-    const double l_B1_x__A0_x = -inverse_pivot_A0_x*w_B1_x__A0_x;
-    const double w_B1_y__A0_x = arm_coupler1_head_y*l_B1_y__coupler1_theta;
-    const double l_B1_y__A0_x = -inverse_pivot_A0_x*w_B1_y__A0_x;
     const double scale_A0_y = arm_coupler1_head_x*l_A0_y__coupler1_theta +
         arm_crank0_head_x*l_A0_y__crank0_theta + inverse_coupler1_mass + inverse_crank0_mass;
-    const double pivot_A0_y = l_A0_y__A0_x*w_A0_y__A0_x + l_A0_y__O0_x*w_A0_y__O0_x +
-        l_A0_y__O0_y*w_A0_y__O0_y + scale_A0_y;
-    if (!(pivot_A0_y > 1e-08 * scale_A0_y)) { pivot = 6; goto dependent; };
-    const double inverse_pivot_A0_y = 1.0/pivot_A0_y;
-    const double w_B1_x__A0_y = -arm_coupler1_head_x*l_B1_x__coupler1_theta - l_B1_x__A0_x*w_A0_y__A0_x;
-    const double l_B1_x__A0_y = -inverse_pivot_A0_y*w_B1_x__A0_y;
-    const double w_B1_y__A0_y = -arm_coupler1_head_x*l_B1_y__coupler1_theta + inverse_coupler1_mass -
-        l_B1_y__A0_x*w_A0_y__A0_x;
-    const double l_B1_y__A0_y = -inverse_pivot_A0_y*w_B1_y__A0_y;
+    const double pivot_A0_x = l_A0_x__O0_x*w_A0_x__O0_x + l_A0_x__O0_y*w_A0_x__O0_y + scale_A0_x;
+    const double pivot_A0_y = l_A0_y__O0_x*w_A0_y__O0_x + l_A0_y__O0_y*w_A0_y__O0_y + scale_A0_y;
+    const double pivot_A0_x__A0_y = -arm_coupler1_head_y*l_A0_y__coupler1_theta -
+        arm_crank0_head_y*l_A0_y__crank0_theta + l_A0_y__O0_x*w_A0_x__O0_x + l_A0_y__O0_y*w_A0_x__O0_y;
+    const double determinant_A0_x__A0_y = pivot_A0_x*pivot_A0_y - (pivot_A0_x__A0_y * pivot_A0_x__A0_y);
+    if (!(pivot_A0_x > 1e-08 * scale_A0_x)) { pivot = 5; goto dependent; };
+    if (!(determinant_A0_x__A0_y > 1e-08 * scale_A0_y * pivot_A0_x)) { pivot = 6; goto dependent; };
+    const double inverse_A0_x__A0_y = -1.0/determinant_A0_x__A0_y;
+    const double inverse_pivot_A0_x = inverse_A0_x__A0_y*pivot_A0_y;
+    const double inverse_pivot_A0_y = inverse_A0_x__A0_y*pivot_A0_x;
+    const double inverse_cross_A0_x__A0_y = -inverse_A0_x__A0_y*pivot_A0_x__A0_y;
+    const double w_B1_x__A0_x = arm_coupler1_head_y*l_B1_x__coupler1_theta + inverse_coupler1_mass;
+    const double w_B1_x__A0_y = -arm_coupler1_head_x*l_B1_x__coupler1_theta;
+    const double l_B1_x__A0_x = inverse_cross_A0_x__A0_y*w_B1_x__A0_y + inverse_pivot_A0_x*w_B1_x__A0_x;
+    const double l_B1_x__A0_y = inverse_cross_A0_x__A0_y*w_B1_x__A0_x + inverse_pivot_A0_y*w_B1_x__A0_y;
+    const double w_B1_y__A0_x = arm_coupler1_head_y*l_B1_y__coupler1_theta;
+    const double w_B1_y__A0_y = -arm_coupler1_head_x*l_B1_y__coupler1_theta + inverse_coupler1_mass;
+    const double l_B1_y__A0_x = inverse_cross_A0_x__A0_y*w_B1_y__A0_y + inverse_pivot_A0_x*w_B1_y__A0_x;
+    const double l_B1_y__A0_y = inverse_cross_A0_x__A0_y*w_B1_y__A0_x + inverse_pivot_A0_y*w_B1_y__A0_y;
     const double l_B2_x__coupler2_theta = -arm_coupler2_head_y*inverse_coupler2_inertia;
     const double l_B2_y__coupler2_theta = arm_coupler2_head_x*inverse_coupler2_inertia;
     const double l_A1_x__coupler2_theta = -arm_coupler2_head_y*inverse_coupler2_inertia;
     const double l_A1_y__coupler2_theta = arm_coupler2_head_x*inverse_coupler2_inertia;
     const double scale_B2_x = -arm_coupler2_head_y*l_B2_x__coupler2_theta +
         arm_crank2_head_y*l_B2_x__crank2_theta + inverse_coupler2_mass + inverse_crank2_mass;
-    const double pivot_B2_x = l_B2_x__O2_x*w_B2_x__O2_x + l_B2_x__O2_y*w_B2_x__O2_y + scale_B2_x;
-    if (!(pivot_B2_x > 1e-08 * scale_B2_x)) { pivot = 7; goto dependent; };
-    const double inverse_pivot_B2_x = 1.0/pivot_B2_x;
-    const double w_B2_y__B2_x = arm_coupler2_head_y*l_B2_y__coupler2_theta -
-        arm_crank2_head_y*l_B2_y__crank2_theta - l_B2_y__O2_x*w_B2_x__O2_x - l_B2_y__O2_y*w_B2_x__O2_y;
-    const double l_B2_y__B2_x = -inverse_pivot_B2_x*w_B2_y__B2_x;
-    const double w_A1_x__B2_x = arm_coupler2_head_y*l_A1_x__coupler2_theta + inverse_coupler2_mass;
-    const double l_A1_x__B2_x = -inverse_pivot_B2_x*w_A1_x__B2_x;
-    const double w_A1_y__B2_x = arm_coupler2_head_y*l_A1_y__coupler2_theta;
-    const double l_A1_y__B2_x = -inverse_pivot_B2_x*w_A1_y__B2_x;
     const double scale_B2_y = arm_coupler2_head_x*l_B2_y__coupler2_theta -
         arm_crank2_head_x*l_B2_y__crank2_theta + inverse_coupler2_mass + inverse_crank2_mass;
-    const double pivot_B2_y = l_B2_y__B2_x*w_B2_y__B2_x + l_B2_y__O2_x*w_B2_y__O2_x +
-        l_B2_y__O2_y*w_B2_y__O2_y + scale_B2_y;
-    if (!(pivot_B2_y > 1e-08 * scale_B2_y)) { pivot = 8; goto dependent; };
-    const double inverse_pivot_B2_y = 1.0/pivot_B2_y;
-    const double w_A1_x__B2_y = -arm_coupler2_head_x*l_A1_x__coupler2_theta - l_A1_x__B2_x*w_B2_y__B2_x;
-    const double l_A1_x__B2_y = -inverse_pivot_B2_y*w_A1_x__B2_y;
-    const double w_A1_y__B2_y = -arm_coupler2_head_x*l_A1_y__coupler2_theta + inverse_coupler2_mass -
-        l_A1_y__B2_x*w_B2_y__B2_x;
-    const double l_A1_y__B2_y = -inverse_pivot_B2_y*w_A1_y__B2_y;
+    const double pivot_B2_x = l_B2_x__O2_x*w_B2_x__O2_x + l_B2_x__O2_y*w_B2_x__O2_y + scale_B2_x;
+    const double pivot_B2_y = l_B2_y__O2_x*w_B2_y__O2_x + l_B2_y__O2_y*w_B2_y__O2_y + scale_B2_y;
+    const double pivot_B2_x__B2_y = -arm_coupler2_head_y*l_B2_y__coupler2_theta +
+        arm_crank2_head_y*l_B2_y__crank2_theta + l_B2_y__O2_x*w_B2_x__O2_x + l_B2_y__O2_y*w_B2_x__O2_y;
+    const double determinant_B2_x__B2_y = pivot_B2_x*pivot_B2_y - (pivot_B2_x__B2_y * pivot_B2_x__B2_y);
+    if (!(pivot_B2_x > 1e-08 * scale_B2_x)) { pivot = 7; goto dependent; };
+    if (!(determinant_B2_x__B2_y > 1e-08 * scale_B2_y * pivot_B2_x)) { pivot = 8; goto dependent; };
+    const double inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
+    const double inverse_pivot_B2_x = inverse_B2_x__B2_y*pivot_B2_y;
+    const double inverse_pivot_B2_y = inverse_B2_x__B2_y*pivot_B2_x;
+    const double inverse_cross_B2_x__B2_y = -inverse_B2_x__B2_y*pivot_B2_x__B2_y;
+    const double w_A1_x__B2_x = arm_coupler2_head_y*l_A1_x__coupler2_theta + inverse_coupler2_mass;
+    const double w_A1_x__B2_y = -arm_coupler2_head_x*l_A1_x__coupler2_theta;
+    const double l_A1_x__B2_x = inverse_cross_B2_x__B2_y*w_A1_x__B2_y + inverse_pivot_B2_x*w_A1_x__B2_x;
+    const double l_A1_x__B2_y = inverse_cross_B2_x__B2_y*w_A1_x__B2_x + inverse_pivot_B2_y*w_A1_x__B2_y;
+    const double w_A1_y__B2_x = arm_coupler2_head_y*l_A1_y__coupler2_theta;
+    const double w_A1_y__B2_y = -arm_coupler2_head_x*l_A1_y__coupler2_theta + inverse_coupler2_mass;
+    const double l_A1_y__B2_x = inverse_cross_B2_x__B2_y*w_A1_y__B2_y + inverse_pivot_B2_x*w_A1_y__B2_x;
+    const double l_A1_y__B2_y = inverse_cross_B2_x__B2_y*w_A1_y__B2_x + inverse_pivot_B2_y*w_A1_y__B2_y;
     const double l_O1_x__crank1_theta = -arm_crank1_head_y*inverse_crank1_inertia;
     const double l_O1_y__crank1_theta = arm_crank1_head_x*inverse_crank1_inertia;
     const double l_B1_x__crank1_theta = arm_crank1_head_y*inverse_crank1_inertia;
@@ -290,141 +290,144 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_A1_x__crank1_theta = -arm_crank1_head_y*inverse_crank1_inertia;
     const double l_A1_y__crank1_theta = arm_crank1_head_x*inverse_crank1_inertia;
     const double scale_O1_x = -arm_crank1_head_y*l_O1_x__crank1_theta + inverse_crank1_mass;
-    if (!(scale_O1_x > 1e-08 * scale_O1_x)) { pivot = 9; goto dependent; };
-    const double inverse_pivot_O1_x = 1.0/scale_O1_x;
-    const double w_O1_y__O1_x = arm_crank1_head_y*l_O1_y__crank1_theta;
-    const double l_O1_y__O1_x = -inverse_pivot_O1_x*w_O1_y__O1_x;
-    const double w_B1_x__O1_x = arm_crank1_head_y*l_B1_x__crank1_theta - inverse_crank1_mass;
-    const double l_B1_x__O1_x = -inverse_pivot_O1_x*w_B1_x__O1_x;
-    const double w_B1_y__O1_x = arm_crank1_head_y*l_B1_y__crank1_theta;
-    const double l_B1_y__O1_x = -inverse_pivot_O1_x*w_B1_y__O1_x;
-    const double w_A1_x__O1_x = arm_crank1_head_y*l_A1_x__crank1_theta + inverse_crank1_mass;
-    const double l_A1_x__O1_x = -inverse_pivot_O1_x*w_A1_x__O1_x;
-    const double w_A1_y__O1_x = arm_crank1_head_y*l_A1_y__crank1_theta;
-    const double l_A1_y__O1_x = -inverse_pivot_O1_x*w_A1_y__O1_x;
     const double scale_O1_y = arm_crank1_head_x*l_O1_y__crank1_theta + inverse_crank1_mass;
-    const double pivot_O1_y = l_O1_y__O1_x*w_O1_y__O1_x + scale_O1_y;
-    if (!(pivot_O1_y > 1e-08 * scale_O1_y)) { pivot = 10; goto dependent; };
-    const double inverse_pivot_O1_y = 1.0/pivot_O1_y;
-    const double w_B1_x__O1_y = -arm_crank1_head_x*l_B1_x__crank1_theta - l_B1_x__O1_x*w_O1_y__O1_x;
-    const double l_B1_x__O1_y = -inverse_pivot_O1_y*w_B1_x__O1_y;
-    const double w_B1_y__O1_y = -arm_crank1_head_x*l_B1_y__crank1_theta - inverse_crank1_mass -
-        l_B1_y__O1_x*w_O1_y__O1_x;
-    const double l_B1_y__O1_y = -inverse_pivot_O1_y*w_B1_y__O1_y;
-    const double w_A1_x__O1_y = -arm_crank1_head_x*l_A1_x__crank1_theta - l_A1_x__O1_x*w_O1_y__O1_x;
-    const double l_A1_x__O1_y = -inverse_pivot_O1_y*w_A1_x__O1_y;
-    const double w_A1_y__O1_y = -arm_crank1_head_x*l_A1_y__crank1_theta + inverse_crank1_mass -
-        l_A1_y__O1_x*w_O1_y__O1_x;
-    const double l_A1_y__O1_y = -inverse_pivot_O1_y*w_A1_y__O1_y;
+    const double pivot_O1_x__O1_y = -arm_crank1_head_y*l_O1_y__crank1_theta;
+    const double determinant_O1_x__O1_y = -(pivot_O1_x__O1_y * pivot_O1_x__O1_y) + scale_O1_x*scale_O1_y;
+    if (!(scale_O1_x > 1e-08 * scale_O1_x)) { pivot = 9; goto dependent; };
+    if (!(determinant_O1_x__O1_y > 1e-08 * scale_O1_y * scale_O1_x)) { pivot = 10; goto dependent; };
+    const double inverse_O1_x__O1_y = -1.0/determinant_O1_x__O1_y;
+    const double inverse_pivot_O1_x = inverse_O1_x__O1_y*scale_O1_y;
+    const double inverse_pivot_O1_y = inverse_O1_x__O1_y*scale_O1_x;
+    const double inverse_cross_O1_x__O1_y = -inverse_O1_x__O1_y*pivot_O1_x__O1_y;
+    const double w_B1_x__O1_x = arm_crank1_head_y*l_B1_x__crank1_theta - inverse_crank1_mass;
+    const double w_B1_x__O1_y = -arm_crank1_head_x*l_B1_x__crank1_theta;
+    const double l_B1_x__O1_x = inverse_cross_O1_x__O1_y*w_B1_x__O1_y + inverse_pivot_O1_x*w_B1_x__O1_x;
+    const double l_B1_x__O1_y = inverse_cross_O1_x__O1_y*w_B1_x__O1_x + inverse_pivot_O1_y*w_B1_x__O1_y;
+    const double w_B1_y__O1_x = arm_crank1_head_y*l_B1_y__crank1_theta;
+    const double w_B1_y__O1_y = -arm_crank1_head_x*l_B1_y__crank1_theta - inverse_crank1_mass;
+    const double l_B1_y__O1_x = inverse_cross_O1_x__O1_y*w_B1_y__O1_y + inverse_pivot_O1_x*w_B1_y__O1_x;
+    const double l_B1_y__O1_y = inverse_cross_O1_x__O1_y*w_B1_y__O1_x + inverse_pivot_O1_y*w_B1_y__O1_y;
+    const double w_A1_x__O1_x = arm_crank1_head_y*l_A1_x__crank1_theta + inverse_crank1_mass;
+    const double w_A1_x__O1_y = -arm_crank1_head_x*l_A1_x__crank1_theta;
+    const double l_A1_x__O1_x = inverse_cross_O1_x__O1_y*w_A1_x__O1_y + inverse_pivot_O1_x*w_A1_x__O1_x;
+    const double l_A1_x__O1_y = inverse_cross_O1_x__O1_y*w_A1_x__O1_x + inverse_pivot_O1_y*w_A1_x__O1_y;
+    const double w_A1_y__O1_x = arm_crank1_head_y*l_A1_y__crank1_theta;
+    const double w_A1_y__O1_y = -arm_crank1_head_x*l_A1_y__crank1_theta + inverse_crank1_mass;
+    const double l_A1_y__O1_x = inverse_cross_O1_x__O1_y*w_A1_y__O1_y + inverse_pivot_O1_x*w_A1_y__O1_x;
+    const double l_A1_y__O1_y = inverse_cross_O1_x__O1_y*w_A1_y__O1_x + inverse_pivot_O1_y*w_A1_y__O1_y;
     const double scale_B1_x = -arm_coupler1_head_y*l_B1_x__coupler1_theta +
         arm_crank1_head_y*l_B1_x__crank1_theta + inverse_coupler1_mass + inverse_crank1_mass;
-    const double pivot_B1_x = l_B1_x__A0_x*w_B1_x__A0_x + l_B1_x__A0_y*w_B1_x__A0_y +
-        l_B1_x__O1_x*w_B1_x__O1_x + l_B1_x__O1_y*w_B1_x__O1_y + scale_B1_x;
-    if (!(pivot_B1_x > 1e-08 * scale_B1_x)) { pivot = 11; goto dependent; };
-    const double inverse_pivot_B1_x = 1.0/pivot_B1_x;
-    const double w_B1_y__B1_x = arm_coupler1_head_y*l_B1_y__coupler1_theta -
-        arm_crank1_head_y*l_B1_y__crank1_theta - l_B1_y__A0_x*w_B1_x__A0_x - l_B1_y__A0_y*w_B1_x__A0_y -
-        l_B1_y__O1_x*w_B1_x__O1_x - l_B1_y__O1_y*w_B1_x__O1_y;
-    const double l_B1_y__B1_x = -inverse_pivot_B1_x*w_B1_y__B1_x;
-    const double w_A1_x__B1_x = -arm_crank1_head_y*l_A1_x__crank1_theta + inverse_crank1_mass -
-        l_A1_x__O1_x*w_B1_x__O1_x - l_A1_x__O1_y*w_B1_x__O1_y;
-    const double l_A1_x__B1_x = -inverse_pivot_B1_x*w_A1_x__B1_x;
-    const double w_A1_y__B1_x = -arm_crank1_head_y*l_A1_y__crank1_theta - l_A1_y__O1_x*w_B1_x__O1_x -
-        l_A1_y__O1_y*w_B1_x__O1_y;
-    const double l_A1_y__B1_x = -inverse_pivot_B1_x*w_A1_y__B1_x;
     const double scale_B1_y = arm_coupler1_head_x*l_B1_y__coupler1_theta -
         arm_crank1_head_x*l_B1_y__crank1_theta + inverse_coupler1_mass + inverse_crank1_mass;
+    const double pivot_B1_x = l_B1_x__A0_x*w_B1_x__A0_x + l_B1_x__A0_y*w_B1_x__A0_y +
+        l_B1_x__O1_x*w_B1_x__O1_x + l_B1_x__O1_y*w_B1_x__O1_y + scale_B1_x;
     const double pivot_B1_y = l_B1_y__A0_x*w_B1_y__A0_x + l_B1_y__A0_y*w_B1_y__A0_y +
-        l_B1_y__B1_x*w_B1_y__B1_x + l_B1_y__O1_x*w_B1_y__O1_x + l_B1_y__O1_y*w_B1_y__O1_y + scale_B1_y;
-    if (!(pivot_B1_y > 1e-08 * scale_B1_y)) { pivot = 12; goto dependent; };
-    const double inverse_pivot_B1_y = 1.0/pivot_B1_y;
-    const double w_A1_x__B1_y = arm_crank1_head_x*l_A1_x__crank1_theta - l_A1_x__B1_x*w_B1_y__B1_x -
-        l_A1_x__O1_x*w_B1_y__O1_x - l_A1_x__O1_y*w_B1_y__O1_y;
-    const double l_A1_x__B1_y = -inverse_pivot_B1_y*w_A1_x__B1_y;
+        l_B1_y__O1_x*w_B1_y__O1_x + l_B1_y__O1_y*w_B1_y__O1_y + scale_B1_y;
+    const double pivot_B1_x__B1_y = -arm_coupler1_head_y*l_B1_y__coupler1_theta +
+        arm_crank1_head_y*l_B1_y__crank1_theta + l_B1_y__A0_x*w_B1_x__A0_x + l_B1_y__A0_y*w_B1_x__A0_y +
+        l_B1_y__O1_x*w_B1_x__O1_x + l_B1_y__O1_y*w_B1_x__O1_y;
+    const double determinant_B1_x__B1_y = pivot_B1_x*pivot_B1_y - (pivot_B1_x__B1_y * pivot_B1_x__B1_y);
+    if (!(pivot_B1_x > 1e-08 * scale_B1_x)) { pivot = 11; goto dependent; };
+    if (!(determinant_B1_x__B1_y > 1e-08 * scale_B1_y * pivot_B1_x)) { pivot = 12; goto dependent; };
+    const double inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
+    const double inverse_pivot_B1_x = inverse_B1_x__B1_y*pivot_B1_y;
+    const double inverse_pivot_B1_y = inverse_B1_x__B1_y*pivot_B1_x;
+    const double inverse_cross_B1_x__B1_y = -inverse_B1_x__B1_y*pivot_B1_x__B1_y;
+    const double w_A1_x__B1_x = -arm_crank1_head_y*l_A1_x__crank1_theta + inverse_crank1_mass -
+        l_A1_x__O1_x*w_B1_x__O1_x - l_A1_x__O1_y*w_B1_x__O1_y;
+    const double w_A1_x__B1_y = arm_crank1_head_x*l_A1_x__crank1_theta - l_A1_x__O1_x*w_B1_y__O1_x -
+        l_A1_x__O1_y*w_B1_y__O1_y;
+    const double l_A1_x__B1_x = inverse_cross_B1_x__B1_y*w_A1_x__B1_y + inverse_pivot_B1_x*w_A1_x__B1_x;
+    const double l_A1_x__B1_y = inverse_cross_B1_x__B1_y*w_A1_x__B1_x + inverse_pivot_B1_y*w_A1_x__B1_y;
+    const double w_A1_y__B1_x = -arm_crank1_head_y*l_A1_y__crank1_theta - l_A1_y__O1_x*w_B1_x__O1_x -
+        l_A1_y__O1_y*w_B1_x__O1_y;
     const double w_A1_y__B1_y = arm_crank1_head_x*l_A1_y__crank1_theta + inverse_crank1_mass -
-        l_A1_y__B1_x*w_B1_y__B1_x - l_A1_y__O1_x*w_B1_y__O1_x - l_A1_y__O1_y*w_B1_y__O1_y;
-    const double l_A1_y__B1_y = -inverse_pivot_B1_y*w_A1_y__B1_y;
+        l_A1_y__O1_x*w_B1_y__O1_x - l_A1_y__O1_y*w_B1_y__O1_y;
+    const double l_A1_y__B1_x = inverse_cross_B1_x__B1_y*w_A1_y__B1_y + inverse_pivot_B1_x*w_A1_y__B1_x;
+    const double l_A1_y__B1_y = inverse_cross_B1_x__B1_y*w_A1_y__B1_x + inverse_pivot_B1_y*w_A1_y__B1_y;
     const double scale_A1_x = -arm_coupler2_head_y*l_A1_x__coupler2_theta -
         arm_crank1_head_y*l_A1_x__crank1_theta + inverse_coupler2_mass + inverse_crank1_mass;
+    const double scale_A1_y = arm_coupler2_head_x*l_A1_y__coupler2_theta +
+        arm_crank1_head_x*l_A1_y__crank1_theta + inverse_coupler2_mass + inverse_crank1_mass;
     const double pivot_A1_x = l_A1_x__B1_x*w_A1_x__B1_x + l_A1_x__B1_y*w_A1_x__B1_y +
         l_A1_x__B2_x*w_A1_x__B2_x + l_A1_x__B2_y*w_A1_x__B2_y + l_A1_x__O1_x*w_A1_x__O1_x +
         l_A1_x__O1_y*w_A1_x__O1_y + scale_A1_x;
-    if (!(pivot_A1_x > 1e-08 * scale_A1_x)) { pivot = 13; goto dependent; };
-    const double inverse_pivot_A1_x = 1.0/pivot_A1_x;
-    const double w_A1_y__A1_x = arm_coupler2_head_y*l_A1_y__coupler2_theta +
-        arm_crank1_head_y*l_A1_y__crank1_theta - l_A1_y__B1_x*w_A1_x__B1_x - l_A1_y__B1_y*w_A1_x__B1_y -
-        l_A1_y__B2_x*w_A1_x__B2_x - l_A1_y__B2_y*w_A1_x__B2_y - l_A1_y__O1_x*w_A1_x__O1_x -
+    const double pivot_A1_y = l_A1_y__B1_x*w_A1_y__B1_x + l_A1_y__B1_y*w_A1_y__B1_y +
+        l_A1_y__B2_x*w_A1_y__B2_x + l_A1_y__B2_y*w_A1_y__B2_y + l_A1_y__O1_x*w_A1_y__O1_x +
+        l_A1_y__O1_y*w_A1_y__O1_y + scale_A1_y;
+    const double pivot_A1_x__A1_y = -arm_coupler2_head_y*l_A1_y__coupler2_theta -
+        arm_crank1_head_y*l_A1_y__crank1_theta + l_A1_y__B1_x*w_A1_x__B1_x + l_A1_y__B1_y*w_A1_x__B1_y +
+        l_A1_y__B2_x*w_A1_x__B2_x + l_A1_y__B2_y*w_A1_x__B2_y + l_A1_y__O1_x*w_A1_x__O1_x +
         l_A1_y__O1_y*w_A1_x__O1_y;
-    const double l_A1_y__A1_x = -inverse_pivot_A1_x*w_A1_y__A1_x;
-    const double scale_A1_y = arm_coupler2_head_x*l_A1_y__coupler2_theta +
-        arm_crank1_head_x*l_A1_y__crank1_theta + inverse_coupler2_mass + inverse_crank1_mass;
-    const double pivot_A1_y = l_A1_y__A1_x*w_A1_y__A1_x + l_A1_y__B1_x*w_A1_y__B1_x +
-        l_A1_y__B1_y*w_A1_y__B1_y + l_A1_y__B2_x*w_A1_y__B2_x + l_A1_y__B2_y*w_A1_y__B2_y +
-        l_A1_y__O1_x*w_A1_y__O1_x + l_A1_y__O1_y*w_A1_y__O1_y + scale_A1_y;
-    if (!(pivot_A1_y > 1e-08 * scale_A1_y)) { pivot = 14; goto dependent; };
-    const double inverse_pivot_A1_y = 1.0/pivot_A1_y;
+    const double determinant_A1_x__A1_y = pivot_A1_x*pivot_A1_y - (pivot_A1_x__A1_y * pivot_A1_x__A1_y);
+    if (!(pivot_A1_x > 1e-08 * scale_A1_x)) { pivot = 13; goto dependent; };
+    if (!(determinant_A1_x__A1_y > 1e-08 * scale_A1_y * pivot_A1_x)) { pivot = 14; goto dependent; };
+    const double inverse_A1_x__A1_y = -1.0/determinant_A1_x__A1_y;
+    const double inverse_pivot_A1_x = inverse_A1_x__A1_y*pivot_A1_y;
+    const double inverse_pivot_A1_y = inverse_A1_x__A1_y*pivot_A1_x;
+    const double inverse_cross_A1_x__A1_y = -inverse_A1_x__A1_y*pivot_A1_x__A1_y;
 
     /* forward substitution */
-    const double z_O0_y = inverse_crank0_mass*weight_crank0_y - l_O0_y__O0_x*rhs_O0_x + rhs_O0_y;
-    const double z_O2_y = inverse_crank2_mass*weight_crank2_y - l_O2_y__O2_x*rhs_O2_x + rhs_O2_y;
+    const double z_O0_y = inverse_crank0_mass*weight_crank0_y + rhs_O0_y;
+    const double z_O2_y = inverse_crank2_mass*weight_crank2_y + rhs_O2_y;
     const double z_A0_x = -l_A0_x__O0_x*rhs_O0_x - l_A0_x__O0_y*z_O0_y + rhs_A0_x;
     const double z_A0_y = inverse_coupler1_mass*weight_coupler1_y - inverse_crank0_mass*weight_crank0_y -
-        l_A0_y__A0_x*z_A0_x - l_A0_y__O0_x*rhs_O0_x - l_A0_y__O0_y*z_O0_y + rhs_A0_y;
+        l_A0_y__O0_x*rhs_O0_x - l_A0_y__O0_y*z_O0_y + rhs_A0_y;
     const double z_B2_x = -l_B2_x__O2_x*rhs_O2_x - l_B2_x__O2_y*z_O2_y + rhs_B2_x;
     const double z_B2_y = -inverse_coupler2_mass*weight_coupler2_y + inverse_crank2_mass*weight_crank2_y -
-        l_B2_y__B2_x*z_B2_x - l_B2_y__O2_x*rhs_O2_x - l_B2_y__O2_y*z_O2_y + rhs_B2_y;
-    const double z_O1_y = inverse_crank1_mass*weight_crank1_y - l_O1_y__O1_x*rhs_O1_x + rhs_O1_y;
+        l_B2_y__O2_x*rhs_O2_x - l_B2_y__O2_y*z_O2_y + rhs_B2_y;
+    const double z_O1_y = inverse_crank1_mass*weight_crank1_y + rhs_O1_y;
     const double z_B1_x = -l_B1_x__A0_x*z_A0_x - l_B1_x__A0_y*z_A0_y - l_B1_x__O1_x*rhs_O1_x -
         l_B1_x__O1_y*z_O1_y + rhs_B1_x;
     const double z_B1_y = -inverse_coupler1_mass*weight_coupler1_y + inverse_crank1_mass*weight_crank1_y -
-        l_B1_y__A0_x*z_A0_x - l_B1_y__A0_y*z_A0_y - l_B1_y__B1_x*z_B1_x - l_B1_y__O1_x*rhs_O1_x -
-        l_B1_y__O1_y*z_O1_y + rhs_B1_y;
+        l_B1_y__A0_x*z_A0_x - l_B1_y__A0_y*z_A0_y - l_B1_y__O1_x*rhs_O1_x - l_B1_y__O1_y*z_O1_y + rhs_B1_y;
     const double z_A1_x = -l_A1_x__B1_x*z_B1_x - l_A1_x__B1_y*z_B1_y - l_A1_x__B2_x*z_B2_x -
         l_A1_x__B2_y*z_B2_y - l_A1_x__O1_x*rhs_O1_x - l_A1_x__O1_y*z_O1_y + rhs_A1_x;
     const double z_A1_y = inverse_coupler2_mass*weight_coupler2_y - inverse_crank1_mass*weight_crank1_y -
-        l_A1_y__A1_x*z_A1_x - l_A1_y__B1_x*z_B1_x - l_A1_y__B1_y*z_B1_y - l_A1_y__B2_x*z_B2_x -
-        l_A1_y__B2_y*z_B2_y - l_A1_y__O1_x*rhs_O1_x - l_A1_y__O1_y*z_O1_y + rhs_A1_y;
+        l_A1_y__B1_x*z_B1_x - l_A1_y__B1_y*z_B1_y - l_A1_y__B2_x*z_B2_x - l_A1_y__B2_y*z_B2_y -
+        l_A1_y__O1_x*rhs_O1_x - l_A1_y__O1_y*z_O1_y + rhs_A1_y;
 
     /* backward substitution */
-    const double lambda_A1_y = -inverse_pivot_A1_y*z_A1_y;
-    const double lambda_A1_x = -inverse_pivot_A1_x*z_A1_x - l_A1_y__A1_x*lambda_A1_y;
-    const double lambda_B1_y = -inverse_pivot_B1_y*z_B1_y - l_A1_x__B1_y*lambda_A1_x -
-        l_A1_y__B1_y*lambda_A1_y;
-    const double lambda_B1_x = -inverse_pivot_B1_x*z_B1_x - l_A1_x__B1_x*lambda_A1_x -
-        l_A1_y__B1_x*lambda_A1_y - l_B1_y__B1_x*lambda_B1_y;
-    const double lambda_O1_y = -inverse_pivot_O1_y*z_O1_y - l_A1_x__O1_y*lambda_A1_x -
-        l_A1_y__O1_y*lambda_A1_y - l_B1_x__O1_y*lambda_B1_x - l_B1_y__O1_y*lambda_B1_y;
-    const double lambda_O1_x = -inverse_pivot_O1_x*rhs_O1_x - l_A1_x__O1_x*lambda_A1_x -
-        l_A1_y__O1_x*lambda_A1_y - l_B1_x__O1_x*lambda_B1_x - l_B1_y__O1_x*lambda_B1_y -
-        l_O1_y__O1_x*lambda_O1_y;
+    const double lambda_A1_y = inverse_cross_A1_x__A1_y*z_A1_x + inverse_pivot_A1_y*z_A1_y;
+    const double lambda_A1_x = inverse_cross_A1_x__A1_y*z_A1_y + inverse_pivot_A1_x*z_A1_x;
+    const double lambda_B1_y = inverse_cross_B1_x__B1_y*z_B1_x + inverse_pivot_B1_y*z_B1_y -
+        l_A1_x__B1_y*lambda_A1_x - l_A1_y__B1_y*lambda_A1_y;
+    const double lambda_B1_x = inverse_cross_B1_x__B1_y*z_B1_y + inverse_pivot_B1_x*z_B1_x -
+        l_A1_x__B1_x*lambda_A1_x - l_A1_y__B1_x*lambda_A1_y;
+    const double lambda_O1_y = inverse_cross_O1_x__O1_y*rhs_O1_x + inverse_pivot_O1_y*z_O1_y -
+        l_A1_x__O1_y*lambda_A1_x - l_A1_y__O1_y*lambda_A1_y - l_B1_x__O1_y*lambda_B1_x -
+        l_B1_y__O1_y*lambda_B1_y;
+    const double lambda_O1_x = inverse_cross_O1_x__O1_y*z_O1_y + inverse_pivot_O1_x*rhs_O1_x -
+        l_A1_x__O1_x*lambda_A1_x - l_A1_y__O1_x*lambda_A1_y - l_B1_x__O1_x*lambda_B1_x -
+        l_B1_y__O1_x*lambda_B1_y;
     const double acceleration_crank1_theta = -l_A1_x__crank1_theta*lambda_A1_x -
         l_A1_y__crank1_theta*lambda_A1_y - l_B1_x__crank1_theta*lambda_B1_x - l_B1_y__crank1_theta*lambda_B1_y
         - l_O1_x__crank1_theta*lambda_O1_x - l_O1_y__crank1_theta*lambda_O1_y;
-    const double lambda_B2_y = -inverse_pivot_B2_y*z_B2_y - l_A1_x__B2_y*lambda_A1_x -
-        l_A1_y__B2_y*lambda_A1_y;
-    const double lambda_B2_x = -inverse_pivot_B2_x*z_B2_x - l_A1_x__B2_x*lambda_A1_x -
-        l_A1_y__B2_x*lambda_A1_y - l_B2_y__B2_x*lambda_B2_y;
+    const double lambda_B2_y = inverse_cross_B2_x__B2_y*z_B2_x + inverse_pivot_B2_y*z_B2_y -
+        l_A1_x__B2_y*lambda_A1_x - l_A1_y__B2_y*lambda_A1_y;
+    const double lambda_B2_x = inverse_cross_B2_x__B2_y*z_B2_y + inverse_pivot_B2_x*z_B2_x -
+        l_A1_x__B2_x*lambda_A1_x - l_A1_y__B2_x*lambda_A1_y;
     const double acceleration_coupler2_theta = -l_A1_x__coupler2_theta*lambda_A1_x -
         l_A1_y__coupler2_theta*lambda_A1_y - l_B2_x__coupler2_theta*lambda_B2_x -
         l_B2_y__coupler2_theta*lambda_B2_y;
-    const double lambda_A0_y = -inverse_pivot_A0_y*z_A0_y - l_B1_x__A0_y*lambda_B1_x -
-        l_B1_y__A0_y*lambda_B1_y;
-    const double lambda_A0_x = -inverse_pivot_A0_x*z_A0_x - l_A0_y__A0_x*lambda_A0_y -
+    const double lambda_A0_y = inverse_cross_A0_x__A0_y*z_A0_x + inverse_pivot_A0_y*z_A0_y -
+        l_B1_x__A0_y*lambda_B1_x - l_B1_y__A0_y*lambda_B1_y;
+    const double lambda_A0_x = inverse_cross_A0_x__A0_y*z_A0_y + inverse_pivot_A0_x*z_A0_x -
         l_B1_x__A0_x*lambda_B1_x - l_B1_y__A0_x*lambda_B1_y;
     const double acceleration_coupler1_theta = -l_A0_x__coupler1_theta*lambda_A0_x -
         l_A0_y__coupler1_theta*lambda_A0_y - l_B1_x__coupler1_theta*lambda_B1_x -
         l_B1_y__coupler1_theta*lambda_B1_y;
-    const double lambda_O2_y = -inverse_pivot_O2_y*z_O2_y - l_B2_x__O2_y*lambda_B2_x -
-        l_B2_y__O2_y*lambda_B2_y;
-    const double lambda_O2_x = -inverse_pivot_O2_x*rhs_O2_x - l_B2_x__O2_x*lambda_B2_x -
-        l_B2_y__O2_x*lambda_B2_y - l_O2_y__O2_x*lambda_O2_y;
+    const double lambda_O2_y = inverse_cross_O2_x__O2_y*rhs_O2_x + inverse_pivot_O2_y*z_O2_y -
+        l_B2_x__O2_y*lambda_B2_x - l_B2_y__O2_y*lambda_B2_y;
+    const double lambda_O2_x = inverse_cross_O2_x__O2_y*z_O2_y + inverse_pivot_O2_x*rhs_O2_x -
+        l_B2_x__O2_x*lambda_B2_x - l_B2_y__O2_x*lambda_B2_y;
     const double acceleration_crank2_theta = -l_B2_x__crank2_theta*lambda_B2_x -
         l_B2_y__crank2_theta*lambda_B2_y - l_O2_x__crank2_theta*lambda_O2_x -
         l_O2_y__crank2_theta*lambda_O2_y;
-    const double lambda_O0_y = -inverse_pivot_O0_y*z_O0_y - l_A0_x__O0_y*lambda_A0_x -
-        l_A0_y__O0_y*lambda_A0_y;
-    const double lambda_O0_x = -inverse_pivot_O0_x*rhs_O0_x - l_A0_x__O0_x*lambda_A0_x -
-        l_A0_y__O0_x*lambda_A0_y - l_O0_y__O0_x*lambda_O0_y;
+    const double lambda_O0_y = inverse_cross_O0_x__O0_y*rhs_O0_x + inverse_pivot_O0_y*z_O0_y -
+        l_A0_x__O0_y*lambda_A0_x - l_A0_y__O0_y*lambda_A0_y;
+    const double lambda_O0_x = inverse_cross_O0_x__O0_y*z_O0_y + inverse_pivot_O0_x*rhs_O0_x -
+        l_A0_x__O0_x*lambda_A0_x - l_A0_y__O0_x*lambda_A0_y;
     const double acceleration_crank0_theta = -l_A0_x__crank0_theta*lambda_A0_x -
         l_A0_y__crank0_theta*lambda_A0_y - l_O0_x__crank0_theta*lambda_O0_x -
         l_O0_y__crank0_theta*lambda_O0_y;

@@ -18,14 +18,17 @@ enum {
     N_CLEARANCES = 0,        /* joints with play */
     N_FRICTIONS = 0,         /* slips that friction may hold */
     N_SWITCHES = 0,          /* corners of min, max, abs and sign */
+    N_USER_EVENTS = 0,      /* expressions whose zeros are watched */
     N_SERIES = 0,            /* results of force elements */
     N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
-    N_X = N_Q,                /* coordinates that are integrated */
+    N_S = 2 * N_Q + N_WORK,   /* state of all bodies: q, v, works */
+    N_X = 5,                  /* coordinates that are integrated */
+    N_LOOPS = 4,              /* constraint rows of these */
     N_Y = 2 * N_X + N_WORK
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double length;  /* parameters.length */    double mass;  /* parameters.mass */    double inertia;  /* parameters.inertia */    double crank0_mass;  /* bodies.crank0.mass */    double crank0_inertia;  /* bodies.crank0.inertia */    double crank1_mass;  /* bodies.crank1.mass */    double crank1_inertia;  /* bodies.crank1.inertia */    double crank2_mass;  /* bodies.crank2.mass */    double crank2_inertia;  /* bodies.crank2.inertia */    double coupler1_mass;  /* bodies.coupler1.mass */    double coupler1_inertia;  /* bodies.coupler1.inertia */    double coupler2_mass;  /* bodies.coupler2.mass */    double coupler2_inertia;  /* bodies.coupler2.inertia */    double crank0_length;  /* bodies.crank0.length */    double crank1_length;  /* bodies.crank1.length */    double crank2_length;  /* bodies.crank2.length */    double coupler1_length;  /* bodies.coupler1.length */    double coupler2_length;  /* bodies.coupler2.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O1_x;  /* ground.O1.x */    double O2_x;  /* ground.O2.x */    double par_y;  /* gravity.y */    double guess_crank1_theta;  /* start.guess.crank1.theta */    double guess_crank2_theta;  /* start.guess.crank2.theta */    double set_crank0_theta;  /* start.set.crank0.theta */    double rates_crank0_omega;  /* start.rates.crank0.omega */    double crank0_head_x;  /* point from the centre of mass */    double crank1_head_x;  /* point from the centre of mass */    double crank2_head_x;  /* point from the centre of mass */    double coupler1_head_x;  /* point from the centre of mass */    double coupler2_head_x;  /* point from the centre of mass */    double weight_crank0_y;  /* weight */    double weight_crank1_y;  /* weight */    double weight_crank2_y;  /* weight */    double weight_coupler1_y;  /* weight */    double weight_coupler2_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_crank0_mass;  /* 1/M */    double inverse_crank2_mass;  /* 1/M */    double inverse_coupler1_mass;  /* 1/M */    double inverse_coupler2_mass;  /* 1/M */    double inverse_crank1_mass;  /* 1/M */    double inverse_crank0_inertia;  /* 1/M */    double inverse_crank2_inertia;  /* 1/M */    double inverse_coupler1_inertia;  /* 1/M */    double inverse_coupler2_inertia;  /* 1/M */    double inverse_crank1_inertia;  /* 1/M */} Parameters;
+typedef struct {    double length;  /* parameters.length */    double mass;  /* parameters.mass */    double inertia;  /* parameters.inertia */    double crank0_mass;  /* bodies.crank0.mass */    double crank0_inertia;  /* bodies.crank0.inertia */    double crank1_mass;  /* bodies.crank1.mass */    double crank1_inertia;  /* bodies.crank1.inertia */    double crank2_mass;  /* bodies.crank2.mass */    double crank2_inertia;  /* bodies.crank2.inertia */    double coupler1_mass;  /* bodies.coupler1.mass */    double coupler1_inertia;  /* bodies.coupler1.inertia */    double coupler2_mass;  /* bodies.coupler2.mass */    double coupler2_inertia;  /* bodies.coupler2.inertia */    double crank0_length;  /* bodies.crank0.length */    double crank1_length;  /* bodies.crank1.length */    double crank2_length;  /* bodies.crank2.length */    double coupler1_length;  /* bodies.coupler1.length */    double coupler2_length;  /* bodies.coupler2.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O1_x;  /* ground.O1.x */    double O2_x;  /* ground.O2.x */    double par_y;  /* gravity.y */    double guess_crank1_theta;  /* start.guess.crank1.theta */    double guess_crank2_theta;  /* start.guess.crank2.theta */    double set_crank0_theta;  /* start.set.crank0.theta */    double rates_crank0_omega;  /* start.rates.crank0.omega */    double crank0_head_x;  /* point from the centre of mass */    double crank1_head_x;  /* point from the centre of mass */    double crank2_head_x;  /* point from the centre of mass */    double coupler1_head_x;  /* point from the centre of mass */    double coupler2_head_x;  /* point from the centre of mass */    double weight_crank0_y;  /* weight */    double weight_crank1_y;  /* weight */    double weight_crank2_y;  /* weight */    double weight_coupler1_y;  /* weight */    double weight_coupler2_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_crank0_mass;  /* 1/M */    double inverse_crank2_mass;  /* 1/M */    double inverse_coupler1_mass;  /* 1/M */    double inverse_coupler2_mass;  /* 1/M */    double inverse_crank1_mass;  /* 1/M */    double inverse_crank0_inertia;  /* 1/M */    double inverse_crank2_inertia;  /* 1/M */    double inverse_coupler1_inertia;  /* 1/M */    double inverse_coupler2_inertia;  /* 1/M */    double inverse_crank1_inertia;  /* 1/M */    double crank0_head_span_x;  /* vector in its frame */    double crank1_head_span_x;  /* vector in its frame */    double coupler2_head_span_x;  /* vector in its frame */    double crank2_head_span_x;  /* vector in its frame */    double coupler1_head_span_x;  /* vector in its frame */    double inertia_crank0_crank0;  /* sum of m w.w */    double inertia_crank1_crank1;  /* sum of m w.w */    double inertia_crank2_crank2;  /* sum of m w.w */    double inertia_crank0_coupler1;  /* sum of m w.w */    double inertia_coupler1_coupler1;  /* sum of m w.w */    double inertia_crank1_coupler2;  /* sum of m w.w */    double inertia_coupler2_coupler2;  /* sum of m w.w */    double mass_crank0_crank0;  /* constant of M */    double mass_crank1_crank1;  /* constant of M */    double mass_crank2_crank2;  /* constant of M */    double mass_coupler1_coupler1;  /* constant of M */    double mass_coupler2_coupler2;  /* constant of M */    double weight_crank0__across;  /* weight */    double weight_crank1__across;  /* weight */    double weight_crank2__across;  /* weight */    double weight_coupler1__across;  /* weight */    double weight_coupler2__across;  /* weight */    double inverse_mass_crank2_crank2;  /* 1/M */    double inverse_mass_coupler2_coupler2;  /* 1/M */    double inverse_mass_crank0_crank0;  /* 1/M */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -42,6 +45,7 @@ typedef struct {
     Latch latch[1];
     double mode[1];
     double side[1];
+    signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
 } Memory;
 
@@ -72,7 +76,24 @@ typedef struct {
     Clearance clearance[1];
     Friction friction[1];
     double g[1]; /* switching functions; NaN: does not act */
+    double event[1]; /* values of the expressions that are watched */
 } Aside;
+
+/* The expressions that are watched: which way they are to cross zero (1 rising, -1 falling, 0 both), and what then. */
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+
+/*
+ * Whether expression i, seen last on `side` of zero (1 or -1; 0: nowhere yet), has crossed to `value`; `side` is
+ * where it is then. A zero itself lies on neither side.
+ */
+static inline int event_crosses(int i, signed char *side, double value)
+{
+    const int from = *side, to = (value > 0.0) - (value < 0.0);
+    if (to)
+        *side = (signed char)to;
+    return from * to < 0 && event_direction[i] * to >= 0;
+}
 
 /* min, max, sign that keep a NaN in x. */
 static inline double max_of(double x, double y) { return x < y ? y : x; }

@@ -104,5 +104,59 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->inverse_coupler2_inertia = inverse_coupler2_inertia;
     const double inverse_crank1_inertia = 1.0/crank1_inertia;  /* 1/M */
     p->inverse_crank1_inertia = inverse_crank1_inertia;
+    const double crank0_head_span_x = 2.0*crank0_head_x;  /* vector in its frame */
+    p->crank0_head_span_x = crank0_head_span_x;
+    const double crank1_head_span_x = 2.0*crank1_head_x;  /* vector in its frame */
+    p->crank1_head_span_x = crank1_head_span_x;
+    const double coupler2_head_span_x = 2.0*coupler2_head_x;  /* vector in its frame */
+    p->coupler2_head_span_x = coupler2_head_span_x;
+    const double crank2_head_span_x = 2.0*crank2_head_x;  /* vector in its frame */
+    p->crank2_head_span_x = crank2_head_span_x;
+    const double coupler1_head_span_x = 2.0*coupler1_head_x;  /* vector in its frame */
+    p->coupler1_head_span_x = coupler1_head_span_x;
+    const double inertia_crank0_crank0 = coupler1_mass*(crank0_head_span_x * crank0_head_span_x) +
+        (crank0_head_x * crank0_head_x)*crank0_mass;  /* sum of m w.w */
+    p->inertia_crank0_crank0 = inertia_crank0_crank0;
+    const double inertia_crank1_crank1 = coupler2_mass*(crank1_head_span_x * crank1_head_span_x) +
+        (crank1_head_x * crank1_head_x)*crank1_mass;  /* sum of m w.w */
+    p->inertia_crank1_crank1 = inertia_crank1_crank1;
+    const double inertia_crank2_crank2 = (crank2_head_x * crank2_head_x)*crank2_mass;  /* sum of m w.w */
+    p->inertia_crank2_crank2 = inertia_crank2_crank2;
+    const double inertia_crank0_coupler1 = coupler1_head_x*coupler1_mass*crank0_head_span_x;  /* sum of m w.w */
+    p->inertia_crank0_coupler1 = inertia_crank0_coupler1;
+    const double inertia_coupler1_coupler1 = (coupler1_head_x * coupler1_head_x)*coupler1_mass;  /* sum of m w.w */
+    p->inertia_coupler1_coupler1 = inertia_coupler1_coupler1;
+    const double inertia_crank1_coupler2 = coupler2_head_x*coupler2_mass*crank1_head_span_x;  /* sum of m w.w */
+    p->inertia_crank1_coupler2 = inertia_crank1_coupler2;
+    const double inertia_coupler2_coupler2 = (coupler2_head_x * coupler2_head_x)*coupler2_mass;  /* sum of m w.w */
+    p->inertia_coupler2_coupler2 = inertia_coupler2_coupler2;
+    const double mass_crank0_crank0 = crank0_inertia + inertia_crank0_crank0;  /* constant of M */
+    p->mass_crank0_crank0 = mass_crank0_crank0;
+    const double mass_crank1_crank1 = crank1_inertia + inertia_crank1_crank1;  /* constant of M */
+    p->mass_crank1_crank1 = mass_crank1_crank1;
+    const double mass_crank2_crank2 = crank2_inertia + inertia_crank2_crank2;  /* constant of M */
+    p->mass_crank2_crank2 = mass_crank2_crank2;
+    const double mass_coupler1_coupler1 = coupler1_inertia + inertia_coupler1_coupler1;  /* constant of M */
+    p->mass_coupler1_coupler1 = mass_coupler1_coupler1;
+    const double mass_coupler2_coupler2 = coupler2_inertia + inertia_coupler2_coupler2;  /* constant of M */
+    p->mass_coupler2_coupler2 = mass_coupler2_coupler2;
+    const double weight_crank0__across = coupler1_mass*crank0_head_span_x*par_y +
+        crank0_head_x*crank0_mass*par_y;  /* weight */
+    p->weight_crank0__across = weight_crank0__across;
+    const double weight_crank1__across = coupler2_mass*crank1_head_span_x*par_y +
+        crank1_head_x*crank1_mass*par_y;  /* weight */
+    p->weight_crank1__across = weight_crank1__across;
+    const double weight_crank2__across = crank2_head_x*crank2_mass*par_y;  /* weight */
+    p->weight_crank2__across = weight_crank2__across;
+    const double weight_coupler1__across = coupler1_head_x*coupler1_mass*par_y;  /* weight */
+    p->weight_coupler1__across = weight_coupler1__across;
+    const double weight_coupler2__across = coupler2_head_x*coupler2_mass*par_y;  /* weight */
+    p->weight_coupler2__across = weight_coupler2__across;
+    const double inverse_mass_crank2_crank2 = 1.0/mass_crank2_crank2;  /* 1/M */
+    p->inverse_mass_crank2_crank2 = inverse_mass_crank2_crank2;
+    const double inverse_mass_coupler2_coupler2 = 1.0/mass_coupler2_coupler2;  /* 1/M */
+    p->inverse_mass_coupler2_coupler2 = inverse_mass_coupler2_coupler2;
+    const double inverse_mass_crank0_crank0 = 1.0/mass_crank0_crank0;  /* 1/M */
+    p->inverse_mass_crank0_crank0 = inverse_mass_crank0_crank0;
 }
 

@@ -602,8 +602,8 @@ static int project(const double t, const double *q, const double *r, const Param
     const double inverse_L2_inertia = p->inverse_L2_inertia;
     const double inverse_L3_inertia = p->inverse_L3_inertia;
     const double inverse_L6_inertia = p->inverse_L6_inertia;
-    const double inverse_L7_mass = p->inverse_L7_mass;
     const double inverse_L8_inertia = p->inverse_L8_inertia;
+    const double inverse_L7_mass = p->inverse_L7_mass;
     const double inverse_L1_inertia = p->inverse_L1_inertia;
     const double inverse_L4_inertia = p->inverse_L4_inertia;
     const double inverse_L7_inertia = p->inverse_L7_inertia;
@@ -685,73 +685,90 @@ static int project(const double t, const double *q, const double *r, const Param
     const double l_Q6_x__L6_theta_2 = arm_L6_head_y*inverse_L6_inertia;
     const double l_Q6_y__L6_theta_2 = -arm_L6_head_x*inverse_L6_inertia;
     const double scale_O6_x_2 = -arm_L6_head_y*l_O6_x__L6_theta_2 + inverse_L6_mass;
-    if (!(scale_O6_x_2 > 1e-13 * scale_O6_x_2)) return 3;
-    const double inverse_pivot_O6_x_2 = 1.0/scale_O6_x_2;
-    const double w_O6_y__O6_x_2 = arm_L6_head_y*l_O6_y__L6_theta_2;
-    const double l_O6_y__O6_x_2 = -inverse_pivot_O6_x_2*w_O6_y__O6_x_2;
-    const double w_Q6_x__O6_x_2 = arm_L6_head_y*l_Q6_x__L6_theta_2 - inverse_L6_mass;
-    const double l_Q6_x__O6_x_2 = -inverse_pivot_O6_x_2*w_Q6_x__O6_x_2;
-    const double w_Q6_y__O6_x_2 = arm_L6_head_y*l_Q6_y__L6_theta_2;
-    const double l_Q6_y__O6_x_2 = -inverse_pivot_O6_x_2*w_Q6_y__O6_x_2;
     const double scale_O6_y_2 = arm_L6_head_x*l_O6_y__L6_theta_2 + inverse_L6_mass;
-    const double pivot_O6_y_2 = l_O6_y__O6_x_2*w_O6_y__O6_x_2 + scale_O6_y_2;
-    if (!(pivot_O6_y_2 > 1e-13 * scale_O6_y_2)) return 4;
-    const double inverse_pivot_O6_y_2 = 1.0/pivot_O6_y_2;
-    const double w_Q6_x__O6_y_2 = -arm_L6_head_x*l_Q6_x__L6_theta_2 - l_Q6_x__O6_x_2*w_O6_y__O6_x_2;
-    const double l_Q6_x__O6_y_2 = -inverse_pivot_O6_y_2*w_Q6_x__O6_y_2;
-    const double w_Q6_y__O6_y_2 = -arm_L6_head_x*l_Q6_y__L6_theta_2 - inverse_L6_mass -
-        l_Q6_y__O6_x_2*w_O6_y__O6_x_2;
-    const double l_Q6_y__O6_y_2 = -inverse_pivot_O6_y_2*w_Q6_y__O6_y_2;
-    const double l_slider_x__L8_theta_2 = -arm_L8_head_y*inverse_L8_inertia;
+    const double pivot_O6_x__O6_y_2 = -arm_L6_head_y*l_O6_y__L6_theta_2;
+    const double determinant_O6_x__O6_y_2 = -(pivot_O6_x__O6_y_2 * pivot_O6_x__O6_y_2) +
+        scale_O6_x_2*scale_O6_y_2;
+    if (!(scale_O6_x_2 > 1e-13 * scale_O6_x_2)) return 3;
+    if (!(determinant_O6_x__O6_y_2 > 1e-13 * scale_O6_y_2 * scale_O6_x_2)) return 4;
+    const double inverse_O6_x__O6_y_2 = -1.0/determinant_O6_x__O6_y_2;
+    const double inverse_pivot_O6_x_2 = inverse_O6_x__O6_y_2*scale_O6_y_2;
+    const double inverse_pivot_O6_y_2 = inverse_O6_x__O6_y_2*scale_O6_x_2;
+    const double inverse_cross_O6_x__O6_y_2 = -inverse_O6_x__O6_y_2*pivot_O6_x__O6_y_2;
+    const double w_Q6_x__O6_x_2 = arm_L6_head_y*l_Q6_x__L6_theta_2 - inverse_L6_mass;
+    const double w_Q6_x__O6_y_2 = -arm_L6_head_x*l_Q6_x__L6_theta_2;
+    const double l_Q6_x__O6_x_2 = inverse_cross_O6_x__O6_y_2*w_Q6_x__O6_y_2 +
+        inverse_pivot_O6_x_2*w_Q6_x__O6_x_2;
+    const double l_Q6_x__O6_y_2 = inverse_cross_O6_x__O6_y_2*w_Q6_x__O6_x_2 +
+        inverse_pivot_O6_y_2*w_Q6_x__O6_y_2;
+    const double w_Q6_y__O6_x_2 = arm_L6_head_y*l_Q6_y__L6_theta_2;
+    const double w_Q6_y__O6_y_2 = -arm_L6_head_x*l_Q6_y__L6_theta_2 - inverse_L6_mass;
+    const double l_Q6_y__O6_x_2 = inverse_cross_O6_x__O6_y_2*w_Q6_y__O6_y_2 +
+        inverse_pivot_O6_x_2*w_Q6_y__O6_x_2;
+    const double l_Q6_y__O6_y_2 = inverse_cross_O6_x__O6_y_2*w_Q6_y__O6_x_2 +
+        inverse_pivot_O6_y_2*w_Q6_y__O6_y_2;
     const double l_slider_y__L8_theta_2 = arm_L8_head_x*inverse_L8_inertia;
+    const double l_slider_x__L8_theta_2 = -arm_L8_head_y*inverse_L8_inertia;
     const double l_Q8_x__L8_theta_2 = -arm_L8_head_y*inverse_L8_inertia;
     const double l_Q8_y__L8_theta_2 = arm_L8_head_x*inverse_L8_inertia;
+    const double scale_slider_y_2 = arm_L8_head_x*l_slider_y__L8_theta_2 + inverse_L8_mass + inverse_S9_mass;
     const double scale_slider_x_2 = -arm_L8_head_y*l_slider_x__L8_theta_2 + inverse_L8_mass + inverse_S9_mass;
     const double pivot_slider_x_2 = -inverse_S9_mass*l_slider_x__guide_offset_2 + scale_slider_x_2;
-    if (!(pivot_slider_x_2 > 1e-13 * scale_slider_x_2)) return 5;
-    const double inverse_pivot_slider_x_2 = 1.0/pivot_slider_x_2;
-    const double w_slider_y__slider_x_2 = arm_L8_head_y*l_slider_y__L8_theta_2;
-    const double l_slider_y__slider_x_2 = -inverse_pivot_slider_x_2*w_slider_y__slider_x_2;
+    const double pivot_slider_y__slider_x_2 = arm_L8_head_x*l_slider_x__L8_theta_2;
+    const double determinant_slider_y__slider_x_2 = pivot_slider_x_2*scale_slider_y_2 -
+        (pivot_slider_y__slider_x_2 * pivot_slider_y__slider_x_2);
+    if (!(scale_slider_y_2 > 1e-13 * scale_slider_y_2)) return 5;
+    if (!(determinant_slider_y__slider_x_2 > 1e-13 * scale_slider_x_2 * scale_slider_y_2)) return 6;
+    const double inverse_slider_y__slider_x_2 = -1.0/determinant_slider_y__slider_x_2;
+    const double inverse_pivot_slider_y_2 = inverse_slider_y__slider_x_2*pivot_slider_x_2;
+    const double inverse_pivot_slider_x_2 = inverse_slider_y__slider_x_2*scale_slider_y_2;
+    const double inverse_cross_slider_y__slider_x_2 =
+        -inverse_slider_y__slider_x_2*pivot_slider_y__slider_x_2;
+    const double w_Q8_x__slider_y_2 = -arm_L8_head_x*l_Q8_x__L8_theta_2;
     const double w_Q8_x__slider_x_2 = arm_L8_head_y*l_Q8_x__L8_theta_2 + inverse_L8_mass;
-    const double l_Q8_x__slider_x_2 = -inverse_pivot_slider_x_2*w_Q8_x__slider_x_2;
+    const double l_Q8_x__slider_y_2 = inverse_cross_slider_y__slider_x_2*w_Q8_x__slider_x_2 +
+        inverse_pivot_slider_y_2*w_Q8_x__slider_y_2;
+    const double l_Q8_x__slider_x_2 = inverse_cross_slider_y__slider_x_2*w_Q8_x__slider_y_2 +
+        inverse_pivot_slider_x_2*w_Q8_x__slider_x_2;
+    const double w_Q8_y__slider_y_2 = -arm_L8_head_x*l_Q8_y__L8_theta_2 + inverse_L8_mass;
     const double w_Q8_y__slider_x_2 = arm_L8_head_y*l_Q8_y__L8_theta_2;
-    const double l_Q8_y__slider_x_2 = -inverse_pivot_slider_x_2*w_Q8_y__slider_x_2;
-    const double scale_slider_y_2 = arm_L8_head_x*l_slider_y__L8_theta_2 + inverse_L8_mass + inverse_S9_mass;
-    const double pivot_slider_y_2 = l_slider_y__slider_x_2*w_slider_y__slider_x_2 + scale_slider_y_2;
-    if (!(pivot_slider_y_2 > 1e-13 * scale_slider_y_2)) return 6;
-    const double inverse_pivot_slider_y_2 = 1.0/pivot_slider_y_2;
-    const double w_Q8_x__slider_y_2 = -arm_L8_head_x*l_Q8_x__L8_theta_2 -
-        l_Q8_x__slider_x_2*w_slider_y__slider_x_2;
-    const double l_Q8_x__slider_y_2 = -inverse_pivot_slider_y_2*w_Q8_x__slider_y_2;
-    const double w_Q8_y__slider_y_2 = -arm_L8_head_x*l_Q8_y__L8_theta_2 + inverse_L8_mass -
-        l_Q8_y__slider_x_2*w_slider_y__slider_x_2;
-    const double l_Q8_y__slider_y_2 = -inverse_pivot_slider_y_2*w_Q8_y__slider_y_2;
+    const double l_Q8_y__slider_y_2 = inverse_cross_slider_y__slider_x_2*w_Q8_y__slider_x_2 +
+        inverse_pivot_slider_y_2*w_Q8_y__slider_y_2;
+    const double l_Q8_y__slider_x_2 = inverse_cross_slider_y__slider_x_2*w_Q8_y__slider_y_2 +
+        inverse_pivot_slider_x_2*w_Q8_y__slider_x_2;
     const double l_O1_x__L1_theta_2 = -arm_L1_head_y*inverse_L1_inertia;
     const double l_O1_y__L1_theta_2 = arm_L1_head_x*inverse_L1_inertia;
     const double l_A_x__L1_theta_2 = -arm_L1_head_y*inverse_L1_inertia;
     const double l_A_y__L1_theta_2 = arm_L1_head_x*inverse_L1_inertia;
     const double scale_O1_x_2 = -arm_L1_head_y*l_O1_x__L1_theta_2 + inverse_L1_mass;
-    if (!(scale_O1_x_2 > 1e-13 * scale_O1_x_2)) return 7;
-    const double inverse_pivot_O1_x_2 = 1.0/scale_O1_x_2;
-    const double w_O1_y__O1_x_2 = arm_L1_head_y*l_O1_y__L1_theta_2;
-    const double l_O1_y__O1_x_2 = -inverse_pivot_O1_x_2*w_O1_y__O1_x_2;
-    const double w_crank1__O1_x_2 = arm_L1_head_y*inverse_L1_inertia;
-    const double l_crank1__O1_x_2 = -inverse_pivot_O1_x_2*w_crank1__O1_x_2;
-    const double w_A_x__O1_x_2 = arm_L1_head_y*l_A_x__L1_theta_2 + inverse_L1_mass;
-    const double l_A_x__O1_x_2 = -inverse_pivot_O1_x_2*w_A_x__O1_x_2;
-    const double w_A_y__O1_x_2 = arm_L1_head_y*l_A_y__L1_theta_2;
-    const double l_A_y__O1_x_2 = -inverse_pivot_O1_x_2*w_A_y__O1_x_2;
     const double scale_O1_y_2 = arm_L1_head_x*l_O1_y__L1_theta_2 + inverse_L1_mass;
-    const double pivot_O1_y_2 = l_O1_y__O1_x_2*w_O1_y__O1_x_2 + scale_O1_y_2;
-    if (!(pivot_O1_y_2 > 1e-13 * scale_O1_y_2)) return 8;
-    const double inverse_pivot_O1_y_2 = 1.0/pivot_O1_y_2;
-    const double w_crank1__O1_y_2 = -arm_L1_head_x*inverse_L1_inertia - l_crank1__O1_x_2*w_O1_y__O1_x_2;
-    const double l_crank1__O1_y_2 = -inverse_pivot_O1_y_2*w_crank1__O1_y_2;
-    const double w_A_x__O1_y_2 = -arm_L1_head_x*l_A_x__L1_theta_2 - l_A_x__O1_x_2*w_O1_y__O1_x_2;
-    const double l_A_x__O1_y_2 = -inverse_pivot_O1_y_2*w_A_x__O1_y_2;
-    const double w_A_y__O1_y_2 = -arm_L1_head_x*l_A_y__L1_theta_2 + inverse_L1_mass -
-        l_A_y__O1_x_2*w_O1_y__O1_x_2;
-    const double l_A_y__O1_y_2 = -inverse_pivot_O1_y_2*w_A_y__O1_y_2;
+    const double pivot_O1_x__O1_y_2 = -arm_L1_head_y*l_O1_y__L1_theta_2;
+    const double determinant_O1_x__O1_y_2 = -(pivot_O1_x__O1_y_2 * pivot_O1_x__O1_y_2) +
+        scale_O1_x_2*scale_O1_y_2;
+    if (!(scale_O1_x_2 > 1e-13 * scale_O1_x_2)) return 7;
+    if (!(determinant_O1_x__O1_y_2 > 1e-13 * scale_O1_y_2 * scale_O1_x_2)) return 8;
+    const double inverse_O1_x__O1_y_2 = -1.0/determinant_O1_x__O1_y_2;
+    const double inverse_pivot_O1_x_2 = inverse_O1_x__O1_y_2*scale_O1_y_2;
+    const double inverse_pivot_O1_y_2 = inverse_O1_x__O1_y_2*scale_O1_x_2;
+    const double inverse_cross_O1_x__O1_y_2 = -inverse_O1_x__O1_y_2*pivot_O1_x__O1_y_2;
+    const double w_crank1__O1_x_2 = arm_L1_head_y*inverse_L1_inertia;
+    const double w_crank1__O1_y_2 = -arm_L1_head_x*inverse_L1_inertia;
+    const double l_crank1__O1_x_2 = inverse_cross_O1_x__O1_y_2*w_crank1__O1_y_2 +
+        inverse_pivot_O1_x_2*w_crank1__O1_x_2;
+    const double l_crank1__O1_y_2 = inverse_cross_O1_x__O1_y_2*w_crank1__O1_x_2 +
+        inverse_pivot_O1_y_2*w_crank1__O1_y_2;
+    const double w_A_x__O1_x_2 = arm_L1_head_y*l_A_x__L1_theta_2 + inverse_L1_mass;
+    const double w_A_x__O1_y_2 = -arm_L1_head_x*l_A_x__L1_theta_2;
+    const double l_A_x__O1_x_2 = inverse_cross_O1_x__O1_y_2*w_A_x__O1_y_2 +
+        inverse_pivot_O1_x_2*w_A_x__O1_x_2;
+    const double l_A_x__O1_y_2 = inverse_cross_O1_x__O1_y_2*w_A_x__O1_x_2 +
+        inverse_pivot_O1_y_2*w_A_x__O1_y_2;
+    const double w_A_y__O1_x_2 = arm_L1_head_y*l_A_y__L1_theta_2;
+    const double w_A_y__O1_y_2 = -arm_L1_head_x*l_A_y__L1_theta_2 + inverse_L1_mass;
+    const double l_A_y__O1_x_2 = inverse_cross_O1_x__O1_y_2*w_A_y__O1_y_2 +
+        inverse_pivot_O1_x_2*w_A_y__O1_x_2;
+    const double l_A_y__O1_y_2 = inverse_cross_O1_x__O1_y_2*w_A_y__O1_x_2 +
+        inverse_pivot_O1_y_2*w_A_y__O1_y_2;
     const double scale_crank1_2 = inverse_L1_inertia;
     const double pivot_crank1_2 = l_crank1__O1_x_2*w_crank1__O1_x_2 + l_crank1__O1_y_2*w_crank1__O1_y_2 +
         scale_crank1_2;
@@ -765,54 +782,62 @@ static int project(const double t, const double *q, const double *r, const Param
     const double l_A_y__crank1_2 = -inverse_pivot_crank1_2*w_A_y__crank1_2;
     const double scale_A_x_2 = -arm_L1_head_y*l_A_x__L1_theta_2 - arm_L2_head_y*l_A_x__L2_theta_2 +
         inverse_L1_mass + inverse_L2_mass;
-    const double pivot_A_x_2 = l_A_x__O1_x_2*w_A_x__O1_x_2 + l_A_x__O1_y_2*w_A_x__O1_y_2 +
-        l_A_x__crank1_2*w_A_x__crank1_2 + scale_A_x_2;
-    if (!(pivot_A_x_2 > 1e-13 * scale_A_x_2)) return 10;
-    const double inverse_pivot_A_x_2 = 1.0/pivot_A_x_2;
-    const double w_A_y__A_x_2 = arm_L1_head_y*l_A_y__L1_theta_2 + arm_L2_head_y*l_A_y__L2_theta_2 -
-        l_A_y__O1_x_2*w_A_x__O1_x_2 - l_A_y__O1_y_2*w_A_x__O1_y_2 - l_A_y__crank1_2*w_A_x__crank1_2;
-    const double l_A_y__A_x_2 = -inverse_pivot_A_x_2*w_A_y__A_x_2;
-    const double w_P2_x__A_x_2 = arm_L2_head_y*l_P2_x__L2_theta_2 + inverse_L2_mass;
-    const double l_P2_x__A_x_2 = -inverse_pivot_A_x_2*w_P2_x__A_x_2;
-    const double w_P2_y__A_x_2 = arm_L2_head_y*l_P2_y__L2_theta_2;
-    const double l_P2_y__A_x_2 = -inverse_pivot_A_x_2*w_P2_y__A_x_2;
     const double scale_A_y_2 = arm_L1_head_x*l_A_y__L1_theta_2 + arm_L2_head_x*l_A_y__L2_theta_2 +
         inverse_L1_mass + inverse_L2_mass;
-    const double pivot_A_y_2 = l_A_y__A_x_2*w_A_y__A_x_2 + l_A_y__O1_x_2*w_A_y__O1_x_2 +
-        l_A_y__O1_y_2*w_A_y__O1_y_2 + l_A_y__crank1_2*w_A_y__crank1_2 + scale_A_y_2;
-    if (!(pivot_A_y_2 > 1e-13 * scale_A_y_2)) return 11;
-    const double inverse_pivot_A_y_2 = 1.0/pivot_A_y_2;
-    const double w_P2_x__A_y_2 = -arm_L2_head_x*l_P2_x__L2_theta_2 - l_P2_x__A_x_2*w_A_y__A_x_2;
-    const double l_P2_x__A_y_2 = -inverse_pivot_A_y_2*w_P2_x__A_y_2;
-    const double w_P2_y__A_y_2 = -arm_L2_head_x*l_P2_y__L2_theta_2 + inverse_L2_mass -
-        l_P2_y__A_x_2*w_A_y__A_x_2;
-    const double l_P2_y__A_y_2 = -inverse_pivot_A_y_2*w_P2_y__A_y_2;
+    const double pivot_A_x_2 = l_A_x__O1_x_2*w_A_x__O1_x_2 + l_A_x__O1_y_2*w_A_x__O1_y_2 +
+        l_A_x__crank1_2*w_A_x__crank1_2 + scale_A_x_2;
+    const double pivot_A_y_2 = l_A_y__O1_x_2*w_A_y__O1_x_2 + l_A_y__O1_y_2*w_A_y__O1_y_2 +
+        l_A_y__crank1_2*w_A_y__crank1_2 + scale_A_y_2;
+    const double pivot_A_x__A_y_2 = -arm_L1_head_y*l_A_y__L1_theta_2 - arm_L2_head_y*l_A_y__L2_theta_2 +
+        l_A_y__O1_x_2*w_A_x__O1_x_2 + l_A_y__O1_y_2*w_A_x__O1_y_2 + l_A_y__crank1_2*w_A_x__crank1_2;
+    const double determinant_A_x__A_y_2 = pivot_A_x_2*pivot_A_y_2 - (pivot_A_x__A_y_2 * pivot_A_x__A_y_2);
+    if (!(pivot_A_x_2 > 1e-13 * scale_A_x_2)) return 10;
+    if (!(determinant_A_x__A_y_2 > 1e-13 * scale_A_y_2 * pivot_A_x_2)) return 11;
+    const double inverse_A_x__A_y_2 = -1.0/determinant_A_x__A_y_2;
+    const double inverse_pivot_A_x_2 = inverse_A_x__A_y_2*pivot_A_y_2;
+    const double inverse_pivot_A_y_2 = inverse_A_x__A_y_2*pivot_A_x_2;
+    const double inverse_cross_A_x__A_y_2 = -inverse_A_x__A_y_2*pivot_A_x__A_y_2;
+    const double w_P2_x__A_x_2 = arm_L2_head_y*l_P2_x__L2_theta_2 + inverse_L2_mass;
+    const double w_P2_x__A_y_2 = -arm_L2_head_x*l_P2_x__L2_theta_2;
+    const double l_P2_x__A_x_2 = inverse_cross_A_x__A_y_2*w_P2_x__A_y_2 + inverse_pivot_A_x_2*w_P2_x__A_x_2;
+    const double l_P2_x__A_y_2 = inverse_cross_A_x__A_y_2*w_P2_x__A_x_2 + inverse_pivot_A_y_2*w_P2_x__A_y_2;
+    const double w_P2_y__A_x_2 = arm_L2_head_y*l_P2_y__L2_theta_2;
+    const double w_P2_y__A_y_2 = -arm_L2_head_x*l_P2_y__L2_theta_2 + inverse_L2_mass;
+    const double l_P2_y__A_x_2 = inverse_cross_A_x__A_y_2*w_P2_y__A_y_2 + inverse_pivot_A_x_2*w_P2_y__A_x_2;
+    const double l_P2_y__A_y_2 = inverse_cross_A_x__A_y_2*w_P2_y__A_x_2 + inverse_pivot_A_y_2*w_P2_y__A_y_2;
     const double l_O4_x__L4_theta_2 = -arm_L4_head_y*inverse_L4_inertia;
     const double l_O4_y__L4_theta_2 = arm_L4_head_x*inverse_L4_inertia;
     const double l_B_x__L4_theta_2 = -arm_L4_head_y*inverse_L4_inertia;
     const double l_B_y__L4_theta_2 = arm_L4_head_x*inverse_L4_inertia;
     const double scale_O4_x_2 = -arm_L4_head_y*l_O4_x__L4_theta_2 + inverse_L4_mass;
-    if (!(scale_O4_x_2 > 1e-13 * scale_O4_x_2)) return 12;
-    const double inverse_pivot_O4_x_2 = 1.0/scale_O4_x_2;
-    const double w_O4_y__O4_x_2 = arm_L4_head_y*l_O4_y__L4_theta_2;
-    const double l_O4_y__O4_x_2 = -inverse_pivot_O4_x_2*w_O4_y__O4_x_2;
-    const double w_crank4__O4_x_2 = arm_L4_head_y*inverse_L4_inertia;
-    const double l_crank4__O4_x_2 = -inverse_pivot_O4_x_2*w_crank4__O4_x_2;
-    const double w_B_x__O4_x_2 = arm_L4_head_y*l_B_x__L4_theta_2 + inverse_L4_mass;
-    const double l_B_x__O4_x_2 = -inverse_pivot_O4_x_2*w_B_x__O4_x_2;
-    const double w_B_y__O4_x_2 = arm_L4_head_y*l_B_y__L4_theta_2;
-    const double l_B_y__O4_x_2 = -inverse_pivot_O4_x_2*w_B_y__O4_x_2;
     const double scale_O4_y_2 = arm_L4_head_x*l_O4_y__L4_theta_2 + inverse_L4_mass;
-    const double pivot_O4_y_2 = l_O4_y__O4_x_2*w_O4_y__O4_x_2 + scale_O4_y_2;
-    if (!(pivot_O4_y_2 > 1e-13 * scale_O4_y_2)) return 13;
-    const double inverse_pivot_O4_y_2 = 1.0/pivot_O4_y_2;
-    const double w_crank4__O4_y_2 = -arm_L4_head_x*inverse_L4_inertia - l_crank4__O4_x_2*w_O4_y__O4_x_2;
-    const double l_crank4__O4_y_2 = -inverse_pivot_O4_y_2*w_crank4__O4_y_2;
-    const double w_B_x__O4_y_2 = -arm_L4_head_x*l_B_x__L4_theta_2 - l_B_x__O4_x_2*w_O4_y__O4_x_2;
-    const double l_B_x__O4_y_2 = -inverse_pivot_O4_y_2*w_B_x__O4_y_2;
-    const double w_B_y__O4_y_2 = -arm_L4_head_x*l_B_y__L4_theta_2 + inverse_L4_mass -
-        l_B_y__O4_x_2*w_O4_y__O4_x_2;
-    const double l_B_y__O4_y_2 = -inverse_pivot_O4_y_2*w_B_y__O4_y_2;
+    const double pivot_O4_x__O4_y_2 = -arm_L4_head_y*l_O4_y__L4_theta_2;
+    const double determinant_O4_x__O4_y_2 = -(pivot_O4_x__O4_y_2 * pivot_O4_x__O4_y_2) +
+        scale_O4_x_2*scale_O4_y_2;
+    if (!(scale_O4_x_2 > 1e-13 * scale_O4_x_2)) return 12;
+    if (!(determinant_O4_x__O4_y_2 > 1e-13 * scale_O4_y_2 * scale_O4_x_2)) return 13;
+    const double inverse_O4_x__O4_y_2 = -1.0/determinant_O4_x__O4_y_2;
+    const double inverse_pivot_O4_x_2 = inverse_O4_x__O4_y_2*scale_O4_y_2;
+    const double inverse_pivot_O4_y_2 = inverse_O4_x__O4_y_2*scale_O4_x_2;
+    const double inverse_cross_O4_x__O4_y_2 = -inverse_O4_x__O4_y_2*pivot_O4_x__O4_y_2;
+    const double w_crank4__O4_x_2 = arm_L4_head_y*inverse_L4_inertia;
+    const double w_crank4__O4_y_2 = -arm_L4_head_x*inverse_L4_inertia;
+    const double l_crank4__O4_x_2 = inverse_cross_O4_x__O4_y_2*w_crank4__O4_y_2 +
+        inverse_pivot_O4_x_2*w_crank4__O4_x_2;
+    const double l_crank4__O4_y_2 = inverse_cross_O4_x__O4_y_2*w_crank4__O4_x_2 +
+        inverse_pivot_O4_y_2*w_crank4__O4_y_2;
+    const double w_B_x__O4_x_2 = arm_L4_head_y*l_B_x__L4_theta_2 + inverse_L4_mass;
+    const double w_B_x__O4_y_2 = -arm_L4_head_x*l_B_x__L4_theta_2;
+    const double l_B_x__O4_x_2 = inverse_cross_O4_x__O4_y_2*w_B_x__O4_y_2 +
+        inverse_pivot_O4_x_2*w_B_x__O4_x_2;
+    const double l_B_x__O4_y_2 = inverse_cross_O4_x__O4_y_2*w_B_x__O4_x_2 +
+        inverse_pivot_O4_y_2*w_B_x__O4_y_2;
+    const double w_B_y__O4_x_2 = arm_L4_head_y*l_B_y__L4_theta_2;
+    const double w_B_y__O4_y_2 = -arm_L4_head_x*l_B_y__L4_theta_2 + inverse_L4_mass;
+    const double l_B_y__O4_x_2 = inverse_cross_O4_x__O4_y_2*w_B_y__O4_y_2 +
+        inverse_pivot_O4_x_2*w_B_y__O4_x_2;
+    const double l_B_y__O4_y_2 = inverse_cross_O4_x__O4_y_2*w_B_y__O4_x_2 +
+        inverse_pivot_O4_y_2*w_B_y__O4_y_2;
     const double scale_crank4_2 = inverse_L4_inertia;
     const double pivot_crank4_2 = l_crank4__O4_x_2*w_crank4__O4_x_2 + l_crank4__O4_y_2*w_crank4__O4_y_2 +
         scale_crank4_2;
@@ -826,275 +851,302 @@ static int project(const double t, const double *q, const double *r, const Param
     const double l_B_y__crank4_2 = -inverse_pivot_crank4_2*w_B_y__crank4_2;
     const double scale_B_x_2 = -arm_L3_head_y*l_B_x__L3_theta_2 - arm_L4_head_y*l_B_x__L4_theta_2 +
         inverse_L3_mass + inverse_L4_mass;
-    const double pivot_B_x_2 = l_B_x__O4_x_2*w_B_x__O4_x_2 + l_B_x__O4_y_2*w_B_x__O4_y_2 +
-        l_B_x__crank4_2*w_B_x__crank4_2 + scale_B_x_2;
-    if (!(pivot_B_x_2 > 1e-13 * scale_B_x_2)) return 15;
-    const double inverse_pivot_B_x_2 = 1.0/pivot_B_x_2;
-    const double w_B_y__B_x_2 = arm_L3_head_y*l_B_y__L3_theta_2 + arm_L4_head_y*l_B_y__L4_theta_2 -
-        l_B_y__O4_x_2*w_B_x__O4_x_2 - l_B_y__O4_y_2*w_B_x__O4_y_2 - l_B_y__crank4_2*w_B_x__crank4_2;
-    const double l_B_y__B_x_2 = -inverse_pivot_B_x_2*w_B_y__B_x_2;
-    const double w_P3_x__B_x_2 = arm_L3_head_y*l_P3_x__L3_theta_2 + inverse_L3_mass;
-    const double l_P3_x__B_x_2 = -inverse_pivot_B_x_2*w_P3_x__B_x_2;
-    const double w_P3_y__B_x_2 = arm_L3_head_y*l_P3_y__L3_theta_2;
-    const double l_P3_y__B_x_2 = -inverse_pivot_B_x_2*w_P3_y__B_x_2;
     const double scale_B_y_2 = arm_L3_head_x*l_B_y__L3_theta_2 + arm_L4_head_x*l_B_y__L4_theta_2 +
         inverse_L3_mass + inverse_L4_mass;
-    const double pivot_B_y_2 = l_B_y__B_x_2*w_B_y__B_x_2 + l_B_y__O4_x_2*w_B_y__O4_x_2 +
-        l_B_y__O4_y_2*w_B_y__O4_y_2 + l_B_y__crank4_2*w_B_y__crank4_2 + scale_B_y_2;
-    if (!(pivot_B_y_2 > 1e-13 * scale_B_y_2)) return 16;
-    const double inverse_pivot_B_y_2 = 1.0/pivot_B_y_2;
-    const double w_P3_x__B_y_2 = -arm_L3_head_x*l_P3_x__L3_theta_2 - l_P3_x__B_x_2*w_B_y__B_x_2;
-    const double l_P3_x__B_y_2 = -inverse_pivot_B_y_2*w_P3_x__B_y_2;
-    const double w_P3_y__B_y_2 = -arm_L3_head_x*l_P3_y__L3_theta_2 + inverse_L3_mass -
-        l_P3_y__B_x_2*w_B_y__B_x_2;
-    const double l_P3_y__B_y_2 = -inverse_pivot_B_y_2*w_P3_y__B_y_2;
+    const double pivot_B_x_2 = l_B_x__O4_x_2*w_B_x__O4_x_2 + l_B_x__O4_y_2*w_B_x__O4_y_2 +
+        l_B_x__crank4_2*w_B_x__crank4_2 + scale_B_x_2;
+    const double pivot_B_y_2 = l_B_y__O4_x_2*w_B_y__O4_x_2 + l_B_y__O4_y_2*w_B_y__O4_y_2 +
+        l_B_y__crank4_2*w_B_y__crank4_2 + scale_B_y_2;
+    const double pivot_B_x__B_y_2 = -arm_L3_head_y*l_B_y__L3_theta_2 - arm_L4_head_y*l_B_y__L4_theta_2 +
+        l_B_y__O4_x_2*w_B_x__O4_x_2 + l_B_y__O4_y_2*w_B_x__O4_y_2 + l_B_y__crank4_2*w_B_x__crank4_2;
+    const double determinant_B_x__B_y_2 = pivot_B_x_2*pivot_B_y_2 - (pivot_B_x__B_y_2 * pivot_B_x__B_y_2);
+    if (!(pivot_B_x_2 > 1e-13 * scale_B_x_2)) return 15;
+    if (!(determinant_B_x__B_y_2 > 1e-13 * scale_B_y_2 * pivot_B_x_2)) return 16;
+    const double inverse_B_x__B_y_2 = -1.0/determinant_B_x__B_y_2;
+    const double inverse_pivot_B_x_2 = inverse_B_x__B_y_2*pivot_B_y_2;
+    const double inverse_pivot_B_y_2 = inverse_B_x__B_y_2*pivot_B_x_2;
+    const double inverse_cross_B_x__B_y_2 = -inverse_B_x__B_y_2*pivot_B_x__B_y_2;
+    const double w_P3_x__B_x_2 = arm_L3_head_y*l_P3_x__L3_theta_2 + inverse_L3_mass;
+    const double w_P3_x__B_y_2 = -arm_L3_head_x*l_P3_x__L3_theta_2;
+    const double l_P3_x__B_x_2 = inverse_cross_B_x__B_y_2*w_P3_x__B_y_2 + inverse_pivot_B_x_2*w_P3_x__B_x_2;
+    const double l_P3_x__B_y_2 = inverse_cross_B_x__B_y_2*w_P3_x__B_x_2 + inverse_pivot_B_y_2*w_P3_x__B_y_2;
+    const double w_P3_y__B_x_2 = arm_L3_head_y*l_P3_y__L3_theta_2;
+    const double w_P3_y__B_y_2 = -arm_L3_head_x*l_P3_y__L3_theta_2 + inverse_L3_mass;
+    const double l_P3_y__B_x_2 = inverse_cross_B_x__B_y_2*w_P3_y__B_y_2 + inverse_pivot_B_x_2*w_P3_y__B_x_2;
+    const double l_P3_y__B_y_2 = inverse_cross_B_x__B_y_2*w_P3_y__B_x_2 + inverse_pivot_B_y_2*w_P3_y__B_y_2;
+    const double l_Q6_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
+    const double l_Q6_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
+    const double l_Q8_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
     const double l_P2_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
     const double l_P2_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
     const double l_P3_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
     const double l_P3_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
-    const double l_Q6_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
-    const double l_Q6_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
-    const double l_Q8_x__L7_theta_2 = -arm_L7_head_y*inverse_L7_inertia;
     const double l_Q8_y__L7_theta_2 = arm_L7_head_x*inverse_L7_inertia;
-    const double scale_P2_x_2 = -arm_L2_head_y*l_P2_x__L2_theta_2 - arm_L7_head_y*l_P2_x__L7_theta_2 +
-        inverse_L2_mass + inverse_L7_mass;
-    const double pivot_P2_x_2 = l_P2_x__A_x_2*w_P2_x__A_x_2 + l_P2_x__A_y_2*w_P2_x__A_y_2 + scale_P2_x_2;
-    if (!(pivot_P2_x_2 > 1e-13 * scale_P2_x_2)) return 17;
-    const double inverse_pivot_P2_x_2 = 1.0/pivot_P2_x_2;
-    const double w_P2_y__P2_x_2 = arm_L2_head_y*l_P2_y__L2_theta_2 + arm_L7_head_y*l_P2_y__L7_theta_2 -
-        l_P2_y__A_x_2*w_P2_x__A_x_2 - l_P2_y__A_y_2*w_P2_x__A_y_2;
-    const double l_P2_y__P2_x_2 = -inverse_pivot_P2_x_2*w_P2_y__P2_x_2;
-    const double w_P3_x__P2_x_2 = arm_L7_head_y*l_P3_x__L7_theta_2 - inverse_L7_mass;
-    const double l_P3_x__P2_x_2 = -inverse_pivot_P2_x_2*w_P3_x__P2_x_2;
-    const double w_P3_y__P2_x_2 = arm_L7_head_y*l_P3_y__L7_theta_2;
-    const double l_P3_y__P2_x_2 = -inverse_pivot_P2_x_2*w_P3_y__P2_x_2;
-    const double w_Q6_x__P2_x_2 = arm_L7_head_y*l_Q6_x__L7_theta_2 + inverse_L7_mass;
-    const double l_Q6_x__P2_x_2 = -inverse_pivot_P2_x_2*w_Q6_x__P2_x_2;
-    const double w_Q6_y__P2_x_2 = arm_L7_head_y*l_Q6_y__L7_theta_2;
-    const double l_Q6_y__P2_x_2 = -inverse_pivot_P2_x_2*w_Q6_y__P2_x_2;
-    const double w_Q8_x__P2_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_2 + inverse_L7_mass;
-    const double l_Q8_x__P2_x_2 = -inverse_pivot_P2_x_2*w_Q8_x__P2_x_2;
-    const double w_Q8_y__P2_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2;
-    const double l_Q8_y__P2_x_2 = -inverse_pivot_P2_x_2*w_Q8_y__P2_x_2;
-    const double scale_P2_y_2 = arm_L2_head_x*l_P2_y__L2_theta_2 + arm_L7_head_x*l_P2_y__L7_theta_2 +
-        inverse_L2_mass + inverse_L7_mass;
-    const double pivot_P2_y_2 = l_P2_y__A_x_2*w_P2_y__A_x_2 + l_P2_y__A_y_2*w_P2_y__A_y_2 +
-        l_P2_y__P2_x_2*w_P2_y__P2_x_2 + scale_P2_y_2;
-    if (!(pivot_P2_y_2 > 1e-13 * scale_P2_y_2)) return 18;
-    const double inverse_pivot_P2_y_2 = 1.0/pivot_P2_y_2;
-    const double w_P3_x__P2_y_2 = -arm_L7_head_x*l_P3_x__L7_theta_2 - l_P3_x__P2_x_2*w_P2_y__P2_x_2;
-    const double l_P3_x__P2_y_2 = -inverse_pivot_P2_y_2*w_P3_x__P2_y_2;
-    const double w_P3_y__P2_y_2 = -arm_L7_head_x*l_P3_y__L7_theta_2 - inverse_L7_mass -
-        l_P3_y__P2_x_2*w_P2_y__P2_x_2;
-    const double l_P3_y__P2_y_2 = -inverse_pivot_P2_y_2*w_P3_y__P2_y_2;
-    const double w_Q6_x__P2_y_2 = -arm_L7_head_x*l_Q6_x__L7_theta_2 - l_Q6_x__P2_x_2*w_P2_y__P2_x_2;
-    const double l_Q6_x__P2_y_2 = -inverse_pivot_P2_y_2*w_Q6_x__P2_y_2;
-    const double w_Q6_y__P2_y_2 = -arm_L7_head_x*l_Q6_y__L7_theta_2 + inverse_L7_mass -
-        l_Q6_y__P2_x_2*w_P2_y__P2_x_2;
-    const double l_Q6_y__P2_y_2 = -inverse_pivot_P2_y_2*w_Q6_y__P2_y_2;
-    const double w_Q8_x__P2_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_P2_y__P2_x_2;
-    const double l_Q8_x__P2_y_2 = -inverse_pivot_P2_y_2*w_Q8_x__P2_y_2;
-    const double w_Q8_y__P2_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 + inverse_L7_mass -
-        l_Q8_y__P2_x_2*w_P2_y__P2_x_2;
-    const double l_Q8_y__P2_y_2 = -inverse_pivot_P2_y_2*w_Q8_y__P2_y_2;
-    const double scale_P3_x_2 = -arm_L3_head_y*l_P3_x__L3_theta_2 - arm_L7_head_y*l_P3_x__L7_theta_2 +
-        inverse_L3_mass + inverse_L7_mass;
-    const double pivot_P3_x_2 = l_P3_x__B_x_2*w_P3_x__B_x_2 + l_P3_x__B_y_2*w_P3_x__B_y_2 +
-        l_P3_x__P2_x_2*w_P3_x__P2_x_2 + l_P3_x__P2_y_2*w_P3_x__P2_y_2 + scale_P3_x_2;
-    if (!(pivot_P3_x_2 > 1e-13 * scale_P3_x_2)) return 19;
-    const double inverse_pivot_P3_x_2 = 1.0/pivot_P3_x_2;
-    const double w_P3_y__P3_x_2 = arm_L3_head_y*l_P3_y__L3_theta_2 + arm_L7_head_y*l_P3_y__L7_theta_2 -
-        l_P3_y__B_x_2*w_P3_x__B_x_2 - l_P3_y__B_y_2*w_P3_x__B_y_2 - l_P3_y__P2_x_2*w_P3_x__P2_x_2 -
-        l_P3_y__P2_y_2*w_P3_x__P2_y_2;
-    const double l_P3_y__P3_x_2 = -inverse_pivot_P3_x_2*w_P3_y__P3_x_2;
-    const double w_Q6_x__P3_x_2 = arm_L7_head_y*l_Q6_x__L7_theta_2 + inverse_L7_mass -
-        l_Q6_x__P2_x_2*w_P3_x__P2_x_2 - l_Q6_x__P2_y_2*w_P3_x__P2_y_2;
-    const double l_Q6_x__P3_x_2 = -inverse_pivot_P3_x_2*w_Q6_x__P3_x_2;
-    const double w_Q6_y__P3_x_2 = arm_L7_head_y*l_Q6_y__L7_theta_2 - l_Q6_y__P2_x_2*w_P3_x__P2_x_2 -
-        l_Q6_y__P2_y_2*w_P3_x__P2_y_2;
-    const double l_Q6_y__P3_x_2 = -inverse_pivot_P3_x_2*w_Q6_y__P3_x_2;
-    const double w_Q8_x__P3_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_2 + inverse_L7_mass -
-        l_Q8_x__P2_x_2*w_P3_x__P2_x_2 - l_Q8_x__P2_y_2*w_P3_x__P2_y_2;
-    const double l_Q8_x__P3_x_2 = -inverse_pivot_P3_x_2*w_Q8_x__P3_x_2;
-    const double w_Q8_y__P3_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 - l_Q8_y__P2_x_2*w_P3_x__P2_x_2 -
-        l_Q8_y__P2_y_2*w_P3_x__P2_y_2;
-    const double l_Q8_y__P3_x_2 = -inverse_pivot_P3_x_2*w_Q8_y__P3_x_2;
-    const double scale_P3_y_2 = arm_L3_head_x*l_P3_y__L3_theta_2 + arm_L7_head_x*l_P3_y__L7_theta_2 +
-        inverse_L3_mass + inverse_L7_mass;
-    const double pivot_P3_y_2 = l_P3_y__B_x_2*w_P3_y__B_x_2 + l_P3_y__B_y_2*w_P3_y__B_y_2 +
-        l_P3_y__P2_x_2*w_P3_y__P2_x_2 + l_P3_y__P2_y_2*w_P3_y__P2_y_2 + l_P3_y__P3_x_2*w_P3_y__P3_x_2 +
-        scale_P3_y_2;
-    if (!(pivot_P3_y_2 > 1e-13 * scale_P3_y_2)) return 20;
-    const double inverse_pivot_P3_y_2 = 1.0/pivot_P3_y_2;
-    const double w_Q6_x__P3_y_2 = -arm_L7_head_x*l_Q6_x__L7_theta_2 - l_Q6_x__P2_x_2*w_P3_y__P2_x_2 -
-        l_Q6_x__P2_y_2*w_P3_y__P2_y_2 - l_Q6_x__P3_x_2*w_P3_y__P3_x_2;
-    const double l_Q6_x__P3_y_2 = -inverse_pivot_P3_y_2*w_Q6_x__P3_y_2;
-    const double w_Q6_y__P3_y_2 = -arm_L7_head_x*l_Q6_y__L7_theta_2 + inverse_L7_mass -
-        l_Q6_y__P2_x_2*w_P3_y__P2_x_2 - l_Q6_y__P2_y_2*w_P3_y__P2_y_2 - l_Q6_y__P3_x_2*w_P3_y__P3_x_2;
-    const double l_Q6_y__P3_y_2 = -inverse_pivot_P3_y_2*w_Q6_y__P3_y_2;
-    const double w_Q8_x__P3_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_P3_y__P2_x_2 -
-        l_Q8_x__P2_y_2*w_P3_y__P2_y_2 - l_Q8_x__P3_x_2*w_P3_y__P3_x_2;
-    const double l_Q8_x__P3_y_2 = -inverse_pivot_P3_y_2*w_Q8_x__P3_y_2;
-    const double w_Q8_y__P3_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 + inverse_L7_mass -
-        l_Q8_y__P2_x_2*w_P3_y__P2_x_2 - l_Q8_y__P2_y_2*w_P3_y__P2_y_2 - l_Q8_y__P3_x_2*w_P3_y__P3_x_2;
-    const double l_Q8_y__P3_y_2 = -inverse_pivot_P3_y_2*w_Q8_y__P3_y_2;
     const double scale_Q6_x_2 = arm_L6_head_y*l_Q6_x__L6_theta_2 - arm_L7_head_y*l_Q6_x__L7_theta_2 +
         inverse_L6_mass + inverse_L7_mass;
-    const double pivot_Q6_x_2 = l_Q6_x__O6_x_2*w_Q6_x__O6_x_2 + l_Q6_x__O6_y_2*w_Q6_x__O6_y_2 +
-        l_Q6_x__P2_x_2*w_Q6_x__P2_x_2 + l_Q6_x__P2_y_2*w_Q6_x__P2_y_2 + l_Q6_x__P3_x_2*w_Q6_x__P3_x_2 +
-        l_Q6_x__P3_y_2*w_Q6_x__P3_y_2 + scale_Q6_x_2;
-    if (!(pivot_Q6_x_2 > 1e-13 * scale_Q6_x_2)) return 21;
-    const double inverse_pivot_Q6_x_2 = 1.0/pivot_Q6_x_2;
-    const double w_Q6_y__Q6_x_2 = -arm_L6_head_y*l_Q6_y__L6_theta_2 + arm_L7_head_y*l_Q6_y__L7_theta_2 -
-        l_Q6_y__O6_x_2*w_Q6_x__O6_x_2 - l_Q6_y__O6_y_2*w_Q6_x__O6_y_2 - l_Q6_y__P2_x_2*w_Q6_x__P2_x_2 -
-        l_Q6_y__P2_y_2*w_Q6_x__P2_y_2 - l_Q6_y__P3_x_2*w_Q6_x__P3_x_2 - l_Q6_y__P3_y_2*w_Q6_x__P3_y_2;
-    const double l_Q6_y__Q6_x_2 = -inverse_pivot_Q6_x_2*w_Q6_y__Q6_x_2;
-    const double w_Q8_x__Q6_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_2 - inverse_L7_mass -
-        l_Q8_x__P2_x_2*w_Q6_x__P2_x_2 - l_Q8_x__P2_y_2*w_Q6_x__P2_y_2 - l_Q8_x__P3_x_2*w_Q6_x__P3_x_2 -
-        l_Q8_x__P3_y_2*w_Q6_x__P3_y_2;
-    const double l_Q8_x__Q6_x_2 = -inverse_pivot_Q6_x_2*w_Q8_x__Q6_x_2;
-    const double w_Q8_y__Q6_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 - l_Q8_y__P2_x_2*w_Q6_x__P2_x_2 -
-        l_Q8_y__P2_y_2*w_Q6_x__P2_y_2 - l_Q8_y__P3_x_2*w_Q6_x__P3_x_2 - l_Q8_y__P3_y_2*w_Q6_x__P3_y_2;
-    const double l_Q8_y__Q6_x_2 = -inverse_pivot_Q6_x_2*w_Q8_y__Q6_x_2;
     const double scale_Q6_y_2 = -arm_L6_head_x*l_Q6_y__L6_theta_2 + arm_L7_head_x*l_Q6_y__L7_theta_2 +
         inverse_L6_mass + inverse_L7_mass;
-    const double pivot_Q6_y_2 = l_Q6_y__O6_x_2*w_Q6_y__O6_x_2 + l_Q6_y__O6_y_2*w_Q6_y__O6_y_2 +
-        l_Q6_y__P2_x_2*w_Q6_y__P2_x_2 + l_Q6_y__P2_y_2*w_Q6_y__P2_y_2 + l_Q6_y__P3_x_2*w_Q6_y__P3_x_2 +
-        l_Q6_y__P3_y_2*w_Q6_y__P3_y_2 + l_Q6_y__Q6_x_2*w_Q6_y__Q6_x_2 + scale_Q6_y_2;
-    if (!(pivot_Q6_y_2 > 1e-13 * scale_Q6_y_2)) return 22;
-    const double inverse_pivot_Q6_y_2 = 1.0/pivot_Q6_y_2;
-    const double w_Q8_x__Q6_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_2 - l_Q8_x__P2_x_2*w_Q6_y__P2_x_2 -
-        l_Q8_x__P2_y_2*w_Q6_y__P2_y_2 - l_Q8_x__P3_x_2*w_Q6_y__P3_x_2 - l_Q8_x__P3_y_2*w_Q6_y__P3_y_2 -
-        l_Q8_x__Q6_x_2*w_Q6_y__Q6_x_2;
-    const double l_Q8_x__Q6_y_2 = -inverse_pivot_Q6_y_2*w_Q8_x__Q6_y_2;
-    const double w_Q8_y__Q6_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 - inverse_L7_mass -
-        l_Q8_y__P2_x_2*w_Q6_y__P2_x_2 - l_Q8_y__P2_y_2*w_Q6_y__P2_y_2 - l_Q8_y__P3_x_2*w_Q6_y__P3_x_2 -
-        l_Q8_y__P3_y_2*w_Q6_y__P3_y_2 - l_Q8_y__Q6_x_2*w_Q6_y__Q6_x_2;
-    const double l_Q8_y__Q6_y_2 = -inverse_pivot_Q6_y_2*w_Q8_y__Q6_y_2;
+    const double pivot_Q6_x_2 = l_Q6_x__O6_x_2*w_Q6_x__O6_x_2 + l_Q6_x__O6_y_2*w_Q6_x__O6_y_2 + scale_Q6_x_2;
+    const double pivot_Q6_y_2 = l_Q6_y__O6_x_2*w_Q6_y__O6_x_2 + l_Q6_y__O6_y_2*w_Q6_y__O6_y_2 + scale_Q6_y_2;
+    const double pivot_Q6_x__Q6_y_2 = arm_L6_head_y*l_Q6_y__L6_theta_2 - arm_L7_head_y*l_Q6_y__L7_theta_2 +
+        l_Q6_y__O6_x_2*w_Q6_x__O6_x_2 + l_Q6_y__O6_y_2*w_Q6_x__O6_y_2;
+    const double determinant_Q6_x__Q6_y_2 = pivot_Q6_x_2*pivot_Q6_y_2 - (pivot_Q6_x__Q6_y_2 *
+        pivot_Q6_x__Q6_y_2);
+    if (!(pivot_Q6_x_2 > 1e-13 * scale_Q6_x_2)) return 17;
+    if (!(determinant_Q6_x__Q6_y_2 > 1e-13 * scale_Q6_y_2 * pivot_Q6_x_2)) return 18;
+    const double inverse_Q6_x__Q6_y_2 = -1.0/determinant_Q6_x__Q6_y_2;
+    const double inverse_pivot_Q6_x_2 = inverse_Q6_x__Q6_y_2*pivot_Q6_y_2;
+    const double inverse_pivot_Q6_y_2 = inverse_Q6_x__Q6_y_2*pivot_Q6_x_2;
+    const double inverse_cross_Q6_x__Q6_y_2 = -inverse_Q6_x__Q6_y_2*pivot_Q6_x__Q6_y_2;
+    const double w_Q8_x__Q6_x_2 = arm_L7_head_y*l_Q8_x__L7_theta_2 - inverse_L7_mass;
+    const double w_Q8_x__Q6_y_2 = -arm_L7_head_x*l_Q8_x__L7_theta_2;
+    const double l_Q8_x__Q6_x_2 = inverse_cross_Q6_x__Q6_y_2*w_Q8_x__Q6_y_2 +
+        inverse_pivot_Q6_x_2*w_Q8_x__Q6_x_2;
+    const double l_Q8_x__Q6_y_2 = inverse_cross_Q6_x__Q6_y_2*w_Q8_x__Q6_x_2 +
+        inverse_pivot_Q6_y_2*w_Q8_x__Q6_y_2;
+    const double w_P2_x__Q6_x_2 = arm_L7_head_y*l_P2_x__L7_theta_2 + inverse_L7_mass;
+    const double w_P2_x__Q6_y_2 = -arm_L7_head_x*l_P2_x__L7_theta_2;
+    const double l_P2_x__Q6_x_2 = inverse_cross_Q6_x__Q6_y_2*w_P2_x__Q6_y_2 +
+        inverse_pivot_Q6_x_2*w_P2_x__Q6_x_2;
+    const double l_P2_x__Q6_y_2 = inverse_cross_Q6_x__Q6_y_2*w_P2_x__Q6_x_2 +
+        inverse_pivot_Q6_y_2*w_P2_x__Q6_y_2;
+    const double w_P2_y__Q6_x_2 = arm_L7_head_y*l_P2_y__L7_theta_2;
+    const double w_P2_y__Q6_y_2 = -arm_L7_head_x*l_P2_y__L7_theta_2 + inverse_L7_mass;
+    const double l_P2_y__Q6_x_2 = inverse_cross_Q6_x__Q6_y_2*w_P2_y__Q6_y_2 +
+        inverse_pivot_Q6_x_2*w_P2_y__Q6_x_2;
+    const double l_P2_y__Q6_y_2 = inverse_cross_Q6_x__Q6_y_2*w_P2_y__Q6_x_2 +
+        inverse_pivot_Q6_y_2*w_P2_y__Q6_y_2;
+    const double w_P3_x__Q6_x_2 = arm_L7_head_y*l_P3_x__L7_theta_2 + inverse_L7_mass;
+    const double w_P3_x__Q6_y_2 = -arm_L7_head_x*l_P3_x__L7_theta_2;
+    const double l_P3_x__Q6_x_2 = inverse_cross_Q6_x__Q6_y_2*w_P3_x__Q6_y_2 +
+        inverse_pivot_Q6_x_2*w_P3_x__Q6_x_2;
+    const double l_P3_x__Q6_y_2 = inverse_cross_Q6_x__Q6_y_2*w_P3_x__Q6_x_2 +
+        inverse_pivot_Q6_y_2*w_P3_x__Q6_y_2;
+    const double w_P3_y__Q6_x_2 = arm_L7_head_y*l_P3_y__L7_theta_2;
+    const double w_P3_y__Q6_y_2 = -arm_L7_head_x*l_P3_y__L7_theta_2 + inverse_L7_mass;
+    const double l_P3_y__Q6_x_2 = inverse_cross_Q6_x__Q6_y_2*w_P3_y__Q6_y_2 +
+        inverse_pivot_Q6_x_2*w_P3_y__Q6_x_2;
+    const double l_P3_y__Q6_y_2 = inverse_cross_Q6_x__Q6_y_2*w_P3_y__Q6_x_2 +
+        inverse_pivot_Q6_y_2*w_P3_y__Q6_y_2;
+    const double w_Q8_y__Q6_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2;
+    const double w_Q8_y__Q6_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 - inverse_L7_mass;
+    const double l_Q8_y__Q6_x_2 = inverse_cross_Q6_x__Q6_y_2*w_Q8_y__Q6_y_2 +
+        inverse_pivot_Q6_x_2*w_Q8_y__Q6_x_2;
+    const double l_Q8_y__Q6_y_2 = inverse_cross_Q6_x__Q6_y_2*w_Q8_y__Q6_x_2 +
+        inverse_pivot_Q6_y_2*w_Q8_y__Q6_y_2;
     const double scale_Q8_x_2 = -arm_L7_head_y*l_Q8_x__L7_theta_2 - arm_L8_head_y*l_Q8_x__L8_theta_2 +
         inverse_L7_mass + inverse_L8_mass;
-    const double pivot_Q8_x_2 = l_Q8_x__P2_x_2*w_Q8_x__P2_x_2 + l_Q8_x__P2_y_2*w_Q8_x__P2_y_2 +
-        l_Q8_x__P3_x_2*w_Q8_x__P3_x_2 + l_Q8_x__P3_y_2*w_Q8_x__P3_y_2 + l_Q8_x__Q6_x_2*w_Q8_x__Q6_x_2 +
-        l_Q8_x__Q6_y_2*w_Q8_x__Q6_y_2 + l_Q8_x__slider_x_2*w_Q8_x__slider_x_2 +
-        l_Q8_x__slider_y_2*w_Q8_x__slider_y_2 + scale_Q8_x_2;
-    if (!(pivot_Q8_x_2 > 1e-13 * scale_Q8_x_2)) return 23;
-    const double inverse_pivot_Q8_x_2 = 1.0/pivot_Q8_x_2;
+    const double scale_P2_x_2 = -arm_L2_head_y*l_P2_x__L2_theta_2 - arm_L7_head_y*l_P2_x__L7_theta_2 +
+        inverse_L2_mass + inverse_L7_mass;
+    const double pivot_Q8_x_2 = l_Q8_x__Q6_x_2*w_Q8_x__Q6_x_2 + l_Q8_x__Q6_y_2*w_Q8_x__Q6_y_2 +
+        l_Q8_x__slider_x_2*w_Q8_x__slider_x_2 + l_Q8_x__slider_y_2*w_Q8_x__slider_y_2 + scale_Q8_x_2;
+    const double pivot_P2_x_2 = l_P2_x__A_x_2*w_P2_x__A_x_2 + l_P2_x__A_y_2*w_P2_x__A_y_2 +
+        l_P2_x__Q6_x_2*w_P2_x__Q6_x_2 + l_P2_x__Q6_y_2*w_P2_x__Q6_y_2 + scale_P2_x_2;
+    const double pivot_Q8_x__P2_x_2 = -arm_L7_head_y*l_P2_x__L7_theta_2 - inverse_L7_mass +
+        l_P2_x__Q6_x_2*w_Q8_x__Q6_x_2 + l_P2_x__Q6_y_2*w_Q8_x__Q6_y_2;
+    const double determinant_Q8_x__P2_x_2 = pivot_P2_x_2*pivot_Q8_x_2 - (pivot_Q8_x__P2_x_2 *
+        pivot_Q8_x__P2_x_2);
+    if (!(pivot_Q8_x_2 > 1e-13 * scale_Q8_x_2)) return 19;
+    if (!(determinant_Q8_x__P2_x_2 > 1e-13 * scale_P2_x_2 * pivot_Q8_x_2)) return 20;
+    const double inverse_Q8_x__P2_x_2 = -1.0/determinant_Q8_x__P2_x_2;
+    const double inverse_pivot_Q8_x_2 = inverse_Q8_x__P2_x_2*pivot_P2_x_2;
+    const double inverse_pivot_P2_x_2 = inverse_Q8_x__P2_x_2*pivot_Q8_x_2;
+    const double inverse_cross_Q8_x__P2_x_2 = -inverse_Q8_x__P2_x_2*pivot_Q8_x__P2_x_2;
+    const double w_P2_y__Q8_x_2 = arm_L7_head_y*l_P2_y__L7_theta_2 - l_P2_y__Q6_x_2*w_Q8_x__Q6_x_2 -
+        l_P2_y__Q6_y_2*w_Q8_x__Q6_y_2;
+    const double w_P2_y__P2_x_2 = arm_L2_head_y*l_P2_y__L2_theta_2 + arm_L7_head_y*l_P2_y__L7_theta_2 -
+        l_P2_y__A_x_2*w_P2_x__A_x_2 - l_P2_y__A_y_2*w_P2_x__A_y_2 - l_P2_y__Q6_x_2*w_P2_x__Q6_x_2 -
+        l_P2_y__Q6_y_2*w_P2_x__Q6_y_2;
+    const double l_P2_y__Q8_x_2 = inverse_cross_Q8_x__P2_x_2*w_P2_y__P2_x_2 +
+        inverse_pivot_Q8_x_2*w_P2_y__Q8_x_2;
+    const double l_P2_y__P2_x_2 = inverse_cross_Q8_x__P2_x_2*w_P2_y__Q8_x_2 +
+        inverse_pivot_P2_x_2*w_P2_y__P2_x_2;
+    const double w_P3_x__Q8_x_2 = arm_L7_head_y*l_P3_x__L7_theta_2 + inverse_L7_mass -
+        l_P3_x__Q6_x_2*w_Q8_x__Q6_x_2 - l_P3_x__Q6_y_2*w_Q8_x__Q6_y_2;
+    const double w_P3_x__P2_x_2 = arm_L7_head_y*l_P3_x__L7_theta_2 - inverse_L7_mass -
+        l_P3_x__Q6_x_2*w_P2_x__Q6_x_2 - l_P3_x__Q6_y_2*w_P2_x__Q6_y_2;
+    const double l_P3_x__Q8_x_2 = inverse_cross_Q8_x__P2_x_2*w_P3_x__P2_x_2 +
+        inverse_pivot_Q8_x_2*w_P3_x__Q8_x_2;
+    const double l_P3_x__P2_x_2 = inverse_cross_Q8_x__P2_x_2*w_P3_x__Q8_x_2 +
+        inverse_pivot_P2_x_2*w_P3_x__P2_x_2;
+    const double w_P3_y__Q8_x_2 = arm_L7_head_y*l_P3_y__L7_theta_2 - l_P3_y__Q6_x_2*w_Q8_x__Q6_x_2 -
+        l_P3_y__Q6_y_2*w_Q8_x__Q6_y_2;
+    const double w_P3_y__P2_x_2 = arm_L7_head_y*l_P3_y__L7_theta_2 - l_P3_y__Q6_x_2*w_P2_x__Q6_x_2 -
+        l_P3_y__Q6_y_2*w_P2_x__Q6_y_2;
+    const double l_P3_y__Q8_x_2 = inverse_cross_Q8_x__P2_x_2*w_P3_y__P2_x_2 +
+        inverse_pivot_Q8_x_2*w_P3_y__Q8_x_2;
+    const double l_P3_y__P2_x_2 = inverse_cross_Q8_x__P2_x_2*w_P3_y__Q8_x_2 +
+        inverse_pivot_P2_x_2*w_P3_y__P2_x_2;
     const double w_Q8_y__Q8_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 + arm_L8_head_y*l_Q8_y__L8_theta_2 -
-        l_Q8_y__P2_x_2*w_Q8_x__P2_x_2 - l_Q8_y__P2_y_2*w_Q8_x__P2_y_2 - l_Q8_y__P3_x_2*w_Q8_x__P3_x_2 -
-        l_Q8_y__P3_y_2*w_Q8_x__P3_y_2 - l_Q8_y__Q6_x_2*w_Q8_x__Q6_x_2 - l_Q8_y__Q6_y_2*w_Q8_x__Q6_y_2 -
-        l_Q8_y__slider_x_2*w_Q8_x__slider_x_2 - l_Q8_y__slider_y_2*w_Q8_x__slider_y_2;
-    const double l_Q8_y__Q8_x_2 = -inverse_pivot_Q8_x_2*w_Q8_y__Q8_x_2;
+        l_Q8_y__Q6_x_2*w_Q8_x__Q6_x_2 - l_Q8_y__Q6_y_2*w_Q8_x__Q6_y_2 - l_Q8_y__slider_x_2*w_Q8_x__slider_x_2
+        - l_Q8_y__slider_y_2*w_Q8_x__slider_y_2;
+    const double w_Q8_y__P2_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 - l_Q8_y__Q6_x_2*w_P2_x__Q6_x_2 -
+        l_Q8_y__Q6_y_2*w_P2_x__Q6_y_2;
+    const double l_Q8_y__Q8_x_2 = inverse_cross_Q8_x__P2_x_2*w_Q8_y__P2_x_2 +
+        inverse_pivot_Q8_x_2*w_Q8_y__Q8_x_2;
+    const double l_Q8_y__P2_x_2 = inverse_cross_Q8_x__P2_x_2*w_Q8_y__Q8_x_2 +
+        inverse_pivot_P2_x_2*w_Q8_y__P2_x_2;
+    const double scale_P2_y_2 = arm_L2_head_x*l_P2_y__L2_theta_2 + arm_L7_head_x*l_P2_y__L7_theta_2 +
+        inverse_L2_mass + inverse_L7_mass;
+    const double scale_P3_x_2 = -arm_L3_head_y*l_P3_x__L3_theta_2 - arm_L7_head_y*l_P3_x__L7_theta_2 +
+        inverse_L3_mass + inverse_L7_mass;
+    const double pivot_P2_y_2 = l_P2_y__A_x_2*w_P2_y__A_x_2 + l_P2_y__A_y_2*w_P2_y__A_y_2 +
+        l_P2_y__P2_x_2*w_P2_y__P2_x_2 + l_P2_y__Q6_x_2*w_P2_y__Q6_x_2 + l_P2_y__Q6_y_2*w_P2_y__Q6_y_2 +
+        l_P2_y__Q8_x_2*w_P2_y__Q8_x_2 + scale_P2_y_2;
+    const double pivot_P3_x_2 = l_P3_x__B_x_2*w_P3_x__B_x_2 + l_P3_x__B_y_2*w_P3_x__B_y_2 +
+        l_P3_x__P2_x_2*w_P3_x__P2_x_2 + l_P3_x__Q6_x_2*w_P3_x__Q6_x_2 + l_P3_x__Q6_y_2*w_P3_x__Q6_y_2 +
+        l_P3_x__Q8_x_2*w_P3_x__Q8_x_2 + scale_P3_x_2;
+    const double pivot_P2_y__P3_x_2 = arm_L7_head_x*l_P3_x__L7_theta_2 + l_P3_x__P2_x_2*w_P2_y__P2_x_2 +
+        l_P3_x__Q6_x_2*w_P2_y__Q6_x_2 + l_P3_x__Q6_y_2*w_P2_y__Q6_y_2 + l_P3_x__Q8_x_2*w_P2_y__Q8_x_2;
+    const double determinant_P2_y__P3_x_2 = pivot_P2_y_2*pivot_P3_x_2 - (pivot_P2_y__P3_x_2 *
+        pivot_P2_y__P3_x_2);
+    if (!(pivot_P2_y_2 > 1e-13 * scale_P2_y_2)) return 21;
+    if (!(determinant_P2_y__P3_x_2 > 1e-13 * scale_P3_x_2 * pivot_P2_y_2)) return 22;
+    const double inverse_P2_y__P3_x_2 = -1.0/determinant_P2_y__P3_x_2;
+    const double inverse_pivot_P2_y_2 = inverse_P2_y__P3_x_2*pivot_P3_x_2;
+    const double inverse_pivot_P3_x_2 = inverse_P2_y__P3_x_2*pivot_P2_y_2;
+    const double inverse_cross_P2_y__P3_x_2 = -inverse_P2_y__P3_x_2*pivot_P2_y__P3_x_2;
+    const double w_P3_y__P2_y_2 = -arm_L7_head_x*l_P3_y__L7_theta_2 - inverse_L7_mass -
+        l_P3_y__P2_x_2*w_P2_y__P2_x_2 - l_P3_y__Q6_x_2*w_P2_y__Q6_x_2 - l_P3_y__Q6_y_2*w_P2_y__Q6_y_2 -
+        l_P3_y__Q8_x_2*w_P2_y__Q8_x_2;
+    const double w_P3_y__P3_x_2 = arm_L3_head_y*l_P3_y__L3_theta_2 + arm_L7_head_y*l_P3_y__L7_theta_2 -
+        l_P3_y__B_x_2*w_P3_x__B_x_2 - l_P3_y__B_y_2*w_P3_x__B_y_2 - l_P3_y__P2_x_2*w_P3_x__P2_x_2 -
+        l_P3_y__Q6_x_2*w_P3_x__Q6_x_2 - l_P3_y__Q6_y_2*w_P3_x__Q6_y_2 - l_P3_y__Q8_x_2*w_P3_x__Q8_x_2;
+    const double l_P3_y__P2_y_2 = inverse_cross_P2_y__P3_x_2*w_P3_y__P3_x_2 +
+        inverse_pivot_P2_y_2*w_P3_y__P2_y_2;
+    const double l_P3_y__P3_x_2 = inverse_cross_P2_y__P3_x_2*w_P3_y__P2_y_2 +
+        inverse_pivot_P3_x_2*w_P3_y__P3_x_2;
+    const double w_Q8_y__P2_y_2 = -arm_L7_head_x*l_Q8_y__L7_theta_2 + inverse_L7_mass -
+        l_Q8_y__P2_x_2*w_P2_y__P2_x_2 - l_Q8_y__Q6_x_2*w_P2_y__Q6_x_2 - l_Q8_y__Q6_y_2*w_P2_y__Q6_y_2 -
+        l_Q8_y__Q8_x_2*w_P2_y__Q8_x_2;
+    const double w_Q8_y__P3_x_2 = arm_L7_head_y*l_Q8_y__L7_theta_2 - l_Q8_y__P2_x_2*w_P3_x__P2_x_2 -
+        l_Q8_y__Q6_x_2*w_P3_x__Q6_x_2 - l_Q8_y__Q6_y_2*w_P3_x__Q6_y_2 - l_Q8_y__Q8_x_2*w_P3_x__Q8_x_2;
+    const double l_Q8_y__P2_y_2 = inverse_cross_P2_y__P3_x_2*w_Q8_y__P3_x_2 +
+        inverse_pivot_P2_y_2*w_Q8_y__P2_y_2;
+    const double l_Q8_y__P3_x_2 = inverse_cross_P2_y__P3_x_2*w_Q8_y__P2_y_2 +
+        inverse_pivot_P3_x_2*w_Q8_y__P3_x_2;
+    const double scale_P3_y_2 = arm_L3_head_x*l_P3_y__L3_theta_2 + arm_L7_head_x*l_P3_y__L7_theta_2 +
+        inverse_L3_mass + inverse_L7_mass;
     const double scale_Q8_y_2 = arm_L7_head_x*l_Q8_y__L7_theta_2 + arm_L8_head_x*l_Q8_y__L8_theta_2 +
         inverse_L7_mass + inverse_L8_mass;
+    const double pivot_P3_y_2 = l_P3_y__B_x_2*w_P3_y__B_x_2 + l_P3_y__B_y_2*w_P3_y__B_y_2 +
+        l_P3_y__P2_x_2*w_P3_y__P2_x_2 + l_P3_y__P2_y_2*w_P3_y__P2_y_2 + l_P3_y__P3_x_2*w_P3_y__P3_x_2 +
+        l_P3_y__Q6_x_2*w_P3_y__Q6_x_2 + l_P3_y__Q6_y_2*w_P3_y__Q6_y_2 + l_P3_y__Q8_x_2*w_P3_y__Q8_x_2 +
+        scale_P3_y_2;
     const double pivot_Q8_y_2 = l_Q8_y__P2_x_2*w_Q8_y__P2_x_2 + l_Q8_y__P2_y_2*w_Q8_y__P2_y_2 +
-        l_Q8_y__P3_x_2*w_Q8_y__P3_x_2 + l_Q8_y__P3_y_2*w_Q8_y__P3_y_2 + l_Q8_y__Q6_x_2*w_Q8_y__Q6_x_2 +
-        l_Q8_y__Q6_y_2*w_Q8_y__Q6_y_2 + l_Q8_y__Q8_x_2*w_Q8_y__Q8_x_2 + l_Q8_y__slider_x_2*w_Q8_y__slider_x_2
-        + l_Q8_y__slider_y_2*w_Q8_y__slider_y_2 + scale_Q8_y_2;
-    if (!(pivot_Q8_y_2 > 1e-13 * scale_Q8_y_2)) return 24;
-    const double inverse_pivot_Q8_y_2 = 1.0/pivot_Q8_y_2;
+        l_Q8_y__P3_x_2*w_Q8_y__P3_x_2 + l_Q8_y__Q6_x_2*w_Q8_y__Q6_x_2 + l_Q8_y__Q6_y_2*w_Q8_y__Q6_y_2 +
+        l_Q8_y__Q8_x_2*w_Q8_y__Q8_x_2 + l_Q8_y__slider_x_2*w_Q8_y__slider_x_2 +
+        l_Q8_y__slider_y_2*w_Q8_y__slider_y_2 + scale_Q8_y_2;
+    const double pivot_P3_y__Q8_y_2 = arm_L7_head_x*l_Q8_y__L7_theta_2 - inverse_L7_mass +
+        l_Q8_y__P2_x_2*w_P3_y__P2_x_2 + l_Q8_y__P2_y_2*w_P3_y__P2_y_2 + l_Q8_y__P3_x_2*w_P3_y__P3_x_2 +
+        l_Q8_y__Q6_x_2*w_P3_y__Q6_x_2 + l_Q8_y__Q6_y_2*w_P3_y__Q6_y_2 + l_Q8_y__Q8_x_2*w_P3_y__Q8_x_2;
+    const double determinant_P3_y__Q8_y_2 = pivot_P3_y_2*pivot_Q8_y_2 - (pivot_P3_y__Q8_y_2 *
+        pivot_P3_y__Q8_y_2);
+    if (!(pivot_P3_y_2 > 1e-13 * scale_P3_y_2)) return 23;
+    if (!(determinant_P3_y__Q8_y_2 > 1e-13 * scale_Q8_y_2 * pivot_P3_y_2)) return 24;
+    const double inverse_P3_y__Q8_y_2 = -1.0/determinant_P3_y__Q8_y_2;
+    const double inverse_pivot_P3_y_2 = inverse_P3_y__Q8_y_2*pivot_Q8_y_2;
+    const double inverse_pivot_Q8_y_2 = inverse_P3_y__Q8_y_2*pivot_P3_y_2;
+    const double inverse_cross_P3_y__Q8_y_2 = -inverse_P3_y__Q8_y_2*pivot_P3_y__Q8_y_2;
 
     /* forward substitution */
-    const double step_z_O6_y = -l_O6_y__O6_x_2*r_O6_x + r_O6_y;
     const double step_z_slider_x = -l_slider_x__guide_offset_2*r_guide_offset + r_slider_x;
-    const double step_z_slider_y = -l_slider_y__slider_x_2*step_z_slider_x + r_slider_y;
-    const double step_z_O1_y = -l_O1_y__O1_x_2*r_O1_x + r_O1_y;
-    const double step_z_crank1 = -l_crank1__O1_x_2*r_O1_x - l_crank1__O1_y_2*step_z_O1_y + r_crank1;
-    const double step_z_A_x = -l_A_x__O1_x_2*r_O1_x - l_A_x__O1_y_2*step_z_O1_y -
-        l_A_x__crank1_2*step_z_crank1 + r_A_x;
-    const double step_z_A_y = -l_A_y__A_x_2*step_z_A_x - l_A_y__O1_x_2*r_O1_x - l_A_y__O1_y_2*step_z_O1_y -
-        l_A_y__crank1_2*step_z_crank1 + r_A_y;
-    const double step_z_O4_y = -l_O4_y__O4_x_2*r_O4_x + r_O4_y;
-    const double step_z_crank4 = -l_crank4__O4_x_2*r_O4_x - l_crank4__O4_y_2*step_z_O4_y + r_crank4;
-    const double step_z_B_x = -l_B_x__O4_x_2*r_O4_x - l_B_x__O4_y_2*step_z_O4_y -
-        l_B_x__crank4_2*step_z_crank4 + r_B_x;
-    const double step_z_B_y = -l_B_y__B_x_2*step_z_B_x - l_B_y__O4_x_2*r_O4_x - l_B_y__O4_y_2*step_z_O4_y -
-        l_B_y__crank4_2*step_z_crank4 + r_B_y;
-    const double step_z_P2_x = -l_P2_x__A_x_2*step_z_A_x - l_P2_x__A_y_2*step_z_A_y + r_P2_x;
+    const double step_z_crank1 = -l_crank1__O1_x_2*r_O1_x - l_crank1__O1_y_2*r_O1_y + r_crank1;
+    const double step_z_A_x = -l_A_x__O1_x_2*r_O1_x - l_A_x__O1_y_2*r_O1_y - l_A_x__crank1_2*step_z_crank1 +
+        r_A_x;
+    const double step_z_A_y = -l_A_y__O1_x_2*r_O1_x - l_A_y__O1_y_2*r_O1_y - l_A_y__crank1_2*step_z_crank1 +
+        r_A_y;
+    const double step_z_crank4 = -l_crank4__O4_x_2*r_O4_x - l_crank4__O4_y_2*r_O4_y + r_crank4;
+    const double step_z_B_x = -l_B_x__O4_x_2*r_O4_x - l_B_x__O4_y_2*r_O4_y - l_B_x__crank4_2*step_z_crank4 +
+        r_B_x;
+    const double step_z_B_y = -l_B_y__O4_x_2*r_O4_x - l_B_y__O4_y_2*r_O4_y - l_B_y__crank4_2*step_z_crank4 +
+        r_B_y;
+    const double step_z_Q6_x = -l_Q6_x__O6_x_2*r_O6_x - l_Q6_x__O6_y_2*r_O6_y + r_Q6_x;
+    const double step_z_Q6_y = -l_Q6_y__O6_x_2*r_O6_x - l_Q6_y__O6_y_2*r_O6_y + r_Q6_y;
+    const double step_z_Q8_x = -l_Q8_x__Q6_x_2*step_z_Q6_x - l_Q8_x__Q6_y_2*step_z_Q6_y -
+        l_Q8_x__slider_x_2*step_z_slider_x - l_Q8_x__slider_y_2*r_slider_y + r_Q8_x;
+    const double step_z_P2_x = -l_P2_x__A_x_2*step_z_A_x - l_P2_x__A_y_2*step_z_A_y -
+        l_P2_x__Q6_x_2*step_z_Q6_x - l_P2_x__Q6_y_2*step_z_Q6_y + r_P2_x;
     const double step_z_P2_y = -l_P2_y__A_x_2*step_z_A_x - l_P2_y__A_y_2*step_z_A_y -
-        l_P2_y__P2_x_2*step_z_P2_x + r_P2_y;
+        l_P2_y__P2_x_2*step_z_P2_x - l_P2_y__Q6_x_2*step_z_Q6_x - l_P2_y__Q6_y_2*step_z_Q6_y -
+        l_P2_y__Q8_x_2*step_z_Q8_x + r_P2_y;
     const double step_z_P3_x = -l_P3_x__B_x_2*step_z_B_x - l_P3_x__B_y_2*step_z_B_y -
-        l_P3_x__P2_x_2*step_z_P2_x - l_P3_x__P2_y_2*step_z_P2_y + r_P3_x;
+        l_P3_x__P2_x_2*step_z_P2_x - l_P3_x__Q6_x_2*step_z_Q6_x - l_P3_x__Q6_y_2*step_z_Q6_y -
+        l_P3_x__Q8_x_2*step_z_Q8_x + r_P3_x;
     const double step_z_P3_y = -l_P3_y__B_x_2*step_z_B_x - l_P3_y__B_y_2*step_z_B_y -
-        l_P3_y__P2_x_2*step_z_P2_x - l_P3_y__P2_y_2*step_z_P2_y - l_P3_y__P3_x_2*step_z_P3_x + r_P3_y;
-    const double step_z_Q6_x = -l_Q6_x__O6_x_2*r_O6_x - l_Q6_x__O6_y_2*step_z_O6_y -
-        l_Q6_x__P2_x_2*step_z_P2_x - l_Q6_x__P2_y_2*step_z_P2_y - l_Q6_x__P3_x_2*step_z_P3_x -
-        l_Q6_x__P3_y_2*step_z_P3_y + r_Q6_x;
-    const double step_z_Q6_y = -l_Q6_y__O6_x_2*r_O6_x - l_Q6_y__O6_y_2*step_z_O6_y -
-        l_Q6_y__P2_x_2*step_z_P2_x - l_Q6_y__P2_y_2*step_z_P2_y - l_Q6_y__P3_x_2*step_z_P3_x -
-        l_Q6_y__P3_y_2*step_z_P3_y - l_Q6_y__Q6_x_2*step_z_Q6_x + r_Q6_y;
-    const double step_z_Q8_x = -l_Q8_x__P2_x_2*step_z_P2_x - l_Q8_x__P2_y_2*step_z_P2_y -
-        l_Q8_x__P3_x_2*step_z_P3_x - l_Q8_x__P3_y_2*step_z_P3_y - l_Q8_x__Q6_x_2*step_z_Q6_x -
-        l_Q8_x__Q6_y_2*step_z_Q6_y - l_Q8_x__slider_x_2*step_z_slider_x - l_Q8_x__slider_y_2*step_z_slider_y +
-        r_Q8_x;
+        l_P3_y__P2_x_2*step_z_P2_x - l_P3_y__P2_y_2*step_z_P2_y - l_P3_y__P3_x_2*step_z_P3_x -
+        l_P3_y__Q6_x_2*step_z_Q6_x - l_P3_y__Q6_y_2*step_z_Q6_y - l_P3_y__Q8_x_2*step_z_Q8_x + r_P3_y;
     const double step_z_Q8_y = -l_Q8_y__P2_x_2*step_z_P2_x - l_Q8_y__P2_y_2*step_z_P2_y -
-        l_Q8_y__P3_x_2*step_z_P3_x - l_Q8_y__P3_y_2*step_z_P3_y - l_Q8_y__Q6_x_2*step_z_Q6_x -
-        l_Q8_y__Q6_y_2*step_z_Q6_y - l_Q8_y__Q8_x_2*step_z_Q8_x - l_Q8_y__slider_x_2*step_z_slider_x -
-        l_Q8_y__slider_y_2*step_z_slider_y + r_Q8_y;
+        l_Q8_y__P3_x_2*step_z_P3_x - l_Q8_y__Q6_x_2*step_z_Q6_x - l_Q8_y__Q6_y_2*step_z_Q6_y -
+        l_Q8_y__Q8_x_2*step_z_Q8_x - l_Q8_y__slider_x_2*step_z_slider_x - l_Q8_y__slider_y_2*r_slider_y +
+        r_Q8_y;
 
     /* backward substitution */
-    const double step_lambda_Q8_y = -inverse_pivot_Q8_y_2*step_z_Q8_y;
-    const double step_lambda_Q8_x = -inverse_pivot_Q8_x_2*step_z_Q8_x - l_Q8_y__Q8_x_2*step_lambda_Q8_y;
-    const double step_lambda_Q6_y = -inverse_pivot_Q6_y_2*step_z_Q6_y - l_Q8_x__Q6_y_2*step_lambda_Q8_x -
-        l_Q8_y__Q6_y_2*step_lambda_Q8_y;
-    const double step_lambda_Q6_x = -inverse_pivot_Q6_x_2*step_z_Q6_x - l_Q6_y__Q6_x_2*step_lambda_Q6_y -
-        l_Q8_x__Q6_x_2*step_lambda_Q8_x - l_Q8_y__Q6_x_2*step_lambda_Q8_y;
-    const double step_lambda_P3_y = -inverse_pivot_P3_y_2*step_z_P3_y - l_Q6_x__P3_y_2*step_lambda_Q6_x -
-        l_Q6_y__P3_y_2*step_lambda_Q6_y - l_Q8_x__P3_y_2*step_lambda_Q8_x - l_Q8_y__P3_y_2*step_lambda_Q8_y;
-    const double step_lambda_P3_x = -inverse_pivot_P3_x_2*step_z_P3_x - l_P3_y__P3_x_2*step_lambda_P3_y -
-        l_Q6_x__P3_x_2*step_lambda_Q6_x - l_Q6_y__P3_x_2*step_lambda_Q6_y - l_Q8_x__P3_x_2*step_lambda_Q8_x -
-        l_Q8_y__P3_x_2*step_lambda_Q8_y;
-    const double step_lambda_P2_y = -inverse_pivot_P2_y_2*step_z_P2_y - l_P3_x__P2_y_2*step_lambda_P3_x -
-        l_P3_y__P2_y_2*step_lambda_P3_y - l_Q6_x__P2_y_2*step_lambda_Q6_x - l_Q6_y__P2_y_2*step_lambda_Q6_y -
-        l_Q8_x__P2_y_2*step_lambda_Q8_x - l_Q8_y__P2_y_2*step_lambda_Q8_y;
-    const double step_lambda_P2_x = -inverse_pivot_P2_x_2*step_z_P2_x - l_P2_y__P2_x_2*step_lambda_P2_y -
-        l_P3_x__P2_x_2*step_lambda_P3_x - l_P3_y__P2_x_2*step_lambda_P3_y - l_Q6_x__P2_x_2*step_lambda_Q6_x -
-        l_Q6_y__P2_x_2*step_lambda_Q6_y - l_Q8_x__P2_x_2*step_lambda_Q8_x - l_Q8_y__P2_x_2*step_lambda_Q8_y;
+    const double step_lambda_Q8_y = inverse_cross_P3_y__Q8_y_2*step_z_P3_y + inverse_pivot_Q8_y_2*step_z_Q8_y;
+    const double step_lambda_P3_y = inverse_cross_P3_y__Q8_y_2*step_z_Q8_y + inverse_pivot_P3_y_2*step_z_P3_y;
+    const double step_lambda_P3_x = inverse_cross_P2_y__P3_x_2*step_z_P2_y + inverse_pivot_P3_x_2*step_z_P3_x
+        - l_P3_y__P3_x_2*step_lambda_P3_y - l_Q8_y__P3_x_2*step_lambda_Q8_y;
+    const double step_lambda_P2_y = inverse_cross_P2_y__P3_x_2*step_z_P3_x + inverse_pivot_P2_y_2*step_z_P2_y
+        - l_P3_y__P2_y_2*step_lambda_P3_y - l_Q8_y__P2_y_2*step_lambda_Q8_y;
+    const double step_lambda_P2_x = inverse_cross_Q8_x__P2_x_2*step_z_Q8_x + inverse_pivot_P2_x_2*step_z_P2_x
+        - l_P2_y__P2_x_2*step_lambda_P2_y - l_P3_x__P2_x_2*step_lambda_P3_x - l_P3_y__P2_x_2*step_lambda_P3_y
+        - l_Q8_y__P2_x_2*step_lambda_Q8_y;
+    const double step_lambda_Q8_x = inverse_cross_Q8_x__P2_x_2*step_z_P2_x + inverse_pivot_Q8_x_2*step_z_Q8_x
+        - l_P2_y__Q8_x_2*step_lambda_P2_y - l_P3_x__Q8_x_2*step_lambda_P3_x - l_P3_y__Q8_x_2*step_lambda_P3_y
+        - l_Q8_y__Q8_x_2*step_lambda_Q8_y;
+    const double step_lambda_Q6_y = inverse_cross_Q6_x__Q6_y_2*step_z_Q6_x + inverse_pivot_Q6_y_2*step_z_Q6_y
+        - l_P2_x__Q6_y_2*step_lambda_P2_x - l_P2_y__Q6_y_2*step_lambda_P2_y - l_P3_x__Q6_y_2*step_lambda_P3_x
+        - l_P3_y__Q6_y_2*step_lambda_P3_y - l_Q8_x__Q6_y_2*step_lambda_Q8_x - l_Q8_y__Q6_y_2*step_lambda_Q8_y;
+    const double step_lambda_Q6_x = inverse_cross_Q6_x__Q6_y_2*step_z_Q6_y + inverse_pivot_Q6_x_2*step_z_Q6_x
+        - l_P2_x__Q6_x_2*step_lambda_P2_x - l_P2_y__Q6_x_2*step_lambda_P2_y - l_P3_x__Q6_x_2*step_lambda_P3_x
+        - l_P3_y__Q6_x_2*step_lambda_P3_y - l_Q8_x__Q6_x_2*step_lambda_Q8_x - l_Q8_y__Q6_x_2*step_lambda_Q8_y;
     const double step_acceleration_L7_theta = -l_P2_x__L7_theta_2*step_lambda_P2_x -
         l_P2_y__L7_theta_2*step_lambda_P2_y - l_P3_x__L7_theta_2*step_lambda_P3_x -
         l_P3_y__L7_theta_2*step_lambda_P3_y - l_Q6_x__L7_theta_2*step_lambda_Q6_x -
         l_Q6_y__L7_theta_2*step_lambda_Q6_y - l_Q8_x__L7_theta_2*step_lambda_Q8_x -
         l_Q8_y__L7_theta_2*step_lambda_Q8_y;
-    const double step_lambda_B_y = -inverse_pivot_B_y_2*step_z_B_y - l_P3_x__B_y_2*step_lambda_P3_x -
-        l_P3_y__B_y_2*step_lambda_P3_y;
-    const double step_lambda_B_x = -inverse_pivot_B_x_2*step_z_B_x - l_B_y__B_x_2*step_lambda_B_y -
+    const double step_lambda_B_y = inverse_cross_B_x__B_y_2*step_z_B_x + inverse_pivot_B_y_2*step_z_B_y -
+        l_P3_x__B_y_2*step_lambda_P3_x - l_P3_y__B_y_2*step_lambda_P3_y;
+    const double step_lambda_B_x = inverse_cross_B_x__B_y_2*step_z_B_y + inverse_pivot_B_x_2*step_z_B_x -
         l_P3_x__B_x_2*step_lambda_P3_x - l_P3_y__B_x_2*step_lambda_P3_y;
     const double step_lambda_crank4 = -inverse_pivot_crank4_2*step_z_crank4 - l_B_x__crank4_2*step_lambda_B_x
         - l_B_y__crank4_2*step_lambda_B_y;
-    const double step_lambda_O4_y = -inverse_pivot_O4_y_2*step_z_O4_y - l_B_x__O4_y_2*step_lambda_B_x -
-        l_B_y__O4_y_2*step_lambda_B_y - l_crank4__O4_y_2*step_lambda_crank4;
-    const double step_lambda_O4_x = -inverse_pivot_O4_x_2*r_O4_x - l_B_x__O4_x_2*step_lambda_B_x -
-        l_B_y__O4_x_2*step_lambda_B_y - l_O4_y__O4_x_2*step_lambda_O4_y - l_crank4__O4_x_2*step_lambda_crank4;
+    const double step_lambda_O4_y = inverse_cross_O4_x__O4_y_2*r_O4_x + inverse_pivot_O4_y_2*r_O4_y -
+        l_B_x__O4_y_2*step_lambda_B_x - l_B_y__O4_y_2*step_lambda_B_y - l_crank4__O4_y_2*step_lambda_crank4;
+    const double step_lambda_O4_x = inverse_cross_O4_x__O4_y_2*r_O4_y + inverse_pivot_O4_x_2*r_O4_x -
+        l_B_x__O4_x_2*step_lambda_B_x - l_B_y__O4_x_2*step_lambda_B_y - l_crank4__O4_x_2*step_lambda_crank4;
     const double step_acceleration_L4_theta = -inverse_L4_inertia*step_lambda_crank4 -
         l_B_x__L4_theta_2*step_lambda_B_x - l_B_y__L4_theta_2*step_lambda_B_y -
         l_O4_x__L4_theta_2*step_lambda_O4_x - l_O4_y__L4_theta_2*step_lambda_O4_y;
-    const double step_lambda_A_y = -inverse_pivot_A_y_2*step_z_A_y - l_P2_x__A_y_2*step_lambda_P2_x -
-        l_P2_y__A_y_2*step_lambda_P2_y;
-    const double step_lambda_A_x = -inverse_pivot_A_x_2*step_z_A_x - l_A_y__A_x_2*step_lambda_A_y -
+    const double step_lambda_A_y = inverse_cross_A_x__A_y_2*step_z_A_x + inverse_pivot_A_y_2*step_z_A_y -
+        l_P2_x__A_y_2*step_lambda_P2_x - l_P2_y__A_y_2*step_lambda_P2_y;
+    const double step_lambda_A_x = inverse_cross_A_x__A_y_2*step_z_A_y + inverse_pivot_A_x_2*step_z_A_x -
         l_P2_x__A_x_2*step_lambda_P2_x - l_P2_y__A_x_2*step_lambda_P2_y;
     const double step_lambda_crank1 = -inverse_pivot_crank1_2*step_z_crank1 - l_A_x__crank1_2*step_lambda_A_x
         - l_A_y__crank1_2*step_lambda_A_y;
-    const double step_lambda_O1_y = -inverse_pivot_O1_y_2*step_z_O1_y - l_A_x__O1_y_2*step_lambda_A_x -
-        l_A_y__O1_y_2*step_lambda_A_y - l_crank1__O1_y_2*step_lambda_crank1;
-    const double step_lambda_O1_x = -inverse_pivot_O1_x_2*r_O1_x - l_A_x__O1_x_2*step_lambda_A_x -
-        l_A_y__O1_x_2*step_lambda_A_y - l_O1_y__O1_x_2*step_lambda_O1_y - l_crank1__O1_x_2*step_lambda_crank1;
+    const double step_lambda_O1_y = inverse_cross_O1_x__O1_y_2*r_O1_x + inverse_pivot_O1_y_2*r_O1_y -
+        l_A_x__O1_y_2*step_lambda_A_x - l_A_y__O1_y_2*step_lambda_A_y - l_crank1__O1_y_2*step_lambda_crank1;
+    const double step_lambda_O1_x = inverse_cross_O1_x__O1_y_2*r_O1_y + inverse_pivot_O1_x_2*r_O1_x -
+        l_A_x__O1_x_2*step_lambda_A_x - l_A_y__O1_x_2*step_lambda_A_y - l_crank1__O1_x_2*step_lambda_crank1;
     const double step_acceleration_L1_theta = -inverse_L1_inertia*step_lambda_crank1 -
         l_A_x__L1_theta_2*step_lambda_A_x - l_A_y__L1_theta_2*step_lambda_A_y -
         l_O1_x__L1_theta_2*step_lambda_O1_x - l_O1_y__L1_theta_2*step_lambda_O1_y;
-    const double step_lambda_slider_y = -inverse_pivot_slider_y_2*step_z_slider_y -
-        l_Q8_x__slider_y_2*step_lambda_Q8_x - l_Q8_y__slider_y_2*step_lambda_Q8_y;
-    const double step_lambda_slider_x = -inverse_pivot_slider_x_2*step_z_slider_x -
-        l_Q8_x__slider_x_2*step_lambda_Q8_x - l_Q8_y__slider_x_2*step_lambda_Q8_y -
-        l_slider_y__slider_x_2*step_lambda_slider_y;
-    const double step_acceleration_L8_theta = -l_Q8_x__L8_theta_2*step_lambda_Q8_x -
-        l_Q8_y__L8_theta_2*step_lambda_Q8_y - l_slider_x__L8_theta_2*step_lambda_slider_x -
-        l_slider_y__L8_theta_2*step_lambda_slider_y;
     const double step_acceleration_L7_y = inverse_L7_mass*step_lambda_P2_y + inverse_L7_mass*step_lambda_P3_y
         - inverse_L7_mass*step_lambda_Q6_y - inverse_L7_mass*step_lambda_Q8_y;
     const double step_acceleration_L7_x = inverse_L7_mass*step_lambda_P2_x + inverse_L7_mass*step_lambda_P3_x
         - inverse_L7_mass*step_lambda_Q6_x - inverse_L7_mass*step_lambda_Q8_x;
-    const double step_lambda_O6_y = -inverse_pivot_O6_y_2*step_z_O6_y - l_Q6_x__O6_y_2*step_lambda_Q6_x -
-        l_Q6_y__O6_y_2*step_lambda_Q6_y;
-    const double step_lambda_O6_x = -inverse_pivot_O6_x_2*r_O6_x - l_O6_y__O6_x_2*step_lambda_O6_y -
+    const double step_lambda_slider_x = inverse_cross_slider_y__slider_x_2*r_slider_y +
+        inverse_pivot_slider_x_2*step_z_slider_x - l_Q8_x__slider_x_2*step_lambda_Q8_x -
+        l_Q8_y__slider_x_2*step_lambda_Q8_y;
+    const double step_lambda_slider_y = inverse_cross_slider_y__slider_x_2*step_z_slider_x +
+        inverse_pivot_slider_y_2*r_slider_y - l_Q8_x__slider_y_2*step_lambda_Q8_x -
+        l_Q8_y__slider_y_2*step_lambda_Q8_y;
+    const double step_acceleration_L8_theta = -l_Q8_x__L8_theta_2*step_lambda_Q8_x -
+        l_Q8_y__L8_theta_2*step_lambda_Q8_y - l_slider_x__L8_theta_2*step_lambda_slider_x -
+        l_slider_y__L8_theta_2*step_lambda_slider_y;
+    const double step_lambda_O6_y = inverse_cross_O6_x__O6_y_2*r_O6_x + inverse_pivot_O6_y_2*r_O6_y -
+        l_Q6_x__O6_y_2*step_lambda_Q6_x - l_Q6_y__O6_y_2*step_lambda_Q6_y;
+    const double step_lambda_O6_x = inverse_cross_O6_x__O6_y_2*r_O6_y + inverse_pivot_O6_x_2*r_O6_x -
         l_Q6_x__O6_x_2*step_lambda_Q6_x - l_Q6_y__O6_x_2*step_lambda_Q6_y;
     const double step_acceleration_L6_theta = -l_O6_x__L6_theta_2*step_lambda_O6_x -
         l_O6_y__L6_theta_2*step_lambda_O6_y - l_Q6_x__L6_theta_2*step_lambda_Q6_x -

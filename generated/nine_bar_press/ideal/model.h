@@ -18,14 +18,17 @@ enum {
     N_CLEARANCES = 0,        /* joints with play */
     N_FRICTIONS = 0,         /* slips that friction may hold */
     N_SWITCHES = 0,          /* corners of min, max, abs and sign */
+    N_USER_EVENTS = 0,      /* expressions whose zeros are watched */
     N_SERIES = 0,            /* results of force elements */
     N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
-    N_X = N_Q,                /* coordinates that are integrated */
+    N_S = 2 * N_Q + N_WORK,   /* state of all bodies: q, v, works */
+    N_X = 5,                  /* coordinates that are integrated */
+    N_LOOPS = 5,              /* constraint rows of these */
     N_Y = 2 * N_X + N_WORK
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double omega;  /* parameters.omega */    double omega4;  /* parameters.omega4 */    double l5;  /* parameters.l5 */    double c;  /* parameters.c */    double L1_mass;  /* bodies.L1.mass */    double L1_inertia;  /* bodies.L1.inertia */    double L2_mass;  /* bodies.L2.mass */    double L2_inertia;  /* bodies.L2.inertia */    double L3_mass;  /* bodies.L3.mass */    double L3_inertia;  /* bodies.L3.inertia */    double L4_mass;  /* bodies.L4.mass */    double L4_inertia;  /* bodies.L4.inertia */    double L6_mass;  /* bodies.L6.mass */    double L6_inertia;  /* bodies.L6.inertia */    double L7_mass;  /* bodies.L7.mass */    double L7_inertia;  /* bodies.L7.inertia */    double L8_mass;  /* bodies.L8.mass */    double L8_inertia;  /* bodies.L8.inertia */    double S9_mass;  /* bodies.S9.mass */    double S9_inertia;  /* bodies.S9.inertia */    double L1_length;  /* bodies.L1.length */    double L2_length;  /* bodies.L2.length */    double L3_length;  /* bodies.L3.length */    double L4_length;  /* bodies.L4.length */    double L6_length;  /* bodies.L6.length */    double L7_length;  /* bodies.L7.length */    double L8_length;  /* bodies.L8.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O4_y;  /* ground.O4.y */    double O6_x;  /* ground.O6.x */    double guide_axis_y;  /* joints.guide.axis.y */    double par_y;  /* gravity.y */    double guess_L2_theta;  /* start.guess.L2.theta */    double guess_L3_theta;  /* start.guess.L3.theta */    double guess_L6_theta;  /* start.guess.L6.theta */    double guess_L7_theta;  /* start.guess.L7.theta */    double guess_L8_theta;  /* start.guess.L8.theta */    double L1_head_x;  /* point from the centre of mass */    double L2_head_x;  /* point from the centre of mass */    double L3_head_x;  /* point from the centre of mass */    double L4_head_x;  /* point from the centre of mass */    double L6_head_x;  /* point from the centre of mass */    double L7_head_x;  /* point from the centre of mass */    double L8_head_x;  /* point from the centre of mass */    double weight_L1_y;  /* weight */    double weight_L2_y;  /* weight */    double weight_L3_y;  /* weight */    double weight_L4_y;  /* weight */    double weight_L6_y;  /* weight */    double weight_L7_y;  /* weight */    double weight_L8_y;  /* weight */    double weight_S9_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_S9_mass;  /* 1/M */    double inverse_S9_inertia;  /* 1/M */    double inverse_L1_mass;  /* 1/M */    double inverse_L2_mass;  /* 1/M */    double inverse_L3_mass;  /* 1/M */    double inverse_L4_mass;  /* 1/M */    double inverse_L6_mass;  /* 1/M */    double inverse_L8_mass;  /* 1/M */    double inverse_L2_inertia;  /* 1/M */    double inverse_L3_inertia;  /* 1/M */    double inverse_L6_inertia;  /* 1/M */    double inverse_L7_mass;  /* 1/M */    double inverse_L8_inertia;  /* 1/M */    double inverse_L1_inertia;  /* 1/M */    double inverse_L4_inertia;  /* 1/M */    double inverse_L7_inertia;  /* 1/M */} Parameters;
+typedef struct {    double omega;  /* parameters.omega */    double omega4;  /* parameters.omega4 */    double l5;  /* parameters.l5 */    double c;  /* parameters.c */    double L1_mass;  /* bodies.L1.mass */    double L1_inertia;  /* bodies.L1.inertia */    double L2_mass;  /* bodies.L2.mass */    double L2_inertia;  /* bodies.L2.inertia */    double L3_mass;  /* bodies.L3.mass */    double L3_inertia;  /* bodies.L3.inertia */    double L4_mass;  /* bodies.L4.mass */    double L4_inertia;  /* bodies.L4.inertia */    double L6_mass;  /* bodies.L6.mass */    double L6_inertia;  /* bodies.L6.inertia */    double L7_mass;  /* bodies.L7.mass */    double L7_inertia;  /* bodies.L7.inertia */    double L8_mass;  /* bodies.L8.mass */    double L8_inertia;  /* bodies.L8.inertia */    double S9_mass;  /* bodies.S9.mass */    double S9_inertia;  /* bodies.S9.inertia */    double L1_length;  /* bodies.L1.length */    double L2_length;  /* bodies.L2.length */    double L3_length;  /* bodies.L3.length */    double L4_length;  /* bodies.L4.length */    double L6_length;  /* bodies.L6.length */    double L7_length;  /* bodies.L7.length */    double L8_length;  /* bodies.L8.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O4_y;  /* ground.O4.y */    double O6_x;  /* ground.O6.x */    double guide_axis_y;  /* joints.guide.axis.y */    double par_y;  /* gravity.y */    double guess_L2_theta;  /* start.guess.L2.theta */    double guess_L3_theta;  /* start.guess.L3.theta */    double guess_L6_theta;  /* start.guess.L6.theta */    double guess_L7_theta;  /* start.guess.L7.theta */    double guess_L8_theta;  /* start.guess.L8.theta */    double L1_head_x;  /* point from the centre of mass */    double L2_head_x;  /* point from the centre of mass */    double L3_head_x;  /* point from the centre of mass */    double L4_head_x;  /* point from the centre of mass */    double L6_head_x;  /* point from the centre of mass */    double L7_head_x;  /* point from the centre of mass */    double L8_head_x;  /* point from the centre of mass */    double weight_L1_y;  /* weight */    double weight_L2_y;  /* weight */    double weight_L3_y;  /* weight */    double weight_L4_y;  /* weight */    double weight_L6_y;  /* weight */    double weight_L7_y;  /* weight */    double weight_L8_y;  /* weight */    double weight_S9_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_S9_mass;  /* 1/M */    double inverse_S9_inertia;  /* 1/M */    double inverse_L1_mass;  /* 1/M */    double inverse_L2_mass;  /* 1/M */    double inverse_L3_mass;  /* 1/M */    double inverse_L4_mass;  /* 1/M */    double inverse_L6_mass;  /* 1/M */    double inverse_L8_mass;  /* 1/M */    double inverse_L2_inertia;  /* 1/M */    double inverse_L3_inertia;  /* 1/M */    double inverse_L6_inertia;  /* 1/M */    double inverse_L8_inertia;  /* 1/M */    double inverse_L7_mass;  /* 1/M */    double inverse_L1_inertia;  /* 1/M */    double inverse_L4_inertia;  /* 1/M */    double inverse_L7_inertia;  /* 1/M */    double L1_head_span_x;  /* vector in its frame */    double L4_head_span_x;  /* vector in its frame */    double L6_head_span_x;  /* vector in its frame */    double L7_com_span_x;  /* vector in its frame */    double L8_head_span_x;  /* vector in its frame */    double L2_head_span_x;  /* vector in its frame */    double L3_head_span_x;  /* vector in its frame */    double L7_tail_span_x;  /* vector in its frame */    double inertia_L1_L1;  /* sum of m w.w */    double inertia_L1_L2;  /* sum of m w.w */    double inertia_L2_L2;  /* sum of m w.w */    double inertia_L4_L4;  /* sum of m w.w */    double inertia_L4_L3;  /* sum of m w.w */    double inertia_L3_L3;  /* sum of m w.w */    double inertia_L6_L6;  /* sum of m w.w */    double inertia_L6_L7;  /* sum of m w.w */    double inertia_L7_L7;  /* sum of m w.w */    double inertia_L6_L8;  /* sum of m w.w */    double inertia_L8_L8;  /* sum of m w.w */    double mass_crank1_crank1;  /* constant of M */    double mass_L2_L2;  /* constant of M */    double mass_crank4_crank4;  /* constant of M */    double mass_L3_L3;  /* constant of M */    double mass_L6_L6;  /* constant of M */    double mass_L7_L7;  /* constant of M */    double mass_L8_L8;  /* constant of M */    double weight_L1__across;  /* weight */    double weight_L2__across;  /* weight */    double weight_L4__across;  /* weight */    double weight_L3__across;  /* weight */    double weight_L6__across;  /* weight */    double weight_L7__across;  /* weight */    double weight_L8__across;  /* weight */    double inverse_mass_L3_L3;  /* 1/M */    double inverse_mass_L8_L8;  /* 1/M */    double inverse_mass_L7_L7;  /* 1/M */    double inverse_mass_L2_L2;  /* 1/M */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -42,6 +45,7 @@ typedef struct {
     Latch latch[1];
     double mode[1];
     double side[1];
+    signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
 } Memory;
 
@@ -72,7 +76,24 @@ typedef struct {
     Clearance clearance[1];
     Friction friction[1];
     double g[1]; /* switching functions; NaN: does not act */
+    double event[1]; /* values of the expressions that are watched */
 } Aside;
+
+/* The expressions that are watched: which way they are to cross zero (1 rising, -1 falling, 0 both), and what then. */
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+
+/*
+ * Whether expression i, seen last on `side` of zero (1 or -1; 0: nowhere yet), has crossed to `value`; `side` is
+ * where it is then. A zero itself lies on neither side.
+ */
+static inline int event_crosses(int i, signed char *side, double value)
+{
+    const int from = *side, to = (value > 0.0) - (value < 0.0);
+    if (to)
+        *side = (signed char)to;
+    return from * to < 0 && event_direction[i] * to >= 0;
+}
 
 /* min, max, sign that keep a NaN in x. */
 static inline double max_of(double x, double y) { return x < y ? y : x; }

@@ -296,18 +296,19 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_O1_x__L1_theta = -arm_L1_head_y*inverse_L1_inertia;
     const double l_O1_y__L1_theta = arm_L1_head_x*inverse_L1_inertia;
     const double scale_O1_x = -arm_L1_head_y*l_O1_x__L1_theta + inverse_L1_mass;
-    if (!(scale_O1_x > 1e-08 * scale_O1_x)) { pivot = 3; goto dependent; };
-    const double inverse_pivot_O1_x = 1.0/scale_O1_x;
-    const double w_O1_y__O1_x = arm_L1_head_y*l_O1_y__L1_theta;
-    const double l_O1_y__O1_x = -inverse_pivot_O1_x*w_O1_y__O1_x;
-    const double w_crank1__O1_x = arm_L1_head_y*inverse_L1_inertia;
-    const double l_crank1__O1_x = -inverse_pivot_O1_x*w_crank1__O1_x;
     const double scale_O1_y = arm_L1_head_x*l_O1_y__L1_theta + inverse_L1_mass;
-    const double pivot_O1_y = l_O1_y__O1_x*w_O1_y__O1_x + scale_O1_y;
-    if (!(pivot_O1_y > 1e-08 * scale_O1_y)) { pivot = 4; goto dependent; };
-    const double inverse_pivot_O1_y = 1.0/pivot_O1_y;
-    const double w_crank1__O1_y = -arm_L1_head_x*inverse_L1_inertia - l_crank1__O1_x*w_O1_y__O1_x;
-    const double l_crank1__O1_y = -inverse_pivot_O1_y*w_crank1__O1_y;
+    const double pivot_O1_x__O1_y = -arm_L1_head_y*l_O1_y__L1_theta;
+    const double determinant_O1_x__O1_y = -(pivot_O1_x__O1_y * pivot_O1_x__O1_y) + scale_O1_x*scale_O1_y;
+    if (!(scale_O1_x > 1e-08 * scale_O1_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_O1_x__O1_y > 1e-08 * scale_O1_y * scale_O1_x)) { pivot = 4; goto dependent; };
+    const double inverse_O1_x__O1_y = -1.0/determinant_O1_x__O1_y;
+    const double inverse_pivot_O1_x = inverse_O1_x__O1_y*scale_O1_y;
+    const double inverse_pivot_O1_y = inverse_O1_x__O1_y*scale_O1_x;
+    const double inverse_cross_O1_x__O1_y = -inverse_O1_x__O1_y*pivot_O1_x__O1_y;
+    const double w_crank1__O1_x = arm_L1_head_y*inverse_L1_inertia;
+    const double w_crank1__O1_y = -arm_L1_head_x*inverse_L1_inertia;
+    const double l_crank1__O1_x = inverse_cross_O1_x__O1_y*w_crank1__O1_y + inverse_pivot_O1_x*w_crank1__O1_x;
+    const double l_crank1__O1_y = inverse_cross_O1_x__O1_y*w_crank1__O1_x + inverse_pivot_O1_y*w_crank1__O1_y;
     const double scale_crank1 = inverse_L1_inertia;
     const double pivot_crank1 = l_crank1__O1_x*w_crank1__O1_x + l_crank1__O1_y*w_crank1__O1_y + scale_crank1;
     if (!(pivot_crank1 > 1e-08 * scale_crank1)) { pivot = 5; goto dependent; };
@@ -315,18 +316,19 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_O4_x__L4_theta = -arm_L4_head_y*inverse_L4_inertia;
     const double l_O4_y__L4_theta = arm_L4_head_x*inverse_L4_inertia;
     const double scale_O4_x = -arm_L4_head_y*l_O4_x__L4_theta + inverse_L4_mass;
-    if (!(scale_O4_x > 1e-08 * scale_O4_x)) { pivot = 6; goto dependent; };
-    const double inverse_pivot_O4_x = 1.0/scale_O4_x;
-    const double w_O4_y__O4_x = arm_L4_head_y*l_O4_y__L4_theta;
-    const double l_O4_y__O4_x = -inverse_pivot_O4_x*w_O4_y__O4_x;
-    const double w_crank4__O4_x = arm_L4_head_y*inverse_L4_inertia;
-    const double l_crank4__O4_x = -inverse_pivot_O4_x*w_crank4__O4_x;
     const double scale_O4_y = arm_L4_head_x*l_O4_y__L4_theta + inverse_L4_mass;
-    const double pivot_O4_y = l_O4_y__O4_x*w_O4_y__O4_x + scale_O4_y;
-    if (!(pivot_O4_y > 1e-08 * scale_O4_y)) { pivot = 7; goto dependent; };
-    const double inverse_pivot_O4_y = 1.0/pivot_O4_y;
-    const double w_crank4__O4_y = -arm_L4_head_x*inverse_L4_inertia - l_crank4__O4_x*w_O4_y__O4_x;
-    const double l_crank4__O4_y = -inverse_pivot_O4_y*w_crank4__O4_y;
+    const double pivot_O4_x__O4_y = -arm_L4_head_y*l_O4_y__L4_theta;
+    const double determinant_O4_x__O4_y = -(pivot_O4_x__O4_y * pivot_O4_x__O4_y) + scale_O4_x*scale_O4_y;
+    if (!(scale_O4_x > 1e-08 * scale_O4_x)) { pivot = 6; goto dependent; };
+    if (!(determinant_O4_x__O4_y > 1e-08 * scale_O4_y * scale_O4_x)) { pivot = 7; goto dependent; };
+    const double inverse_O4_x__O4_y = -1.0/determinant_O4_x__O4_y;
+    const double inverse_pivot_O4_x = inverse_O4_x__O4_y*scale_O4_y;
+    const double inverse_pivot_O4_y = inverse_O4_x__O4_y*scale_O4_x;
+    const double inverse_cross_O4_x__O4_y = -inverse_O4_x__O4_y*pivot_O4_x__O4_y;
+    const double w_crank4__O4_x = arm_L4_head_y*inverse_L4_inertia;
+    const double w_crank4__O4_y = -arm_L4_head_x*inverse_L4_inertia;
+    const double l_crank4__O4_x = inverse_cross_O4_x__O4_y*w_crank4__O4_y + inverse_pivot_O4_x*w_crank4__O4_x;
+    const double l_crank4__O4_y = inverse_cross_O4_x__O4_y*w_crank4__O4_x + inverse_pivot_O4_y*w_crank4__O4_y;
     const double scale_crank4 = inverse_L4_inertia;
     const double pivot_crank4 = l_crank4__O4_x*w_crank4__O4_x + l_crank4__O4_y*w_crank4__O4_y + scale_crank4;
     if (!(pivot_crank4 > 1e-08 * scale_crank4)) { pivot = 8; goto dependent; };
@@ -336,45 +338,51 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_Q6_x__L6_theta = arm_L6_head_y*inverse_L6_inertia;
     const double l_Q6_y__L6_theta = -arm_L6_head_x*inverse_L6_inertia;
     const double scale_O6_x = -arm_L6_head_y*l_O6_x__L6_theta + inverse_L6_mass;
-    if (!(scale_O6_x > 1e-08 * scale_O6_x)) { pivot = 9; goto dependent; };
-    const double inverse_pivot_O6_x = 1.0/scale_O6_x;
-    const double w_O6_y__O6_x = arm_L6_head_y*l_O6_y__L6_theta;
-    const double l_O6_y__O6_x = -inverse_pivot_O6_x*w_O6_y__O6_x;
-    const double w_Q6_x__O6_x = arm_L6_head_y*l_Q6_x__L6_theta - inverse_L6_mass;
-    const double l_Q6_x__O6_x = -inverse_pivot_O6_x*w_Q6_x__O6_x;
-    const double w_Q6_y__O6_x = arm_L6_head_y*l_Q6_y__L6_theta;
-    const double l_Q6_y__O6_x = -inverse_pivot_O6_x*w_Q6_y__O6_x;
     const double scale_O6_y = arm_L6_head_x*l_O6_y__L6_theta + inverse_L6_mass;
-    const double pivot_O6_y = l_O6_y__O6_x*w_O6_y__O6_x + scale_O6_y;
-    if (!(pivot_O6_y > 1e-08 * scale_O6_y)) { pivot = 10; goto dependent; };
-    const double inverse_pivot_O6_y = 1.0/pivot_O6_y;
-    const double w_Q6_x__O6_y = -arm_L6_head_x*l_Q6_x__L6_theta - l_Q6_x__O6_x*w_O6_y__O6_x;
-    const double l_Q6_x__O6_y = -inverse_pivot_O6_y*w_Q6_x__O6_y;
-    const double w_Q6_y__O6_y = -arm_L6_head_x*l_Q6_y__L6_theta - inverse_L6_mass - l_Q6_y__O6_x*w_O6_y__O6_x;
-    const double l_Q6_y__O6_y = -inverse_pivot_O6_y*w_Q6_y__O6_y;
+    const double pivot_O6_x__O6_y = -arm_L6_head_y*l_O6_y__L6_theta;
+    const double determinant_O6_x__O6_y = -(pivot_O6_x__O6_y * pivot_O6_x__O6_y) + scale_O6_x*scale_O6_y;
+    if (!(scale_O6_x > 1e-08 * scale_O6_x)) { pivot = 9; goto dependent; };
+    if (!(determinant_O6_x__O6_y > 1e-08 * scale_O6_y * scale_O6_x)) { pivot = 10; goto dependent; };
+    const double inverse_O6_x__O6_y = -1.0/determinant_O6_x__O6_y;
+    const double inverse_pivot_O6_x = inverse_O6_x__O6_y*scale_O6_y;
+    const double inverse_pivot_O6_y = inverse_O6_x__O6_y*scale_O6_x;
+    const double inverse_cross_O6_x__O6_y = -inverse_O6_x__O6_y*pivot_O6_x__O6_y;
+    const double w_Q6_x__O6_x = arm_L6_head_y*l_Q6_x__L6_theta - inverse_L6_mass;
+    const double w_Q6_x__O6_y = -arm_L6_head_x*l_Q6_x__L6_theta;
+    const double l_Q6_x__O6_x = inverse_cross_O6_x__O6_y*w_Q6_x__O6_y + inverse_pivot_O6_x*w_Q6_x__O6_x;
+    const double l_Q6_x__O6_y = inverse_cross_O6_x__O6_y*w_Q6_x__O6_x + inverse_pivot_O6_y*w_Q6_x__O6_y;
+    const double w_Q6_y__O6_x = arm_L6_head_y*l_Q6_y__L6_theta;
+    const double w_Q6_y__O6_y = -arm_L6_head_x*l_Q6_y__L6_theta - inverse_L6_mass;
+    const double l_Q6_y__O6_x = inverse_cross_O6_x__O6_y*w_Q6_y__O6_y + inverse_pivot_O6_x*w_Q6_y__O6_x;
+    const double l_Q6_y__O6_y = inverse_cross_O6_x__O6_y*w_Q6_y__O6_x + inverse_pivot_O6_y*w_Q6_y__O6_y;
     const double l_slider_x__L8_theta = -arm_L8_head_y*inverse_L8_inertia;
     const double l_slider_y__L8_theta = arm_L8_head_x*inverse_L8_inertia;
     const double l_Q8_x__L8_theta = -arm_L8_head_y*inverse_L8_inertia;
     const double l_Q8_y__L8_theta = arm_L8_head_x*inverse_L8_inertia;
     const double scale_slider_x = -arm_L8_head_y*l_slider_x__L8_theta + inverse_L8_mass + inverse_S9_mass;
-    const double pivot_slider_x = -inverse_S9_mass*l_slider_x__guide_offset + scale_slider_x;
-    if (!(pivot_slider_x > 1e-08 * scale_slider_x)) { pivot = 11; goto dependent; };
-    const double inverse_pivot_slider_x = 1.0/pivot_slider_x;
-    const double w_slider_y__slider_x = arm_L8_head_y*l_slider_y__L8_theta;
-    const double l_slider_y__slider_x = -inverse_pivot_slider_x*w_slider_y__slider_x;
-    const double w_Q8_x__slider_x = arm_L8_head_y*l_Q8_x__L8_theta + inverse_L8_mass;
-    const double l_Q8_x__slider_x = -inverse_pivot_slider_x*w_Q8_x__slider_x;
-    const double w_Q8_y__slider_x = arm_L8_head_y*l_Q8_y__L8_theta;
-    const double l_Q8_y__slider_x = -inverse_pivot_slider_x*w_Q8_y__slider_x;
     const double scale_slider_y = arm_L8_head_x*l_slider_y__L8_theta + inverse_L8_mass + inverse_S9_mass;
-    const double pivot_slider_y = l_slider_y__slider_x*w_slider_y__slider_x + scale_slider_y;
-    if (!(pivot_slider_y > 1e-08 * scale_slider_y)) { pivot = 12; goto dependent; };
-    const double inverse_pivot_slider_y = 1.0/pivot_slider_y;
-    const double w_Q8_x__slider_y = -arm_L8_head_x*l_Q8_x__L8_theta - l_Q8_x__slider_x*w_slider_y__slider_x;
-    const double l_Q8_x__slider_y = -inverse_pivot_slider_y*w_Q8_x__slider_y;
-    const double w_Q8_y__slider_y = -arm_L8_head_x*l_Q8_y__L8_theta + inverse_L8_mass -
-        l_Q8_y__slider_x*w_slider_y__slider_x;
-    const double l_Q8_y__slider_y = -inverse_pivot_slider_y*w_Q8_y__slider_y;
+    const double pivot_slider_x = -inverse_S9_mass*l_slider_x__guide_offset + scale_slider_x;
+    const double pivot_slider_x__slider_y = -arm_L8_head_y*l_slider_y__L8_theta;
+    const double determinant_slider_x__slider_y = pivot_slider_x*scale_slider_y - (pivot_slider_x__slider_y *
+        pivot_slider_x__slider_y);
+    if (!(pivot_slider_x > 1e-08 * scale_slider_x)) { pivot = 11; goto dependent; };
+    if (!(determinant_slider_x__slider_y > 1e-08 * scale_slider_y * pivot_slider_x)) { pivot = 12; goto dependent; };
+    const double inverse_slider_x__slider_y = -1.0/determinant_slider_x__slider_y;
+    const double inverse_pivot_slider_x = inverse_slider_x__slider_y*scale_slider_y;
+    const double inverse_pivot_slider_y = inverse_slider_x__slider_y*pivot_slider_x;
+    const double inverse_cross_slider_x__slider_y = -inverse_slider_x__slider_y*pivot_slider_x__slider_y;
+    const double w_Q8_x__slider_x = arm_L8_head_y*l_Q8_x__L8_theta + inverse_L8_mass;
+    const double w_Q8_x__slider_y = -arm_L8_head_x*l_Q8_x__L8_theta;
+    const double l_Q8_x__slider_x = inverse_cross_slider_x__slider_y*w_Q8_x__slider_y +
+        inverse_pivot_slider_x*w_Q8_x__slider_x;
+    const double l_Q8_x__slider_y = inverse_cross_slider_x__slider_y*w_Q8_x__slider_x +
+        inverse_pivot_slider_y*w_Q8_x__slider_y;
+    const double w_Q8_y__slider_x = arm_L8_head_y*l_Q8_y__L8_theta;
+    const double w_Q8_y__slider_y = -arm_L8_head_x*l_Q8_y__L8_theta + inverse_L8_mass;
+    const double l_Q8_y__slider_x = inverse_cross_slider_x__slider_y*w_Q8_y__slider_y +
+        inverse_pivot_slider_x*w_Q8_y__slider_x;
+    const double l_Q8_y__slider_y = inverse_cross_slider_x__slider_y*w_Q8_y__slider_x +
+        inverse_pivot_slider_y*w_Q8_y__slider_y;
     const double l_P2_x__L7_theta = -arm_L7_head_y*inverse_L7_inertia;
     const double l_P2_y__L7_theta = arm_L7_head_x*inverse_L7_inertia;
     const double l_P3_x__L7_theta = -arm_L7_head_y*inverse_L7_inertia;
@@ -385,130 +393,134 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_Q8_y__L7_theta = arm_L7_head_x*inverse_L7_inertia;
     const double scale_P2_x = -arm_L2_head_y*l_P2_x__L2_theta - arm_L7_head_y*l_P2_x__L7_theta +
         inverse_L2_mass + inverse_L7_mass;
-    if (!(scale_P2_x > 1e-08 * scale_P2_x)) { pivot = 13; goto dependent; };
-    const double inverse_pivot_P2_x = 1.0/scale_P2_x;
-    const double w_P2_y__P2_x = arm_L2_head_y*l_P2_y__L2_theta + arm_L7_head_y*l_P2_y__L7_theta;
-    const double l_P2_y__P2_x = -inverse_pivot_P2_x*w_P2_y__P2_x;
-    const double w_P3_x__P2_x = arm_L7_head_y*l_P3_x__L7_theta - inverse_L7_mass;
-    const double l_P3_x__P2_x = -inverse_pivot_P2_x*w_P3_x__P2_x;
-    const double w_P3_y__P2_x = arm_L7_head_y*l_P3_y__L7_theta;
-    const double l_P3_y__P2_x = -inverse_pivot_P2_x*w_P3_y__P2_x;
-    const double w_Q6_x__P2_x = arm_L7_head_y*l_Q6_x__L7_theta + inverse_L7_mass;
-    const double l_Q6_x__P2_x = -inverse_pivot_P2_x*w_Q6_x__P2_x;
-    const double w_Q6_y__P2_x = arm_L7_head_y*l_Q6_y__L7_theta;
-    const double l_Q6_y__P2_x = -inverse_pivot_P2_x*w_Q6_y__P2_x;
-    const double w_Q8_x__P2_x = arm_L7_head_y*l_Q8_x__L7_theta + inverse_L7_mass;
-    const double l_Q8_x__P2_x = -inverse_pivot_P2_x*w_Q8_x__P2_x;
-    const double w_Q8_y__P2_x = arm_L7_head_y*l_Q8_y__L7_theta;
-    const double l_Q8_y__P2_x = -inverse_pivot_P2_x*w_Q8_y__P2_x;
     const double scale_P2_y = arm_L2_head_x*l_P2_y__L2_theta + arm_L7_head_x*l_P2_y__L7_theta +
         inverse_L2_mass + inverse_L7_mass;
-    const double pivot_P2_y = l_P2_y__P2_x*w_P2_y__P2_x + scale_P2_y;
-    if (!(pivot_P2_y > 1e-08 * scale_P2_y)) { pivot = 14; goto dependent; };
-    const double inverse_pivot_P2_y = 1.0/pivot_P2_y;
-    const double w_P3_x__P2_y = -arm_L7_head_x*l_P3_x__L7_theta - l_P3_x__P2_x*w_P2_y__P2_x;
-    const double l_P3_x__P2_y = -inverse_pivot_P2_y*w_P3_x__P2_y;
-    const double w_P3_y__P2_y = -arm_L7_head_x*l_P3_y__L7_theta - inverse_L7_mass - l_P3_y__P2_x*w_P2_y__P2_x;
-    const double l_P3_y__P2_y = -inverse_pivot_P2_y*w_P3_y__P2_y;
-    const double w_Q6_x__P2_y = -arm_L7_head_x*l_Q6_x__L7_theta - l_Q6_x__P2_x*w_P2_y__P2_x;
-    const double l_Q6_x__P2_y = -inverse_pivot_P2_y*w_Q6_x__P2_y;
-    const double w_Q6_y__P2_y = -arm_L7_head_x*l_Q6_y__L7_theta + inverse_L7_mass - l_Q6_y__P2_x*w_P2_y__P2_x;
-    const double l_Q6_y__P2_y = -inverse_pivot_P2_y*w_Q6_y__P2_y;
-    const double w_Q8_x__P2_y = -arm_L7_head_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_P2_y__P2_x;
-    const double l_Q8_x__P2_y = -inverse_pivot_P2_y*w_Q8_x__P2_y;
-    const double w_Q8_y__P2_y = -arm_L7_head_x*l_Q8_y__L7_theta + inverse_L7_mass - l_Q8_y__P2_x*w_P2_y__P2_x;
-    const double l_Q8_y__P2_y = -inverse_pivot_P2_y*w_Q8_y__P2_y;
+    const double pivot_P2_x__P2_y = -arm_L2_head_y*l_P2_y__L2_theta - arm_L7_head_y*l_P2_y__L7_theta;
+    const double determinant_P2_x__P2_y = -(pivot_P2_x__P2_y * pivot_P2_x__P2_y) + scale_P2_x*scale_P2_y;
+    if (!(scale_P2_x > 1e-08 * scale_P2_x)) { pivot = 13; goto dependent; };
+    if (!(determinant_P2_x__P2_y > 1e-08 * scale_P2_y * scale_P2_x)) { pivot = 14; goto dependent; };
+    const double inverse_P2_x__P2_y = -1.0/determinant_P2_x__P2_y;
+    const double inverse_pivot_P2_x = inverse_P2_x__P2_y*scale_P2_y;
+    const double inverse_pivot_P2_y = inverse_P2_x__P2_y*scale_P2_x;
+    const double inverse_cross_P2_x__P2_y = -inverse_P2_x__P2_y*pivot_P2_x__P2_y;
+    const double w_P3_x__P2_x = arm_L7_head_y*l_P3_x__L7_theta - inverse_L7_mass;
+    const double w_P3_x__P2_y = -arm_L7_head_x*l_P3_x__L7_theta;
+    const double l_P3_x__P2_x = inverse_cross_P2_x__P2_y*w_P3_x__P2_y + inverse_pivot_P2_x*w_P3_x__P2_x;
+    const double l_P3_x__P2_y = inverse_cross_P2_x__P2_y*w_P3_x__P2_x + inverse_pivot_P2_y*w_P3_x__P2_y;
+    const double w_P3_y__P2_x = arm_L7_head_y*l_P3_y__L7_theta;
+    const double w_P3_y__P2_y = -arm_L7_head_x*l_P3_y__L7_theta - inverse_L7_mass;
+    const double l_P3_y__P2_x = inverse_cross_P2_x__P2_y*w_P3_y__P2_y + inverse_pivot_P2_x*w_P3_y__P2_x;
+    const double l_P3_y__P2_y = inverse_cross_P2_x__P2_y*w_P3_y__P2_x + inverse_pivot_P2_y*w_P3_y__P2_y;
+    const double w_Q6_x__P2_x = arm_L7_head_y*l_Q6_x__L7_theta + inverse_L7_mass;
+    const double w_Q6_x__P2_y = -arm_L7_head_x*l_Q6_x__L7_theta;
+    const double l_Q6_x__P2_x = inverse_cross_P2_x__P2_y*w_Q6_x__P2_y + inverse_pivot_P2_x*w_Q6_x__P2_x;
+    const double l_Q6_x__P2_y = inverse_cross_P2_x__P2_y*w_Q6_x__P2_x + inverse_pivot_P2_y*w_Q6_x__P2_y;
+    const double w_Q6_y__P2_x = arm_L7_head_y*l_Q6_y__L7_theta;
+    const double w_Q6_y__P2_y = -arm_L7_head_x*l_Q6_y__L7_theta + inverse_L7_mass;
+    const double l_Q6_y__P2_x = inverse_cross_P2_x__P2_y*w_Q6_y__P2_y + inverse_pivot_P2_x*w_Q6_y__P2_x;
+    const double l_Q6_y__P2_y = inverse_cross_P2_x__P2_y*w_Q6_y__P2_x + inverse_pivot_P2_y*w_Q6_y__P2_y;
+    const double w_Q8_x__P2_x = arm_L7_head_y*l_Q8_x__L7_theta + inverse_L7_mass;
+    const double w_Q8_x__P2_y = -arm_L7_head_x*l_Q8_x__L7_theta;
+    const double l_Q8_x__P2_x = inverse_cross_P2_x__P2_y*w_Q8_x__P2_y + inverse_pivot_P2_x*w_Q8_x__P2_x;
+    const double l_Q8_x__P2_y = inverse_cross_P2_x__P2_y*w_Q8_x__P2_x + inverse_pivot_P2_y*w_Q8_x__P2_y;
+    const double w_Q8_y__P2_x = arm_L7_head_y*l_Q8_y__L7_theta;
+    const double w_Q8_y__P2_y = -arm_L7_head_x*l_Q8_y__L7_theta + inverse_L7_mass;
+    const double l_Q8_y__P2_x = inverse_cross_P2_x__P2_y*w_Q8_y__P2_y + inverse_pivot_P2_x*w_Q8_y__P2_x;
+    const double l_Q8_y__P2_y = inverse_cross_P2_x__P2_y*w_Q8_y__P2_x + inverse_pivot_P2_y*w_Q8_y__P2_y;
     const double scale_P3_x = -arm_L3_head_y*l_P3_x__L3_theta - arm_L7_head_y*l_P3_x__L7_theta +
         inverse_L3_mass + inverse_L7_mass;
-    const double pivot_P3_x = l_P3_x__P2_x*w_P3_x__P2_x + l_P3_x__P2_y*w_P3_x__P2_y + scale_P3_x;
-    if (!(pivot_P3_x > 1e-08 * scale_P3_x)) { pivot = 15; goto dependent; };
-    const double inverse_pivot_P3_x = 1.0/pivot_P3_x;
-    const double w_P3_y__P3_x = arm_L3_head_y*l_P3_y__L3_theta + arm_L7_head_y*l_P3_y__L7_theta -
-        l_P3_y__P2_x*w_P3_x__P2_x - l_P3_y__P2_y*w_P3_x__P2_y;
-    const double l_P3_y__P3_x = -inverse_pivot_P3_x*w_P3_y__P3_x;
-    const double w_Q6_x__P3_x = arm_L7_head_y*l_Q6_x__L7_theta + inverse_L7_mass - l_Q6_x__P2_x*w_P3_x__P2_x -
-        l_Q6_x__P2_y*w_P3_x__P2_y;
-    const double l_Q6_x__P3_x = -inverse_pivot_P3_x*w_Q6_x__P3_x;
-    const double w_Q6_y__P3_x = arm_L7_head_y*l_Q6_y__L7_theta - l_Q6_y__P2_x*w_P3_x__P2_x -
-        l_Q6_y__P2_y*w_P3_x__P2_y;
-    const double l_Q6_y__P3_x = -inverse_pivot_P3_x*w_Q6_y__P3_x;
-    const double w_Q8_x__P3_x = arm_L7_head_y*l_Q8_x__L7_theta + inverse_L7_mass - l_Q8_x__P2_x*w_P3_x__P2_x -
-        l_Q8_x__P2_y*w_P3_x__P2_y;
-    const double l_Q8_x__P3_x = -inverse_pivot_P3_x*w_Q8_x__P3_x;
-    const double w_Q8_y__P3_x = arm_L7_head_y*l_Q8_y__L7_theta - l_Q8_y__P2_x*w_P3_x__P2_x -
-        l_Q8_y__P2_y*w_P3_x__P2_y;
-    const double l_Q8_y__P3_x = -inverse_pivot_P3_x*w_Q8_y__P3_x;
     const double scale_P3_y = arm_L3_head_x*l_P3_y__L3_theta + arm_L7_head_x*l_P3_y__L7_theta +
         inverse_L3_mass + inverse_L7_mass;
-    const double pivot_P3_y = l_P3_y__P2_x*w_P3_y__P2_x + l_P3_y__P2_y*w_P3_y__P2_y +
-        l_P3_y__P3_x*w_P3_y__P3_x + scale_P3_y;
-    if (!(pivot_P3_y > 1e-08 * scale_P3_y)) { pivot = 16; goto dependent; };
-    const double inverse_pivot_P3_y = 1.0/pivot_P3_y;
+    const double pivot_P3_x = l_P3_x__P2_x*w_P3_x__P2_x + l_P3_x__P2_y*w_P3_x__P2_y + scale_P3_x;
+    const double pivot_P3_y = l_P3_y__P2_x*w_P3_y__P2_x + l_P3_y__P2_y*w_P3_y__P2_y + scale_P3_y;
+    const double pivot_P3_x__P3_y = -arm_L3_head_y*l_P3_y__L3_theta - arm_L7_head_y*l_P3_y__L7_theta +
+        l_P3_y__P2_x*w_P3_x__P2_x + l_P3_y__P2_y*w_P3_x__P2_y;
+    const double determinant_P3_x__P3_y = pivot_P3_x*pivot_P3_y - (pivot_P3_x__P3_y * pivot_P3_x__P3_y);
+    if (!(pivot_P3_x > 1e-08 * scale_P3_x)) { pivot = 15; goto dependent; };
+    if (!(determinant_P3_x__P3_y > 1e-08 * scale_P3_y * pivot_P3_x)) { pivot = 16; goto dependent; };
+    const double inverse_P3_x__P3_y = -1.0/determinant_P3_x__P3_y;
+    const double inverse_pivot_P3_x = inverse_P3_x__P3_y*pivot_P3_y;
+    const double inverse_pivot_P3_y = inverse_P3_x__P3_y*pivot_P3_x;
+    const double inverse_cross_P3_x__P3_y = -inverse_P3_x__P3_y*pivot_P3_x__P3_y;
+    const double w_Q6_x__P3_x = arm_L7_head_y*l_Q6_x__L7_theta + inverse_L7_mass - l_Q6_x__P2_x*w_P3_x__P2_x -
+        l_Q6_x__P2_y*w_P3_x__P2_y;
     const double w_Q6_x__P3_y = -arm_L7_head_x*l_Q6_x__L7_theta - l_Q6_x__P2_x*w_P3_y__P2_x -
-        l_Q6_x__P2_y*w_P3_y__P2_y - l_Q6_x__P3_x*w_P3_y__P3_x;
-    const double l_Q6_x__P3_y = -inverse_pivot_P3_y*w_Q6_x__P3_y;
+        l_Q6_x__P2_y*w_P3_y__P2_y;
+    const double l_Q6_x__P3_x = inverse_cross_P3_x__P3_y*w_Q6_x__P3_y + inverse_pivot_P3_x*w_Q6_x__P3_x;
+    const double l_Q6_x__P3_y = inverse_cross_P3_x__P3_y*w_Q6_x__P3_x + inverse_pivot_P3_y*w_Q6_x__P3_y;
+    const double w_Q6_y__P3_x = arm_L7_head_y*l_Q6_y__L7_theta - l_Q6_y__P2_x*w_P3_x__P2_x -
+        l_Q6_y__P2_y*w_P3_x__P2_y;
     const double w_Q6_y__P3_y = -arm_L7_head_x*l_Q6_y__L7_theta + inverse_L7_mass - l_Q6_y__P2_x*w_P3_y__P2_x
-        - l_Q6_y__P2_y*w_P3_y__P2_y - l_Q6_y__P3_x*w_P3_y__P3_x;
-    const double l_Q6_y__P3_y = -inverse_pivot_P3_y*w_Q6_y__P3_y;
+        - l_Q6_y__P2_y*w_P3_y__P2_y;
+    const double l_Q6_y__P3_x = inverse_cross_P3_x__P3_y*w_Q6_y__P3_y + inverse_pivot_P3_x*w_Q6_y__P3_x;
+    const double l_Q6_y__P3_y = inverse_cross_P3_x__P3_y*w_Q6_y__P3_x + inverse_pivot_P3_y*w_Q6_y__P3_y;
+    const double w_Q8_x__P3_x = arm_L7_head_y*l_Q8_x__L7_theta + inverse_L7_mass - l_Q8_x__P2_x*w_P3_x__P2_x -
+        l_Q8_x__P2_y*w_P3_x__P2_y;
     const double w_Q8_x__P3_y = -arm_L7_head_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_P3_y__P2_x -
-        l_Q8_x__P2_y*w_P3_y__P2_y - l_Q8_x__P3_x*w_P3_y__P3_x;
-    const double l_Q8_x__P3_y = -inverse_pivot_P3_y*w_Q8_x__P3_y;
+        l_Q8_x__P2_y*w_P3_y__P2_y;
+    const double l_Q8_x__P3_x = inverse_cross_P3_x__P3_y*w_Q8_x__P3_y + inverse_pivot_P3_x*w_Q8_x__P3_x;
+    const double l_Q8_x__P3_y = inverse_cross_P3_x__P3_y*w_Q8_x__P3_x + inverse_pivot_P3_y*w_Q8_x__P3_y;
+    const double w_Q8_y__P3_x = arm_L7_head_y*l_Q8_y__L7_theta - l_Q8_y__P2_x*w_P3_x__P2_x -
+        l_Q8_y__P2_y*w_P3_x__P2_y;
     const double w_Q8_y__P3_y = -arm_L7_head_x*l_Q8_y__L7_theta + inverse_L7_mass - l_Q8_y__P2_x*w_P3_y__P2_x
-        - l_Q8_y__P2_y*w_P3_y__P2_y - l_Q8_y__P3_x*w_P3_y__P3_x;
-    const double l_Q8_y__P3_y = -inverse_pivot_P3_y*w_Q8_y__P3_y;
+        - l_Q8_y__P2_y*w_P3_y__P2_y;
+    const double l_Q8_y__P3_x = inverse_cross_P3_x__P3_y*w_Q8_y__P3_y + inverse_pivot_P3_x*w_Q8_y__P3_x;
+    const double l_Q8_y__P3_y = inverse_cross_P3_x__P3_y*w_Q8_y__P3_x + inverse_pivot_P3_y*w_Q8_y__P3_y;
     const double scale_Q6_x = arm_L6_head_y*l_Q6_x__L6_theta - arm_L7_head_y*l_Q6_x__L7_theta +
+        inverse_L6_mass + inverse_L7_mass;
+    const double scale_Q6_y = -arm_L6_head_x*l_Q6_y__L6_theta + arm_L7_head_x*l_Q6_y__L7_theta +
         inverse_L6_mass + inverse_L7_mass;
     const double pivot_Q6_x = l_Q6_x__O6_x*w_Q6_x__O6_x + l_Q6_x__O6_y*w_Q6_x__O6_y +
         l_Q6_x__P2_x*w_Q6_x__P2_x + l_Q6_x__P2_y*w_Q6_x__P2_y + l_Q6_x__P3_x*w_Q6_x__P3_x +
         l_Q6_x__P3_y*w_Q6_x__P3_y + scale_Q6_x;
-    if (!(pivot_Q6_x > 1e-08 * scale_Q6_x)) { pivot = 17; goto dependent; };
-    const double inverse_pivot_Q6_x = 1.0/pivot_Q6_x;
-    const double w_Q6_y__Q6_x = -arm_L6_head_y*l_Q6_y__L6_theta + arm_L7_head_y*l_Q6_y__L7_theta -
-        l_Q6_y__O6_x*w_Q6_x__O6_x - l_Q6_y__O6_y*w_Q6_x__O6_y - l_Q6_y__P2_x*w_Q6_x__P2_x -
-        l_Q6_y__P2_y*w_Q6_x__P2_y - l_Q6_y__P3_x*w_Q6_x__P3_x - l_Q6_y__P3_y*w_Q6_x__P3_y;
-    const double l_Q6_y__Q6_x = -inverse_pivot_Q6_x*w_Q6_y__Q6_x;
-    const double w_Q8_x__Q6_x = arm_L7_head_y*l_Q8_x__L7_theta - inverse_L7_mass - l_Q8_x__P2_x*w_Q6_x__P2_x -
-        l_Q8_x__P2_y*w_Q6_x__P2_y - l_Q8_x__P3_x*w_Q6_x__P3_x - l_Q8_x__P3_y*w_Q6_x__P3_y;
-    const double l_Q8_x__Q6_x = -inverse_pivot_Q6_x*w_Q8_x__Q6_x;
-    const double w_Q8_y__Q6_x = arm_L7_head_y*l_Q8_y__L7_theta - l_Q8_y__P2_x*w_Q6_x__P2_x -
-        l_Q8_y__P2_y*w_Q6_x__P2_y - l_Q8_y__P3_x*w_Q6_x__P3_x - l_Q8_y__P3_y*w_Q6_x__P3_y;
-    const double l_Q8_y__Q6_x = -inverse_pivot_Q6_x*w_Q8_y__Q6_x;
-    const double scale_Q6_y = -arm_L6_head_x*l_Q6_y__L6_theta + arm_L7_head_x*l_Q6_y__L7_theta +
-        inverse_L6_mass + inverse_L7_mass;
     const double pivot_Q6_y = l_Q6_y__O6_x*w_Q6_y__O6_x + l_Q6_y__O6_y*w_Q6_y__O6_y +
         l_Q6_y__P2_x*w_Q6_y__P2_x + l_Q6_y__P2_y*w_Q6_y__P2_y + l_Q6_y__P3_x*w_Q6_y__P3_x +
-        l_Q6_y__P3_y*w_Q6_y__P3_y + l_Q6_y__Q6_x*w_Q6_y__Q6_x + scale_Q6_y;
-    if (!(pivot_Q6_y > 1e-08 * scale_Q6_y)) { pivot = 18; goto dependent; };
-    const double inverse_pivot_Q6_y = 1.0/pivot_Q6_y;
+        l_Q6_y__P3_y*w_Q6_y__P3_y + scale_Q6_y;
+    const double pivot_Q6_x__Q6_y = arm_L6_head_y*l_Q6_y__L6_theta - arm_L7_head_y*l_Q6_y__L7_theta +
+        l_Q6_y__O6_x*w_Q6_x__O6_x + l_Q6_y__O6_y*w_Q6_x__O6_y + l_Q6_y__P2_x*w_Q6_x__P2_x +
+        l_Q6_y__P2_y*w_Q6_x__P2_y + l_Q6_y__P3_x*w_Q6_x__P3_x + l_Q6_y__P3_y*w_Q6_x__P3_y;
+    const double determinant_Q6_x__Q6_y = pivot_Q6_x*pivot_Q6_y - (pivot_Q6_x__Q6_y * pivot_Q6_x__Q6_y);
+    if (!(pivot_Q6_x > 1e-08 * scale_Q6_x)) { pivot = 17; goto dependent; };
+    if (!(determinant_Q6_x__Q6_y > 1e-08 * scale_Q6_y * pivot_Q6_x)) { pivot = 18; goto dependent; };
+    const double inverse_Q6_x__Q6_y = -1.0/determinant_Q6_x__Q6_y;
+    const double inverse_pivot_Q6_x = inverse_Q6_x__Q6_y*pivot_Q6_y;
+    const double inverse_pivot_Q6_y = inverse_Q6_x__Q6_y*pivot_Q6_x;
+    const double inverse_cross_Q6_x__Q6_y = -inverse_Q6_x__Q6_y*pivot_Q6_x__Q6_y;
+    const double w_Q8_x__Q6_x = arm_L7_head_y*l_Q8_x__L7_theta - inverse_L7_mass - l_Q8_x__P2_x*w_Q6_x__P2_x -
+        l_Q8_x__P2_y*w_Q6_x__P2_y - l_Q8_x__P3_x*w_Q6_x__P3_x - l_Q8_x__P3_y*w_Q6_x__P3_y;
     const double w_Q8_x__Q6_y = -arm_L7_head_x*l_Q8_x__L7_theta - l_Q8_x__P2_x*w_Q6_y__P2_x -
-        l_Q8_x__P2_y*w_Q6_y__P2_y - l_Q8_x__P3_x*w_Q6_y__P3_x - l_Q8_x__P3_y*w_Q6_y__P3_y -
-        l_Q8_x__Q6_x*w_Q6_y__Q6_x;
-    const double l_Q8_x__Q6_y = -inverse_pivot_Q6_y*w_Q8_x__Q6_y;
+        l_Q8_x__P2_y*w_Q6_y__P2_y - l_Q8_x__P3_x*w_Q6_y__P3_x - l_Q8_x__P3_y*w_Q6_y__P3_y;
+    const double l_Q8_x__Q6_x = inverse_cross_Q6_x__Q6_y*w_Q8_x__Q6_y + inverse_pivot_Q6_x*w_Q8_x__Q6_x;
+    const double l_Q8_x__Q6_y = inverse_cross_Q6_x__Q6_y*w_Q8_x__Q6_x + inverse_pivot_Q6_y*w_Q8_x__Q6_y;
+    const double w_Q8_y__Q6_x = arm_L7_head_y*l_Q8_y__L7_theta - l_Q8_y__P2_x*w_Q6_x__P2_x -
+        l_Q8_y__P2_y*w_Q6_x__P2_y - l_Q8_y__P3_x*w_Q6_x__P3_x - l_Q8_y__P3_y*w_Q6_x__P3_y;
     const double w_Q8_y__Q6_y = -arm_L7_head_x*l_Q8_y__L7_theta - inverse_L7_mass - l_Q8_y__P2_x*w_Q6_y__P2_x
-        - l_Q8_y__P2_y*w_Q6_y__P2_y - l_Q8_y__P3_x*w_Q6_y__P3_x - l_Q8_y__P3_y*w_Q6_y__P3_y -
-        l_Q8_y__Q6_x*w_Q6_y__Q6_x;
-    const double l_Q8_y__Q6_y = -inverse_pivot_Q6_y*w_Q8_y__Q6_y;
+        - l_Q8_y__P2_y*w_Q6_y__P2_y - l_Q8_y__P3_x*w_Q6_y__P3_x - l_Q8_y__P3_y*w_Q6_y__P3_y;
+    const double l_Q8_y__Q6_x = inverse_cross_Q6_x__Q6_y*w_Q8_y__Q6_y + inverse_pivot_Q6_x*w_Q8_y__Q6_x;
+    const double l_Q8_y__Q6_y = inverse_cross_Q6_x__Q6_y*w_Q8_y__Q6_x + inverse_pivot_Q6_y*w_Q8_y__Q6_y;
     const double scale_Q8_x = -arm_L7_head_y*l_Q8_x__L7_theta - arm_L8_head_y*l_Q8_x__L8_theta +
+        inverse_L7_mass + inverse_L8_mass;
+    const double scale_Q8_y = arm_L7_head_x*l_Q8_y__L7_theta + arm_L8_head_x*l_Q8_y__L8_theta +
         inverse_L7_mass + inverse_L8_mass;
     const double pivot_Q8_x = l_Q8_x__P2_x*w_Q8_x__P2_x + l_Q8_x__P2_y*w_Q8_x__P2_y +
         l_Q8_x__P3_x*w_Q8_x__P3_x + l_Q8_x__P3_y*w_Q8_x__P3_y + l_Q8_x__Q6_x*w_Q8_x__Q6_x +
         l_Q8_x__Q6_y*w_Q8_x__Q6_y + l_Q8_x__slider_x*w_Q8_x__slider_x + l_Q8_x__slider_y*w_Q8_x__slider_y +
         scale_Q8_x;
-    if (!(pivot_Q8_x > 1e-08 * scale_Q8_x)) { pivot = 19; goto dependent; };
-    const double inverse_pivot_Q8_x = 1.0/pivot_Q8_x;
-    const double w_Q8_y__Q8_x = arm_L7_head_y*l_Q8_y__L7_theta + arm_L8_head_y*l_Q8_y__L8_theta -
-        l_Q8_y__P2_x*w_Q8_x__P2_x - l_Q8_y__P2_y*w_Q8_x__P2_y - l_Q8_y__P3_x*w_Q8_x__P3_x -
-        l_Q8_y__P3_y*w_Q8_x__P3_y - l_Q8_y__Q6_x*w_Q8_x__Q6_x - l_Q8_y__Q6_y*w_Q8_x__Q6_y -
-        l_Q8_y__slider_x*w_Q8_x__slider_x - l_Q8_y__slider_y*w_Q8_x__slider_y;
-    const double l_Q8_y__Q8_x = -inverse_pivot_Q8_x*w_Q8_y__Q8_x;
-    const double scale_Q8_y = arm_L7_head_x*l_Q8_y__L7_theta + arm_L8_head_x*l_Q8_y__L8_theta +
-        inverse_L7_mass + inverse_L8_mass;
     const double pivot_Q8_y = l_Q8_y__P2_x*w_Q8_y__P2_x + l_Q8_y__P2_y*w_Q8_y__P2_y +
         l_Q8_y__P3_x*w_Q8_y__P3_x + l_Q8_y__P3_y*w_Q8_y__P3_y + l_Q8_y__Q6_x*w_Q8_y__Q6_x +
-        l_Q8_y__Q6_y*w_Q8_y__Q6_y + l_Q8_y__Q8_x*w_Q8_y__Q8_x + l_Q8_y__slider_x*w_Q8_y__slider_x +
-        l_Q8_y__slider_y*w_Q8_y__slider_y + scale_Q8_y;
-    if (!(pivot_Q8_y > 1e-08 * scale_Q8_y)) { pivot = 20; goto dependent; };
-    const double inverse_pivot_Q8_y = 1.0/pivot_Q8_y;
+        l_Q8_y__Q6_y*w_Q8_y__Q6_y + l_Q8_y__slider_x*w_Q8_y__slider_x + l_Q8_y__slider_y*w_Q8_y__slider_y +
+        scale_Q8_y;
+    const double pivot_Q8_x__Q8_y = -arm_L7_head_y*l_Q8_y__L7_theta - arm_L8_head_y*l_Q8_y__L8_theta +
+        l_Q8_y__P2_x*w_Q8_x__P2_x + l_Q8_y__P2_y*w_Q8_x__P2_y + l_Q8_y__P3_x*w_Q8_x__P3_x +
+        l_Q8_y__P3_y*w_Q8_x__P3_y + l_Q8_y__Q6_x*w_Q8_x__Q6_x + l_Q8_y__Q6_y*w_Q8_x__Q6_y +
+        l_Q8_y__slider_x*w_Q8_x__slider_x + l_Q8_y__slider_y*w_Q8_x__slider_y;
+    const double determinant_Q8_x__Q8_y = pivot_Q8_x*pivot_Q8_y - (pivot_Q8_x__Q8_y * pivot_Q8_x__Q8_y);
+    if (!(pivot_Q8_x > 1e-08 * scale_Q8_x)) { pivot = 19; goto dependent; };
+    if (!(determinant_Q8_x__Q8_y > 1e-08 * scale_Q8_y * pivot_Q8_x)) { pivot = 20; goto dependent; };
+    const double inverse_Q8_x__Q8_y = -1.0/determinant_Q8_x__Q8_y;
+    const double inverse_pivot_Q8_x = inverse_Q8_x__Q8_y*pivot_Q8_y;
+    const double inverse_pivot_Q8_y = inverse_Q8_x__Q8_y*pivot_Q8_x;
+    const double inverse_cross_Q8_x__Q8_y = -inverse_Q8_x__Q8_y*pivot_Q8_x__Q8_y;
 
     /* forward substitution */
     const double z_L1_y = -F_A_y + weight_L1_y;
@@ -519,86 +531,85 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double z_L3_theta = F_B_x*arm_L3_head_y - F_B_y*arm_L3_head_x + M_B_second;
     const double z_L1_theta = F_A_x*arm_L1_head_y - F_A_y*arm_L1_head_x + M_A_first;
     const double z_O1_x = -F_A_x*inverse_L1_mass - l_O1_x__L1_theta*z_L1_theta + rhs_O1_x;
-    const double z_O1_y = inverse_L1_mass*z_L1_y - l_O1_y__L1_theta*z_L1_theta - l_O1_y__O1_x*z_O1_x +
-        rhs_O1_y;
+    const double z_O1_y = inverse_L1_mass*z_L1_y - l_O1_y__L1_theta*z_L1_theta + rhs_O1_y;
     const double z_crank1 = -inverse_L1_inertia*z_L1_theta - l_crank1__O1_x*z_O1_x - l_crank1__O1_y*z_O1_y +
         rhs_crank1;
     const double z_L4_theta = F_B_x*arm_L4_head_y - F_B_y*arm_L4_head_x + M_B_first;
     const double z_O4_x = -F_B_x*inverse_L4_mass - l_O4_x__L4_theta*z_L4_theta + rhs_O4_x;
-    const double z_O4_y = inverse_L4_mass*z_L4_y - l_O4_y__L4_theta*z_L4_theta - l_O4_y__O4_x*z_O4_x +
-        rhs_O4_y;
+    const double z_O4_y = inverse_L4_mass*z_L4_y - l_O4_y__L4_theta*z_L4_theta + rhs_O4_y;
     const double z_crank4 = -inverse_L4_inertia*z_L4_theta - l_crank4__O4_x*z_O4_x - l_crank4__O4_y*z_O4_y +
         rhs_crank4;
-    const double z_O6_y = inverse_L6_mass*weight_L6_y - l_O6_y__O6_x*rhs_O6_x + rhs_O6_y;
+    const double z_O6_y = inverse_L6_mass*weight_L6_y + rhs_O6_y;
     const double z_slider_x = -l_slider_x__guide_offset*rhs_guide_offset + rhs_slider_x;
-    const double z_slider_y = -inverse_L8_mass*weight_L8_y + inverse_S9_mass*weight_S9_y -
-        l_slider_y__slider_x*z_slider_x + rhs_slider_y;
+    const double z_slider_y = -inverse_L8_mass*weight_L8_y + inverse_S9_mass*weight_S9_y + rhs_slider_y;
     const double z_P2_x = -F_A_x*inverse_L2_mass - l_P2_x__L2_theta*z_L2_theta + rhs_P2_x;
     const double z_P2_y = -inverse_L2_mass*z_L2_y + inverse_L7_mass*weight_L7_y - l_P2_y__L2_theta*z_L2_theta
-        - l_P2_y__P2_x*z_P2_x + rhs_P2_y;
+        + rhs_P2_y;
     const double z_P3_x = -F_B_x*inverse_L3_mass - l_P3_x__L3_theta*z_L3_theta - l_P3_x__P2_x*z_P2_x -
         l_P3_x__P2_y*z_P2_y + rhs_P3_x;
     const double z_P3_y = -inverse_L3_mass*z_L3_y + inverse_L7_mass*weight_L7_y - l_P3_y__L3_theta*z_L3_theta
-        - l_P3_y__P2_x*z_P2_x - l_P3_y__P2_y*z_P2_y - l_P3_y__P3_x*z_P3_x + rhs_P3_y;
+        - l_P3_y__P2_x*z_P2_x - l_P3_y__P2_y*z_P2_y + rhs_P3_y;
     const double z_Q6_x = -l_Q6_x__O6_x*rhs_O6_x - l_Q6_x__O6_y*z_O6_y - l_Q6_x__P2_x*z_P2_x -
         l_Q6_x__P2_y*z_P2_y - l_Q6_x__P3_x*z_P3_x - l_Q6_x__P3_y*z_P3_y + rhs_Q6_x;
     const double z_Q6_y = inverse_L6_mass*weight_L6_y - inverse_L7_mass*weight_L7_y - l_Q6_y__O6_x*rhs_O6_x -
         l_Q6_y__O6_y*z_O6_y - l_Q6_y__P2_x*z_P2_x - l_Q6_y__P2_y*z_P2_y - l_Q6_y__P3_x*z_P3_x -
-        l_Q6_y__P3_y*z_P3_y - l_Q6_y__Q6_x*z_Q6_x + rhs_Q6_y;
+        l_Q6_y__P3_y*z_P3_y + rhs_Q6_y;
     const double z_Q8_x = -l_Q8_x__P2_x*z_P2_x - l_Q8_x__P2_y*z_P2_y - l_Q8_x__P3_x*z_P3_x -
         l_Q8_x__P3_y*z_P3_y - l_Q8_x__Q6_x*z_Q6_x - l_Q8_x__Q6_y*z_Q6_y - l_Q8_x__slider_x*z_slider_x -
         l_Q8_x__slider_y*z_slider_y + rhs_Q8_x;
     const double z_Q8_y = -inverse_L7_mass*weight_L7_y + inverse_L8_mass*weight_L8_y - l_Q8_y__P2_x*z_P2_x -
         l_Q8_y__P2_y*z_P2_y - l_Q8_y__P3_x*z_P3_x - l_Q8_y__P3_y*z_P3_y - l_Q8_y__Q6_x*z_Q6_x -
-        l_Q8_y__Q6_y*z_Q6_y - l_Q8_y__Q8_x*z_Q8_x - l_Q8_y__slider_x*z_slider_x - l_Q8_y__slider_y*z_slider_y
-        + rhs_Q8_y;
+        l_Q8_y__Q6_y*z_Q6_y - l_Q8_y__slider_x*z_slider_x - l_Q8_y__slider_y*z_slider_y + rhs_Q8_y;
 
     /* backward substitution */
-    const double lambda_Q8_y = -inverse_pivot_Q8_y*z_Q8_y;
-    const double lambda_Q8_x = -inverse_pivot_Q8_x*z_Q8_x - l_Q8_y__Q8_x*lambda_Q8_y;
-    const double lambda_Q6_y = -inverse_pivot_Q6_y*z_Q6_y - l_Q8_x__Q6_y*lambda_Q8_x -
-        l_Q8_y__Q6_y*lambda_Q8_y;
-    const double lambda_Q6_x = -inverse_pivot_Q6_x*z_Q6_x - l_Q6_y__Q6_x*lambda_Q6_y -
+    const double lambda_Q8_y = inverse_cross_Q8_x__Q8_y*z_Q8_x + inverse_pivot_Q8_y*z_Q8_y;
+    const double lambda_Q8_x = inverse_cross_Q8_x__Q8_y*z_Q8_y + inverse_pivot_Q8_x*z_Q8_x;
+    const double lambda_Q6_y = inverse_cross_Q6_x__Q6_y*z_Q6_x + inverse_pivot_Q6_y*z_Q6_y -
+        l_Q8_x__Q6_y*lambda_Q8_x - l_Q8_y__Q6_y*lambda_Q8_y;
+    const double lambda_Q6_x = inverse_cross_Q6_x__Q6_y*z_Q6_y + inverse_pivot_Q6_x*z_Q6_x -
         l_Q8_x__Q6_x*lambda_Q8_x - l_Q8_y__Q6_x*lambda_Q8_y;
-    const double lambda_P3_y = -inverse_pivot_P3_y*z_P3_y - l_Q6_x__P3_y*lambda_Q6_x -
-        l_Q6_y__P3_y*lambda_Q6_y - l_Q8_x__P3_y*lambda_Q8_x - l_Q8_y__P3_y*lambda_Q8_y;
-    const double lambda_P3_x = -inverse_pivot_P3_x*z_P3_x - l_P3_y__P3_x*lambda_P3_y -
+    const double lambda_P3_y = inverse_cross_P3_x__P3_y*z_P3_x + inverse_pivot_P3_y*z_P3_y -
+        l_Q6_x__P3_y*lambda_Q6_x - l_Q6_y__P3_y*lambda_Q6_y - l_Q8_x__P3_y*lambda_Q8_x -
+        l_Q8_y__P3_y*lambda_Q8_y;
+    const double lambda_P3_x = inverse_cross_P3_x__P3_y*z_P3_y + inverse_pivot_P3_x*z_P3_x -
         l_Q6_x__P3_x*lambda_Q6_x - l_Q6_y__P3_x*lambda_Q6_y - l_Q8_x__P3_x*lambda_Q8_x -
         l_Q8_y__P3_x*lambda_Q8_y;
-    const double lambda_P2_y = -inverse_pivot_P2_y*z_P2_y - l_P3_x__P2_y*lambda_P3_x -
-        l_P3_y__P2_y*lambda_P3_y - l_Q6_x__P2_y*lambda_Q6_x - l_Q6_y__P2_y*lambda_Q6_y -
-        l_Q8_x__P2_y*lambda_Q8_x - l_Q8_y__P2_y*lambda_Q8_y;
-    const double lambda_P2_x = -inverse_pivot_P2_x*z_P2_x - l_P2_y__P2_x*lambda_P2_y -
+    const double lambda_P2_y = inverse_cross_P2_x__P2_y*z_P2_x + inverse_pivot_P2_y*z_P2_y -
+        l_P3_x__P2_y*lambda_P3_x - l_P3_y__P2_y*lambda_P3_y - l_Q6_x__P2_y*lambda_Q6_x -
+        l_Q6_y__P2_y*lambda_Q6_y - l_Q8_x__P2_y*lambda_Q8_x - l_Q8_y__P2_y*lambda_Q8_y;
+    const double lambda_P2_x = inverse_cross_P2_x__P2_y*z_P2_y + inverse_pivot_P2_x*z_P2_x -
         l_P3_x__P2_x*lambda_P3_x - l_P3_y__P2_x*lambda_P3_y - l_Q6_x__P2_x*lambda_Q6_x -
         l_Q6_y__P2_x*lambda_Q6_y - l_Q8_x__P2_x*lambda_Q8_x - l_Q8_y__P2_x*lambda_Q8_y;
     const double acceleration_L7_theta = -l_P2_x__L7_theta*lambda_P2_x - l_P2_y__L7_theta*lambda_P2_y -
         l_P3_x__L7_theta*lambda_P3_x - l_P3_y__L7_theta*lambda_P3_y - l_Q6_x__L7_theta*lambda_Q6_x -
         l_Q6_y__L7_theta*lambda_Q6_y - l_Q8_x__L7_theta*lambda_Q8_x - l_Q8_y__L7_theta*lambda_Q8_y;
-    const double lambda_slider_y = -inverse_pivot_slider_y*z_slider_y - l_Q8_x__slider_y*lambda_Q8_x -
-        l_Q8_y__slider_y*lambda_Q8_y;
-    const double lambda_slider_x = -inverse_pivot_slider_x*z_slider_x - l_Q8_x__slider_x*lambda_Q8_x -
-        l_Q8_y__slider_x*lambda_Q8_y - l_slider_y__slider_x*lambda_slider_y;
+    const double lambda_slider_y = inverse_cross_slider_x__slider_y*z_slider_x +
+        inverse_pivot_slider_y*z_slider_y - l_Q8_x__slider_y*lambda_Q8_x - l_Q8_y__slider_y*lambda_Q8_y;
+    const double lambda_slider_x = inverse_cross_slider_x__slider_y*z_slider_y +
+        inverse_pivot_slider_x*z_slider_x - l_Q8_x__slider_x*lambda_Q8_x - l_Q8_y__slider_x*lambda_Q8_y;
     const double acceleration_L8_theta = -l_Q8_x__L8_theta*lambda_Q8_x - l_Q8_y__L8_theta*lambda_Q8_y -
         l_slider_x__L8_theta*lambda_slider_x - l_slider_y__L8_theta*lambda_slider_y;
     const double acceleration_L7_y = inverse_L7_mass*lambda_P2_y + inverse_L7_mass*lambda_P3_y -
         inverse_L7_mass*lambda_Q6_y - inverse_L7_mass*lambda_Q8_y + inverse_L7_mass*weight_L7_y;
     const double acceleration_L7_x = inverse_L7_mass*lambda_P2_x + inverse_L7_mass*lambda_P3_x -
         inverse_L7_mass*lambda_Q6_x - inverse_L7_mass*lambda_Q8_x;
-    const double lambda_O6_y = -inverse_pivot_O6_y*z_O6_y - l_Q6_x__O6_y*lambda_Q6_x -
-        l_Q6_y__O6_y*lambda_Q6_y;
-    const double lambda_O6_x = -inverse_pivot_O6_x*rhs_O6_x - l_O6_y__O6_x*lambda_O6_y -
+    const double lambda_O6_y = inverse_cross_O6_x__O6_y*rhs_O6_x + inverse_pivot_O6_y*z_O6_y -
+        l_Q6_x__O6_y*lambda_Q6_x - l_Q6_y__O6_y*lambda_Q6_y;
+    const double lambda_O6_x = inverse_cross_O6_x__O6_y*z_O6_y + inverse_pivot_O6_x*rhs_O6_x -
         l_Q6_x__O6_x*lambda_Q6_x - l_Q6_y__O6_x*lambda_Q6_y;
     const double acceleration_L6_theta = -l_O6_x__L6_theta*lambda_O6_x - l_O6_y__L6_theta*lambda_O6_y -
         l_Q6_x__L6_theta*lambda_Q6_x - l_Q6_y__L6_theta*lambda_Q6_y;
     const double lambda_crank4 = -inverse_pivot_crank4*z_crank4;
-    const double lambda_O4_y = -inverse_pivot_O4_y*z_O4_y - l_crank4__O4_y*lambda_crank4;
-    const double lambda_O4_x = -inverse_pivot_O4_x*z_O4_x - l_O4_y__O4_x*lambda_O4_y -
+    const double lambda_O4_y = inverse_cross_O4_x__O4_y*z_O4_x + inverse_pivot_O4_y*z_O4_y -
+        l_crank4__O4_y*lambda_crank4;
+    const double lambda_O4_x = inverse_cross_O4_x__O4_y*z_O4_y + inverse_pivot_O4_x*z_O4_x -
         l_crank4__O4_x*lambda_crank4;
     const double acceleration_L4_theta = -inverse_L4_inertia*lambda_crank4 + inverse_L4_inertia*z_L4_theta -
         l_O4_x__L4_theta*lambda_O4_x - l_O4_y__L4_theta*lambda_O4_y;
     const double lambda_crank1 = -inverse_pivot_crank1*z_crank1;
-    const double lambda_O1_y = -inverse_pivot_O1_y*z_O1_y - l_crank1__O1_y*lambda_crank1;
-    const double lambda_O1_x = -inverse_pivot_O1_x*z_O1_x - l_O1_y__O1_x*lambda_O1_y -
+    const double lambda_O1_y = inverse_cross_O1_x__O1_y*z_O1_x + inverse_pivot_O1_y*z_O1_y -
+        l_crank1__O1_y*lambda_crank1;
+    const double lambda_O1_x = inverse_cross_O1_x__O1_y*z_O1_y + inverse_pivot_O1_x*z_O1_x -
         l_crank1__O1_x*lambda_crank1;
     const double acceleration_L1_theta = -inverse_L1_inertia*lambda_crank1 + inverse_L1_inertia*z_L1_theta -
         l_O1_x__L1_theta*lambda_O1_x - l_O1_y__L1_theta*lambda_O1_y;

@@ -186,5 +186,90 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->inverse_L8_inertia = inverse_L8_inertia;
     const double inverse_L7_inertia = 1.0/L7_inertia;  /* 1/M */
     p->inverse_L7_inertia = inverse_L7_inertia;
+    const double L6_head_span_x = 2.0*L6_head_x;  /* vector in its frame */
+    p->L6_head_span_x = L6_head_span_x;
+    const double L7_com_span_x = -L7_head_x;  /* vector in its frame */
+    p->L7_com_span_x = L7_com_span_x;
+    const double L7_tail_span_x = -2.0*L7_head_x;  /* vector in its frame */
+    p->L7_tail_span_x = L7_tail_span_x;
+    const double L2_com_span_x = -L2_head_x;  /* vector in its frame */
+    p->L2_com_span_x = L2_com_span_x;
+    const double L3_com_span_x = -L3_head_x;  /* vector in its frame */
+    p->L3_com_span_x = L3_com_span_x;
+    const double L8_head_span_x = 2.0*L8_head_x;  /* vector in its frame */
+    p->L8_head_span_x = L8_head_span_x;
+    const double L1_head_span_x = 2.0*L1_head_x;  /* vector in its frame */
+    p->L1_head_span_x = L1_head_span_x;
+    const double L2_tail_span_x = -2.0*L2_head_x;  /* vector in its frame */
+    p->L2_tail_span_x = L2_tail_span_x;
+    const double L4_head_span_x = 2.0*L4_head_x;  /* vector in its frame */
+    p->L4_head_span_x = L4_head_span_x;
+    const double L3_tail_span_x = -2.0*L3_head_x;  /* vector in its frame */
+    p->L3_tail_span_x = L3_tail_span_x;
+    const double inertia_L1_L1 = (L1_head_x * L1_head_x)*L1_mass;  /* sum of m w.w */
+    p->inertia_L1_L1 = inertia_L1_L1;
+    const double inertia_L6_L6 = L2_mass*(L6_head_span_x * L6_head_span_x) + L3_mass*(L6_head_span_x *
+        L6_head_span_x) + (L6_head_span_x * L6_head_span_x)*L7_mass + (L6_head_span_x *
+        L6_head_span_x)*L8_mass + (L6_head_span_x * L6_head_span_x)*S9_mass + (L6_head_x * L6_head_x)*L6_mass;  /* sum of m w.w */
+    p->inertia_L6_L6 = inertia_L6_L6;
+    const double inertia_L6_L7 = L2_mass*L6_head_span_x*L7_tail_span_x + L3_mass*L6_head_span_x*L7_tail_span_x
+        + L6_head_span_x*L7_com_span_x*L7_mass;  /* sum of m w.w */
+    p->inertia_L6_L7 = inertia_L6_L7;
+    const double inertia_L6_L2 = L2_com_span_x*L2_mass*L6_head_span_x;  /* sum of m w.w */
+    p->inertia_L6_L2 = inertia_L6_L2;
+    const double inertia_L7_L7 = L2_mass*(L7_tail_span_x * L7_tail_span_x) + L3_mass*(L7_tail_span_x *
+        L7_tail_span_x) + (L7_com_span_x * L7_com_span_x)*L7_mass;  /* sum of m w.w */
+    p->inertia_L7_L7 = inertia_L7_L7;
+    const double inertia_L7_L2 = L2_com_span_x*L2_mass*L7_tail_span_x;  /* sum of m w.w */
+    p->inertia_L7_L2 = inertia_L7_L2;
+    const double inertia_L2_L2 = (L2_com_span_x * L2_com_span_x)*L2_mass;  /* sum of m w.w */
+    p->inertia_L2_L2 = inertia_L2_L2;
+    const double inertia_L6_L3 = L3_com_span_x*L3_mass*L6_head_span_x;  /* sum of m w.w */
+    p->inertia_L6_L3 = inertia_L6_L3;
+    const double inertia_L7_L3 = L3_com_span_x*L3_mass*L7_tail_span_x;  /* sum of m w.w */
+    p->inertia_L7_L3 = inertia_L7_L3;
+    const double inertia_L3_L3 = (L3_com_span_x * L3_com_span_x)*L3_mass;  /* sum of m w.w */
+    p->inertia_L3_L3 = inertia_L3_L3;
+    const double inertia_L4_L4 = (L4_head_x * L4_head_x)*L4_mass;  /* sum of m w.w */
+    p->inertia_L4_L4 = inertia_L4_L4;
+    const double inertia_L6_L8 = L6_head_span_x*L8_head_span_x*S9_mass + L6_head_span_x*L8_head_x*L8_mass;  /* sum of m w.w */
+    p->inertia_L6_L8 = inertia_L6_L8;
+    const double inertia_L8_L8 = (L8_head_span_x * L8_head_span_x)*S9_mass + (L8_head_x * L8_head_x)*L8_mass;  /* sum of m w.w */
+    p->inertia_L8_L8 = inertia_L8_L8;
+    const double mass_crank1_crank1 = L1_inertia + inertia_L1_L1;  /* constant of M */
+    p->mass_crank1_crank1 = mass_crank1_crank1;
+    const double mass_L6_L6 = L6_inertia + inertia_L6_L6;  /* constant of M */
+    p->mass_L6_L6 = mass_L6_L6;
+    const double mass_L7_L7 = L7_inertia + inertia_L7_L7;  /* constant of M */
+    p->mass_L7_L7 = mass_L7_L7;
+    const double mass_L2_L2 = L2_inertia + inertia_L2_L2;  /* constant of M */
+    p->mass_L2_L2 = mass_L2_L2;
+    const double mass_L3_L3 = L3_inertia + inertia_L3_L3;  /* constant of M */
+    p->mass_L3_L3 = mass_L3_L3;
+    const double mass_crank4_crank4 = L4_inertia + inertia_L4_L4;  /* constant of M */
+    p->mass_crank4_crank4 = mass_crank4_crank4;
+    const double mass_L8_L8 = L8_inertia + inertia_L8_L8;  /* constant of M */
+    p->mass_L8_L8 = mass_L8_L8;
+    const double weight_L1__across = L1_head_x*L1_mass*par_y;  /* weight */
+    p->weight_L1__across = weight_L1__across;
+    const double weight_L6__across = L2_mass*L6_head_span_x*par_y + L3_mass*L6_head_span_x*par_y +
+        L6_head_span_x*L7_mass*par_y + L6_head_span_x*L8_mass*par_y + L6_head_span_x*S9_mass*par_y +
+        L6_head_x*L6_mass*par_y;  /* weight */
+    p->weight_L6__across = weight_L6__across;
+    const double weight_L7__across = L2_mass*L7_tail_span_x*par_y + L3_mass*L7_tail_span_x*par_y +
+        L7_com_span_x*L7_mass*par_y;  /* weight */
+    p->weight_L7__across = weight_L7__across;
+    const double weight_L2__across = L2_com_span_x*L2_mass*par_y;  /* weight */
+    p->weight_L2__across = weight_L2__across;
+    const double weight_L3__across = L3_com_span_x*L3_mass*par_y;  /* weight */
+    p->weight_L3__across = weight_L3__across;
+    const double weight_L4__across = L4_head_x*L4_mass*par_y;  /* weight */
+    p->weight_L4__across = weight_L4__across;
+    const double weight_L8__across = L8_head_span_x*S9_mass*par_y + L8_head_x*L8_mass*par_y;  /* weight */
+    p->weight_L8__across = weight_L8__across;
+    const double inverse_mass_L8_L8 = 1.0/mass_L8_L8;  /* 1/M */
+    p->inverse_mass_L8_L8 = inverse_mass_L8_L8;
+    const double inverse_mass_L2_L2 = 1.0/mass_L2_L2;  /* 1/M */
+    p->inverse_mass_L2_L2 = inverse_mass_L2_L2;
 }
 

@@ -49,6 +49,17 @@ static void cross(Run *run, int k, const Parameters *p)
         run->memory.side[k - N_CLEARANCES] *= -1.0;
 }
 
+/* Of all bodies, J. */
+static double kinetic_energy(double t, const double *y, const Parameters *p)
+{
+    double m[N_Q], all[N_S], sum = 0.0;
+    mass_matrix(p, m);
+    to_absolute(t, y, p, all);
+    for (int k = 0; k < N_Q; k++)
+        sum += 0.5 * m[k] * all[N_Q + k] * all[N_Q + k];
+    return sum;
+}
+
 /* At an event: everything whose margin is used up changes, then the right-hand side is that of what follows. */
 static int change(Run *run, int event, const Parameters *p)
 {
@@ -57,13 +68,17 @@ static int change(Run *run, int event, const Parameters *p)
             cross(run, k, p);
     const int corner = event - N_CLEARANCES;
     if (corner >= 0 && corner < N_SWITCHES) { /* a drive whose rate jumps moves the linkage by an impulse */
-        const double before = kinetic_energy(run->y, p);
-        project_state(&run->memory, run->t, run->y, p);
-        run->y[2 * N_X] += kinetic_energy(run->y, p) - before;
+        const double before = kinetic_energy(run->t, run->y, p);
+        project_state(run, run->t, run->y, p);
+        run->y[2 * N_X] += kinetic_energy(run->t, run->y, p) - before;
     }
     int status = settle_sides(run, corner >= 0 && corner < N_SWITCHES ? corner : -1, p);
-    if (!status && event >= N_CLEARANCES + N_SWITCHES)
+    const int friction = corner - N_SWITCHES, watched = friction - N_FRICTIONS;
+    if (!status && friction >= 0 && watched < 0)
         status = switch_friction(run, p);
+    if (!status && watched >= 0 && event_crosses(watched, &run->memory.event_side[watched], run->aside.event[watched])
+        && note_event(run, watched, run->t))
+        status = ENDED;
     return status;
 }
 
@@ -102,7 +117,10 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     for (int i = 0; i < N_CLEARANCES; i++)
         if (run->memory.latch[i].closed && run->aside.clearance[i].deltadot <= 0.0)
             run->compressing[i] = 0;
-    status = watch(run);
+    status = watch(run, p);
+    for (int i = 0; i < N_USER_EVENTS; i++) /* begun on a zero: wherever it went */
+        if (run->memory.event_side[i] == 0)
+            event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
     if (!status && event >= 0)
         status = run->stuck > MAX_STUCK ? CHATTERING : change(run, event, p);
     return status ? status : check_contacts(run, p);
@@ -218,18 +236,17 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
 
 /* Samples of the step before `t_new`, from its interpolant. */
 static int sample_step(Run *run, Step *step, double t_new, long n, const double *t, const Parameters *p,
-    double *y, double *a, double *latched, signed char *state, long *done)
+    double *y, double *latched, signed char *state, long *done)
 {
     const long evaluations = run->evaluations;
     while (*done < n && t[*done] < t_new) {
-        double now[N_Y], dy[N_Y];
-        Aside aside;
-        int status = make_dense(run, p, step);
-        if (!status)
-            status = state_at(run, step, (t[*done] - step->t) / step->h, p, now, dy, &aside);
+        double now[N_Y];
+        const int status = make_dense(run, p, step);
         if (status)
             return status;
-        store_sample(run, now, dy, *done, y, a, latched, state);
+        interpolate(run, step, (t[*done] - step->t) / step->h, now);
+        project_state(run, t[*done], now, p);
+        store_sample(run, t[*done], now, p, *done, y, latched, state);
         ++*done;
     }
     run->evaluations = evaluations; /* samples are output, not integration */
@@ -241,7 +258,7 @@ static int sample_step(Run *run, Step *step, double t_new, long n, const double 
  * or to be called again), EVENTS_FULL, or what went wrong.
  */
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
-    double *y, double *a, double *latched, signed char *state, long *done)
+    double *y, double *latched, signed char *state, long *done)
 {
     Run *run = memory;
     const Parameters *p = (const Parameters *)parameters;
@@ -249,12 +266,12 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
     int status = run->memory.held ? 0 : begin_adaptive(run, t_end - run->t, p);
     for (long i = 0; !status; i++) {
         while (*done < n && t[*done] <= run->t) {
-            store_sample(run, run->y, run->dy, *done, y, a, latched, state);
+            store_sample(run, run->t, run->y, p, *done, y, latched, state);
             ++*done;
         }
         if (*done == n || i == limit)
             return 0;
-        if (run->n_impacts > 0 && run->n_impacts > N_IMPACTS - 1)
+        if (lists_full(run))
             return EVENTS_FULL;
         Step *step = &run->step;
         status = accepted_step(run, t_end, p, step);
@@ -265,7 +282,7 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         const double share = first_event(run, step, p, &event);
         const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
         const double close = event < 0 ? 0.0 : fmax(2e-12, 8.0 * DBL_EPSILON * fabs(t_new)); /* is at the event */
-        status = sample_step(run, step, t_new - close, n, t, p, y, a, latched, state, done);
+        status = sample_step(run, step, t_new - close, n, t, p, y, latched, state, done);
         if (!status)
             status = commit(run, step, share, t_new, event, p);
     }

@@ -16,12 +16,12 @@ static void linearize(const double t, const double *q, const double *v, const Me
     (void)memory;
     /* coordinates, velocities, time */
     const double bob_x = q[0];
+    const double bob_x_rate = v[0];
     const double bob_y = q[1];
-    const double bob_vx = v[0];
-    const double bob_vy = v[1];
-    const double acceleration_bob_x_2 = a[0];
-    const double acceleration_bob_y_2 = a[1];
-    const double multiplier_rod_length_2 = aside->lambda[0];
+    const double bob_y_rate = v[1];
+    const double a_bob_x = a[0];
+    const double a_bob_y = a[1];
+    const double held_lambda_rod_length = aside->lambda[0];
 
     /* parameters */
     const double rod_half_inverse_length = p->rod_half_inverse_length;
@@ -30,13 +30,11 @@ static void linearize(const double t, const double *q, const double *v, const Me
     /* results */
     lin->value[0] = 2.0*bob_x*rod_half_inverse_length;
     lin->value[1] = 2.0*bob_y*rod_half_inverse_length;
-    lin->value[2] = 2.0*acceleration_bob_x_2*rod_half_inverse_length +
-        2.0*bob_vx*rod_half_inverse_length*two_alpha;
-    lin->value[3] = 2.0*acceleration_bob_y_2*rod_half_inverse_length +
-        2.0*bob_vy*rod_half_inverse_length*two_alpha;
-    lin->value[4] = 2.0*multiplier_rod_length_2*rod_half_inverse_length;
-    lin->value[5] = 4.0*bob_vx*rod_half_inverse_length;
-    lin->value[6] = 4.0*bob_vy*rod_half_inverse_length;
+    lin->value[2] = 2.0*a_bob_x*rod_half_inverse_length + 2.0*bob_x_rate*rod_half_inverse_length*two_alpha;
+    lin->value[3] = 2.0*a_bob_y*rod_half_inverse_length + 2.0*bob_y_rate*rod_half_inverse_length*two_alpha;
+    lin->value[4] = 2.0*held_lambda_rod_length*rod_half_inverse_length;
+    lin->value[5] = 4.0*bob_x_rate*rod_half_inverse_length;
+    lin->value[6] = 4.0*bob_y_rate*rod_half_inverse_length;
     lin->p = p;
 }
 
@@ -80,21 +78,21 @@ static int newton_factor(double eta, Linear *lin)
         return 1;
     const double inverse_pivot_bob_x = 1.0/scale_bob_x;
     lin->lu[0] = inverse_pivot_bob_x;
-    const double l_rod_length__bob_x_2 = inverse_pivot_bob_x*n_rod_length__bob_x;
-    lin->lu[1] = l_rod_length__bob_x_2;
+    const double l_rod_length__bob_x_3 = inverse_pivot_bob_x*n_rod_length__bob_x;
+    lin->lu[1] = l_rod_length__bob_x_3;
     const double scale_bob_y = n_bob_y__bob_y;
     if (!(fabs(scale_bob_y) > 1e-13 * fabs(n_bob_y__bob_y)))
         return 2;
     const double inverse_pivot_bob_y = 1.0/scale_bob_y;
     lin->lu[2] = inverse_pivot_bob_y;
-    const double l_rod_length__bob_y_2 = inverse_pivot_bob_y*n_rod_length__bob_y;
-    lin->lu[3] = l_rod_length__bob_y_2;
-    const double scale_rod_length_2 = -l_rod_length__bob_x_2*phi_rod_length_bob_x -
-        l_rod_length__bob_y_2*phi_rod_length_bob_y;
-    if (!(fabs(scale_rod_length_2) > 1e-08 * fabs(scale_rod_length_2)))
+    const double l_rod_length__bob_y_3 = inverse_pivot_bob_y*n_rod_length__bob_y;
+    lin->lu[3] = l_rod_length__bob_y_3;
+    const double scale_rod_length_3 = -l_rod_length__bob_x_3*phi_rod_length_bob_x -
+        l_rod_length__bob_y_3*phi_rod_length_bob_y;
+    if (!(fabs(scale_rod_length_3) > 1e-13 * fabs(scale_rod_length_3)))
         return 4;
-    const double inverse_pivot_rod_length_2 = 1.0/scale_rod_length_2;
-    lin->lu[4] = inverse_pivot_rod_length_2;
+    const double inverse_pivot_rod_length_3 = 1.0/scale_rod_length_3;
+    lin->lu[4] = inverse_pivot_rod_length_3;
     return 0;
 }
 
@@ -110,10 +108,10 @@ static void newton_substitute(const Linear *lin, double *x)
     const double phi_rod_length_bob_x = lin->value[0];
     const double phi_rod_length_bob_y = lin->value[1];
     const double inverse_pivot_bob_x = lin->lu[0];
-    const double l_rod_length__bob_x_2 = lin->lu[1];
+    const double l_rod_length__bob_x_3 = lin->lu[1];
     const double inverse_pivot_bob_y = lin->lu[2];
-    const double l_rod_length__bob_y_2 = lin->lu[3];
-    const double inverse_pivot_rod_length_2 = lin->lu[4];
+    const double l_rod_length__bob_y_3 = lin->lu[3];
+    const double inverse_pivot_rod_length_3 = lin->lu[4];
 
     /* parameters */
     const double inverse_bob_inertia = p->inverse_bob_inertia;
@@ -122,10 +120,10 @@ static void newton_substitute(const Linear *lin, double *x)
     const double b_bob_theta = x[2];
     const double b_bob_x = x[0];
     const double b_bob_y = x[1];
-    const double b_rod_length = -b_bob_x*l_rod_length__bob_x_2 - b_bob_y*l_rod_length__bob_y_2 + x[3];
+    const double b_rod_length = -b_bob_x*l_rod_length__bob_x_3 - b_bob_y*l_rod_length__bob_y_3 + x[3];
 
     /* backward */
-    const double x_rod_length = b_rod_length*inverse_pivot_rod_length_2;
+    const double x_rod_length = b_rod_length*inverse_pivot_rod_length_3;
     x[3] = x_rod_length;
     const double x_bob_y = inverse_pivot_bob_y*(b_bob_y - phi_rod_length_bob_y*x_rod_length);
     x[1] = x_bob_y;
@@ -215,7 +213,7 @@ enum {
     N_NODES = 4,
 };
 /*
- * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_Q - 1) or of R1_t, R2_t (2 N_Q); 0 if all
+ * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_X - 1) or of R1_t, R2_t (2 N_X); 0 if all
  * are zero.
  */
 static int residual_column(const Linear *lin, int column, const double *gain, double *x)
@@ -223,21 +221,21 @@ static int residual_column(const Linear *lin, int column, const double *gain, do
     int found = 0;
     for (int i = 0; i < N_NODES; i++)
         x[i] = 0.0;
-    for (int i = 0; i < N_RESIDUAL && column < 2 * N_Q; i++) {
+    for (int i = 0; i < N_RESIDUAL && column < 2 * N_X; i++) {
         const LinearEntry *at = &residual_entries[i];
         if (at->column == column) {
             x[at->row] -= at->sign * lin->value[at->value];
             found = 1;
         }
     }
-    for (int i = 0; i < N_PHI_Q && column < 2 * N_Q; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
+    for (int i = 0; i < N_PHI_Q && column < 2 * N_X; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
         const LinearEntry *at = &phi_q_entries[i];
-        if (at->column == column % N_Q && (column >= N_Q || at->row < N_Q + N_ROWS)) {
-            x[at->row] -= gain[column / N_Q] * at->sign * lin->value[at->value];
+        if (at->column == column % N_X && (column >= N_X || at->row < N_X + N_LOOPS)) {
+            x[at->row] -= gain[column / N_X] * at->sign * lin->value[at->value];
             found = 1;
         }
     }
-    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_Q; i++) {
+    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_X; i++) {
         x[residual_t_entries[i].row] -= residual_t_entries[i].sign * lin->value[residual_t_entries[i].value];
         found = 1;
     }
@@ -247,21 +245,21 @@ static int residual_column(const Linear *lin, int column, const double *gain, do
 /* The column of the Jacobian that follows from x, the change of accelerations and multipliers; `out` has a stride. */
 static void jacobian_column(const Linear *lin, int column, const double *x, double *out, size_t stride)
 {
-    for (int k = 0; k < N_Q; k++) {
-        out[k * stride] = column == N_Q + k ? 1.0 : 0.0;
-        out[(N_Q + k) * stride] = x[k];
+    for (int k = 0; k < N_X; k++) {
+        out[k * stride] = column == N_X + k ? 1.0 : 0.0;
+        out[(N_X + k) * stride] = x[k];
     }
     for (int w = 0; w < N_WORK; w++)
-        out[(2 * N_Q + w) * stride] = 0.0;
+        out[(2 * N_X + w) * stride] = 0.0;
     for (int i = 0; i < N_POWER_ROW; i++) {
         const LinearEntry *at = &power_row_entries[i];
-        out[(2 * N_Q + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
+        out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
     }
     for (int i = 0; i < N_POWER; i++)
         if (power_entries[i].column == column)
-            out[(2 * N_Q + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
-    for (int i = 0; i < N_POWER_T && column == 2 * N_Q; i++)
-        out[(2 * N_Q + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
+            out[(2 * N_X + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
+    for (int i = 0; i < N_POWER_T && column == 2 * N_X; i++)
+        out[(2 * N_X + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
 }
 
 /* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
@@ -271,10 +269,10 @@ static int linearized(double t, const double *y, const double *memory, const Par
     Aside aside;
     double dy[N_Y];
     read_memory(memory, &now);
-    const int status = state_equation(t, y, &now, p, dy, &aside);
+    const int status = motion(t, y, &now, p, dy, &aside);
     if (status)
         return status;
-    linearize(t, y, y + N_Q, &now, p, dy + N_Q, &aside, lin);
+    linearize(t, y, y + N_X, &now, p, dy + N_X, &aside, lin);
     return -newton_factor(eta, lin);
 }
 
@@ -282,22 +280,22 @@ static int linearized(double t, const double *y, const double *memory, const Par
  * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
  * KKT matrix. Contacts, corners and modes of friction stay as they are.
  */
-int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
+int gudgeon_tree_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
 {
     Linear lin;
-    const double gain[2] = {((const Parameters *)p)->beta_squared, ((const Parameters *)p)->two_alpha};
+    const double gain[2] = {0.0, 0.0};
     const int status = linearized(t, y, memory, (const Parameters *)p, 0.0, &lin);
     if (status)
         return status;
-    for (int column = 0; column <= 2 * N_Q; column++) {
+    for (int column = 0; column <= 2 * N_X; column++) {
         double x[N_NODES];
         if (residual_column(&lin, column, gain, x))
             newton_substitute(&lin, x);
-        jacobian_column(&lin, column, x, column < 2 * N_Q ? J + column : f_t, column < 2 * N_Q ? N_Y : 1);
+        jacobian_column(&lin, column, x, column < 2 * N_X ? J + column : f_t, column < 2 * N_X ? N_Y : 1);
     }
     for (int k = 0; k < N_Y; k++) /* nothing depends on the works */
         for (int w = 0; w < N_WORK; w++)
-            J[k * N_Y + 2 * N_Q + w] = 0.0;
+            J[k * N_Y + 2 * N_X + w] = 0.0;
     return 0;
 }
 

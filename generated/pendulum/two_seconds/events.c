@@ -16,15 +16,20 @@ static int make_dense(Run *run, const Parameters *p, Step *step)
     return 0;
 }
 
-/* State, projected, and right-hand side at share s of the step. */
-static int state_at(Run *run, const Step *step, double s, const Parameters *p, double *y, double *dy, Aside *aside)
+static void interpolate(const Run *run, const Step *step, double s, double *y)
 {
     if (step->stiff)
         rodas5p_interpolate(run, step, s, y);
     else
         dop853_interpolate(run, step, s, y);
+}
+
+/* State, projected, and right-hand side at share s of the step. */
+static int state_at(Run *run, const Step *step, double s, const Parameters *p, double *y, double *dy, Aside *aside)
+{
+    interpolate(run, step, s, y);
     const double t = step->t + s * step->h;
-    project_state(&run->memory, t, y, p);
+    project_state(run, t, y, p);
     return rates(run, t, y, p, dy, aside);
 }
 

@@ -18,14 +18,17 @@ enum {
     N_CLEARANCES = 1,        /* joints with play */
     N_FRICTIONS = 0,         /* slips that friction may hold */
     N_SWITCHES = 5,          /* corners of min, max, abs and sign */
+    N_USER_EVENTS = 0,      /* expressions whose zeros are watched */
     N_SERIES = 0,            /* results of force elements */
     N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
-    N_X = N_Q,                /* coordinates that are integrated */
+    N_S = 2 * N_Q + N_WORK,   /* state of all bodies: q, v, works */
+    N_X = 2,                  /* coordinates that are integrated */
+    N_LOOPS = 0,              /* constraint rows of these */
     N_Y = 2 * N_X + N_WORK
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double omega;  /* parameters.omega */    double c;  /* parameters.c */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double slider_mass;  /* bodies.slider.mass */    double slider_inertia;  /* bodies.slider.inertia */    double crank_length;  /* bodies.crank.length */    double rod_length;  /* bodies.rod.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double cylinder_axis_x;  /* joints.cylinder.axis.x */    double pin_radius;  /* bearings.pin.radius */    double pin_clearance;  /* bearings.pin.clearance */    double pin_length;  /* bearings.pin.length */    double steel_E;  /* materials.steel.E */    double steel_nu;  /* materials.steel.nu */    double dry_normal_restitution;  /* contacts.dry.normal.restitution */    double dry_normal_exponent;  /* contacts.dry.normal.exponent */    double dry_friction_mu;  /* contacts.dry.friction.mu */    double dry_friction_v0;  /* contacts.dry.friction.v0 */    double dry_friction_v1;  /* contacts.dry.friction.v1 */    double velocity_floor;  /* contacts.dry.velocity_floor */    double guess_slider_x;  /* start.guess.slider.x */    double crank_head_x;  /* point from the centre of mass */    double rod_head_x;  /* point from the centre of mass */    double R_j_pin;  /* journal radius */    double dry_pin_K;  /* contact stiffness */    double dry_pin_hysteresis;  /* hysteresis damping factor a */    double dry_pin_friction_slope;  /* 1/(v1 - v0) */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_slider_mass;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_slider_inertia;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */} Parameters;
+typedef struct {    double omega;  /* parameters.omega */    double c;  /* parameters.c */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double slider_mass;  /* bodies.slider.mass */    double slider_inertia;  /* bodies.slider.inertia */    double crank_length;  /* bodies.crank.length */    double rod_length;  /* bodies.rod.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double cylinder_axis_x;  /* joints.cylinder.axis.x */    double pin_radius;  /* bearings.pin.radius */    double pin_clearance;  /* bearings.pin.clearance */    double pin_length;  /* bearings.pin.length */    double steel_E;  /* materials.steel.E */    double steel_nu;  /* materials.steel.nu */    double dry_normal_restitution;  /* contacts.dry.normal.restitution */    double dry_normal_exponent;  /* contacts.dry.normal.exponent */    double dry_friction_mu;  /* contacts.dry.friction.mu */    double dry_friction_v0;  /* contacts.dry.friction.v0 */    double dry_friction_v1;  /* contacts.dry.friction.v1 */    double velocity_floor;  /* contacts.dry.velocity_floor */    double guess_slider_x;  /* start.guess.slider.x */    double crank_head_x;  /* point from the centre of mass */    double rod_head_x;  /* point from the centre of mass */    double R_j_pin;  /* journal radius */    double dry_pin_K;  /* contact stiffness */    double dry_pin_hysteresis;  /* hysteresis damping factor a */    double dry_pin_friction_slope;  /* 1/(v1 - v0) */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_slider_mass;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_slider_inertia;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double crank_head_span_x;  /* vector in its frame */    double rod_head_span_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_rod;  /* sum of m w.w */    double inertia_rod_rod;  /* sum of m w.w */    double mass_motor_motor;  /* constant of M */    double mass_rod_rod;  /* constant of M */    double inverse_mass_rod_rod;  /* 1/M */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -42,6 +45,7 @@ typedef struct {
     Latch latch[1];
     double mode[1];
     double side[5];
+    signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
 } Memory;
 
@@ -72,7 +76,24 @@ typedef struct {
     Clearance clearance[1];
     Friction friction[1];
     double g[5]; /* switching functions; NaN: does not act */
+    double event[1]; /* values of the expressions that are watched */
 } Aside;
+
+/* The expressions that are watched: which way they are to cross zero (1 rising, -1 falling, 0 both), and what then. */
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+
+/*
+ * Whether expression i, seen last on `side` of zero (1 or -1; 0: nowhere yet), has crossed to `value`; `side` is
+ * where it is then. A zero itself lies on neither side.
+ */
+static inline int event_crosses(int i, signed char *side, double value)
+{
+    const int from = *side, to = (value > 0.0) - (value < 0.0);
+    if (to)
+        *side = (signed char)to;
+    return from * to < 0 && event_direction[i] * to >= 0;
+}
 
 /* min, max, sign that keep a NaN in x. */
 static inline double max_of(double x, double y) { return x < y ? y : x; }

@@ -85,5 +85,22 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->inverse_rod_inertia = inverse_rod_inertia;
     const double inverse_crank_inertia = 1.0/crank_inertia;  /* 1/M */
     p->inverse_crank_inertia = inverse_crank_inertia;
+    const double crank_head_span_x = 2.0*crank_head_x;  /* vector in its frame */
+    p->crank_head_span_x = crank_head_span_x;
+    const double rod_head_span_x = 2.0*rod_head_x;  /* vector in its frame */
+    p->rod_head_span_x = rod_head_span_x;
+    const double inertia_crank_crank = (crank_head_span_x * crank_head_span_x)*rod_mass + (crank_head_x *
+        crank_head_x)*crank_mass;  /* sum of m w.w */
+    p->inertia_crank_crank = inertia_crank_crank;
+    const double inertia_crank_rod = crank_head_span_x*rod_head_x*rod_mass;  /* sum of m w.w */
+    p->inertia_crank_rod = inertia_crank_rod;
+    const double inertia_rod_rod = (rod_head_x * rod_head_x)*rod_mass;  /* sum of m w.w */
+    p->inertia_rod_rod = inertia_rod_rod;
+    const double mass_motor_motor = crank_inertia + inertia_crank_crank;  /* constant of M */
+    p->mass_motor_motor = mass_motor_motor;
+    const double mass_rod_rod = inertia_rod_rod + rod_inertia;  /* constant of M */
+    p->mass_rod_rod = mass_rod_rod;
+    const double inverse_mass_rod_rod = 1.0/mass_rod_rod;  /* 1/M */
+    p->inverse_mass_rod_rod = inverse_mass_rod_rod;
 }
 

@@ -310,80 +310,99 @@ static int project(const double t, const double *q, const double *r, const Param
     const double l_crankpin_y__rod_theta_2 = arm_rod_head_x*inverse_rod_inertia;
     const double scale_wristpin_x_2 = -arm_rod_head_y*l_wristpin_x__rod_theta_2 + inverse_rod_mass +
         inverse_slider_mass;
-    if (!(scale_wristpin_x_2 > 1e-13 * scale_wristpin_x_2)) return 3;
-    const double inverse_pivot_wristpin_x_2 = 1.0/scale_wristpin_x_2;
-    const double w_wristpin_y__wristpin_x_2 = arm_rod_head_y*l_wristpin_y__rod_theta_2;
-    const double l_wristpin_y__wristpin_x_2 = -inverse_pivot_wristpin_x_2*w_wristpin_y__wristpin_x_2;
-    const double w_crankpin_x__wristpin_x_2 = arm_rod_head_y*l_crankpin_x__rod_theta_2 + inverse_rod_mass;
-    const double l_crankpin_x__wristpin_x_2 = -inverse_pivot_wristpin_x_2*w_crankpin_x__wristpin_x_2;
-    const double w_crankpin_y__wristpin_x_2 = arm_rod_head_y*l_crankpin_y__rod_theta_2;
-    const double l_crankpin_y__wristpin_x_2 = -inverse_pivot_wristpin_x_2*w_crankpin_y__wristpin_x_2;
     const double scale_wristpin_y_2 = arm_rod_head_x*l_wristpin_y__rod_theta_2 + inverse_rod_mass +
         inverse_slider_mass;
     const double pivot_wristpin_y_2 = inverse_slider_mass*l_wristpin_y__cylinder_offset_2 +
-        l_wristpin_y__wristpin_x_2*w_wristpin_y__wristpin_x_2 + scale_wristpin_y_2;
-    if (!(pivot_wristpin_y_2 > 1e-13 * scale_wristpin_y_2)) return 4;
-    const double inverse_pivot_wristpin_y_2 = 1.0/pivot_wristpin_y_2;
-    const double w_crankpin_x__wristpin_y_2 = -arm_rod_head_x*l_crankpin_x__rod_theta_2 -
-        l_crankpin_x__wristpin_x_2*w_wristpin_y__wristpin_x_2;
-    const double l_crankpin_x__wristpin_y_2 = -inverse_pivot_wristpin_y_2*w_crankpin_x__wristpin_y_2;
-    const double w_crankpin_y__wristpin_y_2 = -arm_rod_head_x*l_crankpin_y__rod_theta_2 + inverse_rod_mass -
-        l_crankpin_y__wristpin_x_2*w_wristpin_y__wristpin_x_2;
-    const double l_crankpin_y__wristpin_y_2 = -inverse_pivot_wristpin_y_2*w_crankpin_y__wristpin_y_2;
+        scale_wristpin_y_2;
+    const double pivot_wristpin_x__wristpin_y_2 = -arm_rod_head_y*l_wristpin_y__rod_theta_2;
+    const double determinant_wristpin_x__wristpin_y_2 = -(pivot_wristpin_x__wristpin_y_2 *
+        pivot_wristpin_x__wristpin_y_2) + pivot_wristpin_y_2*scale_wristpin_x_2;
+    if (!(scale_wristpin_x_2 > 1e-13 * scale_wristpin_x_2)) return 3;
+    if (!(determinant_wristpin_x__wristpin_y_2 > 1e-13 * scale_wristpin_y_2 * scale_wristpin_x_2)) return 4;
+    const double inverse_wristpin_x__wristpin_y_2 = -1.0/determinant_wristpin_x__wristpin_y_2;
+    const double inverse_pivot_wristpin_x_2 = inverse_wristpin_x__wristpin_y_2*pivot_wristpin_y_2;
+    const double inverse_pivot_wristpin_y_2 = inverse_wristpin_x__wristpin_y_2*scale_wristpin_x_2;
+    const double inverse_cross_wristpin_x__wristpin_y_2 =
+        -inverse_wristpin_x__wristpin_y_2*pivot_wristpin_x__wristpin_y_2;
+    const double w_crankpin_x__wristpin_x_2 = arm_rod_head_y*l_crankpin_x__rod_theta_2 + inverse_rod_mass;
+    const double w_crankpin_x__wristpin_y_2 = -arm_rod_head_x*l_crankpin_x__rod_theta_2;
+    const double l_crankpin_x__wristpin_x_2 =
+        inverse_cross_wristpin_x__wristpin_y_2*w_crankpin_x__wristpin_y_2 +
+        inverse_pivot_wristpin_x_2*w_crankpin_x__wristpin_x_2;
+    const double l_crankpin_x__wristpin_y_2 =
+        inverse_cross_wristpin_x__wristpin_y_2*w_crankpin_x__wristpin_x_2 +
+        inverse_pivot_wristpin_y_2*w_crankpin_x__wristpin_y_2;
+    const double w_crankpin_y__wristpin_x_2 = arm_rod_head_y*l_crankpin_y__rod_theta_2;
+    const double w_crankpin_y__wristpin_y_2 = -arm_rod_head_x*l_crankpin_y__rod_theta_2 + inverse_rod_mass;
+    const double l_crankpin_y__wristpin_x_2 =
+        inverse_cross_wristpin_x__wristpin_y_2*w_crankpin_y__wristpin_y_2 +
+        inverse_pivot_wristpin_x_2*w_crankpin_y__wristpin_x_2;
+    const double l_crankpin_y__wristpin_y_2 =
+        inverse_cross_wristpin_x__wristpin_y_2*w_crankpin_y__wristpin_x_2 +
+        inverse_pivot_wristpin_y_2*w_crankpin_y__wristpin_y_2;
     const double l_O_x__crank_theta_2 = -arm_crank_head_y*inverse_crank_inertia;
     const double l_O_y__crank_theta_2 = arm_crank_head_x*inverse_crank_inertia;
     const double l_crankpin_x__crank_theta_2 = -arm_crank_head_y*inverse_crank_inertia;
     const double l_crankpin_y__crank_theta_2 = arm_crank_head_x*inverse_crank_inertia;
     const double scale_O_x_2 = -arm_crank_head_y*l_O_x__crank_theta_2 + inverse_crank_mass;
-    if (!(scale_O_x_2 > 1e-13 * scale_O_x_2)) return 5;
-    const double inverse_pivot_O_x_2 = 1.0/scale_O_x_2;
-    const double w_O_y__O_x_2 = arm_crank_head_y*l_O_y__crank_theta_2;
-    const double l_O_y__O_x_2 = -inverse_pivot_O_x_2*w_O_y__O_x_2;
-    const double w_crankpin_x__O_x_2 = arm_crank_head_y*l_crankpin_x__crank_theta_2 + inverse_crank_mass;
-    const double l_crankpin_x__O_x_2 = -inverse_pivot_O_x_2*w_crankpin_x__O_x_2;
-    const double w_crankpin_y__O_x_2 = arm_crank_head_y*l_crankpin_y__crank_theta_2;
-    const double l_crankpin_y__O_x_2 = -inverse_pivot_O_x_2*w_crankpin_y__O_x_2;
-    const double w_motor__O_x_2 = arm_crank_head_y*inverse_crank_inertia;
-    const double l_motor__O_x_2 = -inverse_pivot_O_x_2*w_motor__O_x_2;
     const double scale_O_y_2 = arm_crank_head_x*l_O_y__crank_theta_2 + inverse_crank_mass;
-    const double pivot_O_y_2 = l_O_y__O_x_2*w_O_y__O_x_2 + scale_O_y_2;
-    if (!(pivot_O_y_2 > 1e-13 * scale_O_y_2)) return 6;
-    const double inverse_pivot_O_y_2 = 1.0/pivot_O_y_2;
-    const double w_crankpin_x__O_y_2 = -arm_crank_head_x*l_crankpin_x__crank_theta_2 -
-        l_crankpin_x__O_x_2*w_O_y__O_x_2;
-    const double l_crankpin_x__O_y_2 = -inverse_pivot_O_y_2*w_crankpin_x__O_y_2;
-    const double w_crankpin_y__O_y_2 = -arm_crank_head_x*l_crankpin_y__crank_theta_2 + inverse_crank_mass -
-        l_crankpin_y__O_x_2*w_O_y__O_x_2;
-    const double l_crankpin_y__O_y_2 = -inverse_pivot_O_y_2*w_crankpin_y__O_y_2;
-    const double w_motor__O_y_2 = -arm_crank_head_x*inverse_crank_inertia - l_motor__O_x_2*w_O_y__O_x_2;
-    const double l_motor__O_y_2 = -inverse_pivot_O_y_2*w_motor__O_y_2;
+    const double pivot_O_x__O_y_2 = -arm_crank_head_y*l_O_y__crank_theta_2;
+    const double determinant_O_x__O_y_2 = -(pivot_O_x__O_y_2 * pivot_O_x__O_y_2) + scale_O_x_2*scale_O_y_2;
+    if (!(scale_O_x_2 > 1e-13 * scale_O_x_2)) return 5;
+    if (!(determinant_O_x__O_y_2 > 1e-13 * scale_O_y_2 * scale_O_x_2)) return 6;
+    const double inverse_O_x__O_y_2 = -1.0/determinant_O_x__O_y_2;
+    const double inverse_pivot_O_x_2 = inverse_O_x__O_y_2*scale_O_y_2;
+    const double inverse_pivot_O_y_2 = inverse_O_x__O_y_2*scale_O_x_2;
+    const double inverse_cross_O_x__O_y_2 = -inverse_O_x__O_y_2*pivot_O_x__O_y_2;
+    const double w_crankpin_x__O_x_2 = arm_crank_head_y*l_crankpin_x__crank_theta_2 + inverse_crank_mass;
+    const double w_crankpin_x__O_y_2 = -arm_crank_head_x*l_crankpin_x__crank_theta_2;
+    const double l_crankpin_x__O_x_2 = inverse_cross_O_x__O_y_2*w_crankpin_x__O_y_2 +
+        inverse_pivot_O_x_2*w_crankpin_x__O_x_2;
+    const double l_crankpin_x__O_y_2 = inverse_cross_O_x__O_y_2*w_crankpin_x__O_x_2 +
+        inverse_pivot_O_y_2*w_crankpin_x__O_y_2;
+    const double w_crankpin_y__O_x_2 = arm_crank_head_y*l_crankpin_y__crank_theta_2;
+    const double w_crankpin_y__O_y_2 = -arm_crank_head_x*l_crankpin_y__crank_theta_2 + inverse_crank_mass;
+    const double l_crankpin_y__O_x_2 = inverse_cross_O_x__O_y_2*w_crankpin_y__O_y_2 +
+        inverse_pivot_O_x_2*w_crankpin_y__O_x_2;
+    const double l_crankpin_y__O_y_2 = inverse_cross_O_x__O_y_2*w_crankpin_y__O_x_2 +
+        inverse_pivot_O_y_2*w_crankpin_y__O_y_2;
+    const double w_motor__O_x_2 = arm_crank_head_y*inverse_crank_inertia;
+    const double w_motor__O_y_2 = -arm_crank_head_x*inverse_crank_inertia;
+    const double l_motor__O_x_2 = inverse_cross_O_x__O_y_2*w_motor__O_y_2 +
+        inverse_pivot_O_x_2*w_motor__O_x_2;
+    const double l_motor__O_y_2 = inverse_cross_O_x__O_y_2*w_motor__O_x_2 +
+        inverse_pivot_O_y_2*w_motor__O_y_2;
     const double scale_crankpin_x_2 = -arm_crank_head_y*l_crankpin_x__crank_theta_2 -
         arm_rod_head_y*l_crankpin_x__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
+    const double scale_crankpin_y_2 = arm_crank_head_x*l_crankpin_y__crank_theta_2 +
+        arm_rod_head_x*l_crankpin_y__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
     const double pivot_crankpin_x_2 = l_crankpin_x__O_x_2*w_crankpin_x__O_x_2 +
         l_crankpin_x__O_y_2*w_crankpin_x__O_y_2 + l_crankpin_x__wristpin_x_2*w_crankpin_x__wristpin_x_2 +
         l_crankpin_x__wristpin_y_2*w_crankpin_x__wristpin_y_2 + scale_crankpin_x_2;
-    if (!(pivot_crankpin_x_2 > 1e-13 * scale_crankpin_x_2)) return 7;
-    const double inverse_pivot_crankpin_x_2 = 1.0/pivot_crankpin_x_2;
-    const double w_crankpin_y__crankpin_x_2 = arm_crank_head_y*l_crankpin_y__crank_theta_2 +
-        arm_rod_head_y*l_crankpin_y__rod_theta_2 - l_crankpin_y__O_x_2*w_crankpin_x__O_x_2 -
-        l_crankpin_y__O_y_2*w_crankpin_x__O_y_2 - l_crankpin_y__wristpin_x_2*w_crankpin_x__wristpin_x_2 -
+    const double pivot_crankpin_y_2 = l_crankpin_y__O_x_2*w_crankpin_y__O_x_2 +
+        l_crankpin_y__O_y_2*w_crankpin_y__O_y_2 + l_crankpin_y__wristpin_x_2*w_crankpin_y__wristpin_x_2 +
+        l_crankpin_y__wristpin_y_2*w_crankpin_y__wristpin_y_2 + scale_crankpin_y_2;
+    const double pivot_crankpin_x__crankpin_y_2 = -arm_crank_head_y*l_crankpin_y__crank_theta_2 -
+        arm_rod_head_y*l_crankpin_y__rod_theta_2 + l_crankpin_y__O_x_2*w_crankpin_x__O_x_2 +
+        l_crankpin_y__O_y_2*w_crankpin_x__O_y_2 + l_crankpin_y__wristpin_x_2*w_crankpin_x__wristpin_x_2 +
         l_crankpin_y__wristpin_y_2*w_crankpin_x__wristpin_y_2;
-    const double l_crankpin_y__crankpin_x_2 = -inverse_pivot_crankpin_x_2*w_crankpin_y__crankpin_x_2;
+    const double determinant_crankpin_x__crankpin_y_2 = pivot_crankpin_x_2*pivot_crankpin_y_2 -
+        (pivot_crankpin_x__crankpin_y_2 * pivot_crankpin_x__crankpin_y_2);
+    if (!(pivot_crankpin_x_2 > 1e-13 * scale_crankpin_x_2)) return 7;
+    if (!(determinant_crankpin_x__crankpin_y_2 > 1e-13 * scale_crankpin_y_2 * pivot_crankpin_x_2)) return 8;
+    const double inverse_crankpin_x__crankpin_y_2 = -1.0/determinant_crankpin_x__crankpin_y_2;
+    const double inverse_pivot_crankpin_x_2 = inverse_crankpin_x__crankpin_y_2*pivot_crankpin_y_2;
+    const double inverse_pivot_crankpin_y_2 = inverse_crankpin_x__crankpin_y_2*pivot_crankpin_x_2;
+    const double inverse_cross_crankpin_x__crankpin_y_2 =
+        -inverse_crankpin_x__crankpin_y_2*pivot_crankpin_x__crankpin_y_2;
     const double w_motor__crankpin_x_2 = arm_crank_head_y*inverse_crank_inertia -
         l_motor__O_x_2*w_crankpin_x__O_x_2 - l_motor__O_y_2*w_crankpin_x__O_y_2;
-    const double l_motor__crankpin_x_2 = -inverse_pivot_crankpin_x_2*w_motor__crankpin_x_2;
-    const double scale_crankpin_y_2 = arm_crank_head_x*l_crankpin_y__crank_theta_2 +
-        arm_rod_head_x*l_crankpin_y__rod_theta_2 + inverse_crank_mass + inverse_rod_mass;
-    const double pivot_crankpin_y_2 = l_crankpin_y__O_x_2*w_crankpin_y__O_x_2 +
-        l_crankpin_y__O_y_2*w_crankpin_y__O_y_2 + l_crankpin_y__crankpin_x_2*w_crankpin_y__crankpin_x_2 +
-        l_crankpin_y__wristpin_x_2*w_crankpin_y__wristpin_x_2 +
-        l_crankpin_y__wristpin_y_2*w_crankpin_y__wristpin_y_2 + scale_crankpin_y_2;
-    if (!(pivot_crankpin_y_2 > 1e-13 * scale_crankpin_y_2)) return 8;
-    const double inverse_pivot_crankpin_y_2 = 1.0/pivot_crankpin_y_2;
     const double w_motor__crankpin_y_2 = -arm_crank_head_x*inverse_crank_inertia -
-        l_motor__O_x_2*w_crankpin_y__O_x_2 - l_motor__O_y_2*w_crankpin_y__O_y_2 -
-        l_motor__crankpin_x_2*w_crankpin_y__crankpin_x_2;
-    const double l_motor__crankpin_y_2 = -inverse_pivot_crankpin_y_2*w_motor__crankpin_y_2;
+        l_motor__O_x_2*w_crankpin_y__O_x_2 - l_motor__O_y_2*w_crankpin_y__O_y_2;
+    const double l_motor__crankpin_x_2 = inverse_cross_crankpin_x__crankpin_y_2*w_motor__crankpin_y_2 +
+        inverse_pivot_crankpin_x_2*w_motor__crankpin_x_2;
+    const double l_motor__crankpin_y_2 = inverse_cross_crankpin_x__crankpin_y_2*w_motor__crankpin_x_2 +
+        inverse_pivot_crankpin_y_2*w_motor__crankpin_y_2;
     const double scale_motor_2 = inverse_crank_inertia;
     const double pivot_motor_2 = l_motor__O_x_2*w_motor__O_x_2 + l_motor__O_y_2*w_motor__O_y_2 +
         l_motor__crankpin_x_2*w_motor__crankpin_x_2 + l_motor__crankpin_y_2*w_motor__crankpin_y_2 +
@@ -392,38 +411,36 @@ static int project(const double t, const double *q, const double *r, const Param
     const double inverse_pivot_motor_2 = 1.0/pivot_motor_2;
 
     /* forward substitution */
-    const double step_z_wristpin_y = -l_wristpin_y__cylinder_offset_2*r_cylinder_offset -
-        l_wristpin_y__wristpin_x_2*r_wristpin_x + r_wristpin_y;
-    const double step_z_O_y = -l_O_y__O_x_2*r_O_x + r_O_y;
-    const double step_z_crankpin_x = -l_crankpin_x__O_x_2*r_O_x - l_crankpin_x__O_y_2*step_z_O_y -
+    const double step_z_wristpin_y = -l_wristpin_y__cylinder_offset_2*r_cylinder_offset + r_wristpin_y;
+    const double step_z_crankpin_x = -l_crankpin_x__O_x_2*r_O_x - l_crankpin_x__O_y_2*r_O_y -
         l_crankpin_x__wristpin_x_2*r_wristpin_x - l_crankpin_x__wristpin_y_2*step_z_wristpin_y + r_crankpin_x;
-    const double step_z_crankpin_y = -l_crankpin_y__O_x_2*r_O_x - l_crankpin_y__O_y_2*step_z_O_y -
-        l_crankpin_y__crankpin_x_2*step_z_crankpin_x - l_crankpin_y__wristpin_x_2*r_wristpin_x -
-        l_crankpin_y__wristpin_y_2*step_z_wristpin_y + r_crankpin_y;
-    const double step_z_motor = -l_motor__O_x_2*r_O_x - l_motor__O_y_2*step_z_O_y -
+    const double step_z_crankpin_y = -l_crankpin_y__O_x_2*r_O_x - l_crankpin_y__O_y_2*r_O_y -
+        l_crankpin_y__wristpin_x_2*r_wristpin_x - l_crankpin_y__wristpin_y_2*step_z_wristpin_y + r_crankpin_y;
+    const double step_z_motor = -l_motor__O_x_2*r_O_x - l_motor__O_y_2*r_O_y -
         l_motor__crankpin_x_2*step_z_crankpin_x - l_motor__crankpin_y_2*step_z_crankpin_y + r_motor;
 
     /* backward substitution */
     const double step_lambda_motor = -inverse_pivot_motor_2*step_z_motor;
-    const double step_lambda_crankpin_y = -inverse_pivot_crankpin_y_2*step_z_crankpin_y -
-        l_motor__crankpin_y_2*step_lambda_motor;
-    const double step_lambda_crankpin_x = -inverse_pivot_crankpin_x_2*step_z_crankpin_x -
-        l_crankpin_y__crankpin_x_2*step_lambda_crankpin_y - l_motor__crankpin_x_2*step_lambda_motor;
-    const double step_lambda_O_y = -inverse_pivot_O_y_2*step_z_O_y -
+    const double step_lambda_crankpin_y = inverse_cross_crankpin_x__crankpin_y_2*step_z_crankpin_x +
+        inverse_pivot_crankpin_y_2*step_z_crankpin_y - l_motor__crankpin_y_2*step_lambda_motor;
+    const double step_lambda_crankpin_x = inverse_cross_crankpin_x__crankpin_y_2*step_z_crankpin_y +
+        inverse_pivot_crankpin_x_2*step_z_crankpin_x - l_motor__crankpin_x_2*step_lambda_motor;
+    const double step_lambda_O_y = inverse_cross_O_x__O_y_2*r_O_x + inverse_pivot_O_y_2*r_O_y -
         l_crankpin_x__O_y_2*step_lambda_crankpin_x - l_crankpin_y__O_y_2*step_lambda_crankpin_y -
         l_motor__O_y_2*step_lambda_motor;
-    const double step_lambda_O_x = -inverse_pivot_O_x_2*r_O_x - l_O_y__O_x_2*step_lambda_O_y -
+    const double step_lambda_O_x = inverse_cross_O_x__O_y_2*r_O_y + inverse_pivot_O_x_2*r_O_x -
         l_crankpin_x__O_x_2*step_lambda_crankpin_x - l_crankpin_y__O_x_2*step_lambda_crankpin_y -
         l_motor__O_x_2*step_lambda_motor;
     const double step_acceleration_crank_theta = -inverse_crank_inertia*step_lambda_motor -
         l_O_x__crank_theta_2*step_lambda_O_x - l_O_y__crank_theta_2*step_lambda_O_y -
         l_crankpin_x__crank_theta_2*step_lambda_crankpin_x -
         l_crankpin_y__crank_theta_2*step_lambda_crankpin_y;
-    const double step_lambda_wristpin_y = -inverse_pivot_wristpin_y_2*step_z_wristpin_y -
-        l_crankpin_x__wristpin_y_2*step_lambda_crankpin_x - l_crankpin_y__wristpin_y_2*step_lambda_crankpin_y;
-    const double step_lambda_wristpin_x = -inverse_pivot_wristpin_x_2*r_wristpin_x -
-        l_crankpin_x__wristpin_x_2*step_lambda_crankpin_x - l_crankpin_y__wristpin_x_2*step_lambda_crankpin_y
-        - l_wristpin_y__wristpin_x_2*step_lambda_wristpin_y;
+    const double step_lambda_wristpin_y = inverse_cross_wristpin_x__wristpin_y_2*r_wristpin_x +
+        inverse_pivot_wristpin_y_2*step_z_wristpin_y - l_crankpin_x__wristpin_y_2*step_lambda_crankpin_x -
+        l_crankpin_y__wristpin_y_2*step_lambda_crankpin_y;
+    const double step_lambda_wristpin_x = inverse_cross_wristpin_x__wristpin_y_2*step_z_wristpin_y +
+        inverse_pivot_wristpin_x_2*r_wristpin_x - l_crankpin_x__wristpin_x_2*step_lambda_crankpin_x -
+        l_crankpin_y__wristpin_x_2*step_lambda_crankpin_y;
     const double step_acceleration_rod_theta = -l_crankpin_x__rod_theta_2*step_lambda_crankpin_x -
         l_crankpin_y__rod_theta_2*step_lambda_crankpin_y - l_wristpin_x__rod_theta_2*step_lambda_wristpin_x -
         l_wristpin_y__rod_theta_2*step_lambda_wristpin_y;

@@ -126,80 +126,92 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_crankpin_y__rod_theta = arm_rod_head_x*inverse_rod_inertia;
     const double scale_wristpin_x = -arm_rod_head_y*l_wristpin_x__rod_theta + inverse_rod_mass +
         inverse_slider_mass;
-    if (!(scale_wristpin_x > 1e-08 * scale_wristpin_x)) { pivot = 3; goto dependent; };
-    const double inverse_pivot_wristpin_x = 1.0/scale_wristpin_x;
-    const double w_wristpin_y__wristpin_x = arm_rod_head_y*l_wristpin_y__rod_theta;
-    const double l_wristpin_y__wristpin_x = -inverse_pivot_wristpin_x*w_wristpin_y__wristpin_x;
-    const double w_crankpin_x__wristpin_x = arm_rod_head_y*l_crankpin_x__rod_theta + inverse_rod_mass;
-    const double l_crankpin_x__wristpin_x = -inverse_pivot_wristpin_x*w_crankpin_x__wristpin_x;
-    const double w_crankpin_y__wristpin_x = arm_rod_head_y*l_crankpin_y__rod_theta;
-    const double l_crankpin_y__wristpin_x = -inverse_pivot_wristpin_x*w_crankpin_y__wristpin_x;
     const double scale_wristpin_y = arm_rod_head_x*l_wristpin_y__rod_theta + inverse_rod_mass +
         inverse_slider_mass;
-    const double pivot_wristpin_y = inverse_slider_mass*l_wristpin_y__cylinder_offset +
-        l_wristpin_y__wristpin_x*w_wristpin_y__wristpin_x + scale_wristpin_y;
-    if (!(pivot_wristpin_y > 1e-08 * scale_wristpin_y)) { pivot = 4; goto dependent; };
-    const double inverse_pivot_wristpin_y = 1.0/pivot_wristpin_y;
-    const double w_crankpin_x__wristpin_y = -arm_rod_head_x*l_crankpin_x__rod_theta -
-        l_crankpin_x__wristpin_x*w_wristpin_y__wristpin_x;
-    const double l_crankpin_x__wristpin_y = -inverse_pivot_wristpin_y*w_crankpin_x__wristpin_y;
-    const double w_crankpin_y__wristpin_y = -arm_rod_head_x*l_crankpin_y__rod_theta + inverse_rod_mass -
-        l_crankpin_y__wristpin_x*w_wristpin_y__wristpin_x;
-    const double l_crankpin_y__wristpin_y = -inverse_pivot_wristpin_y*w_crankpin_y__wristpin_y;
+    const double pivot_wristpin_y = inverse_slider_mass*l_wristpin_y__cylinder_offset + scale_wristpin_y;
+    const double pivot_wristpin_x__wristpin_y = -arm_rod_head_y*l_wristpin_y__rod_theta;
+    const double determinant_wristpin_x__wristpin_y = -(pivot_wristpin_x__wristpin_y *
+        pivot_wristpin_x__wristpin_y) + pivot_wristpin_y*scale_wristpin_x;
+    if (!(scale_wristpin_x > 1e-08 * scale_wristpin_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_wristpin_x__wristpin_y > 1e-08 * scale_wristpin_y * scale_wristpin_x)) { pivot = 4; goto dependent; };
+    const double inverse_wristpin_x__wristpin_y = -1.0/determinant_wristpin_x__wristpin_y;
+    const double inverse_pivot_wristpin_x = inverse_wristpin_x__wristpin_y*pivot_wristpin_y;
+    const double inverse_pivot_wristpin_y = inverse_wristpin_x__wristpin_y*scale_wristpin_x;
+    const double inverse_cross_wristpin_x__wristpin_y =
+        -inverse_wristpin_x__wristpin_y*pivot_wristpin_x__wristpin_y;
+    const double w_crankpin_x__wristpin_x = arm_rod_head_y*l_crankpin_x__rod_theta + inverse_rod_mass;
+    const double w_crankpin_x__wristpin_y = -arm_rod_head_x*l_crankpin_x__rod_theta;
+    const double l_crankpin_x__wristpin_x = inverse_cross_wristpin_x__wristpin_y*w_crankpin_x__wristpin_y +
+        inverse_pivot_wristpin_x*w_crankpin_x__wristpin_x;
+    const double l_crankpin_x__wristpin_y = inverse_cross_wristpin_x__wristpin_y*w_crankpin_x__wristpin_x +
+        inverse_pivot_wristpin_y*w_crankpin_x__wristpin_y;
+    const double w_crankpin_y__wristpin_x = arm_rod_head_y*l_crankpin_y__rod_theta;
+    const double w_crankpin_y__wristpin_y = -arm_rod_head_x*l_crankpin_y__rod_theta + inverse_rod_mass;
+    const double l_crankpin_y__wristpin_x = inverse_cross_wristpin_x__wristpin_y*w_crankpin_y__wristpin_y +
+        inverse_pivot_wristpin_x*w_crankpin_y__wristpin_x;
+    const double l_crankpin_y__wristpin_y = inverse_cross_wristpin_x__wristpin_y*w_crankpin_y__wristpin_x +
+        inverse_pivot_wristpin_y*w_crankpin_y__wristpin_y;
     const double l_O_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
     const double l_O_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
     const double l_crankpin_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
     const double l_crankpin_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
     const double scale_O_x = -arm_crank_head_y*l_O_x__crank_theta + inverse_crank_mass;
-    if (!(scale_O_x > 1e-08 * scale_O_x)) { pivot = 5; goto dependent; };
-    const double inverse_pivot_O_x = 1.0/scale_O_x;
-    const double w_O_y__O_x = arm_crank_head_y*l_O_y__crank_theta;
-    const double l_O_y__O_x = -inverse_pivot_O_x*w_O_y__O_x;
-    const double w_crankpin_x__O_x = arm_crank_head_y*l_crankpin_x__crank_theta + inverse_crank_mass;
-    const double l_crankpin_x__O_x = -inverse_pivot_O_x*w_crankpin_x__O_x;
-    const double w_crankpin_y__O_x = arm_crank_head_y*l_crankpin_y__crank_theta;
-    const double l_crankpin_y__O_x = -inverse_pivot_O_x*w_crankpin_y__O_x;
-    const double w_motor__O_x = arm_crank_head_y*inverse_crank_inertia;
-    const double l_motor__O_x = -inverse_pivot_O_x*w_motor__O_x;
     const double scale_O_y = arm_crank_head_x*l_O_y__crank_theta + inverse_crank_mass;
-    const double pivot_O_y = l_O_y__O_x*w_O_y__O_x + scale_O_y;
-    if (!(pivot_O_y > 1e-08 * scale_O_y)) { pivot = 6; goto dependent; };
-    const double inverse_pivot_O_y = 1.0/pivot_O_y;
-    const double w_crankpin_x__O_y = -arm_crank_head_x*l_crankpin_x__crank_theta -
-        l_crankpin_x__O_x*w_O_y__O_x;
-    const double l_crankpin_x__O_y = -inverse_pivot_O_y*w_crankpin_x__O_y;
-    const double w_crankpin_y__O_y = -arm_crank_head_x*l_crankpin_y__crank_theta + inverse_crank_mass -
-        l_crankpin_y__O_x*w_O_y__O_x;
-    const double l_crankpin_y__O_y = -inverse_pivot_O_y*w_crankpin_y__O_y;
-    const double w_motor__O_y = -arm_crank_head_x*inverse_crank_inertia - l_motor__O_x*w_O_y__O_x;
-    const double l_motor__O_y = -inverse_pivot_O_y*w_motor__O_y;
+    const double pivot_O_x__O_y = -arm_crank_head_y*l_O_y__crank_theta;
+    const double determinant_O_x__O_y = -(pivot_O_x__O_y * pivot_O_x__O_y) + scale_O_x*scale_O_y;
+    if (!(scale_O_x > 1e-08 * scale_O_x)) { pivot = 5; goto dependent; };
+    if (!(determinant_O_x__O_y > 1e-08 * scale_O_y * scale_O_x)) { pivot = 6; goto dependent; };
+    const double inverse_O_x__O_y = -1.0/determinant_O_x__O_y;
+    const double inverse_pivot_O_x = inverse_O_x__O_y*scale_O_y;
+    const double inverse_pivot_O_y = inverse_O_x__O_y*scale_O_x;
+    const double inverse_cross_O_x__O_y = -inverse_O_x__O_y*pivot_O_x__O_y;
+    const double w_crankpin_x__O_x = arm_crank_head_y*l_crankpin_x__crank_theta + inverse_crank_mass;
+    const double w_crankpin_x__O_y = -arm_crank_head_x*l_crankpin_x__crank_theta;
+    const double l_crankpin_x__O_x = inverse_cross_O_x__O_y*w_crankpin_x__O_y +
+        inverse_pivot_O_x*w_crankpin_x__O_x;
+    const double l_crankpin_x__O_y = inverse_cross_O_x__O_y*w_crankpin_x__O_x +
+        inverse_pivot_O_y*w_crankpin_x__O_y;
+    const double w_crankpin_y__O_x = arm_crank_head_y*l_crankpin_y__crank_theta;
+    const double w_crankpin_y__O_y = -arm_crank_head_x*l_crankpin_y__crank_theta + inverse_crank_mass;
+    const double l_crankpin_y__O_x = inverse_cross_O_x__O_y*w_crankpin_y__O_y +
+        inverse_pivot_O_x*w_crankpin_y__O_x;
+    const double l_crankpin_y__O_y = inverse_cross_O_x__O_y*w_crankpin_y__O_x +
+        inverse_pivot_O_y*w_crankpin_y__O_y;
+    const double w_motor__O_x = arm_crank_head_y*inverse_crank_inertia;
+    const double w_motor__O_y = -arm_crank_head_x*inverse_crank_inertia;
+    const double l_motor__O_x = inverse_cross_O_x__O_y*w_motor__O_y + inverse_pivot_O_x*w_motor__O_x;
+    const double l_motor__O_y = inverse_cross_O_x__O_y*w_motor__O_x + inverse_pivot_O_y*w_motor__O_y;
     const double scale_crankpin_x = -arm_crank_head_y*l_crankpin_x__crank_theta -
         arm_rod_head_y*l_crankpin_x__rod_theta + inverse_crank_mass + inverse_rod_mass;
+    const double scale_crankpin_y = arm_crank_head_x*l_crankpin_y__crank_theta +
+        arm_rod_head_x*l_crankpin_y__rod_theta + inverse_crank_mass + inverse_rod_mass;
     const double pivot_crankpin_x = l_crankpin_x__O_x*w_crankpin_x__O_x + l_crankpin_x__O_y*w_crankpin_x__O_y
         + l_crankpin_x__wristpin_x*w_crankpin_x__wristpin_x +
         l_crankpin_x__wristpin_y*w_crankpin_x__wristpin_y + scale_crankpin_x;
-    if (!(pivot_crankpin_x > 1e-08 * scale_crankpin_x)) { pivot = 7; goto dependent; };
-    const double inverse_pivot_crankpin_x = 1.0/pivot_crankpin_x;
-    const double w_crankpin_y__crankpin_x = arm_crank_head_y*l_crankpin_y__crank_theta +
-        arm_rod_head_y*l_crankpin_y__rod_theta - l_crankpin_y__O_x*w_crankpin_x__O_x -
-        l_crankpin_y__O_y*w_crankpin_x__O_y - l_crankpin_y__wristpin_x*w_crankpin_x__wristpin_x -
+    const double pivot_crankpin_y = l_crankpin_y__O_x*w_crankpin_y__O_x + l_crankpin_y__O_y*w_crankpin_y__O_y
+        + l_crankpin_y__wristpin_x*w_crankpin_y__wristpin_x +
+        l_crankpin_y__wristpin_y*w_crankpin_y__wristpin_y + scale_crankpin_y;
+    const double pivot_crankpin_x__crankpin_y = -arm_crank_head_y*l_crankpin_y__crank_theta -
+        arm_rod_head_y*l_crankpin_y__rod_theta + l_crankpin_y__O_x*w_crankpin_x__O_x +
+        l_crankpin_y__O_y*w_crankpin_x__O_y + l_crankpin_y__wristpin_x*w_crankpin_x__wristpin_x +
         l_crankpin_y__wristpin_y*w_crankpin_x__wristpin_y;
-    const double l_crankpin_y__crankpin_x = -inverse_pivot_crankpin_x*w_crankpin_y__crankpin_x;
+    const double determinant_crankpin_x__crankpin_y = pivot_crankpin_x*pivot_crankpin_y -
+        (pivot_crankpin_x__crankpin_y * pivot_crankpin_x__crankpin_y);
+    if (!(pivot_crankpin_x > 1e-08 * scale_crankpin_x)) { pivot = 7; goto dependent; };
+    if (!(determinant_crankpin_x__crankpin_y > 1e-08 * scale_crankpin_y * pivot_crankpin_x)) { pivot = 8; goto dependent; };
+    const double inverse_crankpin_x__crankpin_y = -1.0/determinant_crankpin_x__crankpin_y;
+    const double inverse_pivot_crankpin_x = inverse_crankpin_x__crankpin_y*pivot_crankpin_y;
+    const double inverse_pivot_crankpin_y = inverse_crankpin_x__crankpin_y*pivot_crankpin_x;
+    const double inverse_cross_crankpin_x__crankpin_y =
+        -inverse_crankpin_x__crankpin_y*pivot_crankpin_x__crankpin_y;
     const double w_motor__crankpin_x = arm_crank_head_y*inverse_crank_inertia - l_motor__O_x*w_crankpin_x__O_x
         - l_motor__O_y*w_crankpin_x__O_y;
-    const double l_motor__crankpin_x = -inverse_pivot_crankpin_x*w_motor__crankpin_x;
-    const double scale_crankpin_y = arm_crank_head_x*l_crankpin_y__crank_theta +
-        arm_rod_head_x*l_crankpin_y__rod_theta + inverse_crank_mass + inverse_rod_mass;
-    const double pivot_crankpin_y = l_crankpin_y__O_x*w_crankpin_y__O_x + l_crankpin_y__O_y*w_crankpin_y__O_y
-        + l_crankpin_y__crankpin_x*w_crankpin_y__crankpin_x +
-        l_crankpin_y__wristpin_x*w_crankpin_y__wristpin_x + l_crankpin_y__wristpin_y*w_crankpin_y__wristpin_y
-        + scale_crankpin_y;
-    if (!(pivot_crankpin_y > 1e-08 * scale_crankpin_y)) { pivot = 8; goto dependent; };
-    const double inverse_pivot_crankpin_y = 1.0/pivot_crankpin_y;
     const double w_motor__crankpin_y = -arm_crank_head_x*inverse_crank_inertia -
-        l_motor__O_x*w_crankpin_y__O_x - l_motor__O_y*w_crankpin_y__O_y -
-        l_motor__crankpin_x*w_crankpin_y__crankpin_x;
-    const double l_motor__crankpin_y = -inverse_pivot_crankpin_y*w_motor__crankpin_y;
+        l_motor__O_x*w_crankpin_y__O_x - l_motor__O_y*w_crankpin_y__O_y;
+    const double l_motor__crankpin_x = inverse_cross_crankpin_x__crankpin_y*w_motor__crankpin_y +
+        inverse_pivot_crankpin_x*w_motor__crankpin_x;
+    const double l_motor__crankpin_y = inverse_cross_crankpin_x__crankpin_y*w_motor__crankpin_x +
+        inverse_pivot_crankpin_y*w_motor__crankpin_y;
     const double scale_motor = inverse_crank_inertia;
     const double pivot_motor = l_motor__O_x*w_motor__O_x + l_motor__O_y*w_motor__O_y +
         l_motor__crankpin_x*w_motor__crankpin_x + l_motor__crankpin_y*w_motor__crankpin_y + scale_motor;
@@ -207,35 +219,33 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double inverse_pivot_motor = 1.0/pivot_motor;
 
     /* forward substitution */
-    const double z_wristpin_y = -l_wristpin_y__cylinder_offset*rhs_cylinder_offset -
-        l_wristpin_y__wristpin_x*rhs_wristpin_x + rhs_wristpin_y;
-    const double z_O_y = -l_O_y__O_x*rhs_O_x + rhs_O_y;
-    const double z_crankpin_x = -l_crankpin_x__O_x*rhs_O_x - l_crankpin_x__O_y*z_O_y -
+    const double z_wristpin_y = -l_wristpin_y__cylinder_offset*rhs_cylinder_offset + rhs_wristpin_y;
+    const double z_crankpin_x = -l_crankpin_x__O_x*rhs_O_x - l_crankpin_x__O_y*rhs_O_y -
         l_crankpin_x__wristpin_x*rhs_wristpin_x - l_crankpin_x__wristpin_y*z_wristpin_y + rhs_crankpin_x;
-    const double z_crankpin_y = -l_crankpin_y__O_x*rhs_O_x - l_crankpin_y__O_y*z_O_y -
-        l_crankpin_y__crankpin_x*z_crankpin_x - l_crankpin_y__wristpin_x*rhs_wristpin_x -
-        l_crankpin_y__wristpin_y*z_wristpin_y + rhs_crankpin_y;
-    const double z_motor = -l_motor__O_x*rhs_O_x - l_motor__O_y*z_O_y - l_motor__crankpin_x*z_crankpin_x -
+    const double z_crankpin_y = -l_crankpin_y__O_x*rhs_O_x - l_crankpin_y__O_y*rhs_O_y -
+        l_crankpin_y__wristpin_x*rhs_wristpin_x - l_crankpin_y__wristpin_y*z_wristpin_y + rhs_crankpin_y;
+    const double z_motor = -l_motor__O_x*rhs_O_x - l_motor__O_y*rhs_O_y - l_motor__crankpin_x*z_crankpin_x -
         l_motor__crankpin_y*z_crankpin_y + rhs_motor;
 
     /* backward substitution */
     const double lambda_motor = -inverse_pivot_motor*z_motor;
-    const double lambda_crankpin_y = -inverse_pivot_crankpin_y*z_crankpin_y -
-        l_motor__crankpin_y*lambda_motor;
-    const double lambda_crankpin_x = -inverse_pivot_crankpin_x*z_crankpin_x -
-        l_crankpin_y__crankpin_x*lambda_crankpin_y - l_motor__crankpin_x*lambda_motor;
-    const double lambda_O_y = -inverse_pivot_O_y*z_O_y - l_crankpin_x__O_y*lambda_crankpin_x -
-        l_crankpin_y__O_y*lambda_crankpin_y - l_motor__O_y*lambda_motor;
-    const double lambda_O_x = -inverse_pivot_O_x*rhs_O_x - l_O_y__O_x*lambda_O_y -
+    const double lambda_crankpin_y = inverse_cross_crankpin_x__crankpin_y*z_crankpin_x +
+        inverse_pivot_crankpin_y*z_crankpin_y - l_motor__crankpin_y*lambda_motor;
+    const double lambda_crankpin_x = inverse_cross_crankpin_x__crankpin_y*z_crankpin_y +
+        inverse_pivot_crankpin_x*z_crankpin_x - l_motor__crankpin_x*lambda_motor;
+    const double lambda_O_y = inverse_cross_O_x__O_y*rhs_O_x + inverse_pivot_O_y*rhs_O_y -
+        l_crankpin_x__O_y*lambda_crankpin_x - l_crankpin_y__O_y*lambda_crankpin_y - l_motor__O_y*lambda_motor;
+    const double lambda_O_x = inverse_cross_O_x__O_y*rhs_O_y + inverse_pivot_O_x*rhs_O_x -
         l_crankpin_x__O_x*lambda_crankpin_x - l_crankpin_y__O_x*lambda_crankpin_y - l_motor__O_x*lambda_motor;
     const double acceleration_crank_theta = -inverse_crank_inertia*lambda_motor -
         l_O_x__crank_theta*lambda_O_x - l_O_y__crank_theta*lambda_O_y -
         l_crankpin_x__crank_theta*lambda_crankpin_x - l_crankpin_y__crank_theta*lambda_crankpin_y;
-    const double lambda_wristpin_y = -inverse_pivot_wristpin_y*z_wristpin_y -
-        l_crankpin_x__wristpin_y*lambda_crankpin_x - l_crankpin_y__wristpin_y*lambda_crankpin_y;
-    const double lambda_wristpin_x = -inverse_pivot_wristpin_x*rhs_wristpin_x -
-        l_crankpin_x__wristpin_x*lambda_crankpin_x - l_crankpin_y__wristpin_x*lambda_crankpin_y -
-        l_wristpin_y__wristpin_x*lambda_wristpin_y;
+    const double lambda_wristpin_y = inverse_cross_wristpin_x__wristpin_y*rhs_wristpin_x +
+        inverse_pivot_wristpin_y*z_wristpin_y - l_crankpin_x__wristpin_y*lambda_crankpin_x -
+        l_crankpin_y__wristpin_y*lambda_crankpin_y;
+    const double lambda_wristpin_x = inverse_cross_wristpin_x__wristpin_y*z_wristpin_y +
+        inverse_pivot_wristpin_x*rhs_wristpin_x - l_crankpin_x__wristpin_x*lambda_crankpin_x -
+        l_crankpin_y__wristpin_x*lambda_crankpin_y;
     const double acceleration_rod_theta = -l_crankpin_x__rod_theta*lambda_crankpin_x -
         l_crankpin_y__rod_theta*lambda_crankpin_y - l_wristpin_x__rod_theta*lambda_wristpin_x -
         l_wristpin_y__rod_theta*lambda_wristpin_y;

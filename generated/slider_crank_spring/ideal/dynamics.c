@@ -117,18 +117,21 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double l_pin_y__rod_theta = -arm_rod_crankpin_x*inverse_rod_inertia;
     const double scale_pin_x = -arm_crank_head_y*l_pin_x__crank_theta + arm_rod_crankpin_y*l_pin_x__rod_theta
         + inverse_crank_mass + inverse_rod_mass;
-    const double pivot_pin_x = inverse_crank_mass*l_pin_x__O_x + scale_pin_x;
-    if (!(pivot_pin_x > 1e-08 * scale_pin_x)) { pivot = 4; goto dependent; };
-    const double inverse_pivot_pin_x = 1.0/pivot_pin_x;
-    const double w_pin_y__pin_x = arm_crank_head_y*l_pin_y__crank_theta -
-        arm_rod_crankpin_y*l_pin_y__rod_theta;
-    const double l_pin_y__pin_x = -inverse_pivot_pin_x*w_pin_y__pin_x;
     const double scale_pin_y = arm_crank_head_x*l_pin_y__crank_theta - arm_rod_crankpin_x*l_pin_y__rod_theta +
         inverse_crank_mass + inverse_rod_mass;
+    const double pivot_pin_x = inverse_crank_mass*l_pin_x__O_x + scale_pin_x;
     const double pivot_pin_y = inverse_crank_mass*l_pin_y__O_y + inverse_rod_mass*l_pin_y__slider_offset +
-        l_pin_y__pin_x*w_pin_y__pin_x + scale_pin_y;
-    if (!(pivot_pin_y > 1e-08 * scale_pin_y)) { pivot = 5; goto dependent; };
-    const double inverse_pivot_pin_y = 1.0/pivot_pin_y;
+        scale_pin_y;
+    const double pivot_pin_x__pin_y = -arm_crank_head_y*l_pin_y__crank_theta +
+        arm_rod_crankpin_y*l_pin_y__rod_theta;
+    const double determinant_pin_x__pin_y = pivot_pin_x*pivot_pin_y - (pivot_pin_x__pin_y *
+        pivot_pin_x__pin_y);
+    if (!(pivot_pin_x > 1e-08 * scale_pin_x)) { pivot = 4; goto dependent; };
+    if (!(determinant_pin_x__pin_y > 1e-08 * scale_pin_y * pivot_pin_x)) { pivot = 5; goto dependent; };
+    const double inverse_pin_x__pin_y = -1.0/determinant_pin_x__pin_y;
+    const double inverse_pivot_pin_x = inverse_pin_x__pin_y*pivot_pin_y;
+    const double inverse_pivot_pin_y = inverse_pin_x__pin_y*pivot_pin_x;
+    const double inverse_cross_pin_x__pin_y = -inverse_pin_x__pin_y*pivot_pin_x__pin_y;
 
     /* forward substitution */
     const double z_rod_x = -coil_pull*coil_span_x + push_value_x;
@@ -145,12 +148,12 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double z_pin_x = -inverse_crank_mass*z_crank_x + inverse_rod_mass*z_rod_x - l_pin_x__O_x*z_O_x -
         l_pin_x__crank_theta*z_crank_theta - l_pin_x__rod_theta*z_rod_theta + rhs_pin_x;
     const double z_pin_y = -inverse_crank_mass*z_crank_y + inverse_rod_mass*z_rod_y - l_pin_y__O_y*z_O_y -
-        l_pin_y__crank_theta*z_crank_theta - l_pin_y__pin_x*z_pin_x - l_pin_y__rod_theta*z_rod_theta -
+        l_pin_y__crank_theta*z_crank_theta - l_pin_y__rod_theta*z_rod_theta -
         l_pin_y__slider_offset*z_slider_offset + rhs_pin_y;
 
     /* backward substitution */
-    const double lambda_pin_y = -inverse_pivot_pin_y*z_pin_y;
-    const double lambda_pin_x = -inverse_pivot_pin_x*z_pin_x - l_pin_y__pin_x*lambda_pin_y;
+    const double lambda_pin_y = inverse_cross_pin_x__pin_y*z_pin_x + inverse_pivot_pin_y*z_pin_y;
+    const double lambda_pin_x = inverse_cross_pin_x__pin_y*z_pin_y + inverse_pivot_pin_x*z_pin_x;
     const double acceleration_rod_theta = inverse_rod_inertia*z_rod_theta - l_pin_x__rod_theta*lambda_pin_x -
         l_pin_y__rod_theta*lambda_pin_y;
     const double lambda_slider_offset = -inverse_pivot_slider_offset*z_slider_offset -

@@ -18,14 +18,17 @@ enum {
     N_CLEARANCES = 0,        /* joints with play */
     N_FRICTIONS = 0,         /* slips that friction may hold */
     N_SWITCHES = 0,          /* corners of min, max, abs and sign */
+    N_USER_EVENTS = 0,      /* expressions whose zeros are watched */
     N_SERIES = 5,            /* results of force elements */
     N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
-    N_X = N_Q,                /* coordinates that are integrated */
+    N_S = 2 * N_Q + N_WORK,   /* state of all bodies: q, v, works */
+    N_X = 2,                  /* coordinates that are integrated */
+    N_LOOPS = 1,              /* constraint rows of these */
     N_Y = 2 * N_X + N_WORK
 };
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double crank_length;  /* bodies.crank.length */    double crank_points_middle_x;  /* bodies.crank.points.middle.x */    double rod_points_crankpin_x;  /* bodies.rod.points.crankpin.x */    double rod_points_middle_x;  /* bodies.rod.points.middle.x */    double rod_points_tip_x;  /* bodies.rod.points.tip.x */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slider_direction_x;  /* joints.slider.direction.x */    double coil_stiffness;  /* forces.coil.stiffness */    double coil_free_length;  /* forces.coil.free_length */    double coil_damping;  /* forces.coil.damping */    double push_value_x;  /* forces.push.value.x */    double guess_rod_theta;  /* start.guess.rod.theta */    double guess_rod_x;  /* start.guess.rod.x */    double set_crank_theta;  /* start.set.crank.theta */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_rod_mass;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */} Parameters;
+typedef struct {    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double crank_length;  /* bodies.crank.length */    double crank_points_middle_x;  /* bodies.crank.points.middle.x */    double rod_points_crankpin_x;  /* bodies.rod.points.crankpin.x */    double rod_points_middle_x;  /* bodies.rod.points.middle.x */    double rod_points_tip_x;  /* bodies.rod.points.tip.x */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slider_direction_x;  /* joints.slider.direction.x */    double coil_stiffness;  /* forces.coil.stiffness */    double coil_free_length;  /* forces.coil.free_length */    double coil_damping;  /* forces.coil.damping */    double push_value_x;  /* forces.push.value.x */    double guess_rod_theta;  /* start.guess.rod.theta */    double guess_rod_x;  /* start.guess.rod.x */    double set_crank_theta;  /* start.set.crank.theta */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_rod_mass;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double rod_com_span_x;  /* vector in its frame */    double rod_middle_span_x;  /* vector in its frame */    double rod_tip_span_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_rod;  /* sum of m w.w */    double inertia_rod_rod;  /* sum of m w.w */    double mass_crank_crank;  /* constant of M */    double mass_rod_rod;  /* constant of M */    double inverse_mass_crank_crank;  /* 1/M */} Parameters;
 
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
@@ -42,6 +45,7 @@ typedef struct {
     Latch latch[1];
     double mode[1];
     double side[1];
+    signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
 } Memory;
 
@@ -72,7 +76,24 @@ typedef struct {
     Clearance clearance[1];
     Friction friction[1];
     double g[1]; /* switching functions; NaN: does not act */
+    double event[1]; /* values of the expressions that are watched */
 } Aside;
+
+/* The expressions that are watched: which way they are to cross zero (1 rising, -1 falling, 0 both), and what then. */
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+
+/*
+ * Whether expression i, seen last on `side` of zero (1 or -1; 0: nowhere yet), has crossed to `value`; `side` is
+ * where it is then. A zero itself lies on neither side.
+ */
+static inline int event_crosses(int i, signed char *side, double value)
+{
+    const int from = *side, to = (value > 0.0) - (value < 0.0);
+    if (to)
+        *side = (signed char)to;
+    return from * to < 0 && event_direction[i] * to >= 0;
+}
 
 /* min, max, sign that keep a NaN in x. */
 static inline double max_of(double x, double y) { return x < y ? y : x; }

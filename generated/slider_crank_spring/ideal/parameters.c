@@ -56,5 +56,23 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->inverse_crank_inertia = inverse_crank_inertia;
     const double inverse_rod_inertia = 1.0/rod_inertia;  /* 1/M */
     p->inverse_rod_inertia = inverse_rod_inertia;
+    const double rod_com_span_x = -rod_points_crankpin_x;  /* vector in its frame */
+    p->rod_com_span_x = rod_com_span_x;
+    const double rod_middle_span_x = -rod_points_crankpin_x + rod_points_middle_x;  /* vector in its frame */
+    p->rod_middle_span_x = rod_middle_span_x;
+    const double rod_tip_span_x = -rod_points_crankpin_x + rod_points_tip_x;  /* vector in its frame */
+    p->rod_tip_span_x = rod_tip_span_x;
+    const double inertia_crank_crank = (crank_length * crank_length)*rod_mass;  /* sum of m w.w */
+    p->inertia_crank_crank = inertia_crank_crank;
+    const double inertia_crank_rod = crank_length*rod_com_span_x*rod_mass;  /* sum of m w.w */
+    p->inertia_crank_rod = inertia_crank_rod;
+    const double inertia_rod_rod = (rod_com_span_x * rod_com_span_x)*rod_mass;  /* sum of m w.w */
+    p->inertia_rod_rod = inertia_rod_rod;
+    const double mass_crank_crank = crank_inertia + inertia_crank_crank;  /* constant of M */
+    p->mass_crank_crank = mass_crank_crank;
+    const double mass_rod_rod = inertia_rod_rod + rod_inertia;  /* constant of M */
+    p->mass_rod_rod = mass_rod_rod;
+    const double inverse_mass_crank_crank = 1.0/mass_crank_crank;  /* 1/M */
+    p->inverse_mass_crank_crank = inverse_mass_crank_crank;
 }
 

@@ -18,6 +18,7 @@ from gudgeon.kernel_source import (
     ClearanceInfo,
     Condition,
     DriveInfo,
+    EventInfo,
     JointInfo,
     KernelSource,
     PointInfo,
@@ -30,7 +31,8 @@ from gudgeon.kernel_source import (
 def describe(
     model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "", cdef: str = "",
     methods: tuple[str, ...] = (), pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
-    operations: Mapping[str, int] = MappingProxyType({}),
+    operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
+    motion_pivots: tuple[str, ...] = (), formulation: str = "full",
 ) -> KernelSource:  # fmt: skip
     """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
     scene, mechanism = model.scene, model.scene.mechanism
@@ -81,6 +83,8 @@ def describe(
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_simulate(model),
         operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
+        tree=tree, closures=closures, motion_pivots=motion_pivots, formulation=formulation,
+        events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
     )  # fmt: skip
 
 

@@ -45,11 +45,14 @@ def newton_code(system: System, render: Render, prefix: str = "") -> tuple[str, 
     return text, kernels
 
 
-def jacobian_code(model: Model, render: Render) -> str:
-    """The functions that Python calls."""
+def jacobian_code(model: Model, reduced: bool, render: Render) -> str:
+    """The functions that Python calls; the reduced formulation has no Baumgarte's terms."""
+    if reduced:
+        return render("jacobian.c.jinja", name="gudgeon_tree_jacobian", two_alpha="0.0", beta_squared="0.0")
     derive, (alpha, beta) = model.slots.derive, model.baumgarte
     gains = {"two_alpha": derive("two_alpha", 2 * alpha), "beta_squared": derive("beta_squared", beta**2)}
-    return render("jacobian.c.jinja", **{name: f"((const Parameters *)p)->{gain}" for name, gain in gains.items()})
+    read = {name: f"((const Parameters *)p)->{gain}" for name, gain in gains.items()}
+    return render("jacobian.c.jinja", name="gudgeon_jacobian", **read)
 
 
 def tangent_code(model: Model, render: Render) -> tuple[str, list[Kernel]]:

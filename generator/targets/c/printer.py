@@ -75,7 +75,6 @@ class CPrinter(C99CodePrinter):
         """From the rates of ramps and corners; 1 at 0, so that a ramp that begins at the start moves at once."""
         return f"({self._print(expr.args[0])} >= 0.0 ? 1.0 : 0.0)"
 
-
     def _print_SideOf(self, expr: sp.Expr) -> str:
         """From switches.py."""
         return f"side_of(side, g, {int(expr.args[0])}, {self._print(expr.args[1])})"
@@ -92,7 +91,7 @@ def _double(number: sp.Expr) -> str:
     return repr(value) if math.isfinite(value) else f"{'-' if value < 0 else ''}INFINITY"
 
 
-_printer = CPrinter()
+_printer = CPrinter({"math_macros": {}})  # M_PI_2 and the like are not in C11
 
 
 def expression(expr: sp.Expr | str) -> str:

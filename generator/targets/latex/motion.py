@@ -31,15 +31,15 @@ PHI_DOT = Name(r"\dot{\Phi} = \Phi_{q} \dot{q} - \nu", "Φ̇ = Φ_q·q̇ - ν")
 
 
 def motion_sections(model: Model, notation: Notation) -> list[Section]:
-    """M, force elements, g, the equation of motion."""
+    """M, force elements, g, the equation of motion, events."""
     sections = [Section("Masses", tuple(_masses(model, notation)))]
     if model.elements:
         sections.append(Section("Force elements", tuple(_elements(model, notation))))
-    return [
-        *sections,
+    sections += [
         Section("Generalized forces", tuple(_forces(model, notation))),
         Section("Equation of motion", tuple(_equation_of_motion(model, notation))),
     ]
+    return [*sections, Section("Events", tuple(_events(model, notation)))] if model.events else sections
 
 
 def _masses(model: Model, notation: Notation) -> list[Block]:
@@ -120,6 +120,17 @@ def _forces(model: Model, notation: Notation) -> list[Block]:
     blocks = [*lead, *blocks, paragraph(rest)]
     if model.clearances:
         blocks.append(paragraph("The joints with play add their forces to g; see there."))
+    return blocks
+
+
+def _events(model: Model, notation: Notation) -> list[Block]:
+    """What is watched, and what a crossing of zero does."""
+    ways = {"rising": "rises through zero", "falling": "falls through zero", "both": "crosses zero"}
+    does = {"record": "the time is recorded", "stop": "the run ends"}
+    blocks: list[Block] = []
+    for event in model.events:
+        blocks.append(paragraph(f"{event.name}: where it {ways[event.direction]} {does[event.action]}:"))
+        blocks.append(equation(letter("z", event.name), notation.expand(event.expression), notation))
     return blocks
 
 

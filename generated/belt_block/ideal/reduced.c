@@ -1,0 +1,208 @@
+/*
+ * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
+ */
+static void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
+    double *all_v)
+{
+    (void)t;
+    (void)p;
+    /* coordinates, velocities, time */
+    const double guide_slide = q[0];
+    const double guide_slide_rate = v[0];
+
+    /* directions, arms, drives */
+    const double block_y = 0.0;
+    const double block_vy = 0.0;
+    const double block_theta = 0.0;
+    const double block_omega = 0.0;
+
+    /* bodies */
+    all_q[0] = guide_slide;
+    all_v[0] = guide_slide_rate;
+    all_q[1] = block_y;
+    all_v[1] = block_vy;
+    all_q[2] = block_theta;
+    all_v[2] = block_omega;
+}
+/*
+ * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ */
+static void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
+    double *s_rate)
+{
+    (void)t;
+    (void)p;
+    /* coordinates, velocities, time */
+    const double block_x = q[0];
+    const double block_vx = v[0];
+
+    /* tree coordinates */
+    s[0] = block_x;  /* guide.slide */
+    s_rate[0] = block_vx;
+}
+
+
+/*
+ * Phi of the loop closures in tree coordinates; m and rad.
+ */
+static void closures(const double t, const double *q, const Parameters *p, double *out)
+{
+    (void)t;
+    (void)q;
+    (void)p;
+    (void)out;
+
+}
+/*
+ * Its rate Phi_q v - nu.
+ */
+static void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
+{
+    (void)t;
+    (void)q;
+    (void)v;
+    (void)p;
+    (void)out;
+
+}
+/*
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ */
+static int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *a, Aside *aside)
+{
+    (void)t;
+    /* corners: the sides that are held, if any */
+    const double *const side = memory->held ? memory->side : NULL;
+    double *const g = aside->g;
+
+    /* coordinates, velocities, time */
+    const double guide_slide = q[0];
+    const double guide_slide_rate = v[0];
+
+    /* parameters */
+    const double wall_x = p->wall_x;
+    const double spring_stiffness = p->spring_stiffness;
+    const double spring_free_length = p->spring_free_length;
+    const double rub_speed = p->rub_speed;
+    const double rub_static = p->rub_static;
+    const double rub_kinetic = p->rub_kinetic;
+    const double two_alpha_stick = p->two_alpha_stick;
+    const double inverse_block_mass = p->inverse_block_mass;
+
+    /* directions, arms, drives */
+    const double spring_span_x = guide_slide - wall_x;
+    const double side_0 = side_of(side, g, 0, spring_span_x);
+    const double spring_length = side_0*spring_span_x;
+    const double spring_force = spring_stiffness*(-spring_free_length + spring_length);
+    const double spring_pull = spring_force/spring_length;
+
+    /* friction: slip, or stick as a row */
+    const double slip_rub = guide_slide_rate - rub_speed;
+    const double mode_rub = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
+    const double stick_rub = mode_rub == 0.0 ? 1.0 : 0.0;
+    const double sign_rub = fabs(mode_rub) > 1.0 ? 0.0 : mode_rub;
+    const double kinetic_rub = -rub_kinetic*sign_rub;
+    const double rhs_rub = -slip_rub*two_alpha_stick;
+    aside->friction[0].v = slip_rub;
+    aside->friction[0].static_limit = rub_static;
+    aside->friction[0].speed = rub_speed;
+    aside->friction[0].force = kinetic_rub;
+
+    /* L D L^T of the KKT matrix */
+    const double scale_rub = inverse_block_mass;
+    if (stick_rub != 0.0 && !(scale_rub > 1e-13 * scale_rub)) return 1;
+    const double inverse_pivot_rub = stick_rub != 0.0 ? 1.0 / scale_rub : 0.0;
+
+    /* forward substitution */
+    const double z_guide_slide = kinetic_rub - spring_pull*spring_span_x;
+    const double z_rub = -inverse_block_mass*z_guide_slide + rhs_rub;
+
+    /* backward substitution */
+    const double lambda_rub = -inverse_pivot_rub*z_rub;
+    const double acceleration_guide_slide = -inverse_block_mass*lambda_rub + inverse_block_mass*z_guide_slide;
+
+    /* results */
+    a[0] = acceleration_guide_slide;
+    aside->friction[0].rate = acceleration_guide_slide;
+    if (stick_rub != 0.0)
+        aside->friction[0].force = -lambda_rub;  /* stick of rub */
+    aside->power[0] = 0.0;
+    aside->power[1] = aside->friction[0].force*(aside->friction[0].speed + aside->friction[0].v);
+    aside->power[2] = 0.0;
+    return 0;
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    (void)t;
+    (void)q;
+    (void)r;
+    (void)p;
+    /* backward substitution */
+    const double step_acceleration_guide_slide = 0.0;
+
+    /* results */
+    x[0] = step_acceleration_guide_slide;
+    return 0;
+}
+
+
+/* Calls from outside into the reduced formulation; q and v are tree coordinates here. */
+void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
+{
+    expand(t, q, v, (const Parameters *)p, all_q, all_v);
+}
+
+void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
+{
+    reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
+}
+
+int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
+    double *lambda, double *power)
+{
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    const int status = reduced_dynamics(t, q, v, &now, (const Parameters *)p, a, &aside);
+    for (int r = 0; r < N_LOOPS; r++)
+        lambda[r] = aside.lambda[r];
+    for (int k = 0; k < N_WORK; k++)
+        power[k] = aside.power[k];
+    return status;
+}
+
+void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
+{
+    closures(t, q, (const Parameters *)p, phi);
+    closure_rates(t, q, v, (const Parameters *)p, phi_dot);
+}
+
+int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
+{
+    return reduced_project(t, q, r, (const Parameters *)p, x);
+}
+
+/* The reduced right-hand side many times over, for benchmarks; each call waits for the one before. */
+double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory, const double *p)
+{
+    double a[N_X + 1], moved[N_X + 1], sum = 0.0;
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    for (int k = 0; k < N_X; k++)
+        moved[k] = q[k];
+    for (long i = 0; i < count; i++) {
+        reduced_dynamics(t, moved, v, &now, (const Parameters *)p, a, &aside);
+        sum += a[0];
+        moved[0] = q[0] + 1e-300 * sum;
+    }
+    return sum;
+}

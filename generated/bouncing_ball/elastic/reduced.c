@@ -1,0 +1,202 @@
+/*
+ * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
+ */
+static void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
+    double *all_v)
+{
+    (void)t;
+    (void)p;
+    /* coordinates, velocities, time */
+    const double ball_x = q[0];
+    const double ball_x_rate = v[0];
+    const double ball_y = q[1];
+    const double ball_y_rate = v[1];
+    const double ball_theta = q[2];
+    const double ball_omega = v[2];
+
+    /* bodies */
+    all_q[0] = ball_x;
+    all_v[0] = ball_x_rate;
+    all_q[1] = ball_y;
+    all_v[1] = ball_y_rate;
+    all_q[2] = ball_theta;
+    all_v[2] = ball_omega;
+}
+/*
+ * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ */
+static void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
+    double *s_rate)
+{
+    (void)t;
+    (void)p;
+    /* coordinates, velocities, time */
+    const double ball_x = q[0];
+    const double ball_y = q[1];
+    const double ball_theta = q[2];
+    const double ball_vx = v[0];
+    const double ball_vy = v[1];
+    const double ball_omega = v[2];
+
+    /* tree coordinates */
+    s[0] = ball_x;  /* ball.x */
+    s_rate[0] = ball_vx;
+    s[1] = ball_y;  /* ball.y */
+    s_rate[1] = ball_vy;
+    s[2] = ball_theta;  /* ball */
+    s_rate[2] = ball_omega;
+}
+
+
+/*
+ * Phi of the loop closures in tree coordinates; m and rad.
+ */
+static void closures(const double t, const double *q, const Parameters *p, double *out)
+{
+    (void)t;
+    (void)q;
+    (void)p;
+    (void)out;
+
+}
+/*
+ * Its rate Phi_q v - nu.
+ */
+static void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
+{
+    (void)t;
+    (void)q;
+    (void)v;
+    (void)p;
+    (void)out;
+
+}
+/*
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ */
+static int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *a, Aside *aside)
+{
+    (void)t;
+    /* corners: the sides that are held, if any */
+    const double *const side = memory->held ? memory->side : NULL;
+    double *const g = aside->g;
+
+    /* coordinates, velocities, time */
+    const double ball_x = q[0];
+    const double ball_x_rate = v[0];
+    const double ball_y = q[1];
+    const double ball_y_rate = v[1];
+    const double ball_omega = v[2];
+
+    /* parameters */
+    const double weight_ball_y = p->weight_ball_y;
+    const double inverse_ball_mass = p->inverse_ball_mass;
+    const double inverse_ball_inertia = p->inverse_ball_inertia;
+
+    /* clearance joint fall */
+    const double e_fall_x = ball_x;
+    const double e_fall_y = ball_y;
+    const double edot_fall_x = ball_x_rate;
+    const double edot_fall_y = ball_y_rate;
+    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, 0, ball_omega, &memory->latch[0], p, side, g, &aside->clearance[0]);
+    const double F_fall_x = aside->clearance[0].Fx;
+    const double F_fall_y = aside->clearance[0].Fy;
+    const double M_fall_second = aside->clearance[0].moment_second;
+    aside->clearance[0].power = F_fall_x*edot_fall_x + F_fall_y*edot_fall_y + M_fall_second*ball_omega;
+
+    /* forward substitution */
+    const double z_ball_y = F_fall_y + weight_ball_y;
+
+    /* backward substitution */
+    const double acceleration_ball_theta = M_fall_second*inverse_ball_inertia;
+    const double acceleration_ball_y = inverse_ball_mass*z_ball_y;
+    const double acceleration_ball_x = F_fall_x*inverse_ball_mass;
+
+    /* results */
+    a[0] = acceleration_ball_x;
+    a[1] = acceleration_ball_y;
+    a[2] = acceleration_ball_theta;
+    aside->power[0] = 0.0;
+    aside->power[1] = 0.0;
+    aside->power[2] = aside->clearance[0].power;
+    return 0;
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    (void)t;
+    (void)q;
+    (void)r;
+    (void)p;
+    /* backward substitution */
+    const double step_acceleration_ball_theta = 0.0;
+    const double step_acceleration_ball_y = 0.0;
+    const double step_acceleration_ball_x = 0.0;
+
+    /* results */
+    x[0] = step_acceleration_ball_x;
+    x[1] = step_acceleration_ball_y;
+    x[2] = step_acceleration_ball_theta;
+    return 0;
+}
+
+
+/* Calls from outside into the reduced formulation; q and v are tree coordinates here. */
+void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
+{
+    expand(t, q, v, (const Parameters *)p, all_q, all_v);
+}
+
+void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
+{
+    reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
+}
+
+int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
+    double *lambda, double *power)
+{
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    const int status = reduced_dynamics(t, q, v, &now, (const Parameters *)p, a, &aside);
+    for (int r = 0; r < N_LOOPS; r++)
+        lambda[r] = aside.lambda[r];
+    for (int k = 0; k < N_WORK; k++)
+        power[k] = aside.power[k];
+    return status;
+}
+
+void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
+{
+    closures(t, q, (const Parameters *)p, phi);
+    closure_rates(t, q, v, (const Parameters *)p, phi_dot);
+}
+
+int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
+{
+    return reduced_project(t, q, r, (const Parameters *)p, x);
+}
+
+/* The reduced right-hand side many times over, for benchmarks; each call waits for the one before. */
+double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory, const double *p)
+{
+    double a[N_X + 1], moved[N_X + 1], sum = 0.0;
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    for (int k = 0; k < N_X; k++)
+        moved[k] = q[k];
+    for (long i = 0; i < count; i++) {
+        reduced_dynamics(t, moved, v, &now, (const Parameters *)p, a, &aside);
+        sum += a[0];
+        moved[0] = q[0] + 1e-300 * sum;
+    }
+    return sum;
+}

@@ -1,0 +1,407 @@
+/*
+ * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
+ */
+static void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
+    double *all_v)
+{
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double axle_x = q[0];
+    const double axle_x_rate = v[0];
+    const double axle_y = q[1];
+    const double axle_y_rate = v[1];
+    const double axle_theta = q[2];
+    const double axle_omega = v[2];
+
+    /* parameters */
+    const double length = p->length;
+    const double par_r = p->par_r;
+    const double omega = p->omega;
+    const double road_head_x = p->road_head_x;
+
+    /* directions, arms, drives */
+    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
+        sin(omega*time))/(length * length)));
+    const double cos_theta_road = cos(bump_value);
+    const double sin_theta_road = sin(bump_value);
+    const double span_road_com_x = cos_theta_road*road_head_x;
+    const double span_road_com_y = road_head_x*sin_theta_road;
+    const double road_vx = -bump_rate*span_road_com_y;
+    const double road_vy = bump_rate*span_road_com_x;
+
+    /* bodies */
+    all_q[0] = axle_x;
+    all_v[0] = axle_x_rate;
+    all_q[1] = axle_y;
+    all_v[1] = axle_y_rate;
+    all_q[2] = axle_theta;
+    all_v[2] = axle_omega;
+    all_q[3] = span_road_com_x;
+    all_v[3] = road_vx;
+    all_q[4] = span_road_com_y;
+    all_v[4] = road_vy;
+    all_q[5] = bump_value;
+    all_v[5] = bump_rate;
+}
+/*
+ * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ */
+static void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
+    double *s_rate)
+{
+    (void)t;
+    (void)p;
+    /* coordinates, velocities, time */
+    const double axle_x = q[0];
+    const double axle_y = q[1];
+    const double axle_theta = q[2];
+    const double axle_vx = v[0];
+    const double axle_vy = v[1];
+    const double axle_omega = v[2];
+
+    /* tree coordinates */
+    s[0] = axle_x;  /* axle.x */
+    s_rate[0] = axle_vx;
+    s[1] = axle_y;  /* axle.y */
+    s_rate[1] = axle_vy;
+    s[2] = axle_theta;  /* axle */
+    s_rate[2] = axle_omega;
+}
+/*
+ * Their second rates a, from absolute all_a.
+ */
+static void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const
+    Parameters *p, double *a)
+{
+    (void)t;
+    (void)q;
+    (void)v;
+    (void)p;
+    /* tree coordinates */
+    a[0] = all_a[0];  /* axle.x */
+    a[1] = all_a[1];  /* axle.y */
+    a[2] = all_a[2];  /* axle */
+}
+
+
+/*
+ * Where a pivot vanishes: the accelerations of the absolute formulation, which finds out which rows depend on
+ * others, and of them those of the tree. Rare and out of the way of the fast path.
+ */
+static int solve_by_absolute(double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
+{
+    double all_q[N_Q], all_v[N_Q], all_a[N_Q];
+    Aside whole;
+    Memory now = *memory;
+    now.held = 0; /* corners of the scene have other numbers there */
+    expand(t, q, v, p, all_q, all_v);
+    const int status = dynamics(t, all_q, all_v, &now, p, all_a, &whole);
+    reduce_accelerations(t, all_q, all_v, all_a, p, a);
+    aside->lambda[0] = + whole.lambda[2];
+    return status;
+}
+
+/*
+ * Phi of the loop closures in tree coordinates; m and rad.
+ */
+static void closures(const double t, const double *q, const Parameters *p, double *out)
+{
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double axle_x = q[0];
+    const double axle_y = q[1];
+    const double axle_theta = q[2];
+
+    /* parameters */
+    const double length = p->length;
+    const double par_r = p->par_r;
+    const double omega = p->omega;
+    const double axle_tail_span_x = p->axle_tail_span_x;
+
+    /* directions, arms, drives */
+    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double cos_theta_road = cos(bump_value);
+    const double sin_theta_road = sin(bump_value);
+    const double cos_theta_axle = cos(axle_theta);
+    const double sin_theta_axle = sin(axle_theta);
+    const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
+    const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
+
+    /* rows */
+    out[0] = -axle_x*cos_theta_road - axle_y*sin_theta_road - cos_theta_road*span_axle_tail_x -
+        sin_theta_road*span_axle_tail_y;  /* slot.offset */
+}
+/*
+ * Its rate Phi_q v - nu.
+ */
+static void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
+{
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double axle_x = q[0];
+    const double axle_x_rate = v[0];
+    const double axle_y = q[1];
+    const double axle_y_rate = v[1];
+    const double axle_theta = q[2];
+    const double axle_omega = v[2];
+
+    /* parameters */
+    const double length = p->length;
+    const double par_r = p->par_r;
+    const double omega = p->omega;
+    const double axle_tail_span_x = p->axle_tail_span_x;
+
+    /* directions, arms, drives */
+    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
+        sin(omega*time))/(length * length)));
+    const double cos_theta_road = cos(bump_value);
+    const double sin_theta_road = sin(bump_value);
+    const double cos_theta_axle = cos(axle_theta);
+    const double sin_theta_axle = sin(axle_theta);
+    const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
+    const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
+
+    /* rows */
+    out[0] = axle_omega*(cos_theta_road*span_axle_tail_y - sin_theta_road*span_axle_tail_x) -
+        axle_x_rate*cos_theta_road - axle_y_rate*sin_theta_road + bump_rate*cos_theta_road*(-axle_y -
+        span_axle_tail_y) - bump_rate*sin_theta_road*(-axle_x - span_axle_tail_x);  /* slot.offset */
+}
+/*
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ */
+static int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *a, Aside *aside)
+{
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double axle_x = q[0];
+    const double axle_x_rate = v[0];
+    const double axle_y = q[1];
+    const double axle_y_rate = v[1];
+    const double axle_theta = q[2];
+    const double axle_omega = v[2];
+
+    /* parameters */
+    const double length = p->length;
+    const double par_r = p->par_r;
+    const double omega = p->omega;
+    const double left_stiffness = p->left_stiffness;
+    const double left_free_length = p->left_free_length;
+    const double right_stiffness = p->right_stiffness;
+    const double right_free_length = p->right_free_length;
+    const double weight_axle_y = p->weight_axle_y;
+    const double inverse_axle_mass = p->inverse_axle_mass;
+    const double inverse_axle_inertia = p->inverse_axle_inertia;
+    const double axle_tail_span_x = p->axle_tail_span_x;
+    const double road_head_span_x = p->road_head_span_x;
+    const double mass_bump_bump = p->mass_bump_bump;
+    const double weight_road__across = p->weight_road__across;
+
+    /* directions, arms, drives */
+    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
+        sin(omega*time))/(length * length)));
+    const double bump_acceleration = -(omega * omega)*par_r*sin(omega*time)/(length*sqrt(1.0 - (par_r *
+        par_r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(par_r * par_r *
+        par_r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 -
+        (par_r * par_r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
+    const double cos_theta_road = cos(bump_value);
+    const double sin_theta_road = sin(bump_value);
+    const double cos_theta_axle = cos(axle_theta);
+    const double sin_theta_axle = sin(axle_theta);
+    const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
+    const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
+    const double axle_tail_x = axle_x + span_axle_tail_x;
+    const double axle_tail_y = axle_y + span_axle_tail_y;
+    const double left_length = sqrt((axle_tail_x * axle_tail_x) + (axle_tail_y * axle_tail_y));
+    const double left_force = left_stiffness*(-left_free_length + left_length);
+    const double left_pull = left_force/left_length;
+    const double span_road_head_x = cos_theta_road*road_head_span_x;
+    const double span_road_head_y = road_head_span_x*sin_theta_road;
+    const double axle_head_x_2 = axle_x - span_axle_tail_x;
+    const double axle_head_y = axle_y - span_axle_tail_y;
+    const double right_span_x = axle_head_x_2 - span_road_head_x;
+    const double right_span_y = axle_head_y - span_road_head_y;
+    const double right_length = sqrt((right_span_x * right_span_x) + (right_span_y * right_span_y));
+    const double right_force = right_stiffness*(-right_free_length + right_length);
+    const double right_pull = right_force/right_length;
+
+    /* status */
+    int pivot = 0;
+
+    /* constraints: gamma */
+    const double rhs_slot_offset = -axle_omega*(axle_omega*cos_theta_road*span_axle_tail_x +
+        axle_omega*sin_theta_road*span_axle_tail_y) - bump_acceleration*(cos_theta_road*(-axle_y -
+        span_axle_tail_y) - sin_theta_road*(-axle_x - span_axle_tail_x)) + (bump_rate *
+        bump_rate)*cos_theta_road*(-axle_x - span_axle_tail_x) + (bump_rate *
+        bump_rate)*sin_theta_road*(-axle_y - span_axle_tail_y) -
+        2.0*bump_rate*cos_theta_road*(-axle_omega*span_axle_tail_x - axle_y_rate) +
+        2.0*bump_rate*sin_theta_road*(axle_omega*span_axle_tail_y - axle_x_rate);
+
+    /* L D L^T of the KKT matrix */
+    const double l_slot_offset__axle_x = -cos_theta_road*inverse_axle_mass;
+    const double l_slot_offset__axle_y = -inverse_axle_mass*sin_theta_road;
+    const double w_slot_offset__axle_theta = cos_theta_road*span_axle_tail_y -
+        sin_theta_road*span_axle_tail_x;
+    const double l_slot_offset__axle_theta = inverse_axle_inertia*w_slot_offset__axle_theta;
+    const double scale_slot_offset = -cos_theta_road*l_slot_offset__axle_x +
+        l_slot_offset__axle_theta*w_slot_offset__axle_theta - l_slot_offset__axle_y*sin_theta_road;
+    if (!(scale_slot_offset > 1e-08 * scale_slot_offset)) { pivot = 1; goto dependent; };
+    const double inverse_pivot_slot_offset = 1.0/scale_slot_offset;
+
+    /* forward substitution */
+    const double z_axle_x = -axle_tail_x*left_pull - right_pull*right_span_x;
+    const double z_axle_y = -axle_tail_y*left_pull - right_pull*right_span_y + weight_axle_y;
+    const double z_axle_theta = span_axle_tail_x*(-axle_tail_y*left_pull + right_pull*right_span_y) -
+        span_axle_tail_y*(-axle_tail_x*left_pull + right_pull*right_span_x);
+    const double z_slot_offset = -l_slot_offset__axle_theta*z_axle_theta - l_slot_offset__axle_x*z_axle_x -
+        l_slot_offset__axle_y*z_axle_y + rhs_slot_offset;
+
+    /* backward substitution */
+    const double lambda_slot_offset = -inverse_pivot_slot_offset*z_slot_offset;
+    const double acceleration_axle_theta = inverse_axle_inertia*z_axle_theta -
+        l_slot_offset__axle_theta*lambda_slot_offset;
+    const double acceleration_axle_y = inverse_axle_mass*z_axle_y - l_slot_offset__axle_y*lambda_slot_offset;
+    const double acceleration_axle_x = inverse_axle_mass*z_axle_x - l_slot_offset__axle_x*lambda_slot_offset;
+
+    /* results */
+    a[0] = acceleration_axle_x;
+    a[1] = acceleration_axle_y;
+    a[2] = acceleration_axle_theta;
+    aside->lambda[0] = lambda_slot_offset;
+    goto powers;
+
+    /* a pivot vanished: rows depend on each other here */
+    dependent:
+    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    powers:
+    aside->power[0] = -aside->lambda[0]*(-bump_rate*cos_theta_road*(-axle_y - span_axle_tail_y) +
+        bump_rate*sin_theta_road*(-axle_x - span_axle_tail_x)) + bump_rate*(bump_acceleration*mass_bump_bump -
+        cos_theta_road*weight_road__across + right_pull*right_span_x*span_road_head_y -
+        right_pull*right_span_y*span_road_head_x);
+    aside->power[1] = 0.0;
+    aside->power[2] = 0.0;
+    return pivot;
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double axle_theta = q[2];
+
+    /* parameters */
+    const double length = p->length;
+    const double par_r = p->par_r;
+    const double omega = p->omega;
+    const double inverse_axle_mass = p->inverse_axle_mass;
+    const double inverse_axle_inertia = p->inverse_axle_inertia;
+    const double axle_tail_span_x = p->axle_tail_span_x;
+
+    /* directions, arms, drives */
+    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double cos_theta_road = cos(bump_value);
+    const double sin_theta_road = sin(bump_value);
+    const double cos_theta_axle = cos(axle_theta);
+    const double sin_theta_axle = sin(axle_theta);
+    const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
+    const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
+
+    /* right-hand side */
+    const double r_slot_offset = r[0];
+
+    /* L D L^T of the KKT matrix */
+    const double l_slot_offset__axle_x_2 = -cos_theta_road*inverse_axle_mass;
+    const double l_slot_offset__axle_y_2 = -inverse_axle_mass*sin_theta_road;
+    const double w_slot_offset__axle_theta_2 = cos_theta_road*span_axle_tail_y -
+        sin_theta_road*span_axle_tail_x;
+    const double l_slot_offset__axle_theta_2 = inverse_axle_inertia*w_slot_offset__axle_theta_2;
+    const double scale_slot_offset_2 = -cos_theta_road*l_slot_offset__axle_x_2 +
+        l_slot_offset__axle_theta_2*w_slot_offset__axle_theta_2 - l_slot_offset__axle_y_2*sin_theta_road;
+    if (!(scale_slot_offset_2 > 1e-13 * scale_slot_offset_2)) return 1;
+    const double inverse_pivot_slot_offset_2 = 1.0/scale_slot_offset_2;
+
+    /* backward substitution */
+    const double step_lambda_slot_offset = -inverse_pivot_slot_offset_2*r_slot_offset;
+    const double step_acceleration_axle_theta = -l_slot_offset__axle_theta_2*step_lambda_slot_offset;
+    const double step_acceleration_axle_y = -l_slot_offset__axle_y_2*step_lambda_slot_offset;
+    const double step_acceleration_axle_x = -l_slot_offset__axle_x_2*step_lambda_slot_offset;
+
+    /* results */
+    x[0] = step_acceleration_axle_x;
+    x[1] = step_acceleration_axle_y;
+    x[2] = step_acceleration_axle_theta;
+    return 0;
+}
+
+
+/* Calls from outside into the reduced formulation; q and v are tree coordinates here. */
+void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
+{
+    expand(t, q, v, (const Parameters *)p, all_q, all_v);
+}
+
+void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
+{
+    reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
+}
+
+int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
+    double *lambda, double *power)
+{
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    const int status = reduced_dynamics(t, q, v, &now, (const Parameters *)p, a, &aside);
+    for (int r = 0; r < N_LOOPS; r++)
+        lambda[r] = aside.lambda[r];
+    for (int k = 0; k < N_WORK; k++)
+        power[k] = aside.power[k];
+    return status;
+}
+
+void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
+{
+    closures(t, q, (const Parameters *)p, phi);
+    closure_rates(t, q, v, (const Parameters *)p, phi_dot);
+}
+
+int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
+{
+    return reduced_project(t, q, r, (const Parameters *)p, x);
+}
+
+/* What is done where a pivot vanishes, at any state: for tests. */
+int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *memory, const double *p, double *a)
+{
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    return solve_by_absolute(t, q, v, &now, (const Parameters *)p, a, &aside);
+}
+
+/* The reduced right-hand side many times over, for benchmarks; each call waits for the one before. */
+double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory, const double *p)
+{
+    double a[N_X + 1], moved[N_X + 1], sum = 0.0;
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    for (int k = 0; k < N_X; k++)
+        moved[k] = q[k];
+    for (long i = 0; i < count; i++) {
+        reduced_dynamics(t, moved, v, &now, (const Parameters *)p, a, &aside);
+        sum += a[0];
+        moved[0] = q[0] + 1e-300 * sum;
+    }
+    return sum;
+}

@@ -1,0 +1,452 @@
+/*
+ * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
+ */
+static void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
+    double *all_v)
+{
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double rocker_theta = q[0];
+    const double rocker_omega = v[0];
+    const double coupler_theta = q[1];
+    const double coupler_omega = v[1];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_head_x = p->crank_head_x;
+    const double coupler_head_x = p->coupler_head_x;
+    const double rocker_head_x = p->rocker_head_x;
+    const double B0_x = p->B0_x;
+    const double crank_head_span_x = p->crank_head_span_x;
+
+    /* directions, arms, drives */
+    const double motor_value = omega*time + 1.5707963267948966;
+    const double motor_rate = omega;
+    const double cos_theta_crank = cos(motor_value);
+    const double sin_theta_crank = sin(motor_value);
+    const double cos_theta_rocker = cos(rocker_theta);
+    const double sin_theta_rocker = sin(rocker_theta);
+    const double cos_theta_coupler = cos(coupler_theta);
+    const double sin_theta_coupler = sin(coupler_theta);
+    const double span_crank_com_x = cos_theta_crank*crank_head_x;
+    const double span_crank_com_y = crank_head_x*sin_theta_crank;
+    const double crank_vx = -motor_rate*span_crank_com_y;
+    const double crank_vy = motor_rate*span_crank_com_x;
+    const double span_rocker_com_x = cos_theta_rocker*rocker_head_x;
+    const double span_rocker_com_y = rocker_head_x*sin_theta_rocker;
+    const double rocker_x = B0_x + span_rocker_com_x;
+    const double rocker_vx = -rocker_omega*span_rocker_com_y;
+    const double rocker_vy = rocker_omega*span_rocker_com_x;
+    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
+    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double crank_head_vx = -motor_rate*span_crank_head_y;
+    const double crank_head_vy = motor_rate*span_crank_head_x;
+    const double span_coupler_com_x = cos_theta_coupler*coupler_head_x;
+    const double span_coupler_com_y = coupler_head_x*sin_theta_coupler;
+    const double coupler_x = span_coupler_com_x + span_crank_head_x;
+    const double coupler_vx = -coupler_omega*span_coupler_com_y + crank_head_vx;
+    const double coupler_y = span_coupler_com_y + span_crank_head_y;
+    const double coupler_vy = coupler_omega*span_coupler_com_x + crank_head_vy;
+
+    /* bodies */
+    all_q[0] = span_crank_com_x;
+    all_v[0] = crank_vx;
+    all_q[1] = span_crank_com_y;
+    all_v[1] = crank_vy;
+    all_q[2] = motor_value;
+    all_v[2] = motor_rate;
+    all_q[3] = coupler_x;
+    all_v[3] = coupler_vx;
+    all_q[4] = coupler_y;
+    all_v[4] = coupler_vy;
+    all_q[5] = coupler_theta;
+    all_v[5] = coupler_omega;
+    all_q[6] = rocker_x;
+    all_v[6] = rocker_vx;
+    all_q[7] = span_rocker_com_y;
+    all_v[7] = rocker_vy;
+    all_q[8] = rocker_theta;
+    all_v[8] = rocker_omega;
+}
+/*
+ * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ */
+static void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
+    double *s_rate)
+{
+    (void)t;
+    (void)p;
+    /* coordinates, velocities, time */
+    const double coupler_theta = q[5];
+    const double coupler_omega = v[5];
+    const double rocker_theta = q[8];
+    const double rocker_omega = v[8];
+
+    /* tree coordinates */
+    s[0] = rocker_theta;  /* rocker */
+    s_rate[0] = rocker_omega;
+    s[1] = coupler_theta;  /* coupler */
+    s_rate[1] = coupler_omega;
+}
+/*
+ * Their second rates a, from absolute all_a.
+ */
+static void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const
+    Parameters *p, double *a)
+{
+    (void)t;
+    (void)q;
+    (void)v;
+    (void)p;
+    /* tree coordinates */
+    a[0] = all_a[8];  /* rocker */
+    a[1] = all_a[5];  /* coupler */
+}
+
+
+/*
+ * Where a pivot vanishes: the accelerations of the absolute formulation, which finds out which rows depend on
+ * others, and of them those of the tree. Rare and out of the way of the fast path.
+ */
+static int solve_by_absolute(double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
+{
+    double all_q[N_Q], all_v[N_Q], all_a[N_Q];
+    Aside whole;
+    Memory now = *memory;
+    now.held = 0; /* corners of the scene have other numbers there */
+    expand(t, q, v, p, all_q, all_v);
+    const int status = dynamics(t, all_q, all_v, &now, p, all_a, &whole);
+    reduce_accelerations(t, all_q, all_v, all_a, p, a);
+    aside->lambda[0] = + whole.lambda[4];
+    aside->lambda[1] = + whole.lambda[5];
+    return status;
+}
+
+/*
+ * Phi of the loop closures in tree coordinates; m and rad.
+ */
+static void closures(const double t, const double *q, const Parameters *p, double *out)
+{
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double rocker_theta = q[0];
+    const double coupler_theta = q[1];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double B0_x = p->B0_x;
+    const double crank_head_span_x = p->crank_head_span_x;
+    const double coupler_head_span_x = p->coupler_head_span_x;
+    const double rocker_head_span_x = p->rocker_head_span_x;
+
+    /* directions, arms, drives */
+    const double motor_value = omega*time + 1.5707963267948966;
+    const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_crank = cosines_0[0];
+    const double sin_theta_crank = sines_0[0];
+    const double cos_theta_rocker = cosines_0[1];
+    const double sin_theta_rocker = sines_0[1];
+    const double cos_theta_coupler = cosines_0[2];
+    const double sin_theta_coupler = sines_0[2];
+    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
+    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_coupler_head_x = cos_theta_coupler*coupler_head_span_x;
+    const double span_coupler_head_y = coupler_head_span_x*sin_theta_coupler;
+    const double span_rocker_head_x = cos_theta_rocker*rocker_head_span_x;
+    const double span_rocker_head_y = rocker_head_span_x*sin_theta_rocker;
+
+    /* rows */
+    out[0] = -B0_x + span_coupler_head_x + span_crank_head_x - span_rocker_head_x;  /* B.x */
+    out[1] = span_coupler_head_y + span_crank_head_y - span_rocker_head_y;  /* B.y */
+}
+/*
+ * Its rate Phi_q v - nu.
+ */
+static void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
+{
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double rocker_theta = q[0];
+    const double rocker_omega = v[0];
+    const double coupler_theta = q[1];
+    const double coupler_omega = v[1];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_head_span_x = p->crank_head_span_x;
+    const double coupler_head_span_x = p->coupler_head_span_x;
+    const double rocker_head_span_x = p->rocker_head_span_x;
+
+    /* directions, arms, drives */
+    const double motor_value = omega*time + 1.5707963267948966;
+    const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_crank = cosines_0[0];
+    const double sin_theta_crank = sines_0[0];
+    const double cos_theta_rocker = cosines_0[1];
+    const double sin_theta_rocker = sines_0[1];
+    const double cos_theta_coupler = cosines_0[2];
+    const double sin_theta_coupler = sines_0[2];
+    const double motor_rate = omega;
+    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
+    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_coupler_head_x = cos_theta_coupler*coupler_head_span_x;
+    const double span_coupler_head_y = coupler_head_span_x*sin_theta_coupler;
+    const double span_rocker_head_x = cos_theta_rocker*rocker_head_span_x;
+    const double span_rocker_head_y = rocker_head_span_x*sin_theta_rocker;
+
+    /* rows */
+    out[0] = -coupler_omega*span_coupler_head_y - motor_rate*span_crank_head_y +
+        rocker_omega*span_rocker_head_y;  /* B.x */
+    out[1] = coupler_omega*span_coupler_head_x + motor_rate*span_crank_head_x -
+        rocker_omega*span_rocker_head_x;  /* B.y */
+}
+/*
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ */
+static int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *a, Aside *aside)
+{
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double rocker_theta = q[0];
+    const double rocker_omega = v[0];
+    const double coupler_theta = q[1];
+    const double coupler_omega = v[1];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_head_span_x = p->crank_head_span_x;
+    const double coupler_head_span_x = p->coupler_head_span_x;
+    const double rocker_head_span_x = p->rocker_head_span_x;
+    const double inertia_crank_coupler = p->inertia_crank_coupler;
+    const double mass_motor_motor = p->mass_motor_motor;
+    const double weight_crank__across = p->weight_crank__across;
+    const double weight_coupler__across = p->weight_coupler__across;
+    const double weight_rocker__across = p->weight_rocker__across;
+    const double inverse_mass_rocker_rocker = p->inverse_mass_rocker_rocker;
+    const double inverse_mass_coupler_coupler = p->inverse_mass_coupler_coupler;
+
+    /* directions, arms, drives */
+    const double motor_value = omega*time + 1.5707963267948966;
+    const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_crank = cosines_0[0];
+    const double sin_theta_crank = sines_0[0];
+    const double cos_theta_rocker = cosines_0[1];
+    const double sin_theta_rocker = sines_0[1];
+    const double cos_theta_coupler = cosines_0[2];
+    const double sin_theta_coupler = sines_0[2];
+    const double motor_rate = omega;
+    const double motor_acceleration = 0.0;
+    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
+    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_coupler_head_x = cos_theta_coupler*coupler_head_span_x;
+    const double span_coupler_head_y = coupler_head_span_x*sin_theta_coupler;
+    const double span_rocker_head_x = cos_theta_rocker*rocker_head_span_x;
+    const double span_rocker_head_y = rocker_head_span_x*sin_theta_rocker;
+    const double cos_coupler_less_crank = cos_theta_coupler*cos_theta_crank +
+        sin_theta_coupler*sin_theta_crank;
+    const double sin_coupler_less_crank = -cos_theta_coupler*sin_theta_crank +
+        cos_theta_crank*sin_theta_coupler;
+    const double dot_crank_coupler = cos_coupler_less_crank*inertia_crank_coupler;
+    const double cross_crank_coupler = inertia_crank_coupler*sin_coupler_less_crank;
+
+    /* status */
+    int pivot = 0;
+
+    /* constraints: gamma */
+    const double rhs_B_x = (coupler_omega * coupler_omega)*span_coupler_head_x +
+        motor_acceleration*span_crank_head_y + (motor_rate * motor_rate)*span_crank_head_x - (rocker_omega *
+        rocker_omega)*span_rocker_head_x;
+    const double rhs_B_y = (coupler_omega * coupler_omega)*span_coupler_head_y -
+        motor_acceleration*span_crank_head_x + (motor_rate * motor_rate)*span_crank_head_y - (rocker_omega *
+        rocker_omega)*span_rocker_head_y;
+
+    /* L D L^T of the KKT matrix */
+    const double l_B_x__rocker_theta = inverse_mass_rocker_rocker*span_rocker_head_y;
+    const double l_B_y__rocker_theta = -inverse_mass_rocker_rocker*span_rocker_head_x;
+    const double l_B_x__coupler_theta = -inverse_mass_coupler_coupler*span_coupler_head_y;
+    const double l_B_y__coupler_theta = inverse_mass_coupler_coupler*span_coupler_head_x;
+    const double scale_B_x = -l_B_x__coupler_theta*span_coupler_head_y +
+        l_B_x__rocker_theta*span_rocker_head_y;
+    const double scale_B_y = l_B_y__coupler_theta*span_coupler_head_x -
+        l_B_y__rocker_theta*span_rocker_head_x;
+    const double pivot_B_x__B_y = -l_B_y__coupler_theta*span_coupler_head_y +
+        l_B_y__rocker_theta*span_rocker_head_y;
+    const double determinant_B_x__B_y = -(pivot_B_x__B_y * pivot_B_x__B_y) + scale_B_x*scale_B_y;
+    if (!(scale_B_x > 1e-08 * scale_B_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * scale_B_x)) { pivot = 2; goto dependent; };
+    const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
+    const double inverse_pivot_B_x = inverse_B_x__B_y*scale_B_y;
+    const double inverse_pivot_B_y = inverse_B_x__B_y*scale_B_x;
+    const double inverse_cross_B_x__B_y = -inverse_B_x__B_y*pivot_B_x__B_y;
+
+    /* forward substitution */
+    const double z_rocker_theta = cos_theta_rocker*weight_rocker__across;
+    const double z_coupler_theta = cos_theta_coupler*weight_coupler__across - cross_crank_coupler*(motor_rate
+        * motor_rate) - dot_crank_coupler*motor_acceleration;
+    const double z_B_x = -l_B_x__coupler_theta*z_coupler_theta - l_B_x__rocker_theta*z_rocker_theta + rhs_B_x;
+    const double z_B_y = -l_B_y__coupler_theta*z_coupler_theta - l_B_y__rocker_theta*z_rocker_theta + rhs_B_y;
+
+    /* backward substitution */
+    const double lambda_B_y = inverse_cross_B_x__B_y*z_B_x + inverse_pivot_B_y*z_B_y;
+    const double lambda_B_x = inverse_cross_B_x__B_y*z_B_y + inverse_pivot_B_x*z_B_x;
+    const double acceleration_coupler_theta = inverse_mass_coupler_coupler*z_coupler_theta -
+        l_B_x__coupler_theta*lambda_B_x - l_B_y__coupler_theta*lambda_B_y;
+    const double acceleration_rocker_theta = inverse_mass_rocker_rocker*z_rocker_theta -
+        l_B_x__rocker_theta*lambda_B_x - l_B_y__rocker_theta*lambda_B_y;
+
+    /* results */
+    a[0] = acceleration_rocker_theta;
+    a[1] = acceleration_coupler_theta;
+    aside->lambda[0] = lambda_B_x;
+    aside->lambda[1] = lambda_B_y;
+    goto powers;
+
+    /* a pivot vanished: rows depend on each other here */
+    dependent:
+    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    powers:
+    aside->power[0] = -aside->lambda[0]*motor_rate*span_crank_head_y +
+        aside->lambda[1]*motor_rate*span_crank_head_x + motor_rate*(a[1]*dot_crank_coupler -
+        cos_theta_crank*weight_crank__across - (coupler_omega * coupler_omega)*cross_crank_coupler +
+        mass_motor_motor*motor_acceleration);
+    aside->power[1] = 0.0;
+    aside->power[2] = 0.0;
+    return pivot;
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double rocker_theta = q[0];
+    const double coupler_theta = q[1];
+
+    /* parameters */
+    const double coupler_head_span_x = p->coupler_head_span_x;
+    const double rocker_head_span_x = p->rocker_head_span_x;
+    const double inverse_mass_rocker_rocker = p->inverse_mass_rocker_rocker;
+    const double inverse_mass_coupler_coupler = p->inverse_mass_coupler_coupler;
+
+    /* directions, arms, drives */
+    const double cos_theta_rocker = cos(rocker_theta);
+    const double sin_theta_rocker = sin(rocker_theta);
+    const double cos_theta_coupler = cos(coupler_theta);
+    const double sin_theta_coupler = sin(coupler_theta);
+    const double span_coupler_head_x = cos_theta_coupler*coupler_head_span_x;
+    const double span_coupler_head_y = coupler_head_span_x*sin_theta_coupler;
+    const double span_rocker_head_x = cos_theta_rocker*rocker_head_span_x;
+    const double span_rocker_head_y = rocker_head_span_x*sin_theta_rocker;
+
+    /* right-hand side */
+    const double r_B_x = r[0];
+    const double r_B_y = r[1];
+
+    /* L D L^T of the KKT matrix */
+    const double l_B_x__rocker_theta_2 = inverse_mass_rocker_rocker*span_rocker_head_y;
+    const double l_B_y__rocker_theta_2 = -inverse_mass_rocker_rocker*span_rocker_head_x;
+    const double l_B_x__coupler_theta_2 = -inverse_mass_coupler_coupler*span_coupler_head_y;
+    const double l_B_y__coupler_theta_2 = inverse_mass_coupler_coupler*span_coupler_head_x;
+    const double scale_B_x_2 = -l_B_x__coupler_theta_2*span_coupler_head_y +
+        l_B_x__rocker_theta_2*span_rocker_head_y;
+    const double scale_B_y_2 = l_B_y__coupler_theta_2*span_coupler_head_x -
+        l_B_y__rocker_theta_2*span_rocker_head_x;
+    const double pivot_B_x__B_y_2 = -l_B_y__coupler_theta_2*span_coupler_head_y +
+        l_B_y__rocker_theta_2*span_rocker_head_y;
+    const double determinant_B_x__B_y_2 = -(pivot_B_x__B_y_2 * pivot_B_x__B_y_2) + scale_B_x_2*scale_B_y_2;
+    if (!(scale_B_x_2 > 1e-13 * scale_B_x_2)) return 1;
+    if (!(determinant_B_x__B_y_2 > 1e-13 * scale_B_y_2 * scale_B_x_2)) return 2;
+    const double inverse_B_x__B_y_2 = -1.0/determinant_B_x__B_y_2;
+    const double inverse_pivot_B_x_2 = inverse_B_x__B_y_2*scale_B_y_2;
+    const double inverse_pivot_B_y_2 = inverse_B_x__B_y_2*scale_B_x_2;
+    const double inverse_cross_B_x__B_y_2 = -inverse_B_x__B_y_2*pivot_B_x__B_y_2;
+
+    /* backward substitution */
+    const double step_lambda_B_y = inverse_cross_B_x__B_y_2*r_B_x + inverse_pivot_B_y_2*r_B_y;
+    const double step_lambda_B_x = inverse_cross_B_x__B_y_2*r_B_y + inverse_pivot_B_x_2*r_B_x;
+    const double step_acceleration_coupler_theta = -l_B_x__coupler_theta_2*step_lambda_B_x -
+        l_B_y__coupler_theta_2*step_lambda_B_y;
+    const double step_acceleration_rocker_theta = -l_B_x__rocker_theta_2*step_lambda_B_x -
+        l_B_y__rocker_theta_2*step_lambda_B_y;
+
+    /* results */
+    x[0] = step_acceleration_rocker_theta;
+    x[1] = step_acceleration_coupler_theta;
+    return 0;
+}
+
+
+/* Calls from outside into the reduced formulation; q and v are tree coordinates here. */
+void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
+{
+    expand(t, q, v, (const Parameters *)p, all_q, all_v);
+}
+
+void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
+{
+    reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
+}
+
+int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
+    double *lambda, double *power)
+{
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    const int status = reduced_dynamics(t, q, v, &now, (const Parameters *)p, a, &aside);
+    for (int r = 0; r < N_LOOPS; r++)
+        lambda[r] = aside.lambda[r];
+    for (int k = 0; k < N_WORK; k++)
+        power[k] = aside.power[k];
+    return status;
+}
+
+void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
+{
+    closures(t, q, (const Parameters *)p, phi);
+    closure_rates(t, q, v, (const Parameters *)p, phi_dot);
+}
+
+int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
+{
+    return reduced_project(t, q, r, (const Parameters *)p, x);
+}
+
+/* What is done where a pivot vanishes, at any state: for tests. */
+int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *memory, const double *p, double *a)
+{
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    return solve_by_absolute(t, q, v, &now, (const Parameters *)p, a, &aside);
+}
+
+/* The reduced right-hand side many times over, for benchmarks; each call waits for the one before. */
+double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory, const double *p)
+{
+    double a[N_X + 1], moved[N_X + 1], sum = 0.0;
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    for (int k = 0; k < N_X; k++)
+        moved[k] = q[k];
+    for (long i = 0; i < count; i++) {
+        reduced_dynamics(t, moved, v, &now, (const Parameters *)p, a, &aside);
+        sum += a[0];
+        moved[0] = q[0] + 1e-300 * sum;
+    }
+    return sum;
+}

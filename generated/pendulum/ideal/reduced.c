@@ -1,0 +1,284 @@
+/*
+ * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
+ */
+static void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
+    double *all_v)
+{
+    (void)t;
+    (void)p;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_x_rate = v[0];
+    const double bob_y = q[1];
+    const double bob_y_rate = v[1];
+    const double bob_theta = q[2];
+    const double bob_omega = v[2];
+
+    /* bodies */
+    all_q[0] = bob_x;
+    all_v[0] = bob_x_rate;
+    all_q[1] = bob_y;
+    all_v[1] = bob_y_rate;
+    all_q[2] = bob_theta;
+    all_v[2] = bob_omega;
+}
+/*
+ * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
+ */
+static void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
+    double *s_rate)
+{
+    (void)t;
+    (void)p;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_y = q[1];
+    const double bob_theta = q[2];
+    const double bob_vx = v[0];
+    const double bob_vy = v[1];
+    const double bob_omega = v[2];
+
+    /* tree coordinates */
+    s[0] = bob_x;  /* bob.x */
+    s_rate[0] = bob_vx;
+    s[1] = bob_y;  /* bob.y */
+    s_rate[1] = bob_vy;
+    s[2] = bob_theta;  /* bob */
+    s_rate[2] = bob_omega;
+}
+/*
+ * Their second rates a, from absolute all_a.
+ */
+static void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const
+    Parameters *p, double *a)
+{
+    (void)t;
+    (void)q;
+    (void)v;
+    (void)p;
+    /* tree coordinates */
+    a[0] = all_a[0];  /* bob.x */
+    a[1] = all_a[1];  /* bob.y */
+    a[2] = all_a[2];  /* bob */
+}
+
+
+/*
+ * Where a pivot vanishes: the accelerations of the absolute formulation, which finds out which rows depend on
+ * others, and of them those of the tree. Rare and out of the way of the fast path.
+ */
+static int solve_by_absolute(double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
+{
+    double all_q[N_Q], all_v[N_Q], all_a[N_Q];
+    Aside whole;
+    Memory now = *memory;
+    now.held = 0; /* corners of the scene have other numbers there */
+    expand(t, q, v, p, all_q, all_v);
+    const int status = dynamics(t, all_q, all_v, &now, p, all_a, &whole);
+    reduce_accelerations(t, all_q, all_v, all_a, p, a);
+    aside->lambda[0] = + whole.lambda[0];
+    return status;
+}
+
+/*
+ * Phi of the loop closures in tree coordinates; m and rad.
+ */
+static void closures(const double t, const double *q, const Parameters *p, double *out)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_y = q[1];
+
+    /* parameters */
+    const double rod_length = p->rod_length;
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+
+    /* rows */
+    out[0] = (bob_x * bob_x)*rod_half_inverse_length + (bob_y * bob_y)*rod_half_inverse_length -
+        0.5*rod_length;  /* rod.length */
+}
+/*
+ * Its rate Phi_q v - nu.
+ */
+static void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_x_rate = v[0];
+    const double bob_y = q[1];
+    const double bob_y_rate = v[1];
+
+    /* parameters */
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+
+    /* rows */
+    out[0] = 2.0*bob_x*bob_x_rate*rod_half_inverse_length + 2.0*bob_y*bob_y_rate*rod_half_inverse_length;  /* rod.length */
+}
+/*
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ */
+static int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, double *a, Aside *aside)
+{
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_x_rate = v[0];
+    const double bob_y = q[1];
+    const double bob_y_rate = v[1];
+
+    /* parameters */
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+    const double weight_bob_y = p->weight_bob_y;
+    const double inverse_bob_mass = p->inverse_bob_mass;
+
+    /* status */
+    int pivot = 0;
+
+    /* constraints: gamma */
+    const double rhs_rod_length = -2.0*(bob_x_rate * bob_x_rate)*rod_half_inverse_length - 2.0*(bob_y_rate *
+        bob_y_rate)*rod_half_inverse_length;
+
+    /* L D L^T of the KKT matrix */
+    const double w_rod_length__bob_x = 2.0*bob_x*rod_half_inverse_length;
+    const double l_rod_length__bob_x = inverse_bob_mass*w_rod_length__bob_x;
+    const double w_rod_length__bob_y = 2.0*bob_y*rod_half_inverse_length;
+    const double l_rod_length__bob_y = inverse_bob_mass*w_rod_length__bob_y;
+    const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x +
+        l_rod_length__bob_y*w_rod_length__bob_y;
+    if (!(scale_rod_length > 1e-08 * scale_rod_length)) { pivot = 1; goto dependent; };
+    const double inverse_pivot_rod_length = 1.0/scale_rod_length;
+
+    /* forward substitution */
+    const double z_rod_length = -l_rod_length__bob_y*weight_bob_y + rhs_rod_length;
+
+    /* backward substitution */
+    const double lambda_rod_length = -inverse_pivot_rod_length*z_rod_length;
+    const double acceleration_bob_y = inverse_bob_mass*weight_bob_y - l_rod_length__bob_y*lambda_rod_length;
+    const double acceleration_bob_x = -l_rod_length__bob_x*lambda_rod_length;
+    const double acceleration_bob_theta = 0.0;
+
+    /* results */
+    a[0] = acceleration_bob_x;
+    a[1] = acceleration_bob_y;
+    a[2] = acceleration_bob_theta;
+    aside->lambda[0] = lambda_rod_length;
+    goto powers;
+
+    /* a pivot vanished: rows depend on each other here */
+    dependent:
+    pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
+    powers:
+    aside->power[0] = 0.0;
+    aside->power[1] = 0.0;
+    aside->power[2] = 0.0;
+    return pivot;
+}
+/*
+ * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
+ * the closed linkage, redundant ones are not looked at.
+ * Returns 0, or the number of the pivot that vanished.
+ */
+static int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const double bob_x = q[0];
+    const double bob_y = q[1];
+
+    /* parameters */
+    const double rod_half_inverse_length = p->rod_half_inverse_length;
+    const double inverse_bob_mass = p->inverse_bob_mass;
+
+    /* right-hand side */
+    const double r_rod_length = r[0];
+
+    /* L D L^T of the KKT matrix */
+    const double w_rod_length__bob_x_2 = 2.0*bob_x*rod_half_inverse_length;
+    const double l_rod_length__bob_x_2 = inverse_bob_mass*w_rod_length__bob_x_2;
+    const double w_rod_length__bob_y_2 = 2.0*bob_y*rod_half_inverse_length;
+    const double l_rod_length__bob_y_2 = inverse_bob_mass*w_rod_length__bob_y_2;
+    const double scale_rod_length_2 = l_rod_length__bob_x_2*w_rod_length__bob_x_2 +
+        l_rod_length__bob_y_2*w_rod_length__bob_y_2;
+    if (!(scale_rod_length_2 > 1e-13 * scale_rod_length_2)) return 1;
+    const double inverse_pivot_rod_length_2 = 1.0/scale_rod_length_2;
+
+    /* backward substitution */
+    const double step_lambda_rod_length = -inverse_pivot_rod_length_2*r_rod_length;
+    const double step_acceleration_bob_y = -l_rod_length__bob_y_2*step_lambda_rod_length;
+    const double step_acceleration_bob_x = -l_rod_length__bob_x_2*step_lambda_rod_length;
+    const double step_acceleration_bob_theta = 0.0;
+
+    /* results */
+    x[0] = step_acceleration_bob_x;
+    x[1] = step_acceleration_bob_y;
+    x[2] = step_acceleration_bob_theta;
+    return 0;
+}
+
+
+/* Calls from outside into the reduced formulation; q and v are tree coordinates here. */
+void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
+{
+    expand(t, q, v, (const Parameters *)p, all_q, all_v);
+}
+
+void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
+{
+    reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
+}
+
+int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
+    double *lambda, double *power)
+{
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    const int status = reduced_dynamics(t, q, v, &now, (const Parameters *)p, a, &aside);
+    for (int r = 0; r < N_LOOPS; r++)
+        lambda[r] = aside.lambda[r];
+    for (int k = 0; k < N_WORK; k++)
+        power[k] = aside.power[k];
+    return status;
+}
+
+void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
+{
+    closures(t, q, (const Parameters *)p, phi);
+    closure_rates(t, q, v, (const Parameters *)p, phi_dot);
+}
+
+int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
+{
+    return reduced_project(t, q, r, (const Parameters *)p, x);
+}
+
+/* What is done where a pivot vanishes, at any state: for tests. */
+int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *memory, const double *p, double *a)
+{
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    return solve_by_absolute(t, q, v, &now, (const Parameters *)p, a, &aside);
+}
+
+/* The reduced right-hand side many times over, for benchmarks; each call waits for the one before. */
+double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory, const double *p)
+{
+    double a[N_X + 1], moved[N_X + 1], sum = 0.0;
+    Memory now;
+    Aside aside;
+    read_memory(memory, &now);
+    for (int k = 0; k < N_X; k++)
+        moved[k] = q[k];
+    for (long i = 0; i < count; i++) {
+        reduced_dynamics(t, moved, v, &now, (const Parameters *)p, a, &aside);
+        sum += a[0];
+        moved[0] = q[0] + 1e-300 * sum;
+    }
+    return sum;
+}

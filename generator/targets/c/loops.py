@@ -1,0 +1,119 @@
+"""The C of the time loops: which templates a formulation's integrators are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from gudgeon.generator.kernels import Kernel
+from gudgeon.generator.kkt import KKT
+from gudgeon.generator.methods import dop853, rodas5p
+from gudgeon.generator.model import Model
+from gudgeon.generator.projection import closing_kernel
+from gudgeon.generator.system import System
+from gudgeon.generator.targets.c import printer
+
+Render = Callable[..., str]
+
+_PROJECTED = ("Constraints are closed after every step.", "    project_state(run, run->t + h, trial->y, p);")
+_STABILISED = ("Constraints are stabilised by Baumgarte's terms.", "")
+_FROM_DYNAMICS = """\
+    for (int r = 0; r < N_ROWS; r++) {
+        run->phi_max = max_of(fabs(aside->phi[r]), run->phi_max);
+        run->phi_dot_max = max_of(fabs(aside->phi_dot[r]), run->phi_dot_max);
+    }"""
+_FROM_CLOSURES = """\
+    double phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];
+    closures(run->t, run->y, p, phi);
+    closure_rates(run->t, run->y, run->y + N_X, p, phi_dot);
+    for (int r = 0; r < N_LOOPS; r++) {
+        run->phi_max = max_of(fabs(phi[r]), run->phi_max);
+        run->phi_dot_max = max_of(fabs(phi_dot[r]), run->phi_dot_max);
+    }"""
+
+
+@dataclass(frozen=True)
+class Integrated:
+    """What the loops move forward: a system, with the order of its pivots and its angles (1) and lengths (0)."""
+
+    system: System
+    kkt: KKT
+    angles: tuple[int, ...]
+    reduced: bool
+    finish: Callable[[Kernel], Kernel]  # a last pass over kernels
+
+
+def kinematic_loops(model: Model, counts: Mapping[str, int], render: Render) -> dict[str, str]:
+    """Without freedom: positions by Newton."""
+    loops = {"kinematic.c": render("kinematic.c.jinja", **counts)}
+    if model.events:
+        loops["kinematic_events.c"] = render("kinematic_events.c.jinja")
+    return loops
+
+
+def integrator_loops(
+    model: Model, integrated: Integrated, linearized: str, counts: Mapping[str, int], render: Render
+) -> dict[str, str]:
+    """All methods, in the order in which they call each other."""
+    pivots, closing = _friction_pivots(integrated.kkt), integrated.finish(closing_kernel(integrated.system))
+    kind = "friction" if pivots else "no_friction"
+    modes, events = (render(f"{name}.c.jinja", pivots=pivots).strip() for name in (kind, f"{kind}_events"))
+    common = {**counts, "floors": _floors(model), "clearances": _own_clearances(model)}
+    constraints, projection = _PROJECTED if integrated.reduced else _STABILISED
+    residuals = _FROM_CLOSURES if integrated.reduced else _FROM_DYNAMICS
+    return {
+        "motion.c": render(f"motion_{'reduced' if integrated.reduced else 'full'}.c.jinja"),
+        "projection.c": printer.kernel(closing),
+        "newton.c": linearized,
+        "run.c": render(
+            "run.c.jinja", **common, friction_modes=modes, angles=integrated.angles or (0,), residuals=residuals
+        ),
+        "step.c": render("step.c.jinja", **counts),
+        "rk4.c": render(
+            "rk4.c.jinja", **common, friction_events=events, constraints=constraints, projection=projection
+        ),
+        "dop853.c": render("dop853.c.jinja", **_dop853()),
+        "rodas5p.c": render("rodas5p.c.jinja", **_rodas5p()),
+        "events.c": render("events.c.jinja", **counts),
+        "adaptive.c": render("adaptive.c.jinja", **common),
+    }
+
+
+def _dop853() -> dict[str, Any]:
+    def terms(row: Mapping[int, float]) -> str:
+        return " + ".join(f"{value!r} * k[{j}][i]" for j, value in row.items())
+
+    return {
+        "nodes": dop853.C, "stages": [terms(row) for row in dop853.A[1:]], "n_stages": dop853.STAGES,
+        "error_3": terms(dop853.E[0]), "error_5": terms(dop853.E[1]), "dense": [terms(row) for row in dop853.D],
+    }  # fmt: skip
+
+
+def _rodas5p() -> dict[str, Any]:
+    return {
+        "nodes": rodas5p.NODES, "time": rodas5p.TIME, "gamma": rodas5p.GAMMA, "a": rodas5p.A, "c": rodas5p.C,
+        "dense": rodas5p.H,
+    }  # fmt: skip
+
+
+def _friction_pivots(kkt: KKT) -> list[int]:
+    """Which friction each pivot behind those of the rows belongs to."""
+    names = [friction.name for friction in kkt.frictions]
+    return [names.index(pivot) for pivot in kkt.pivots[len(kkt.rows) :]]
+
+
+def _floors(model: Model) -> list[str]:
+    names = [
+        f"p->{c.velocity_floor}" if isinstance(c.velocity_floor, sp.Symbol) else printer.expression(c.velocity_floor)
+        for c in model.clearances
+    ]
+    return names or ["0.0"]
+
+
+def _own_clearances(model: Model) -> list[str]:
+    """c of each joint with play."""
+    read = {s: sp.Symbol(f"p->{s.name}") for s in model.symbols.info}
+    return [printer.expression(sp.sympify(c.pair.c).xreplace(read)) for c in model.clearances] or ["0.0"]

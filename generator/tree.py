@@ -1,0 +1,289 @@
+"""Which coordinates describe a linkage: angles that are free, and a tree of joints that place the bodies.
+
+Rows that are linear in angles with constant coefficients (a weld, a slide, gears, a driven angle) express angles
+by others. What is left of the joints is a graph of bodies; along a spanning tree of it each body is placed by its
+parent, and only the joints that are not in the tree stay as loop closures (R. Featherstone, Rigid Body Dynamics
+Algorithms, 2008, chapters 4 and 8). Angles are absolute: in the plane the position of a point is then a sum of
+arms, each of which turns with one angle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from gudgeon.generator.constraints import Row
+from gudgeon.generator.factorization import choose_elimination
+from gudgeon.generator.hubs import Hub, find_hubs
+from gudgeon.generator.joints.joint_type import joint_types
+from gudgeon.generator.mechanism import GROUND, Joint
+from gudgeon.generator.model import Model
+
+Affine = Mapping[str, sp.Expr]  # coefficients by coordinate; the constant is under ""
+CONSTANT = ""
+DEPTHS = (None, 5, 3, 2, 1)  # how many bodies a chain may have before it is cut
+SEARCHED = 24  # more coordinates than that: the tree is not improved by exchanges
+# operations: an entry of M with its velocity term, an entry of a closure's row, a product of the elimination
+PAIR, ENTRY, PRODUCT = 14, 4, 2
+PLAIN = 5  # an entry of M with x or y of a body that moves freely
+
+
+@dataclass(frozen=True)
+class Link:
+    """A body with the one that places it: `joint` None is a body that moves freely (two slides of its own)."""
+
+    body: str
+    parent: str
+    joint: Joint | None = None
+
+    @property
+    def slides(self) -> bool:
+        """Whether the body is carried along an axis."""
+        return self.joint is not None and len(joint_types()[self.joint.kind].carries) == 1
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the slides that the link brings."""
+        if self.joint is None:
+            return f"{self.body}.x", f"{self.body}.y"
+        return (f"{self.joint.name}.slide",) if self.slides else ()
+
+    @property
+    def rows(self) -> tuple[str, ...]:
+        """Rows of Φ that hold by themselves."""
+        if self.joint is None:
+            return ()
+        return tuple(f"{self.joint.name}.{row}" for row in joint_types()[self.joint.kind].carries)
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Angles of the bodies in free ones ("L7") and drives ("crank1"); links, parents before children."""
+
+    angles: Mapping[str, Affine]
+    free: tuple[str, ...]  # bodies whose angles are coordinates
+    links: tuple[Link, ...]
+    rows: frozenset[str]  # those that the angles and the links make hold by themselves, or hubs say otherwise
+    closing: tuple[Joint, ...]  # pairs of bodies that meet in a hub and are not joined by the tree
+    hubs: tuple[Hub, ...]
+
+    def multiplier(self, row: str) -> dict[str, int]:
+        """A closure's multiplier in those of the file's rows."""
+        name, _, which = row.rpartition(".")
+        for hub in self.hubs:
+            for joint in self.closing:
+                if joint in hub.pairs and joint.name == name:
+                    spanning = [link.joint for link in self.links if link.joint in hub.pairs]
+                    spanning += [other for other in self.closing if other in hub.pairs]
+                    shares = hub.share([j for j in spanning if j is not None], joint)
+                    return {f"{owner}.{which}": sign for owner, sign in shares.items()}
+        return {row: 1}
+
+
+def solve_angles(model: Model) -> tuple[dict[str, Affine], frozenset[str]]:
+    """The angles by free ones and drives, with the rows that this uses up."""
+    angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
+    used = set()
+    for row in sorted(model.rows, key=lambda row: row.kind != "drive"):  # what a drive prescribes is never free
+        total = _linear(model, row, angles)
+        pivots = {b: c for b, c in (total or {}).items() if b in angles and c != 0}
+        if total is None or not pivots:
+            continue
+        order = list(angles)
+        pivot = max(pivots, key=lambda b: (abs(pivots[b]) == 1, order.index(b)))
+        solved = {k: -c / pivots[pivot] for k, c in total.items() if k != pivot}
+        angles = {b: substitute(a, pivot, solved) for b, a in angles.items()}
+        used.add(row.name)
+    return angles, frozenset(used)
+
+
+def substitute(affine: Affine, name: str, value: Affine) -> Affine:
+    """`affine` with the coordinate `name` replaced by what it is."""
+    if name not in affine:
+        return affine
+    out = {k: c for k, c in affine.items() if k != name}
+    for k, c in value.items():
+        out[k] = sp.expand(out.get(k, sp.Integer(0)) + affine[name] * c)
+    return {k: c for k, c in out.items() if c != 0}
+
+
+def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | None:
+    """The row in free angles, or None where it is not linear in angles with constant coefficients."""
+    body_of = {body.theta: body.name for body in model.bodies}
+    if not all(q in body_of and model.slots.is_constant(c) for q, c in row.phi_q.items()):
+        return None
+    drives = {value: name for name, (value, *_) in model.constraints.drive_angles.items()}
+    rest = sp.expand(row.phi - sum(c * q for q, c in row.phi_q.items()))
+    total: dict[str, sp.Expr] = {}
+    for value in sorted(rest.free_symbols & set(drives), key=lambda s: s.name):
+        total[drives[value]] = rest.coeff(value)
+        rest = rest - rest.coeff(value) * value
+    if not model.slots.is_constant(rest):
+        return None
+    affine: Affine = {**total, CONSTANT: rest}
+    for q, c in row.phi_q.items():
+        affine = substitute({**affine, "?": c}, "?", angles[body_of[q]])
+    return affine
+
+
+def choose_tree(model: Model) -> Tree:
+    """The tree of the least estimated operations among a few, improved by exchanges of joints in loops."""
+    angles, used = solve_angles(model)
+    free = tuple(b for b in angles if angles[b] == {b: 1})
+    edges = _edges(model, angles)
+    hubs = find_hubs(edges)
+    gathered = {joint.name for hub in hubs for joint in hub.joints}
+    edges = [j for j in edges if j.name not in gathered] + [j for hub in hubs for j in hub.pairs]
+    estimate = _Estimate(model, angles, used, hubs)
+    best = min((_grow(model, edges, edges, depth) for depth in DEPTHS), key=estimate)
+    if len(free) <= SEARCHED and best == _grow(model, edges, edges, None):
+        best = _exchange(model, edges, best, estimate)
+    rows = used.union(*(link.rows for link in best), *(hub.rows for hub in hubs))
+    return Tree(angles, free, best, rows, tuple(estimate.closing(best)), tuple(hubs))
+
+
+def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
+    """Joints that can place a body: all their rows are kept, and a slide's bodies turn together."""
+    kept = {row.name for row in model.rows}
+
+    def turning(body: str) -> dict[str, sp.Expr]:
+        return {k: c for k, c in angles.get(body, {}).items() if k != CONSTANT}
+
+    def carries(joint: Joint) -> bool:
+        rows = joint_types()[joint.kind].carries
+        if not rows or not all(f"{joint.name}.{row}" in kept for row in rows):
+            return False
+        return len(rows) == 2 or turning(joint.first.body) == turning(joint.second.body)
+
+    return list(filter(carries, model.scene.mechanism.joints.values()))
+
+
+def _grow(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: int | None) -> tuple[Link, ...]:
+    """Breadth first from the ground along the wanted joints; bodies that nothing reaches move freely."""
+    near: dict[str, list[Joint]] = {name: [] for name in (GROUND, *model.geometry.bodies)}
+    names = {joint.name for joint in wanted}
+    for joint in edges:
+        if joint.name in names:
+            near[joint.first.body].append(joint)
+            near[joint.second.body].append(joint)
+    links: list[Link] = []
+    placed: dict[str, int] = {GROUND: 0}
+    waiting = [GROUND]
+    bodies = list(model.geometry.bodies)
+    while waiting or len(placed) <= len(bodies):
+        if not waiting:
+            root = next(b for b in bodies if b not in placed)
+            links.append(Link(root, GROUND))
+            placed[root] = 1
+            waiting = [root]
+        body = waiting.pop(0)
+        for joint in near[body]:
+            other = joint.second.body if joint.first.body == body else joint.first.body
+            if other not in placed and (depth is None or placed[body] < depth):
+                links.append(Link(other, body, joint))
+                placed[other] = placed[body] + 1
+                waiting.append(other)
+    return tuple(links)
+
+
+def _exchange(model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: _Estimate) -> tuple[Link, ...]:
+    """While a joint that closes a loop is better in the tree than one of the loop, they change places."""
+    best = estimate(links)
+    improved = True
+    while improved:
+        improved = False
+        inside = [link.joint for link in links if link.joint]
+        for joint in [j for j in edges if j not in inside]:
+            for other in _loop(links, joint):
+                candidate = _grow(model, edges, [j for j in (*inside, joint) if j is not other], None)
+                if len(candidate) == len(links) and (cost := estimate(candidate)) < best:
+                    links, best, improved = candidate, cost, True
+                    break
+            if improved:
+                break
+    return links
+
+
+def path(links: Iterable[Link], body: str) -> list[Link]:
+    """The links from the root to a body."""
+    by_body = {link.body: link for link in links}
+    found: list[Link] = []
+    while body != GROUND:
+        found.append(by_body[body])
+        body = by_body[body].parent
+    return found[::-1]
+
+
+def _loop(links: Sequence[Link], joint: Joint) -> list[Joint]:
+    """The tree's joints in the loop that `joint` closes."""
+    one, two = path(links, joint.first.body), path(links, joint.second.body)
+    return [link.joint for link in (*one, *two) if (link in one) != (link in two) and link.joint]
+
+
+def _coupled(place: Mapping[str, int], moving: Iterable[frozenset[str]], plain: set[int]) -> list[set[int]]:
+    """Who meets whom in M; x and y of a body that moves freely do not."""
+    near: list[set[int]] = [set() for _ in place]
+    for keys in moving:
+        numbers = {place[name] for name in keys}
+        for k in numbers:
+            near[k] |= numbers - {k} - (plain if k in plain else set())
+    return near
+
+
+class _Estimate:
+    """Operations of a tree's right-hand side, counted from which coordinates meet where."""
+
+    def __init__(self, model: Model, angles: Mapping[str, Affine], used: frozenset[str], hubs: Sequence[Hub]) -> None:
+        self.hubs = hubs
+        body_of = {q: body.name for body in model.bodies for q in body.q}
+        self.angles = angles
+        self.turns = {b: frozenset(k for k in a if k in angles) for b, a in angles.items()}
+        said = used.union(*(hub.rows for hub in hubs))
+        self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in said]
+
+    def __call__(self, links: tuple[Link, ...]) -> int:
+        held = {row for link in links for row in link.rows}
+        paths: dict[str, list[Link]] = {}
+        reach: dict[str, frozenset[str]] = {GROUND: frozenset()}  # what a body's points move with
+        moving: list[frozenset[str]] = []  # what a centre of mass moves with
+        for link in links:
+            paths[link.body] = [*paths.get(link.parent, []), link]
+            reach[link.body] = reach[link.parent] | self.turns[link.body] | set(link.coordinates)
+            moving.append(frozenset(link.coordinates) if link.joint is None else reach[link.body])
+        place = {name: k for k, name in enumerate(sorted(frozenset().union(*reach.values())))}
+        plain = {place[name] for link in links if link.joint is None for name in link.coordinates}
+        near = _coupled(place, moving, plain)
+        cost = sum(PLAIN if k in plain or j in plain else PAIR for k, js in enumerate(near) for j in js if j < k)
+        open_pairs = [(joint.name, [joint.first.body, joint.second.body]) for joint in self.closing(links)]
+        for name, bodies in (*self.rows, *open_pairs, *open_pairs):  # two rows each
+            if name not in held:
+                keys = {place[key] for key in self._moving(paths, bodies)}
+                cost += sum(1 if key in plain else ENTRY for key in keys)
+                near.append(keys)
+                for key in keys:
+                    near[key] = near[key] | {len(near) - 1}
+        return cost + PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).cost
+
+    def closing(self, links: tuple[Link, ...]) -> list[Joint]:
+        """Pairs that the hubs need beside the tree's."""
+        paths: dict[str, list[Link]] = {}
+        for link in links:
+            paths[link.body] = [*paths.get(link.parent, []), link]
+
+        def cost(joint: Joint) -> int:
+            return len(self._moving(paths, [joint.first.body, joint.second.body]))
+
+        inside = [link.joint for link in links if link.joint]
+        return [joint for hub in self.hubs for joint in hub.closing(inside, cost)]
+
+    def _moving(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
+        """Coordinates between the bodies of a row: what they share of their way from the root does not count."""
+        shared = 0
+        if len(bodies) == 2:
+            one, two = (paths.get(b, []) for b in bodies)
+            parted = (k for k, (a, b) in enumerate(zip(one, two, strict=False)) if a is not b)
+            shared = max(next(parted, min(len(one), len(two))) - 1, 0)
+        links = [link for b in bodies for link in paths.get(b, [])[shared:]]
+        return {key for link in links for key in (*self.turns[link.body], *link.coordinates)}

@@ -1,0 +1,88 @@
+"""Diagnostics of a run from its trajectory: energy balance, peaks, and what a reader should know."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gudgeon.compiled import CompiledModel, Evaluation
+from gudgeon.dead_centre import dependent_rows
+from gudgeon.diagnostics import Diagnostics, Peak
+from gudgeon.integrators.trajectory import Problem, Trajectory
+
+ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
+DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
+
+
+def diagnose(
+    compiled: CompiledModel, method: str, problem: Problem, trajectory: Trajectory, evaluation: Evaluation | None,
+    seconds: float,
+) -> Diagnostics:  # fmt: skip
+    """What a run says about itself, from its trajectory and what follows from its samples (None: nothing does)."""
+    x, counts = trajectory, trajectory.counts
+    worst = turned = math.nan
+    if evaluation is not None:
+        energy = evaluation.energy
+        residual = energy.sum(axis=1) - energy[0].sum() - x.work.sum(axis=1)
+        turned = float(np.abs(np.diff(x.work, axis=0)).sum() + np.ptp(energy[:, 0]))
+        worst = float(np.abs(residual).max())
+    used = problem.step
+    if method == "rk4":
+        used = max(
+            (d / max(1, math.ceil(d / used * (1 - 1e-12))) for d in np.diff(problem.t).tolist()), default=math.nan
+        )
+    simulated = float(x.t[-1] - x.t[0])
+    if method == "adaptive":
+        method = "dop853+rodas5p" if 0 < counts.stiff_steps < counts.steps else ORDER_OF_CHOICE[counts.stiff_steps > 0]
+    return Diagnostics(
+        method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
+        rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
+        rejected=counts.rejected, stiff_steps=counts.stiff_steps, jacobians=counts.jacobians,
+        right_hand_sides=counts.right_hand_sides, onsets=counts.onsets, grazes=counts.grazes,
+        phi_max=counts.phi_max, phi_dot_max=counts.phi_dot_max, energy_residual=worst, energy_turned_over=turned,
+        ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
+        peaks=_peaks(compiled, x), seconds=seconds,
+        seconds_per_simulated_second=seconds / simulated if simulated > 0 else math.nan,
+        interrupted=x.interrupted, notes=_notes(compiled, problem, trajectory),
+    )  # fmt: skip
+
+
+def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
+    """What a reader of this run should know before trusting it."""
+    p, notes, counts = problem.p, [], trajectory.counts
+    if problem.state is None and (tied := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
+        notes.append(
+            f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"
+            " start.rates leave open were taken least: give a rate of each body that may move"
+        )
+    if problem.stop and len(trajectory.events):
+        last = compiled.source.events[trajectory.events["event"][-1]]
+        if last.action == "stop":
+            notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
+    for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
+        c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
+        deepest = float(e_max) - c
+        if deepest > min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius):
+            notes.append(
+                f"{joint.name}: the journal goes {deepest:.3g} m into its bearing (c {c:.3g} m, radius {radius:.3g} m):"
+                " outside what contact laws hold for; a step too long does this too"
+            )
+    if compiled.source.indeterminate:
+        notes.append(
+            f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"
+            " by rigid bodies (NaN)"
+        )
+    if counts.grazes:
+        notes.append(f"{counts.grazes} steps touched and left again within: take a smaller step to resolve them")
+    return tuple(notes)
+
+
+def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
+    peaks = []
+    for i, joint in enumerate(compiled.source.clearances):
+        own = trajectory.impacts[trajectory.impacts["joint"] == i]
+        first = (float(own["t_on"][0]), float(own["F_peak"][0])) if len(own) else (math.nan, math.nan)
+        F, t, e_max = (float(x) for x in trajectory.peaks[i])
+        peaks.append(Peak(joint.name, F, t, e_max, *first))
+    return tuple(peaks)

@@ -1,0 +1,46 @@
+"""Events of a scene without a degree of freedom: its motion is known at every time, so their times are too.
+
+templates/c/kinematic_events.c.jinja looks for changes of sign, and finds their times by bisection to
+max(1e-12 s, 4 ulp of t). Two zeros between two looks (some 0.1 rad apart) are not seen.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gudgeon.compiled import Array
+from gudgeon.errors import SolverError
+from gudgeon.integrators.trajectory import EVENT_DTYPE, Problem, no_events
+
+EVENT_STOPS, EVENTS_FULL = 1, -3
+CAPACITY = 256  # events of one call; more where one interval has more
+
+
+def find_events(problem: Problem, times: Array, q: Array, v: Array, reach: float, extent: float) -> tuple[Array, bool]:
+    """EVENT_DTYPE by time, and whether the last one ends the run; q and v (N, n) are the motion at `times` (N,).
+
+    Raises SolverError where the motion cannot be followed between its samples.
+    """
+    compiled, pointer = problem.compiled, problem.compiled.pointer
+    side = np.zeros(len(compiled.source.events), dtype=np.int8)
+    found, first, capacity = [no_events()], 0, CAPACITY
+    while first < len(times) - 1:
+        at, which, counts = np.zeros(capacity), np.zeros(capacity, dtype=np.intc), np.zeros(2, dtype=np.int_)
+        status = compiled.lib.gudgeon_kinematic_events(
+            len(times) - 1 - first, pointer(times[first:]), pointer(problem.p), reach, extent, pointer(q[first:]),
+            pointer(v[first:]), float(times[0]), int(problem.stop),
+            pointer(side, "signed char *"), capacity, pointer(at), pointer(which, "int *"),
+            pointer(counts, "long *"), pointer(counts[1:], "long *"),
+        )  # fmt: skip
+        some = np.zeros(int(counts[0]), dtype=EVENT_DTYPE)
+        some["event"], some["t"] = which[: len(some)], at[: len(some)]
+        found.append(some)
+        first += int(counts[1])
+        if status == EVENT_STOPS:
+            return np.concatenate(found), True
+        if status == EVENTS_FULL:
+            capacity *= 4  # one interval may have more than there was room for
+        elif status:
+            t = float(times[first])
+            raise SolverError(f"events cannot be looked for beyond t = {t:.9g} s: no position was found there", t)
+    return np.concatenate(found), False
