@@ -58,19 +58,11 @@ def _touching(simulation: Simulation, longest: float) -> Result | None:
         return None
     step = natural_step(simulation)
     try:
-<<<<<<< HEAD
         work = window(simulation, longest, Setting("rk4", step))
-        impacts = simulation.simulate(work.t_end, output=1, method="rk4", step=step).impacts
+        impacts = simulation.simulate(work.t_end, output=1, method="rk4", step=step, stop=False).impacts
         if not len(impacts):
             return None
-        run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, method="rk4", step=step)
-=======
-        work = window(simulation, longest, step)
-        impacts = simulation.simulate(work.t_end, output=1, step=step, stop=False).impacts
-        if not len(impacts):
-            return None
-        run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, step=step, stop=False)
->>>>>>> main
+        run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, method="rk4", step=step, stop=False)
     except SolverError:
         return None
     return run if run.state[-1].any() else None
