@@ -7,7 +7,8 @@
 Clearance, stiffness, viscosity, speed, restitution, and both conventions of the contact's geometry; two
 periods of the cranks a point, method auto at its usual tolerance. What counts as failed is in
 `gudgeon.measure.cells`; a run that needs more than a minute a period fails too. Every point's verdict is
-appended to a table (--out); points that are in it are not run again, so that a broken run goes on.
+appended to a table (--out); points that are in it are not run again, so that a broken run goes on. A verdict
+belongs to the code that gave it: those of other generators or templates are left alone and not counted.
 """
 
 from __future__ import annotations
@@ -19,9 +20,11 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import gudgeon
+from gudgeon.loading import generator_hash
 from gudgeon.measure.box import Range, corners, judge_point, sobol
 from gudgeon.measure.cells import Cell, Status
 from gudgeon.measure.work import Setting
@@ -30,8 +33,8 @@ from gudgeon.simulation import Simulation
 MECHANISM, PERIODS, PATIENCE = "nine_bar_press", 2, 60.0  # s a period
 CONTACT = {"dry": "dry", "lubricated": "oil"}  # what the joints of a scene have
 GEOMETRY = ("external", "internal")
-HEAD = ("scene", "geometry", "index", "status", "reason", "seconds", "energy", "penetration_m", "motion", "path",
-        "force", "parameters")  # fmt: skip
+HEAD = ("code", "scene", "geometry", "index", "status", "reason", "seconds", "energy", "penetration_m", "motion",
+        "path", "force", "parameters")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ class Point:
         return PERIODS * 2 * math.pi / self.parameters["omega"]
 
     @property
-    def code(self) -> str:
+    def python(self) -> str:
         """Python that runs it again."""
         contact = f'{{"contacts.dry.normal.geometry": "{self.geometry}"}}'
         return (f'gudgeon.load("{MECHANISM}", scene="{self.scene}", overrides={contact}).simulate('
@@ -86,12 +89,18 @@ def loaded(scenes: list[str]) -> dict[tuple[str, str], Simulation]:
     }  # fmt: skip
 
 
+@cache
+def code() -> str:
+    """What the verdicts belong to: generator and templates. (A trajectory's last digits decide what a step meets.)"""
+    return generator_hash()[:12]
+
+
 def row(point: Point, cell: Cell) -> dict[str, object]:
     """The table's line."""
     e = cell.error
     numbers = (cell.seconds, cell.energy, cell.penetration, e.motion, e.path, e.force)
     told = " ".join(f"{name}={value!r}" for name, value in point.parameters.items())
-    first = (point.scene, point.geometry, point.index, cell.status.value, cell.reason)
+    first = (code(), point.scene, point.geometry, point.index, cell.status.value, cell.reason)
     return dict(zip(HEAD, (*first, *(f"{x:.3g}" for x in numbers), told), strict=True))
 
 
@@ -142,15 +151,16 @@ def main() -> None:
     todo = [p for scene in asked.scene or CONTACT for p in points(scene, asked.sobol)]
     if asked.point is not None:
         for point, cell in judged([p for p in todo if p.index == asked.point], 1, asked.rtol):
-            print(point.code, *(f"  {k} {v}" for k, v in row(point, cell).items()), sep="\n")
+            print(point.python, *(f"  {k} {v}" for k, v in row(point, cell).items()), sep="\n")
         return
     asked.out.parent.mkdir(parents=True, exist_ok=True)
-    rows = list(csv.DictReader(asked.out.open(encoding="utf-8"))) if asked.out.exists() else []
+    old = list(csv.DictReader(asked.out.open(encoding="utf-8"))) if asked.out.exists() else []
+    rows = [r for r in old if r["code"] == code()]
     have = {(r["scene"], int(r["index"])) for r in rows}
     todo = [point for point in todo if (point.scene, point.index) not in have]
     with asked.out.open("a", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, HEAD, lineterminator="\n")
-        if not rows:
+        if not old:
             writer.writeheader()
         for done, (point, cell) in enumerate(judged(todo, asked.threads, asked.rtol) if todo else (), 1):
             found = {key: str(value) for key, value in row(point, cell).items()}
