@@ -91,5 +91,4 @@ def _mark(left: Axes, right: Axes, step: float, scene: SceneBench) -> None:
         ax.plot([x], [row.error.largest], "o", ms=12, mfc="none", mec=IDEAL, mew=1.2, zorder=4)
     text = f"rk4, {seconds(step)}: forces off by {share(row.error.force)}"
     text += f",\n{scene.contact / step:.1f} steps a contact" if math.isfinite(scene.contact) else ""
-    left.annotate(text, (row.seconds * scene.t_end * 1e3, row.error.largest), (10, -10), textcoords="offset points",
-                  va="top", fontsize=8.5, color=_colour("rk4"))  # fmt: skip
+    left.annotate(text, (0.02, 0.22), xycoords="axes fraction", va="top", fontsize=8.5, color=_colour("rk4"))
