@@ -83,10 +83,12 @@ static double root(Run *run, const Step *step, int k, double low, double at_low,
 static int may_graze(const Run *run, const Step *step, int i, double *s)
 {
     const Clearance *before = &run->aside.clearance[i], *after = &step->aside.clearance[i];
-    const double h = step->h, bend = (step->rate[i][1] - step->rate[i][0]) / h;
+    const double outward = fmax(fmax(before->deltadot, after->deltadot), step->rate[i][1]);
+    const double inward = fmin(fmin(before->deltadot, after->deltadot), step->rate[i][0]);
+    const double h = step->h, bend = (outward - inward) / h;
     double highest = fmax(before->delta, after->delta);
     *s = before->delta > after->delta ? 0.0 : 1.0;
-    if (run->memory.latch[i].closed || !(before->deltadot > 0.0) || !(after->deltadot < 0.0))
+    if (run->memory.latch[i].closed || !(outward > 0.0) || !(inward < 0.0))
         return 0;
     for (int j = 1; j < 16; j++) { /* the cubic through both ends */
         const double x = j / 16.0, u = 1.0 - x;
@@ -139,6 +141,33 @@ static double violated(Run *run, Step *step, int k, const Parameters *p, double 
     return 0.0;
 }
 
+/* What was not seen at the stages but shows where an event was found crossed before it: the first of all. */
+static double earlier_event(Run *run, const Step *step, double first, const Parameters *p, int *event)
+{
+    for (int again = 0; again < N_MARGINS && first > 0.0; again++) {
+        double y[N_Y], dy[N_Y], at_high = 0.0;
+        Aside aside;
+        int found = -1;
+        if (state_at(run, step, first, p, y, dy, &aside))
+            return first;
+        for (int k = 0; k < N_MARGINS; k++) {
+            const double now = margin(&run->memory, &aside, k);
+            if (k != *event && now < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0) {
+                found = k;
+                at_high = now;
+            }
+        }
+        if (found < 0)
+            return first;
+        const double s = root(run, step, found, 0.0, margin(&run->memory, &run->aside, found), first, at_high, p);
+        if (!(s < first))
+            return first;
+        first = s;
+        *event = found;
+    }
+    return first;
+}
+
 /* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
 static double first_event(Run *run, Step *step, const Parameters *p, int *event)
 {
@@ -162,7 +191,7 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
             *event = k;
         }
     }
-    return first;
+    return *event < 0 ? first : earlier_event(run, step, first, p, event);
 }
 
 static void peak(Run *run, int i, double t, double F)
