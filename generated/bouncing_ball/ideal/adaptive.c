@@ -5,6 +5,7 @@
 enum { EXPLICIT = 0, STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, PATIENCE = 8 };
 #define UNSTABLE 6.5  /* h rho beyond which the explicit method's error estimate means nothing */
 #define BOUNDED 5.0   /* h rho at which stability bounds its steps */
+#define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
 
 /* Sides of all corners that act from their functions; the one that was just crossed keeps what it was given. */
@@ -37,6 +38,7 @@ static void cross_contact(Run *run, int i, double floor)
     if (run->h_first[opens] > 0.0)
         run->h = fmin(run->h, 2.0 * run->h_first[opens]);
     run->first = &run->h_first[opens];
+    run->h_stiff = 0.0;
 }
 
 static void cross(Run *run, int k, const Parameters *p)
@@ -130,7 +132,8 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
 static void change_method(Run *run)
 {
     if (!run->stiff)
-        run->patience = run->since > 100 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
+        run->patience = run->since > 400 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
+    run->h_stiff = run->stiff ? run->h : 0.0;
     run->stiff = !run->stiff;
     run->votes = 0;
     run->since = 0;
@@ -139,7 +142,9 @@ static void change_method(Run *run)
 /* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
 static void choose(Run *run)
 {
-    const int against = run->stiff ? run->stability < SLACK : run->stability > BOUNDED;
+    /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
+    const int slower = run->since > 8 && run->since < 200 && run->h < WORTH * run->h_stiff;
+    const int against = run->stiff ? run->stability < SLACK : run->stability > BOUNDED || slower;
     run->votes = against ? run->votes + 1 : 0;
     run->since++;
     if (run->choice == AUTOMATIC && run->votes >= (run->stiff ? run->patience : 3))
