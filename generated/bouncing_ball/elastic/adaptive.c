@@ -3,8 +3,10 @@
  * and the choice between the explicit and the stiff method from what the steps themselves measure.
  */
 enum { EXPLICIT = 0, STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, PATIENCE = 8 };
-#define UNSTABLE 6.5  /* h rho beyond which the explicit method's error estimate means nothing */
-#define BOUNDED 5.0   /* h rho at which stability bounds its steps */
+/* h rho beyond which an explicit step is not taken: at h rho = 5.65 the estimate of order 5 vanishes for a decaying
+ * mode, at 6.4 the mode grows (both are zeros of polynomials that follow from the coefficients) */
+#define UNSTABLE 4.8
+#define BOUNDED 4.0   /* h rho at which stability bounds its steps */
 #define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
 
@@ -164,14 +166,19 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
         const int status = run->stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
         if (status && run->fixed > 0.0)
             return status;
-        if (!status && step->error <= run->accept && run->choice == AUTOMATIC && !run->stiff && run->stability > UNSTABLE) {
-            change_method(run);
+        if (!status && step->error <= run->accept && !run->stiff && run->fixed <= 0.0 && run->stability > UNSTABLE) {
             run->rejected++;
+            if (run->choice == AUTOMATIC)
+                change_method(run);
+            else
+                h *= BOUNDED / run->stability;
             continue;
         }
         if (!status && step->error <= run->accept) {
             const double error = fmax(step->error, 1e-12);
             double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
+            if (!run->stiff && run->stability > 1.0)
+                factor = fmin(factor, 1.1 * BOUNDED / run->stability);
             factor = fmin(fmax(factor, 0.3), again ? 1.0 : 6.0);
             run->error_before = fmax(error, 1e-4);
             if (run->first)

@@ -103,6 +103,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     else:
         loops = kinematic_loops(model, counts, render)
     prepare = interface.prepare_kernel(model, printer.expression)
+    rescued = reduced is not None and is_rescued(reduced.system)  # the absolute formulation tells what vanished
     kernels = [dynamics, *around, *(reduced.kernels if reduced else ()), prepare, *linear_kernels]
     files = {
         "model.h": render("model.h.jinja", **_header(model), **counts),
@@ -122,7 +123,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     return describe(
         model, files=files, main="scene.c", cdef=cdef,
         methods=("rk4", "dop853", "rodas5p") if integrates else ("kinematic",),
-        pivots=kkt.pivots, start_pivots=start_pivots, motion_pivots=kkt.pivots if reduced and is_rescued(reduced.system) else integrated.kkt.pivots,
+        pivots=kkt.pivots, start_pivots=start_pivots, motion_pivots=kkt.pivots if rescued else integrated.kkt.pivots,
         operations=_operations(model, kernels),
         tree=reduced.system.unknowns if reduced else (),
         closures=tuple(row.name for row in reduced.system.rows) if reduced else (), formulation=formulation,
