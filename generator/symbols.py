@@ -24,6 +24,7 @@ r Four FourBits sines_and_cosines turned_by_library
 expand reduce_state reduce_accelerations solve_by_absolute all_q all_v all_a s s_rate whole closure
 e_x e_y de_x de_y de_t omega_i omega_j n_x n_y stored a_i a_j share F_r T0 F_x F_y F_along_n F_along_t M_i M_j
 eta eta_row eta_stick lin r s u x depth unclipped dF value slope film
+close_step arrive step rates worst factor_block solve_block
 """
 _TAKEN = frozenset(_WORDS.split())
 

@@ -1,12 +1,14 @@
 """No degree of freedom: positions by Newton from sample to sample, the rest by linear solves.
 
-Nothing is integrated but the work of drives and force elements, for the energy check: Gauss–Legendre
-quadrature of their power inside every interval.
+Nothing is integrated but the work of drives and force elements, for the energy check: Gauss–Legendre quadrature of
+their power over the steps that follow the motion (templates/c/kinematic.c.jinja). `Trajectory.seconds` is the time
+of the motion, works and events not counted.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from time import perf_counter
 
 import numpy as np
 
@@ -20,20 +22,31 @@ NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
 REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
 RESOLUTION = 1e-12  # s: an output so close to the end of the run is the end
-CHUNK = 2_000  # samples between two looks of Python
-GAUSS = 4  # nodes an interval
+CHUNK = 20_000  # samples between two looks of Python: some 20 ms
+
+
+@dataclass(frozen=True)
+class _Motion:
+    """Positions, velocities and accelerations, (k, n), as far as they could be reached."""
+
+    q: Array
+    v: Array
+    a: Array
+    counts: Counts
+    seconds: float
+    interrupted: bool = False
+    stopped: SolverError | None = None
 
 
 def run(problem: Problem) -> Trajectory:
     """Samples at the output times, and at the event that ends the run, if any does."""
-    times = _nodes(problem.t)
-    motion = _follow(problem, times)
+    motion = _follow(problem)
     if not problem.compiled.source.events:
-        return _sample(problem, times, motion)
+        return _with_work(problem, motion)
     events, unfinished, interrupted, ended = no_events(), None, motion.interrupted, False
     try:
         size = mechanism_size(problem.compiled, problem.p)
-        events, ended = find_events(problem, times[: len(motion.q)], motion.q, motion.v, REACH, size)
+        events, ended = find_events(problem, problem.t[: len(motion.q)], motion.q, motion.v, REACH, size)
     except KeyboardInterrupt:
         interrupted = True
     except SolverError as error:
@@ -41,79 +54,70 @@ def run(problem: Problem) -> Trajectory:
     if ended:
         last = events["t"][-1]
         problem = replace(problem, t=np.append(problem.t[problem.t < last - RESOLUTION], last))
-        times = _nodes(problem.t)
-        motion = _follow(problem, times)
-    trajectory = _sample(problem, times, motion)
+        motion = _follow(problem)
+    trajectory = _with_work(problem, motion)
     return replace(
         trajectory, events=events[events["t"] <= trajectory.t[-1]], interrupted=interrupted or trajectory.interrupted,
         stopped=trajectory.stopped or unfinished,
     )  # fmt: skip
 
 
-def _nodes(t: Array) -> Array:
-    """The output times, with the nodes of the quadrature between them."""
-    nodes, _ = np.polynomial.legendre.leggauss(GAUSS)
-    inner = t[:-1, None] + 0.5 * np.diff(t)[:, None] * (1.0 + nodes)
-    return np.concatenate([t[:1], np.concatenate([inner, t[1:, None]], axis=1).ravel()])
-
-
-@dataclass(frozen=True)
-class _Motion:
-    """Positions and velocities, (k, n), as far as they could be reached."""
-
-    q: Array
-    v: Array
-    counts: Counts
-    interrupted: bool
-    stopped: SolverError | None
-
-
-def _sample(problem: Problem, times: Array, motion: _Motion) -> Trajectory:
-    """The motion at the output times, accelerations and the drives' work with it."""
-    _, weights = np.polynomial.legendre.leggauss(GAUSS)
-    h = np.diff(problem.t)
-    whole = (len(motion.q) - 1) // (GAUSS + 1) + 1  # complete intervals, the start with them
-    kept = (whole - 1) * (GAUSS + 1) + 1
-    q, v, times = motion.q[:kept], motion.v[:kept], times[:kept]
-    evaluation = problem.compiled.evaluate(times, q, v, np.zeros((kept, 0)), problem.p)
-    power = evaluation.power[1:].reshape(whole - 1, GAUSS + 1, 3)[:, :GAUSS]
-    work = np.zeros((whole, 3))
-    work[1:] = np.cumsum(0.5 * h[: whole - 1, None] * np.einsum("igk,g->ik", power, weights), axis=0)
-    every = slice(None, None, GAUSS + 1)
-    empty = np.zeros((whole, 0))
-    from gudgeon.results import IMPACT_DTYPE
-
-    return Trajectory(
-        problem.t[:whole].copy(), q[every].copy(), v[every].copy(), evaluation.a[every].copy(), empty,
-        empty.astype(np.int8), work, np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, 3)), motion.counts,
-        motion.interrupted, motion.stopped,
-    )  # fmt: skip
-
-
-def _follow(problem: Problem, times: Array) -> _Motion:
-    """Positions and velocities at all times, as far as they can be reached."""
-    compiled, pointer = problem.compiled, problem.compiled.pointer
-    q, v = np.zeros((len(times), compiled.n)), np.zeros((len(times), compiled.n))
-    q[0], v[0] = problem.q, problem.v
-    maxima, longs = np.zeros(2), np.zeros(2, dtype=np.int_)
-    first, interrupted, stopped = 0, False, None
+def _follow(problem: Problem) -> _Motion:
+    """The motion at the output times, as far as they can be reached."""
+    compiled, pointer, t = problem.compiled, problem.compiled.pointer, problem.t
+    q, v, a = (np.zeros((len(t), compiled.n)) for _ in range(3))
+    q[0], v[0], a[0] = problem.q, problem.v, np.nan
+    size, maxima, longs = mechanism_size(compiled, problem.p), np.zeros(2), np.zeros(2, dtype=np.int_)
+    first, seconds, interrupted, stopped = 0, 0.0, False, None
     try:
-        while first < len(times) - 1 and stopped is None:
-            count = min(CHUNK, len(times) - 1 - first)
-            status = compiled.lib.gudgeon_kinematic(
-                count, pointer(times[first:]), pointer(problem.p), REACH, mechanism_size(compiled, problem.p),
-                pointer(q[first:]), pointer(v[first:]), pointer(maxima), pointer(maxima[1:]),
+        while stopped is None and (first < len(t) - 1 or not first):
+            arguments = (
+                min(CHUNK, len(t) - 1 - first), pointer(t[first:]), pointer(problem.p), REACH, size,
+                *(pointer(x[first:]) for x in (q, v, a)), pointer(maxima), pointer(maxima[1:]),
                 pointer(longs, "long *"), pointer(longs[1:], "long *"),
             )  # fmt: skip
+            before = perf_counter()
+            status = compiled.lib.gudgeon_kinematic(*arguments)
+            seconds += perf_counter() - before
             first += int(longs[1])
             if status:
-                stopped = _failure(problem, status, float(times[first]))
+                stopped = _failure(problem, status, float(t[first]))
             if problem.progress:
-                problem.progress(first / max(len(times) - 1, 1), "following the constraints")
+                problem.progress(first / max(len(t) - 1, 1), "following the constraints")
+            if len(t) == 1:
+                break
     except KeyboardInterrupt:
         interrupted = True
     counts = Counts(int(longs[0]), 0, phi_max=float(maxima[0]), phi_dot_max=float(maxima[1]))
-    return _Motion(q[: first + 1], v[: first + 1], counts, interrupted, stopped)
+    reached = slice(first + 1)
+    return _Motion(q[reached], v[reached], a[reached], counts, seconds, interrupted, stopped)
+
+
+def _with_work(problem: Problem, motion: _Motion) -> Trajectory:
+    """The motion with the works of drives and force elements, as far as both are known."""
+    compiled, pointer, t = problem.compiled, problem.compiled.pointer, problem.t
+    count, work, done = len(motion.q), np.zeros((len(motion.q), 3)), np.zeros(1, dtype=np.int_)
+    first, interrupted, stopped = 0, motion.interrupted, motion.stopped
+    size, status = mechanism_size(compiled, problem.p), 0
+    try:
+        while first < count - 1 and not status:
+            status = compiled.lib.gudgeon_kinematic_works(
+                min(CHUNK, count - 1 - first), pointer(t[first:]), pointer(problem.p), REACH, size,
+                pointer(motion.q[first:]), pointer(motion.v[first:]), pointer(work[first:]), pointer(done, "long *"),
+            )  # fmt: skip
+            first += int(done[0])
+    except KeyboardInterrupt:
+        interrupted = True
+    if status:
+        stopped = _failure(problem, status, float(t[first]))
+    empty, reached = np.zeros((first + 1, 0)), slice(first + 1)
+    from gudgeon.results import IMPACT_DTYPE
+
+    return Trajectory(
+        t[reached].copy(), motion.q[reached], motion.v[reached], motion.a[reached], empty, empty.astype(np.int8),
+        work[reached], np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, 3)), motion.counts, interrupted, stopped,
+        motion.seconds,
+    )  # fmt: skip
 
 
 def _failure(problem: Problem, status: int, t: float) -> SolverError:

@@ -50,7 +50,7 @@ FOLLOW = r"""
 #include <stdio.h>
 static int go(const double *p, const double *y)
 {
-    double t[101], q[101 * N_Q], v[101 * N_Q], phi = 0.0, phi_dot = 0.0;
+    double t[101], q[101 * N_Q], v[101 * N_Q], a[101 * N_Q], work[101 * N_WORK] = {0.0}, phi = 0.0, phi_dot = 0.0;
     long steps = 0, done = 0;
     for (int i = 0; i <= 100; i++)
         t[i] = 0.01 * i;
@@ -58,7 +58,8 @@ static int go(const double *p, const double *y)
         q[k] = y[k];
         v[k] = y[N_Q + k];
     }
-    return gudgeon_kinematic(100, t, p, 0.05, 0.1, q, v, &phi, &phi_dot, &steps, &done);
+    const int status = gudgeon_kinematic(100, t, p, 0.05, 0.1, q, v, a, &phi, &phi_dot, &steps, &done);
+    return status ? status : gudgeon_kinematic_works(100, t, p, 0.05, 0.1, q, v, work, &done);
 }
 """
 MAIN = r"""

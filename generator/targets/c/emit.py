@@ -15,13 +15,12 @@ from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
-from gudgeon.generator.projection import projection_kernel
 from gudgeon.generator.reduced_kernels import is_rescued
 from gudgeon.generator.system import absolute
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
-from gudgeon.generator.targets.c.loops import Integrated, integrator_loops, kinematic_loops
+from gudgeon.generator.targets.c.loops import Integrated, integrator_loops, kinematic_code
 from gudgeon.generator.targets.c.newton_code import jacobian_code, newton_code, tangent_code
 from gudgeon.generator.targets.c.reduced_code import reduced_code
 from gudgeon.kernel_source import KernelSource
@@ -53,7 +52,9 @@ int gudgeon_kinematic_events(long n, const double *t, const double *parameters, 
 """
 KINEMATIC_CDEF = """\
 int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double extent, double *q, double *v,
-    double *phi_max, double *phi_dot_max, long *steps, long *done);
+    double *a, double *phi_max, double *phi_dot_max, long *steps, long *done);
+int gudgeon_kinematic_works(long n, const double *t, const double *p, double reach, double extent, const double *q,
+    const double *v, double *work, long *done);
 """
 METHOD_CDEF = """\
 size_t gudgeon_run_size(void);
@@ -75,8 +76,8 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     """The whole scene as C text with its description.
 
-    What is integrated is the reduced formulation, or with "full" the absolute one. Outputs, starts and scenes
-    without freedom are absolute in both.
+    What is integrated, or followed where no freedom is left, is the reduced formulation, or with "full" the
+    absolute one. Outputs and starts are absolute in both.
     """
     integrates = bool(model.degrees_of_freedom or model.clearances or model.frictions)
     system = absolute(model)
@@ -86,25 +87,21 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         interface.mass_kernel(model), *interface.row_kernels(model), interface.start_kernel(model),
         interface.outputs_kernel(model),
     ]  # fmt: skip
-    start_pivots: tuple[str, ...] = ()
-    if not integrates:
-        projection, projection_kkt = projection_kernel(system, model.rows, "project")
-        around.append(projection)
-        start_pivots = projection_kkt.pivots
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
     reduced = reduced_code(model, render, _kernels) if formulation == "reduced" else None
     plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel)
     integrated = reduced.integrated if reduced else plain
-    linearized, linear_kernels = _newton(model, integrated) if integrates else ("", [])
     counts = _counts(model, integrated)
     if integrates:
-        loops = integrator_loops(model, integrated, linearized, counts, render)
+        linearized, loop_kernels = _newton(model, integrated)
+        loops, start_pivots = integrator_loops(model, integrated, linearized, counts, render), ()
     else:
-        loops = kinematic_loops(model, counts, render)
+        kinematic = kinematic_code(model, kkt, integrated, counts, render)
+        loops, loop_kernels, start_pivots = kinematic.files, kinematic.kernels, kinematic.pivots
     prepare = interface.prepare_kernel(model, printer.expression)
     rescued = reduced is not None and is_rescued(reduced.system)  # the absolute formulation tells what vanished
-    kernels = [dynamics, *around, *(reduced.kernels if reduced else ()), prepare, *linear_kernels]
+    kernels = [dynamics, *around, *(reduced.kernels if reduced else ()), prepare, *loop_kernels]
     files = {
         "model.h": render("model.h.jinja", **_header(model), **counts),
         "trigonometry.c": render("trigonometry.c.jinja"),

@@ -9,10 +9,12 @@ from typing import Any
 import sympy as sp
 
 from gudgeon.generator.kernels import Kernel
+from gudgeon.generator.kinematic_kernels import kinematic_kernels
 from gudgeon.generator.kkt import KKT
 from gudgeon.generator.methods import dop853, rodas5p
 from gudgeon.generator.model import Model
-from gudgeon.generator.projection import closing_kernel
+from gudgeon.generator.projection import closing_kernel, projection_kernel
+from gudgeon.generator.square_rows import SquareRows
 from gudgeon.generator.system import System
 from gudgeon.generator.targets.c import printer
 
@@ -46,12 +48,35 @@ class Integrated:
     finish: Callable[[Kernel], Kernel]  # a last pass over kernels
 
 
-def kinematic_loops(model: Model, counts: Mapping[str, int], render: Render) -> dict[str, str]:
-    """Without freedom: positions by Newton."""
-    loops = {"kinematic.c": render("kinematic.c.jinja", **counts)}
+@dataclass(frozen=True)
+class KinematicCode:
+    """The loops of a scene without freedom, their kernels, and the rows that a status counts through."""
+
+    files: Mapping[str, str]
+    kernels: tuple[Kernel, ...]
+    pivots: tuple[str, ...]
+
+
+def kinematic_code(
+    model: Model, kkt: KKT, integrated: Integrated, counts: Mapping[str, int], render: Render
+) -> KinematicCode:
+    """Positions by Newton: in tree coordinates, unless the closures' pattern leaves one of them open."""
+    rows = SquareRows(integrated.system)
+    tree = integrated.reduced and rows.fits
+    if tree:
+        kernels = tuple(kinematic_kernels(integrated.system, rows))
+        blocks = render("block.c.jinja", most=rows.largest) if rows.largest > 2 else ""
+        text = blocks + "\n".join(printer.kernel(kernel) for kernel in kernels)
+        closing = render("kinematic_tree.c.jinja", kernels=text, angles=integrated.angles or (1,))
+        pivots = (*(row.name for row in integrated.system.rows), *kkt.pivots, *integrated.kkt.pivots)
+    else:
+        projection, of_projection = projection_kernel(kkt.system, model.rows, "project")
+        kernels, pivots = (projection,), (*of_projection.pivots, *kkt.pivots)
+        closing = printer.kernel(projection) + "\n" + render("kinematic_full.c.jinja", **counts)
+    files = {"kinematic.c": render("kinematic.c.jinja", closing=closing, tree=tree)}
     if model.events:
-        loops["kinematic_events.c"] = render("kinematic_events.c.jinja")
-    return loops
+        files["kinematic_events.c"] = render("kinematic_events.c.jinja")
+    return KinematicCode(files, kernels, pivots)
 
 
 def integrator_loops(

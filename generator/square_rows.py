@@ -1,0 +1,159 @@
+"""Φ_q x = r where there are as many rows as coordinates: solved part by part, without M.
+
+A linkage without freedom falls into groups of bodies that can be placed one after the other (the Assur groups of
+kinematics, mostly dyads: two rows in two angles). In Φ_q they are the diagonal blocks of its block triangular form:
+match every row with a coordinate of its own, then take the strongly connected parts of who needs whom, in order
+(A. Pothen, C.-J. Fan, ACM Trans. Math. Softw. 16:303, 1990). One row is a division, two are Cramer's rule, larger
+blocks are factorized densely with pivoting at run time (templates/c/block.c.jinja).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import sqrt
+
+import sympy as sp
+from sympy.utilities.iterables import strongly_connected_components
+
+from gudgeon.generator.kernels import KernelBuilder
+from gudgeon.generator.kkt import SINGULAR
+from gudgeon.generator.system import System
+
+ZERO = sp.Integer(0)
+# A block is singular when less than this share of its determinant's terms is left of their sum: the sine of an
+# angle, where KKT compares its square.
+SHARE = sqrt(SINGULAR)
+
+
+@dataclass(frozen=True)
+class Block:
+    """As many rows as coordinates, by number."""
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Solver:
+    """What is known of a block at a state: the inverse of its pivot or determinant, or the name of its factors."""
+
+    block: Block
+    inverse: sp.Expr = ZERO
+    name: str = ""
+
+
+class SquareRows:
+    """Emits the solution of Φ_q x = r for a system's rows in its coordinates, if it `fits`."""
+
+    def __init__(self, system: System) -> None:
+        rows, q = system.rows, system.q
+        place = {symbol: k for k, symbol in enumerate(q)}
+        self._symbols = system.model.symbols
+        self.names = [row.name.replace(".", "_").replace("=", "_") for row in rows]
+        self.unknowns = [symbol.name for symbol in q]
+        self.entries: list[Mapping[int, sp.Expr]] = [{place[s]: c for s, c in row.phi_q.items()} for row in rows]
+        self.blocks = triangular_blocks([set(entries) for entries in self.entries], len(q))
+
+    @property
+    def fits(self) -> bool:
+        """False where rows and coordinates are not equally many, or the rows' pattern leaves some coordinate open."""
+        return self.blocks is not None
+
+    @property
+    def largest(self) -> int:
+        """Rows of the largest block; more than two need the code of block.c.jinja."""
+        return max((len(block.rows) for block in self.blocks or ()), default=0)
+
+    def factorize(self, build: KernelBuilder) -> list[Solver]:
+        """Statements that make a block singular return the number, from 1, of a row of it."""
+        build.section("groups of rows that are solved one after the other")
+        solvers = []
+        for block in self.blocks or ():
+            size = min(len(block.rows), 3)
+            solvers.append((self._single, self._pair, self._dense)[size - 1](build, block))
+        return solvers
+
+    def _single(self, build: KernelBuilder, block: Block) -> Solver:
+        (row,), (column,) = block.rows, block.columns
+        pivot = self.entries[row][column]
+        if pivot.is_Number:
+            return Solver(block, 1 / pivot)
+        named = build.local(f"pivot_{self.names[row]}", pivot)
+        build.line(f"if (!(fabs({named}) > 0.0)) return {row + 1};")
+        return Solver(block, build.local(f"inverse_{self.names[row]}", 1 / named))
+
+    def _pair(self, build: KernelBuilder, block: Block) -> Solver:
+        name = f"{self.names[block.rows[0]]}__{self.names[block.rows[1]]}"
+        (a, b), (c, d) = self._square(block)
+        one, two = build.local(f"along_{name}", a * d), build.local(f"across_{name}", b * c)
+        determinant = build.local(f"determinant_{name}", one - two)
+        build.line(f"if (!(fabs({determinant}) > {SHARE!r} * (fabs({one}) + fabs({two})))) return {block.rows[1] + 1};")
+        return Solver(block, build.local(f"inverse_{name}", 1 / determinant))
+
+    def _dense(self, build: KernelBuilder, block: Block) -> Solver:
+        n, name = len(block.rows), self._symbols.unique(f"block_{self.names[block.rows[0]]}")
+        build.line(f"double {name}_values[{n * n}];")
+        build.line(f"int {name}_order[{n}];")
+        for k, value in enumerate(value for line in self._square(block) for value in line):
+            build.out(f"{name}_values[{k}]", value)
+        build.line(f"if (factor_block({n}, {name}_values, {name}_order)) return {block.rows[0] + 1};")
+        return Solver(block, name=name)
+
+    def _square(self, block: Block) -> list[list[sp.Expr]]:
+        return [[self.entries[r].get(c, ZERO) for c in block.columns] for r in block.rows]
+
+    def solve(
+        self, build: KernelBuilder, solvers: Sequence[Solver], rhs: Sequence[sp.Expr], prefix: str
+    ) -> list[sp.Expr]:
+        """x by coordinate for one right-hand side."""
+        x: dict[int, sp.Expr] = {}
+        for solver in solvers:
+            block = solver.block
+            left = [rhs[r] - sum((c * x[k] for k, c in self.entries[r].items() if k in x), ZERO) for r in block.rows]
+            if len(left) > 1:
+                left = [
+                    build.local(f"{prefix}_rest_{self.names[r]}", value) if len(value.free_symbols) > 1 else value
+                    for r, value in zip(block.rows, left, strict=True)
+                ]
+            for k, value in zip(block.columns, self._solve(build, solver, left, prefix), strict=True):
+                x[k] = build.local(f"{prefix}_{self.unknowns[k]}", value)
+        return [x[k] for k in range(len(self.unknowns))]
+
+    def _solve(
+        self, build: KernelBuilder, solver: Solver, left: Sequence[sp.Expr], prefix: str
+    ) -> Sequence[sp.Expr | str]:  # fmt: skip
+        if len(left) == 1:
+            return [left[0] * solver.inverse]
+        if len(left) == 2:
+            (a, b), (c, d) = self._square(solver.block)
+            return [(d * left[0] - b * left[1]) * solver.inverse, (a * left[1] - c * left[0]) * solver.inverse]
+        name, n = self._symbols.unique(f"{solver.name}_{prefix}"), len(left)
+        build.line(f"double {name}[{n}];")
+        for k, value in enumerate(left):
+            build.out(f"{name}[{k}]", value)
+        build.line(f"solve_block({n}, {solver.name}_values, {solver.name}_order, {name});")
+        return [f"{name}[{k}]" for k in range(n)]
+
+
+def triangular_blocks(pattern: Sequence[set[int]], n: int) -> tuple[Block, ...] | None:
+    """Blocks in solving order of a square pattern, columns by row; None where no row is left for some column."""
+    if len(pattern) != n:
+        return None
+    owner: dict[int, int] = {}  # column -> row
+
+    def find(row: int, tried: set[int]) -> bool:
+        for column in sorted(pattern[row]):
+            if column not in tried:
+                tried.add(column)
+                if column not in owner or find(owner[column], tried):
+                    owner[column] = row
+                    return True
+        return False
+
+    if not all(find(row, set()) for row in range(n)):
+        return None
+    matched = {row: column for column, row in owner.items()}
+    needs = [(row, owner[column]) for row in range(n) for column in sorted(pattern[row]) if owner[column] != row]
+    parts = strongly_connected_components((list(range(n)), needs))  # those that others need come first
+    return tuple(Block(rows := tuple(sorted(part)), tuple(matched[row] for row in rows)) for part in parts)
