@@ -8,6 +8,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST = -2, -4, -5, -6
+NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
 
 
 def failure(
@@ -22,8 +23,8 @@ def failure(
             "  a force that jumps where the motion comes to rest holds it there: use a dry_friction element", t
         )  # fmt: skip
     if status == TOO_SMALL:
-        tightest = _tightest(compiled, e_max, p)
-        return SolverError(f"no step is small enough at t = {t:.9g} s{tightest}\n  {advice}", t)
+        closed = _closed_film(compiled, e_max, p, t)
+        return closed or SolverError(f"no step is small enough at t = {t:.9g} s\n  {advice}", t)
     if status == LOST:
         return SolverError(f"a contact was lost at t = {t:.9g} s: a free journal lies outside its bearing", t)
     try:
@@ -36,11 +37,16 @@ def failure(
     raise AssertionError(f"status {status} stands for no failure")
 
 
-def _tightest(compiled: CompiledModel, e_max: Array, p: Array) -> str:
-    """How far the journals are from their bearings: what usually leaves a method no step."""
-    joints = compiled.source.clearances
-    if not joints:
-        return ""
-    ratio = [float(e) / float(p[joint.clearance]) for joint, e in zip(joints, e_max, strict=True)]
-    worst = int(np.argmax(ratio))
-    return f" (joint {joints[worst].name} came to e/c = {ratio[worst]:.7g})"
+def _closed_film(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError | None:
+    """What usually leaves a method no step: a film that is squeezed out, where its law is singular."""
+    for joint, e in zip(compiled.source.clearances, e_max, strict=True):
+        ratio = float(e) / float(p[joint.clearance])
+        if joint.film and ratio > NEARLY_CLOSED:
+            error = SolverError(
+                f"the film in joint {joint.name} is squeezed out at t = {t:.9g} s: e/c = {ratio:.7g}\n"
+                "  its law is singular at e = c: a thicker oil, or a dry contact beyond it, keeps the surfaces apart",
+                t,
+            )  # fmt: skip
+            error.outside_model = True
+            return error
+    return None
