@@ -66,8 +66,8 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         deepest = float(e_max) - c
         if joint.film and not joint.dry and float(e_max) > THIN * c:
             notes.append(
-                f"{joint.name}: the film is squeezed out, e/c = {float(e_max) / c:.7g}: its law is singular at e = c and"
-                " capped there; a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
+                f"{joint.name}: the film is squeezed out, e/c = {float(e_max) / c:.7g}: its law, singular at e = c, is"
+                " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
             )
         if deepest > min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius):
             notes.append(
