@@ -3,7 +3,7 @@
  * crosses zero. The place is the root of the step's interpolant; what is looked at is a range of signs, not a
  * crossing alone, so that a contact that starts again on the wrong side of zero is not lost.
  */
-enum { ROOT_STEPS = 100, GRAZE_STEPS = 16 };
+enum { ROOT_STEPS = 100, LOOKS = 16 };
 #define SHALLOW 1e-13 /* m: a graze that gives no force worth the name */
 
 static int make_dense(Run *run, const Parameters *p, Step *step)
@@ -81,8 +81,8 @@ static double root(Run *run, const Step *step, int k, double low, double at_low,
 }
 
 /*
- * Whether a free joint may have touched and left again between what was looked at: it turned round, so near that the
- * way between two looks (a quarter of the step at most) can hide the contact.
+ * Whether a free joint may touch, leave and touch again between what was looked at: it turned round, so near that
+ * the way between two looks (a quarter of the step at most) can hide the contact.
  */
 static int may_graze(const Run *run, const Step *step, int i)
 {
@@ -94,55 +94,64 @@ static int may_graze(const Run *run, const Step *step, int i)
         && nearest + (outward - inward) * step->h / 16.0 > 0.0;
 }
 
-/* The share at which margin k is least, or one at which it is below zero; its value in `least`. */
-static double lowest(Run *run, const Step *step, int k, const Parameters *p, double *least)
+/* The least margin k around s, where it is `best`, within `width` to both sides; stops as soon as it is below zero. */
+static double dip(Run *run, const Step *step, int k, double *s, double width, double best, const Parameters *p)
 {
-    double s = 0.0, width = 1.0 / GRAZE_STEPS, best = INFINITY;
-    for (int i = 1; i < GRAZE_STEPS && best >= 0.0; i++) {
-        const double now = margin_at(run, step, i * width, k, p);
-        if (now < best) {
-            best = now;
-            s = i * width;
-        }
-    }
-    for (; width > 1e-6 && best >= 0.0 && s - width >= 0.0 && s + width <= 1.0; width *= 0.5) { /* of the parabola through three points */
-        const double left = margin_at(run, step, s - width, k, p), right = margin_at(run, step, s + width, k, p);
+    for (; width > 1e-6 && best >= -SHALLOW && *s - width >= 0.0 && *s + width <= 1.0; width *= 0.5) {
+        const double left = margin_at(run, step, *s - width, k, p), right = margin_at(run, step, *s + width, k, p);
         const double bend = left - 2.0 * best + right;
-        const double top = bend > 0.0 ? s + 0.5 * width * (left - right) / bend : s;
-        const double at_top = margin_at(run, step, fmin(fmax(top, s - width), s + width), k, p);
-        const double before = s;
-        if (left < best)
-            best = left, s = before - width;
-        if (right < best)
-            best = right, s = before + width;
-        if (at_top < best)
-            best = at_top, s = fmin(fmax(top, before - width), before + width);
-        if (best > 0.0 && bend * width * width > 0.0 && best > 8.0 * bend)
+        double at[3] = {*s - width, *s + width, *s}, value[3] = {left, right, best};
+        if (bend > 0.0) {
+            at[2] = fmin(fmax(*s + 0.5 * width * (left - right) / bend, at[0]), at[1]);
+            value[2] = margin_at(run, step, at[2], k, p);
+        }
+        for (int j = 0; j < 3; j++)
+            if (value[j] < best) {
+                best = value[j];
+                *s = at[j];
+            }
+        if (best > 8.0 * bend)
             break; /* the parabola stays clear of zero */
     }
-    *least = best;
-    return s;
+    return best;
+}
+
+/* The first of equally spaced looks, and of the dips between them, that finds margin k below zero; 0: none. */
+static double look_along(Run *run, const Step *step, int k, const Parameters *p, double *value)
+{
+    const double width = 1.0 / LOOKS;
+    double before = INFINITY, last = margin(&run->memory, &run->aside, k);
+    for (int i = 1; i <= LOOKS; i++) {
+        const double now = i < LOOKS ? margin_at(run, step, i * width, k, p) : margin(&run->memory, &step->aside, k);
+        if (i > 1 && last < before && last <= now) {
+            double s = (i - 1) * width;
+            *value = dip(run, step, k, &s, width, last, p);
+            if (*value < -SHALLOW)
+                return s;
+        }
+        if (now < (i < LOOKS ? -SHALLOW : 0.0)) {
+            *value = now;
+            return i * width;
+        }
+        before = last;
+        last = now;
+    }
+    return 0.0;
 }
 
 /* The bracket's upper end for margin k: a share at which it is below zero; 0 if there is none. */
 static double violated(Run *run, Step *step, int k, const Parameters *p, double *value)
 {
-    const double end = margin(&run->memory, &step->aside, k);
-    double s = step->where[k];
+    const double end = margin(&run->memory, &step->aside, k), s = step->where[k];
+    if (k < N_CLEARANCES && may_graze(run, step, k) && make_dense(run, p, step) == 0)
+        return look_along(run, step, k, p, value);
     if (step->least[k] < 0.0 && s < 1.0 && make_dense(run, p, step) == 0) {
         *value = margin_at(run, step, s, k, p);
         if (*value < 0.0)
             return s;
     }
     *value = end;
-    if (end < 0.0)
-        return 1.0;
-    if (k < N_CLEARANCES && may_graze(run, step, k) && make_dense(run, p, step) == 0) {
-        s = lowest(run, step, k, p, value);
-        if (*value < -SHALLOW)
-            return s;
-    }
-    return 0.0;
+    return end < 0.0 ? 1.0 : 0.0;
 }
 
 /* What was not seen at the stages but shows where an event was found crossed before it: the first of all. */
