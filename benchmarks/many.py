@@ -93,7 +93,8 @@ def main() -> None:
     parameters = grid(options.clearances, options.speeds)
     reference = run(simulation, parameters, method="rodas5p", rtol=1e-10)
     print(f"reference differs from the race's by {confirm(simulation):.1e} of the stroke")
-    print(f"{len(reference)} lubricated runs of {press.work('lubricated').t_end:g} s\n\n  rtol    worst error of the slider")
+    print(f"{len(reference)} lubricated runs of {press.work('lubricated').t_end:g} s\n")
+    print("  rtol    worst error of the slider")
     for rtol in TOLERANCES:
         error = worst(run(simulation, parameters, rtol=rtol), reference)
         print(f"  {rtol:<7.0e} {error:.1e}")

@@ -23,22 +23,24 @@ CLEARANCES = np.array([0.3e-3, 0.5e-3, 0.8e-3])
 SPEEDS = np.pi * np.array([2.0, 5.0, 4.0])
 ARRAYS = ("t", "q", "v", "a", "state", "memory", "work", "impacts", "events")
 # scene, options of both calls; rk4's step is short enough for the film
-CASES = [
+CASES: list[tuple[str, dict[str, Any]]] = [
     ("dry", {"rtol": 1e-6}), ("lubricated", {}), ("dry", {"method": "rk4", "step": 2e-5}),
-    ("lubricated", {"method": "rodas5p", "step": 1e-4}), ("ideal", {}), ("dry", {"method": "scipy:LSODA", "rtol": 1e-5}),
+    ("lubricated", {"method": "rodas5p", "step": 1e-4}), ("ideal", {}),
+    ("dry", {"method": "scipy:LSODA", "rtol": 1e-5}),
 ]  # fmt: skip
 
 
 def press_runs(scene: str, options: dict[str, Any], **more: Any) -> tuple[gudgeon.Simulation, Batch]:
     simulation = gudgeon.load("nine_bar_press", scene=scene)
-    parameters = {"omega": SPEEDS, "gravity.y": 0.0} | ({} if scene == "ideal" else {"c": CLEARANCES})
+    parameters: dict[str, Any] = {"omega": SPEEDS, "gravity.y": 0.0}
+    parameters |= {} if scene == "ideal" else {"c": CLEARANCES}
     return simulation, simulation.simulate_many(parameters, 0.03, output=12, **options, **more)
 
 
 def assert_same(one: Result, other: Result) -> None:
     for name in ARRAYS:
         assert getattr(one, name).tobytes() == getattr(other, name).tobytes(), name
-    timeless = {"seconds": 0.0, "seconds_per_simulated_second": 0.0}
+    timeless: dict[str, Any] = {"seconds": 0.0, "seconds_per_simulated_second": 0.0}
     assert str(replace(one.diagnostics, **timeless)) == str(replace(other.diagnostics, **timeless))
 
 
@@ -75,7 +77,7 @@ def test_more_contacts_than_the_list_of_c_holds() -> None:
 
 def test_a_run_that_fails_stops_no_other() -> None:
     simulation = gudgeon.load("nine_bar_press", scene="lubricated")
-    sets = [{"c": 0.3e-3}, {"c": -1.0}, {"c": 0.8e-3}, {"bodies.L2.length": "5 m"}]
+    sets: list[dict[str, float | str]] = [{"c": 0.3e-3}, {"c": -1.0}, {"c": 0.8e-3}, {"bodies.L2.length": "5 m"}]
     batch = simulation.simulate_many(sets, 5e-3, output=10, method="rk4", step=1e-4)
     assert [failure.run for failure in batch.failures] == [0, 1, 3]  # the film's damping at .3 mm asks for 2e-5 s
     words = ("no longer finite|diverged", "bearings.pin.clearance|parameters.c", "cannot be assembled")
