@@ -1,0 +1,112 @@
+"""200 lubricated runs, clearance x speed: time a run and core, and what a second thread brings.
+
+    python -m benchmarks.many [--clearances 10] [--speeds 20]
+
+The press of the race (l5 = .25 m, no gravity), c = .3 ... .8 mm, omega = pi ... 8 pi, .4 s each, 201 outputs. The
+loosest tolerance of a list whose worst slider error over all runs is at most 1e-6 of the ideal stroke is timed, the
+reference being the stiff method at 1e-10; at the race's clearance and speed it is compared with the race's reference,
+which owes nothing to gudgeon. Times are of whole batches: starts assembled, runs, arrays.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from hashlib import sha256
+from threading import Thread
+from time import perf_counter, process_time
+
+import numpy as np
+
+import gudgeon
+from benchmarks.peers import press
+from gudgeon.batch import Batch
+from gudgeon.simulation import Simulation
+
+TOLERANCES = (1e-5, 5e-6, 2e-6, 1e-6)
+WANTED = 1e-6  # of the stroke
+SLIDER = "S9.y"
+
+
+def grid(clearances: int, speeds: int) -> dict[str, float | np.ndarray]:
+    """Columns of clearance x speed."""
+    c, omega = np.meshgrid(np.linspace(0.3e-3, 0.8e-3, clearances), np.pi * np.linspace(1.0, 8.0, speeds))
+    return {"l5": 0.25, "gravity.y": 0.0, "c": c.ravel(), "omega": omega.ravel()}
+
+
+def run(simulation: Simulation, parameters: dict[str, float | np.ndarray], **options: object) -> Batch:
+    """One batch over the race's output times."""
+    work = press.work("lubricated")
+    batch = simulation.simulate_many(parameters, output=work.times, **options)  # type: ignore[arg-type]
+    if batch.failures:
+        raise SystemExit(str(batch.failures[0]))
+    return batch
+
+
+def worst(batch: Batch, reference: Batch) -> float:
+    """The largest slider error of any run, as a share of the ideal stroke."""
+    column = batch.source.coordinates.index(SLIDER)
+    return float(np.abs(batch.q[:, :, column] - reference.q[:, :, column]).max() / press.work("lubricated").stroke)
+
+
+def confirm(simulation: Simulation) -> float:
+    """How far the method of the reference is from the race's reference, as a share of the stroke."""
+    work = press.work("lubricated")
+    own = run(simulation, dict(work.parameters), method="rodas5p", rtol=1e-10).q[0]
+    return press.errors(work, press.Samples(own, (np.zeros(0), np.zeros(0))), press.reference("lubricated")).slider
+
+
+def least(simulation: Simulation, parameters: dict[str, float | np.ndarray], rtol: float, repeats: int) -> list[float]:
+    """Least wall time of a batch with one thread and with two, taken in turns, and CPU time of the same, s."""
+    found = [math.inf] * 4
+    for _ in range(repeats):
+        for k in (0, 1):
+            before = process_time()
+            wall = run(simulation, parameters, rtol=rtol, threads=k + 1).seconds
+            found[k], found[2 + k] = min(found[k], wall), min(found[2 + k], process_time() - before)
+    return found
+
+
+def machine(repeats: int) -> float:
+    """How many times as fast two threads that share nothing are: what other work leaves of the second core."""
+    data, found = bytes(1 << 25), [math.inf, math.inf]
+    for _ in range(repeats):
+        for k in (0, 1):
+            threads = [Thread(target=lambda: sha256(data).digest()) for _ in range(k + 1)]
+            before = perf_counter()
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            found[k] = min(found[k], perf_counter() - before)
+    return 2.0 * found[0] / found[1]
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--clearances", type=int, default=10)
+    parser.add_argument("--speeds", type=int, default=20)
+    parser.add_argument("--repeats", type=int, default=9)
+    options = parser.parse_args()
+    simulation = gudgeon.load("nine_bar_press", scene="lubricated")
+    parameters = grid(options.clearances, options.speeds)
+    reference = run(simulation, parameters, method="rodas5p", rtol=1e-10)
+    print(f"reference differs from the race's by {confirm(simulation):.1e} of the stroke")
+    print(f"{len(reference)} lubricated runs of {press.work('lubricated').t_end:g} s\n")
+    print("  rtol    worst error of the slider")
+    for rtol in TOLERANCES:
+        error = worst(run(simulation, parameters, rtol=rtol), reference)
+        print(f"  {rtol:<7.0e} {error:.1e}")
+        if error <= WANTED:
+            break
+    one, two, cpu_one, cpu_two = least(simulation, parameters, rtol, options.repeats)
+    n = len(reference)
+    print("\n             ms a run   CPU ms a run")
+    print(f"  1 thread   {1e3 * one / n:8.2f}   {1e3 * cpu_one / n:12.2f}")
+    print(f"  2 threads  {1e3 * two / n:8.2f}   {1e3 * cpu_two / n:12.2f}")
+    print(f"  two threads are {one / two:.2f} times as fast as one; two that only hash: {machine(options.repeats):.2f}")
+
+
+if __name__ == "__main__":
+    main()
