@@ -34,7 +34,7 @@ N_WORK = 3
 
 @dataclass
 class Parts:
-    """Non-zeros by (node, coordinate); powers by (power, coordinate) or (power, row node)."""
+    """Non-zeros by (node, coordinate); powers by (power, coordinate) or (power, node of a or λ)."""
 
     mass: dict[Place, sp.Expr] = field(default_factory=dict)
     phi_q: dict[Place, sp.Expr] = field(default_factory=dict)
@@ -207,6 +207,9 @@ class Linearization:
         for r, row in enumerate(self.system.rows):
             if row.nu != 0:
                 self.parts.power_row[0, self.n + r] = -row.nu
+        for given in self.system.given:  # a drive also moves what inertia the accelerations meet it with
+            for k, mass in given.mass.items():
+                self.parts.power_row[0, k] = self.parts.power_row.get((0, k), ZERO) + given.rate * mass
 
 
 _BY = ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j")

@@ -226,13 +226,16 @@ class Newton:
         return self._build(build, arguments)
 
     def _work(self, w: int) -> sp.Expr:
-        """u_w; η μ is in x behind the coordinates."""
+        """u_w; x holds u_v, that is η (δa + r_v), and η μ behind it."""
         parts, n = self.parts, self.n
         terms = [sp.Symbol(f"r[{2 * n + w}]"), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
         for part, first in ((parts.power_q, 0), (parts.power_v, n)):
             terms += [value * sp.Symbol(f"u[{first + k}]") for (i, k), value in part.items() if i == w]
-        rows = sp.Add(*(value * sp.Symbol(f"x[{node}]") for (i, node), value in parts.power_row.items() if i == w))
-        return ETA * sp.Add(*terms) + rows
+        changes = [ZERO]
+        for (i, node), value in parts.power_row.items():
+            before = ETA * sp.Symbol(f"r[{n + node}]") if node < n else ZERO
+            changes += [value * (sp.Symbol(f"x[{node}]") - before)] if i == w else []
+        return ETA * sp.Add(*terms) + sp.Add(*changes)
 
 
 class _Factors:

@@ -1,141 +1,182 @@
-"""`gudgeon bench`: run time against error over the steps, scene by scene.
+"""`gudgeon bench`: run time against error, every method, scene by scene.
 
-The error of a run is taken against the same method with a step at least four times shorter than the
-shortest one that is tested; how much the two finest references differ is told beside it. Times are
-the least of several runs on one thread.
+The error of a run is taken against another method at a much tighter tolerance: two references by different
+methods, of which a run is compared with the one that it does not use. What they differ by is told; errors
+below twenty times that are not resolved. Times are the least of several runs on one thread.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.measure import work as measured
 from gudgeon.measure.rhs import RhsTime, time_rhs
-from gudgeon.measure.work import NAN, Attempt, Error, Parameters, Work, difference, natural_step, size
+from gudgeon.measure.work import NAN, Attempt, Error, Parameters, Setting, Work, difference, natural_step, size
 from gudgeon.simulation import Simulation
 from gudgeon.step import scene_end
 
 FINEST, COARSEST = 1 / 5, 200  # steps that are tested, of the step that a plain run takes
-FINER = (4, 8)  # the references' steps: the finest tested one divided by these
-REFERENCE_STEPS = 1_600_000  # of the reference: what bounds a smooth scene's window
+REFERENCE_STEPS = 200_000  # of the finest step: what bounds a smooth scene's window
+FINER = (4, 8)  # where nothing but a fixed step fits: the references' steps, the finest tested one divided by these
+REFERENCES = (Setting("dop853", 1e-13), Setting("rodas5p", 1e-12))
+TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 12))
+ADAPTIVE = ("dop853", "rodas5p", "auto")
 KINEMATIC = (10, 100, 1_000, 10_000)  # samples of a scene without a degree of freedom
-TRUSTED = 20  # times the references' difference: smaller errors are rounding
+QUICK = 0.02  # s of timed runs
+TRUSTED = 20  # times the references' difference: smaller errors are not resolved
 SMALL = 1e-3  # the largest error that tells an order
 STRAIGHT = math.log(2.5)  # the deviation from a line that still tells one
 
 
 @dataclass(frozen=True)
 class Row:
-    """One step, or with the kinematic method one number of samples."""
+    """One method with one step or tolerance; with the kinematic method one number of samples."""
 
-    step: float  # s; kinematic: between samples
-    samples: int  # of a kinematic run, else 0
+    setting: Setting
     seconds: float  # a simulated second; NaN if the run failed
     right_hand_sides: int
     error: Error
+    jacobians: int = 0
+    samples: int = 0  # of a kinematic run
+    reference: Setting | None = None  # None: none, the error is max |Φ| by the mechanism's size
     failure: str = ""
     failed_at: float = NAN  # s
 
 
 @dataclass(frozen=True)
 class SceneBench:
-    """All rows of one scene, from the longest step to the shortest."""
+    """All rows of one scene, method by method, from the longest step or loosest tolerance on."""
 
     scene: str
-    method: str
     t_end: float
     why: str  # this window
     rows: tuple[Row, ...]
-    reference: float  # s, its step; NaN: the error is max |Φ|, by the mechanism's size
-    agreement: Error  # of the two finest references
+    references: tuple[Setting, ...]
+    agreement: Error  # of the two references
     contact: float  # s, the shortest contact in the window; NaN: none
     rhs: tuple[RhsTime, ...]
 
-    def order(self, measure: str) -> float:
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """As they were tested."""
+        return tuple(dict.fromkeys(row.setting.method for row in self.rows))
+
+    def of(self, method: str) -> list[Row]:
+        """Its rows."""
+        return [row for row in self.rows if row.setting.method == method]
+
+    def order(self, measure: str, method: str = "rk4") -> float:
         """Slope of log(error) over log(step), over the errors that are neither rounding nor large.
 
         NaN for fewer than three, or where they lie on no line (a stiff scene at its stability limit).
         """
-        floor = TRUSTED * getattr(self.agreement, measure)
-        points = [(row.step, getattr(row.error, measure)) for row in self.rows if not row.failure]
-        kept = np.log([(h, e) for h, e in points if floor < e < SMALL])
+        points = [(row.setting.value, getattr(row.error, measure)) for row in self.of(method) if not row.failure]
+        kept = np.log([(h, e) for h, e in points if self.resolved(measure, e) and e < SMALL])
         if len(kept) < 3:
             return NAN
         line = np.polyfit(kept[:, 0], kept[:, 1], 1)
         return float(line[0]) if np.std(np.polyval(line, kept[:, 0]) - kept[:, 1]) < STRAIGHT else NAN
 
-    def row(self, step: float) -> Row | None:
-        """The row of a step (s), if it was tested."""
-        return next((row for row in self.rows if math.isclose(row.step, step, rel_tol=1e-6)), None)
+    def resolved(self, measure: str, error: float) -> bool:
+        """Whether an error is larger than what the references leave in doubt."""
+        return error > TRUSTED * getattr(self.agreement, measure)
+
+    def row(self, setting: Setting) -> Row | None:
+        """The row of a setting, if it was tested."""
+        return next((r for r in self.of(setting.method) if math.isclose(r.setting.value, setting.value)), None)
+
+    def seconds_to(self, error: float, method: str) -> float:
+        """Least run time (s a simulated second) with every error at most this; NaN: no row has it, or none says so.
+
+        Where the references leave the error itself in doubt nothing can be said.
+        """
+        if any(TRUSTED * getattr(self.agreement, m) > error for m in ("motion", "path", "force")):
+            return NAN
+        return min((r.seconds for r in self.of(method) if not r.failure and r.error.largest <= error), default=NAN)
 
 
 Report = Callable[[float, str], None]
 
 
 def bench(
-    simulation: Simulation, steps: Sequence[float] | None = None, *, t_end: float | None = None,
-    parameters: Parameters | None = None, quick: bool = False, progress: Report | None = None,
+    simulation: Simulation, steps: Sequence[float] | None = None, tolerances: Sequence[float] | None = None, *,
+    t_end: float | None = None, parameters: Parameters | None = None, quick: bool = False,
+    progress: Report | None = None,
 ) -> SceneBench:  # fmt: skip
-    """Measure one scene. `steps` (s) default to 1, 2, 5 · 10^k around the step of a plain run.
+    """Measure one scene. `steps` (s) of rk4 default to 1, 2, 5 · 10^k around the step of a plain run.
 
-    `t_end` (s) defaults to the first few contacts or, without contact, to as many steps of the
-    reference as are affordable. `quick` takes fewer steps and a tenth of the window.
+    `tolerances` of the other methods default to 1e-3 … 1e-11. `t_end` (s) defaults to the first few contacts
+    or, without contact, to as many of the shortest steps as are affordable. `quick` takes fewer of both, a
+    tenth of the window and shorter measurements.
     """
     parameters = dict(parameters or {})
     if simulation.source.degrees_of_freedom == 0:
         return _kinematic(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
     usual = natural_step(simulation, parameters)
     steps = sorted(steps or measured.round_numbers(usual * (1 if quick else FINEST), usual * COARSEST), reverse=True)
-    if not steps[-1] > 0:
-        raise BadValueError(f"step is {steps[-1]:g} s: expected a positive time")
-    longest = max(REFERENCE_STEPS * steps[-1] / FINER[-1] / (10 if quick else 1), 2 * steps[0])
-    work = Work(simulation, t_end, parameters) if t_end else measured.window(simulation, longest, usual, parameters)
-    return _measure(work, steps, 1 if quick else 2, progress or (lambda fraction, text: None))
+    tolerances = sorted(tolerances or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True)
+    if not steps[-1] > 0 or not 0 < tolerances[-1] <= tolerances[0] < 1:
+        raise BadValueError("expected positive steps (s) and tolerances between 0 and 1")
+    longest = max(REFERENCE_STEPS * steps[-1] / (10 if quick else 1), 2 * steps[0])
+    pilot = Setting("rk4", usual)
+    work = Work(simulation, t_end, parameters) if t_end else measured.window(simulation, longest, pilot, parameters)
+    work = replace(work, enough=QUICK if quick else work.enough)
+    settings = [Setting("rk4", step) for step in steps]
+    fitting = [m for m in ADAPTIVE if set(ADAPTIVE[:2]) <= set(simulation.source.methods)]
+    settings += [Setting(method, tolerance) for method in fitting for tolerance in tolerances]
+    return _measure(work, settings, references(settings), progress or (lambda fraction, text: None))
 
 
-def _measure(work: Work, steps: Sequence[float], rounds: int, progress: Report) -> SceneBench:
-    """References first, then every step: a run to compare and runs to time."""
-    cost = [factor / steps[-1] for factor in FINER] + [rounds / step for step in steps]
-    done = 0.0
+def references(settings: Sequence[Setting]) -> tuple[Setting, Setting]:
+    """Two methods at much tighter tolerance; where only a fixed step fits two shorter steps."""
+    if any(not setting.fixed for setting in settings):
+        return REFERENCES
+    finest = min(settings, key=lambda setting: setting.value)
+    return finest.finer(FINER[0]), finest.finer(FINER[1])
 
-    def attempt(step: float) -> Attempt:
-        share = 1 / step / sum(cost)
-        return work.run(step, lambda fraction, _: progress(done + share * fraction, f"step {step:.3g} s"))
 
-    references = []
-    for factor in FINER:
-        references.append(attempt(steps[-1] / factor))
-        done += factor / steps[-1] / sum(cost)
-    coarse, fine = (reference.run for reference in references)
-    if coarse is None or fine is None or references[-1].failure:
-        agreement, contact = Error(), NAN
-    else:
-        agreement = difference(coarse, fine)
-        lengths = fine.impacts["t_off"] - fine.impacts["t_on"]
+def _measure(work: Work, settings: Sequence[Setting], wanted: Sequence[Setting], progress: Report) -> SceneBench:
+    """References first, then every setting: a run to compare and runs to time."""
+    count = len(settings) + len(wanted)
+
+    def attempt(done: int, setting: Setting) -> Attempt:
+        text = f"{setting.method} {setting}"
+        return work.run(setting, lambda fraction, _: progress((done + fraction) / count, text))
+
+    found = [attempt(done, setting) for done, setting in enumerate(wanted)]
+    good = [a for a in found if a.run is not None and not a.failure]
+    agreement, contact = Error(math.inf, math.inf, math.inf), NAN
+    if good and good[0].run is not None:
+        lengths = good[0].run.impacts["t_off"] - good[0].run.impacts["t_on"]
         contact = float(np.nanmin(lengths)) if np.isfinite(lengths).any() else NAN
-    rows = []
-    for step in steps:
-        rows.append(_row(work, attempt(step), references[-1]))
-        done += rounds / step / sum(cost)
+    if len(good) == 2 and good[0].run is not None and good[1].run is not None:
+        agreement = difference(good[0].run, good[1].run)
+    rows = [_row(work, attempt(len(wanted) + k, setting), good) for k, setting in enumerate(settings)]
     rhs = tuple(time_rhs(work.simulation, work.t_end))
-    name, method = work.simulation.source.scene, "rk4"
-    return SceneBench(
-        name, method, work.t_end, work.why, tuple(rows), steps[-1] / FINER[-1], agreement, contact, rhs
+    name = work.simulation.source.scene
+    return SceneBench(name, work.t_end, work.why, tuple(rows), tuple(wanted), agreement, contact, rhs)
+
+
+def _row(work: Work, found: Attempt, good: Sequence[Attempt]) -> Row:
+    if found.failure or found.run is None:
+        return Row(found.setting, NAN, 0, Error(), 0, 0, None, found.failure or "no result", found.failed_at)
+    diagnostics = found.run.diagnostics
+    other = other_than(diagnostics.method.split("+"), good)
+    error = difference(found.run, other.run) if other is not None and other.run is not None else Error()
+    return Row(
+        found.setting, work.seconds(found.setting) / work.t_end, diagnostics.right_hand_sides, error,
+        diagnostics.jacobians, 0, None if other is None else other.setting,
     )  # fmt: skip
 
 
-def _row(work: Work, found: Attempt, reference: Attempt) -> Row:
-    if found.failure or found.run is None:
-        return Row(found.step, 0, NAN, 0, Error(), found.failure or "no result", found.failed_at)
-    seconds = work.seconds(found.step) / work.t_end
-    error = difference(found.run, reference.run) if reference.run is not None and not reference.failure else Error()
-    diagnostics = found.run.diagnostics
-    return Row(diagnostics.step, 0, seconds, diagnostics.right_hand_sides, error)
+def other_than(methods: Iterable[str], good: Sequence[Attempt]) -> Attempt | None:
+    """The first reference by none of these methods; where each uses one of them, the last (the finest step)."""
+    return next((a for a in good if a.setting.method not in methods), good[-1] if good else None)
 
 
 def _kinematic(
@@ -148,13 +189,14 @@ def _kinematic(
     for done, count in enumerate(counts):
         if progress:
             progress(done / len(counts), f"{count} samples")
-        found = work.sampled(math.inf, np.linspace(0.0, work.t_end, count + 1))
-        step = work.t_end / count
+        setting = Setting("kinematic", work.t_end / count)
+        found = work.sampled(setting, np.linspace(0.0, work.t_end, count + 1))
         if found.run is None or found.failure:
-            rows.append(Row(step, count, NAN, 0, Error(), found.failure or "no result", found.failed_at))
+            failed = found.failure or "no result"
+            rows.append(Row(setting, NAN, 0, Error(), 0, count, None, failed, found.failed_at))
             continue
-        seconds = work.seconds(math.inf, count) / work.t_end
+        seconds = work.seconds(setting, count) / work.t_end
         error = Error(found.run.diagnostics.phi_max / size(found.run))
-        rows.append(Row(step, count, seconds, 0, error))
+        rows.append(Row(setting, seconds, 0, error, samples=count))
     rhs = tuple(time_rhs(simulation, work.t_end))
-    return SceneBench(simulation.source.scene, "kinematic", work.t_end, "", tuple(rows), NAN, Error(), NAN, rhs)
+    return SceneBench(simulation.source.scene, work.t_end, "", tuple(rows), (), Error(), NAN, rhs)

@@ -181,34 +181,68 @@ def schema() -> int:
     return print_schema()
 
 
-Quick = Annotated[bool, typer.Option("--quick", help="Fewer steps and a shorter window: seconds, not minutes.")]
+Quick = Annotated[bool, typer.Option("--quick", help="Fewer runs and a shorter window: seconds, not minutes.")]
 Mark = Annotated[
     str | None, typer.Option("--mark-step", metavar="STEP", help="Show and tell what becomes of this step: 0.1ms.")
 ]
+Set = Annotated[list[str] | None, typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a number: c=0.5mm.")]
+End = Annotated[str | None, typer.Option("--t-end", help="Length of the measured runs, in s or with a unit.")]
+Csv = Annotated[Path | None, typer.Option("--csv", help="Where the table goes, the picture beside it.")]
 
 
 @app.command()
 @_told
-def bench(file: File, scene: Scenes = None, out: Out = Path("out"), quick: Quick = False, mark: Mark = None) -> int:
-    """Run time against error over the steps, for each scene: a table, a CSV file, a picture.
+def bench(
+    file: File, scene: Scenes = None, set_: Set = None, t_end: End = None, out: Out = Path("out"), csv: Csv = None,
+    quick: Quick = False, mark: Mark = None, json: Json = False,
+) -> int:  # fmt: skip
+    """Run time against error with every method, for each scene: a table, a CSV file, a picture.
+
+    Errors are taken against another method at a much tighter tolerance.
 
     Example: gudgeon bench engine.yaml --scene dry --mark-step 0.1ms
     """
-    from gudgeon.commands.measure import bench_file
+    from gudgeon.commands.measure import Request, bench_file
 
-    return bench_file(file, tuple(scene or ()), out, quick, mark)
+    sets = tuple(set_ or ())
+    return bench_file(Request(file, tuple(scene or ()), sets, t_end, out, csv, quick, mark, json))
 
 
 @app.command()
 @_told
-def stress(file: File, scene: Scenes = None, out: Out = Path("out"), quick: Quick = False, mark: Mark = None) -> int:
-    """Step × clearance: stable, inaccurate, diverged or outside the model, each with its reason.
+def stress(
+    file: File, scene: Scenes = None, set_: Set = None,
+    method: Annotated[str, typer.Option(help="auto, dop853, rodas5p, rk4.")] = "auto",
+    at: Annotated[
+        str | None, typer.Option("--at", help="Step or tolerance where no axis is one. [default: 1e-8, or the scene's]")
+    ] = None,
+    axis: Annotated[
+        list[str] | None,
+        typer.Option("--axis", metavar="NAME=LOW..HIGH:COUNT", help="One or two axes of the map: rtol, step,"
+                     " clearance, stiffness, viscosity, gains or any address; also NAME=A,B,C."),
+    ] = None,
+    box: Annotated[
+        int | None, typer.Option("--box", min=0, help="All corners of the box of --range and so many Sobol points.")
+    ] = None,
+    range_: Annotated[
+        list[str] | None, typer.Option("--range", metavar="NAME=LOW..HIGH", help="An edge of the box.")
+    ] = None,
+    t_end: End = None, out: Out = Path("out"), csv: Csv = None, quick: Quick = False, mark: Mark = None,
+    json: Json = False,
+) -> int:  # fmt: skip
+    """Tolerance (rk4: step) × clearance, or what --axis or --box say: where is a run stable, where does it fail?
 
-    Example: gudgeon stress engine.yaml --scene lubricated --mark-step 0.1ms
+    Each run is stable, inaccurate, diverged or outside the model, with its reason; failures with what to
+    type to see them again.
+
+    Example: gudgeon stress engine.yaml --scene lubricated --method rk4 --mark-step 0.1ms
+
+    Example: gudgeon stress engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
     """
-    from gudgeon.commands.measure import stress_file
+    from gudgeon.commands.measure import Request, Stress, stress_file
 
-    return stress_file(file, tuple(scene or ()), out, quick, mark)
+    request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
+    return stress_file(request, Stress(method, at, tuple(axis or ()), box, tuple(range_ or ())))
 
 
 def main() -> None:

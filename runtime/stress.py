@@ -1,21 +1,22 @@
-"""`gudgeon stress`: step × clearance, each cell stable, inaccurate, diverged or outside the model.
+"""`gudgeon stress`: a map or a box of runs, each stable, inaccurate, diverged or outside the model.
 
-Each cell is two questions. Does a run over a good part of the motion stay sane (finite, closed, its
-energy accounted for)? And does it agree with a ten times shorter step over the first few contacts?
-`cells.Limits` has the numbers, every cell its reason.
+A run is asked two questions. Does it stay sane over a good part of the motion (finite, closed, its energy
+accounted for, no contact lost)? And does it agree with a finer one, a tenth of the step or a hundredth of
+the tolerance, over the first few contacts? `cells.Limits` has the numbers, every cell its reason.
 """
 
 from __future__ import annotations
 
-import os
-import threading
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from gudgeon.errors import BadValueError
+from gudgeon.measure.axes import Axis, axis, clearances
+from gudgeon.measure.box import Range, corners, judge_point, sobol
 from gudgeon.measure.cells import Cell, Limits, Status, judge
-from gudgeon.measure.work import NAN, Attempt, Parameters, Work, natural_step, round_numbers, window
+from gudgeon.measure.pool import Pool, Report
+from gudgeon.measure.work import FIXED, NAN, Attempt, Parameters, Setting, Work, natural_step, round_numbers, window
 from gudgeon.parameters import prepare
 from gudgeon.simulation import Simulation
 from gudgeon.step import scene_end
@@ -23,77 +24,119 @@ from gudgeon.step import scene_end
 LONG, SHORT = 300_000, 1_000_000  # steps of the two windows with the shortest step (of the reference)
 COARSEST = 200  # the longest step, of the shortest scene's
 CLEARANCES = (1 / 6, 10 / 3)  # the axis, of the file's clearance
+TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
+USUAL = 1e-8  # tolerance where neither axis is one
 FINER = 10
-
-Report = Callable[[float, str], None]
+LIMIT = 120.0  # s of processor time of a run
 
 
 @dataclass(frozen=True)
 class StressMap:
-    """The cells of one scene, column by column (ascending clearance), ascending step."""
+    """The cells of one scene over two axes, column by column; both axes ascend."""
 
     scene: str
-    joint: str  # whose clearance the axis shows; "" without play
+    setting: Setting  # its value counts where neither axis is the method's
+    rows: Axis
+    columns: Axis
     cells: tuple[Cell, ...]
     t_long: float  # s, over which stability is judged
-    limits: Limits
 
-    @property
-    def steps(self) -> tuple[float, ...]:
-        """The step axis, s."""
-        return tuple(dict.fromkeys(cell.step for cell in self.cells))
-
-    @property
-    def clearances(self) -> tuple[float, ...]:
-        """The clearance axis, m; (NaN,) without play."""
-        return tuple(dict.fromkeys(cell.clearance for cell in self.cells))
-
-    def cell(self, step: float, clearance: float) -> Cell:
+    def cell(self, row: float, column: float) -> Cell:
         """One cell; KeyError if it is not in the map."""
-        for cell in self.cells:
-            if cell.step == step and (cell.clearance == clearance or clearance != clearance):
-                return cell
-        raise KeyError((step, clearance))
+        if row not in self.rows.values or (column not in self.columns.values and column == column):
+            raise KeyError((row, column))
+        place = self.columns.values.index(column) if column == column else 0
+        return self.cells[place * len(self.rows.values) + self.rows.values.index(row)]
 
-    def largest_stable(self, clearance: float) -> float:
-        """The largest step with which it and every shorter step of the grid is stable; NaN: none."""
+    def largest_stable(self, column: float) -> float:
+        """The largest row value with which it and every smaller one is stable; NaN: none."""
         best = NAN
-        for step in self.steps:
-            if self.cell(step, clearance).status is not Status.STABLE:
+        for row in self.rows.values:
+            if self.cell(row, column).status is not Status.STABLE:
                 break
-            best = step
+            best = row
         return best
 
 
+@dataclass(frozen=True)
+class StressBox:
+    """All corners of a box, then Sobol points in it."""
+
+    scene: str
+    setting: Setting
+    ranges: tuple[Range, ...]
+    cells: tuple[Cell, ...]
+    t_long: float
+
+
 def stress(
-    simulation: Simulation, steps: Sequence[float] | None = None, clearances: Sequence[float] | None = None, *,
+    simulation: Simulation, axes: Sequence[Axis] = (), *, method: str = "auto", value: float | None = None,
     t_long: float | None = None, t_short: float | None = None, parameters: Parameters | None = None,
     limits: Limits | None = None, quick: bool = False, progress: Report | None = None,
 ) -> StressMap:  # fmt: skip
-    """Judge every pair. `clearances` (m) are the first joint's with play; the others keep their ratio to it.
+    """Judge every pair of at most two axes (`gudgeon.measure.axes`), by default tolerance (rk4: step) × clearance.
 
-    `t_long` (s) is the run over which a step has to stay stable, `t_short` bounds the window in which it
-    is compared with a tenth of itself (see `window`); `parameters` as in `simulate`; `quick` takes a few
-    pairs. Raises BadValueError for a scene in which nothing is integrated.
+    `value`: the step or tolerance where neither axis is one. `t_long` (s) is the run over which a cell has to
+    stay sane; `t_short` bounds the window in which a step is compared with a tenth of itself (see `window`);
+    `parameters` as in `simulate`; `quick` takes a few pairs. Raises BadValueError for a scene in which nothing
+    is integrated, and for axes that do not fit.
     """
-    if simulation.source.degrees_of_freedom == 0:
-        raise BadValueError(
-            f"scene {simulation.source.scene!r} has no degree of freedom: there is no step to choose"
-        )
-    limits, report = limits or Limits(), progress or (lambda fraction, text: None)
-    usual = natural_step(simulation, parameters)
-    steps = tuple(sorted(steps or default_steps([simulation], quick)))
-    if not steps or not steps[0] > 0:
-        raise BadValueError("steps: expected positive times (s)")
-    columns = _columns(simulation, clearances, parameters or {}, quick)
-    t_long = t_long or min(scene_end(simulation.source), LONG * steps[0] / (10 if quick else 1))
-    longest = t_short or SHORT * steps[0] / FINER / (10 if quick else 1)
-    with _Pool(report, len(columns)) as pool:
-        found = pool.map(
-            lambda column, tick: _column(simulation, column, steps, usual, t_long, longest, limits, tick), columns
-        )
-    first = simulation.source.clearances[0].name if simulation.source.clearances else ""
-    return StressMap(simulation.source.scene, first, tuple(c for cells in found for c in cells), t_long, limits)
+    _check(simulation)
+    given = dict(parameters or {})
+    rows, columns = arrange(simulation, axes, method, given, quick)
+    usual = Setting(method, value or (natural_step(simulation, given) if method in FIXED else USUAL))
+    jobs = _jobs(simulation, rows, columns, usual, given)
+    least = min(setting.value for job in jobs for setting in job.settings) if usual.fixed else math.inf
+    t_long = t_long or min(scene_end(simulation.source), LONG * least) / (10 if quick else 1)
+    longest = t_short or SHORT * least / FINER / (10 if quick else 1)
+    with Pool[_Job, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
+        found = pool.map(lambda job, tick: _judge(simulation, job, t_long, longest, limits, tick), jobs)
+    cells = tuple(cell for own in found for cell in own)
+    return StressMap(simulation.source.scene, usual, rows, columns, cells, t_long)
+
+
+def arrange(
+    simulation: Simulation, axes: Sequence[Axis], method: str, parameters: Parameters, quick: bool = False
+) -> tuple[Axis, Axis]:
+    """(rows, columns): the method's own axis is the rows; what is not given is as usual."""
+    own, others = [a for a in axes if a.of_method], [a for a in axes if not a.of_method]
+    wanted = "step" if method in FIXED else "rtol"
+    if len(axes) > 2 or len(own) > 1 or len({a.name for a in axes}) < len(axes):
+        raise BadValueError(f"axes {', '.join(a.name for a in axes)}: expected two different ones, step or rtol once")
+    if own and own[0].name != wanted:
+        raise BadValueError(f"axis {own[0].name} does not fit: method {method} takes a {wanted}")
+    if any(not value > 0 for a in own for value in a.values):
+        raise BadValueError(f"axis {wanted}: expected positive values")
+    if len(others) == 2:
+        return others[1], others[0]
+    if not own:
+        tolerances = TOLERANCES[1:3] if quick else TOLERANCES
+        own = [axis(simulation, wanted, default_steps([simulation], quick) if method in FIXED else tolerances)]
+    return own[0], others[0] if others else _usual_clearances(simulation, parameters, quick)
+
+
+def stress_box(
+    simulation: Simulation, ranges: Sequence[Range], count: int, *, setting: Setting | None = None,
+    t_long: float | None = None, parameters: Parameters | None = None, limits: Limits | None = None,
+    addresses: Mapping[str, Axis] | None = None, progress: Report | None = None,
+) -> StressBox:  # fmt: skip
+    """Judge all corners of the box and `count` Sobol points; `addresses`: axes for names that are groups."""
+    _check(simulation)
+    if not ranges:
+        raise BadValueError("a box wants ranges: --range name=low..high")
+    setting, t_long = setting or Setting("auto", USUAL), t_long or scene_end(simulation.source)
+
+    def one(point: Mapping[str, float], tick: Report) -> Cell:
+        moved: dict[str, float | str] = dict(parameters or {})
+        for name, value in point.items():
+            moved |= addresses[name].parameters(value) if addresses and name in addresses else {name: value}
+        prepare(simulation.compiled, moved)
+        return judge_point(simulation, moved, t_long, setting, limits, LIMIT, tick)
+
+    points = [*corners(ranges), *sobol(ranges, count)]
+    with Pool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
+        cells = pool.map(one, points)
+    return StressBox(simulation.source.scene, setting, tuple(ranges), tuple(cells), t_long)
 
 
 def default_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
@@ -110,99 +153,93 @@ def default_clearances(c: float, quick: bool = False) -> tuple[float, ...]:
     return tuple(sorted({*round_numbers(CLEARANCES[0] * c, CLEARANCES[1] * c), float(f"{c:.6g}")}))
 
 
-@dataclass(frozen=True)
-class _Column:
-    clearance: float
-    parameters: dict[str, float | str]
-
-
-def _columns(
-    simulation: Simulation, clearances: Sequence[float] | None, parameters: Parameters, quick: bool
-) -> list[_Column]:
-    """The values that the file's conditions allow (a clearance stays below its bearing's radius)."""
-    source, p = simulation.source, prepare(simulation.compiled, parameters)[0]
-    joints = source.clearances
-    if not joints:
-        return [_Column(NAN, dict(parameters))]
-    own = {source.slots[j.clearance].address: float(p[j.clearance]) for j in joints if j.clearance < len(source.slots)}
-    usual = float(p[joints[0].clearance])
-    found = []
-    for c in clearances or default_clearances(usual, quick):
-        column = _Column(c, {**parameters, **{address: value * c / usual for address, value in own.items()}})
+def _usual_clearances(simulation: Simulation, parameters: Parameters, quick: bool) -> Axis:
+    """Those that the file's conditions allow (a clearance stays below its bearing's radius)."""
+    if not simulation.source.clearances:
+        return clearances(simulation, ())
+    p = prepare(simulation.compiled, parameters)[0]
+    usual = float(p[simulation.source.clearances[0].clearance])
+    found = clearances(simulation, default_clearances(usual, quick), parameters)
+    allowed = []
+    for c in found.values:
         try:
-            prepare(simulation.compiled, column.parameters)
+            prepare(simulation.compiled, {**parameters, **found.parameters(c)})
         except BadValueError:
-            if clearances:
-                raise
             continue
-        found.append(column)
+        allowed.append(c)
+    return replace(found, values=tuple(allowed))
+
+
+@dataclass(frozen=True)
+class _Job:
+    """One set of parameters with all settings that are asked of it."""
+
+    parameters: dict[str, float | str]
+    settings: tuple[Setting, ...]
+
+
+def _check(simulation: Simulation) -> None:
+    if simulation.source.degrees_of_freedom == 0:
+        raise BadValueError(f"scene {simulation.source.scene!r} has no degree of freedom: there is no step to choose")
+
+
+def _jobs(
+    simulation: Simulation, rows: Axis, columns: Axis, usual: Setting, given: dict[str, float | str]
+) -> list[_Job]:
+    """Column by column; the cells of all jobs in order are the map's. Raises BadValueError for a value."""
+    found = []
+    for x in columns.values:
+        if rows.of_method:
+            settings = tuple(Setting(usual.method, y) for y in rows.values)
+            found.append(_Job({**given, **columns.parameters(x)}, settings))
+            continue
+        for y in rows.values:
+            found.append(_Job({**given, **columns.parameters(x), **rows.parameters(y)}, (usual,)))
+    for job in found:
+        prepare(simulation.compiled, job.parameters)
     return found
 
 
-def _column(
-    simulation: Simulation, column: _Column, steps: Sequence[float], usual: float, t_long: float, longest: float,
-    limits: Limits, tick: Report,
-) -> list[Cell]:  # fmt: skip
-    """All steps of one clearance: long runs, and short ones that serve as references for each other."""
-    short = window(simulation, longest, min(usual, steps[0]), column.parameters)
-    long = Work(simulation, t_long, column.parameters)
-    every = sorted({_key(x) for step in steps for x in (step, step / FINER)}, reverse=True)
-    jobs = [(work, step) for work, wanted in ((short, every), (long, steps)) for step in wanted]
-    cost, done = sum(work.t_end / step for work, step in jobs), 0.0
-    found: dict[tuple[Work, float], Attempt] = {}
-    for work, step in jobs:
-        share = work.t_end / step / cost
-        found[work, _key(step)] = work.run(step, _part(tick, done, share))
+def _judge(
+    simulation: Simulation, job: _Job, t_long: float, longest: float, limits: Limits | None, tick: Report
+) -> list[Cell]:
+    """Fixed steps serve as references for each other; a tolerance is judged like a point of a box."""
+    if job.settings[0].fixed:
+        return _steps(simulation, job, t_long, longest, limits, tick)
+    share = 1 / len(job.settings)
+    return [
+        judge_point(simulation, job.parameters, t_long, setting, limits, LIMIT, _part(tick, k * share, share))
+        for k, setting in enumerate(job.settings)
+    ]
+
+
+def _steps(
+    simulation: Simulation, job: _Job, t_long: float, longest: float, limits: Limits | None, tick: Report
+) -> list[Cell]:
+    """All steps: long runs, and short ones over the first contacts."""
+    steps = [setting.finer(1) for setting in job.settings]
+    usual = min(natural_step(simulation), *(setting.value for setting in steps))
+    short = window(simulation, longest, Setting("rk4", usual), job.parameters)
+    long = Work(simulation, t_long, job.parameters)
+    every = sorted({x for step in steps for x in (step, step.finer(FINER))}, key=lambda x: -x.value)
+    pieces = [(work, step) for work, wanted in ((short, every), (long, steps)) for step in wanted]
+    cost, done = sum(work.t_end / step.value for work, step in pieces), 0.0
+    found: dict[tuple[Work, Setting], Attempt] = {}
+    for work, step in pieces:
+        share = work.t_end / step.value / cost
+        found[work, step] = work.run(step, _part(tick, done, share))
         done += share
     cells = []
     for step in steps:
-        own, tenth = _key(step), _key(step / FINER)
-        pairs = [(found[short, own], found[short, tenth])]
+        tenth = step.finer(FINER)
+        pairs = [(found[short, step], found[short, tenth])]
         fine = found.get((long, tenth))
         if fine is not None and fine.run is not None and not len(fine.run.impacts):
-            pairs.append((found[long, own], fine))  # without contact errors mean something for longer
-        cells.append(judge(step, column.clearance, found[long, own], pairs, limits))
+            pairs.append((found[long, step], fine))  # without contact errors mean something for longer
+        cells.append(judge(job.parameters, found[long, step], pairs, limits))
     return cells
-
-
-def _key(step: float) -> float:
-    """A step as its few digits, so that it is found again after a division."""
-    return float(f"{step:.6g}")
 
 
 def _part(tick: Report, done: float, share: float) -> Report:
     """A run's progress as a part of its column's."""
     return lambda fraction, text: tick(done + share * fraction, text)
-
-
-class _Pool:
-    """Columns on as many threads as there are cores; Ctrl-C ends them at their next report."""
-
-    def __init__(self, report: Report, count: int) -> None:
-        self.report, self.fractions, self.stop = report, [0.0] * count, threading.Event()
-        self.lock = threading.Lock()
-
-    def __enter__(self) -> _Pool:
-        self.executor = ThreadPoolExecutor(min(len(self.fractions), os.cpu_count() or 1))
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.stop.set()
-        self.executor.shutdown(wait=True, cancel_futures=True)
-
-    def map(self, function: Callable[[_Column, Report], list[Cell]], columns: Sequence[_Column]) -> list[list[Cell]]:
-        """Like the built-in, in order."""
-        futures = [self.executor.submit(function, column, self._tick(i)) for i, column in enumerate(columns)]
-        for future in as_completed(futures):
-            future.result()
-        return [future.result() for future in futures]
-
-    def _tick(self, i: int) -> Report:
-        def tick(fraction: float, text: str) -> None:
-            if self.stop.is_set():
-                raise KeyboardInterrupt
-            with self.lock:
-                self.fractions[i] = fraction
-                self.report(sum(self.fractions) / len(self.fractions), "")
-
-        return tick

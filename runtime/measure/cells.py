@@ -6,16 +6,17 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
 
 from gudgeon.measure.words import rough_share, seconds, share
-from gudgeon.measure.work import NAN, Attempt, Error, difference, size
+from gudgeon.measure.work import NAN, Attempt, Error, Parameters, Setting, difference, size
 from gudgeon.plot_units import quantity
 from gudgeon.results import Result
 
-Pair: TypeAlias = tuple[Attempt, Attempt]  # the same window with a step and with a tenth of it
+Pair: TypeAlias = tuple[Attempt, Attempt]  # the same window with a setting and with a finer one
 
 
 class Status(StrEnum):
@@ -29,12 +30,13 @@ class Status(StrEnum):
 
 @dataclass(frozen=True)
 class Limits:
-    """Of a run that counts as stable. Each is a share."""
+    """Of a run that counts as stable. Each is a share, but for `closed`."""
 
     phi: float = 1e-6  # max |Φ| over the mechanism's size
+    closed: float = math.inf  # m, max |Φ| itself
     energy: float = 1e-3  # energy residual over the energy turned over
     lost: float = 0.1  # the same: above it the energy is made up, the run has diverged
-    motion: float = 1e-3  # error of a coordinate against a ten times shorter step, by size or 1 rad
+    motion: float = 1e-3  # error of a coordinate against a finer run, by size or 1 rad
     path: float = 1e-2  # error of a journal's centre, by the clearance
     force: float = 5e-2  # error of a joint's force, by the peak force
     through: float = 0.1  # δ over the bearing radius: beyond it the journal has flown through the bearing
@@ -42,34 +44,52 @@ class Limits:
     thin: float = 0.01  # δ over the bearing radius: the same
 
 
+# Of methods that project and control their error: what they promise, not what a fixed step can do. Errors are
+# those against a hundred times tighter tolerance over the first contacts.
+STRICT = Limits(closed=1e-10, energy=1e-4, motion=1e-6, path=1e-3, force=1e-2)
+
+
+def limits_of(setting: Setting) -> Limits:
+    """A fixed step is judged by what a fixed step can do, a tolerance by what it promises."""
+    return Limits() if setting.fixed else STRICT
+
+
 @dataclass(frozen=True)
 class Cell:
-    """One step with one value on the other axis."""
+    """One run: a method with its step or tolerance, and the parameters that are not the file's."""
 
-    step: float  # s
-    clearance: float  # m; NaN in a scene without play
+    setting: Setting
+    parameters: Parameters  # what to give to `simulate` to see the same
     status: Status
     reason: str  # for people, "" where there is nothing to say
     label: str  # the same in a few characters, for the map
     error: Error
     energy: float = NAN  # residual over turned over
     penetration: float = NAN  # m, the largest δ
+    seconds: float = NAN  # processor time of the long run
+
+    @property
+    def failed(self) -> bool:
+        """Whether the method is to blame."""
+        return self.status in (Status.INACCURATE, Status.DIVERGED)
 
 
-def judge(step: float, clearance: float, long: Attempt, pairs: Sequence[Pair], limits: Limits) -> Cell:
-    """`long`: the run over the long window. `pairs`: a run with the step, and the same with a tenth of it."""
+def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: Limits | None = None) -> Cell:
+    """`long`: the run over the long window. `pairs`: a run with the same setting, and one with a finer."""
+    limits = limits or limits_of(long.setting)
+    cell = partial(Cell, long.setting, parameters, seconds=long.cpu)
     errors = [difference(a.run, b.run) for a, b in pairs if a.run and b.run and not (a.failure or b.failure)]
     error = worst(errors)
     if long.failure or long.run is None:
         at = f"at {seconds(long.failed_at)}" if math.isfinite(long.failed_at) else "fails"
-        return Cell(step, clearance, Status.DIVERGED, long.failure or "no result", at, error)
+        status = Status.OUTSIDE if long.outside else Status.DIVERGED
+        return cell(status, long.failure or "no result", at, error)
     diagnostics = long.run.diagnostics
     energy = diagnostics.energy_residual / max(diagnostics.energy_turned_over, 1e-300)
     deepest = max((d for d, _ in _penetrations(long.run)), default=NAN)
     for status, reason, label in _verdicts(long.run, energy, error, pairs, limits):
-        return Cell(step, clearance, status, reason, label, error, energy, deepest)
-    largest = max((x for x in (error.path, error.force, error.motion) if math.isfinite(x)), default=NAN)
-    return Cell(step, clearance, Status.STABLE, "", rough_share(largest), error, energy, deepest)
+        return cell(status, reason, label, error, energy, deepest)
+    return cell(Status.STABLE, "", rough_share(error.largest), error, energy, deepest)
 
 
 def _verdicts(
@@ -87,14 +107,16 @@ def _verdicts(
         if coarse.failure:
             yield Status.DIVERGED, coarse.failure, f"at {seconds(coarse.failed_at)}"
     if outside := _outside(run, limits):
-        if all(_outside(fine.run, limits) for _, fine in pairs if fine.run):
-            yield Status.OUTSIDE, f"the contact law does not hold: {outside}", "δ"
-        yield Status.INACCURATE, f"too deep for the step's sake: {outside}, not so with a tenth of the step", "δ"
-    phi = run.diagnostics.phi_max / size(run)
-    if phi > limits.phi:
-        yield Status.INACCURATE, f"the linkage comes apart: max |Φ| is {phi:.1e} of its size", "|Φ|"
-    if any(fine.failure for _, fine in pairs):
-        yield Status.INACCURATE, "a tenth of the step fails, so nothing vouches for this one", "?"
+        if any(_deeper(coarse, fine, limits) for coarse, fine in pairs):
+            yield Status.INACCURATE, f"too deep for the method's sake: {outside}, not so in the finer run", "δ"
+        yield Status.OUTSIDE, f"the contact law does not hold: {outside}", "δ"
+    phi = run.diagnostics.phi_max
+    if not phi <= min(limits.phi * size(run), limits.closed):
+        yield Status.INACCURATE, f"the linkage comes apart: max |Φ| is {phi:.1e} m or rad", "|Φ|"
+    for _, fine in pairs:
+        if fine.failure:
+            told = f"the finer run ({fine.setting}) fails, so nothing vouches for this one: {fine.failure}"
+            yield Status.INACCURATE, told, "?"
     beyond = [
         (value / limit, f"{name} {share(value)} of {of}", f"{short} {share(value)}")
         for short, name, value, limit, of in (
@@ -133,6 +155,13 @@ def _outside(run: Result, limits: Limits) -> str:
         if depth > limits.thin * radius:
             return f"δ = {quantity(depth, 'm')} at {joint.name} is {share(depth / radius)} of the bearing radius"
     return ""
+
+
+def _deeper(coarse: Attempt, fine: Attempt, limits: Limits) -> bool:
+    """Whether only the coarse one of a pair leaves the model; of a fixed step nothing else is believed."""
+    if coarse.run is None or fine.run is None or _outside(fine.run, limits):
+        return False
+    return coarse.setting.fixed or bool(_outside(coarse.run, limits))
 
 
 def _lost_contact(run: Result) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 
 from gudgeon.compiled import N_WORK, Array
 from gudgeon.errors import SolverError
-from gudgeon.measure.work import natural_step, window
+from gudgeon.measure.work import Setting, natural_step, window
 from gudgeon.results import Result
 from gudgeon.simulation import Simulation
 
@@ -58,11 +58,11 @@ def _touching(simulation: Simulation, longest: float) -> Result | None:
         return None
     step = natural_step(simulation)
     try:
-        work = window(simulation, longest, step)
-        impacts = simulation.simulate(work.t_end, output=1, step=step, stop=False).impacts
+        work = window(simulation, longest, Setting("rk4", step))
+        impacts = simulation.simulate(work.t_end, output=1, method="rk4", step=step, stop=False).impacts
         if not len(impacts):
             return None
-        run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, step=step, stop=False)
+        run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, method="rk4", step=step, stop=False)
     except SolverError:
         return None
     return run if run.state[-1].any() else None

@@ -58,7 +58,7 @@ def assert_columns(got: np.ndarray, want: np.ndarray, n: int, tolerance: float) 
 def make(data: bytes, name: str, scene: str, values: Mapping[str, float] | None = None, **options: object) -> Subject:
     """A scene; `values` by slot, `options` change the file itself."""
     model = derive(data, name, scene, {key.replace("__", "."): x for key, x in options.items()})  # type: ignore[misc]
-    source = emit(model)
+    source = emit(model, "full")
     library = CompiledModel(source, compile_kernels(source))
     given, mask = np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool)
     for k, slot in enumerate(source.slots):

@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 import csv
+import json
 import math
 import shutil
 import threading
 from functools import cache
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 import gudgeon
 from gudgeon.cli import app
-from gudgeon.errors import BadValueError
+from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.measure import words
-from gudgeon.measure.cells import Cell, Limits, Status, judge
-from gudgeon.measure.show import verdict
-from gudgeon.measure.work import Attempt, Error, Work
+from gudgeon.measure.axes import Axis, axis, clearances, typed
+from gudgeon.measure.box import Range, _horizon, corners, judge_point, predictable, sobol
+from gudgeon.measure.cells import STRICT, Cell, Limits, Status, judge, limits_of
+from gudgeon.measure.show_stress import command, verdict
+from gudgeon.measure.work import ONSETS, Attempt, Error, Setting, Work
 from gudgeon.simulation import Simulation
-from gudgeon.stress import StressMap, default_clearances, default_steps, stress
+from gudgeon.stress import StressMap, default_clearances, default_steps, stress, stress_box
 
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pendulum.yaml")
@@ -31,16 +36,26 @@ def press(scene: str) -> Simulation:
     return gudgeon.load("nine_bar_press", scene=scene)
 
 
+def by_step(scene: str, steps: list[float], play: list[float], **options: Any) -> StressMap:
+    """Steps of rk4 × clearance."""
+    axes = [axis(press(scene), "step", steps), clearances(press(scene), play)]
+    return stress(press(scene), axes, method="rk4", **options)
+
+
+def rk4(step: float) -> Setting:
+    return Setting("rk4", step)
+
+
 @cache
 def lubricated() -> StressMap:
-    return stress(press("lubricated"), [5e-6, 2e-5, 1e-4], [0.2e-3, C], t_long=0.03, t_short=0.01)
+    return by_step("lubricated", [5e-6, 2e-5, 1e-4], [0.2e-3, C], t_long=0.03, t_short=0.01)
 
 
 @needs_compiler
 def test_film_diverges_with_the_papers_step_and_not_with_a_short_one() -> None:
     """RK4 is stable while step × rate < 2.785; the film's rate near e = 0 is πS/(c m), ∝ 1/c³."""
     found = lubricated()
-    for c in found.clearances:
+    for c in found.columns.values:
         assert found.cell(1e-4, c).status is Status.DIVERGED
         assert found.cell(5e-6, c).status is Status.STABLE
     assert found.cell(2e-5, 0.2e-3).status is Status.DIVERGED
@@ -50,7 +65,7 @@ def test_film_diverges_with_the_papers_step_and_not_with_a_short_one() -> None:
 
 @needs_compiler
 def test_dry_contact_is_inaccurate_with_the_papers_step() -> None:
-    found = stress(press("dry"), [2e-6, 1e-4], [C], t_long=0.03)
+    found = by_step("dry", [2e-6, 1e-4], [C], t_long=0.03)
     assert found.cell(1e-4, C).status is Status.INACCURATE
     assert found.cell(2e-6, C).status is Status.STABLE
     assert found.cell(1e-4, C).error.force > 20 * found.cell(2e-6, C).error.force
@@ -68,7 +83,7 @@ def test_every_verdict_but_stable_has_its_reason() -> None:
 
 @needs_compiler
 def test_soft_contact_is_outside_the_model_and_not_a_failure_of_the_step() -> None:
-    found = stress(press("dry"), [5e-6], [C], t_long=0.02, t_short=0.02, parameters={"materials.aluminium.E": 2e7})
+    found = by_step("dry", [5e-6], [C], t_long=0.02, t_short=0.02, parameters={"materials.aluminium.E": 2e7})
     cell = found.cell(5e-6, C)
     assert cell.status is Status.OUTSIDE and "clearance" in cell.reason
     assert cell.penetration > C / 2
@@ -78,16 +93,17 @@ def test_soft_contact_is_outside_the_model_and_not_a_failure_of_the_step() -> No
 def test_limits_decide() -> None:
     """The same runs judged by other limits."""
     work = Work(press("dry"), 9e-3)
-    long, fine = work.run(1e-5), work.run(1e-6)
+    long, fine = work.run(rk4(1e-5)), work.run(rk4(1e-6))
 
     def status(**limits: float) -> Status:
-        return judge(1e-5, C, long, [(long, fine)], Limits(**limits)).status
+        return judge({}, long, [(long, fine)], Limits(**limits)).status
 
     assert status() is Status.STABLE
     assert status(force=1e-6) is Status.INACCURATE
     assert status(path=1e-9) is Status.INACCURATE
     assert status(energy=1e-15) is Status.INACCURATE
     assert status(phi=1e-18) is Status.INACCURATE
+    assert status(closed=1e-18) is Status.INACCURATE
     assert status(lost=1e-15) is Status.DIVERGED
     assert status(half=1e-3) is Status.OUTSIDE
     assert status(thin=1e-6) is Status.OUTSIDE
@@ -97,10 +113,10 @@ def test_limits_decide() -> None:
 @needs_compiler
 def test_run_that_nothing_vouches_for_is_not_stable() -> None:
     work = Work(press("dry"), 2e-3)
-    run = work.run(1e-5)
-    failed = Attempt(1e-6, None, "no longer finite", 1e-4)
-    assert judge(1e-5, C, run, [(run, failed)], Limits()).status is Status.INACCURATE
-    assert judge(1e-5, C, failed, [(run, run)], Limits()).status is Status.DIVERGED
+    run = work.run(rk4(1e-5))
+    failed = Attempt(rk4(1e-6), None, "no longer finite", 1e-4)
+    assert judge({}, run, [(run, failed)]).status is Status.INACCURATE
+    assert judge({}, failed, [(run, run)]).status is Status.DIVERGED
 
 
 @needs_compiler
@@ -109,16 +125,17 @@ def test_lost_contact_is_seen() -> None:
     from dataclasses import replace
 
     work = Work(press("dry"), 9e-3)
-    run = work.run(1e-5)
+    run = work.run(rk4(1e-5))
     assert run.run is not None and run.run.state.any()
     blind = replace(run, run=replace(run.run, state=0 * run.run.state, stored={}))
-    cell = judge(1e-5, C, blind, [(run, run)], Limits())
+    cell = judge({}, blind, [(run, run)])
     assert cell.status is Status.DIVERGED and "lost contact" in cell.reason
 
 
 def made(statuses: list[Status]) -> StressMap:
-    cells = tuple(Cell(10.0 ** (k - 6), C, s, "", "", Error()) for k, s in enumerate(statuses))
-    return StressMap("made", "A", cells, 1.0, Limits())
+    steps = tuple(10.0 ** (k - 6) for k in range(len(statuses)))
+    cells = tuple(Cell(rk4(h), {}, s, "", "", Error()) for h, s in zip(steps, statuses, strict=True))
+    return StressMap("made", rk4(1e-6), Axis("step", steps, "s"), Axis("clearance", (C,), "m"), cells, 1.0)
 
 
 def test_largest_stable_step_has_only_stable_ones_below() -> None:
@@ -151,13 +168,14 @@ def test_scene_without_freedom_has_no_step_to_choose() -> None:
 @needs_compiler
 def test_clearance_beyond_the_radius_is_refused() -> None:
     with pytest.raises(BadValueError, match="radius"):
-        stress(press("dry"), [1e-5], [0.02])
+        by_step("dry", [1e-5], [0.02])
 
 
 @needs_compiler
 def test_scene_without_play_has_one_column() -> None:
-    found = stress(gudgeon.load(PENDULUM, scene="ideal"), [1e-3, 2e-1], t_long=2.0)
-    assert len(found.clearances) == 1 and math.isnan(found.clearances[0])
+    pendulum = gudgeon.load(PENDULUM, scene="ideal")
+    found = stress(pendulum, [axis(pendulum, "step", [1e-3, 2e-1])], method="rk4", t_long=2.0)
+    assert len(found.columns.values) == 1 and math.isnan(found.columns.values[0])
     assert found.cell(1e-3, math.nan).status is Status.STABLE
     assert found.cell(2e-1, math.nan).status is not Status.STABLE
 
@@ -169,19 +187,141 @@ def test_interruption_ends_all_threads() -> None:
 
     before = threading.active_count()
     with pytest.raises(KeyboardInterrupt):
-        stress(press("dry"), [1e-6, 1e-5], [C, 2 * C], progress=stop)
+        by_step("dry", [1e-6, 1e-5], [C, 2 * C], progress=stop)
     assert threading.active_count() == before
 
 
 @needs_compiler
+def test_tolerance_times_clearance_is_the_usual_map() -> None:
+    found = stress(press("lubricated"), t_long=0.01, quick=True)
+    assert found.rows.name == "rtol" and found.columns.name == "clearance" and not found.setting.fixed
+    assert all(cell.status is Status.STABLE for cell in found.cells)
+    assert found.cell(1e-8, C).error.path < found.cell(1e-6, C).error.path
+    assert found.cell(1e-8, C).parameters == {"bearings.pin.clearance": C}
+
+
+@needs_compiler
+def test_two_axes_of_numbers_take_one_tolerance_and_give_what_runs_them_again() -> None:
+    dry = press("dry")
+    axes = [typed(dry, "omega=20,60"), typed(dry, "stiffness=1GPa..400GPa:2")]
+    found = stress(dry, axes, t_long=0.02)
+    assert found.columns.values == (20.0, 60.0) and found.rows.values == (1e9, 4e11)
+    soft, hard = found.cell(1e9, 60.0), found.cell(4e11, 20.0)
+    assert soft.status is Status.OUTSIDE and hard.status is Status.STABLE
+    assert (
+        hard.parameters == {"parameters.omega": 20.0, "materials.aluminium.E": 4e11} and hard.setting == found.setting
+    )
+    told = command("nine_bar_press", "dry", hard)
+    assert "--rtol 1e-08" in told and "--set parameters.omega=20.0" in told
+
+
+@needs_compiler
+def test_axes_that_do_not_fit_are_refused() -> None:
+    dry = press("dry")
+    for axes, method in (
+        ([axis(dry, "step", [1e-5])], "auto"), ([axis(dry, "rtol", [1e-5])], "rk4"),
+        ([axis(dry, "rtol", [1e-5])] * 2, "auto"), ([axis(dry, "rtol", [0.0])], "auto"),
+    ):  # fmt: skip
+        with pytest.raises(BadValueError, match="axis|axes"):
+            stress(dry, axes, method=method)
+    for text in ("omega", "omega=2..1", "omega=1..2:x"):
+        with pytest.raises(BadValueError, match="expected"):
+            typed(dry, text)
+    with pytest.raises(BadValueError, match="no such number"):
+        typed(dry, "viscosity=1,2")
+    with pytest.raises(UnknownNameError):
+        typed(dry, "omegga=1,2")
+
+
+@needs_compiler
+def test_groups_keep_the_ratios_of_their_numbers() -> None:
+    gains = axis(press("dry"), "gains", [10.0])
+    p = press("dry").p
+    place = {slot.address: k for k, slot in enumerate(press("dry").source.slots)}
+    first, second = p[place["baumgarte.alpha"]], p[place["baumgarte.beta"]]
+    assert gains.parameters(10.0) == {"baumgarte.alpha": 10.0, "baumgarte.beta": pytest.approx(10.0 * second / first)}
+    assert typed(press("dry"), "clearance=.05mm..1mm:3").values == pytest.approx(
+        (5e-5, math.sqrt(5e-8), 1e-3), rel=1e-5
+    )
+
+
+def test_corners_and_sobol_points_fill_the_box_and_are_the_same_every_time() -> None:
+    edges = [Range("a", 1e-3, 1.0), Range("b", 2.0, 3.0), Range("c", 1.0, 1.0)]
+    found = corners(edges)
+    assert len(found) == 8 and found[0] == {"a": 1e-3, "b": 2.0, "c": 1.0} and found[-1]["b"] == 3.0
+    points = sobol(edges, 100)
+    assert points == sobol(edges, 100) and points[:30] == sobol(edges, 30)  # a sample is the beginning of the whole
+    logs = np.log10([point["a"] for point in points])
+    assert all(-3 <= x <= 0 for x in logs)
+    assert np.histogram(logs, 4, (-3, 0))[0] == pytest.approx([25] * 4, abs=3)  # uniform on its scale
+    with pytest.raises(BadValueError, match="low"):
+        Range("a", 0.0, 1.0)
+
+
+@needs_compiler
+def test_box_judges_every_corner_and_point() -> None:
+    dry = press("dry")
+    found = stress_box(dry, [Range("omega", 5.0, 20.0)], 2, t_long=0.02)
+    assert [cell.parameters["omega"] for cell in found.cells[:2]] == [5.0, 20.0] and len(found.cells) == 4
+    assert not any(cell.failed for cell in found.cells)
+    with pytest.raises(BadValueError, match="radius"):
+        stress_box(dry, [Range("c", 1e-3, 0.02)], 0)
+
+
+@needs_compiler
+def test_tolerance_is_held_to_what_it_promises() -> None:
+    assert limits_of(Setting("auto", 1e-8)) is STRICT and limits_of(rk4(1e-6)) == Limits()
+    assert judge_point(press("dry"), {}, 0.02, Setting("dop853", 1e-8)).status is Status.STABLE
+    loose = judge_point(press("dry"), {}, 0.02, Setting("dop853", 1e-3))
+    assert loose.status is Status.INACCURATE and "force" in loose.reason
+
+
+@needs_compiler
+def test_comparison_ends_between_two_contacts_after_the_fourth() -> None:
+    run = press("dry").simulate(0.05, output=10)
+    onsets = np.sort(run.impacts["t_on"])
+    assert onsets[ONSETS - 1] < predictable(run)[-1] < onsets[ONSETS]
+    assert predictable(press("lubricated").simulate(0.01, output=10))[-1] == pytest.approx(0.01)
+
+
+@needs_compiler
+def test_horizon_lies_where_tight_runs_come_apart_by_more_than_their_tolerance_allows() -> None:
+    """Dry motion multiplies differences: a late sample says nothing of a run, the first contacts do."""
+    work, times = Work(press("dry"), 0.5), np.linspace(0.0, 0.5, 1001)
+    fine = work.sampled(Setting("auto", 1e-10), times)
+    known = _horizon(work, fine, STRICT)
+    assert 0.01 < times[known] < 0.45
+    work = Work(press("lubricated"), 0.05)
+    assert _horizon(work, work.sampled(Setting("auto", 1e-10), times[:100]), STRICT) > 100
+
+
+@needs_compiler
+def test_run_that_takes_too_long_is_ended_and_fails() -> None:
+    cell = judge_point(press("dry"), {}, 1.0, Setting("auto", 1e-10), limit=0.0)
+    assert cell.status is Status.DIVERGED and "processor time" in cell.reason
+
+
+@needs_compiler
 def test_command_writes_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    app(["stress", PENDULUM, "--scene", "dry", "--quick", "--out", str(tmp_path)], standalone_mode=False)
+    arguments = ["stress", PENDULUM, "--scene", "dry", "--quick", "--out", str(tmp_path)]
+    app([*arguments, "--method", "rk4"], standalone_mode=False)
     with open(tmp_path / "double_pendulum_stress.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert {row["status"] for row in rows} <= {status.value for status in Status}
-    assert len({row["step_s"] for row in rows}) == 3
+    assert len({row["step_or_tolerance"] for row in rows}) == 3
     assert (tmp_path / "double_pendulum_stress.png").stat().st_size > 5_000
     assert "largest stable step" in capsys.readouterr().out
+
+
+@needs_compiler
+def test_command_judges_a_box(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    table = tmp_path / "box.csv"
+    app(["stress", "nine_bar_press", "--scene", "dry", "--box", "1", "--range", "c=.1mm..1mm", "--range",
+         "stiffness=50GPa..100GPa", "--t-end", "10ms", "--csv", str(table), "--json"],
+        standalone_mode=False)  # fmt: skip
+    cells = json.loads(capsys.readouterr().out)["cells"]
+    assert len(cells) == 5 and all("materials.aluminium.E=" in cell["parameters"] for cell in cells)
+    assert len(table.read_text(encoding="utf-8").splitlines()) == 6
 
 
 @pytest.mark.parametrize(

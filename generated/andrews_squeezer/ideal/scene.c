@@ -6,6 +6,7 @@
 #include "singular.c"
 #include "dynamics.c"
 #include "system.c"
+#include "start.c"
 #include "reduced.c"
 #include "motion.c"
 #include "projection.c"
@@ -17,3 +18,4 @@
 #include "rodas5p.c"
 #include "events.c"
 #include "adaptive.c"
+#include "many.c"

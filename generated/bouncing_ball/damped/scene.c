@@ -5,6 +5,7 @@
 #include "clearance.c"
 #include "dynamics.c"
 #include "system.c"
+#include "start.c"
 #include "reduced.c"
 #include "motion.c"
 #include "projection.c"
@@ -16,3 +17,4 @@
 #include "rodas5p.c"
 #include "events.c"
 #include "adaptive.c"
+#include "many.c"

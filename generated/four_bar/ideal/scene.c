@@ -6,5 +6,6 @@
 #include "singular.c"
 #include "dynamics.c"
 #include "system.c"
+#include "start.c"
 #include "reduced.c"
 #include "kinematic.c"

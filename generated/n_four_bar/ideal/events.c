@@ -3,7 +3,8 @@
  * crosses zero. The place is the root of the step's interpolant; what is looked at is a range of signs, not a
  * crossing alone, so that a contact that starts again on the wrong side of zero is not lost.
  */
-enum { ROOT_STEPS = 100, GRAZE_STEPS = 12 };
+enum { ROOT_STEPS = 100, GRAZE_STEPS = 16 };
+#define SHALLOW 1e-13 /* m: a graze that gives no force worth the name */
 
 static int make_dense(Run *run, const Parameters *p, Step *step)
 {
@@ -79,40 +80,45 @@ static double root(Run *run, const Step *step, int k, double low, double at_low,
     return high;
 }
 
-/* Whether a free joint may have touched and left again between what was looked at; its share of the step in `s`. */
-static int may_graze(const Run *run, const Step *step, int i, double *s)
+/*
+ * Whether a free joint may have touched and left again between what was looked at: it turned round, so near that the
+ * way between two looks (a quarter of the step at most) can hide the contact.
+ */
+static int may_graze(const Run *run, const Step *step, int i)
 {
     const Clearance *before = &run->aside.clearance[i], *after = &step->aside.clearance[i];
-    const double h = step->h, bend = (step->rate[i][1] - step->rate[i][0]) / h;
-    double highest = fmax(before->delta, after->delta);
-    *s = before->delta > after->delta ? 0.0 : 1.0;
-    if (run->memory.latch[i].closed || !(before->deltadot > 0.0) || !(after->deltadot < 0.0))
-        return 0;
-    for (int j = 1; j < 16; j++) { /* the cubic through both ends */
-        const double x = j / 16.0, u = 1.0 - x;
-        const double d = u * u * (1.0 + 2.0 * x) * before->delta + x * u * u * h * before->deltadot
-            + x * x * (3.0 - 2.0 * x) * after->delta - x * x * u * h * after->deltadot;
-        if (d > highest) {
-            highest = d;
-            *s = x;
-        }
-    }
-    return highest + bend * h * h / 64.0 > 0.0;
+    const double outward = fmax(fmax(before->deltadot, after->deltadot), step->rate[i][1]);
+    const double inward = fmin(fmin(before->deltadot, after->deltadot), step->rate[i][0]);
+    const double nearest = fmax(fmax(before->delta, after->delta), -step->least[i]);
+    return !run->memory.latch[i].closed && outward > 0.0 && inward < 0.0
+        && nearest + (outward - inward) * step->h / 16.0 > 0.0;
 }
 
-/* The share near s at which margin k is least, by parabolas; its value in `least`. */
-static double lowest(Run *run, const Step *step, int k, double s, const Parameters *p, double *least)
+/* The share at which margin k is least, or one at which it is below zero; its value in `least`. */
+static double lowest(Run *run, const Step *step, int k, const Parameters *p, double *least)
 {
-    double width = 0.125, best = margin_at(run, step, s, k, p);
-    for (int i = 0; i < GRAZE_STEPS && best >= 0.0; i++) {
-        const double a = fmax(s - width, 0.0), b = fmin(s + width, 1.0);
-        const double left = margin_at(run, step, a, k, p), right = margin_at(run, step, b, k, p);
-        if (left < best || right < best) {
-            s = left < right ? a : b;
-            best = fmin(left, right);
-        } else {
-            width *= 0.5;
+    double s = 0.0, width = 1.0 / GRAZE_STEPS, best = INFINITY;
+    for (int i = 1; i < GRAZE_STEPS && best >= 0.0; i++) {
+        const double now = margin_at(run, step, i * width, k, p);
+        if (now < best) {
+            best = now;
+            s = i * width;
         }
+    }
+    for (; width > 1e-6 && best >= 0.0 && s - width >= 0.0 && s + width <= 1.0; width *= 0.5) { /* of the parabola through three points */
+        const double left = margin_at(run, step, s - width, k, p), right = margin_at(run, step, s + width, k, p);
+        const double bend = left - 2.0 * best + right;
+        const double top = bend > 0.0 ? s + 0.5 * width * (left - right) / bend : s;
+        const double at_top = margin_at(run, step, fmin(fmax(top, s - width), s + width), k, p);
+        const double before = s;
+        if (left < best)
+            best = left, s = before - width;
+        if (right < best)
+            best = right, s = before + width;
+        if (at_top < best)
+            best = at_top, s = fmin(fmax(top, before - width), before + width);
+        if (best > 0.0 && bend * width * width > 0.0 && best > 8.0 * bend)
+            break; /* the parabola stays clear of zero */
     }
     *least = best;
     return s;
@@ -131,12 +137,39 @@ static double violated(Run *run, Step *step, int k, const Parameters *p, double 
     *value = end;
     if (end < 0.0)
         return 1.0;
-    if (k < N_CLEARANCES && may_graze(run, step, k, &s) && make_dense(run, p, step) == 0) {
-        s = lowest(run, step, k, s, p, value);
-        if (*value < 0.0)
+    if (k < N_CLEARANCES && may_graze(run, step, k) && make_dense(run, p, step) == 0) {
+        s = lowest(run, step, k, p, value);
+        if (*value < -SHALLOW)
             return s;
     }
     return 0.0;
+}
+
+/* What was not seen at the stages but shows where an event was found crossed before it: the first of all. */
+static double earlier_event(Run *run, const Step *step, double first, const Parameters *p, int *event)
+{
+    for (int again = 0; again < N_MARGINS && first > 0.0; again++) {
+        double y[N_Y], dy[N_Y], at_high = 0.0;
+        Aside aside;
+        int found = -1;
+        if (state_at(run, step, first, p, y, dy, &aside))
+            return first;
+        for (int k = 0; k < N_MARGINS; k++) {
+            const double now = margin(&run->memory, &aside, k);
+            if (k != *event && now < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0) {
+                found = k;
+                at_high = now;
+            }
+        }
+        if (found < 0)
+            return first;
+        const double s = root(run, step, found, 0.0, margin(&run->memory, &run->aside, found), first, at_high, p);
+        if (!(s < first))
+            return first;
+        first = s;
+        *event = found;
+    }
+    return first;
 }
 
 /* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
@@ -149,7 +182,7 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
         double high = violated(run, step, k, p, &at_high);
         if (high == 0.0 || make_dense(run, p, step))
             continue;
-        if (*event >= 0 && margin_at(run, step, first, k, p) >= 0.0)
+        if (*event >= 0 && high > first && margin_at(run, step, first, k, p) >= 0.0)
             continue; /* later than what was found */
         for (int j = 1; j < 4 && !(at_low >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
             const double s = 0.25 * j * high, now = margin_at(run, step, s, k, p);
@@ -162,7 +195,7 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
             *event = k;
         }
     }
-    return first;
+    return *event < 0 ? first : earlier_event(run, step, first, p, event);
 }
 
 static void peak(Run *run, int i, double t, double F)

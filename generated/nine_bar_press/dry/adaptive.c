@@ -3,8 +3,11 @@
  * and the choice between the explicit and the stiff method from what the steps themselves measure.
  */
 enum { EXPLICIT = 0, STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, PATIENCE = 8 };
-#define UNSTABLE 6.5  /* h rho beyond which the explicit method's error estimate means nothing */
-#define BOUNDED 5.0   /* h rho at which stability bounds its steps */
+/* h rho beyond which an explicit step is not taken: at h rho = 5.65 the estimate of order 5 vanishes for a decaying
+ * mode, at 6.4 the mode grows (both are zeros of polynomials that follow from the coefficients) */
+#define UNSTABLE 4.8
+#define BOUNDED 4.0   /* h rho at which stability bounds its steps */
+#define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
 
 /* Sides of all corners that act from their functions; the one that was just crossed keeps what it was given. */
@@ -37,6 +40,7 @@ static void cross_contact(Run *run, int i, double floor)
     if (run->h_first[opens] > 0.0)
         run->h = fmin(run->h, 2.0 * run->h_first[opens]);
     run->first = &run->h_first[opens];
+    run->h_stiff = 0.0;
 }
 
 static void cross(Run *run, int k, const Parameters *p)
@@ -64,7 +68,7 @@ static double kinetic_energy(double t, const double *y, const Parameters *p)
 static int change(Run *run, int event, const Parameters *p)
 {
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
-        if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < 0.0))
+        if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < -SHALLOW))
             cross(run, k, p);
     const int corner = event - N_CLEARANCES;
     if (corner >= 0 && corner < N_SWITCHES) { /* a drive whose rate jumps moves the linkage by an impulse */
@@ -130,7 +134,8 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
 static void change_method(Run *run)
 {
     if (!run->stiff)
-        run->patience = run->since > 100 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
+        run->patience = run->since > 400 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
+    run->h_stiff = run->stiff ? run->h : 0.0;
     run->stiff = !run->stiff;
     run->votes = 0;
     run->since = 0;
@@ -139,7 +144,9 @@ static void change_method(Run *run)
 /* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
 static void choose(Run *run)
 {
-    const int against = run->stiff ? run->stability < SLACK : run->stability > BOUNDED;
+    /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
+    const int slower = run->since > 8 && run->since < 200 && run->h < WORTH * run->h_stiff;
+    const int against = run->stiff ? run->stability < SLACK : run->stability > BOUNDED || slower;
     run->votes = against ? run->votes + 1 : 0;
     run->since++;
     if (run->choice == AUTOMATIC && run->votes >= (run->stiff ? run->patience : 3))
@@ -159,14 +166,19 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
         const int status = run->stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
         if (status && run->fixed > 0.0)
             return status;
-        if (!status && step->error <= run->accept && run->choice == AUTOMATIC && !run->stiff && run->stability > UNSTABLE) {
-            change_method(run);
+        if (!status && step->error <= run->accept && !run->stiff && run->fixed <= 0.0 && run->stability > UNSTABLE) {
             run->rejected++;
+            if (run->choice == AUTOMATIC)
+                change_method(run);
+            else
+                h *= BOUNDED / run->stability;
             continue;
         }
         if (!status && step->error <= run->accept) {
             const double error = fmax(step->error, 1e-12);
             double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
+            if (!run->stiff && run->stability > 1.0)
+                factor = fmin(factor, 1.1 * BOUNDED / run->stability);
             factor = fmin(fmax(factor, 0.3), again ? 1.0 : 6.0);
             run->error_before = fmax(error, 1e-4);
             if (run->first)

@@ -1,141 +1,670 @@
 /*
- * No degree of freedom is left: positions by Newton from the sample before, velocities by one linear
- * solve, each refined once. Nothing is integrated.
+ * No degree of freedom is left: at every time the drives say where everything is. Nothing is integrated; the motion
+ * is followed from sample to sample so that it stays on its branch.
  */
 enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, NEWTON_FAILED = -1 };
 
-static double largest(const double *x, int n)
+/* A place on the way: the motion of all bodies at a time, the largest |Phi| and |Phi_dot| there. */
+typedef struct {
+    double t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot;
+    double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
+} Place;
+
+/* What a way is measured by (a share of the mechanism's size or rad; m), and the step that it has come down to. */
+typedef struct {
+    double reach, extent, h;
+    int halvings;
+} Stride;
+
+/* The larger one; NaN stays. */
+static double larger(double most, double x) { return x > most || isnan(x) ? x : most; }
+
+/*
+ * Newton's step and the rates of the tree's coordinates q: Phi_q step = Phi, Phi_q rates = nu.
+ * `worst`: the largest |Phi|. Returns 0, or the number of a row that depends on others here.
+ */
+static int close_step(const double t, const double *q, const Parameters *p, double *step, double *rates,
+    double *worst)
 {
-    double most = 0.0;
-    for (int k = 0; k < n; k++)
-        most = fabs(x[k]) > most || isnan(x[k]) ? fabs(x[k]) : most;
-    return most;
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double L6_theta = q[0];
+    const double L2_theta = q[1];
+    const double L3_theta = q[2];
+    const double L7_theta = q[3];
+    const double L8_theta = q[4];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double omega4 = p->omega4;
+    const double O4_y = p->O4_y;
+    const double O6_x = p->O6_x;
+    const double L1_head_span_x = p->L1_head_span_x;
+    const double L4_head_span_x = p->L4_head_span_x;
+    const double L6_head_span_x = p->L6_head_span_x;
+    const double L8_head_span_x = p->L8_head_span_x;
+    const double L2_head_span_x = p->L2_head_span_x;
+    const double L3_head_span_x = p->L3_head_span_x;
+    const double L7_tail_span_x = p->L7_tail_span_x;
+
+    /* directions, arms, drives */
+    const double crank1_value = omega*time - 0.689754120388159;
+    const double crank4_value = omega4*time + 3.4814082589530893;
+    const Four angles_0 = {crank1_value, crank4_value, L6_theta, L2_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const Four angles_1 = {L3_theta, L7_theta, L8_theta, L8_theta};
+    Four sines_1, cosines_1;
+    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    const double cos_theta_L1 = cosines_0[0];
+    const double sin_theta_L1 = sines_0[0];
+    const double cos_theta_L4 = cosines_0[1];
+    const double sin_theta_L4 = sines_0[1];
+    const double cos_theta_L6 = cosines_0[2];
+    const double sin_theta_L6 = sines_0[2];
+    const double cos_theta_L2 = cosines_0[3];
+    const double sin_theta_L2 = sines_0[3];
+    const double cos_theta_L3 = cosines_1[0];
+    const double sin_theta_L3 = sines_1[0];
+    const double cos_theta_L7 = cosines_1[1];
+    const double sin_theta_L7 = sines_1[1];
+    const double cos_theta_L8 = cosines_1[2];
+    const double sin_theta_L8 = sines_1[2];
+    const double crank1_rate = omega;
+    const double crank4_rate = omega4;
+    const double span_L1_head_x = L1_head_span_x*cos_theta_L1;
+    const double span_L1_head_y = L1_head_span_x*sin_theta_L1;
+    const double span_L4_head_x = L4_head_span_x*cos_theta_L4;
+    const double span_L4_head_y = L4_head_span_x*sin_theta_L4;
+    const double span_L6_head_x = L6_head_span_x*cos_theta_L6;
+    const double span_L6_head_y = L6_head_span_x*sin_theta_L6;
+    const double span_L8_head_x = L8_head_span_x*cos_theta_L8;
+    const double span_L8_head_y = L8_head_span_x*sin_theta_L8;
+    const double span_L2_head_x = L2_head_span_x*cos_theta_L2;
+    const double span_L2_head_y = L2_head_span_x*sin_theta_L2;
+    const double span_L3_head_x = L3_head_span_x*cos_theta_L3;
+    const double span_L3_head_y = L3_head_span_x*sin_theta_L3;
+    const double span_L7_tail_x = L7_tail_span_x*cos_theta_L7;
+    const double span_L7_tail_y = L7_tail_span_x*sin_theta_L7;
+
+    /* closures */
+    const double phi_guide_offset = -span_L6_head_x - span_L8_head_x;
+    const double phi_L2_head_L3_head_x = span_L1_head_x + span_L2_head_x - span_L3_head_x - span_L4_head_x;
+    const double phi_L2_head_L3_head_y = -O4_y + span_L1_head_y + span_L2_head_y - span_L3_head_y -
+        span_L4_head_y;
+    const double phi_P2_x = -O6_x + span_L1_head_x + span_L2_head_x - span_L6_head_x - span_L7_tail_x;
+    const double phi_P2_y = span_L1_head_y + span_L2_head_y - span_L6_head_y - span_L7_tail_y;
+
+    /* groups of rows that are solved one after the other */
+    const double along_L2_head_L3_head_x__L2_head_L3_head_y = span_L2_head_x*span_L3_head_y;
+    const double across_L2_head_L3_head_x__L2_head_L3_head_y = span_L2_head_y*span_L3_head_x;
+    const double determinant_L2_head_L3_head_x__L2_head_L3_head_y_3 =
+        -across_L2_head_L3_head_x__L2_head_L3_head_y + along_L2_head_L3_head_x__L2_head_L3_head_y;
+    if (!(fabs(determinant_L2_head_L3_head_x__L2_head_L3_head_y_3) > 3.162277660168379e-07 * (fabs(along_L2_head_L3_head_x__L2_head_L3_head_y) + fabs(across_L2_head_L3_head_x__L2_head_L3_head_y)))) return 3;
+    const double inverse_L2_head_L3_head_x__L2_head_L3_head_y_3 =
+        1.0/determinant_L2_head_L3_head_x__L2_head_L3_head_y_3;
+    const double along_P2_x__P2_y = -span_L6_head_x*span_L7_tail_y;
+    const double across_P2_x__P2_y = -span_L6_head_y*span_L7_tail_x;
+    const double determinant_P2_x__P2_y_3 = -across_P2_x__P2_y + along_P2_x__P2_y;
+    if (!(fabs(determinant_P2_x__P2_y_3) > 3.162277660168379e-07 * (fabs(along_P2_x__P2_y) + fabs(across_P2_x__P2_y)))) return 5;
+    const double inverse_P2_x__P2_y_3 = 1.0/determinant_P2_x__P2_y_3;
+    const double pivot_guide_offset = span_L8_head_y;
+    if (!(fabs(pivot_guide_offset) > 0.0)) return 1;
+    const double inverse_guide_offset = 1.0/pivot_guide_offset;
+
+    /* Newton's step */
+    const double step_L3_theta =
+        inverse_L2_head_L3_head_x__L2_head_L3_head_y_3*(phi_L2_head_L3_head_x*span_L2_head_x +
+        phi_L2_head_L3_head_y*span_L2_head_y);
+    const double step_L2_theta =
+        inverse_L2_head_L3_head_x__L2_head_L3_head_y_3*(phi_L2_head_L3_head_x*span_L3_head_x +
+        phi_L2_head_L3_head_y*span_L3_head_y);
+    const double step_rest_P2_x = phi_P2_x + span_L2_head_y*step_L2_theta;
+    const double step_rest_P2_y = phi_P2_y - span_L2_head_x*step_L2_theta;
+    const double step_L7_theta = inverse_P2_x__P2_y_3*(-span_L6_head_x*step_rest_P2_x -
+        span_L6_head_y*step_rest_P2_y);
+    const double step_L6_theta = inverse_P2_x__P2_y_3*(span_L7_tail_x*step_rest_P2_x +
+        span_L7_tail_y*step_rest_P2_y);
+    const double step_L8_theta = inverse_guide_offset*(phi_guide_offset - span_L6_head_y*step_L6_theta);
+
+    /* rates */
+    const double rate_rest_L2_head_L3_head_x = crank1_rate*span_L1_head_y - crank4_rate*span_L4_head_y;
+    const double rate_rest_L2_head_L3_head_y = -crank1_rate*span_L1_head_x + crank4_rate*span_L4_head_x;
+    const double rate_L3_theta =
+        inverse_L2_head_L3_head_x__L2_head_L3_head_y_3*(rate_rest_L2_head_L3_head_x*span_L2_head_x +
+        rate_rest_L2_head_L3_head_y*span_L2_head_y);
+    const double rate_L2_theta =
+        inverse_L2_head_L3_head_x__L2_head_L3_head_y_3*(rate_rest_L2_head_L3_head_x*span_L3_head_x +
+        rate_rest_L2_head_L3_head_y*span_L3_head_y);
+    const double rate_rest_P2_x = crank1_rate*span_L1_head_y + rate_L2_theta*span_L2_head_y;
+    const double rate_rest_P2_y = -crank1_rate*span_L1_head_x - rate_L2_theta*span_L2_head_x;
+    const double rate_L7_theta = inverse_P2_x__P2_y_3*(-rate_rest_P2_x*span_L6_head_x -
+        rate_rest_P2_y*span_L6_head_y);
+    const double rate_L6_theta = inverse_P2_x__P2_y_3*(rate_rest_P2_x*span_L7_tail_x +
+        rate_rest_P2_y*span_L7_tail_y);
+    const double rate_L8_theta = -inverse_guide_offset*rate_L6_theta*span_L6_head_y;
+
+    /* results */
+    step[0] = step_L6_theta;
+    rates[0] = rate_L6_theta;
+    step[1] = step_L2_theta;
+    rates[1] = rate_L2_theta;
+    step[2] = step_L3_theta;
+    rates[2] = rate_L3_theta;
+    step[3] = step_L7_theta;
+    rates[3] = rate_L7_theta;
+    step[4] = step_L8_theta;
+    rates[4] = rate_L8_theta;
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_guide_offset), *worst);
+    *worst = fmax(fabs(phi_L2_head_L3_head_x), *worst);
+    *worst = fmax(fabs(phi_L2_head_L3_head_y), *worst);
+    *worst = fmax(fabs(phi_P2_x), *worst);
+    *worst = fmax(fabs(phi_P2_y), *worst);
+    return 0;
 }
 
-/* The same of a change of q, positions as shares of the mechanism's size: the angle that it is worth (rad). */
-static double largest_turn(const double *x, double size)
+/*
+ * Accelerations a of the tree's coordinates q with rates v, and with them the motion of all bodies:
+ * all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.
+ * Returns 0, or the number of a row that depends on others here; all_q and all_v are known also then.
+ */
+static int arrive(const double t, const double *q, const double *v, const Parameters *p, double *a,
+    double *all_q, double *all_v, double *all_a, double *worst)
 {
-    double most = 0.0;
-    for (int k = 0; k < N_Q; k++) {
-        const double turn = fabs(x[k]) / (k % 3 == 2 ? 1.0 : size);
-        most = turn > most || isnan(turn) ? turn : most;
-    }
-    return most;
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double L6_theta = q[0];
+    const double L6_omega = v[0];
+    const double L2_theta = q[1];
+    const double L2_omega = v[1];
+    const double L3_theta = q[2];
+    const double L3_omega = v[2];
+    const double L7_theta = q[3];
+    const double L7_omega = v[3];
+    const double L8_theta = q[4];
+    const double L8_omega = v[4];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double omega4 = p->omega4;
+    const double L1_head_x = p->L1_head_x;
+    const double L2_head_x = p->L2_head_x;
+    const double L3_head_x = p->L3_head_x;
+    const double L4_head_x = p->L4_head_x;
+    const double L6_head_x = p->L6_head_x;
+    const double L8_head_x = p->L8_head_x;
+    const double O4_y = p->O4_y;
+    const double O6_x = p->O6_x;
+    const double L1_head_span_x = p->L1_head_span_x;
+    const double L4_head_span_x = p->L4_head_span_x;
+    const double L6_head_span_x = p->L6_head_span_x;
+    const double L7_com_span_x = p->L7_com_span_x;
+    const double L8_head_span_x = p->L8_head_span_x;
+    const double L2_head_span_x = p->L2_head_span_x;
+    const double L3_head_span_x = p->L3_head_span_x;
+    const double L7_tail_span_x = p->L7_tail_span_x;
+
+    /* directions, arms, drives */
+    const double crank1_value = omega*time - 0.689754120388159;
+    const double crank4_value = omega4*time + 3.4814082589530893;
+    const Four angles_0 = {crank1_value, crank4_value, L6_theta, L2_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const Four angles_1 = {L3_theta, L7_theta, L8_theta, L8_theta};
+    Four sines_1, cosines_1;
+    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    const double cos_theta_L1 = cosines_0[0];
+    const double sin_theta_L1 = sines_0[0];
+    const double cos_theta_L4 = cosines_0[1];
+    const double sin_theta_L4 = sines_0[1];
+    const double cos_theta_L6 = cosines_0[2];
+    const double sin_theta_L6 = sines_0[2];
+    const double cos_theta_L2 = cosines_0[3];
+    const double sin_theta_L2 = sines_0[3];
+    const double cos_theta_L3 = cosines_1[0];
+    const double sin_theta_L3 = sines_1[0];
+    const double cos_theta_L7 = cosines_1[1];
+    const double sin_theta_L7 = sines_1[1];
+    const double cos_theta_L8 = cosines_1[2];
+    const double sin_theta_L8 = sines_1[2];
+    const double crank1_rate = omega;
+    const double crank1_acceleration = 0.0;
+    const double crank4_rate = omega4;
+    const double crank4_acceleration = 0.0;
+    const double span_L1_com_x = L1_head_x*cos_theta_L1;
+    const double span_L1_com_y = L1_head_x*sin_theta_L1;
+    const double L1_vx = -crank1_rate*span_L1_com_y;
+    const double L1_vy = crank1_rate*span_L1_com_x;
+    const double span_L4_com_x = L4_head_x*cos_theta_L4;
+    const double span_L4_com_y = L4_head_x*sin_theta_L4;
+    const double L4_vx = -crank4_rate*span_L4_com_y;
+    const double L4_y = O4_y + span_L4_com_y;
+    const double L4_vy = crank4_rate*span_L4_com_x;
+    const double span_L6_com_x = L6_head_x*cos_theta_L6;
+    const double span_L6_com_y = L6_head_x*sin_theta_L6;
+    const double L6_x = O6_x + span_L6_com_x;
+    const double L6_vx = -L6_omega*span_L6_com_y;
+    const double L6_vy = L6_omega*span_L6_com_x;
+    const double span_L1_head_x = L1_head_span_x*cos_theta_L1;
+    const double span_L1_head_y = L1_head_span_x*sin_theta_L1;
+    const double L1_head_vx = -crank1_rate*span_L1_head_y;
+    const double L1_head_vy = crank1_rate*span_L1_head_x;
+    const double span_L2_com_x = L2_head_x*cos_theta_L2;
+    const double span_L2_com_y = L2_head_x*sin_theta_L2;
+    const double L2_x = span_L1_head_x + span_L2_com_x;
+    const double L2_vx = L1_head_vx - L2_omega*span_L2_com_y;
+    const double L2_y = span_L1_head_y + span_L2_com_y;
+    const double L2_vy = L1_head_vy + L2_omega*span_L2_com_x;
+    const double span_L4_head_x = L4_head_span_x*cos_theta_L4;
+    const double span_L4_head_y = L4_head_span_x*sin_theta_L4;
+    const double L4_head_vx = -crank4_rate*span_L4_head_y;
+    const double L4_head_y = O4_y + span_L4_head_y;
+    const double L4_head_vy = crank4_rate*span_L4_head_x;
+    const double span_L3_com_x = L3_head_x*cos_theta_L3;
+    const double span_L3_com_y = L3_head_x*sin_theta_L3;
+    const double L3_x = span_L3_com_x + span_L4_head_x;
+    const double L3_vx = -L3_omega*span_L3_com_y + L4_head_vx;
+    const double L3_y = L4_head_y + span_L3_com_y;
+    const double L3_vy = L3_omega*span_L3_com_x + L4_head_vy;
+    const double span_L6_head_x = L6_head_span_x*cos_theta_L6;
+    const double span_L6_head_y = L6_head_span_x*sin_theta_L6;
+    const double L6_head_x_2 = O6_x + span_L6_head_x;
+    const double L6_head_vx = -L6_omega*span_L6_head_y;
+    const double L6_head_vy = L6_omega*span_L6_head_x;
+    const double span_L7_com_x = L7_com_span_x*cos_theta_L7;
+    const double span_L7_com_y = L7_com_span_x*sin_theta_L7;
+    const double L7_x = L6_head_x_2 + span_L7_com_x;
+    const double L7_vx = L6_head_vx - L7_omega*span_L7_com_y;
+    const double L7_y = span_L6_head_y + span_L7_com_y;
+    const double L7_vy = L6_head_vy + L7_omega*span_L7_com_x;
+    const double span_L8_com_x = L8_head_x*cos_theta_L8;
+    const double span_L8_com_y = L8_head_x*sin_theta_L8;
+    const double L8_x = L6_head_x_2 + span_L8_com_x;
+    const double L8_vx = L6_head_vx - L8_omega*span_L8_com_y;
+    const double L8_y = span_L6_head_y + span_L8_com_y;
+    const double L8_vy = L6_head_vy + L8_omega*span_L8_com_x;
+    const double span_L8_head_x = L8_head_span_x*cos_theta_L8;
+    const double span_L8_head_y = L8_head_span_x*sin_theta_L8;
+    const double L8_head_x_2 = L6_head_x_2 + span_L8_head_x;
+    const double L8_head_vx = L6_head_vx - L8_omega*span_L8_head_y;
+    const double L8_head_y = span_L6_head_y + span_L8_head_y;
+    const double L8_head_vy = L6_head_vy + L8_omega*span_L8_head_x;
+    const double S9_theta = (0.5)*3.141592653589793;
+    const double S9_omega = 0.0;
+    const double span_L2_head_x = L2_head_span_x*cos_theta_L2;
+    const double span_L2_head_y = L2_head_span_x*sin_theta_L2;
+    const double span_L3_head_x = L3_head_span_x*cos_theta_L3;
+    const double span_L3_head_y = L3_head_span_x*sin_theta_L3;
+    const double span_L7_tail_x = L7_tail_span_x*cos_theta_L7;
+    const double span_L7_tail_y = L7_tail_span_x*sin_theta_L7;
+
+    /* positions and velocities of the bodies */
+    all_q[0] = span_L1_com_x;
+    all_v[0] = L1_vx;
+    all_q[1] = span_L1_com_y;
+    all_v[1] = L1_vy;
+    all_q[2] = crank1_value;
+    all_v[2] = crank1_rate;
+    all_q[3] = L2_x;
+    all_v[3] = L2_vx;
+    all_q[4] = L2_y;
+    all_v[4] = L2_vy;
+    all_q[5] = L2_theta;
+    all_v[5] = L2_omega;
+    all_q[6] = L3_x;
+    all_v[6] = L3_vx;
+    all_q[7] = L3_y;
+    all_v[7] = L3_vy;
+    all_q[8] = L3_theta;
+    all_v[8] = L3_omega;
+    all_q[9] = span_L4_com_x;
+    all_v[9] = L4_vx;
+    all_q[10] = L4_y;
+    all_v[10] = L4_vy;
+    all_q[11] = crank4_value;
+    all_v[11] = crank4_rate;
+    all_q[12] = L6_x;
+    all_v[12] = L6_vx;
+    all_q[13] = span_L6_com_y;
+    all_v[13] = L6_vy;
+    all_q[14] = L6_theta;
+    all_v[14] = L6_omega;
+    all_q[15] = L7_x;
+    all_v[15] = L7_vx;
+    all_q[16] = L7_y;
+    all_v[16] = L7_vy;
+    all_q[17] = L7_theta;
+    all_v[17] = L7_omega;
+    all_q[18] = L8_x;
+    all_v[18] = L8_vx;
+    all_q[19] = L8_y;
+    all_v[19] = L8_vy;
+    all_q[20] = L8_theta;
+    all_v[20] = L8_omega;
+    all_q[21] = L8_head_x_2;
+    all_v[21] = L8_head_vx;
+    all_q[22] = L8_head_y;
+    all_v[22] = L8_head_vy;
+    all_q[23] = S9_theta;
+    all_v[23] = S9_omega;
+
+    /* rates of the closures */
+    const double phi_dot_guide_offset = L6_omega*span_L6_head_y + L8_omega*span_L8_head_y;
+    const double phi_dot_L2_head_L3_head_x = -L2_omega*span_L2_head_y + L3_omega*span_L3_head_y -
+        crank1_rate*span_L1_head_y + crank4_rate*span_L4_head_y;
+    const double phi_dot_L2_head_L3_head_y = L2_omega*span_L2_head_x - L3_omega*span_L3_head_x +
+        crank1_rate*span_L1_head_x - crank4_rate*span_L4_head_x;
+    const double phi_dot_P2_x = -L2_omega*span_L2_head_y + L6_omega*span_L6_head_y + L7_omega*span_L7_tail_y -
+        crank1_rate*span_L1_head_y;
+    const double phi_dot_P2_y = L2_omega*span_L2_head_x - L6_omega*span_L6_head_x - L7_omega*span_L7_tail_x +
+        crank1_rate*span_L1_head_x;
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_dot_guide_offset), *worst);
+    *worst = fmax(fabs(phi_dot_L2_head_L3_head_x), *worst);
+    *worst = fmax(fabs(phi_dot_L2_head_L3_head_y), *worst);
+    *worst = fmax(fabs(phi_dot_P2_x), *worst);
+    *worst = fmax(fabs(phi_dot_P2_y), *worst);
+
+    /* groups of rows that are solved one after the other */
+    const double along_L2_head_L3_head_x__L2_head_L3_head_y_2 = span_L2_head_x*span_L3_head_y;
+    const double across_L2_head_L3_head_x__L2_head_L3_head_y_2 = span_L2_head_y*span_L3_head_x;
+    const double determinant_L2_head_L3_head_x__L2_head_L3_head_y_4 =
+        -across_L2_head_L3_head_x__L2_head_L3_head_y_2 + along_L2_head_L3_head_x__L2_head_L3_head_y_2;
+    if (!(fabs(determinant_L2_head_L3_head_x__L2_head_L3_head_y_4) > 3.162277660168379e-07 * (fabs(along_L2_head_L3_head_x__L2_head_L3_head_y_2) + fabs(across_L2_head_L3_head_x__L2_head_L3_head_y_2)))) return 3;
+    const double inverse_L2_head_L3_head_x__L2_head_L3_head_y_4 =
+        1.0/determinant_L2_head_L3_head_x__L2_head_L3_head_y_4;
+    const double along_P2_x__P2_y_2 = -span_L6_head_x*span_L7_tail_y;
+    const double across_P2_x__P2_y_2 = -span_L6_head_y*span_L7_tail_x;
+    const double determinant_P2_x__P2_y_4 = -across_P2_x__P2_y_2 + along_P2_x__P2_y_2;
+    if (!(fabs(determinant_P2_x__P2_y_4) > 3.162277660168379e-07 * (fabs(along_P2_x__P2_y_2) + fabs(across_P2_x__P2_y_2)))) return 5;
+    const double inverse_P2_x__P2_y_4 = 1.0/determinant_P2_x__P2_y_4;
+    const double pivot_guide_offset_2 = span_L8_head_y;
+    if (!(fabs(pivot_guide_offset_2) > 0.0)) return 1;
+    const double inverse_guide_offset_2 = 1.0/pivot_guide_offset_2;
+
+    /* accelerations */
+    const double second_rest_L2_head_L3_head_x = (L2_omega * L2_omega)*span_L2_head_x - (L3_omega *
+        L3_omega)*span_L3_head_x + crank1_acceleration*span_L1_head_y + (crank1_rate *
+        crank1_rate)*span_L1_head_x - crank4_acceleration*span_L4_head_y - (crank4_rate *
+        crank4_rate)*span_L4_head_x;
+    const double second_rest_L2_head_L3_head_y = (L2_omega * L2_omega)*span_L2_head_y - (L3_omega *
+        L3_omega)*span_L3_head_y - crank1_acceleration*span_L1_head_x + (crank1_rate *
+        crank1_rate)*span_L1_head_y + crank4_acceleration*span_L4_head_x - (crank4_rate *
+        crank4_rate)*span_L4_head_y;
+    const double second_L3_theta =
+        inverse_L2_head_L3_head_x__L2_head_L3_head_y_4*(second_rest_L2_head_L3_head_x*span_L2_head_x +
+        second_rest_L2_head_L3_head_y*span_L2_head_y);
+    const double second_L2_theta =
+        inverse_L2_head_L3_head_x__L2_head_L3_head_y_4*(second_rest_L2_head_L3_head_x*span_L3_head_x +
+        second_rest_L2_head_L3_head_y*span_L3_head_y);
+    const double second_rest_P2_x = (L2_omega * L2_omega)*span_L2_head_x - (L6_omega *
+        L6_omega)*span_L6_head_x - (L7_omega * L7_omega)*span_L7_tail_x + crank1_acceleration*span_L1_head_y +
+        (crank1_rate * crank1_rate)*span_L1_head_x + second_L2_theta*span_L2_head_y;
+    const double second_rest_P2_y = (L2_omega * L2_omega)*span_L2_head_y - (L6_omega *
+        L6_omega)*span_L6_head_y - (L7_omega * L7_omega)*span_L7_tail_y - crank1_acceleration*span_L1_head_x +
+        (crank1_rate * crank1_rate)*span_L1_head_y - second_L2_theta*span_L2_head_x;
+    const double second_L7_theta = inverse_P2_x__P2_y_4*(-second_rest_P2_x*span_L6_head_x -
+        second_rest_P2_y*span_L6_head_y);
+    const double second_L6_theta = inverse_P2_x__P2_y_4*(second_rest_P2_x*span_L7_tail_x +
+        second_rest_P2_y*span_L7_tail_y);
+    const double second_L8_theta = inverse_guide_offset_2*(-(L6_omega * L6_omega)*span_L6_head_x - (L8_omega *
+        L8_omega)*span_L8_head_x - second_L6_theta*span_L6_head_y);
+    a[0] = second_L6_theta;
+    a[1] = second_L2_theta;
+    a[2] = second_L3_theta;
+    a[3] = second_L7_theta;
+    a[4] = second_L8_theta;
+    all_a[0] = -crank1_acceleration*span_L1_com_y - (crank1_rate * crank1_rate)*span_L1_com_x;
+    all_a[1] = crank1_acceleration*span_L1_com_x - (crank1_rate * crank1_rate)*span_L1_com_y;
+    all_a[2] = crank1_acceleration;
+    all_a[3] = -(L2_omega * L2_omega)*span_L2_com_x - crank1_acceleration*span_L1_head_y - (crank1_rate *
+        crank1_rate)*span_L1_head_x - second_L2_theta*span_L2_com_y;
+    all_a[4] = -(L2_omega * L2_omega)*span_L2_com_y + crank1_acceleration*span_L1_head_x - (crank1_rate *
+        crank1_rate)*span_L1_head_y + second_L2_theta*span_L2_com_x;
+    all_a[5] = second_L2_theta;
+    all_a[6] = -(L3_omega * L3_omega)*span_L3_com_x - crank4_acceleration*span_L4_head_y - (crank4_rate *
+        crank4_rate)*span_L4_head_x - second_L3_theta*span_L3_com_y;
+    all_a[7] = -(L3_omega * L3_omega)*span_L3_com_y + crank4_acceleration*span_L4_head_x - (crank4_rate *
+        crank4_rate)*span_L4_head_y + second_L3_theta*span_L3_com_x;
+    all_a[8] = second_L3_theta;
+    all_a[9] = -crank4_acceleration*span_L4_com_y - (crank4_rate * crank4_rate)*span_L4_com_x;
+    all_a[10] = crank4_acceleration*span_L4_com_x - (crank4_rate * crank4_rate)*span_L4_com_y;
+    all_a[11] = crank4_acceleration;
+    all_a[12] = -(L6_omega * L6_omega)*span_L6_com_x - second_L6_theta*span_L6_com_y;
+    all_a[13] = -(L6_omega * L6_omega)*span_L6_com_y + second_L6_theta*span_L6_com_x;
+    all_a[14] = second_L6_theta;
+    all_a[15] = -(L6_omega * L6_omega)*span_L6_head_x - (L7_omega * L7_omega)*span_L7_com_x -
+        second_L6_theta*span_L6_head_y - second_L7_theta*span_L7_com_y;
+    all_a[16] = -(L6_omega * L6_omega)*span_L6_head_y - (L7_omega * L7_omega)*span_L7_com_y +
+        second_L6_theta*span_L6_head_x + second_L7_theta*span_L7_com_x;
+    all_a[17] = second_L7_theta;
+    all_a[18] = -(L6_omega * L6_omega)*span_L6_head_x - (L8_omega * L8_omega)*span_L8_com_x -
+        second_L6_theta*span_L6_head_y - second_L8_theta*span_L8_com_y;
+    all_a[19] = -(L6_omega * L6_omega)*span_L6_head_y - (L8_omega * L8_omega)*span_L8_com_y +
+        second_L6_theta*span_L6_head_x + second_L8_theta*span_L8_com_x;
+    all_a[20] = second_L8_theta;
+    all_a[21] = -(L6_omega * L6_omega)*span_L6_head_x - (L8_omega * L8_omega)*span_L8_head_x -
+        second_L6_theta*span_L6_head_y - second_L8_theta*span_L8_head_y;
+    all_a[22] = -(L6_omega * L6_omega)*span_L6_head_y - (L8_omega * L8_omega)*span_L8_head_y +
+        second_L6_theta*span_L6_head_x + second_L8_theta*span_L8_head_x;
+    all_a[23] = 0.0;
+    return 0;
 }
 
-/* Newton on Phi(q, t) = 0 until the step no longer shrinks; `moved` is the way from the first guess. */
-static int close_linkage(double t, const Parameters *p, double extent, double *q, double *moved)
+static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
+
+/* Powers, and accelerations of the tree. A status counts on behind the closures and the rows of `dynamics`. */
+static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
 {
-    double phi[24], step[N_Q], before = INFINITY;
-    *moved = 0.0;
+    const int status = reduced_dynamics(here->t, here->s, here->s_rate, &(Memory){0}, p, a, aside);
+    return status ? N_LOOPS + N_ROWS + status : 0;
+}
+
+/*
+ * Newton on the closures until the step is rounding or no longer shrinks; the rates belong to the positions. Steps
+ * are measured in rad, slides as shares of the mechanism's size; `moved` is the way from the first guess.
+ */
+static int close_linkage(double t, const Parameters *p, double extent, Place *at, double *moved)
+{
+    double step[N_X + 1], before = INFINITY;
     for (int i = 0; i < MAX_NEWTON; i++) {
-        constraints(t, q, p, phi);
-        const int status = project(t, q, phi, p, step);
+        double size = 0.0;
+        const int status = close_step(t, at->s, p, step, at->s_rate, &at->phi);
         if (status)
             return status;
-        for (int k = 0; k < N_Q; k++)
-            q[k] -= step[k];
-        const double size = largest(step, N_Q);
-        *moved += largest_turn(step, extent);
+        for (int k = 0; k < N_X; k++)
+            size = larger(size, fabs(step[k]) / (is_angle[k] ? 1.0 : extent));
         if (isnan(size))
             return NEWTON_FAILED;
-        if (size < 1e-9 && (size >= 0.5 * before || size < 1e-15))
+        if (size < 4e-15 || (size < 1e-9 && size >= 0.5 * before))
             return 0;
+        for (int k = 0; k < N_X; k++)
+            at->s[k] -= step[k];
+        *moved += size;
         before = size;
     }
     return before < 1e-9 ? 0 : NEWTON_FAILED;
 }
 
-/* Phi_q v = nu by projection, with one step of refinement. */
-static int velocities(double t, const double *q, const Parameters *p, double *v)
+/* From one place to another near by: first guess s + h s' + h^2 s''/2. */
+static int place_at(double t, const Parameters *p, double extent, const Place *from, Place *to, double *moved)
 {
-    double r[24], phi_q[24 * N_Q], step[N_Q];
-    for (int k = 0; k < N_Q; k++)
-        v[k] = 0.0;
-    gudgeon_phi_q(t, q, (const double *)p, phi_q);
-    for (int pass = 0; pass < 2; pass++) {
-        velocity_rhs(t, q, p, r);
-        for (int row = 0; row < N_ALL_ROWS; row++)
-            for (int k = 0; k < N_Q; k++)
-                r[row] -= phi_q[(size_t)row * N_Q + k] * v[k];
-        const int status = project(t, q, r, p, step);
-        if (status)
-            return status;
-        for (int k = 0; k < N_Q; k++)
-            v[k] += step[k];
-    }
+    const double h = t - from->t;
+    *moved = 0.0;
+    to->t = t;
+    for (int k = 0; k < N_X; k++)
+        to->s[k] = from->s[k] + h * (from->s_rate[k] + 0.5 * h * from->s_second[k]);
+    const int status = close_linkage(t, p, extent, to, moved);
+    return status ? status : arrive(t, to->s, to->s_rate, p, to->s_second, to->q, to->v, to->a, &to->phi_dot);
+}
+
+/* A place has all that a sample needs. */
+static int settle(const Parameters *p, Place *here)
+{
+    (void)p;
+    (void)here;
     return 0;
+}
+
+/* A given position; where closures depend on each other the equations of motion may still tell its accelerations. */
+static int begin(double t, const double *q, const double *v, const Parameters *p, Place *here)
+{
+    double step[N_X + 1], rates[N_X + 1];
+    here->t = t;
+    reduce_state(t, q, v, p, here->s, here->s_rate);
+    if (!close_step(t, here->s, p, step, rates, &here->phi)
+        && !arrive(t, here->s, here->s_rate, p, here->s_second, here->q, here->v, here->a, &here->phi_dot))
+        return 0;
+    Aside aside;
+    for (int k = 0; k < N_Q; k++) {
+        here->q[k] = q[k];
+        here->v[k] = v[k];
+    }
+    for (int k = 0; k < N_X; k++)
+        here->s_second[k] = 0.0;
+    here->phi = here->phi_dot = 0.0;
+    const int status = dynamics(t, q, v, &(Memory){0}, p, here->a, &aside);
+    return status ? N_LOOPS + status : 0;
+}
+
+/* What the trapezoidal rule leaves over between two places: the angle that it is worth (rad), lengths by the size. */
+static double bend_between(const Place *a, const Place *b, double extent)
+{
+    const double half = 0.5 * (b->t - a->t), share = 1.0 / extent;
+    double lengths = 0.0, angles = 0.0;
+    for (int k = 0; k < N_Q; k += 3) {
+        for (int c = k; c < k + 2; c++)
+            lengths = larger(lengths, fabs(b->q[c] - a->q[c] - half * (a->v[c] + b->v[c])));
+        angles = larger(angles, fabs(b->q[k + 2] - a->q[k + 2] - half * (a->v[k + 2] + b->v[k + 2])));
+    }
+    return larger(angles, lengths * share);
 }
 
 /*
- * From (t0, q, v) to t1 along the same branch. The first guess is q + h v; where Newton moves it by more than
- * `reach`, or the way bends more than its velocities say, the way is halved: another branch passes near dead
- * centres as a jump of positions that no velocity explains.
+ * One step along the same branch, to t1 at the furthest. Where Newton moves the first guess by more than the reach,
+ * or the way bends more than its velocities say, the step is halved: another branch passes near dead centres as a
+ * jump of positions that no velocity explains.
  */
-static int follow(double t0, double t1, const Parameters *p, double reach, double extent, double *q, double *v,
-    long *steps)
+static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
 {
-    const double straight = 0.002 * reach;
-    double t = t0, h = t1 - t0;
-    int halvings = 0;
-    while (t < t1) {
-        double guess[N_Q], rate[N_Q], bend[N_Q], moved, bent = 0.0;
-        const double next = t + h < t1 ? t + h : t1;
-        for (int k = 0; k < N_Q; k++)
-            guess[k] = q[k] + (next - t) * v[k];
-        int status = next > t ? close_linkage(next, p, extent, guess, &moved) : NEWTON_FAILED;
-        const int near = !status && moved <= reach;
+    const double straight = 0.002 * stride->reach;
+    for (;;) {
+        Place there;
+        double moved = 0.0, bent = 0.0;
+        const double next = here->t + stride->h < t1 ? here->t + stride->h : t1;
+        const int status = next > here->t ? place_at(next, p, stride->extent, here, &there, &moved) : NEWTON_FAILED;
+        const int near = !status && moved <= stride->reach;
         if (near)
-            status = velocities(next, guess, p, rate);
-        if (near && !status) { /* what the trapezoidal rule leaves over */
-            for (int k = 0; k < N_Q; k++)
-                bend[k] = guess[k] - q[k] - 0.5 * (next - t) * (v[k] + rate[k]);
-            bent = largest_turn(bend, extent);
+            bent = bend_between(here, &there, stride->extent);
+        if (near && bent <= straight) {
+            *here = there;
+            if (stride->halvings > 0 && bent < 0.1 * straight) { /* it grows with h cubed */
+                stride->h *= 2.0;
+                stride->halvings--;
+            }
+            return 0;
         }
-        if (status || !near || !(bent <= straight)) {
-            if (++halvings > MAX_HALVINGS || !(next > t))
-                return status ? status : NEWTON_FAILED;
-            h *= 0.5;
-            continue;
-        }
+        if (++stride->halvings > MAX_HALVINGS || !(next > here->t))
+            return status ? status : NEWTON_FAILED;
+        stride->h *= 0.5;
+    }
+}
+
+/* All the way to t1. */
+static int follow(double t1, const Parameters *p, double reach, double extent, Place *here, long *steps)
+{
+    Stride stride = {reach, extent, t1 - here->t, 0};
+    while (here->t < t1) {
+        const int status = step_on(&stride, t1, p, here);
+        if (status)
+            return status;
         ++*steps;
-        t = next;
-        for (int k = 0; k < N_Q; k++) {
-            q[k] = guess[k];
-            v[k] = rate[k];
-        }
-        if (halvings > 0 && bent < 0.1 * straight) { /* it grows with h cubed */
-            h *= 2.0;
-            halvings--;
-        }
     }
     return 0;
 }
 
-/* n samples at the given times; q and v hold the start in front: n + 1 rows. */
-int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double extent, double *q, double *v,
-    double *phi_max, double *phi_dot_max, long *steps, long *done)
+/* n samples at the given times; q, v and a have n + 1 rows, the first of q and v holds the start at t[0]. */
+int gudgeon_kinematic(long n, const double *t, const double *parameters, double reach, double extent, double *q,
+    double *v, double *a, double *phi_max, double *phi_dot_max, long *steps, long *done)
 {
-    double phi[24];
-    for (long i = 0; i < n; i++) {
-        double *now = q + (i + 1) * N_Q, *rate = v + (i + 1) * N_Q;
-        for (int k = 0; k < N_Q; k++) {
-            now[k] = q[i * N_Q + k];
-            rate[k] = v[i * N_Q + k];
+    const Parameters *p = (const Parameters *)parameters;
+    Place here;
+    *done = 0;
+    int status = begin(t[0], q, v, p, &here);
+    for (long i = 0; i <= n; i++) {
+        if (!status && i > 0) {
+            status = follow(t[i], p, reach, extent, &here, steps);
+            if (!status)
+                status = settle(p, &here);
         }
-        *done = i;
-        const int status = follow(t[i], t[i + 1], (const Parameters *)p, reach, extent, now, rate, steps);
         if (status)
             return status;
-        Aside aside;
-        double a[N_Q];
-        const int singular = dynamics(t[i + 1], now, rate, &(Memory){0}, (const Parameters *)p, a, &aside);
-        if (singular)
-            return singular;
-        constraints(t[i + 1], now, (const Parameters *)p, phi);
-        *phi_max = max_of(largest(phi, N_ALL_ROWS), *phi_max);
-        *phi_dot_max = max_of(largest(aside.phi_dot, N_ROWS), *phi_dot_max);
+        for (int k = 0; k < N_Q; k++) {
+            if (i > 0) {
+                q[i * N_Q + k] = here.q[k];
+                v[i * N_Q + k] = here.v[k];
+            }
+            a[i * N_Q + k] = here.a[k];
+        }
+        *phi_max = max_of(here.phi, *phi_max);
+        *phi_dot_max = max_of(here.phi_dot, *phi_dot_max);
+        *done = i;
     }
-    *done = n;
     return 0;
+}
+
+/* Powers at a place; a status as that of settle. */
+static int powers(const Parameters *p, const Place *here, double *power)
+{
+    Aside aside;
+    double a[N_Q];
+    const int status = solve_motion(p, here, a, &aside);
+    for (int k = 0; k < N_WORK; k++)
+        power[k] = aside.power[k];
+    return status;
+}
+
+/* Works between two places that are one step apart: quadrature of Gauss and Legendre with three nodes. */
+static int work_between(const Parameters *p, double extent, const Place *a, double t1, double *work)
+{
+    static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
+    static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+    const double half = 0.5 * (t1 - a->t);
+    for (int i = 0; i < 3; i++) {
+        Place at;
+        double power[N_WORK], moved;
+        int status = place_at(a->t + half * (1.0 + node[i]), p, extent, a, &at, &moved);
+        if (!status)
+            status = powers(p, &at, power);
+        if (status)
+            return status;
+        for (int k = 0; k < N_WORK; k++)
+            work[k] += half * weight[i] * power[k];
+    }
+    return 0;
+}
+
+/* Works from the first of n + 1 samples on, (n + 1) x N_WORK, of which the first row is given. */
+int gudgeon_kinematic_works(long n, const double *t, const double *parameters, double reach, double extent,
+    const double *q, const double *v, double *work, long *done)
+{
+    const Parameters *p = (const Parameters *)parameters;
+    Place here;
+    *done = 0;
+    int status = begin(t[0], q, v, p, &here);
+    for (long i = 0; i < n && !status; i++) {
+        Stride stride = {reach, extent, t[i + 1] - t[i], 0};
+        double *sum = work + (i + 1) * N_WORK;
+        for (int k = 0; k < N_WORK; k++)
+            sum[k] = work[i * N_WORK + k];
+        while (here.t < t[i + 1] && !status) {
+            const Place before = here;
+            status = step_on(&stride, t[i + 1], p, &here);
+            if (!status)
+                status = work_between(p, extent, &before, here.t, sum);
+        }
+        *done = i + !status;
+    }
+    return status;
 }

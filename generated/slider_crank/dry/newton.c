@@ -172,7 +172,7 @@ static void tangent_wristpin(double e_x, double e_y, double de_x, double de_y, d
 /* The equations of motion linearized at a state, and Newton's matrix factorized. */
 typedef struct {
     const Parameters *p;
-    double value[20]; /* what linearize() found */
+    double value[21]; /* what linearize() found */
     double lu[4];    /* L, U and inverse pivots */
 } Linear;
 
@@ -348,13 +348,14 @@ static void linearize(const double t, const double *q, const double *v, const Me
         slider_omega*wristpin_moment_second_by_rod_omega - span_rod_head_x*wristpin_Fy +
         span_rod_head_y*wristpin_Fx + wristpin_Fx_by_rod_omega*(cylinder_slide_rate - rod_head_vx) +
         wristpin_moment_first;
-    lin->value[18] = a_rod_theta*dot_crank_rod_by_time*motor_rate -
+    lin->value[18] = dot_crank_rod*motor_rate;
+    lin->value[19] = a_rod_theta*dot_crank_rod_by_time*motor_rate -
         cross_crank_rod_by_time*motor_rate*(rod_omega * rod_omega) +
         motor_acceleration*(a_rod_theta*dot_crank_rod - cross_crank_rod*(rod_omega * rod_omega) +
         mass_motor_motor*motor_acceleration + span_crank_head_x*wristpin_Fy - span_crank_head_y*wristpin_Fx) +
         motor_rate*span_crank_head_x*wristpin_Fy_by_time + motor_rate*span_crank_head_x_by_time*wristpin_Fy -
         motor_rate*span_crank_head_y*wristpin_Fx_by_time - motor_rate*span_crank_head_y_by_time*wristpin_Fx;
-    lin->value[19] = -rod_head_vx_by_time*wristpin_Fx - rod_head_vy*wristpin_Fy_by_time -
+    lin->value[20] = -rod_head_vx_by_time*wristpin_Fx - rod_head_vy*wristpin_Fy_by_time -
         rod_head_vy_by_time*wristpin_Fy + rod_omega*wristpin_moment_first_by_time +
         slider_omega*wristpin_moment_second_by_time + wristpin_Fx_by_time*(cylinder_slide_rate - rod_head_vx);
     lin->p = p;
@@ -457,8 +458,9 @@ static void newton_solve(const Linear *lin, double eta, double s, const double *
     const double power_v_0_cylinder_slide = lin->value[15];
     const double power_v_2_cylinder_slide = lin->value[16];
     const double power_v_2_rod_theta = lin->value[17];
-    const double power_t_0 = lin->value[18];
-    const double power_t_2 = lin->value[19];
+    const double power_0_rod_theta = lin->value[18];
+    const double power_t_0 = lin->value[19];
+    const double power_t_2 = lin->value[20];
 
     /* parameters */
     const double slider_mass = p->slider_mass;
@@ -478,7 +480,8 @@ static void newton_solve(const Linear *lin, double eta, double s, const double *
     u[1] = eta*(r[1] + x[1]);
     u[3] = x[1];
     u[4] = eta*(power_q_0_cylinder_slide*u[0] + power_q_0_rod_theta*u[1] + power_t_0*s +
-        power_v_0_cylinder_slide*u[2] + power_v_0_rod_theta*u[3] + r[4]);
+        power_v_0_cylinder_slide*u[2] + power_v_0_rod_theta*u[3] + r[4]) + power_0_rod_theta*(-eta*r[3] +
+        x[1]);
     u[5] = eta*r[5];
     u[6] = eta*(power_q_2_cylinder_slide*u[0] + power_q_2_rod_theta*u[1] + power_t_2*s +
         power_v_2_cylinder_slide*u[2] + power_v_2_rod_theta*u[3] + r[6]);
@@ -503,17 +506,17 @@ static const LinearEntry power_entries[] = {
     {2, 3, 17, 1}
 };
 static const LinearEntry power_row_entries[] = {
-    {0, 0, 0, 0}
+    {0, 1, 18, 1}
 };
 static const LinearEntry power_t_entries[] = {
-    {0, 0, 18, 1}, {2, 0, 19, 1}
+    {0, 0, 19, 1}, {2, 0, 20, 1}
 };
 enum {
     N_PHI_Q = 0,
     N_RESIDUAL = 8,
     N_RESIDUAL_T = 2,
     N_POWER = 8,
-    N_POWER_ROW = 0,
+    N_POWER_ROW = 1,
     N_POWER_T = 2,
     N_NODES = 2,
 };

@@ -1,141 +1,388 @@
 /*
- * No degree of freedom is left: positions by Newton from the sample before, velocities by one linear
- * solve, each refined once. Nothing is integrated.
+ * No degree of freedom is left: at every time the drives say where everything is. Nothing is integrated; the motion
+ * is followed from sample to sample so that it stays on its branch.
  */
 enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, NEWTON_FAILED = -1 };
 
-static double largest(const double *x, int n)
+/* A place on the way: the motion of all bodies at a time, the largest |Phi| and |Phi_dot| there. */
+typedef struct {
+    double t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot;
+    double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
+} Place;
+
+/* What a way is measured by (a share of the mechanism's size or rad; m), and the step that it has come down to. */
+typedef struct {
+    double reach, extent, h;
+    int halvings;
+} Stride;
+
+/* The larger one; NaN stays. */
+static double larger(double most, double x) { return x > most || isnan(x) ? x : most; }
+
+/*
+ * Newton's step and the rates of the tree's coordinates q: Phi_q step = Phi, Phi_q rates = nu.
+ * `worst`: the largest |Phi|. Returns 0, or the number of a row that depends on others here.
+ */
+static int close_step(const double t, const double *q, const Parameters *p, double *step, double *rates,
+    double *worst)
 {
-    double most = 0.0;
-    for (int k = 0; k < n; k++)
-        most = fabs(x[k]) > most || isnan(x[k]) ? fabs(x[k]) : most;
-    return most;
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double rod_theta = q[0];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_head_span_x = p->crank_head_span_x;
+    const double rod_head_span_x = p->rod_head_span_x;
+
+    /* directions, arms, drives */
+    const double motor_value = omega*time;
+    const double motor_rate = omega;
+    const double cos_theta_crank = cos(motor_value);
+    const double sin_theta_crank = sin(motor_value);
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
+    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
+    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
+
+    /* closures */
+    const double phi_cylinder_offset = span_crank_head_y + span_rod_head_y;
+
+    /* groups of rows that are solved one after the other */
+    const double pivot_cylinder_offset = span_rod_head_x;
+    if (!(fabs(pivot_cylinder_offset) > 0.0)) return 1;
+    const double inverse_cylinder_offset = 1.0/pivot_cylinder_offset;
+
+    /* Newton's step */
+    const double step_rod_theta = inverse_cylinder_offset*phi_cylinder_offset;
+
+    /* rates */
+    const double rate_rod_theta = -inverse_cylinder_offset*motor_rate*span_crank_head_x;
+
+    /* results */
+    step[0] = step_rod_theta;
+    rates[0] = rate_rod_theta;
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_cylinder_offset), *worst);
+    return 0;
 }
 
-/* The same of a change of q, positions as shares of the mechanism's size: the angle that it is worth (rad). */
-static double largest_turn(const double *x, double size)
+/*
+ * Accelerations a of the tree's coordinates q with rates v, and with them the motion of all bodies:
+ * all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.
+ * Returns 0, or the number of a row that depends on others here; all_q and all_v are known also then.
+ */
+static int arrive(const double t, const double *q, const double *v, const Parameters *p, double *a,
+    double *all_q, double *all_v, double *all_a, double *worst)
 {
-    double most = 0.0;
-    for (int k = 0; k < N_Q; k++) {
-        const double turn = fabs(x[k]) / (k % 3 == 2 ? 1.0 : size);
-        most = turn > most || isnan(turn) ? turn : most;
-    }
-    return most;
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double rod_theta = q[0];
+    const double rod_omega = v[0];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_head_x = p->crank_head_x;
+    const double rod_head_x = p->rod_head_x;
+    const double crank_head_span_x = p->crank_head_span_x;
+    const double rod_head_span_x = p->rod_head_span_x;
+
+    /* directions, arms, drives */
+    const double motor_value = omega*time;
+    const double motor_rate = omega;
+    const double motor_acceleration = 0.0;
+    const double cos_theta_crank = cos(motor_value);
+    const double sin_theta_crank = sin(motor_value);
+    const double cos_theta_rod = cos(rod_theta);
+    const double sin_theta_rod = sin(rod_theta);
+    const double span_crank_com_x = cos_theta_crank*crank_head_x;
+    const double span_crank_com_y = crank_head_x*sin_theta_crank;
+    const double crank_vx = -motor_rate*span_crank_com_y;
+    const double crank_vy = motor_rate*span_crank_com_x;
+    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
+    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double crank_head_vx = -motor_rate*span_crank_head_y;
+    const double crank_head_vy = motor_rate*span_crank_head_x;
+    const double span_rod_com_x = cos_theta_rod*rod_head_x;
+    const double span_rod_com_y = rod_head_x*sin_theta_rod;
+    const double rod_x = span_crank_head_x + span_rod_com_x;
+    const double rod_vx = crank_head_vx - rod_omega*span_rod_com_y;
+    const double rod_y = span_crank_head_y + span_rod_com_y;
+    const double rod_vy = crank_head_vy + rod_omega*span_rod_com_x;
+    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
+    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
+    const double rod_head_x_2 = span_crank_head_x + span_rod_head_x;
+    const double rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
+    const double rod_head_y = span_crank_head_y + span_rod_head_y;
+    const double rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
+    const double slider_theta = 0.0;
+    const double slider_omega = 0.0;
+
+    /* positions and velocities of the bodies */
+    all_q[0] = span_crank_com_x;
+    all_v[0] = crank_vx;
+    all_q[1] = span_crank_com_y;
+    all_v[1] = crank_vy;
+    all_q[2] = motor_value;
+    all_v[2] = motor_rate;
+    all_q[3] = rod_x;
+    all_v[3] = rod_vx;
+    all_q[4] = rod_y;
+    all_v[4] = rod_vy;
+    all_q[5] = rod_theta;
+    all_v[5] = rod_omega;
+    all_q[6] = rod_head_x_2;
+    all_v[6] = rod_head_vx;
+    all_q[7] = rod_head_y;
+    all_v[7] = rod_head_vy;
+    all_q[8] = slider_theta;
+    all_v[8] = slider_omega;
+
+    /* rates of the closures */
+    const double phi_dot_cylinder_offset = motor_rate*span_crank_head_x + rod_omega*span_rod_head_x;
+    *worst = 0.0;
+    *worst = fmax(fabs(phi_dot_cylinder_offset), *worst);
+
+    /* groups of rows that are solved one after the other */
+    const double pivot_cylinder_offset_2 = span_rod_head_x;
+    if (!(fabs(pivot_cylinder_offset_2) > 0.0)) return 1;
+    const double inverse_cylinder_offset_2 = 1.0/pivot_cylinder_offset_2;
+
+    /* accelerations */
+    const double second_rod_theta = inverse_cylinder_offset_2*(-motor_acceleration*span_crank_head_x +
+        (motor_rate * motor_rate)*span_crank_head_y + (rod_omega * rod_omega)*span_rod_head_y);
+    a[0] = second_rod_theta;
+    all_a[0] = -motor_acceleration*span_crank_com_y - (motor_rate * motor_rate)*span_crank_com_x;
+    all_a[1] = motor_acceleration*span_crank_com_x - (motor_rate * motor_rate)*span_crank_com_y;
+    all_a[2] = motor_acceleration;
+    all_a[3] = -motor_acceleration*span_crank_head_y - (motor_rate * motor_rate)*span_crank_head_x -
+        (rod_omega * rod_omega)*span_rod_com_x - second_rod_theta*span_rod_com_y;
+    all_a[4] = motor_acceleration*span_crank_head_x - (motor_rate * motor_rate)*span_crank_head_y - (rod_omega
+        * rod_omega)*span_rod_com_y + second_rod_theta*span_rod_com_x;
+    all_a[5] = second_rod_theta;
+    all_a[6] = -motor_acceleration*span_crank_head_y - (motor_rate * motor_rate)*span_crank_head_x -
+        (rod_omega * rod_omega)*span_rod_head_x - second_rod_theta*span_rod_head_y;
+    all_a[7] = motor_acceleration*span_crank_head_x - (motor_rate * motor_rate)*span_crank_head_y - (rod_omega
+        * rod_omega)*span_rod_head_y + second_rod_theta*span_rod_head_x;
+    all_a[8] = 0.0;
+    return 0;
 }
 
-/* Newton on Phi(q, t) = 0 until the step no longer shrinks; `moved` is the way from the first guess. */
-static int close_linkage(double t, const Parameters *p, double extent, double *q, double *moved)
+static const unsigned char is_angle[] = {1};
+
+/* Powers, and accelerations of the tree. A status counts on behind the closures and the rows of `dynamics`. */
+static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
 {
-    double phi[9], step[N_Q], before = INFINITY;
-    *moved = 0.0;
+    const int status = reduced_dynamics(here->t, here->s, here->s_rate, &(Memory){0}, p, a, aside);
+    return status ? N_LOOPS + N_ROWS + status : 0;
+}
+
+/*
+ * Newton on the closures until the step is rounding or no longer shrinks; the rates belong to the positions. Steps
+ * are measured in rad, slides as shares of the mechanism's size; `moved` is the way from the first guess.
+ */
+static int close_linkage(double t, const Parameters *p, double extent, Place *at, double *moved)
+{
+    double step[N_X + 1], before = INFINITY;
     for (int i = 0; i < MAX_NEWTON; i++) {
-        constraints(t, q, p, phi);
-        const int status = project(t, q, phi, p, step);
+        double size = 0.0;
+        const int status = close_step(t, at->s, p, step, at->s_rate, &at->phi);
         if (status)
             return status;
-        for (int k = 0; k < N_Q; k++)
-            q[k] -= step[k];
-        const double size = largest(step, N_Q);
-        *moved += largest_turn(step, extent);
+        for (int k = 0; k < N_X; k++)
+            size = larger(size, fabs(step[k]) / (is_angle[k] ? 1.0 : extent));
         if (isnan(size))
             return NEWTON_FAILED;
-        if (size < 1e-9 && (size >= 0.5 * before || size < 1e-15))
+        if (size < 4e-15 || (size < 1e-9 && size >= 0.5 * before))
             return 0;
+        for (int k = 0; k < N_X; k++)
+            at->s[k] -= step[k];
+        *moved += size;
         before = size;
     }
     return before < 1e-9 ? 0 : NEWTON_FAILED;
 }
 
-/* Phi_q v = nu by projection, with one step of refinement. */
-static int velocities(double t, const double *q, const Parameters *p, double *v)
+/* From one place to another near by: first guess s + h s' + h^2 s''/2. */
+static int place_at(double t, const Parameters *p, double extent, const Place *from, Place *to, double *moved)
 {
-    double r[9], phi_q[9 * N_Q], step[N_Q];
-    for (int k = 0; k < N_Q; k++)
-        v[k] = 0.0;
-    gudgeon_phi_q(t, q, (const double *)p, phi_q);
-    for (int pass = 0; pass < 2; pass++) {
-        velocity_rhs(t, q, p, r);
-        for (int row = 0; row < N_ALL_ROWS; row++)
-            for (int k = 0; k < N_Q; k++)
-                r[row] -= phi_q[(size_t)row * N_Q + k] * v[k];
-        const int status = project(t, q, r, p, step);
-        if (status)
-            return status;
-        for (int k = 0; k < N_Q; k++)
-            v[k] += step[k];
-    }
+    const double h = t - from->t;
+    *moved = 0.0;
+    to->t = t;
+    for (int k = 0; k < N_X; k++)
+        to->s[k] = from->s[k] + h * (from->s_rate[k] + 0.5 * h * from->s_second[k]);
+    const int status = close_linkage(t, p, extent, to, moved);
+    return status ? status : arrive(t, to->s, to->s_rate, p, to->s_second, to->q, to->v, to->a, &to->phi_dot);
+}
+
+/* A place has all that a sample needs. */
+static int settle(const Parameters *p, Place *here)
+{
+    (void)p;
+    (void)here;
     return 0;
+}
+
+/* A given position; where closures depend on each other the equations of motion may still tell its accelerations. */
+static int begin(double t, const double *q, const double *v, const Parameters *p, Place *here)
+{
+    double step[N_X + 1], rates[N_X + 1];
+    here->t = t;
+    reduce_state(t, q, v, p, here->s, here->s_rate);
+    if (!close_step(t, here->s, p, step, rates, &here->phi)
+        && !arrive(t, here->s, here->s_rate, p, here->s_second, here->q, here->v, here->a, &here->phi_dot))
+        return 0;
+    Aside aside;
+    for (int k = 0; k < N_Q; k++) {
+        here->q[k] = q[k];
+        here->v[k] = v[k];
+    }
+    for (int k = 0; k < N_X; k++)
+        here->s_second[k] = 0.0;
+    here->phi = here->phi_dot = 0.0;
+    const int status = dynamics(t, q, v, &(Memory){0}, p, here->a, &aside);
+    return status ? N_LOOPS + status : 0;
+}
+
+/* What the trapezoidal rule leaves over between two places: the angle that it is worth (rad), lengths by the size. */
+static double bend_between(const Place *a, const Place *b, double extent)
+{
+    const double half = 0.5 * (b->t - a->t), share = 1.0 / extent;
+    double lengths = 0.0, angles = 0.0;
+    for (int k = 0; k < N_Q; k += 3) {
+        for (int c = k; c < k + 2; c++)
+            lengths = larger(lengths, fabs(b->q[c] - a->q[c] - half * (a->v[c] + b->v[c])));
+        angles = larger(angles, fabs(b->q[k + 2] - a->q[k + 2] - half * (a->v[k + 2] + b->v[k + 2])));
+    }
+    return larger(angles, lengths * share);
 }
 
 /*
- * From (t0, q, v) to t1 along the same branch. The first guess is q + h v; where Newton moves it by more than
- * `reach`, or the way bends more than its velocities say, the way is halved: another branch passes near dead
- * centres as a jump of positions that no velocity explains.
+ * One step along the same branch, to t1 at the furthest. Where Newton moves the first guess by more than the reach,
+ * or the way bends more than its velocities say, the step is halved: another branch passes near dead centres as a
+ * jump of positions that no velocity explains.
  */
-static int follow(double t0, double t1, const Parameters *p, double reach, double extent, double *q, double *v,
-    long *steps)
+static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
 {
-    const double straight = 0.002 * reach;
-    double t = t0, h = t1 - t0;
-    int halvings = 0;
-    while (t < t1) {
-        double guess[N_Q], rate[N_Q], bend[N_Q], moved, bent = 0.0;
-        const double next = t + h < t1 ? t + h : t1;
-        for (int k = 0; k < N_Q; k++)
-            guess[k] = q[k] + (next - t) * v[k];
-        int status = next > t ? close_linkage(next, p, extent, guess, &moved) : NEWTON_FAILED;
-        const int near = !status && moved <= reach;
+    const double straight = 0.002 * stride->reach;
+    for (;;) {
+        Place there;
+        double moved = 0.0, bent = 0.0;
+        const double next = here->t + stride->h < t1 ? here->t + stride->h : t1;
+        const int status = next > here->t ? place_at(next, p, stride->extent, here, &there, &moved) : NEWTON_FAILED;
+        const int near = !status && moved <= stride->reach;
         if (near)
-            status = velocities(next, guess, p, rate);
-        if (near && !status) { /* what the trapezoidal rule leaves over */
-            for (int k = 0; k < N_Q; k++)
-                bend[k] = guess[k] - q[k] - 0.5 * (next - t) * (v[k] + rate[k]);
-            bent = largest_turn(bend, extent);
+            bent = bend_between(here, &there, stride->extent);
+        if (near && bent <= straight) {
+            *here = there;
+            if (stride->halvings > 0 && bent < 0.1 * straight) { /* it grows with h cubed */
+                stride->h *= 2.0;
+                stride->halvings--;
+            }
+            return 0;
         }
-        if (status || !near || !(bent <= straight)) {
-            if (++halvings > MAX_HALVINGS || !(next > t))
-                return status ? status : NEWTON_FAILED;
-            h *= 0.5;
-            continue;
-        }
+        if (++stride->halvings > MAX_HALVINGS || !(next > here->t))
+            return status ? status : NEWTON_FAILED;
+        stride->h *= 0.5;
+    }
+}
+
+/* All the way to t1. */
+static int follow(double t1, const Parameters *p, double reach, double extent, Place *here, long *steps)
+{
+    Stride stride = {reach, extent, t1 - here->t, 0};
+    while (here->t < t1) {
+        const int status = step_on(&stride, t1, p, here);
+        if (status)
+            return status;
         ++*steps;
-        t = next;
-        for (int k = 0; k < N_Q; k++) {
-            q[k] = guess[k];
-            v[k] = rate[k];
-        }
-        if (halvings > 0 && bent < 0.1 * straight) { /* it grows with h cubed */
-            h *= 2.0;
-            halvings--;
-        }
     }
     return 0;
 }
 
-/* n samples at the given times; q and v hold the start in front: n + 1 rows. */
-int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double extent, double *q, double *v,
-    double *phi_max, double *phi_dot_max, long *steps, long *done)
+/* n samples at the given times; q, v and a have n + 1 rows, the first of q and v holds the start at t[0]. */
+int gudgeon_kinematic(long n, const double *t, const double *parameters, double reach, double extent, double *q,
+    double *v, double *a, double *phi_max, double *phi_dot_max, long *steps, long *done)
 {
-    double phi[9];
-    for (long i = 0; i < n; i++) {
-        double *now = q + (i + 1) * N_Q, *rate = v + (i + 1) * N_Q;
-        for (int k = 0; k < N_Q; k++) {
-            now[k] = q[i * N_Q + k];
-            rate[k] = v[i * N_Q + k];
+    const Parameters *p = (const Parameters *)parameters;
+    Place here;
+    *done = 0;
+    int status = begin(t[0], q, v, p, &here);
+    for (long i = 0; i <= n; i++) {
+        if (!status && i > 0) {
+            status = follow(t[i], p, reach, extent, &here, steps);
+            if (!status)
+                status = settle(p, &here);
         }
-        *done = i;
-        const int status = follow(t[i], t[i + 1], (const Parameters *)p, reach, extent, now, rate, steps);
         if (status)
             return status;
-        Aside aside;
-        double a[N_Q];
-        const int singular = dynamics(t[i + 1], now, rate, &(Memory){0}, (const Parameters *)p, a, &aside);
-        if (singular)
-            return singular;
-        constraints(t[i + 1], now, (const Parameters *)p, phi);
-        *phi_max = max_of(largest(phi, N_ALL_ROWS), *phi_max);
-        *phi_dot_max = max_of(largest(aside.phi_dot, N_ROWS), *phi_dot_max);
+        for (int k = 0; k < N_Q; k++) {
+            if (i > 0) {
+                q[i * N_Q + k] = here.q[k];
+                v[i * N_Q + k] = here.v[k];
+            }
+            a[i * N_Q + k] = here.a[k];
+        }
+        *phi_max = max_of(here.phi, *phi_max);
+        *phi_dot_max = max_of(here.phi_dot, *phi_dot_max);
+        *done = i;
     }
-    *done = n;
     return 0;
+}
+
+/* Powers at a place; a status as that of settle. */
+static int powers(const Parameters *p, const Place *here, double *power)
+{
+    Aside aside;
+    double a[N_Q];
+    const int status = solve_motion(p, here, a, &aside);
+    for (int k = 0; k < N_WORK; k++)
+        power[k] = aside.power[k];
+    return status;
+}
+
+/* Works between two places that are one step apart: quadrature of Gauss and Legendre with three nodes. */
+static int work_between(const Parameters *p, double extent, const Place *a, double t1, double *work)
+{
+    static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
+    static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+    const double half = 0.5 * (t1 - a->t);
+    for (int i = 0; i < 3; i++) {
+        Place at;
+        double power[N_WORK], moved;
+        int status = place_at(a->t + half * (1.0 + node[i]), p, extent, a, &at, &moved);
+        if (!status)
+            status = powers(p, &at, power);
+        if (status)
+            return status;
+        for (int k = 0; k < N_WORK; k++)
+            work[k] += half * weight[i] * power[k];
+    }
+    return 0;
+}
+
+/* Works from the first of n + 1 samples on, (n + 1) x N_WORK, of which the first row is given. */
+int gudgeon_kinematic_works(long n, const double *t, const double *parameters, double reach, double extent,
+    const double *q, const double *v, double *work, long *done)
+{
+    const Parameters *p = (const Parameters *)parameters;
+    Place here;
+    *done = 0;
+    int status = begin(t[0], q, v, p, &here);
+    for (long i = 0; i < n && !status; i++) {
+        Stride stride = {reach, extent, t[i + 1] - t[i], 0};
+        double *sum = work + (i + 1) * N_WORK;
+        for (int k = 0; k < N_WORK; k++)
+            sum[k] = work[i * N_WORK + k];
+        while (here.t < t[i + 1] && !status) {
+            const Place before = here;
+            status = step_on(&stride, t[i + 1], p, &here);
+            if (!status)
+                status = work_between(p, extent, &before, here.t, sum);
+        }
+        *done = i + !status;
+    }
+    return status;
 }

@@ -15,6 +15,7 @@ from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
+from gudgeon.generator.reduced_kernels import is_rescued
 from gudgeon.generator.system import absolute
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
@@ -118,7 +119,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     return describe(
         model, files=files, main="scene.c", cdef=cdef,
         methods=("rk4", "dop853", "rodas5p") if integrates else ("kinematic",),
-        pivots=kkt.pivots, start_pivots=start_pivots, motion_pivots=integrated.kkt.pivots,
+        pivots=kkt.pivots, start_pivots=start_pivots, motion_pivots=kkt.pivots if reduced and is_rescued(reduced.system) else integrated.kkt.pivots,
         operations=_operations(model, kernels),
         tree=reduced.system.unknowns if reduced else (),
         closures=tuple(row.name for row in reduced.system.rows) if reduced else (), formulation=formulation,

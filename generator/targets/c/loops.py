@@ -61,14 +61,14 @@ def kinematic_code(
     model: Model, kkt: KKT, integrated: Integrated, counts: Mapping[str, int], render: Render
 ) -> KinematicCode:
     """Positions by Newton: in tree coordinates, unless the closures' pattern leaves one of them open."""
-    rows = SquareRows(integrated.system)
+    rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
     tree = integrated.reduced and rows.fits
     if tree:
         kernels = tuple(kinematic_kernels(integrated.system, rows))
         blocks = render("block.c.jinja", most=rows.largest) if rows.largest > 2 else ""
         text = blocks + "\n".join(printer.kernel(kernel) for kernel in kernels)
         closing = render("kinematic_tree.c.jinja", kernels=text, angles=integrated.angles or (1,))
-        pivots = (*(row.name for row in integrated.system.rows), *kkt.pivots, *integrated.kkt.pivots)
+        pivots = (*(row.name for row in integrated.system.rows), *kkt.pivots)
     else:
         projection, of_projection = projection_kernel(kkt.system, model.rows, "project")
         kernels, pivots = (projection,), (*of_projection.pivots, *kkt.pivots)

@@ -1,0 +1,176 @@
+"""The press over a box of parameters: no point may fail.
+
+    python -m benchmarks.box                      # all corners and 1000 Sobol points, dry and lubricated: an hour
+    python -m benchmarks.box --sobol 64           # a sample
+    python -m benchmarks.box --point 17           # this one again, with all its numbers
+
+Clearance, stiffness, viscosity, speed, restitution, and both conventions of the contact's geometry; two
+periods of the cranks a point, method auto at its usual tolerance. What counts as failed is in
+`gudgeon.measure.cells`; a run that needs more than a minute a period fails too. Every point's verdict is
+appended to a table (--out); points that are in it are not run again, so that a broken run goes on. A verdict
+belongs to the code that gave it: those of other generators or templates are left alone and not counted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import gudgeon
+from gudgeon.loading import generator_hash
+from gudgeon.measure.box import Range, corners, judge_point, sobol
+from gudgeon.measure.cells import Cell, Status
+from gudgeon.measure.work import Setting
+from gudgeon.simulation import Simulation
+
+MECHANISM, PERIODS, PATIENCE = "nine_bar_press", 2, 60.0  # s a period
+CONTACT = {"dry": "dry", "lubricated": "oil"}  # what the joints of a scene have
+GEOMETRY = ("external", "internal")
+HEAD = ("code", "scene", "geometry", "index", "status", "reason", "seconds", "energy", "penetration_m", "motion",
+        "path", "force", "parameters")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Point:
+    """One cell to be judged; `index` is its place in the scene's list."""
+
+    scene: str
+    index: int
+    geometry: str
+    parameters: Mapping[str, float]
+
+    @property
+    def t_end(self) -> float:
+        """Two turns of the cranks, s."""
+        return PERIODS * 2 * math.pi / self.parameters["omega"]
+
+    @property
+    def python(self) -> str:
+        """Python that runs it again."""
+        contact = f'{{"contacts.dry.normal.geometry": "{self.geometry}"}}'
+        return (f'gudgeon.load("{MECHANISM}", scene="{self.scene}", overrides={contact}).simulate('
+                f"{self.t_end!r}, parameters={dict(self.parameters)!r})")  # fmt: skip
+
+
+def ranges(scene: str) -> list[Range]:
+    """The box, and the convention as a number: 1 external, 2 internal."""
+    edges = [
+        Range("c", 0.05e-3, 1e-3), Range("materials.aluminium.E", 1e9, 400e9),
+        Range("omega", 0.2 * math.pi, 20 * math.pi), Range(f"contacts.{CONTACT[scene]}.normal.restitution", 0.1, 0.99),
+        Range("geometry", 1.0, 2.0),
+    ]  # fmt: skip
+    return [*edges, *([Range("contacts.oil.film.viscosity", 1e-3, 1.0)] if scene == "lubricated" else [])]
+
+
+def points(scene: str, count: int) -> list[Point]:
+    """Corners, then Sobol points."""
+    edges = ranges(scene)
+    found = []
+    for index, point in enumerate([*corners(edges), *sobol(edges, count)]):
+        geometry = GEOMETRY[point.pop("geometry") > math.sqrt(2.0)]
+        found.append(Point(scene, index, geometry, point))
+    return found
+
+
+def loaded(scenes: list[str]) -> dict[tuple[str, str], Simulation]:
+    """Every scene with each convention."""
+    return {
+        (scene, geometry): gudgeon.load(
+            MECHANISM, scene=scene, overrides={"contacts.dry.normal.geometry": geometry}
+        )
+        for scene in scenes for geometry in GEOMETRY
+    }  # fmt: skip
+
+
+@cache
+def code() -> str:
+    """What the verdicts belong to: generator and templates. (A trajectory's last digits decide what a step meets.)"""
+    return generator_hash()[:12]
+
+
+def row(point: Point, cell: Cell) -> dict[str, object]:
+    """The table's line."""
+    e = cell.error
+    numbers = (cell.seconds, cell.energy, cell.penetration, e.motion, e.path, e.force)
+    told = " ".join(f"{name}={value!r}" for name, value in point.parameters.items())
+    first = (code(), point.scene, point.geometry, point.index, cell.status.value, cell.reason)
+    return dict(zip(HEAD, (*first, *(f"{x:.3g}" for x in numbers), told), strict=True))
+
+
+def judged(todo: list[Point], threads: int, rtol: float) -> Iterator[tuple[Point, Cell]]:
+    """As they are done; Ctrl-C leaves what is running."""
+    simulations = loaded(sorted({point.scene for point in todo}))
+
+    def one(point: Point) -> Cell:
+        simulation = simulations[point.scene, point.geometry]
+        return judge_point(simulation, point.parameters, point.t_end, Setting("auto", rtol), limit=PATIENCE * PERIODS)
+
+    with ThreadPoolExecutor(threads) as pool:
+        futures = {pool.submit(one, point): point for point in todo}
+        try:
+            for future in as_completed(futures):
+                yield futures[future], future.result()
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def tell(rows: list[dict[str, str]]) -> None:
+    """Counts by scene, times, and every failure."""
+    for scene in CONTACT:
+        own = [r for r in rows if r["scene"] == scene]
+        if not own:
+            continue
+        counts = Counter(r["status"] for r in own)
+        times = sorted(float(r["seconds"]) for r in own)
+        energy = max((float(r["energy"]) for r in own if r["energy"] != "nan"), default=math.nan)
+        print(f"{scene}: {len(own)} points: {', '.join(f'{counts[s.value]} {s.value}' for s in Status)}")
+        print(f"  seconds a point: median {times[len(times) // 2]:.2g}, largest {times[-1]:.2g};"
+              f" largest energy residual {energy:.1e}")  # fmt: skip
+    for r in rows:
+        if r["status"] in (Status.DIVERGED.value, Status.INACCURATE.value):
+            print(f"FAILED {r['scene']} {r['geometry']} {r['index']}: {r['reason']}\n  {r['parameters']}")
+
+
+def main() -> None:
+    """Judge what the table does not have, then print it."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scene", choices=list(CONTACT), action="append")
+    parser.add_argument("--sobol", type=int, default=1000)
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--rtol", type=float, default=1e-8)
+    parser.add_argument("--point", type=int, help="one index, with the Python that runs it again; not stored")
+    parser.add_argument("--out", type=Path, default=Path("out/box.csv"))
+    asked = parser.parse_args()
+    todo = [p for scene in asked.scene or CONTACT for p in points(scene, asked.sobol)]
+    if asked.point is not None:
+        for point, cell in judged([p for p in todo if p.index == asked.point], 1, asked.rtol):
+            print(point.python, *(f"  {k} {v}" for k, v in row(point, cell).items()), sep="\n")
+        return
+    asked.out.parent.mkdir(parents=True, exist_ok=True)
+    old = list(csv.DictReader(asked.out.open(encoding="utf-8"))) if asked.out.exists() else []
+    rows = [r for r in old if r["code"] == code()]
+    have = {(r["scene"], int(r["index"])) for r in rows}
+    todo = [point for point in todo if (point.scene, point.index) not in have]
+    with asked.out.open("a", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, HEAD, lineterminator="\n")
+        if not old:
+            writer.writeheader()
+        for done, (point, cell) in enumerate(judged(todo, asked.threads, asked.rtol) if todo else (), 1):
+            found = {key: str(value) for key, value in row(point, cell).items()}
+            rows.append(found)
+            writer.writerow(found)
+            file.flush()
+            if cell.failed or done % 100 == 0:
+                print(f"{done}/{len(todo)} {point.scene} {point.index}: {cell.status.value} {cell.reason}", flush=True)
+    tell(rows)
+
+
+if __name__ == "__main__":
+    main()
