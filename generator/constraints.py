@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from gudgeon.expression_tree import functions
 from gudgeon.generator.geometry import BodySymbols, Geometry, PointFrame
 from gudgeon.generator.joint_fields import JointFields
 from gudgeon.generator.joints.joint_type import joint_types
@@ -125,6 +126,14 @@ class Constraints:
         gamma = -sum((diff(phi_q_v, q) * v for q, v in pairs), sp.Integer(0)) - 2 * diff(phi_q_v, t) - diff(phi_t, t)
         gamma = min(sp.expand(gamma), gamma, key=sp.count_ops)
         return Row(name, owner, kind, unit, phi, phi_q, phi_q_v, -phi_t, gamma)
+
+
+JUMPS = frozenset({"ramp", "abs", "min", "max", "sign"})  # whose slopes jump; smooth_step's does not
+
+
+def rate_jumps(drive: Drive) -> bool:
+    """Whether what a drive prescribes has corners: the linkage then follows by an impulse."""
+    return not JUMPS.isdisjoint(functions(drive.value.value))
 
 
 def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:

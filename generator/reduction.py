@@ -22,7 +22,7 @@ from gudgeon.generator.inertia import Inertia
 from gudgeon.generator.mechanism import PointRef
 from gudgeon.generator.model import Model
 from gudgeon.generator.system import Given, Motion, System
-from gudgeon.generator.tree import CONSTANT, Affine, Tree, choose_tree, substitute
+from gudgeon.generator.tree import CONSTANT, Affine, Tree, choose_tree, stays_a_row, substitute
 from gudgeon.generator.tree_frames import ZERO, Coordinate, Motions
 from gudgeon.generator.tree_geometry import TreeGeometry, TreePoint
 
@@ -80,7 +80,7 @@ def reduce(model: Model) -> TreeSystem:
     while True:
         geometry, constraints = _place(model, tree, slides)
         rows = _closures(model, tree, constraints)
-        found = _known_slide(geometry, constraints, rows)
+        found = _known_slide(model, geometry, constraints, rows)
         if found is None:
             return _system(model, tree, slides, geometry, constraints, rows)
         row, name, value = found
@@ -121,7 +121,7 @@ def _closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[R
 
 
 def _known_slide(
-    geometry: TreeGeometry, constraints: TreeConstraints, rows: Sequence[Row]
+    model: Model, geometry: TreeGeometry, constraints: TreeConstraints, rows: Sequence[Row]
 ) -> tuple[str, str, Affine] | None:
     """A row that is linear in slides with constant coefficients, one of its slides, and what that one is."""
     names = {c.q: name for name, c in geometry.motions.coordinates.items()}
@@ -129,6 +129,8 @@ def _known_slide(
     drives |= {value: name for name, (value, *_) in constraints.drive_angles.items()}
     constant = geometry.slots.is_constant
     for row in rows:
+        if stays_a_row(model, row):
+            continue
         if not row.phi_q or not all(names[q] in geometry.slides and constant(c) for q, c in row.phi_q.items()):
             continue
         total: dict[str, sp.Expr] = {names[q]: c for q, c in row.phi_q.items()}

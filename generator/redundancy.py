@@ -18,7 +18,7 @@ from gudgeon.generator.constraints import Row
 from gudgeon.generator.model import Model, Redundancy
 from gudgeon.kernel_source import KernelSource
 from gudgeon.rank import RANK, rank, tied
-from gudgeon.start import assemble
+from gudgeon.start import search
 
 SAMPLES = 3
 REACH = 0.05  # rad or share of the size, how far from the start the other configurations are sought
@@ -29,7 +29,7 @@ MODULES = [{"Heaviside": lambda x, at_zero=1.0: 1.0 if x >= 0.0 else 0.0}, "math
 
 
 class NumericModel:
-    """The closed linkage in NumPy, in the words of CompiledModel: just what `assemble` asks for."""
+    """The closed linkage in NumPy, in the words of CompiledModel: just what `search` asks for."""
 
     def __init__(self, model: Model, source: KernelSource) -> None:
         self.source, self.n = source, len(model.q)
@@ -101,7 +101,7 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     names = {row.name for row in model.rows}
     kept = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
-        q = assemble(numeric, numeric.p).q  # type: ignore[arg-type]
+        q = search(numeric, numeric.p).q  # type: ignore[arg-type]
         matrices = [numeric.closed_phi_q(0.0, x, numeric.p)[kept] for x in _configurations(numeric, q, kept)]
         ranks = [rank(matrix) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run will say why

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from gudgeon.generator.constraints import Row
+from gudgeon.generator.constraints import Row, rate_jumps
 from gudgeon.generator.factorization import choose_elimination
 from gudgeon.generator.hubs import Hub, find_hubs
 from gudgeon.generator.joints.joint_type import joint_types
@@ -82,6 +82,11 @@ class Tree:
         return {row: 1}
 
 
+def stays_a_row(model: Model, row: Row) -> bool:
+    """A drive whose rate jumps while others are free to move: the jump is an impulse on its row."""
+    return row.kind == "drive" and model.degrees_of_freedom > 0 and rate_jumps(model.scene.mechanism.drives[row.name])
+
+
 def solve_angles(model: Model) -> tuple[dict[str, Affine], frozenset[str]]:
     """The angles by free ones and drives, with the rows that this uses up."""
     angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
@@ -115,6 +120,8 @@ def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | No
     if not all(q in body_of and model.slots.is_constant(c) for q, c in row.phi_q.items()):
         return None
     drives = {value: name for name, (value, *_) in model.constraints.drive_angles.items()}
+    if stays_a_row(model, row):
+        return None
     rest = sp.expand(row.phi - sum(c * q for q, c in row.phi_q.items()))
     total: dict[str, sp.Expr] = {}
     for value in sorted(rest.free_symbols & set(drives), key=lambda s: s.name):

@@ -110,6 +110,17 @@ class CompiledModel:
         self.lib.gudgeon_start_values(self.pointer(p), *(self.pointer(array) for array in out))
         return out[0][: len(s.start_guess)], out[1][: len(s.start_set)], out[2][: len(s.start_rates)]
 
+    def close(self, t: float, p: Array, size: float) -> tuple[Array, Array, float] | None:
+        """The start's q and q̇ (n,), with max |Φ|, by plain Newton in C; None where that is not enough.
+
+        `size` of the mechanism, m, weighs lengths against angles: see start.py, which does what this leaves.
+        """
+        q, v, residual = np.empty(self.n), np.empty(self.n), np.empty(1)
+        status = self.lib.gudgeon_start(
+            t, self.pointer(p), size, self.pointer(q), self.pointer(v), self.pointer(residual)
+        )
+        return None if status else (q, v, float(residual[0]))
+
     def rhs(self, t: float, y: ArrayLike, p: Array, memory: ArrayLike | None = None) -> Array:
         """(q̇, q̈, powers as in Evaluation), (2n + 3,), at y = (q, q̇), (2n,) or longer.
 

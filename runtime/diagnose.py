@@ -12,6 +12,7 @@ from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.integrators.trajectory import Problem, Trajectory
 
 ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
+THIN = 0.9999  # e/c at which a film's law is capped (generator/contact.py)
 DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
 
 
@@ -63,6 +64,11 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
     for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - c
+        if joint.film and not joint.dry and float(e_max) > THIN * c:
+            notes.append(
+                f"{joint.name}: the film is squeezed out, e/c = {float(e_max) / c:.7g}: its law, singular at e = c, is"
+                " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
+            )
         if deepest > min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius):
             notes.append(
                 f"{joint.name}: the journal goes {deepest:.3g} m into its bearing (c {c:.3g} m, radius {radius:.3g} m):"

@@ -110,6 +110,7 @@ class SolverError(GudgeonError):
     def __init__(self, message: str, time: float, pivot: str = "") -> None:
         self.time, self.pivot = time, pivot
         self.partial: Any = None
+        self.outside_model = False  # the physics broke the model, not the method: a film that is squeezed out
         super().__init__(message)
 
 

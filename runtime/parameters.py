@@ -13,7 +13,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.kernel_source import KernelSource, Slot
 
-_RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
+RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
 def given_slots(source: KernelSource, parameters: Mapping[str, float | str]) -> tuple[Array, Array]:
@@ -66,7 +66,7 @@ def check(source: KernelSource, p: Array) -> None:
             raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
     for condition in source.conditions:
         bound = value[condition.bound] if isinstance(condition.bound, str) else condition.bound
-        if not _RELATIONS[condition.relation](value[condition.address], bound):
+        if not RELATIONS[condition.relation](value[condition.address], bound):
             raise BadValueError(
                 f"{condition.address} is {value[condition.address]:.6g}: {condition.message}"
                 + (f" ({condition.bound} is {bound:.6g})" if isinstance(condition.bound, str) else "")

@@ -22,8 +22,10 @@ from gudgeon.start import Start, assemble
 from gudgeon.step import scene_end, scene_step
 
 if TYPE_CHECKING:
+    from gudgeon.batch import Batch
     from gudgeon.generator.model import Model
     from gudgeon.loading import Loading
+    from gudgeon.parameter_sets import ParameterSets
     from gudgeon.results import Result, State
 
 METHODS = {
@@ -172,6 +174,24 @@ class Simulation:
 
             result = with_horizon(self, result, progress)
         return result
+
+    def simulate_many(
+        self, parameters: ParameterSets, t_end: float | str | None = None, *, output: int | ArrayLike | None = None,
+        method: str = "auto", rtol: float | None = None, step: float | str | None = None, threads: int | None = None,
+        progress: Progress | None = None, stop: bool = True,
+    ) -> Batch:  # fmt: skip
+        """Run the scene from t = 0 with each of many parameter sets, in threads; arguments as in `simulate`.
+
+        `parameters`: a mapping for every run, or columns {address: one value, or (n,) values}, as which a
+        structured array counts. `threads`: None for the cores there are; every number is the same with any.
+        Each run is bit for bit what `simulate` makes of its parameters. A run that fails, or whose parameters
+        break a condition of the file, is listed in `failures` and stops no other. Ctrl-C ends all where they are.
+
+        Raises InputError for arguments.
+        """
+        from gudgeon.many import simulate_many
+
+        return simulate_many(self, parameters, t_end, output, method, rtol, step, threads, progress, stop)
 
     def _begin(self, p: Array, start: State | None) -> tuple[Array, Array, Array]:
         count = self.compiled.n_memory

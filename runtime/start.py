@@ -1,7 +1,8 @@
 """The exact start on the branch nearest the guess: positions by Newton, then velocities.
 
 A scene with play starts from its closed linkage (e = 0, ideal velocities). Angles weigh most: a step
-moves guessed angles least, then the other angles, and positions follow.
+moves guessed angles least, then the other angles, and positions follow. The ordinary case is one call of C
+(templates/c/start.c.jinja); what it cannot close, or not near the guess, is looked for here.
 """
 
 from __future__ import annotations
@@ -38,6 +39,13 @@ class Start:
 
 def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
     """The start of a scene. Raises AssemblyError with rows, joints and residual."""
+    if compiled.n < LARGE and (closed := compiled.close(t, p, mechanism_size(compiled, p))) is not None:
+        return Start(*closed)
+    return search(compiled, p, t)
+
+
+def search(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
+    """The start by all means there are. Raises AssemblyError with rows, joints and residual."""
     problem = _Assembly(compiled, p, t)
     with np.errstate(all="ignore"):  # Newton may come where a direction is not defined; it looks for that itself
         q = problem.positions()
@@ -211,11 +219,18 @@ class _Assembly:
 
 def mechanism_size(compiled: CompiledModel, p: Array) -> float:
     """The largest coordinate of a point in its body, of a ground point, or length of a joint, m."""
+    return float(mechanism_sizes(compiled, p))
+
+
+def mechanism_sizes(compiled: CompiledModel, p: Array) -> Array:
+    """The same for parameters of any number of runs: (...,) from (..., n_slots + n_derived)."""
     source = compiled.source
     index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
     lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
     index += [k for k, is_length in enumerate(lengths) if is_length]
-    return max(float(np.abs(p[index]).max(initial=0.0)), 1e-9) if index else 1.0
+    if not index:
+        return np.ones(p.shape[:-1])
+    return np.maximum(np.abs(p[..., index]).max(axis=-1, initial=0.0), 1e-9)
 
 
 def smallest(matrix: Array, target: Array) -> Array:

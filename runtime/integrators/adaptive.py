@@ -22,7 +22,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import SolverError
 from gudgeon.integrators.session import ENDED, EVENTS_FULL, RunEnded, Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.start import mechanism_size
+from gudgeon.start import mechanism_sizes
 
 ORDERS = {"dop853": (8, 7), "rodas5p": (5, 4)}  # of the method, of its dense output
 CHOICES = {"dop853": 0, "rodas5p": 1, "adaptive": 2}
@@ -30,6 +30,7 @@ BEGIN_STIFF = 3  # adaptive in a scene with a film: stiff from rest on (physics.
 RTOL = 1e-8  # of a plain run
 SMALLEST = 1e-14  # rounding would be controlled below it
 CHUNK = 4_000  # steps between two looks of Python: some 20 ms
+ADVICE = "the motion may leave what the model holds for; look at the last samples"
 
 
 def run(problem: Problem) -> Trajectory:
@@ -37,9 +38,7 @@ def run(problem: Problem) -> Trajectory:
     session = Session(problem, problem.p_free)
     scale, floor = tolerances(problem.compiled, problem.p, problem.rtol, float(problem.t[-1] - problem.t[0]))
     fixed = 0.0 if math.isinf(problem.step) else problem.step
-    choice = CHOICES[problem.method]
-    if problem.method == "adaptive" and any(joint.film for joint in problem.compiled.source.clearances):
-        choice = BEGIN_STIFF
+    choice = choice_of(problem.compiled, problem.method)
     session.lib.gudgeon_adaptive_setup(session.run, choice, session.pointer(scale), session.pointer(floor), 0.0, fixed)
     interrupted, stopped = False, None
     try:
@@ -70,21 +69,31 @@ def _chunk(session: Session) -> None:
     elif status == ENDED:
         session.end()
     elif status:
-        session.fail(status, t, "the motion may leave what the model holds for; look at the last samples")
+        session.fail(status, t, ADVICE)
     if problem.progress:
         problem.progress((t - problem.t[0]) / max(problem.t[-1] - problem.t[0], 1e-300), "integrating")
 
 
+def choice_of(compiled: CompiledModel, method: str) -> int:
+    """What gudgeon_adaptive_setup calls a method in this scene."""
+    film = any(joint.film for joint in compiled.source.clearances)
+    return BEGIN_STIFF if method == "adaptive" and film else CHOICES[method]
+
+
 def tolerances(compiled: CompiledModel, p: Array, rtol: float, duration: float) -> tuple[Array, Array]:
-    """Tolerances of a step, (2 n_x,): of coordinates, of velocities a unit of speed; what a speed counts at least."""
-    size = mechanism_size(compiled, p)
-    play = [float(p[joint.clearance]) for joint in compiled.source.clearances]
-    length = min([c for c in play if c > 0.0], default=size)
+    """Tolerances of a step, (..., 2 n_x): of coordinates, of velocities a unit of speed; what a speed counts at least.
+
+    `p` (..., n_slots + n_derived) has the parameters of one run, or of several.
+    """
     source = compiled.source
+    size = mechanism_sizes(compiled, p)
+    play = p[..., [joint.clearance for joint in source.clearances]]
+    least = np.where(play > 0.0, play, np.inf).min(axis=-1, initial=np.inf)
+    length = np.where(np.isfinite(least), least, size)
     if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
-        is_angle = np.array(["." not in name for name in source.tree])
+        is_angle = np.array(["." not in name for name in source.tree], dtype=bool)
     else:
         is_angle = np.array([name.endswith(".theta") for name in source.coordinates])
-    of_q = rtol * np.where(is_angle, length / size, length)
-    floor = np.array([length, length / size]) / max(duration, 1e-300)
-    return np.concatenate([of_q, np.full(len(of_q), rtol)]), floor
+    of_q = rtol * np.where(is_angle, (length / size)[..., None], length[..., None])
+    floor = np.stack([length, length / size], axis=-1) / max(duration, 1e-300)
+    return np.concatenate([of_q, np.full_like(of_q, rtol)], axis=-1), floor

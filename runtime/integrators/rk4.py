@@ -16,6 +16,7 @@ from gudgeon.integrators.trajectory import Problem, Trajectory
 NAME, ORDER, SOURCE = "rk4", 4, "W. Kutta, Z. Math. Phys. 46 (1901) 435-453"
 
 CHUNK = 20_000  # steps between two looks of Python: some 50 ms
+ADVICE = "the step {:.3g} s is too long for this scene: take a smaller one"
 
 
 def run(problem: Problem) -> Trajectory:
@@ -65,6 +66,6 @@ def _steps(session: Session, t0: float, t1: float, total: int, first: int, count
     elif status == ENDED:
         session.end()
     elif status:
-        advice = f"the step {session.problem.step:.3g} s is too long for this scene: take a smaller one"
+        advice = ADVICE.format(session.problem.step)
         session.fail(status, t0 + (first + taken[0]) * (t1 - t0) / total, advice)
     return int(taken[0])

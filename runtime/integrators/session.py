@@ -6,12 +6,14 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gudgeon.compiled import N_WORK, Array
-from gudgeon.errors import NonFiniteError, SingularError, SolverError
+from gudgeon.compiled import N_WORK, Array, CompiledModel
+from gudgeon.errors import SolverError
+from gudgeon.integrators.failure import failure
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Problem, Trajectory, no_events
 
-NOT_FINITE, EVENTS_FULL, CHATTERING, TOO_SMALL, LOST, ENDED = -2, -3, -4, -5, -6, -7
+EVENTS_FULL, ENDED = -3, -7
 N_IMPACTS, N_COUNTS = 256, 9
 RESOLUTION = 1e-11  # s, to which an event and a sample are told apart
 REPORT = ("steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "switches", "rejected", "jacobians",
@@ -20,6 +22,36 @@ REPORT = ("steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "swi
 
 class RunEnded(Exception):
     """An event of the user ends the run; its sample is stored."""
+
+
+def fetch_events(compiled: CompiledModel, run: Any, t_first: float) -> NDArray[Any]:
+    """EVENT_DTYPE, the list of user events of a struct, which is emptied; those of the start do not count."""
+    t, event = np.zeros(N_IMPACTS), np.zeros(N_IMPACTS, dtype=np.intc)
+    count = compiled.lib.gudgeon_run_events(run, compiled.pointer(t), compiled.pointer(event, "int *"))
+    fetched = np.zeros(count, dtype=EVENT_DTYPE)
+    fetched["event"], fetched["t"] = event[:count], t[:count]
+    return fetched[fetched["t"] > t_first + RESOLUTION]
+
+
+def fetch_impacts(compiled: CompiledModel, run: Any, last: bool) -> NDArray[Any]:
+    """IMPACT_DTYPE, the list of contacts of a struct, which is emptied; with `last` those that still go on too."""
+    from gudgeon.results import IMPACT_DTYPE
+
+    numbers, joints = np.zeros((N_IMPACTS, 5)), np.zeros(N_IMPACTS, dtype=np.intc)
+    lists = (compiled.pointer(numbers), compiled.pointer(joints, "int *"))
+    count = compiled.lib.gudgeon_run_impacts(run, int(last), *lists)
+    fetched = np.zeros(count, dtype=IMPACT_DTYPE)
+    fetched["joint"] = joints[:count]
+    for column, name in enumerate(("t_on", "t_off", "deltadot", "F_peak", "t_peak")):
+        fetched[name] = numbers[:count, column]
+    return fetched
+
+
+def counts_of(counts: NDArray[Any], numbers: Array) -> Counts:
+    """The counts (N_COUNTS,) and numbers (4,) that gudgeon_run_report writes."""
+    phi, phi_dot, least, most = (float(x) if np.isfinite(x) else math.nan for x in numbers)
+    named = dict(zip(REPORT, counts.tolist(), strict=True))
+    return Counts(**named, phi_max=phi, phi_dot_max=phi_dot, ratio_min=least, ratio_max=most)
 
 
 class Session:
@@ -73,30 +105,20 @@ class Session:
 
     def fetch_events(self) -> None:
         """Take over the list of user events from C."""
-        t, event = np.zeros(N_IMPACTS), np.zeros(N_IMPACTS, dtype=np.intc)
-        count = self.lib.gudgeon_run_events(self.run, self.pointer(t), self.pointer(event, "int *"))
-        fetched = np.zeros(count, dtype=EVENT_DTYPE)
-        fetched["event"], fetched["t"] = event[:count], t[:count]
-        self.events.append(fetched[fetched["t"] > self.problem.t[0] + RESOLUTION])
+        self.events.append(fetch_events(self.compiled, self.run, float(self.problem.t[0])))
 
     def fetch_impacts(self, last: bool) -> None:
         """Take over the list of contacts from C; with `last` those that still go on too."""
-        numbers, joints = np.zeros((N_IMPACTS, 5)), np.zeros(N_IMPACTS, dtype=np.intc)
-        count = self.lib.gudgeon_run_impacts(self.run, int(last), self.pointer(numbers), self.pointer(joints, "int *"))
-        fetched = np.zeros(count, dtype=self.impacts[0].dtype)
-        fetched["joint"] = joints[:count]
-        for column, name in enumerate(("t_on", "t_off", "deltadot", "F_peak", "t_peak")):
-            fetched[name] = numbers[:count, column]
-        self.impacts.append(fetched)
+        self.impacts.append(fetch_impacts(self.compiled, self.run, last))
 
-    def report(self) -> tuple[float, dict[str, int], Array, Array]:
-        """The present time, counts by name, (max |Φ|, max |Φ̇|, least and largest ratio), peaks by joint."""
+    def report(self) -> tuple[float, NDArray[Any], Array, Array]:
+        """The present time, counts, (max |Φ|, max |Φ̇|, least and largest ratio), peaks by joint."""
         t, counts = np.zeros(1), np.zeros(N_COUNTS, dtype=np.int_)
         numbers, peaks = np.zeros(4), np.zeros((max(self.nc, 1), 3))
         self.lib.gudgeon_run_report(
             self.run, self.pointer(t), self.pointer(counts, "long *"), self.pointer(numbers), self.pointer(peaks)
         )
-        return float(t[0]), dict(zip(REPORT, counts.tolist(), strict=True)), numbers, peaks[: self.nc]
+        return float(t[0]), counts, numbers, peaks[: self.nc]
 
     def trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
         """What was stored, and the run's counts."""
@@ -107,46 +129,18 @@ class Session:
         impacts = np.concatenate(self.impacts)
         impacts = impacts[np.argsort(impacts["t_on"], kind="stable")]
         n, y = self.n, self.y[: self.done]
-        phi, phi_dot, least, most = (float(x) if np.isfinite(x) else math.nan for x in numbers)
         return Trajectory(
             self.t[: self.done].copy(), y[:, :n].copy(), y[:, n : 2 * n].copy(), None,
             self.memory[: self.done, : self.compiled.n_memory], self.state[: self.done, : self.nc],
             y[:, 2 * n :].copy(), impacts, peaks,
-            Counts(**counts, phi_max=phi, phi_dot_max=phi_dot, ratio_min=least, ratio_max=most),
-            interrupted, stopped, seconds=self.seconds, events=events[np.argsort(events["t"], kind="stable")],
+            counts_of(counts, numbers), interrupted, stopped, seconds=self.seconds,
+            events=events[np.argsort(events["t"], kind="stable")],
         )  # fmt: skip
 
     def fail(self, status: int, t: float, advice: str) -> None:
         """Raises what a status of C stands for."""
-        if status == NOT_FINITE:
-            raise NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s\n  {advice}", t)
-        if status == CHATTERING:
-            raise SolverError(
-                f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s\n"
-                "  a force that jumps where the motion comes to rest holds it there: use a dry_friction element", t
-            )  # fmt: skip
-        if status == TOO_SMALL:
-            raise SolverError(f"no step is small enough at t = {t:.9g} s{self._tightest()}\n  {advice}", t)
-        if status == LOST:
-            raise SolverError(f"a contact was lost at t = {t:.9g} s: a free journal lies outside its bearing", t)
-        try:
-            self.compiled.check_pivot(status, t, self.compiled.source.motion_pivots)
-        except SingularError as error:
-            y, memory, state = (array[:1].copy() for array in (self.y, self.memory, self.state))
-            out = (self.pointer(y), self.pointer(memory), self.pointer(state, "signed char *"))
-            self.lib.gudgeon_run_sample(self.run, self.pointer(self.p), *out)
-            if np.isfinite(y).all() and np.abs(y).max() < 1e12:
-                raise
-            raise NonFiniteError(
-                f"the motion diverged before t = {t:.9g} s (constraint row {error.pivot})\n  {advice}", t, error.pivot
-            ) from None
-
-    def _tightest(self) -> str:
-        """How far the journals are from their bearings: what usually leaves a method no step."""
+        y, memory, state = self.y[:1].copy(), self.memory[:1].copy(), self.state[:1].copy()
+        out = (self.pointer(y), self.pointer(memory), self.pointer(state, "signed char *"))
+        self.lib.gudgeon_run_sample(self.run, self.pointer(self.p), *out)
         _, _, _, peaks = self.report()
-        joints = self.compiled.source.clearances
-        if not joints:
-            return ""
-        ratio = [float(e) / float(self.p[joint.clearance]) for joint, (_, _, e) in zip(joints, peaks, strict=True)]
-        worst = int(np.argmax(ratio))
-        return f" (joint {joints[worst].name} came to e/c = {ratio[worst]:.7g})"
+        raise failure(self.compiled, status, t, advice, y, peaks[:, 2], self.p)

@@ -35,7 +35,7 @@ def scene_of(name: str, scene: str | None = None) -> Simulation:
 
 
 def observed_order(
-    name: str, method: str, t_end: float, steps: tuple[int, int, int], inside: bool, rates: bool
+    name: str, method: str, t_end: float, steps: tuple[int, int, int], inside: bool
 ) -> float:
     """Slope of the error over fixed steps, at the end or at 200 times between, over errors 1e-3 … 1e-12."""
     simulation = scene_of(name)
@@ -47,7 +47,7 @@ def observed_order(
     for count in np.unique(np.round(np.geomspace(*steps)).astype(int)):
         run = simulation.simulate(output=times, method=method, step=t_end / count, parameters=numbers)
         h.append(t_end / count)
-        errors.append(max(abs(run.q - exact.q).max(), abs(run.v - exact.v).max() if rates else 0.0))
+        errors.append(max(abs(run.q - exact.q).max(), abs(run.v - exact.v).max()))
     kept = (np.array(errors) < 1e-3) & (np.array(errors) > 1e-12)
     assert kept.sum() >= 8
     return float(np.polyfit(np.log(np.array(h)[kept]), np.log(np.array(errors)[kept]), 1)[0])
@@ -56,17 +56,17 @@ def observed_order(
 @pytest.mark.parametrize("inside", [False, True])
 def test_rodas5p_has_order_5_and_its_interpolant_4(inside: bool) -> None:
     """An interpolant of order 4 errs by O(h⁵) on the way, which is as good as the ends of the steps."""
-    assert observed_order("swing", "rodas5p", 1.0, (12, 1600, 14), inside, True) == pytest.approx(5.0, abs=0.15)
+    assert observed_order("swing", "rodas5p", 1.0, (12, 1600, 14), inside) == pytest.approx(5.0, abs=0.15)
 
 
 @pytest.mark.parametrize("inside", [False, True])
 def test_dop853_has_order_8_and_its_interpolant_7(inside: bool) -> None:
-    found = observed_order("slider_crank_spring", "dop853", 10.0, (4, 60, 24), inside, False)
+    found = observed_order("car_axis", "dop853", 1.0, (40, 400, 14), inside)
     assert found == pytest.approx(8.0, abs=0.4)
 
 
 def test_rk4_has_order_4() -> None:
-    assert observed_order("swing", "rk4", 1.0, (60, 4000, 12), False, True) == pytest.approx(4.0, abs=0.15)
+    assert observed_order("swing", "rk4", 1.0, (60, 4000, 12), False) == pytest.approx(4.0, abs=0.15)
 
 
 def digits(run: Result) -> float:
@@ -133,7 +133,7 @@ def race(method: str, rtol: float) -> Result:
     return scene_of("nine_bar_press", "dry").simulate(0.05, output=1, method=method, rtol=rtol, parameters=numbers)
 
 
-@pytest.mark.parametrize(("method", "rtol"), [("dop853", 1e-13), ("auto", 1e-13), ("rodas5p", 1e-13)])
+@pytest.mark.parametrize(("method", "rtol"), [("dop853", 1e-13), ("auto", 1e-13), ("rodas5p", 1e-14)])
 def test_every_onset_of_the_dry_press(method: str, rtol: float) -> None:
     """Against hand-written equations in long double by extrapolation of order 12 (benchmarks/peers)."""
     run = race(method, rtol)

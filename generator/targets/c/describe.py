@@ -7,8 +7,8 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from gudgeon.expression_tree import functions, to_json
-from gudgeon.generator.constraints import Row
+from gudgeon.expression_tree import to_json
+from gudgeon.generator.constraints import Row, rate_jumps
 from gudgeon.generator.interface import element_series, kept_joints
 from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.model import Model
@@ -159,11 +159,11 @@ def scene_notes(model: Model) -> tuple[str, ...]:
         notes.append("no film: dry contact only")
     if all(component == 0 for component in model.gravity):
         notes.append("no gravity: no weight terms")
-    jumps = [d.name for d in model.scene.mechanism.drives.values() if "ramp" in functions(d.value.value)]
+    jumps = [drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)]
     if jumps and model.degrees_of_freedom:
         notes.append(
-            f"the rate of {', '.join(jumps)} jumps at the ends of its ramp: a body cannot follow that at once, the"
-            " constraints are pulled in afterwards; smooth_step has no jump"
+            f"the rate of {', '.join(jumps)} may jump: the linkage follows by an impulse, in rk4 with formulation"
+            " \"full\" only afterwards; smooth_step has no jump"
         )
     return tuple(notes)
 

@@ -33,6 +33,7 @@ void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q);
 void gudgeon_nu(double t, const double *q, const double *p, double *nu);
 void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_rows);
 void gudgeon_start_values(const double *p, double *guess, double *set, double *rates);
+int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual);
 int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy);
 double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p);
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
@@ -70,7 +71,22 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
+typedef struct {
+    long samples, numbers, limit;
+    int choice, stop;
+    double fixed, *t, *p, *p_motion, *size, *step, *scale, *floor, *start;
+    unsigned char *started, *phase;
+    double *y, *latched;
+    signed char *state;
+    long *done, *within;
+    int *status;
+    double *t_last, *last, *seconds;
+    long *counts;
+    double *residuals, *peaks;
+} Batch;
+int gudgeon_many(const void *batch, void *memory, long *current, long end);
 """
+_POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # of which each rate is the derivative
 
 
 def emit(model: Model, formulation: str = "reduced") -> KernelSource:
@@ -99,6 +115,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     else:
         loops = kinematic_code(model, kkt, integrated, counts, render)
     prepare = interface.prepare_kernel(model, printer.expression)
+    rescued = reduced is not None and is_rescued(reduced.system)  # the absolute formulation tells what vanished
     kernels = [dynamics, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
     files = {
         "model.h": render("model.h.jinja", **_header(model), **counts),
@@ -109,6 +126,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         **({"singular.c": _singular(model, counts)} if model.rows and not model.frictions else {}),
         "dynamics.c": _kernels(dynamics),
         "system.c": render("system.c.jinja", **counts),
+        "start.c": _start(model),
         **(reduced.files if reduced else {}),
         **loops.files,
     }
@@ -118,8 +136,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     return describe(
         model, files=files, main="scene.c", cdef=cdef,
         methods=("rk4", "dop853", "rodas5p") if integrates else ("kinematic",),
-        pivots=kkt.pivots, start_pivots=loops.pivots,
-        motion_pivots=kkt.pivots if reduced and is_rescued(reduced.system) else integrated.kkt.pivots,
+        pivots=kkt.pivots, start_pivots=loops.pivots, motion_pivots=kkt.pivots if rescued else integrated.kkt.pivots,
         operations=_operations(model, kernels),
         tree=reduced.system.unknowns if reduced else (),
         closures=tuple(row.name for row in reduced.system.rows) if reduced else (), formulation=formulation,
@@ -192,6 +209,16 @@ def _singular(model: Model, counts: Mapping[str, int]) -> str:
     place = {row.name: r for r, row in enumerate(model.all_rows)}
     return render("singular.c.jinja", kept=[place[row.name] for row in model.rows], singular=SINGULAR,
         nearly=NEARLY_SINGULAR, **counts)
+
+
+def _start(model: Model) -> str:
+    place = {model.symbols.info[q].meaning: k for k, q in enumerate(model.q)}
+    start = model.scene.mechanism.start
+    return render(
+        "start.c.jinja", guess=[place[name] for name in start.guess], fixed=[place[name] for name in start.set],
+        rates=[place[f"{name.partition('.')[0]}.{_POSITION[name.partition('.')[2]]}"] for name in start.rates],
+        lengths=[int(row.unit == "m") for row in model.all_rows],
+    )  # fmt: skip
 
 
 def _operations(model: Model, kernels: list[Kernel]) -> dict[str, int]:

@@ -1,0 +1,52 @@
+"""What a status of the C time loops stands for (templates/c/run.c.jinja), in words."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gudgeon.compiled import Array, CompiledModel
+from gudgeon.errors import NonFiniteError, SingularError, SolverError
+
+NOT_FINITE, CHATTERING, TOO_SMALL, LOST = -2, -4, -5, -6
+NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
+
+
+def failure(
+    compiled: CompiledModel, status: int, t: float, advice: str, last: Array, e_max: Array, p: Array
+) -> SolverError:
+    """The error for a status at time t (s): `last` state, largest eccentricities (n_clearances,), parameters."""
+    if status == NOT_FINITE:
+        return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s\n  {advice}", t)
+    if status == CHATTERING:
+        return SolverError(
+            f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s\n"
+            "  a force that jumps where the motion comes to rest holds it there: use a dry_friction element", t
+        )  # fmt: skip
+    if status == TOO_SMALL:
+        closed = _closed_film(compiled, e_max, p, t)
+        return closed or SolverError(f"no step is small enough at t = {t:.9g} s\n  {advice}", t)
+    if status == LOST:
+        return SolverError(f"a contact was lost at t = {t:.9g} s: a free journal lies outside its bearing", t)
+    try:
+        compiled.check_pivot(status, t, compiled.source.motion_pivots)
+    except SingularError as error:
+        if np.isfinite(last).all() and np.abs(last).max() < 1e12:
+            return error
+        where = f"t = {t:.9g} s (constraint row {error.pivot})"
+        return NonFiniteError(f"the motion diverged before {where}\n  {advice}", t, error.pivot)
+    raise AssertionError(f"status {status} stands for no failure")
+
+
+def _closed_film(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError | None:
+    """What usually leaves a method no step: a film that is squeezed out, where its law is singular."""
+    for joint, e in zip(compiled.source.clearances, e_max, strict=True):
+        ratio = float(e) / float(p[joint.clearance])
+        if joint.film and ratio > NEARLY_CLOSED:
+            error = SolverError(
+                f"the film in joint {joint.name} is squeezed out at t = {t:.9g} s: e/c = {ratio:.7g}\n"
+                "  its law is singular at e = c: a thicker oil, or a dry contact beyond it, keeps the surfaces apart",
+                t,
+            )  # fmt: skip
+            error.outside_model = True
+            return error
+    return None

@@ -1,0 +1,97 @@
+"""`Simulation.simulate_many`: many parameter sets of one scene, in threads."""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gudgeon.batch import Batch, as_failures, given_values, peaks_of
+from gudgeon.compiled import Array
+from gudgeon.errors import BadValueError, SolverError
+from gudgeon.integrators import many
+from gudgeon.integrators.trajectory import Counts, Problem, Progress
+from gudgeon.left_out import left_out
+from gudgeon.parameter_sets import Mask, ParameterSets, given_sets, prepare_sets
+from gudgeon.results import Result
+from gudgeon.simulation import MAX_STEPS, _tolerance
+from gudgeon.single_runs import run_singly
+
+if TYPE_CHECKING:
+    from gudgeon.simulation import Simulation
+
+COUNTS = tuple(field.name for field in fields(Counts))
+
+
+def available_threads() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def simulate_many(
+    simulation: Simulation, parameters: ParameterSets, t_end: float | str | None, output: int | ArrayLike | None,
+    method: str, rtol: float | None, step: float | str | None, threads: int | None, progress: Progress | None,
+    stop: bool,
+) -> Batch:  # fmt: skip
+    """See Simulation.simulate_many."""
+    given, is_given = given_sets(simulation.source, parameters)
+    workers = available_threads() if threads is None else threads
+    if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
+        raise BadValueError(f"threads is {threads!r}: expected a number of threads, 1 or more")
+    times = simulation._times(0.0, t_end, output)
+    chosen = simulation._method(method, step is not None)
+    if chosen in many.METHODS and not left_out(simulation.compiled):
+        free = chosen != "rk4"
+        p, motion, bad = prepare_sets(simulation.compiled, given, is_given, free)
+        steps = np.array([simulation._step(step, chosen, row, float(times[-1])) for row in p])
+        if (times[-1] / steps).max() > MAX_STEPS:
+            raise BadValueError(f"step {steps.min():.3g} s means more than {MAX_STEPS:.0e} steps")
+        runs = many.Runs(simulation.compiled, p, motion, times, chosen, steps, _tolerance(rtol), stop)
+        runs.leave_out(bad)
+        before = time.perf_counter()
+        runs.run(workers, progress)
+        batch = _of_runs(simulation, runs, given, is_given, _tolerance(rtol), stop, chosen)
+        return replace(batch, seconds=time.perf_counter() - before, threads=workers)
+    options = {"t_end": t_end, "output": output, "method": method, "rtol": rtol, "step": step, "stop": stop}
+    return run_singly(simulation, given, is_given, times, options, workers, progress)
+
+
+def _of_runs(
+    simulation: Simulation, runs: many.Runs, given: Array, is_given: Mask, rtol: float, stop: bool, method: str
+) -> Batch:
+    """What C has stored, without a copy."""
+    compiled, x, n = simulation.compiled, runs.arrays, simulation.compiled.n
+    y, joints = x["y"], len(compiled.source.clearances)
+
+    def result(i: int) -> Result:
+        error = runs.failures.get(i)
+        if error is not None and not x["done"][i]:
+            raise error
+        problem = Problem(
+            compiled, x["p"][i], runs.times, x["start"][i, :n], x["start"][i, n:], np.full(compiled.n_memory, np.nan),
+            float(x["step"][i]), method=method, rtol=rtol, p_free=None if method == "rk4" else x["p_motion"][i],
+            stop=stop,
+        )  # fmt: skip
+        made = simulation._result(method, problem, runs.trajectory(i), given[i], is_given[i], float(x["seconds"][i]))
+        if isinstance(error, SolverError):
+            error.partial = made
+        if error is not None:
+            raise error
+        return made
+
+    impacts = tuple(runs.impacts_of(i) for i in range(runs.n))
+    counts = [runs.counts(i) for i in range(runs.n)]
+    numbers = {name: np.array([getattr(c, name) for c in counts]) for name in COUNTS} | {"seconds": x["seconds"]}
+    return Batch(
+        source=simulation.source, t=runs.times, q=y[:, :, :n], v=y[:, :, n : 2 * n], work=y[:, :, 2 * n :],
+        state=x["state"][:, :, :joints], samples=x["done"], t_last=x["t_last"],
+        parameters=given_values(simulation.source, x["p"], is_given), impacts=impacts,
+        events=tuple(runs.events_of(i) for i in range(runs.n)),
+        peaks=peaks_of(x["peaks"][:, :joints], impacts), diagnostics=numbers, failures=as_failures(runs.failures),
+        seconds=math.nan, threads=0, interrupted=runs.interrupted, result=result,
+    )  # fmt: skip

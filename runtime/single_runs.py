@@ -1,0 +1,109 @@
+"""A batch from whole runs of Python, for methods that have no loop over runs in C.
+
+The runs go on in threads all the same, but share Python's lock where they are in Python.
+"""
+
+from __future__ import annotations
+
+import time
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.batch import Batch, as_failures, given_values, peaks_of
+from gudgeon.compiled import Array
+from gudgeon.errors import GudgeonError, SolverError
+from gudgeon.integrators.many import GLANCE
+from gudgeon.integrators.trajectory import Counts, Progress, no_events
+from gudgeon.parameter_sets import Mask
+from gudgeon.results import IMPACT_DTYPE, Result
+
+if TYPE_CHECKING:
+    from gudgeon.simulation import Simulation
+
+
+class _Runs:
+    """Results and errors of runs by their number; a run may have both."""
+
+    def __init__(self, simulation: Simulation, given: Array, is_given: Mask, options: dict[str, Any]) -> None:
+        self.simulation, self.given, self.is_given, self.options = simulation, given, is_given, options
+        self.n, self.interrupted = len(given), False
+        self.results: dict[int, Result] = {}
+        self.errors: dict[int, GudgeonError] = {}
+
+    def _one(self, i: int) -> None:
+        slots = self.simulation.source.slots
+        parameters = {slots[k].address: float(self.given[i, k]) for k in np.flatnonzero(self.is_given[i]).tolist()}
+        try:
+            self.results[i] = self.simulation.simulate(parameters=parameters, **self.options)
+        except GudgeonError as error:
+            self.errors[i], partial = error, getattr(error, "partial", None)
+            if isinstance(partial, Result):
+                self.results[i] = partial
+
+    def run(self, threads: int, progress: Progress | None, t_first: float) -> None:
+        """All of them; after Ctrl-C those that have begun."""
+        with ThreadPoolExecutor(threads, thread_name_prefix="gudgeon") as pool:
+            waiting: set[Future[None]] = {pool.submit(self._one, i) for i in range(self.n)}
+            try:
+                while waiting:
+                    ended, waiting = wait(waiting, GLANCE)
+                    for future in ended:
+                        future.result()
+                    if progress:
+                        progress(1.0 - len(waiting) / self.n, "integrating")
+            except KeyboardInterrupt:
+                self.interrupted = True
+                pool.shutdown(cancel_futures=True)
+        for i in range(self.n):
+            if i not in self.results and i not in self.errors:
+                self.errors[i] = SolverError("interrupted before its end", t_first)
+
+    def result(self, i: int) -> Result:
+        """Run i, as it went."""
+        if i in self.errors:
+            raise self.errors[i]
+        return self.results[i]
+
+    def padded(self, name: str, N: int) -> Array:
+        """A result's array of all runs, (n, N, ...), NaN (whole numbers: 0) where a run has no sample."""
+        found = {i: getattr(run, name) for i, run in self.results.items()}
+        shape, kind = next(((x.shape[1:], x.dtype) for x in found.values()), ((0,), np.dtype(float)))
+        out = np.full((self.n, N, *shape), np.nan if kind.kind == "f" else 0, dtype=kind)
+        for i, values in found.items():
+            out[i, : len(values)] = values
+        return out
+
+    def counts(self) -> dict[str, Array]:
+        """Diagnostics that are numbers, (n,) each; NaN for runs that did not begin."""
+        names = (*(field.name for field in fields(Counts)), "seconds")
+        rows = [self.results[i].diagnostics if i in self.results else None for i in range(self.n)]
+        return {name: np.array([np.nan if row is None else getattr(row, name, 0) for row in rows]) for name in names}
+
+
+def run_singly(
+    simulation: Simulation, given: Array, is_given: Mask, times: Array, options: dict[str, Any], threads: int,
+    progress: Progress | None,
+) -> Batch:  # fmt: skip
+    """The batch of simulation.simulate(parameters=..., **options) for each row of given (n, n_slots)."""
+    before = time.perf_counter()
+    runs, source, N = _Runs(simulation, given, is_given, options), simulation.source, len(times)
+    runs.run(threads, progress, float(times[0]))
+    p = np.array([simulation.compiled.prepare(*pair) for pair in zip(given, is_given, strict=True)])
+    found = [runs.results.get(i) for i in range(runs.n)]
+    impacts = tuple(np.zeros(0, IMPACT_DTYPE) if run is None else run.impacts for run in found)
+    peaks = np.full((runs.n, len(source.clearances), 3), np.nan)
+    for i, run in runs.results.items():
+        for k, peak in enumerate(run.diagnostics.peaks):
+            peaks[i, k] = peak.F, peak.t, peak.e_max
+    return Batch(
+        source=source, t=times, **{name: runs.padded(name, N) for name in ("q", "v", "work", "state")},
+        samples=np.array([0 if run is None else len(run.t) for run in found]),
+        t_last=np.array([times[0] if run is None else run.t[-1] for run in found]),
+        parameters=given_values(source, p, is_given), impacts=impacts,
+        events=tuple(no_events() if run is None else run.events for run in found), peaks=peaks_of(peaks, impacts),
+        diagnostics=runs.counts(), failures=as_failures(runs.errors), seconds=time.perf_counter() - before,
+        threads=threads, interrupted=runs.interrupted, result=runs.result,
+    )  # fmt: skip
