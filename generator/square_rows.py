@@ -21,8 +21,8 @@ from gudgeon.generator.kkt import SINGULAR
 from gudgeon.generator.system import System
 
 ZERO = sp.Integer(0)
-# A block is singular when less than this share of its determinant's terms is left of their sum: the sine of an
-# angle, where KKT compares its square.
+# A block is singular when its determinant is less than this share of what it could be, were the arms in it turned:
+# the sine of an angle, where KKT compares its square.
 SHARE = sqrt(SINGULAR)
 
 
@@ -46,10 +46,11 @@ class Solver:
 class SquareRows:
     """Emits the solution of Φ_q x = r for a system's rows in its coordinates, if it `fits`."""
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: System, slides: Sequence[bool]) -> None:
+        """`slides`: which coordinates are lengths, not angles."""
         rows, q = system.rows, system.q
         place = {symbol: k for k, symbol in enumerate(q)}
-        self._symbols = system.model.symbols
+        self._symbols, self._q, self._slides = system.model.symbols, tuple(q), slides
         self.names = [row.name.replace(".", "_").replace("=", "_") for row in rows]
         self.unknowns = [symbol.name for symbol in q]
         self.entries: list[Mapping[int, sp.Expr]] = [{place[s]: c for s, c in row.phi_q.items()} for row in rows]
@@ -80,16 +81,30 @@ class SquareRows:
         if pivot.is_Number:
             return Solver(block, 1 / pivot)
         named = build.local(f"pivot_{self.names[row]}", pivot)
-        build.line(f"if (!(fabs({named}) > 0.0)) return {row + 1};")
+        build.line(f"if (!(fabs({named}) > {SHARE!r} * {self._size(build, row, column, block)})) return {row + 1};")
         return Solver(block, build.local(f"inverse_{self.names[row]}", 1 / named))
 
     def _pair(self, build: KernelBuilder, block: Block) -> Solver:
         name = f"{self.names[block.rows[0]]}__{self.names[block.rows[1]]}"
         (a, b), (c, d) = self._square(block)
-        one, two = build.local(f"along_{name}", a * d), build.local(f"across_{name}", b * c)
-        determinant = build.local(f"determinant_{name}", one - two)
-        build.line(f"if (!(fabs({determinant}) > {SHARE!r} * (fabs({one}) + fabs({two})))) return {block.rows[1] + 1};")
+        determinant = build.local(f"determinant_{name}", a * d - b * c)
+        (A, B), (C, D) = ([self._size(build, r, k, block) for k in block.columns] for r in block.rows)
+        bound = build.local(f"bound_{name}", A * D + B * C)
+        build.line(f"if (!(fabs({determinant}) > {SHARE!r} * {bound})) return {block.rows[1] + 1};")
         return Solver(block, build.local(f"inverse_{name}", 1 / determinant))
+
+    def _size(self, build: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
+        """What an entry could be if arms lay in the worst direction, within a factor of two.
+
+        For an angle |c| + |dc/dθ|, for a slide the sum of |c| over the block's slides: units do not mix.
+        """
+        entries = self.entries[row]
+        if self._slides[column]:
+            size = sp.Add(*(sp.Abs(entries.get(k, ZERO)) for k in block.columns if self._slides[k]))
+        else:
+            entry = entries.get(column, ZERO)
+            size = sp.Abs(entry) + sp.Abs(self._symbols.diff(entry, self._q[column]))
+        return size if size.is_Number else build.local(f"size_{self.names[row]}__{self.unknowns[column]}", size)
 
     def _dense(self, build: KernelBuilder, block: Block) -> Solver:
         n, name = len(block.rows), self._symbols.unique(f"block_{self.names[block.rows[0]]}")

@@ -28,7 +28,7 @@ INTEGRATE = r"""
 static int go(const double *p, const double *y)
 {
     void *run = calloc(1, gudgeon_run_size());
-    double latched[N_CLEARANCES + 1], now[N_Y], a[N_Q], numbers[5 * 256];
+    double latched[N_CLEARANCES + 1], now[N_S], a[N_Q], numbers[5 * 256];
     signed char state[N_CLEARANCES + 1];
     int joints[256], status = 0;
     long taken = 0;
@@ -65,7 +65,7 @@ static int go(const double *p, const double *y)
 MAIN = r"""
 int main(int argc, char **argv)
 {
-    static double p[sizeof(Parameters) / sizeof(double)], y[N_Y];
+    static double p[sizeof(Parameters) / sizeof(double)], y[N_S];
     FILE *file = argc > 1 ? fopen(argv[1], "rb") : NULL;
     if (!file || fread(p, sizeof p, 1, file) != 1 || fread(y, sizeof y, 1, file) != 1)
         return 99;

@@ -20,7 +20,7 @@ from gudgeon.generator.system import absolute
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
-from gudgeon.generator.targets.c.loops import Integrated, integrator_loops, kinematic_code
+from gudgeon.generator.targets.c.loops import Integrated, LoopCode, integrator_loops, kinematic_code
 from gudgeon.generator.targets.c.newton_code import jacobian_code, newton_code, tangent_code
 from gudgeon.generator.targets.c.reduced_code import reduced_code
 from gudgeon.kernel_source import KernelSource
@@ -110,14 +110,13 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     integrated = reduced.integrated if reduced else plain
     counts = _counts(model, integrated)
     if integrates:
-        linearized, loop_kernels = _newton(model, integrated)
-        loops, start_pivots = integrator_loops(model, integrated, linearized, counts, render), ()
+        linearized, kernels_of_loops = _newton(model, integrated)
+        loops = LoopCode(integrator_loops(model, integrated, linearized, counts, render), tuple(kernels_of_loops))
     else:
-        kinematic = kinematic_code(model, kkt, integrated, counts, render)
-        loops, loop_kernels, start_pivots = kinematic.files, kinematic.kernels, kinematic.pivots
+        loops = kinematic_code(model, kkt, integrated, counts, render)
     prepare = interface.prepare_kernel(model, printer.expression)
     rescued = reduced is not None and is_rescued(reduced.system)  # the absolute formulation tells what vanished
-    kernels = [dynamics, *around, *(reduced.kernels if reduced else ()), prepare, *loop_kernels]
+    kernels = [dynamics, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
     files = {
         "model.h": render("model.h.jinja", **_header(model), **counts),
         "trigonometry.c": render("trigonometry.c.jinja"),
@@ -129,7 +128,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         "system.c": render("system.c.jinja", **counts),
         "start.c": _start(model),
         **(reduced.files if reduced else {}),
-        **loops,
+        **loops.files,
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
     cdef = COMMON_CDEF + (reduced.cdef if reduced else "") + (METHOD_CDEF if integrates else KINEMATIC_CDEF)
@@ -137,7 +136,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     return describe(
         model, files=files, main="scene.c", cdef=cdef,
         methods=("rk4", "dop853", "rodas5p") if integrates else ("kinematic",),
-        pivots=kkt.pivots, start_pivots=start_pivots, motion_pivots=kkt.pivots if rescued else integrated.kkt.pivots,
+        pivots=kkt.pivots, start_pivots=loops.pivots, motion_pivots=kkt.pivots if rescued else integrated.kkt.pivots,
         operations=_operations(model, kernels),
         tree=reduced.system.unknowns if reduced else (),
         closures=tuple(row.name for row in reduced.system.rows) if reduced else (), formulation=formulation,

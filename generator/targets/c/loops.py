@@ -49,26 +49,26 @@ class Integrated:
 
 
 @dataclass(frozen=True)
-class KinematicCode:
-    """The loops of a scene without freedom, their kernels, and the rows that a status counts through."""
+class LoopCode:
+    """The time loops of a scene, their kernels; without freedom the rows that a status counts through."""
 
     files: Mapping[str, str]
     kernels: tuple[Kernel, ...]
-    pivots: tuple[str, ...]
+    pivots: tuple[str, ...] = ()
 
 
 def kinematic_code(
     model: Model, kkt: KKT, integrated: Integrated, counts: Mapping[str, int], render: Render
-) -> KinematicCode:
+) -> LoopCode:
     """Positions by Newton: in tree coordinates, unless the closures' pattern leaves one of them open."""
-    rows = SquareRows(integrated.system)
+    rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
     tree = integrated.reduced and rows.fits
     if tree:
-        kernels = tuple(kinematic_kernels(integrated.system, rows))
+        kernels: tuple[Kernel, ...] = tuple(kinematic_kernels(integrated.system, rows))
         blocks = render("block.c.jinja", most=rows.largest) if rows.largest > 2 else ""
         text = blocks + "\n".join(printer.kernel(kernel) for kernel in kernels)
         closing = render("kinematic_tree.c.jinja", kernels=text, angles=integrated.angles or (1,))
-        pivots = (*(row.name for row in integrated.system.rows), *kkt.pivots, *integrated.kkt.pivots)
+        pivots: tuple[str, ...] = (*(row.name for row in integrated.system.rows), *kkt.pivots)
     else:
         projection, of_projection = projection_kernel(kkt.system, model.rows, "project")
         kernels, pivots = (projection,), (*of_projection.pivots, *kkt.pivots)
@@ -76,7 +76,7 @@ def kinematic_code(
     files = {"kinematic.c": render("kinematic.c.jinja", closing=closing, tree=tree)}
     if model.events:
         files["kinematic_events.c"] = render("kinematic_events.c.jinja")
-    return KinematicCode(files, kernels, pivots)
+    return LoopCode(files, kernels, pivots)
 
 
 def integrator_loops(
