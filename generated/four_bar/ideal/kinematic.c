@@ -62,10 +62,15 @@ static int close_step(const double t, const double *q, const Parameters *p, doub
     const double phi_B_y = span_coupler_head_y + span_crank_head_y - span_rocker_head_y;
 
     /* groups of rows that are solved one after the other */
-    const double along_B_x__B_y = span_coupler_head_y*span_rocker_head_x;
-    const double across_B_x__B_y = span_coupler_head_x*span_rocker_head_y;
-    const double determinant_B_x__B_y_3 = -across_B_x__B_y + along_B_x__B_y;
-    if (!(fabs(determinant_B_x__B_y_3) > 3.162277660168379e-07 * (fabs(along_B_x__B_y) + fabs(across_B_x__B_y)))) return 2;
+    const double determinant_B_x__B_y_3 = -span_coupler_head_x*span_rocker_head_y +
+        span_coupler_head_y*span_rocker_head_x;
+    const double size_B_x__coupler_theta = fabs(span_coupler_head_x) + fabs(span_coupler_head_y);
+    const double size_B_x__rocker_theta = fabs(span_rocker_head_x) + fabs(span_rocker_head_y);
+    const double size_B_y__coupler_theta = fabs(span_coupler_head_x) + fabs(span_coupler_head_y);
+    const double size_B_y__rocker_theta = fabs(span_rocker_head_x) + fabs(span_rocker_head_y);
+    const double bound_B_x__B_y = size_B_x__coupler_theta*size_B_y__rocker_theta +
+        size_B_x__rocker_theta*size_B_y__coupler_theta;
+    if (!(fabs(determinant_B_x__B_y_3) > 3.162277660168379e-07 * bound_B_x__B_y)) return 2;
     const double inverse_B_x__B_y_3 = 1.0/determinant_B_x__B_y_3;
 
     /* Newton's step */
@@ -185,10 +190,15 @@ static int arrive(const double t, const double *q, const double *v, const Parame
     *worst = fmax(fabs(phi_dot_B_y), *worst);
 
     /* groups of rows that are solved one after the other */
-    const double along_B_x__B_y_2 = span_coupler_head_y*span_rocker_head_x;
-    const double across_B_x__B_y_2 = span_coupler_head_x*span_rocker_head_y;
-    const double determinant_B_x__B_y_4 = -across_B_x__B_y_2 + along_B_x__B_y_2;
-    if (!(fabs(determinant_B_x__B_y_4) > 3.162277660168379e-07 * (fabs(along_B_x__B_y_2) + fabs(across_B_x__B_y_2)))) return 2;
+    const double determinant_B_x__B_y_4 = -span_coupler_head_x*span_rocker_head_y +
+        span_coupler_head_y*span_rocker_head_x;
+    const double size_B_x__coupler_theta_2 = fabs(span_coupler_head_x) + fabs(span_coupler_head_y);
+    const double size_B_x__rocker_theta_2 = fabs(span_rocker_head_x) + fabs(span_rocker_head_y);
+    const double size_B_y__coupler_theta_2 = fabs(span_coupler_head_x) + fabs(span_coupler_head_y);
+    const double size_B_y__rocker_theta_2 = fabs(span_rocker_head_x) + fabs(span_rocker_head_y);
+    const double bound_B_x__B_y_2 = size_B_x__coupler_theta_2*size_B_y__rocker_theta_2 +
+        size_B_x__rocker_theta_2*size_B_y__coupler_theta_2;
+    if (!(fabs(determinant_B_x__B_y_4) > 3.162277660168379e-07 * bound_B_x__B_y_2)) return 2;
     const double inverse_B_x__B_y_4 = 1.0/determinant_B_x__B_y_4;
 
     /* accelerations */
@@ -220,11 +230,11 @@ static int arrive(const double t, const double *q, const double *v, const Parame
 
 static const unsigned char is_angle[] = {1, 1};
 
-/* Powers, and accelerations of the tree. A status counts on behind the closures and the rows of `dynamics`. */
+/* Powers, and accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
 static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
 {
     const int status = reduced_dynamics(here->t, here->s, here->s_rate, &(Memory){0}, p, a, aside);
-    return status ? N_LOOPS + N_ROWS + status : 0;
+    return status ? N_LOOPS + status : 0;
 }
 
 /*

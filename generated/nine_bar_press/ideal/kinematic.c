@@ -96,20 +96,30 @@ static int close_step(const double t, const double *q, const Parameters *p, doub
     const double phi_P2_y = span_L1_head_y + span_L2_head_y - span_L6_head_y - span_L7_tail_y;
 
     /* groups of rows that are solved one after the other */
-    const double along_L2_head_L3_head_x__L2_head_L3_head_y = span_L2_head_x*span_L3_head_y;
-    const double across_L2_head_L3_head_x__L2_head_L3_head_y = span_L2_head_y*span_L3_head_x;
-    const double determinant_L2_head_L3_head_x__L2_head_L3_head_y_3 =
-        -across_L2_head_L3_head_x__L2_head_L3_head_y + along_L2_head_L3_head_x__L2_head_L3_head_y;
-    if (!(fabs(determinant_L2_head_L3_head_x__L2_head_L3_head_y_3) > 3.162277660168379e-07 * (fabs(along_L2_head_L3_head_x__L2_head_L3_head_y) + fabs(across_L2_head_L3_head_x__L2_head_L3_head_y)))) return 3;
+    const double determinant_L2_head_L3_head_x__L2_head_L3_head_y_3 = span_L2_head_x*span_L3_head_y -
+        span_L2_head_y*span_L3_head_x;
+    const double size_L2_head_L3_head_x__L3_theta = fabs(span_L3_head_x) + fabs(span_L3_head_y);
+    const double size_L2_head_L3_head_x__L2_theta = fabs(span_L2_head_x) + fabs(span_L2_head_y);
+    const double size_L2_head_L3_head_y__L3_theta = fabs(span_L3_head_x) + fabs(span_L3_head_y);
+    const double size_L2_head_L3_head_y__L2_theta = fabs(span_L2_head_x) + fabs(span_L2_head_y);
+    const double bound_L2_head_L3_head_x__L2_head_L3_head_y =
+        size_L2_head_L3_head_x__L2_theta*size_L2_head_L3_head_y__L3_theta +
+        size_L2_head_L3_head_x__L3_theta*size_L2_head_L3_head_y__L2_theta;
+    if (!(fabs(determinant_L2_head_L3_head_x__L2_head_L3_head_y_3) > 3.162277660168379e-07 * bound_L2_head_L3_head_x__L2_head_L3_head_y)) return 3;
     const double inverse_L2_head_L3_head_x__L2_head_L3_head_y_3 =
         1.0/determinant_L2_head_L3_head_x__L2_head_L3_head_y_3;
-    const double along_P2_x__P2_y = -span_L6_head_x*span_L7_tail_y;
-    const double across_P2_x__P2_y = -span_L6_head_y*span_L7_tail_x;
-    const double determinant_P2_x__P2_y_3 = -across_P2_x__P2_y + along_P2_x__P2_y;
-    if (!(fabs(determinant_P2_x__P2_y_3) > 3.162277660168379e-07 * (fabs(along_P2_x__P2_y) + fabs(across_P2_x__P2_y)))) return 5;
+    const double determinant_P2_x__P2_y_3 = -span_L6_head_x*span_L7_tail_y + span_L6_head_y*span_L7_tail_x;
+    const double size_P2_x__L7_theta = fabs(span_L7_tail_x) + fabs(span_L7_tail_y);
+    const double size_P2_x__L6_theta = fabs(span_L6_head_x) + fabs(span_L6_head_y);
+    const double size_P2_y__L7_theta = fabs(span_L7_tail_x) + fabs(span_L7_tail_y);
+    const double size_P2_y__L6_theta = fabs(span_L6_head_x) + fabs(span_L6_head_y);
+    const double bound_P2_x__P2_y = size_P2_x__L6_theta*size_P2_y__L7_theta +
+        size_P2_x__L7_theta*size_P2_y__L6_theta;
+    if (!(fabs(determinant_P2_x__P2_y_3) > 3.162277660168379e-07 * bound_P2_x__P2_y)) return 5;
     const double inverse_P2_x__P2_y_3 = 1.0/determinant_P2_x__P2_y_3;
     const double pivot_guide_offset = span_L8_head_y;
-    if (!(fabs(pivot_guide_offset) > 0.0)) return 1;
+    const double size_guide_offset__L8_theta = fabs(span_L8_head_x) + fabs(span_L8_head_y);
+    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__L8_theta)) return 1;
     const double inverse_guide_offset = 1.0/pivot_guide_offset;
 
     /* Newton's step */
@@ -367,20 +377,30 @@ static int arrive(const double t, const double *q, const double *v, const Parame
     *worst = fmax(fabs(phi_dot_P2_y), *worst);
 
     /* groups of rows that are solved one after the other */
-    const double along_L2_head_L3_head_x__L2_head_L3_head_y_2 = span_L2_head_x*span_L3_head_y;
-    const double across_L2_head_L3_head_x__L2_head_L3_head_y_2 = span_L2_head_y*span_L3_head_x;
-    const double determinant_L2_head_L3_head_x__L2_head_L3_head_y_4 =
-        -across_L2_head_L3_head_x__L2_head_L3_head_y_2 + along_L2_head_L3_head_x__L2_head_L3_head_y_2;
-    if (!(fabs(determinant_L2_head_L3_head_x__L2_head_L3_head_y_4) > 3.162277660168379e-07 * (fabs(along_L2_head_L3_head_x__L2_head_L3_head_y_2) + fabs(across_L2_head_L3_head_x__L2_head_L3_head_y_2)))) return 3;
+    const double determinant_L2_head_L3_head_x__L2_head_L3_head_y_4 = span_L2_head_x*span_L3_head_y -
+        span_L2_head_y*span_L3_head_x;
+    const double size_L2_head_L3_head_x__L3_theta_2 = fabs(span_L3_head_x) + fabs(span_L3_head_y);
+    const double size_L2_head_L3_head_x__L2_theta_2 = fabs(span_L2_head_x) + fabs(span_L2_head_y);
+    const double size_L2_head_L3_head_y__L3_theta_2 = fabs(span_L3_head_x) + fabs(span_L3_head_y);
+    const double size_L2_head_L3_head_y__L2_theta_2 = fabs(span_L2_head_x) + fabs(span_L2_head_y);
+    const double bound_L2_head_L3_head_x__L2_head_L3_head_y_2 =
+        size_L2_head_L3_head_x__L2_theta_2*size_L2_head_L3_head_y__L3_theta_2 +
+        size_L2_head_L3_head_x__L3_theta_2*size_L2_head_L3_head_y__L2_theta_2;
+    if (!(fabs(determinant_L2_head_L3_head_x__L2_head_L3_head_y_4) > 3.162277660168379e-07 * bound_L2_head_L3_head_x__L2_head_L3_head_y_2)) return 3;
     const double inverse_L2_head_L3_head_x__L2_head_L3_head_y_4 =
         1.0/determinant_L2_head_L3_head_x__L2_head_L3_head_y_4;
-    const double along_P2_x__P2_y_2 = -span_L6_head_x*span_L7_tail_y;
-    const double across_P2_x__P2_y_2 = -span_L6_head_y*span_L7_tail_x;
-    const double determinant_P2_x__P2_y_4 = -across_P2_x__P2_y_2 + along_P2_x__P2_y_2;
-    if (!(fabs(determinant_P2_x__P2_y_4) > 3.162277660168379e-07 * (fabs(along_P2_x__P2_y_2) + fabs(across_P2_x__P2_y_2)))) return 5;
+    const double determinant_P2_x__P2_y_4 = -span_L6_head_x*span_L7_tail_y + span_L6_head_y*span_L7_tail_x;
+    const double size_P2_x__L7_theta_2 = fabs(span_L7_tail_x) + fabs(span_L7_tail_y);
+    const double size_P2_x__L6_theta_2 = fabs(span_L6_head_x) + fabs(span_L6_head_y);
+    const double size_P2_y__L7_theta_2 = fabs(span_L7_tail_x) + fabs(span_L7_tail_y);
+    const double size_P2_y__L6_theta_2 = fabs(span_L6_head_x) + fabs(span_L6_head_y);
+    const double bound_P2_x__P2_y_2 = size_P2_x__L6_theta_2*size_P2_y__L7_theta_2 +
+        size_P2_x__L7_theta_2*size_P2_y__L6_theta_2;
+    if (!(fabs(determinant_P2_x__P2_y_4) > 3.162277660168379e-07 * bound_P2_x__P2_y_2)) return 5;
     const double inverse_P2_x__P2_y_4 = 1.0/determinant_P2_x__P2_y_4;
     const double pivot_guide_offset_2 = span_L8_head_y;
-    if (!(fabs(pivot_guide_offset_2) > 0.0)) return 1;
+    const double size_guide_offset__L8_theta_2 = fabs(span_L8_head_x) + fabs(span_L8_head_y);
+    if (!(fabs(pivot_guide_offset_2) > 3.162277660168379e-07 * size_guide_offset__L8_theta_2)) return 1;
     const double inverse_guide_offset_2 = 1.0/pivot_guide_offset_2;
 
     /* accelerations */
@@ -454,11 +474,11 @@ static int arrive(const double t, const double *q, const double *v, const Parame
 
 static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
 
-/* Powers, and accelerations of the tree. A status counts on behind the closures and the rows of `dynamics`. */
+/* Powers, and accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
 static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
 {
     const int status = reduced_dynamics(here->t, here->s, here->s_rate, &(Memory){0}, p, a, aside);
-    return status ? N_LOOPS + N_ROWS + status : 0;
+    return status ? N_LOOPS + status : 0;
 }
 
 /*

@@ -52,7 +52,8 @@ static int close_step(const double t, const double *q, const Parameters *p, doub
 
     /* groups of rows that are solved one after the other */
     const double pivot_cylinder_offset = span_rod_head_x;
-    if (!(fabs(pivot_cylinder_offset) > 0.0)) return 1;
+    const double size_cylinder_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
+    if (!(fabs(pivot_cylinder_offset) > 3.162277660168379e-07 * size_cylinder_offset__rod_theta)) return 1;
     const double inverse_cylinder_offset = 1.0/pivot_cylinder_offset;
 
     /* Newton's step */
@@ -147,7 +148,8 @@ static int arrive(const double t, const double *q, const double *v, const Parame
 
     /* groups of rows that are solved one after the other */
     const double pivot_cylinder_offset_2 = span_rod_head_x;
-    if (!(fabs(pivot_cylinder_offset_2) > 0.0)) return 1;
+    const double size_cylinder_offset__rod_theta_2 = fabs(span_rod_head_x) + fabs(span_rod_head_y);
+    if (!(fabs(pivot_cylinder_offset_2) > 3.162277660168379e-07 * size_cylinder_offset__rod_theta_2)) return 1;
     const double inverse_cylinder_offset_2 = 1.0/pivot_cylinder_offset_2;
 
     /* accelerations */
@@ -172,11 +174,11 @@ static int arrive(const double t, const double *q, const double *v, const Parame
 
 static const unsigned char is_angle[] = {1};
 
-/* Powers, and accelerations of the tree. A status counts on behind the closures and the rows of `dynamics`. */
+/* Powers, and accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
 static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
 {
     const int status = reduced_dynamics(here->t, here->s, here->s_rate, &(Memory){0}, p, a, aside);
-    return status ? N_LOOPS + N_ROWS + status : 0;
+    return status ? N_LOOPS + status : 0;
 }
 
 /*
