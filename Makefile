@@ -44,8 +44,8 @@ bench: setup  ## run time against error; one right-hand side beside the hand-wri
 	@$(GUDGEON) bench nine_bar_press --mark-step 0.1ms $(ARGS)
 	@.venv/bin/python -m benchmarks.rhs
 
-stress: setup  ## step × clearance: stable, inaccurate, diverged
-	@$(GUDGEON) stress nine_bar_press --mark-step 0.1ms $(ARGS)
+stress: setup  ## step of rk4 × clearance: stable, inaccurate, diverged; without --method: tolerance × clearance
+	@$(GUDGEON) stress nine_bar_press --method rk4 --mark-step 0.1ms $(ARGS)
 
 generated: setup  ## derive and write generated/ anew for every shipped mechanism
 	@.venv/bin/python tools/regenerate.py

@@ -1,11 +1,15 @@
-"""`gudgeon check`: read a mechanism file and say whether it is valid; with -v, what each scene becomes."""
+"""`gudgeon check`: read a mechanism file and say whether it is valid; with -v, what each scene becomes.
+
+With -v a table of numbers, then the story of each scene: what the reduced formulation keeps and what it drops, at which
+price before and after, which methods fit, and what was skipped and why. No line is longer than 100 columns.
+"""
 
 from __future__ import annotations
 
 import json
 import re
-import sys
-from collections.abc import Mapping
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import InputError, InputErrors
@@ -13,7 +17,13 @@ from gudgeon.kernel_source import KernelSource
 from gudgeon.loading import find_mechanism, kernel_source, read_bytes
 
 if TYPE_CHECKING:
+    from rich.table import Table
+
     from gudgeon.generator.mechanism import Mechanism
+
+WIDTH = 100  # columns of what is printed
+MARGIN, GAP = 2, 3  # of a table, and between its columns
+CHECKS = ("scipy:*", "sundials:*")  # integrators of others, which fit wherever something is integrated
 
 
 def check_file(name: str, verbose: bool, as_json: bool) -> int:
@@ -33,7 +43,7 @@ def check_file(name: str, verbose: bool, as_json: bool) -> int:
     if as_json:
         print(json.dumps(_document(mechanism, scenes), ensure_ascii=False, indent=1))
         return 0
-    print(f"valid: {_counts(mechanism)}")
+    print(_wrapped("valid", _counts(mechanism)))
     if scenes:
         _print(mechanism, scenes)
     return 0
@@ -83,6 +93,70 @@ def _facts(source: KernelSource) -> dict[str, int]:
     return facts | {_label(name): count for name, count in source.operations.items()}
 
 
+def driven(source: KernelSource) -> tuple[str, ...]:
+    """Drives whose rows the tree solves: what they prescribe is a function of time and no unknown."""
+    if source.formulation == "full":
+        return ()
+    rows = (source.rows[drive.row].name for drive in source.drives if drive.row >= 0)
+    return tuple(row for row in rows if row not in source.closures)
+
+
+def begins_with(source: KernelSource) -> str:
+    """The first method of `auto`: a film is stiff from rest on (integrators/adaptive.py)."""
+    if "dop853" not in source.methods:
+        return source.methods[0]
+    return "rodas5p" if any(joint.film for joint in source.clearances) else "dop853"
+
+
+def _reduction(source: KernelSource) -> dict[str, Any]:
+    """What is integrated, and the operations of its accelerations beside those in absolute coordinates."""
+    operations = {"full": source.operations["dynamics"]}
+    if "reduced_dynamics" in source.operations:
+        operations["reduced"] = source.operations["reduced_dynamics"]
+    return {
+        "formulation": source.formulation, "tree": list(source.tree), "closures": list(source.closures),
+        "driven": list(driven(source)), "operations of the accelerations": operations,
+        "methods": [*source.methods, *(CHECKS if "dop853" in source.methods else ())],
+        "auto begins with": begins_with(source),
+    }  # fmt: skip
+
+
+def _many(count: int, one: str) -> str:
+    return f"{count} {one}{'s' * (count != 1)}"
+
+
+def _kinds(tree: Sequence[str]) -> Iterator[str]:
+    """The coordinates of a tree, kind by kind: "angles of L2, L3"."""
+    angles = [name for name in tree if "." not in name]
+    slides = [name.removesuffix(".slide") for name in tree if name.endswith(".slide")]
+    positions = [name for name in tree if "." in name and not name.endswith(".slide")]
+    for kind, names, of in (("angle", angles, "of "), ("slide", slides, "of "), ("position", positions, "")):
+        if names:
+            yield f"{kind}{'s' * (len(names) != 1)} {of}{', '.join(names)}"
+
+
+def _story(source: KernelSource) -> Iterator[str]:
+    """What became of the equations, a sentence a line."""
+    told = _reduction(source)
+    counts = told["operations of the accelerations"]
+    before = f"{_many(len(source.coordinates), 'coordinate')} and {_many(len(source.rows), 'row')}"
+    if "reduced" in counts and source.formulation == "reduced":
+        saved = f"accelerations {counts['full']:,} → {counts['reduced']:,} operations"
+        yield f"reduced: {before} become {len(source.tree)} and {len(source.closures)}; {saved}"
+        yield f"unknowns: {'; '.join(_kinds(source.tree)) or 'none'}"
+        if told["driven"]:
+            yield f"functions of time: what {', '.join(told['driven'])} prescribe{'s' * (len(told['driven']) == 1)}"
+        held = sum(row.name not in source.closures for row in source.rows) - len(told["driven"])
+        by_tree = f"; {_many(held, 'row')} of joints hold by the choice of unknowns" if held else ""
+        yield f"closures left: {', '.join(source.closures) or 'none'}{by_tree}"
+    else:
+        yield f"full: {before}; accelerations {counts['full']:,} operations"
+    yield f"methods: {', '.join(told['methods'])}; auto begins with {told['auto begins with']}"
+    if source.events:
+        yield f"events {', '.join(_events(source))}"
+    yield from source.notes
+
+
 def _events(source: KernelSource) -> list[str]:
     """What is watched: "top (falling, recorded)"."""
     does = {"record": "recorded", "stop": "ends the run"}
@@ -106,27 +180,54 @@ def _document(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> dict[
 
 
 def _of_scene(source: KernelSource) -> dict[str, Any]:
-    return {**_facts(source), "events": _events(source), "notes": list(source.notes)}
+    return {**_facts(source), **_reduction(source), "events": _events(source), "notes": list(source.notes)}
 
 
 def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
-    from rich.box import SIMPLE_HEAD
     from rich.console import Console
-    from rich.table import Table
 
     facts = {scene: _facts(source) for scene, source in scenes.items()}
-    console = Console(width=None if sys.stdout.isatty() else 200, highlight=False)
-    table = Table(title=mechanism.title or mechanism.name, title_justify="left", title_style="bold", box=SIMPLE_HEAD)
-    table.add_column("", no_wrap=True)
-    for scene in scenes:
-        table.add_column(scene, justify="right", no_wrap=True)
-    for name in dict.fromkeys(name for found in facts.values() for name in found):
-        if name.startswith("operations") and not any(found.get(name) for found in facts.values()):
-            continue  # a kernel of zeros in every scene
-        table.add_row(name, *(f"{found[name]:,}" if name in found else "–" for found in facts.values()))
-    console.print(table)
+    names = [
+        name
+        for name in dict.fromkeys(name for found in facts.values() for name in found)
+        if not name.startswith("operations") or any(found.get(name) for found in facts.values())
+    ]  # without the kernels that are zeros in every scene
+    console = Console(width=WIDTH, highlight=False)
+    title = mechanism.title or mechanism.name
+    for some in _beside(scenes, max(map(len, names))):
+        console.print(_table(title, names, {scene: facts[scene] for scene in some}))
     for scene, source in scenes.items():
-        if source.events:
-            console.print(f"{scene}: events {', '.join(_events(source))}", markup=False)
-        for note in source.notes:
-            console.print(f"{scene}: {note}", markup=False)
+        for line in _story(source):
+            print(_wrapped(scene, line))
+
+
+def _wrapped(name: str, text: str) -> str:
+    """ "name: text" in lines of WIDTH columns, those that follow below the text."""
+    lines = textwrap.wrap(f"{name}: {text}", WIDTH, subsequent_indent=" " * (len(name) + 2), break_on_hyphens=False)
+    return "\n".join(lines)
+
+
+def _beside(scenes: Mapping[str, KernelSource], label: int) -> Iterator[list[str]]:
+    """Scenes by so many as fit beside each other."""
+    some: list[str] = []
+    for scene in scenes:
+        widths = [max(len(name), len("999,999")) + GAP for name in [*some, scene]]
+        if some and MARGIN + label + sum(widths) > WIDTH:
+            yield some
+            some = []
+        some.append(scene)
+    yield some
+
+
+def _table(title: str, names: Sequence[str], facts: Mapping[str, Mapping[str, int]]) -> Table:
+    """A column a scene, a row a fact."""
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left", title_style="bold", box=SIMPLE_HEAD)
+    table.add_column("", no_wrap=True)
+    for scene in facts:
+        table.add_column(scene, justify="right", no_wrap=True)
+    for name in names:
+        table.add_row(name, *(f"{found[name]:,}" if name in found else "–" for found in facts.values()))
+    return table

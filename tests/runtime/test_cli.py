@@ -265,6 +265,39 @@ def test_check_counts_and_verbose_tells_of_each_scene(call: Gudgeon, pump: str) 
     assert "degrees of freedom" in shown and "operations" in shown
 
 
+@needs_compiler
+def test_check_tells_the_story_of_the_reduction(call: Gudgeon) -> None:
+    """The press turns round two driven cranks: five angles and one row of the guide are left of 24 and 20."""
+    document = call("check", "nine_bar_press", "-v", "--json").stdout
+    found = json.loads(document)["scenes"]
+    dry, film, ideal = found["dry"], found["lubricated"], found["ideal"]
+    assert dry["formulation"] == "reduced" and sorted(dry["tree"]) == ["L2", "L3", "L6", "L7", "L8"]
+    assert (dry["closures"], dry["driven"]) == (["guide.offset"], ["crank1", "crank4"])
+    operations = dry["operations of the accelerations"]
+    assert operations == {"full": dry["operations in dynamics"], "reduced": dry["operations in reduced_dynamics"]}
+    assert dry["methods"] == film["methods"] == ["rk4", "dop853", "rodas5p", "scipy:*", "sundials:*"]
+    assert [scene["auto begins with"] for scene in (ideal, dry, film)] == ["kinematic", "dop853", "rodas5p"]
+    shown = call("check", "nine_bar_press", "-v").stdout
+    assert max(map(len, shown.splitlines())) <= 100
+    words = " ".join(shown.split())
+    assert "dry: reduced: 24 coordinates and 20 rows become 5 and 1" in words
+    assert "dry: closures left: guide.offset; 17 rows of joints hold by the choice of unknowns" in words
+
+
+@needs_compiler
+def test_check_begins_a_new_table_where_a_line_is_full(call: Gudgeon, tmp_path: Path) -> None:
+    """Twelve scenes do not fit beside each other; none is cut off."""
+    scenes = [f"scene_number_{k}" for k in range(12)]
+    listed = "".join(f"  {name}: {{parameters: {{omega: {k + 1} rad/s}}}}\n" for k, name in enumerate(scenes))
+    head, _, tail = TEXT.partition("scenes:\n")
+    (tmp_path / "many.yaml").write_text(f"{head}scenes:\n{listed}{tail}")
+    shown = call("check", "many.yaml", "-v").stdout
+    assert max(map(len, shown.splitlines())) <= 100
+    heads = [line.split() for line in shown.splitlines()[1:] if line.startswith("   ") and "scene_" in line]
+    heads = [line for line in heads if set(line) <= {"ideal", *scenes, "worn"}]
+    assert sum(heads, []) == ["ideal", *scenes, "worn"] and len(heads) > 1
+
+
 def test_check_tells_the_place_of_every_mistake(call: Gudgeon, pump: str) -> None:
     broken = TEXT.replace("mass: 0.25 kg", "mass: -0.25 kg").replace("omega * t", "omegaa * t")
     Path(pump).write_text(broken)
