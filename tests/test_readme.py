@@ -73,7 +73,7 @@ def test_python_prints_what_is_shown(
     exec(compile(blocks("python")[0], "README.md", "exec"), {})
     printed = capsys.readouterr().out
     assert re.sub(r"\d+e-\d+ J", "", printed) in [re.sub(r"\d+e-\d+ J", "", text) for text in blocks("text")]
-    assert float(re.search(r"([\d.e-]+) J", printed)[1]) < 1e-10  # type: ignore[index]
+    assert float(re.search(r"([\d.e-]+) J", printed)[1]) < 5e-8  # type: ignore[index]  # rtol of the 5 J turned over
     assert (tmp_path / "press.nc").exists() and (tmp_path / "orbit.png").exists()
 
 
@@ -92,7 +92,7 @@ def test_every_test_that_the_table_names_exists() -> None:
         assert function in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}, (file, function)
 
 
-@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md"])
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md", "docs/methods.md", "docs/physics.md"])
 def test_links_paths_and_targets_exist(name: str) -> None:
     text = (ROOT / name).read_text(encoding="utf-8")
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
@@ -100,7 +100,8 @@ def test_links_paths_and_targets_exist(name: str) -> None:
     links = [link for link in re.findall(r"\]\(([^)]+)\)", text) if "://" not in link]
     folders = "runtime|generator|templates|generated|mechanisms|tests|benchmarks|docs|tools"
     paths = re.findall(rf"`((?:{folders})/[\w./-]*)`", text)
-    assert [path for path in [*links, *paths] if not (ROOT / path).exists()] == []
+    assert [link for link in links if not (ROOT / name).parent.joinpath(link).exists()] == []
+    assert [path for path in paths if not (ROOT / path).exists()] == []
 
 
 def test_pictures_are_small() -> None:
