@@ -134,16 +134,19 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bo
     return rhs
 
 
+def stick_gain(model: Model) -> sp.Expr:
+    """2α of a stick, of its own: methods that project have no other stabilisation."""
+    alpha = model.slots.constant("baumgarte.stick", "alpha_stick", BAUMGARTE, dimension(time=-1))
+    return model.slots.derive("two_alpha_stick", 2 * alpha, "2 alpha of a stick")
+
+
 def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
     """Slip velocities; the force of slip goes to the coordinates, the right-hand side of stick is returned."""
     rhs: dict[int, sp.Expr] = {}
     if kkt.frictions:
         build.section("friction: slip, or stick as a row")
     place = {q: k for k, q in enumerate(kkt.system.q)}
-    gain = ZERO
-    if kkt.frictions:  # of its own: methods that project have no other stabilisation
-        gain = 2 * model.slots.constant("baumgarte.stick", "alpha_stick", BAUMGARTE, dimension(time=-1))
-    two_alpha = model.slots.derive("two_alpha_stick", gain, "2 alpha of a stick")
+    two_alpha = stick_gain(model) if kkt.frictions else ZERO
     for r, friction in enumerate(kkt.frictions):
         name, node = friction.name, kkt.first_friction + r
         v = build.local(f"slip_{name}", friction.slip.v)
@@ -196,6 +199,8 @@ def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> 
     drives = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
     for given in kkt.system.given:
         needed = sp.Add(*(m * sp.Symbol(f"a[{k}]") for k, m in given.mass.items())) - given.applied
+        for r, friction in enumerate(kkt.frictions):
+            needed -= model.symbols.diff(friction.slip.v, given.rate) * sp.Symbol(f"aside->friction[{r}].force")
         drives += given.rate * (needed - on_given.get(given.name, ZERO))
     clearances = " + ".join(f"aside->clearance[{i}].power" for i in range(len(model.clearances)))
     build.out("aside->power[0]", drives)

@@ -20,6 +20,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from gudgeon.generator.clearance import Clearance
+from gudgeon.generator.dynamics import stick_gain
 from gudgeon.generator.elements import PointLoad
 from gudgeon.generator.friction import Friction
 from gudgeon.generator.kernels import KernelBuilder
@@ -156,7 +157,7 @@ class Linearization:
         """Rows of stick, forces of slip, and their power; a mode is held."""
         if self.system.frictions:
             self.build.section("friction: slip, or stick as a row")
-        two_alpha, _ = self._gains()
+        two_alpha = stick_gain(self.model) if self.system.frictions else ZERO
         for r, friction in enumerate(self.system.frictions):
             node, name, build = self.n + self.m + r, friction.name, self.build
             mode = build.local(f"mode_{name}", f"memory->mode[{r}]")
@@ -180,6 +181,11 @@ class Linearization:
         moving = friction.slip.v + friction.slip.speed
         self.powers[1] += force * moving
         self.parts.power_row[1, node] = -stick * moving
+        for given in self.system.given:  # what friction asks of a drive
+            along = given.rate * self.symbols.diff(friction.slip.v, given.rate)
+            if along != 0:
+                self.powers[0] -= along * force
+                self.parts.power_row[0, node] = self.parts.power_row.get((0, node), ZERO) + stick * along
 
     def _coordinates(self, residual: list[sp.Expr]) -> None:
         """M, R1_q, R1_v and R1_t."""

@@ -20,7 +20,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE
+from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE, stick_gain
 from gudgeon.generator.factorization import choose_elimination
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement
 from gudgeon.generator.kkt import SINGULAR, is_simple
@@ -140,7 +140,7 @@ class Newton:
         if ETA_ROW in wanted:
             build.line_statement(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
         if ETA_STICK in wanted:
-            build.line_statement(Statement(ETA_STICK.name, ETA / (1 + ETA * two_alpha)))
+            build.line_statement(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
 
     def _factor(self) -> Kernel:
         """L U of the matrix, L with unit diagonal; what is neither number nor known is stored in `lin->lu`."""

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import sympy as sp
+
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE
-from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder
+from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Statement
 from gudgeon.generator.kkt import KKT
+from gudgeon.generator.switches import SideOf
 from gudgeon.generator.system import System
 
 
@@ -59,6 +62,7 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     build.line("return 0;")
     outs = (Argument("double *", name) for name in ("dq", "dv", "worst"))
     kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), "int", owner="")
-    if not system.model.symbols.switches.of(""):
+    statements = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
+    if not any(isinstance(value, sp.Expr) and value.has(SideOf) for value in statements):
         return kernel
     return replace(kernel, sections=(HELD_SIDES, *kernel.sections))

@@ -20,7 +20,7 @@ import numpy as np
 
 from gudgeon.compiled import Array
 from gudgeon.errors import SolverError
-from gudgeon.integrators.adaptive import SMALLEST, tolerances
+from gudgeon.integrators.adaptive import SMALLEST
 from gudgeon.integrators.projection import project
 from gudgeon.start import mechanism_size
 
@@ -104,6 +104,14 @@ def _settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     return usual | {"rtol": d.rtol}, usual | {"rtol": other}
 
 
+def _tolerances(simulation: Simulation, run: Result) -> Array:
+    """As integrators/adaptive.py has them at MOVED, of all bodies: coordinates, then velocities a unit of speed."""
+    size = mechanism_size(simulation.compiled, run.p)
+    length = min((float(run.p[joint.clearance]) for joint in run.source.clearances), default=size)
+    of_q = MOVED * np.where(_angles(run), length / size, length)
+    return np.concatenate([of_q, np.full(len(of_q), MOVED)])
+
+
 def _state(run: Result) -> State:
     """The run's first sample, to start from."""
     return replace(run.final, t=float(run.t[0]), q=run.q[0], v=run.v[0], state=run.state[0], memory=run.memory[0])
@@ -114,7 +122,7 @@ def _moved(simulation: Simulation, run: Result, start: State) -> State:
     angle, n = _angles(run), len(start.q)
     draw = np.random.default_rng(1).uniform(-1.0, 1.0, 2 * n)
     speed = [np.abs(start.v[angle == kind]).max(initial=0.0) for kind in (False, True)]
-    scale = draw * tolerances(simulation.compiled, run.p, MOVED, 1.0)[0]
+    scale = draw * _tolerances(simulation, run)
     q, v = start.q + scale[:n], start.v + scale[n:] * np.where(angle, speed[1], speed[0])
     q, v = project(simulation.compiled, start.t, q, v, run.p)
     return replace(start, q=q, v=v)

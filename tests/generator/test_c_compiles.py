@@ -28,20 +28,20 @@ INTEGRATE = r"""
 static int go(const double *p, const double *y)
 {
     void *run = calloc(1, gudgeon_run_size());
-    double latched[N_CLEARANCES + 1], now[N_S], a[N_Q], numbers[5 * 256];
+    double latched[N_CLEARANCES + 1], now[N_S], numbers[5 * 256];
     signed char state[N_CLEARANCES + 1];
     int joints[256], status = 0;
     long taken = 0;
     for (int i = 0; i <= N_CLEARANCES; i++)
         latched[i] = NAN;
-    gudgeon_run_start(run, 0.0, y, latched);
+    gudgeon_run_start(run, p, 0.0, y, latched);
     for (long first = 0; first < 4000 && !status; first += taken) {
         status = gudgeon_run_steps(run, p, 0.0, 4000 * STEP, 4000, first, 4000 - first, &taken);
         if (status == EVENTS_FULL)
             status = gudgeon_run_impacts(run, 0, numbers, joints) < 0;
     }
     gudgeon_run_impacts(run, 1, numbers, joints);
-    gudgeon_run_sample(run, now, a, latched, state);
+    gudgeon_run_sample(run, p, now, latched, state);
     free(run);
     return status;
 }

@@ -115,7 +115,7 @@ def values(source: KernelSource, driver: str, states: np.ndarray, folder: Path) 
     return np.array(done.stdout.split(), dtype=float)
 
 
-IN_TREE = DRIVER.replace("N_Q; k++", "N_TREE; k++").replace("k < N_Q", "k < N_TREE").replace("k - N_Q", "k - N_TREE")
+IN_TREE = DRIVER.replace("N_Q; k++", "N_X; k++").replace("k < N_Q", "k < N_X").replace("k - N_Q", "k - N_X")
 BOTH = """\
         Aside tree;
         double all_q[N_Q], all_v[N_Q];

@@ -8,11 +8,8 @@ static int closing_step(const double t, const double *q, const double *v, const 
     (void)t;
     (void)q;
     (void)v;
+    (void)memory;
     (void)p;
-    /* corners: the sides that are held, if any */
-    const double *const side = memory->held ? memory->side : NULL;
-    double g[N_SWITCHES + 1];
-
     /* backward substitution */
     const double dq_acceleration_guide_slide = 0.0;
 

@@ -165,7 +165,7 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
             return first;
         for (int k = 0; k < N_MARGINS; k++) {
             const double now = margin(&run->memory, &aside, k);
-            if (k != *event && now < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0) {
+            if (k != *event && (run->skip < 0 || k != N_CLEARANCES + run->skip) && now < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0) {
                 found = k;
                 at_high = now;
             }
@@ -187,6 +187,8 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
     double first = 1.0;
     *event = -1;
     for (int k = 0; k < N_MARGINS; k++) {
+        if (run->skip >= 0 && k == N_CLEARANCES + run->skip)
+            continue;
         double at_high, at_low = margin(&run->memory, &run->aside, k), low = 0.0;
         double high = violated(run, step, k, p, &at_high);
         if (high == 0.0 || make_dense(run, p, step))

@@ -64,6 +64,21 @@ static double kinetic_energy(double t, const double *y, const Parameters *p)
     return sum;
 }
 
+/*
+ * A motion that stays by a corner (a journal that hardly moves in its film) may cross it again and again. One that
+ * comes back at once is not looked for in the next step, which is as short as the way between the crossings and
+ * grows from there: the corner's branches meet, so that little is wrong with the held one so near.
+ */
+static void pace_corner(Run *run, int corner)
+{
+    const double way = run->t - run->t_crossed;
+    const int again = run->crossed == corner && way < 1e-3 * run->h;
+    run->skip = again ? corner : -1;
+    run->pace = again ? 20.0 * fmax(fmax(way, run->pace), 1e-10) : 0.0;
+    run->crossed = corner;
+    run->t_crossed = run->t;
+}
+
 /* At an event: everything whose margin is used up changes, then the right-hand side is that of what follows. */
 static int change(Run *run, int event, const Parameters *p)
 {
@@ -71,6 +86,8 @@ static int change(Run *run, int event, const Parameters *p)
         if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < -SHALLOW))
             cross(run, k, p);
     const int corner = event - N_CLEARANCES;
+    if (corner >= 0 && corner < N_SWITCHES)
+        pace_corner(run, corner);
     if (corner >= 0 && corner < N_SWITCHES) { /* a drive whose rate jumps moves the linkage by an impulse */
         const double before = kinetic_energy(run->t, run->y, p);
         project_state(run, run->t, run->y, p);
@@ -122,6 +139,10 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         if (run->memory.latch[i].closed && run->aside.clearance[i].deltadot <= 0.0)
             run->compressing[i] = 0;
     status = watch(run, p);
+    if (!status && event < 0 && run->skip >= 0) { /* away from the corner, on whichever side */
+        run->skip = -1;
+        status = settle_sides(run, -1, p);
+    }
     for (int i = 0; i < N_USER_EVENTS; i++) /* begun on a zero: wherever it went */
         if (run->memory.event_side[i] == 0)
             event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
@@ -159,6 +180,8 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
     const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * fmax(fabs(run->t), fabs(t_end));
     double h = run->fixed > 0.0 ? run->fixed : run->h;
     int again = 0;
+    if (run->skip >= 0 && run->fixed <= 0.0)
+        h = fmin(h, run->pace);
     if (h > left * (1.0 - 1e-9))
         h = left;
     for (;;) {
@@ -184,7 +207,7 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
             if (run->first)
                 *run->first = h;
             run->first = NULL;
-            if (h * factor > run->h || h < left || factor < 1.0)
+            if (h * factor > run->h || (h < left && run->skip < 0) || factor < 1.0)
                 run->h = h * factor;
             return 0;
         }
@@ -239,6 +262,7 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
     run->h = h;
     run->fixed = fixed;
     run->error_before = 1e-4;
+    run->crossed = run->skip = -1;
     run->accept = fixed > 0.0 ? INFINITY : 1.0;
     for (int k = 0; k < 2 * N_X; k++)
         run->scale[k] = scale[k];

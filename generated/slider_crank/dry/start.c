@@ -1,5 +1,5 @@
 /*
- * The start nearest the guess, as runtime/start.py seeks it: Newton's steps, each the smallest that closes the
+ * The start nearest the guess, as the runtime seeks it: Newton's steps, each the smallest that closes the
  * linearized rows, then velocities least in the metric of M. This is the ordinary case only: where rows depend on
  * each other, or Newton leads far away or nowhere, 1 is returned and the search in Python decides.
  */
@@ -126,7 +126,7 @@ static void linearized_rows(Closing *w, double t, const double *q, const Paramet
     open_rows(w, t, q, p);
 }
 
-/* Coordinates weigh as in runtime/start.py; the guess, with angles that rows alone determine (drives, sliders). */
+/* Coordinates weigh as in the runtime; the guess, with angles that rows alone determine (drives, sliders). */
 static int first_guess(Closing *w, double t, const Parameters *p, double *q)
 {
     int rows = 0;

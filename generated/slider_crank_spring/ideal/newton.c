@@ -384,7 +384,7 @@ enum {
  * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_X - 1) or of R1_t, R2_t (2 N_X); 0 if all
  * are zero.
  */
-static int residual_column(const Linear *lin, int column, const double *gain, double *x)
+static int residual_column(const Linear *lin, int column, const double *gain, double stick, double *x)
 {
     int found = 0;
     for (int i = 0; i < N_NODES; i++)
@@ -399,7 +399,7 @@ static int residual_column(const Linear *lin, int column, const double *gain, do
     for (int i = 0; i < N_PHI_Q && column < 2 * N_X; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
         const LinearEntry *at = &phi_q_entries[i];
         if (at->column == column % N_X && (column >= N_X || at->row < N_X + N_LOOPS)) {
-            x[at->row] -= gain[column / N_X] * at->sign * lin->value[at->value];
+            x[at->row] -= (at->row < N_X + N_LOOPS ? gain[column / N_X] : stick) * at->sign * lin->value[at->value];
             found = 1;
         }
     }
@@ -457,7 +457,7 @@ int gudgeon_tree_jacobian(double t, const double *y, const double *memory, const
         return status;
     for (int column = 0; column <= 2 * N_X; column++) {
         double x[N_NODES];
-        if (residual_column(&lin, column, gain, x))
+        if (residual_column(&lin, column, gain, 0.0, x))
             newton_substitute(&lin, x);
         jacobian_column(&lin, column, x, column < 2 * N_X ? J + column : f_t, column < 2 * N_X ? N_Y : 1);
     }

@@ -45,9 +45,9 @@ typedef struct {
     long steps, evaluations, onsets, grazes, ratio_outside, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max;
     /* of methods that choose their step (adaptive.c) */
-    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, scale[2 * N_X], speed[2], speed_floor[2];
+    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace, scale[2 * N_X], speed[2], speed_floor[2];
     int rising[1]; /* whether a joint's force rose at the end of the last step */
-    int choice, stiff, votes, patience, since, stuck, linear_ready;
+    int crossed, skip, choice, stiff, votes, patience, since, stuck, linear_ready;
     Linear linear;
     Step step;
 } Run;

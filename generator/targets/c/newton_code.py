@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from gudgeon.generator.clearance import Clearance
 from gudgeon.generator.contact_slopes import dry_slopes, film_slopes, share_slope
+from gudgeon.generator.dynamics import stick_gain
 from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.model import Model
 from gudgeon.generator.newton import Newton
@@ -47,12 +48,14 @@ def newton_code(system: System, render: Render, prefix: str = "") -> tuple[str, 
 
 def jacobian_code(model: Model, reduced: bool, render: Render) -> str:
     """The functions that Python calls; the reduced formulation has no Baumgarte's terms."""
+    stick = f"((const Parameters *)p)->{stick_gain(model)}" if model.frictions else "0.0"
     if reduced:
-        return render("jacobian.c.jinja", name="gudgeon_tree_jacobian", two_alpha="0.0", beta_squared="0.0")
+        none = {"two_alpha": "0.0", "beta_squared": "0.0"}
+        return render("jacobian.c.jinja", name="gudgeon_tree_jacobian", stick=stick, **none)
     derive, (alpha, beta) = model.slots.derive, model.baumgarte
     gains = {"two_alpha": derive("two_alpha", 2 * alpha), "beta_squared": derive("beta_squared", beta**2)}
     read = {name: f"((const Parameters *)p)->{gain}" for name, gain in gains.items()}
-    return render("jacobian.c.jinja", name="gudgeon_jacobian", **read)
+    return render("jacobian.c.jinja", name="gudgeon_jacobian", stick=stick, **read)
 
 
 def tangent_code(model: Model, render: Render) -> tuple[str, list[Kernel]]:
