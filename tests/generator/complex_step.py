@@ -18,6 +18,8 @@ from gudgeon.generator.forces.law import RESULTS
 from gudgeon.generator.model import Model
 from tests.generator.models import defaults
 
+STICK = 50.0  # 1/s, the default gain of a stick (baumgarte.stick)
+
 Complex = np.ndarray
 STEP = 1e-40
 
@@ -106,7 +108,7 @@ class ComplexStep:
             *row, rate, slip, speed, kinetic = function(complex(t), q, v)
             if mode == 0.0:
                 sticks.append((np.array(row), slip + speed))
-                right.append(np.array([rate - 2 * alpha * slip]))
+                right.append(np.array([rate - 2 * STICK * slip]))
             elif abs(mode) == 1.0:
                 g -= mode * kinetic * np.array(row)
                 powers[1] -= mode * kinetic * (slip + speed)
