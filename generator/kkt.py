@@ -173,7 +173,7 @@ class KKT:
     ) -> sp.Expr:  # fmt: skip
         """1/D of a coordinate: of a mass alone it is a number of `prepare`."""
         mass = self.system.mass[k, k]
-        if not earlier and not mass.free_symbols & set(self.system.model.symbols.rules):
+        if not earlier and self.system.model.slots.is_constant(mass):
             inverse: sp.Expr = self.system.model.slots.derive(f"inverse_{self._mass_name(mass, k)}", 1 / mass, "1/M")
             return inverse
         value = mass - sum((L[k, j] * W[k, j] for j in earlier), sp.Integer(0))

@@ -71,8 +71,9 @@ static double kinetic_energy(double t, const double *y, const Parameters *p)
  */
 static void pace_corner(Run *run, int corner)
 {
+    static const unsigned char meets[] = {0}; /* whether a corner's branches meet in it */
     const double way = run->t - run->t_crossed;
-    const int again = run->crossed == corner && way < 1e-3 * run->h;
+    const int again = meets[corner] && run->crossed == corner && way < 1e-3 * run->h;
     run->skip = again ? corner : -1;
     run->pace = again ? 20.0 * fmax(fmax(way, run->pace), 1e-10) : 0.0;
     run->crossed = corner;

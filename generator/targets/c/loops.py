@@ -87,6 +87,7 @@ def integrator_loops(
     kind = "friction" if pivots else "no_friction"
     modes, events = (render(f"{name}.c.jinja", pivots=pivots).strip() for name in (kind, f"{kind}_events"))
     common = {**counts, "floors": _floors(model), "clearances": _own_clearances(model)}
+    common["meeting"] = _meeting(model, counts["n_switches"])
     constraints, projection = _PROJECTED if integrated.reduced else _STABILISED
     residuals = _FROM_CLOSURES if integrated.reduced else _FROM_DYNAMICS
     return {
@@ -137,6 +138,13 @@ def _floors(model: Model) -> list[str]:
         for c in model.clearances
     ]
     return names or ["0.0"]
+
+
+def _meeting(model: Model, count: int) -> list[int]:
+    """1 for the corners of contact laws, which are continuous; a user's expression, or a law as printed, may jump."""
+    printed = {c.name for c in model.clearances if c.film is not None and c.film.options.get("as_printed")}
+    owners = {switch.index: switch.owner for switch in model.symbols.switches.found.values()}
+    return [int(bool(owners.get(k)) and owners[k] not in printed) for k in range(max(count, 1))]
 
 
 def _own_clearances(model: Model) -> list[str]:
