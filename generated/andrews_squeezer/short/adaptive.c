@@ -87,14 +87,15 @@ static int change(Run *run, int event, const Parameters *p)
         if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < -SHALLOW))
             cross(run, k, p);
     const int corner = event - N_CLEARANCES;
-    if (corner >= 0 && corner < N_SWITCHES)
+    const int is_corner = corner >= 0 && corner < N_SWITCHES;
+    if (is_corner) {
         pace_corner(run, corner);
-    if (corner >= 0 && corner < N_SWITCHES) { /* a drive whose rate jumps moves the linkage by an impulse */
+        /* a drive whose rate jumps moves the linkage by an impulse */
         const double before = kinetic_energy(run->t, run->y, p);
         project_state(run, run->t, run->y, p);
         run->y[2 * N_X] += kinetic_energy(run->t, run->y, p) - before;
     }
-    int status = settle_sides(run, corner >= 0 && corner < N_SWITCHES ? corner : -1, p);
+    int status = settle_sides(run, is_corner ? corner : -1, p);
     const int friction = corner - N_SWITCHES, watched = friction - N_FRICTIONS;
     if (!status && friction >= 0 && watched < 0)
         status = switch_friction(run, p);
@@ -118,18 +119,16 @@ static int check_contacts(const Run *run, const Parameters *p)
 /* Takes a step, or its part up to an event, as the new state. */
 static int commit(Run *run, Step *step, double share, double t_new, int event, const Parameters *p)
 {
-    double y[N_Y], dy[N_Y];
-    Aside aside;
-    int status = share < 1.0 ? state_at(run, step, share, p, y, dy, &aside) : 0;
+    /* the interpolant is made already where the step ends early: its end may be replaced */
+    int status = share < 1.0 ? state_at(run, step, share, p, step->y, step->dy, &step->aside) : 0;
     if (status)
         return status;
-    inner_peaks(run, step, share, share < 1.0 ? y : step->y, share < 1.0 ? dy : step->dy,
-        share < 1.0 ? &aside : &step->aside, p);
+    inner_peaks(run, step, share, p);
     for (int k = 0; k < N_Y; k++) {
-        run->y[k] = share < 1.0 ? y[k] : step->y[k];
-        run->dy[k] = share < 1.0 ? dy[k] : step->dy[k];
+        run->y[k] = step->y[k];
+        run->dy[k] = step->dy[k];
     }
-    run->aside = share < 1.0 ? aside : step->aside;
+    run->aside = step->aside;
     run->stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->stuck + 1 : 0;
     run->t = t_new;
     run->steps++;

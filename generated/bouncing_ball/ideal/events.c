@@ -256,13 +256,12 @@ static void inner_peak(Run *run, const Step *step, double share, int i, const Pa
  * Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end.
  * The slope at the end is told by a very short way along the motion.
  */
-static void inner_peaks(Run *run, Step *step, double share, const double *y, const double *dy, const Aside *end,
-    const Parameters *p)
+static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
 {
     double before[1], after[1];
     int near = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const Clearance *a = &run->aside.clearance[i], *b = &end->clearance[i];
+        const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
         const double known = run->memory.latch[i].closed ? run->open[i].F_peak : run->F_peak[i];
         before[i] = hypot(a->F_n, a->F_t), after[i] = hypot(b->F_n, b->F_t);
         const int looked = fmax(before[i], after[i]) > 0.9 * known && after[i] > 0.0;
@@ -275,7 +274,7 @@ static void inner_peaks(Run *run, Step *step, double share, const double *y, con
     Aside aside;
     const double e = 1e-4 * share * step->h;
     for (int k = 0; k < N_Y; k++)
-        x[k] = y[k] + e * dy[k];
+        x[k] = step->y[k] + e * step->dy[k];
     if (rates(run, step->t + share * step->h + e, x, p, dx, &aside))
         return;
     for (int i = 0; i < N_CLEARANCES; i++) {
