@@ -9,6 +9,7 @@ from gudgeon.left_out import left_out
 from gudgeon.rank import tied
 
 DEAD = 1e-6  # singular values below this share count as zero: a double root is found to 1e-8 only
+NEAR = 1e-4  # the same where a motion ended on its way to a dead centre
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}
 MOST = 600  # coordinates beyond which the dense rank costs more than it tells
 
@@ -28,6 +29,19 @@ def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tup
     for k, rate in enumerate(source.start_rates):
         body, _, component = rate.partition(".")
         rates[k, source.coordinates.index(f"{body}.{_POSITION[component]}")] = 1.0
-    matrix = np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates]) / np.sqrt(compiled.mass(p))
+    matrix = np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates])
+    return _tied_rows(compiled, p, matrix, names, DEAD)
+
+
+def nearly_dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
+    """Names of the motion's rows (joints with play left out) that all but tie each other at q."""
+    rows = compiled.source.rows
+    if not rows or len(q) > MOST or not np.isfinite(q).all():
+        return ()
+    return _tied_rows(compiled, p, compiled.phi_q(t, q, p), [row.name for row in rows], NEAR)
+
+
+def _tied_rows(compiled: CompiledModel, p: Array, matrix: Array, names: list[str], least: float) -> tuple[str, ...]:
+    matrix = matrix / np.sqrt(compiled.mass(p))
     matrix /= np.linalg.norm(matrix, axis=1, keepdims=True) + 1e-300
-    return tuple(name for name, share in zip(names, tied(matrix, DEAD), strict=True) if share > 1e-6)
+    return tuple(name for name, share in zip(names, tied(matrix, least), strict=True) if share > 1e-6)

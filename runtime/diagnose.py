@@ -10,8 +10,10 @@ from gudgeon.compiled import CompiledModel, Evaluation
 from gudgeon.dead_centre import dependent_rows
 from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.start import mechanism_size
 
 ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
+APART = 0.01  # of the mechanism's size: violated constraints that no stabilisation explains
 THIN = 0.9999  # e/c at which a film's law is capped (generator/contact.py)
 DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
 
@@ -61,6 +63,11 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         last = compiled.source.events[trajectory.events["event"][-1]]
         if last.action == "stop":
             notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
+    if counts.phi_max > APART * mechanism_size(compiled, p):
+        notes.append(
+            f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
+            " anything; a step too long does this, or a drive that pushes the links through a dead centre"
+        )
     for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - c

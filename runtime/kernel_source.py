@@ -142,6 +142,7 @@ class KernelSource:
     methods: tuple[str, ...]  # integrators in the library
     pivots: tuple[str, ...]  # rows in their order of elimination: a status k > 0 names pivots[k − 1]
     start_pivots: tuple[str, ...]  # the same for the kinematic method's projection
+    rate_jumps: tuple[str, ...]  # drives whose rate may jump: the linkage follows by an impulse
     indeterminate: tuple[str, ...]  # joints and drives whose multipliers redundancy leaves open
     slots: tuple[Slot, ...]
     derived: tuple[str, ...]  # names of the prepared numbers that follow the slots in p

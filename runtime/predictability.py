@@ -20,7 +20,7 @@ import numpy as np
 
 from gudgeon.compiled import Array
 from gudgeon.errors import SolverError
-from gudgeon.integrators.adaptive import SMALLEST
+from gudgeon.integrators.adaptive import SMALLEST, lengths
 from gudgeon.integrators.projection import project
 from gudgeon.start import mechanism_size
 
@@ -106,8 +106,7 @@ def _settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
 
 def _tolerances(simulation: Simulation, run: Result) -> Array:
     """As integrators/adaptive.py has them at MOVED, of all bodies: coordinates, then velocities a unit of speed."""
-    size = mechanism_size(simulation.compiled, run.p)
-    length = min((float(run.p[joint.clearance]) for joint in run.source.clearances), default=size)
+    length, size = lengths(simulation.compiled, run.p)
     of_q = MOVED * np.where(_angles(run), length / size, length)
     return np.concatenate([of_q, np.full(len(of_q), MOVED)])
 

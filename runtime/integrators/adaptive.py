@@ -24,7 +24,6 @@ from gudgeon.integrators.session import ENDED, EVENTS_FULL, RunEnded, Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.start import mechanism_sizes
 
-ORDERS = {"dop853": (8, 7), "rodas5p": (5, 4)}  # of the method, of its dense output
 CHOICES = {"dop853": 0, "rodas5p": 1, "adaptive": 2}
 BEGIN_STIFF = 3  # adaptive in a scene with a film: stiff from rest on (physics.md, section 6)
 RTOL = 1e-8  # of a plain run
@@ -39,7 +38,7 @@ def run(problem: Problem) -> Trajectory:
     scale, floor = tolerances(problem.compiled, problem.p, problem.rtol, float(problem.t[-1] - problem.t[0]))
     fixed = 0.0 if math.isinf(problem.step) else problem.step
     choice = choice_of(problem.compiled, problem.method)
-    session.lib.gudgeon_adaptive_setup(session.run, choice, session.pointer(scale), session.pointer(floor), 0.0, fixed)
+    session.lib.gudgeon_adaptive_setup(session.run, choice, session.pointer(scale), session.pointer(floor), fixed)
     interrupted, stopped = False, None
     try:
         while session.done < len(problem.t):
@@ -80,16 +79,21 @@ def choice_of(compiled: CompiledModel, method: str) -> int:
     return BEGIN_STIFF if method == "adaptive" and film else CHOICES[method]
 
 
+def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:
+    """L and S of the module's text (m), (...)."""
+    size = mechanism_sizes(compiled, p)
+    play = p[..., [joint.clearance for joint in compiled.source.clearances]]
+    least = np.where(play > 0.0, play, np.inf).min(axis=-1, initial=np.inf)
+    return np.where(np.isfinite(least), least, size), size
+
+
 def tolerances(compiled: CompiledModel, p: Array, rtol: float, duration: float) -> tuple[Array, Array]:
     """Tolerances of a step, (..., 2 n_x): of coordinates, of velocities a unit of speed; what a speed counts at least.
 
     `p` (..., n_slots + n_derived) has the parameters of one run, or of several.
     """
     source = compiled.source
-    size = mechanism_sizes(compiled, p)
-    play = p[..., [joint.clearance for joint in source.clearances]]
-    least = np.where(play > 0.0, play, np.inf).min(axis=-1, initial=np.inf)
-    length = np.where(np.isfinite(least), least, size)
+    length, size = lengths(compiled, p)
     if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
         is_angle = np.array(["." not in name for name in source.tree], dtype=bool)
     else:

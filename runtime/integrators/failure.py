@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
+from gudgeon.dead_centre import nearly_dependent_rows
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST = -2, -4, -5, -6
@@ -23,8 +24,8 @@ def failure(
             "  a force that jumps where the motion comes to rest holds it there: use a dry_friction element", t
         )  # fmt: skip
     if status == TOO_SMALL:
-        closed = _closed_film(compiled, e_max, p, t)
-        return closed or SolverError(f"no step is small enough at t = {t:.9g} s\n  {advice}", t)
+        known = _closed_film(compiled, e_max, p, t) or _dead_centre(compiled, last, p, t)
+        return known or SolverError(f"no step is small enough at t = {t:.9g} s\n  {advice}", t)
     if status == LOST:
         return SolverError(f"a contact was lost at t = {t:.9g} s: a free journal lies outside its bearing", t)
     try:
@@ -35,6 +36,17 @@ def failure(
         where = f"t = {t:.9g} s (constraint row {error.pivot})"
         return NonFiniteError(f"the motion diverged before {where}\n  {advice}", t, error.pivot)
     raise AssertionError(f"status {status} stands for no failure")
+
+
+def _dead_centre(compiled: CompiledModel, last: Array, p: Array, t: float) -> SolverError | None:
+    """A drive that pushes links through the line in which they lie: their speeds grow beyond all bounds."""
+    rows = nearly_dependent_rows(compiled, p, t, np.ravel(last)[: compiled.n])
+    if not rows:
+        return None
+    return SolverError(
+        f"the linkage reaches a dead centre at t = {t:.9g} s: constraint rows {', '.join(rows)} depend on each other\n"
+        "  the lengths do not let the drives move on from there; end the run before it, or change the drive", t
+    )  # fmt: skip
 
 
 def _closed_film(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError | None:

@@ -99,6 +99,12 @@ def run(problem: Problem) -> Trajectory:
             " switch between stick and slip in the C methods only",
             hint="use dop853, rodas5p or rk4",
         )
+    if problem.compiled.source.rate_jumps:
+        raise BadValueError(
+            f"method {problem.method!r}: where the rate of {', '.join(problem.compiled.source.rate_jumps)} jumps the"
+            " linkage follows by an impulse, which the adaptive methods in C give it",
+            hint="use auto, dop853 or rodas5p, or a smooth_step in place of the ramp",
+        )
     if math.isfinite(problem.step):
         raise BadValueError(f"method {problem.method!r} chooses its step", hint="give rtol, or leave out step")
     return _Driver(problem).run()

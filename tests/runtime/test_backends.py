@@ -54,6 +54,13 @@ def test_smaller_tolerances_give_smaller_errors(method: str) -> None:
     assert errors[0] > 5.0 * errors[1] > 25.0 * errors[2]
 
 
+def test_a_drive_whose_rate_jumps_is_refused() -> None:
+    """The impulse there belongs to the C methods: silently wrong numbers would follow."""
+    jump = gudgeon.load(Path(__file__).parent.parent / "mechanisms/methods/jump.yaml")
+    with pytest.raises(BadValueError, match="the rate of crank jumps"):
+        jump.simulate(0.2, method="scipy:DOP853")
+
+
 @pytest.mark.parametrize("method", HERE)
 def test_andrews_squeezer(method: str) -> None:
     """Against the published angles."""

@@ -204,6 +204,30 @@ def test_a_drive_that_jumps_gives_an_impulse() -> None:
     assert run.diagnostics.energy_residual < 1e-11
 
 
+@pytest.mark.parametrize("method", ADAPTIVE)
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_a_drive_into_a_dead_centre_ends_there(method: str, formulation: str) -> None:
+    """The bar's speed grows as (0.2 s - t)^-1/2: no method may crawl on, or step over it."""
+    simulation = gudgeon.load(HERE / "mechanisms/methods/dead_centre.yaml", formulation=formulation)
+    with pytest.raises(gudgeon.GudgeonError, match=r"dead centre at t = 0\.2 s: .*pin\.x, push depend") as caught:
+        simulation.simulate(0.5, output=50, method=method)
+    run = caught.value.partial
+    assert run is not None
+    assert abs(run.t[-1] - 0.2) < 0.011
+    assert abs(np.hypot(run["bar.x"], run["bar.y"]) - 0.5).max() < 1e-14
+
+
+@pytest.mark.parametrize("method", ADAPTIVE)
+@pytest.mark.parametrize("t_end", [0.1, 0.4, 3.0])
+def test_a_pulse_between_two_stages_is_not_missed(method: str, t_end: float) -> None:
+    """From rest the steps grow as they like; the impulse of a parabola is 4/3 of height × half width."""
+    run = scene_of("pulse").simulate(t_end, output=1, method=method)
+    speed = 4.0 / 3.0 * 30.0 * 0.5e-3 / 0.2
+    assert run["puck.vx"][-1] == pytest.approx(speed, rel=1e-9)
+    assert run["puck.x"][-1] == pytest.approx(speed * (t_end - 52.7e-3), rel=1e-9)
+    np.testing.assert_allclose(run.events_of("window"), [0.070, 0.072], rtol=0, atol=2e-12)
+
+
 def test_samples_at_an_event_hold_what_follows() -> None:
     run = scene_of("jump").simulate(output=[0.0, 0.1, 0.2], method="dop853")
     assert run["L1.omega"][1] == pytest.approx(math.radians(90.0) / 0.3, rel=1e-12)

@@ -2,7 +2,7 @@
  * Methods that choose their step: error control by component, projection, events, samples from the interpolant,
  * and the choice between the explicit and the stiff method from what the steps themselves measure.
  */
-enum { EXPLICIT = 0, STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, PATIENCE = 8 };
+enum { STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8 };
 /* h rho beyond which an explicit step is not taken: at h rho = 5.65 the estimate of order 5 vanishes for a decaying
  * mode, at 6.4 the mode grows (both are zeros of polynomials that follow from the coefficients) */
 #define UNSTABLE 4.8
@@ -209,7 +209,9 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
             run->first = NULL;
             if (h * factor > run->h || (h < left && run->skip < 0) || factor < 1.0)
                 run->h = h * factor;
-            return 0;
+            /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
+            run->crawl = h < 256.0 * least ? run->crawl + 1 : 0;
+            return run->crawl > MAX_CRAWL ? TOO_SMALL : 0;
         }
         again = 1;
         run->rejected++;
@@ -253,13 +255,12 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
 }
 
 /* choice: 0 explicit, 1 stiff, 2 automatic, 3 automatic from stiff; scale (2 N_X): tolerances, those of velocities a unit of speed. */
-void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double h, double fixed)
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double fixed)
 {
     Run *run = memory;
     run->choice = choice == BEGIN_STIFF ? AUTOMATIC : choice;
     run->stiff = choice == STIFF || choice == BEGIN_STIFF;
     run->patience = choice == BEGIN_STIFF ? 4 * PATIENCE : PATIENCE;
-    run->h = h;
     run->fixed = fixed;
     run->error_before = 1e-4;
     run->crossed = run->skip = -1;

@@ -84,12 +84,12 @@ static double root(Run *run, const Step *step, int k, double low, double at_low,
  * Whether a free joint may touch, leave and touch again between what was looked at: it turned round, so near that
  * the way between two looks (a quarter of the step at most) can hide the contact.
  */
-static int may_graze(const Run *run, const Step *step, int i)
+static int may_graze(const Run *run, const Step *step, int i, double least)
 {
     const Clearance *before = &run->aside.clearance[i], *after = &step->aside.clearance[i];
     const double outward = fmax(fmax(before->deltadot, after->deltadot), step->rate[i][1]);
     const double inward = fmin(fmin(before->deltadot, after->deltadot), step->rate[i][0]);
-    const double nearest = fmax(fmax(before->delta, after->delta), -step->least[i]);
+    const double nearest = fmax(fmax(before->delta, after->delta), -least);
     return !run->memory.latch[i].closed && outward > 0.0 && inward < 0.0
         && nearest + (outward - inward) * step->h / 16.0 > 0.0;
 }
@@ -139,18 +139,76 @@ static double look_along(Run *run, const Step *step, int k, const Parameters *p,
     return 0.0;
 }
 
+/* The stage at which margin k was smallest; -1: none was. */
+static int nearest_stage(const Step *step, int k)
+{
+    int nearest = -1;
+    double least = INFINITY;
+    for (int i = 0; i < step->n_seen; i++)
+        if (step->seen[k][i] < least) {
+            least = step->seen[k][i];
+            nearest = i;
+        }
+    return nearest;
+}
+
+/* Of n points the one nearest to x, on its right or left and not too close to it for a parabola; -1: none. */
+static int neighbour(const double *points, int n, double x, int right)
+{
+    int found = -1;
+    for (int i = 0; i < n; i++) {
+        const double way = right ? points[i] - x : x - points[i];
+        if (way > 0.02 && (found < 0 || way < fabs(points[found] - x)))
+            found = i;
+    }
+    return found;
+}
+
+/*
+ * A margin that dips below zero and comes back between two stages: where the parabola through the point nearest to
+ * zero and its neighbours says that it may, the interpolant is looked at. 0: it does not.
+ */
+static double hidden_dip(Run *run, Step *step, int k, double end, const Parameters *p, double *value)
+{
+    double x[N_STAGES + 2] = {0.0, 1.0}, f[N_STAGES + 2] = {margin(&run->memory, &run->aside, k), end};
+    const int n = step->n_seen + 2;
+    int centre = f[1] < f[0];
+    for (int i = 2; i < n; i++) {
+        x[i] = step->node[i - 2], f[i] = step->seen[k][i - 2];
+        if (f[i] < f[centre])
+            centre = i;
+    }
+    int low = neighbour(x, n, x[centre], 0), high = neighbour(x, n, x[centre], 1);
+    low = low < 0 ? neighbour(x, n, x[high], 1) : low;
+    high = high < 0 ? neighbour(x, n, x[low], 0) : high;
+    const double a = x[low] - x[centre], b = x[high] - x[centre];
+    const double to_low = (f[low] - f[centre]) / a, to_high = (f[high] - f[centre]) / b;
+    const double bend = (to_high - to_low) / (b - a), slope = to_low - bend * a;
+    double at = x[centre] - 0.5 * slope / bend; /* the parabola's lowest place */
+    if (!(bend > 0.0 && at - x[centre] > fmin(a, fmin(b, 0.0)) && at - x[centre] < fmax(a, fmax(b, 0.0)))
+        || !(f[centre] - 0.25 * slope * slope / bend < 0.1 * f[centre]) || make_dense(run, p, step))
+        return 0.0;
+    *value = margin_at(run, step, at, k, p);
+    *value = dip(run, step, k, &at, 0.25 * fabs(b - a), *value, p);
+    return *value < 0.0 ? at : 0.0;
+}
+
 /* The bracket's upper end for margin k: a share at which it is below zero; 0 if there is none. */
 static double violated(Run *run, Step *step, int k, const Parameters *p, double *value)
 {
-    const double end = margin(&run->memory, &step->aside, k), s = step->where[k];
-    if (k < N_CLEARANCES && may_graze(run, step, k) && make_dense(run, p, step) == 0)
+    const double start = margin(&run->memory, &run->aside, k), end = margin(&run->memory, &step->aside, k);
+    const int nearest = nearest_stage(step, k);
+    const double least = nearest < 0 ? INFINITY : step->seen[k][nearest], s = nearest < 0 ? 1.0 : step->node[nearest];
+    if (k < N_CLEARANCES && may_graze(run, step, k, least) && make_dense(run, p, step) == 0)
         return look_along(run, step, k, p, value);
-    if (step->least[k] < 0.0 && s < 1.0 && make_dense(run, p, step) == 0) {
+    if (least < 0.0 && s < 1.0 && make_dense(run, p, step) == 0) {
         *value = margin_at(run, step, s, k, p);
         if (*value < 0.0)
             return s;
     }
     *value = end;
+    if (k >= N_CLEARANCES && end >= 0.0 && fmin(least, fmin(start, end)) < 0.25 * fmax(start, end))
+        return hidden_dip(run, step, k, end, p, value);
     return end < 0.0 ? 1.0 : 0.0;
 }
 
@@ -207,80 +265,4 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
         }
     }
     return *event < 0 ? first : earlier_event(run, step, first, p, event);
-}
-
-static void peak(Run *run, int i, double t, double F)
-{
-    if (F > run->F_peak[i]) {
-        run->F_peak[i] = F;
-        run->t_peak[i] = t;
-    }
-    if (run->memory.latch[i].closed && F > run->open[i].F_peak) {
-        run->open[i].F_peak = F;
-        run->open[i].t_peak = t;
-    }
-}
-
-static double force_at(Run *run, const Step *step, double s, int i, const Parameters *p)
-{
-    double y[N_Y], dy[N_Y];
-    Aside aside;
-    if (state_at(run, step, s, p, y, dy, &aside))
-        return 0.0;
-    const double F = hypot(aside.clearance[i].F_n, aside.clearance[i].F_t);
-    peak(run, i, step->t + s * step->h, F);
-    run->e_max[i] = max_of(aside.clearance[i].e, run->e_max[i]);
-    return F;
-}
-
-/* The top of joint i's force inside a step up to `share`, by parabolas through three of its points. */
-static void inner_peak(Run *run, const Step *step, double share, int i, const Parameters *p)
-{
-    double s = 0.5 * share, best = force_at(run, step, s, i, p);
-    for (double width = 0.5 * share; width > 0.002 && best > 0.0; width *= 0.2) {
-        const double low = fmax(s - width, 0.0), high = fmin(s + width, share), x = s - low, z = high - s;
-        const double left = force_at(run, step, low, i, p) - best, right = force_at(run, step, high, i, p) - best;
-        const double bend = right * x + left * z;
-        double top = left > right ? low : high;
-        if (bend < 0.0)
-            top = fmin(fmax(s - 0.5 * (right * x * x - left * z * z) / bend, low), high);
-        const double found = force_at(run, step, top, i, p);
-        if (found > best || fmax(left, right) > 0.0) {
-            best = fmax(found, best);
-            s = found >= best ? top : left > right ? low : high;
-        }
-    }
-}
-
-/*
- * Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end.
- * The slope at the end is told by a very short way along the motion.
- */
-static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
-{
-    double before[1], after[1];
-    int near = 0;
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
-        const double known = run->memory.latch[i].closed ? run->open[i].F_peak : run->F_peak[i];
-        before[i] = hypot(a->F_n, a->F_t), after[i] = hypot(b->F_n, b->F_t);
-        const int looked = fmax(before[i], after[i]) > 0.9 * known && after[i] > 0.0;
-        run->rising[i] = looked ? run->rising[i] : 1;
-        near |= looked << i % 16;
-    }
-    if (!near)
-        return;
-    double x[N_Y], dx[N_Y];
-    Aside aside;
-    const double e = 1e-4 * share * step->h;
-    for (int k = 0; k < N_Y; k++)
-        x[k] = step->y[k] + e * step->dy[k];
-    if (rates(run, step->t + share * step->h + e, x, p, dx, &aside))
-        return;
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        const double slope = hypot(aside.clearance[i].F_n, aside.clearance[i].F_t) - after[i];
-        if ((near >> i % 16 & 1) && run->rising[i] && slope < 0.0 && make_dense(run, p, step) == 0)
-            inner_peak(run, step, share, i, p);
-        run->rising[i] = slope > 0.0;
-    }
 }

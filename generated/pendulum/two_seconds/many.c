@@ -47,7 +47,7 @@ static int begin_run(const Batch *b, long i, Run *run)
     gudgeon_run_start(run, b->p_motion + i * b->numbers, b->t[0], y, latched);
     gudgeon_run_stop(run, b->stop);
     if (b->choice >= 0)
-        gudgeon_adaptive_setup(run, b->choice, b->scale + i * 2 * N_X, b->floor + 2 * i, 0.0, b->fixed);
+        gudgeon_adaptive_setup(run, b->choice, b->scale + i * 2 * N_X, b->floor + 2 * i, b->fixed);
     return 0;
 }
 

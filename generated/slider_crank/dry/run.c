@@ -25,7 +25,8 @@ typedef struct {
     double k[N_STAGES][N_Y];                 /* rates or increments of the stages */
     double dense[N_DENSE][N_Y];
     int dense_ready, stiff;
-    double least[6], where[6]; /* smallest margin of the stages, its node */
+    int n_seen;                              /* stages so far, their nodes and margins */
+    double node[N_STAGES], seen[6][N_STAGES];
     double rate[1][2];   /* smallest and largest d delta/dt of the stages */
 } Step;
 
@@ -47,7 +48,7 @@ typedef struct {
     /* of methods that choose their step (adaptive.c) */
     double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace, scale[2 * N_X], speed[2], speed_floor[2];
     int rising[1]; /* whether a joint's force rose at the end of the last step */
-    int crossed, skip, choice, stiff, votes, patience, since, stuck, linear_ready;
+    int crossed, skip, choice, stiff, votes, patience, since, stuck, crawl, linear_ready;
     Linear linear;
     Step step;
 } Run;

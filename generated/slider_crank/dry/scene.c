@@ -17,5 +17,6 @@
 #include "dop853.c"
 #include "rodas5p.c"
 #include "events.c"
+#include "peaks.c"
 #include "adaptive.c"
 #include "many.c"

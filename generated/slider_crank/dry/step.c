@@ -18,8 +18,7 @@ static double margin(const Memory *memory, const Aside *aside, int k)
 
 static void forget_stages(Step *step)
 {
-    for (int k = 0; k < N_MARGINS; k++)
-        step->least[k] = INFINITY;
+    step->n_seen = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         step->rate[i][0] = INFINITY;
         step->rate[i][1] = -INFINITY;
@@ -29,13 +28,9 @@ static void forget_stages(Step *step)
 /* What a stage at `node` saw. */
 static void note_stage(const Run *run, Step *step, const Aside *aside, double node)
 {
-    for (int k = 0; k < N_MARGINS; k++) {
-        const double left = margin(&run->memory, aside, k);
-        if (left < step->least[k]) {
-            step->least[k] = left;
-            step->where[k] = node;
-        }
-    }
+    for (int k = 0; k < N_MARGINS; k++)
+        step->seen[k][step->n_seen] = margin(&run->memory, aside, k);
+    step->node[step->n_seen++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &aside->clearance[i];
         step->rate[i][0] = fmin(step->rate[i][0], joint->deltadot);

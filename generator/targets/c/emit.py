@@ -67,7 +67,7 @@ void gudgeon_run_sample(const void *memory, const double *p, double *y, double *
 void gudgeon_run_stop(void *memory, int stop);
 int gudgeon_run_events(void *memory, double *t, int *event);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
-void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double h, double fixed);
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double fixed);
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);

@@ -104,6 +104,7 @@ def integrator_loops(
         "dop853.c": render("dop853.c.jinja", **_dop853()),
         "rodas5p.c": render("rodas5p.c.jinja", **_rodas5p()),
         "events.c": render("events.c.jinja", **counts),
+        "peaks.c": render("peaks.c.jinja", **counts),
         "adaptive.c": render("adaptive.c.jinja", **common),
         "many.c": render("many.c.jinja", **counts),
     }
