@@ -191,6 +191,20 @@ def test_grazing_contacts_are_not_lost(beyond: float, rtol: float, off: float) -
     assert abs(run["puck.x"] - exact["puck.x"]).max() < off * c
 
 
+@pytest.mark.parametrize(
+    ("method", "rtol", "off"), [("dop853", 1e-6, 1e-6), ("rodas5p", 1e-6, 1e-6), ("rk4", None, 1e-7)]
+)
+def test_the_largest_eccentricity_lies_between_steps(method: str, rtol: float | None, off: float) -> None:
+    """A puck on a spring swings freely inside its clearance: e = A |sin 100 t|, some steps a swing."""
+    simulation, A, omega = scene_of("graze", "loose"), 0.8e-3, 100.0
+    still = simulation.simulate(1e-6, output=1, method="rk4", step=1e-6).final
+    v = np.array([A * omega, 0.0, 0.0])
+    start = replace(still, t=0.0, q=np.zeros(3), v=v, memory=np.array([np.nan]), state=np.zeros(1, dtype=np.int8))
+    step = None if rtol else 3e-4
+    run = simulation.simulate(0.1, output=1, method=method, rtol=rtol, step=step, start=start)
+    assert run.diagnostics.peaks[0].e_max == pytest.approx(A, rel=off)
+
+
 def test_a_drive_that_jumps_gives_an_impulse() -> None:
     """A crank starts at full speed: the rod on its tip keeps its angular momentum about the tip."""
     run = scene_of("jump").simulate(output=[0.0, 0.0999999999, 0.1000000001, 0.11], method="dop853", rtol=1e-12)

@@ -58,6 +58,13 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
     }
     run->aside = trial->aside;
     int status = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *a = &before.clearance[i], *b = &run->aside.clearance[i];
+        double top = 0.0;
+        if (a->deltadot > 0.0 && b->deltadot < 0.0)
+            cubic_top(a->e, h * a->deltadot, b->e, h * b->deltadot, &top);
+        run->e_max[i] = max_of(top, run->e_max[i]);
+    }
     if (update_latches(run, t, h, before.clearance, run->aside.clearance, trial->touched, p))
         status = rates(run, t_new, run->y, p, run->dy, &run->aside);
     return status ? status : watch(run, p);

@@ -44,6 +44,29 @@ static void inner_peak(Run *run, const Step *step, double share, int i, const Pa
     }
 }
 
+/* The largest eccentricity of joint i inside a step up to `share`, where the journal turns round in it. */
+static void outermost(Run *run, Step *step, double share, int i, const Parameters *p)
+{
+    Clearance low = run->aside.clearance[i], high = step->aside.clearance[i];
+    double from = 0.0, to = share;
+    for (int n = 0; n < 6 && low.deltadot > 0.0 && high.deltadot < 0.0; n++) {
+        const double h = (to - from) * step->h;
+        double top, y[N_Y], dy[N_Y];
+        const double s = from + (to - from) * cubic_top(low.e, h * low.deltadot, high.e, h * high.deltadot, &top);
+        Aside aside;
+        if (top < 0.99 * run->e_max[i] || make_dense(run, p, step) || state_at(run, step, s, p, y, dy, &aside))
+            return;
+        const Clearance *now = &aside.clearance[i];
+        run->e_max[i] = max_of(now->e, run->e_max[i]);
+        if (fabs(now->e - top) < 1e-9 * top)
+            return;
+        if (now->deltadot > 0.0)
+            from = s, low = *now;
+        else
+            to = s, high = *now;
+    }
+}
+
 /*
  * Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end.
  * The slope at the end is told by a very short way along the motion.
@@ -53,6 +76,7 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
     double before[1], after[1];
     int near = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
+        outermost(run, step, share, i, p);
         const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
         const double known = run->memory.latch[i].closed ? run->open[i].F_peak : run->F_peak[i];
         before[i] = hypot(a->F_n, a->F_t), after[i] = hypot(b->F_n, b->F_t);
