@@ -33,7 +33,8 @@ SHIPPED = [
     ("n_four_bar", "ideal"),
 ]  # fmt: skip
 ALWAYS, ALL = 24, 500
-SEEDS = [seed if seed < ALWAYS else pytest.param(seed, marks=pytest.mark.slow) for seed in range(ALL)]
+QUICK = (*range(ALWAYS), 25)  # 25: a slide on a turning body closes a loop
+SEEDS = [seed if seed in QUICK else pytest.param(seed, marks=pytest.mark.slow) for seed in range(ALL)]
 NAN = np.full(1, np.nan)
 
 
