@@ -18,5 +18,6 @@
 #include "rodas5p.c"
 #include "events.c"
 #include "peaks.c"
+#include "changes.c"
 #include "adaptive.c"
 #include "many.c"

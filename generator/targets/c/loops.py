@@ -105,6 +105,7 @@ def integrator_loops(
         "rodas5p.c": render("rodas5p.c.jinja", **_rodas5p()),
         "events.c": render("events.c.jinja", **counts),
         "peaks.c": render("peaks.c.jinja", **counts),
+        "changes.c": render("changes.c.jinja", **common),
         "adaptive.c": render("adaptive.c.jinja", **common),
         "many.c": render("many.c.jinja", **counts),
     }
