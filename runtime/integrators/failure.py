@@ -8,7 +8,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.dead_centre import nearly_dependent_rows
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 
-NOT_FINITE, CHATTERING, TOO_SMALL, LOST = -2, -4, -5, -6
+NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE = -2, -4, -5, -6, -8
 NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
 
 
@@ -28,6 +28,8 @@ def failure(
         return known or SolverError(f"no step is small enough at t = {t:.9g} s\n  {advice}", t)
     if status == LOST:
         return SolverError(f"a contact was lost at t = {t:.9g} s: a free journal lies outside its bearing", t)
+    if status == OUTSIDE:
+        return _too_deep(compiled, e_max, p, t)
     try:
         compiled.check_pivot(status, t, compiled.source.motion_pivots)
     except SingularError as error:
@@ -36,6 +38,21 @@ def failure(
         where = f"t = {t:.9g} s (constraint row {error.pivot})"
         return NonFiniteError(f"the motion diverged before {where}\n  {advice}", t, error.pivot)
     raise AssertionError(f"status {status} stands for no failure")
+
+
+def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError:
+    """A journal a tenth of its bearing's radius or more inside the metal."""
+    deepest, name = max(
+        (float(e - p[joint.clearance]), joint.name) for joint, e in zip(compiled.source.clearances, e_max, strict=True)
+    )
+    error = SolverError(
+        f"the journal of {name} lies {deepest:.3g} m deep in its bearing, beyond a tenth of its radius, at"
+        f" t = {t:.9g} s\n"
+        "  laws of contact and film hold for far less: a stiffer material, a thicker oil or less speed, and in rk4 a"
+        " shorter step", t
+    )  # fmt: skip
+    error.outside_model = True
+    return error
 
 
 def _dead_centre(compiled: CompiledModel, last: Array, p: Array, t: float) -> SolverError | None:

@@ -82,7 +82,8 @@ def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: 
     error = worst(errors)
     if long.failure or long.run is None:
         at = f"at {seconds(long.failed_at)}" if math.isfinite(long.failed_at) else "fails"
-        status = Status.OUTSIDE if long.outside else Status.DIVERGED
+        # a fixed step too long throws a journal through its bearing, whatever the model
+        status = Status.OUTSIDE if long.outside and not long.setting.fixed else Status.DIVERGED
         return cell(status, long.failure or "no result", at, error)
     diagnostics = long.run.diagnostics
     energy = diagnostics.energy_residual / max(diagnostics.energy_turned_over, 1e-300)

@@ -191,6 +191,17 @@ def test_grazing_contacts_are_not_lost(beyond: float, rtol: float, off: float) -
     assert abs(run["puck.x"] - exact["puck.x"]).max() < off * c
 
 
+@pytest.mark.parametrize("method", [*ADAPTIVE, "rk4"])
+def test_a_journal_deep_in_its_bearing_ends_the_run(method: str) -> None:
+    """Metal as soft as jelly: beyond a tenth of the bearing's radius (15 mm) no law of contact means anything."""
+    soft = {"materials.aluminium.E": 1e3}
+    with pytest.raises(gudgeon.GudgeonError, match=r"of A lies 0\.00\d+ m deep.* a tenth of its radius") as caught:
+        scene_of("nine_bar_press", "dry").simulate(0.3, output=300, method=method, parameters=soft)
+    run = caught.value.partial
+    assert run is not None
+    assert 1.5e-3 < max(peak.e_max for peak in run.diagnostics.peaks) - 0.3e-3 < 3e-3  # a step may go further
+
+
 @pytest.mark.parametrize(
     ("method", "rtol", "off"), [("dop853", 1e-6, 1e-6), ("rodas5p", 1e-6, 1e-6), ("rk4", None, 1e-7)]
 )

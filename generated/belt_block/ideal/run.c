@@ -4,7 +4,7 @@
  */
 enum {
     N_IMPACTS = 256, MAX_PARTS = 50,
-    NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7
+    NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7, OUTSIDE = -8
 };
 
 typedef struct {
@@ -131,6 +131,17 @@ static int update_latches(Run *run, double t, double h, const Clearance *before,
     return changed;
 }
 
+/* A journal deeper in its bearing than a tenth of the radius: contact laws mean nothing there. */
+static int outside_model(const Run *run, const Parameters *p)
+{
+    const double deepest[] = {0.0};
+    (void)p;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (run->aside.clearance[i].delta > deepest[i])
+            return 1;
+    return 0;
+}
+
 /* Peaks, residuals and the ratio deltadot/deltadot_minus at an accepted state. */
 static int watch(Run *run, const Parameters *p)
 {
@@ -165,7 +176,7 @@ static int watch(Run *run, const Parameters *p)
             }
         }
     }
-    return isfinite(sum) ? 0 : NOT_FINITE;
+    return !isfinite(sum) ? NOT_FINITE : outside_model(run, p) ? OUTSIDE : 0;
 }
 
 /*

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -86,7 +86,8 @@ def integrator_loops(
     pivots, closing = _friction_pivots(integrated.kkt), integrated.finish(closing_kernel(integrated.system))
     kind = "friction" if pivots else "no_friction"
     modes, events = (render(f"{name}.c.jinja", pivots=pivots).strip() for name in (kind, f"{kind}_events"))
-    common = {**counts, "floors": _floors(model), "clearances": _own_clearances(model)}
+    common = {**counts, "floors": _floors(model), "clearances": _lengths(model, [c.pair.c for c in model.clearances])}
+    common["deepest"] = _lengths(model, [c.pair.R_i / 10 for c in model.clearances])
     common["meeting"] = _meeting(model, counts["n_switches"])
     constraints, projection = _PROJECTED if integrated.reduced else _STABILISED
     residuals = _FROM_CLOSURES if integrated.reduced else _FROM_DYNAMICS
@@ -149,7 +150,7 @@ def _meeting(model: Model, count: int) -> list[int]:
     return [int(bool(owners.get(k)) and owners[k] not in printed) for k in range(max(count, 1))]
 
 
-def _own_clearances(model: Model) -> list[str]:
-    """c of each joint with play."""
+def _lengths(model: Model, values: Sequence[sp.Expr]) -> list[str]:
+    """A number of each joint with play, from the parameters' struct."""
     read = {s: sp.Symbol(f"p->{s.name}") for s in model.symbols.info}
-    return [printer.expression(sp.sympify(c.pair.c).xreplace(read)) for c in model.clearances] or ["0.0"]
+    return [printer.expression(sp.sympify(value).xreplace(read)) for value in values] or ["0.0"]
