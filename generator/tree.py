@@ -68,6 +68,8 @@ class Tree:
     rows: frozenset[str]  # those that the angles and the links make hold by themselves, or hubs say otherwise
     closing: tuple[Joint, ...]  # pairs of bodies that meet in a hub and are not joined by the tree
     hubs: tuple[Hub, ...]
+    solved: Mapping[str, str]  # rows that the angles use up, each with the body whose angle it says
+    costs: tuple[int, ...]  # estimated operations of the trees that were looked at, the first breadth first
 
     def multiplier(self, row: str) -> dict[str, int]:
         """A closure's multiplier in those of the file's rows."""
@@ -87,10 +89,10 @@ def stays_a_row(model: Model, row: Row) -> bool:
     return row.kind == "drive" and model.degrees_of_freedom > 0 and rate_jumps(model.scene.mechanism.drives[row.name])
 
 
-def solve_angles(model: Model) -> tuple[dict[str, Affine], frozenset[str]]:
-    """The angles by free ones and drives, with the rows that this uses up."""
+def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
+    """The angles by free ones and drives, with the rows that this uses up, each with its body."""
     angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
-    used = set()
+    used: dict[str, str] = {}
     for row in sorted(model.rows, key=lambda row: row.kind != "drive"):  # what a drive prescribes is never free
         total = _linear(model, row, angles)
         pivots = {b: c for b, c in (total or {}).items() if b in angles and c != 0}
@@ -100,8 +102,8 @@ def solve_angles(model: Model) -> tuple[dict[str, Affine], frozenset[str]]:
         pivot = max(pivots, key=lambda b: (abs(pivots[b]) == 1, order.index(b)))
         solved = {k: -c / pivots[pivot] for k, c in total.items() if k != pivot}
         angles = {b: substitute(a, pivot, solved) for b, a in angles.items()}
-        used.add(row.name)
-    return angles, frozenset(used)
+        used[row.name] = pivot
+    return angles, used
 
 
 def substitute(affine: Affine, name: str, value: Affine) -> Affine:
@@ -137,7 +139,8 @@ def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | No
 
 def choose_tree(model: Model) -> Tree:
     """The tree of the least estimated operations among a few, improved by exchanges of joints in loops."""
-    angles, used = solve_angles(model)
+    angles, solved = solve_angles(model)
+    used = frozenset(solved)
     free = tuple(b for b in angles if angles[b] == {b: 1})
     edges = _edges(model, angles)
     hubs = find_hubs(edges)
@@ -148,7 +151,8 @@ def choose_tree(model: Model) -> Tree:
     if len(free) <= SEARCHED and best == _grow(model, edges, edges, None):
         best = _exchange(model, edges, best, estimate)
     rows = used.union(*(link.rows for link in best), *(hub.rows for hub in hubs))
-    return Tree(angles, free, best, rows, tuple(estimate.closing(best)), tuple(hubs))
+    closing = tuple(estimate.closing(best))
+    return Tree(angles, free, best, rows, closing, tuple(hubs), solved, tuple(estimate.costs.values()))
 
 
 def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
@@ -244,6 +248,7 @@ class _Estimate:
 
     def __init__(self, model: Model, angles: Mapping[str, Affine], used: frozenset[str], hubs: Sequence[Hub]) -> None:
         self.hubs = hubs
+        self.costs: dict[frozenset[tuple[str, str]], int] = {}  # by the joint that places each body
         body_of = {q: body.name for body in model.bodies for q in body.q}
         self.angles = angles
         self.turns = {b: frozenset(k for k in a if k in angles) for b, a in angles.items()}
@@ -251,6 +256,12 @@ class _Estimate:
         self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in said]
 
     def __call__(self, links: tuple[Link, ...]) -> int:
+        key = frozenset((link.body, link.joint.name if link.joint else "") for link in links)
+        if key not in self.costs:
+            self.costs[key] = self._count(links)
+        return self.costs[key]
+
+    def _count(self, links: tuple[Link, ...]) -> int:
         held = {row for link in links for row in link.rows}
         paths: dict[str, list[Link]] = {}
         reach: dict[str, frozenset[str]] = {GROUND: frozenset()}  # what a body's points move with
