@@ -64,7 +64,8 @@ def _reduced(model: Model, system: TreeSystem) -> Iterator[Step]:
     yield from _angles(model, system.tree)
     yield from _hubs(system.tree)
     links = [link for link in system.tree.links if link.joint]
-    for kind, some in ((told.HINGES, [x for x in links if not x.slides]), (told.SLIDES, [x for x in links if x.slides])):
+    for kind in (told.HINGES, told.SLIDES):
+        some = [link for link in links if link.slides == (kind == told.SLIDES)]
         yield Step(
             kind, _owners(some), tuple(f"{link.body}.{axis}" for link in some for axis in "xy"),
             tuple(name for link in some for name in link.coordinates), tuple(row for link in some for row in link.rows),

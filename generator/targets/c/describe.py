@@ -28,12 +28,14 @@ from gudgeon.kernel_source import (
 )  # fmt: skip
 from gudgeon.story import Story
 
+UNTOLD = Story()
+
 
 def describe(
     model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "", cdef: str = "",
     methods: tuple[str, ...] = (), pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
     operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
-    motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = Story(),
+    motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = UNTOLD,
 ) -> KernelSource:  # fmt: skip
     """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
     scene, mechanism = model.scene, model.scene.mechanism
