@@ -155,14 +155,15 @@ def _nested(story: Story) -> str:
     for placed in story.tree:
         carried.setdefault(placed.parent, []).append(placed.body)
     if len(story.tree) > 2 * MOST:
-        deepest = _depth(carried, "ground")
-        return f"{len(story.tree)} bodies, at most {deepest} behind each other, {len(loose)} of them keep x and y"
+        own = f", {len(loose)} of them with x and y of their own" * bool(loose)
+        return f"{len(story.tree)} bodies, at most {_depth(carried, 'ground')} behind each other{own}"
 
     def told_of(body: str) -> str:
         name = f"[{body}]" if body in loose else body
         return f"{name} ({', '.join(map(told_of, carried[body]))})" if body in carried else name
 
-    return ", ".join(map(told_of, carried["ground"])) + ("; [x and y of its own]" if loose else "")
+    own = "; [keeps its x and y: no joint places it, or that is cheaper]" * bool(loose)
+    return ", ".join(map(told_of, carried["ground"])) + own
 
 
 def _depth(carried: Mapping[str, Sequence[str]], body: str) -> int:
@@ -211,9 +212,11 @@ def _operations(source: KernelSource) -> str:
     if "arrive" in counts:
         step, arrive = counts["close_step"], counts["arrive"]
         return (
-            f"accelerations {full:,} → {arrive:,} with all positions and velocities, {_factor(full, arrive)};"
-            f" each of Newton's steps {step:,}"
+            f"accelerations {full:,} → {arrive:,} with all positions and velocities, {_factor(full, arrive)}"
+            + f"; each of Newton's steps {step:,}" * bool(step)
         )
+    if "kinematic" in source.methods:  # a coordinate of the tree that no row says: all rows are asked
+        return f"accelerations {full:,}; each of Newton's steps, in absolute coordinates, {counts['project']:,}"
     if source.formulation == "full" or "reduced_dynamics" not in counts:
         return f"accelerations {full:,}{_laws(source)}"
     reduced = counts["reduced_dynamics"]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gudgeon import story as told
+from gudgeon.commands.story import outcome
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.c.emit import emit
 from gudgeon.generator.tree import choose_tree
@@ -224,6 +225,22 @@ def test_redundant_rows_are_told() -> None:
     (step,) = (step for step in source.story.steps if step.kind == told.REDUNDANT)
     assert step.rows_gone == ("two.x", "two.y") and step.owners == ("two",)
     assert len(source.tree) - len(source.closures) == 1
+
+
+def test_contradictory_drives_are_followed_in_absolute_coordinates() -> None:
+    """They do not assemble, so nothing is redundant: no freedom is counted, and yet no row says b's angle."""
+    text = (
+        "format: gudgeon/1\nname: contrary\nbodies:\n"
+        "  a: {length: 1 m, mass: 1 kg, inertia: 1 kg*m^2}\n  b: {length: 1 m, mass: 1 kg, inertia: 1 kg*m^2}\n"
+        "ground: {O: [0, 0], P: [1 m, 0]}\n"
+        "joints: {one: {revolute: [ground.O, a.tail]}, two: {revolute: [ground.P, b.head]}}\n"
+        "drives: {m: {angle: a, value: 60 deg}, n: {coordinate: a.x, value: 0.1 m}}\n"
+    )
+    source = emit(derive(text.encode(), "contrary.yaml", "ideal"))
+    story = source.story
+    assert not story.groups and story.after is not None and story.after.coordinates == len(source.coordinates)
+    lines = dict(outcome(source))
+    assert lines["operations"].endswith(f"in absolute coordinates, {source.operations['project']}")
 
 
 def test_story_survives_json() -> None:
