@@ -32,7 +32,12 @@ class Hub:
     @property
     def rows(self) -> list[str]:
         """Rows of the file's joints that make the points coincide."""
-        return [f"{joint.name}.{row}" for joint in self.joints for row in joint_types()[joint.kind].carries]
+        return [row for joint in self.joints for row in self.rows_of(joint)]
+
+    @staticmethod
+    def rows_of(joint: Joint) -> list[str]:
+        """Rows of a pair that make its points coincide."""
+        return [f"{joint.name}.{row}" for row in joint_types()[joint.kind].carries]
 
     def closing(self, tree: Iterable[Joint], cost: Callable[[Joint], int]) -> list[Joint]:
         """The cheapest pairs that join what the tree leaves apart (Kruskal's way)."""

@@ -34,6 +34,7 @@ class TreeSystem(System):
     tree: Tree
     unknowns: tuple[str, ...]
     slides: Mapping[str, Affine]  # slides that a drive prescribes, or that another slide tells
+    sliding: tuple[str, ...]  # the rows that say so, one a slide
 
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Generalized forces of loads; forces with the same lever are added first."""
@@ -77,14 +78,16 @@ def reduce(model: Model) -> TreeSystem:
     """The reduced system of a model, in which redundant rows are left out already."""
     tree = choose_tree(model)
     slides: dict[str, Affine] = {}
+    sliding: tuple[str, ...] = ()
     while True:
         geometry, constraints = _place(model, tree, slides)
         rows = _closures(model, tree, constraints)
         found = _known_slide(model, geometry, constraints, rows)
         if found is None:
-            return _system(model, tree, slides, geometry, constraints, rows)
+            return _system(model, tree, (slides, sliding), geometry, constraints, rows)
         row, name, value = found
         slides = {k: substitute(v, name, value) for k, v in slides.items()} | {name: value}
+        sliding += (row,)
         tree = replace(tree, rows=tree.rows | {row})
 
 
@@ -146,8 +149,8 @@ def _known_slide(
 
 
 def _system(
-    model: Model, tree: Tree, slides: Mapping[str, Affine], geometry: TreeGeometry, constraints: TreeConstraints,
-    rows: tuple[Row, ...],
+    model: Model, tree: Tree, slides: tuple[Mapping[str, Affine], tuple[str, ...]], geometry: TreeGeometry,
+    constraints: TreeConstraints, rows: tuple[Row, ...],
 ) -> TreeSystem:  # fmt: skip
     """Everything else on the tree: clearances, force elements, M and what acts besides."""
     reduced = _model(model, geometry, constraints, rows)
@@ -173,7 +176,7 @@ def _system(
     return TreeSystem(
         reduced, tuple(c.q for c in unknowns.values()), tuple(c.v for c in unknowns.values()),
         {body: _motion(geometry, body, place) for body in model.geometry.bodies}, mass,
-        tuple(applied(name) for name in unknowns), drives, rows, reduced.frictions, tree, tuple(unknowns), slides,
+        tuple(applied(name) for name in unknowns), drives, rows, reduced.frictions, tree, tuple(unknowns), *slides,
     )  # fmt: skip
 
 

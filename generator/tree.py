@@ -15,19 +15,16 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.constraints import Row, rate_jumps
-from gudgeon.generator.factorization import choose_elimination
 from gudgeon.generator.hubs import Hub, find_hubs
 from gudgeon.generator.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Joint
 from gudgeon.generator.model import Model
+from gudgeon.generator.tree_cost import Estimate
 
 Affine = Mapping[str, sp.Expr]  # coefficients by coordinate; the constant is under ""
 CONSTANT = ""
 DEPTHS = (None, 5, 3, 2, 1)  # how many bodies a chain may have before it is cut
 SEARCHED = 24  # more coordinates than that: the tree is not improved by exchanges
-# operations: an entry of M with its velocity term, an entry of a closure's row, a product of the elimination
-PAIR, ENTRY, PRODUCT = 14, 4, 2
-PLAIN = 5  # an entry of M with x or y of a body that moves freely
 
 
 @dataclass(frozen=True)
@@ -68,6 +65,8 @@ class Tree:
     rows: frozenset[str]  # those that the angles and the links make hold by themselves, or hubs say otherwise
     closing: tuple[Joint, ...]  # pairs of bodies that meet in a hub and are not joined by the tree
     hubs: tuple[Hub, ...]
+    solved: Mapping[str, str]  # rows that the angles use up, each with the body whose angle it says
+    costs: tuple[int, ...]  # estimated operations of the trees that were looked at, the first breadth first
 
     def multiplier(self, row: str) -> dict[str, int]:
         """A closure's multiplier in those of the file's rows."""
@@ -87,10 +86,10 @@ def stays_a_row(model: Model, row: Row) -> bool:
     return row.kind == "drive" and model.degrees_of_freedom > 0 and rate_jumps(model.scene.mechanism.drives[row.name])
 
 
-def solve_angles(model: Model) -> tuple[dict[str, Affine], frozenset[str]]:
-    """The angles by free ones and drives, with the rows that this uses up."""
+def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
+    """The angles by free ones and drives, with the rows that this uses up, each with its body."""
     angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
-    used = set()
+    used: dict[str, str] = {}
     for row in sorted(model.rows, key=lambda row: row.kind != "drive"):  # what a drive prescribes is never free
         total = _linear(model, row, angles)
         pivots = {b: c for b, c in (total or {}).items() if b in angles and c != 0}
@@ -100,8 +99,8 @@ def solve_angles(model: Model) -> tuple[dict[str, Affine], frozenset[str]]:
         pivot = max(pivots, key=lambda b: (abs(pivots[b]) == 1, order.index(b)))
         solved = {k: -c / pivots[pivot] for k, c in total.items() if k != pivot}
         angles = {b: substitute(a, pivot, solved) for b, a in angles.items()}
-        used.add(row.name)
-    return angles, frozenset(used)
+        used[row.name] = pivot
+    return angles, used
 
 
 def substitute(affine: Affine, name: str, value: Affine) -> Affine:
@@ -137,18 +136,20 @@ def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | No
 
 def choose_tree(model: Model) -> Tree:
     """The tree of the least estimated operations among a few, improved by exchanges of joints in loops."""
-    angles, used = solve_angles(model)
+    angles, solved = solve_angles(model)
+    used = frozenset(solved)
     free = tuple(b for b in angles if angles[b] == {b: 1})
     edges = _edges(model, angles)
     hubs = find_hubs(edges)
     gathered = {joint.name for hub in hubs for joint in hub.joints}
     edges = [j for j in edges if j.name not in gathered] + [j for hub in hubs for j in hub.pairs]
-    estimate = _Estimate(model, angles, used, hubs)
+    estimate = Estimate(model, angles, used, hubs)
     best = min((_grow(model, edges, edges, depth) for depth in DEPTHS), key=estimate)
     if len(free) <= SEARCHED and best == _grow(model, edges, edges, None):
         best = _exchange(model, edges, best, estimate)
     rows = used.union(*(link.rows for link in best), *(hub.rows for hub in hubs))
-    return Tree(angles, free, best, rows, tuple(estimate.closing(best)), tuple(hubs))
+    closing = tuple(estimate.closing(best))
+    return Tree(angles, free, best, rows, closing, tuple(hubs), solved, tuple(estimate.costs.values()))
 
 
 def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
@@ -195,7 +196,7 @@ def _grow(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: 
     return tuple(links)
 
 
-def _exchange(model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: _Estimate) -> tuple[Link, ...]:
+def _exchange(model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: Estimate) -> tuple[Link, ...]:
     """While a joint that closes a loop is better in the tree than one of the loop, they change places."""
     best = estimate(links)
     improved = True
@@ -227,70 +228,3 @@ def _loop(links: Sequence[Link], joint: Joint) -> list[Joint]:
     """The tree's joints in the loop that `joint` closes."""
     one, two = path(links, joint.first.body), path(links, joint.second.body)
     return [link.joint for link in (*one, *two) if (link in one) != (link in two) and link.joint]
-
-
-def _coupled(place: Mapping[str, int], moving: Iterable[frozenset[str]], plain: set[int]) -> list[set[int]]:
-    """Who meets whom in M; x and y of a body that moves freely do not."""
-    near: list[set[int]] = [set() for _ in place]
-    for keys in moving:
-        numbers = {place[name] for name in keys}
-        for k in numbers:
-            near[k] |= numbers - {k} - (plain if k in plain else set())
-    return near
-
-
-class _Estimate:
-    """Operations of a tree's right-hand side, counted from which coordinates meet where."""
-
-    def __init__(self, model: Model, angles: Mapping[str, Affine], used: frozenset[str], hubs: Sequence[Hub]) -> None:
-        self.hubs = hubs
-        body_of = {q: body.name for body in model.bodies for q in body.q}
-        self.angles = angles
-        self.turns = {b: frozenset(k for k in a if k in angles) for b, a in angles.items()}
-        said = used.union(*(hub.rows for hub in hubs))
-        self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in said]
-
-    def __call__(self, links: tuple[Link, ...]) -> int:
-        held = {row for link in links for row in link.rows}
-        paths: dict[str, list[Link]] = {}
-        reach: dict[str, frozenset[str]] = {GROUND: frozenset()}  # what a body's points move with
-        moving: list[frozenset[str]] = []  # what a centre of mass moves with
-        for link in links:
-            paths[link.body] = [*paths.get(link.parent, []), link]
-            reach[link.body] = reach[link.parent] | self.turns[link.body] | set(link.coordinates)
-            moving.append(frozenset(link.coordinates) if link.joint is None else reach[link.body])
-        place = {name: k for k, name in enumerate(sorted(frozenset().union(*reach.values())))}
-        plain = {place[name] for link in links if link.joint is None for name in link.coordinates}
-        near = _coupled(place, moving, plain)
-        cost = sum(PLAIN if k in plain or j in plain else PAIR for k, js in enumerate(near) for j in js if j < k)
-        open_pairs = [(joint.name, [joint.first.body, joint.second.body]) for joint in self.closing(links)]
-        for name, bodies in (*self.rows, *open_pairs, *open_pairs):  # two rows each
-            if name not in held:
-                keys = {place[key] for key in self._moving(paths, bodies)}
-                cost += sum(1 if key in plain else ENTRY for key in keys)
-                near.append(keys)
-                for key in keys:
-                    near[key] = near[key] | {len(near) - 1}
-        return cost + PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).cost
-
-    def closing(self, links: tuple[Link, ...]) -> list[Joint]:
-        """Pairs that the hubs need beside the tree's."""
-        paths: dict[str, list[Link]] = {}
-        for link in links:
-            paths[link.body] = [*paths.get(link.parent, []), link]
-
-        def cost(joint: Joint) -> int:
-            return len(self._moving(paths, [joint.first.body, joint.second.body]))
-
-        inside = [link.joint for link in links if link.joint]
-        return [joint for hub in self.hubs for joint in hub.closing(inside, cost)]
-
-    def _moving(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
-        """Coordinates between the bodies of a row: what they share of their way from the root does not count."""
-        shared = 0
-        if len(bodies) == 2:
-            one, two = (paths.get(b, []) for b in bodies)
-            parted = (k for k, (a, b) in enumerate(zip(one, two, strict=False)) if a is not b)
-            shared = max(next(parted, min(len(one), len(two))) - 1, 0)
-        links = [link for b in bodies for link in paths.get(b, [])[shared:]]
-        return {key for link in links for key in (*self.turns[link.body], *link.coordinates)}

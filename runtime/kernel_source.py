@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from gudgeon.story import Story
+
 
 @dataclass(frozen=True)
 class Slot:
@@ -157,6 +159,7 @@ class KernelSource:
     tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
     closures: tuple[str, ...] = ()  # its rows
     events: tuple[EventInfo, ...] = ()
+    story: Story = Story()  # how the equations became what is integrated (check -v)
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -181,7 +184,7 @@ class KernelSource:
         for key, value in data.items():
             if isinstance(value, list) and key not in kinds:
                 data[key] = tuple(value)
-        return KernelSource(**data)
+        return KernelSource(**data | {"story": Story.from_data(data.get("story", {}))})
 
 
 def _tuples(item: dict[str, Any]) -> dict[str, Any]:

@@ -132,7 +132,7 @@ def model_key(data: bytes, scene: str, overrides: Overrides, formulation: str) -
 def generator_hash(package: Path = PACKAGE) -> str:
     """Hash of the generator's and the templates' contents (2 ms; times of files say nothing after a checkout)."""
     files = [*(package / "generator").rglob("*.py"), *(package / "templates").rglob("*.jinja")]
-    files += [package / "kernel_source.py", package / "expression_tree.py"]  # what the stored form depends on
+    files += [package / f"{name}.py" for name in ("kernel_source", "story", "expression_tree")]  # the stored form's
     parts: list[str | bytes] = []
     for file in sorted(files):
         parts += [file.relative_to(package).as_posix(), file.read_bytes()]

@@ -20,6 +20,7 @@ if "benchmarks" not in sys.modules:  # the root stays off sys.path, so the folde
     spec.submodule_search_locations = [str(Path(__file__).resolve().parents[1] / "benchmarks")]
     sys.modules["benchmarks"] = importlib.util.module_from_spec(spec)
 
+from benchmarks import callgrind, rhs  # noqa: E402
 from benchmarks.peers import ideal, press  # noqa: E402
 from benchmarks.peers.reference import ONSETS  # noqa: E402
 from benchmarks.race import time_to  # noqa: E402
@@ -80,3 +81,40 @@ def test_ideal_press_by_hand_is_its_closed_form() -> None:
 def test_paths_of_a_concentric_start_are_points() -> None:
     work = press.work("dry")
     assert abs(press.paths(work, press_dense.start(work.press)[None, :24])).max() < 1e-15
+
+
+@needs_compiler
+def test_timed_states_are_finite_consistent_and_those_of_the_peer() -> None:
+    """Reduced, full and hand-written right-hand sides agree where they are timed."""
+    works = rhs.works()
+    assert [work.closed for work in works] == [(), ("A",), (), ()]
+    for work in works:
+        found = rhs.result(work)
+        assert np.isfinite(found.accelerations).all() and abs(found.accelerations).max() > 1.0
+        assert found.phi < 1e-14 and found.phi_dot < 1e-12
+        assert found.from_full < 1e-9
+        assert found.from_peer < 1e-9 or (work.peer is None and math.isnan(found.from_peer))
+    free, contact = works[0].operations, works[1].operations
+    law = sum(works[1].simulation.source.operations[f"{law}_A_force"] for law in ("normal", "friction"))
+    assert contact == (free[0] + law, free[1] + law)
+
+
+@needs_compiler
+@pytest.mark.skipif(not callgrind.available(), reason="no valgrind")
+def test_callgrind_counts_a_call_and_nothing_else() -> None:
+    """A loop of known additions: what is counted is in proportion to it, whatever the counts are."""
+    code = "double f(long n, const double *x, int m) { double s = 0; for (long i = 0; i < n; i++)" + (
+        " for (int k = 0; k < m; k++) s += x[k % 2]; return s; }"
+    )
+    flags = ("-O1", "-ffp-contract=off")
+
+    def counted(times: int, counts: tuple[int, int]) -> float:
+        text = f"f(count, x, {times})"
+        arrays = {"x": np.array([0.1, math.nan])}
+        declaration = "double f(long n, const double *x, int m);"
+        return callgrind.instructions(callgrind.Call({"f.c": code}, "f.c", declaration, text, arrays, flags), counts)
+
+    hundred = counted(100, (10, 20))
+    assert hundred == counted(100, (10, 110))  # start and end of the process are gone
+    assert 2.0 * hundred > counted(200, (10, 20)) > 1.9 * hundred  # less the loop around it
+    assert hundred >= 100

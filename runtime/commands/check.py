@@ -1,17 +1,17 @@
 """`gudgeon check`: read a mechanism file and say whether it is valid; with -v, what each scene becomes.
 
-With -v a table of numbers, then the story of each scene: what the reduced formulation keeps and what it drops, at which
-price before and after, which methods fit, and what was skipped and why. No line is longer than 100 columns.
+With -v a table of numbers, then the story of each scene (story.py): what went step by step and why, what is left and
+solved, operations before and after, which methods fit, and what was skipped. No line is longer than 100 columns.
 """
 
 from __future__ import annotations
 
 import json
-import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from gudgeon.commands.story import story_data, tell
 from gudgeon.errors import InputError, InputErrors
 from gudgeon.kernel_source import KernelSource
 from gudgeon.loading import find_mechanism, kernel_source, read_bytes
@@ -71,22 +71,12 @@ def _counts(mechanism: Mechanism) -> str:
     return f"{', '.join(words)}; scenes {', '.join(mechanism.scenes)}"
 
 
-def non_zeros(source: KernelSource) -> int:
-    """Entries of the scene's Φ_q that are not identically zero: those that its C assigns.
-
-    The C function fills Φ_q of the closed linkage, row by row; rows of joints with play are not counted.
-    """
-    entries = {int(k) for text in source.files.values() for k in re.findall(r"\bphi_q\[(\d+)\] = ", text)}
-    kept = {row.name for row in source.rows}
-    return sum(source.start_rows[k // len(source.coordinates)].name in kept for k in entries)
-
-
 def _facts(source: KernelSource) -> dict[str, int]:
     facts = {
         "unknowns": len(source.coordinates),
         "rows": len(source.rows),
         "degrees of freedom": source.degrees_of_freedom,
-        "non-zeros of Φ_q": non_zeros(source),
+        "non-zeros of Φ_q": source.story.jacobian,
         "joints with play": len(source.clearances),
         "numbers that can be set": len(source.slots),
     }
@@ -121,40 +111,13 @@ def _reduction(source: KernelSource) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _many(count: int, one: str) -> str:
-    return f"{count} {one}{'s' * (count != 1)}"
-
-
-def _kinds(tree: Sequence[str]) -> Iterator[str]:
-    """The coordinates of a tree, kind by kind: "angles of L2, L3"."""
-    angles = [name for name in tree if "." not in name]
-    slides = [name.removesuffix(".slide") for name in tree if name.endswith(".slide")]
-    positions = [name for name in tree if "." in name and not name.endswith(".slide")]
-    for kind, names, of in (("angle", angles, "of "), ("slide", slides, "of "), ("position", positions, "")):
-        if names:
-            yield f"{kind}{'s' * (len(names) != 1)} {of}{', '.join(names)}"
-
-
-def _story(source: KernelSource) -> Iterator[str]:
-    """What became of the equations, a sentence a line."""
-    told = _reduction(source)
-    counts = told["operations of the accelerations"]
-    before = f"{_many(len(source.coordinates), 'coordinate')} and {_many(len(source.rows), 'row')}"
-    if "reduced" in counts and source.formulation == "reduced":
-        saved = f"accelerations {counts['full']:,} → {counts['reduced']:,} operations"
-        yield f"reduced: {before} become {len(source.tree)} and {len(source.closures)}; {saved}"
-        yield f"unknowns: {'; '.join(_kinds(source.tree)) or 'none'}"
-        if told["driven"]:
-            yield f"functions of time: what {', '.join(told['driven'])} prescribe{'s' * (len(told['driven']) == 1)}"
-        held = sum(row.name not in source.closures for row in source.rows) - len(told["driven"])
-        by_tree = f"; {_many(held, 'row')} of joints hold by the choice of unknowns" if held else ""
-        yield f"closures left: {', '.join(source.closures) or 'none'}{by_tree}"
-    else:
-        yield f"full: {before}; accelerations {counts['full']:,} operations"
-    yield f"methods: {', '.join(told['methods'])}; auto begins with {told['auto begins with']}"
+def _rest(source: KernelSource) -> Iterator[tuple[str, str]]:
+    """Lines below the story: methods, what is watched, what this scene does without."""
+    yield "methods", f"{', '.join(_reduction(source)['methods'])}; auto begins with {begins_with(source)}"
     if source.events:
-        yield f"events {', '.join(_events(source))}"
-    yield from source.notes
+        yield "events", ", ".join(_events(source))
+    for note in source.notes:
+        yield "", note
 
 
 def _events(source: KernelSource) -> list[str]:
@@ -180,7 +143,8 @@ def _document(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> dict[
 
 
 def _of_scene(source: KernelSource) -> dict[str, Any]:
-    return {**_facts(source), **_reduction(source), "events": _events(source), "notes": list(source.notes)}
+    told = {"events": _events(source), "notes": list(source.notes), "story": story_data(source.story)}
+    return {**_facts(source), **_reduction(source), **told}
 
 
 def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
@@ -196,9 +160,8 @@ def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
     title = mechanism.title or mechanism.name
     for some in _beside(scenes, max(map(len, names))):
         console.print(_table(title, names, {scene: facts[scene] for scene in some}))
-    for scene, source in scenes.items():
-        for line in _story(source):
-            print(_wrapped(scene, line))
+    for part in tell(scenes, _rest):
+        console.print(part)
 
 
 def _wrapped(name: str, text: str) -> str:

@@ -130,6 +130,11 @@ def _struct(press: Press) -> _Press:
     return _Press(length, _EIGHT(*press.mass), _EIGHT(*press.inertia), *(fields[n] for n in _SCALARS))
 
 
+def numbers(press: Press) -> np.ndarray:
+    """The C structure, which is nothing but doubles, in their order."""
+    return np.frombuffer(bytes(_struct(press)))
+
+
 def start(press: Press, t: float = 0.0) -> np.ndarray:
     """y (48,) = (q, v) of the ideal press at t: concentric joints, ideal velocities."""
     m = motion(t, press.geometry)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gudgeon.kernel_source import KernelSource
+from gudgeon.story import Story
 
 
 def tiny(factor: int = 2, **changes: object) -> KernelSource:
@@ -22,6 +23,7 @@ def tiny(factor: int = 2, **changes: object) -> KernelSource:
         "simulate": {},
         "operations": {},
         "gravity": False,
+        "story": Story(),
     }
     for name in KernelSource.__dataclass_fields__:
         fields.setdefault(name, ())

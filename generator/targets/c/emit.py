@@ -16,6 +16,7 @@ from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
 from gudgeon.generator.reduced_kernels import is_rescued
+from gudgeon.generator.story import tell
 from gudgeon.generator.system import absolute
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
@@ -111,7 +112,8 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     counts = _counts(model, integrated)
     if integrates:
         linearized, kernels_of_loops = _newton(model, integrated)
-        loops = LoopCode(integrator_loops(model, integrated, linearized, counts, render), tuple(kernels_of_loops))
+        files = integrator_loops(model, integrated, linearized, counts, render)
+        loops = LoopCode(files, tuple(kernels_of_loops), integrated.kkt)
     else:
         loops = kinematic_code(model, kkt, integrated, counts, render)
     prepare = interface.prepare_kernel(model, printer.expression)
@@ -140,6 +142,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         operations=_operations(model, kernels),
         tree=reduced.system.unknowns if reduced else (),
         closures=tuple(row.name for row in reduced.system.rows) if reduced else (), formulation=formulation,
+        story=tell(model, kkt, loops.solved, integrated.system, loops.groups),
     )  # fmt: skip
 
 

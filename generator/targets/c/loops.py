@@ -14,7 +14,7 @@ from gudgeon.generator.kkt import KKT
 from gudgeon.generator.methods import dop853, rodas5p
 from gudgeon.generator.model import Model
 from gudgeon.generator.projection import closing_kernel, projection_kernel
-from gudgeon.generator.square_rows import SquareRows
+from gudgeon.generator.square_rows import Block, SquareRows
 from gudgeon.generator.system import System
 from gudgeon.generator.targets.c import printer
 
@@ -50,11 +50,16 @@ class Integrated:
 
 @dataclass(frozen=True)
 class LoopCode:
-    """The time loops of a scene, their kernels; without freedom the rows that a status counts through."""
+    """The time loops of a scene, their kernels; without freedom the rows that a status counts through.
+
+    `solved` is what is factored at a state, unless rows are solved in `groups`.
+    """
 
     files: Mapping[str, str]
     kernels: tuple[Kernel, ...]
+    solved: KKT | None
     pivots: tuple[str, ...] = ()
+    groups: tuple[Block, ...] = ()
 
 
 def kinematic_code(
@@ -69,14 +74,15 @@ def kinematic_code(
         text = blocks + "\n".join(printer.kernel(kernel) for kernel in kernels)
         closing = render("kinematic_tree.c.jinja", kernels=text, angles=integrated.angles or (1,))
         pivots: tuple[str, ...] = (*(row.name for row in integrated.system.rows), *kkt.pivots)
+        solved = None
     else:
         projection, of_projection = projection_kernel(kkt.system, model.rows, "project")
-        kernels, pivots = (projection,), (*of_projection.pivots, *kkt.pivots)
+        kernels, pivots, solved = (projection,), (*of_projection.pivots, *kkt.pivots), of_projection
         closing = printer.kernel(projection) + "\n" + render("kinematic_full.c.jinja", **counts)
     files = {"kinematic.c": render("kinematic.c.jinja", closing=closing, tree=tree)}
     if model.events:
         files["kinematic_events.c"] = render("kinematic_events.c.jinja")
-    return LoopCode(files, kernels, pivots)
+    return LoopCode(files, kernels, solved, pivots, rows.blocks or () if tree else ())
 
 
 def integrator_loops(
