@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from gudgeon.errors import BadValueError, JoinError, Location
+from gudgeon.expression_tree import functions
 from gudgeon.generator.mechanism import GROUND, Drive, PointRef
 from gudgeon.generator.names import Namespace
 from gudgeon.generator.read_bodies import Places
@@ -58,6 +59,11 @@ def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive
     value = reader.quantity(
         text_of(node["value"], node.key("value"), owner), f"{owner}.value", target.dimension, time=True
     )
+    if "sign" in functions(value.value):
+        raise BadValueError(
+            f"{owner}.value jumps where the argument of sign changes its sign", value.where,
+            "a drive moves without jumps: abs, min, max, ramp and smooth_step have none",
+        )  # fmt: skip
     drive = Drive(
         str(name), str(kind), target.body, target.reference, value, name.where, target.coordinate, target.points
     )

@@ -16,6 +16,7 @@ from gudgeon.generator.projection import projection_kernel
 from gudgeon.generator.reduction import TreeSystem
 from gudgeon.generator.sine_pairs import side_by_side
 from gudgeon.generator.tree import Link
+from gudgeon.generator.watched import watched_kernel
 
 _DOC = (
     "Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:",
@@ -39,7 +40,9 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
     kkt = KKT(system, daring=is_rescued(system))
     dynamics = dynamics_kernel(system, kkt, "reduced_dynamics", _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
-    return [side_by_side(without_unused(kernel)) for kernel in (*_closures(system), dynamics, projection)], kkt
+    watched = watched_kernel(dynamics, system.model)
+    kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
+    return [side_by_side(without_unused(kernel)) for kernel in kernels], kkt
 
 
 def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:

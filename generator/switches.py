@@ -36,6 +36,21 @@ class Pick(sp.Function):
         return da if da == db else Pick(side, da, db)
 
 
+class Magnitude(sp.Function):
+    """|x| of an x that its side keeps from being negative, but for stages beyond the corner; never 0.
+
+    The base of a broken power: x^1.5 of the held x would be no number there, |x|^1.5 goes on as smoothly.
+    """
+
+    nargs = 1
+    is_real = True
+    is_nonnegative = True
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Of the side on which the step is."""
+        return sp.Integer(1)
+
+
 @dataclass(frozen=True)
 class Switch:
     """One corner: `owner` is the joint with play that it belongs to, "" for the scene."""
@@ -100,4 +115,6 @@ class Switches:
                 for other in ordered[1:]:
                     value = Pick(side(value - other if up else other - value), value, other)
                 return value
+            case sp.Pow() if not expression.exp.is_integer and arguments[0] != expression.base:
+                return Magnitude(arguments[0]) ** arguments[1]
         return expression.func(*arguments)

@@ -68,6 +68,8 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
             f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
             " anything; a step too long does this, or a drive that pushes the links through a dead centre"
         )
+    if compiled.source.events and ":" in problem.method:
+        notes.append(f"events are not watched by method {problem.method}")
     for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - c

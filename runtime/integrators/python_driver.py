@@ -105,6 +105,12 @@ def run(problem: Problem) -> Trajectory:
             " linkage follows by an impulse, which the adaptive methods in C give it",
             hint="use auto, dop853 or rodas5p, or a smooth_step in place of the ramp",
         )
+    stopping = [event.name for event in problem.compiled.source.events if event.action == "stop"]
+    if stopping and problem.stop:
+        raise BadValueError(
+            f"method {problem.method!r}: events ({', '.join(stopping)}) are watched by the methods in C only",
+            hint="use auto, dop853, rodas5p or rk4, or simulate(…, stop=False)",
+        )
     if math.isfinite(problem.step):
         raise BadValueError(f"method {problem.method!r} chooses its step", hint="give rtol, or leave out step")
     return _Driver(problem).run()
@@ -246,7 +252,10 @@ class _Driver:
     def _trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
         from gudgeon.results import IMPACT_DTYPE
 
-        contacts, equations, n, count = self.contacts, self.equations, self.n, len(self.samples)
+        contacts, equations, n = self.contacts, self.equations, self.n
+        if not self.samples:  # the start at least
+            self.samples.append((self.y, np.full(n, np.nan), contacts.memory.copy(), contacts.codes))
+        count = len(self.samples)
         going_on = [(k, contacts.open[k][0], math.nan, float(contacts.memory[k]), *contacts.open[k][1:])
                     for k in np.flatnonzero(contacts.closed)]  # fmt: skip
         impacts = np.array([*contacts.impacts, *going_on], dtype=IMPACT_DTYPE)

@@ -121,7 +121,9 @@ class Session:
         return float(t[0]), counts, numbers, peaks[: self.nc]
 
     def trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
-        """What was stored, and the run's counts."""
+        """What was stored, at least the start, and the run's counts."""
+        if not self.done:
+            self.sample(0)
         self.fetch_impacts(last=True)
         self.fetch_events()
         events = np.concatenate(self.events)

@@ -16,6 +16,8 @@
 #include "rk4.c"
 #include "dop853.c"
 #include "rodas5p.c"
+#include "roots.c"
+#include "watched.c"
 #include "events.c"
 #include "peaks.c"
 #include "changes.c"

@@ -135,6 +135,25 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     return 0;
 }
 /*
+ * Switching functions of the scene's own corners, in aside->g, and what the user watches, in aside->event.
+ */
+static void watched_functions(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, Aside *aside)
+{
+    (void)t;
+    (void)v;
+    (void)memory;
+    /* coordinates, velocities, time */
+    const double guide_slide = q[0];
+
+    /* parameters */
+    const double wall_x = p->wall_x;
+
+    /* directions, arms, drives */
+    const double spring_span_x = guide_slide - wall_x;
+    aside->g[0] = spring_span_x;
+}
+/*
  * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
  * the closed linkage, redundant ones are not looked at.
  * Returns 0, or the number of the pivot that vanished.

@@ -41,7 +41,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         if (run->memory.event_side[i] == 0)
             event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
     if (!status && event >= 0)
-        status = run->stuck > MAX_STUCK ? CHATTERING : change(run, event, p);
+        status = run->stuck > MAX_STUCK + 2 * N_MARGINS ? CHATTERING : change(run, event, p);
     return status ? status : check_contacts(run, p);
 }
 
@@ -73,7 +73,7 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
 {
     const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * fmax(fabs(run->t), fabs(t_end));
     double h = run->fixed > 0.0 ? run->fixed : run->h;
-    int again = 0;
+    int again = 0, shortened = 0;
     if (run->skip >= 0 && run->fixed <= 0.0)
         h = fmin(h, run->pace);
     if (h > left * (1.0 - 1e-9))
@@ -91,12 +91,19 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
                 h *= BOUNDED / run->stability;
             continue;
         }
+        if (!status && step->error <= run->accept && is_unresolved(run, step, p) && run->fixed <= 0.0
+            && shortened++ < SHORTENED) {
+            again = 1;
+            run->rejected++;
+            h *= 0.25;
+            continue;
+        }
         if (!status && step->error <= run->accept) {
             const double error = fmax(step->error, 1e-12);
             double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
             if (!run->stiff && run->stability > 1.0)
                 factor = fmin(factor, 1.1 * BOUNDED / run->stability);
-            factor = fmin(fmax(factor, 0.3), again ? 1.0 : 6.0);
+            factor = fmin(fmax(factor, 0.3), again ? 1.0 : step->looked ? 2.0 : 6.0);
             run->error_before = fmax(error, 1e-4);
             if (run->first)
                 *run->first = h;
@@ -135,6 +142,26 @@ static int first_size(Run *run, double left, const Parameters *p)
     return 0;
 }
 
+/* The side of what is watched and begins on a zero: that to which it goes. */
+static int leave_zeros(Run *run, const Parameters *p)
+{
+    int zeros = 0;
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        zeros |= run->memory.event_side[i] == 0;
+    if (!zeros)
+        return 0;
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    const double h = 1e-6 * run->h;
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        if (run->memory.event_side[i] == 0)
+            event_crosses(i, &run->memory.event_side[i], aside.event[i]);
+    return status;
+}
+
 /* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
 static int begin_adaptive(Run *run, double left, const Parameters *p)
 {
@@ -145,7 +172,9 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     if (!status)
         status = settle_sides(run, -1, p);
     note_speed(run);
-    return status || run->h > 0.0 ? status : first_size(run, left, p);
+    if (!status && !(run->h > 0.0))
+        status = first_size(run, left, p);
+    return status ? status : leave_zeros(run, p);
 }
 
 /* choice: 0 explicit, 1 stiff, 2 automatic, 3 automatic from stiff; scale (2 N_X): tolerances, those of velocities a unit of speed. */

@@ -15,7 +15,7 @@ typedef struct {
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
 enum {
     N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
-    N_STAGES = 16, N_DENSE = 7
+    N_STAGES = 16, N_DENSE = 7, N_WATCHED = 0, N_LOOKS = 16
 };
 
 typedef struct {
@@ -27,6 +27,8 @@ typedef struct {
     int dense_ready, stiff;
     int n_seen;                              /* stages so far, their nodes and margins */
     double node[N_STAGES], seen[1][N_STAGES];
+    double look[1][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (watched.c) */
+    unsigned char near[1], looked;
     double rate[1][2];   /* smallest and largest d delta/dt of the stages */
 } Step;
 

@@ -24,6 +24,7 @@ from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.loops import Integrated, LoopCode, integrator_loops, kinematic_code
 from gudgeon.generator.targets.c.newton_code import jacobian_code, newton_code, tangent_code
 from gudgeon.generator.targets.c.reduced_code import reduced_code
+from gudgeon.generator.watched import watched_kernel
 from gudgeon.kernel_source import KernelSource
 
 COMMON_CDEF = """\
@@ -107,7 +108,9 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
     reduced = reduced_code(model, render, _kernels) if formulation == "reduced" else None
-    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel)
+    watched = watched_kernel(dynamics, model) if formulation == "full" else None
+    right_hand_side = [dynamics, *([watched] if watched else [])]
+    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched is not None)
     integrated = reduced.integrated if reduced else plain
     counts = _counts(model, integrated)
     if integrates:
@@ -118,7 +121,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         loops = kinematic_code(model, kkt, integrated, counts, render)
     prepare = interface.prepare_kernel(model, printer.expression)
     rescued = reduced is not None and is_rescued(reduced.system)  # the absolute formulation tells what vanished
-    kernels = [dynamics, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
+    kernels = [*right_hand_side, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
     files = {
         "model.h": render("model.h.jinja", **_header(model), **counts),
         "trigonometry.c": render("trigonometry.c.jinja"),
@@ -126,7 +129,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         "constraints.c": _kernels(*around),
         "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
         **({"singular.c": _singular(model, counts)} if model.rows and not model.frictions else {}),
-        "dynamics.c": _kernels(dynamics),
+        "dynamics.c": _kernels(*right_hand_side),
         "system.c": render("system.c.jinja", **counts),
         "start.c": _start(model),
         **(reduced.files if reduced else {}),

@@ -46,6 +46,12 @@ class Integrated:
     angles: tuple[int, ...]
     reduced: bool
     finish: Callable[[Kernel], Kernel]  # a last pass over kernels
+    cheap: bool  # whether generator/watched.py has a kernel of what is watched
+
+    @property
+    def corners(self) -> list[int]:
+        """The scene's own switches."""
+        return sorted(switch.index for switch in self.system.model.symbols.switches.of(""))
 
 
 @dataclass(frozen=True)
@@ -94,6 +100,7 @@ def integrator_loops(
     modes, events = (render(f"{name}.c.jinja", pivots=pivots).strip() for name in (kind, f"{kind}_events"))
     common = {**counts, "floors": _floors(model), "clearances": _lengths(model, [c.pair.c for c in model.clearances])}
     common["deepest"] = _lengths(model, [c.pair.R_i / 10 for c in model.clearances])
+    common["n_watched"] = len(integrated.corners) + counts["n_events"]
     common["meeting"] = _meeting(model, counts["n_switches"])
     constraints, projection = _PROJECTED if integrated.reduced else _STABILISED
     residuals = _FROM_CLOSURES if integrated.reduced else _FROM_DYNAMICS
@@ -110,6 +117,8 @@ def integrator_loops(
         ),
         "dop853.c": render("dop853.c.jinja", **_dop853()),
         "rodas5p.c": render("rodas5p.c.jinja", **_rodas5p()),
+        "roots.c": render("roots.c.jinja", **counts),
+        "watched.c": render("watched.c.jinja", cheap=integrated.cheap, **_watched(integrated, counts)),
         "events.c": render("events.c.jinja", **counts),
         "peaks.c": render("peaks.c.jinja", **counts),
         "changes.c": render("changes.c.jinja", **common),
@@ -154,6 +163,15 @@ def _meeting(model: Model, count: int) -> list[int]:
     printed = {c.name for c in model.clearances if c.film is not None and c.film.options.get("as_printed")}
     owners = {switch.index: switch.owner for switch in model.symbols.switches.found.values()}
     return [int(bool(owners.get(k)) and owners[k] not in printed) for k in range(max(count, 1))]
+
+
+def _watched(integrated: Integrated, counts: Mapping[str, int]) -> dict[str, list[int]]:
+    """Margins of the scene's own corners and of user events, in C's order of margins."""
+    first = counts["n_clearances"] + counts["n_switches"] + counts["n_frictions"]
+    margins = [counts["n_clearances"] + k for k in integrated.corners]
+    margins += range(first, first + counts["n_events"])
+    place = {k: i for i, k in enumerate(margins)}
+    return {"watched": margins, "watched_as": [place.get(k, -1) for k in range(max(counts["n_margins"], 1))]}
 
 
 def _lengths(model: Model, values: Sequence[sp.Expr]) -> list[str]:

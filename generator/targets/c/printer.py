@@ -79,6 +79,10 @@ class CPrinter(C99CodePrinter):
         """From switches.py."""
         return f"side_of(side, g, {int(expr.args[0])}, {self._print(expr.args[1])})"
 
+    def _print_Magnitude(self, expr: sp.Expr) -> str:
+        """From switches.py."""
+        return f"(fabs({self._print(expr.args[0])}) + 1e-150)"
+
     def _print_Pick(self, expr: sp.Expr) -> str:
         """Not below zero picks the first: a NaN stays in it."""
         side, a, b = (self._print(argument) for argument in expr.args)

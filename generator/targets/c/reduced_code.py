@@ -11,6 +11,7 @@ from gudgeon.generator.reduced_kernels import is_rescued, motion_kernels, reduce
 from gudgeon.generator.reduction import TreeSystem, reduce
 from gudgeon.generator.sine_pairs import side_by_side
 from gudgeon.generator.targets.c.loops import Integrated
+from gudgeon.generator.watched import NAME as WATCHED
 
 CDEF = """\
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v);
@@ -51,7 +52,10 @@ def reduced_code(model: Model, render: Callable[..., str], print_kernels: Callab
     parts += [print_kernels(*kernels), render("reduced_calls.c.jinja", rescued=rescued)]
     cdef = CDEF + (RESCUE_CDEF if rescued else "")
     angles = tuple(int("." not in name) for name in system.unknowns)
-    integrated = Integrated(system, kkt, angles, True, lambda kernel: side_by_side(without_unused(kernel)))
+    integrated = Integrated(
+        system, kkt, angles, True, lambda kernel: side_by_side(without_unused(kernel)),
+        any(kernel.name == WATCHED for kernel in kernels),
+    )
     return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, (*around, *kernels), integrated)
 
 
