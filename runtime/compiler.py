@@ -28,8 +28,12 @@ def flags(portable: bool) -> tuple[str, ...]:
     """Compiler flags; `portable` leaves out what binds the library to this CPU."""
     machine = os.uname().machine
     native = "-mcpu=native" if machine in ("arm64", "aarch64") else "-march=native"
-    link = ("-bundle", "-undefined", "dynamic_lookup") if sys.platform == "darwin" else ("-shared",)
-    return (*FLAGS, *(() if portable else (native,)), *link)
+    return (*FLAGS, *(() if portable else (native,)))
+
+
+def link_flags() -> tuple[str, ...]:
+    """What makes objects a module of Python."""
+    return ("-bundle", "-undefined", "dynamic_lookup") if sys.platform == "darwin" else ("-shared",)
 
 
 def find_compiler() -> tuple[str, ...]:

@@ -23,7 +23,7 @@ if "benchmarks" not in sys.modules:  # the root stays off sys.path, so the folde
 from benchmarks import callgrind, rhs  # noqa: E402
 from benchmarks.peers import ideal, press  # noqa: E402
 from benchmarks.peers.reference import ONSETS  # noqa: E402
-from benchmarks.race import time_to  # noqa: E402
+from benchmarks.race_record import time_to  # noqa: E402
 
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 

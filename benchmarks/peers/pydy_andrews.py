@@ -65,6 +65,18 @@ def run(rtol: float) -> andrews.Measured:
     torque = np.array([andrews.TORQUE])
     begin = perf_counter()
     s = solve_ivp(  # PyDy answers in one array, over and over, and solve_ivp keeps what it is given: hence the copy
-        lambda t, y: f(y, t, torque).copy(), (0.0, andrews.T_END), y0, method="DOP853", rtol=rtol, atol=atol, t_eval=[andrews.T_END]
-    )
+        lambda t, y: f(y, t, torque).copy(), (0.0, andrews.T_END), y0, t_eval=[andrews.T_END],
+        method="DOP853", rtol=rtol, atol=atol,
+    )  # fmt: skip
     return andrews.error(s.y[:7, -1]), perf_counter() - begin, int(s.nfev)
+
+
+def seconds_per_rhs(batch: int = 500, repeats: int = 7) -> float:
+    """Least time of a call from Python (s), LAPACK's solve included."""
+    f, y, torque, best = compiled(), start(), np.array([andrews.TORQUE]), float("inf")
+    for _ in range(repeats):
+        begin = perf_counter()
+        for _ in range(batch):
+            f(y, 0.0, torque)
+        best = min(best, (perf_counter() - begin) / batch)
+    return best
