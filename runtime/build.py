@@ -132,7 +132,7 @@ def _start(line: list[str], folder: Path) -> subprocess.Popen[str]:
 
 
 def _finish(process: subprocess.Popen[str], made: Path) -> Exception | None:
-    """Wait; what to raise where it failed: OSError for a full disk, so that another folder is tried, else BuildError."""
+    """Wait; what to raise where it failed: OSError for a full disk (another folder is tried then), else BuildError."""
     out, err = process.communicate()
     if process.returncode == 0 and made.is_file():
         return None
