@@ -11,13 +11,16 @@ benchmarks/peers. `--write` keeps what was found: benchmarks/race.csv, and made 
 from __future__ import annotations
 
 import argparse
+import math
+import os
 import platform
 import subprocess
+from dataclasses import replace
 from importlib.util import find_spec
 
 from benchmarks import race_page, race_record
 from benchmarks.peers import andrews, press, pydy_andrews
-from benchmarks.race_entries import WORKS, Entry, entries
+from benchmarks.race_entries import WORKS, Entry, Found, entries
 from benchmarks.race_record import MEASURES, Record, Row
 from benchmarks.rhs import machine
 from gudgeon import compiler
@@ -26,21 +29,41 @@ REPEATS = 5
 LONG = 0.3  # s: a run so long needs no warm-up of its own
 
 
-def sweep(entry: Entry) -> list[Row]:
-    """Every control, least time of REPEATS; a control at which the method gives up is left out."""
-    rows = []
-    for control in entry.controls:
-        try:
-            runs = [entry.run(control)]
-            count = REPEATS - 1 if runs[0].seconds * entry.runs > LONG else REPEATS
-            runs += [entry.run(control) for _ in range(count)]
-        except (ArithmeticError, RuntimeError, ValueError) as problem:
-            print(f"  {entry.name} at {control:.0e}: {str(problem).splitlines()[0]}")
-            continue
-        best = min(runs, key=lambda run: run.seconds)
-        own = bool(entry.method)
-        rows.append(Row(entry.work, entry.name, own, control, best.seconds, best.right_hand_sides, best.errors))
-    return rows
+class Best:
+    """The least times of a work's entries. Rounds go through all of them, so that whatever else the machine does for a
+    while takes its share of everyone."""
+
+    def __init__(self, taking_part: list[Entry]) -> None:
+        self.found: dict[tuple[Entry, float], Found] = {}
+        self.waiting = [(entry, control) for entry in taking_part for control in entry.controls]
+
+    def warm_up(self) -> None:
+        """The first run of everyone; it counts where it is long. A control at which a method gives up is left out."""
+        for entry, control in list(self.waiting):
+            try:
+                run = entry.run(control)
+            except (ArithmeticError, RuntimeError, ValueError) as problem:
+                print(f"  {entry.name} at {control:.0e}: {str(problem).splitlines()[0]}")
+                self.waiting.remove((entry, control))
+                continue
+            long = run.seconds * entry.runs > LONG
+            self.found[entry, control] = run if long else replace(run, seconds=math.inf)
+
+    def round(self, last: bool) -> None:
+        """Once more everyone; those whose first run counted rest in the last round."""
+        for entry, control in self.waiting:
+            best = self.found[entry, control]
+            if last and best.seconds * entry.runs > LONG:
+                continue
+            run = entry.run(control)
+            self.found[entry, control] = min(best, run, key=lambda found: found.seconds)
+
+    def rows(self) -> list[Row]:
+        """For the record."""
+        return [
+            Row(e.work, e.name, bool(e.method), control, run.seconds, run.right_hand_sides, run.errors)
+            for (e, control), run in self.found.items()
+        ]
 
 
 def machine_facts() -> dict[str, str]:
@@ -51,6 +74,7 @@ def machine_facts() -> dict[str, str]:
         "machine": f"{machine()}, {platform.system()}",
         "compiler": said.splitlines()[0].strip() if said else "unknown",
         "python": platform.python_version(),
+        "processes that wanted a core before the race began, a minute's mean": f"{os.getloadavg()[0]:.1f}",
         "packages": race_record.versions(),
     }
 
@@ -83,12 +107,18 @@ def race(works: list[str]) -> Record:
     print("\n".join(f"{name}: {value}" for name, value in facts.items()))
     for work in works:
         print(f"\n{work}", flush=True)
-        facts |= {f"{work}, {name}": value for name, value in work_facts(work).items()}
+        taking_part: list[Entry] = []
         for entry in (e for e in entries() if e.work == work):
             if entry.missing:
                 print(f"  {entry.name}: left out, without {entry.missing}")
             else:
-                rows += sweep(entry)
+                taking_part.append(entry)
+        best = Best(taking_part)
+        best.warm_up()
+        for k in range(REPEATS):
+            best.round(last=k == REPEATS - 1)
+        facts |= {f"{work}, {name}": value for name, value in work_facts(work).items()}
+        rows += best.rows()
         record = Record(facts, tuple(rows))
         print("\n".join(race_page.facts(record, work)))
         for measure in MEASURES[work]:

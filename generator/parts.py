@@ -20,7 +20,7 @@ import sympy as sp
 
 from gudgeon.generator.kernels import Argument, Kernel, Section, Statement
 
-LONG, PART, SHORTEST = 1200, 600, 100
+LONG, PART, SHORTEST = 1200, 250, 60
 _NAME = re.compile(r"(?<![\w.>])[A-Za-z_]\w*")
 # A test that fails with its number: `return 3;`, or `{ pivot = 3; goto dependent; };`
 _TEST = re.compile(
