@@ -19,6 +19,7 @@ from itertools import groupby
 import sympy as sp
 
 from gudgeon.generator.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.switches import SideOf
 
 LONG, PART, SHORTEST = 1200, 250, 60
 _NAME = re.compile(r"(?<![\w.>])[A-Za-z_]\w*")
@@ -56,7 +57,7 @@ def cut(kernel: Kernel) -> tuple[Kernel, ...]:
     passed = _unused_name("passed", items)
     slots = _slots(pieces)
     parts: list[Kernel] = []
-    main = [Item("values that pass between the parts", f"double {passed}[{len(slots) + 1}];", frozenset(), False)]
+    main = [Item("values that pass between the parts", f"double {passed}[{max(len(slots), 1)}];", frozenset(), False)]
     stored: set[str] = set()
     for k, piece in enumerate(pieces):
         if not _is_part(piece):
@@ -107,7 +108,8 @@ def _reads(what: Statement | str) -> frozenset[str]:
         return frozenset(_NAME.findall(test["test"] if test else what))
     found = {} if what.local else set(_NAME.findall(what.target))
     if isinstance(what.value, sp.Expr):
-        return frozenset(found).union(*(_NAME.findall(s.name) for s in what.value.free_symbols))
+        sides = {"side", "g"} if what.value.has(SideOf) else set()  # as it is printed
+        return frozenset(found).union(sides, *(_NAME.findall(s.name) for s in what.value.free_symbols))
     return frozenset(found).union(_NAME.findall(what.value))
 
 
