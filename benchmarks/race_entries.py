@@ -217,11 +217,11 @@ def andrews_entries() -> list[Entry]:
 
 def ideal_entries() -> list[Entry]:
     """The press without play."""
-    steps = (1e-3, 1e-4)  # a step a sample, and ten
+    steps, n = (1e-3, 1e-4), ideal.SAMPLES  # a step a sample, and ten
     return [
-        Entry("ideal", "gudgeon kinematic", own_ideal, (math.nan,), (), "kinematic"),
-        Entry("ideal", "Newton in dense C", plain(ideal.dense, "motion"), (math.nan,)),
-        Entry("ideal", "Exudyn gen.-alpha", plain(exudyn_press.run, "motion"), steps, ("exudyn",)),
+        Entry("ideal", "gudgeon kinematic", own_ideal, (math.nan,), (), "kinematic", n),
+        Entry("ideal", "Newton in dense C", plain(ideal.dense, "motion"), (math.nan,), (), "", n),
+        Entry("ideal", "Exudyn gen.-alpha", plain(exudyn_press.run, "motion"), steps, ("exudyn",), "", n),
     ]
 
 

@@ -65,7 +65,7 @@ def grid(head: list[str], rows: list[list[str]]) -> list[str]:
 def bars(record: Record) -> list[str]:
     """What is asked, what was found, and found over asked: 1 or more meets it."""
     rows = []
-    for bar in BARS:
+    for bar in (b for b in BARS if record.entries(b.work)):
         own = [record.time_to(bar.work, bar.own, MEASURES[bar.work][0], level) for level in bar.levels]
         if bar.peer:
             peer = [record.time_to(bar.work, bar.peer, MEASURES[bar.work][0], level) for level in bar.levels]

@@ -79,7 +79,7 @@ def test_a_short_kernel_is_its_only_part() -> None:
 def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     shorten(monkeypatch)
     plain = [Statement(f"a{k}", f"x[{k}]" if k == 0 else f"a{k - 1} + b[{k % 2}]") for k in range(40)]
-    lines = ("double b[2];", "fill(b);", *plain, Statement("y[0]", "a39 + a3", False))
+    lines: tuple[Statement | str, ...] = ("double b[2];", "fill(b);", *plain, Statement("y[0]", "a39 + a3", False))
     kernel = Kernel("f", (), (Argument("const double *", "x"), Argument("double *", "y")), (Section("", lines),))
     # every statement but the first reads b, which only a line of C knows: nothing may move
     assert parts.cut(kernel) == (kernel,)
