@@ -37,7 +37,10 @@ class Best:
         self.waiting = [(entry, control) for entry in taking_part for control in entry.controls]
 
     def warm_up(self) -> None:
-        """The first run of everyone; it counts where it is long, else a second does. A control at which a method gives up is left out."""
+        """The first run of everyone; it counts where it is long, else a second does.
+
+        A control at which a method gives up is left out.
+        """
         for entry, control in list(self.waiting):
             try:
                 run = entry.run(control)
