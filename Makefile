@@ -5,7 +5,7 @@ ARGS ?=
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run checks test test-all lint types fuzz bench stress generated setup setup-test clean
+.PHONY: help run checks test test-all lint types fuzz bench race stress generated setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -43,6 +43,10 @@ fuzz: setup-test  ## mutated expressions and files; ARGS="--count 1000000"; guid
 bench: setup  ## run time against error; one right-hand side beside the hand-written C
 	@$(GUDGEON) bench nine_bar_press --mark-step 0.1ms $(ARGS)
 	@.venv/bin/python -m benchmarks.rhs
+
+race:  ## time to reach an error, gudgeon beside its peers; writes docs/race.md. A few minutes, on a quiet machine
+	@sh tools/setup all,bench
+	@.venv/bin/python -m benchmarks.race --write $(ARGS)
 
 stress: setup  ## step of rk4 × clearance: stable, inaccurate, diverged; without --method: tolerance × clearance
 	@$(GUDGEON) stress nine_bar_press --method rk4 --mark-step 0.1ms $(ARGS)

@@ -1,195 +1,147 @@
 """The race: CPU time to reach a given error, gudgeon and its peers in one run of one process.
 
-    python -m benchmarks.race [--work lubricated dry andrews ideal] [--csv race.csv] [--figure race.png]
+    python -m benchmarks.race [--work andrews ideal dry lubricated sweep] [--write]
 
-Needs gudgeon; peers that are not installed (extra `bench`) are left out with a line. Every entry is swept over its
-tolerances (or steps); a time is the least of at least five repeats after a warm-up, integration only. The table
-interpolates along a sweep, log-log, between the two neighbours that enclose the error asked for. Works, errors and
-references: benchmarks/peers.
+Peers that are not installed (extra `bench`) are left out with a line. Every entry is swept over its tolerances (or
+steps); a time is the least of at least five repeats after a warm-up, integration only. The tables interpolate along a
+sweep, log-log, between the two neighbours that enclose the error asked for. Works, errors and references:
+benchmarks/peers. `--write` keeps what was found: benchmarks/race.csv, and made from it figures and docs/race.md.
 """
 
 from __future__ import annotations
 
 import argparse
-import csv
-import math
-from collections.abc import Iterable
-from dataclasses import dataclass
+import os
+import platform
+import subprocess
 from importlib.util import find_spec
-from pathlib import Path
 
-from benchmarks.peers import andrews, press
+from benchmarks import race_page, race_record
+from benchmarks.peers import andrews, press, pydy_andrews
 from benchmarks.race_entries import WORKS, Entry, Found, entries
+from benchmarks.race_record import MEASURES, Record, Row
 from benchmarks.rhs import machine
+from gudgeon import compiler
 
-LEVELS = (1e-4, 1e-6, 1e-8)
-ONSET_LEVELS = (1e-6, 1e-8, 1e-10)  # s
 REPEATS = 5
 LONG = 0.3  # s: a run so long needs no warm-up of its own
-MEASURES = {
-    "lubricated": ("slider", "path"),
-    "dry": ("slider", "path", "onset"),
-    "andrews": ("angle",),
-    "ideal": ("motion",),
-}
+SHORT, MORE = 0.03, 4  # s: runs so short are cheaply had again, this often a round
 
 
-@dataclass(frozen=True)
-class Point:
-    """One control (tolerance or step) of one entry."""
+class Best:
+    """The least times of a work's entries. Rounds go through all of them, so that whatever else the machine does for a
+    while takes its share of everyone."""
 
-    control: float
-    found: Found
+    def __init__(self, taking_part: list[Entry]) -> None:
+        self.found: dict[tuple[Entry, float], Found] = {}
+        self.waiting = [(entry, control) for entry in taking_part for control in entry.controls]
 
+    def warm_up(self) -> None:
+        """The first run of everyone; it counts where it is long, else a second does.
 
-@dataclass(frozen=True)
-class Sweep:
-    """An entry with its points, loosest control first."""
+        A control at which a method gives up is left out.
+        """
+        for entry, control in list(self.waiting):
+            try:
+                run = entry.run(control)
+            except (ArithmeticError, RuntimeError, ValueError) as problem:
+                print(f"  {entry.name} at {control:.0e}: {str(problem).splitlines()[0]}")
+                self.waiting.remove((entry, control))
+                continue
+            long = run.seconds * entry.runs > LONG
+            self.found[entry, control] = run if long else entry.run(control)
 
-    entry: Entry
-    points: tuple[Point, ...]
+    def round(self, last: bool) -> None:
+        """Once more everyone; those whose first run counted rest in the last round."""
+        for entry, control in self.waiting:
+            best = self.found[entry, control]
+            if last and best.seconds * entry.runs > LONG:
+                continue
+            again = [entry.run(control) for _ in range(1 if best.seconds * entry.runs > SHORT else MORE)]
+            self.found[entry, control] = min(best, *again, key=lambda found: found.seconds)
 
-
-def sweep(entry: Entry) -> Sweep:
-    """Every control, least time of REPEATS; a control at which the method gives up is left out."""
-    points = []
-    for control in entry.controls:
-        try:
-            runs = [entry.run(control)]
-            count = REPEATS - 1 if runs[0].seconds > LONG else REPEATS
-            runs += [entry.run(control) for _ in range(count)]
-        except (ArithmeticError, RuntimeError, ValueError) as problem:
-            print(f"  {entry.name} at {control:.0e}: {str(problem).splitlines()[0]}")
-            continue
-        points.append(Point(control, min(runs, key=lambda run: run.seconds)))
-    return Sweep(entry, tuple(points))
-
-
-def time_to(points: Iterable[tuple[float, float]], level: float) -> float:
-    """Seconds to reach an error: the least over points (error, seconds) that do, and over neighbours that enclose it.
-
-    NaN where no point reaches it. Nothing is extrapolated: a sweep whose loosest point is better than asked for
-    gives that point's time.
-    """
-    good = [(e, s) for e, s in points if math.isfinite(e)]
-    times = [s for e, s in good if e <= level]
-    for (e0, s0), (e1, s1) in zip(good, good[1:], strict=False):
-        if min(e0, e1) > 0.0 and min(e0, e1) <= level < max(e0, e1):
-            share = math.log(level / e0) / math.log(e1 / e0)
-            times.append(s0 * (s1 / s0) ** share)
-    return min(times, default=math.nan)
+    def rows(self) -> list[Row]:
+        """For the record."""
+        return [
+            Row(e.work, e.name, bool(e.method), control, run.seconds, run.right_hand_sides, run.errors)
+            for (e, control), run in self.found.items()
+        ]
 
 
-def errors_of(one: Sweep, measure: str) -> list[tuple[float, float]]:
-    """(error, seconds) along a sweep."""
-    return [(p.found.errors[measure], p.found.seconds) for p in one.points]
+def machine_facts() -> dict[str, str]:
+    """What the times belong to."""
+    command = compiler.find_compiler()
+    said = subprocess.run([*command, "--version"], capture_output=True, text=True, env=compiler.plain()).stdout
+    return {
+        "machine": f"{machine()}, {platform.system()}",
+        "compiler": said.splitlines()[0].strip() if said else "unknown",
+        "python": platform.python_version(),
+        "processes that wanted a core before the race began, a minute's mean": f"{os.getloadavg()[0]:.1f}",
+        "packages": race_record.versions(),
+    }
 
 
-def table(sweeps: list[Sweep], measure: str) -> list[str]:
-    """Milliseconds to each level, and over the best of gudgeon's."""
-    levels = ONSET_LEVELS if measure == "onset" else LEVELS
-    times = {s.entry.name: [time_to(errors_of(s, measure), level) for level in levels] for s in sweeps}
-    ours = [
-        [t for s in sweeps if s.entry.method and math.isfinite(t := times[s.entry.name][i])] for i in range(len(levels))
-    ]
-    best = [min(column, default=math.nan) for column in ours]
-    unit = " s" if measure == "onset" else ""
-    head = "".join(f"{f'{level:.0e}{unit}':>11}" for level in levels)
-    lines = [f"  {measure + ', time in ms to':<24}{head}   | over gudgeon's best", "  " + "-" * 92]
-    for name, row in times.items():
-        cells = "".join(f"{t * 1e3:11.4g}" if math.isfinite(t) else f"{'–':>11}" for t in row)
-        ratio = "".join(
-            f"{t / b:9.3g}" if math.isfinite(t / b) else f"{'–':>9}" for t, b in zip(row, best, strict=True)
-        )
-        lines.append(f"  {name:<24}{cells}   |{ratio}")
-    return lines
-
-
-def head(work: str) -> list[str]:
-    """What the work is judged by: the peers' right-hand side and how well the reference is confirmed."""
-    if work == "andrews" and find_spec("jitcode") is None:
-        return ["  no right-hand side of a peer: jitcode is not installed"]
+def work_facts(work: str) -> dict[str, str]:
+    """What a work is judged by: the peers' right-hand side and how well the reference is confirmed."""
     if work == "andrews":
-        return [f"  right-hand side of jitcode, called from Python: {andrews.seconds_per_rhs() * 1e6:.2f} µs"]
-    if work == "ideal":
-        return ["  time of one sample"]
-    task, gap = press.work(work), press.reference_gap(work)
-    rhs = press.Kernel(task).seconds_per_rhs * 1e6
-    onsets = [len(times) for times in press.reference(work).onsets]
-    return [
-        f"  right-hand side of the peers' dense C: {rhs:.2f} µs; onsets at A and B: {onsets}",
-        f"  a second method differs from the reference by:"
-        f" slider {gap.slider:.0e}, path {gap.path:.0e}, onset {gap.onset:.0e} s",
-    ]
+        found = {}
+        if find_spec("jitcode") is not None:
+            found["right-hand side of jitcode, called from Python"] = f"{andrews.seconds_per_rhs() * 1e6:.2f} µs"
+        if find_spec("pydy") is not None and find_spec("Cython") is not None:
+            found["right-hand side of PyDy"] = f"{pydy_andrews.seconds_per_rhs() * 1e6:.1f} µs"
+        return found
+    if work not in ("dry", "lubricated"):
+        return {}
+    gap, rhs = press.reference_gap(work), press.Kernel(press.work(work)).seconds_per_rhs * 1e6
+    found = {
+        "right-hand side of the peers' dense C": f"{rhs:.2f} µs (asked: at most 5.5)",
+        "a second method differs from the reference by": f"slider {gap.slider:.0e}, path {gap.path:.0e}",
+    }
+    if work == "dry":
+        found["a second method differs from the reference by"] += f", onset {gap.onset:.0e} s"
+        found["onsets at A and B"] = " and ".join(str(len(times)) for times in press.reference(work).onsets)
+    return found
 
 
-def write_csv(path: Path, sweeps: list[Sweep]) -> None:
-    """A row a point."""
-    measures = sorted({m for names in MEASURES.values() for m in names})
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(["work", "entry", "control", "seconds", "right_hand_sides", *measures])
-        for one in sweeps:
-            for p in one.points:
-                cells = [p.found.errors.get(m, "") for m in measures]
-                writer.writerow(
-                    [one.entry.work, one.entry.name, p.control, p.found.seconds, p.found.right_hand_sides, *cells]
-                )
-
-
-def draw(path: Path, sweeps: list[Sweep]) -> None:
-    """Time against error, log-log, a panel a work; gudgeon's lines are the thick ones."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    works = [w for w in WORKS if w != "ideal" and any(s.entry.work == w for s in sweeps)]
-    figure, axes = plt.subplots(1, len(works), figsize=(5.2 * len(works), 4.6), squeeze=False, layout="constrained")
-    for axis, work in zip(axes[0], works, strict=True):
-        measure = MEASURES[work][0]
-        for one in (s for s in sweeps if s.entry.work == work):
-            points = [(e, 1e3 * t) for e, t in errors_of(one, measure) if math.isfinite(e) and e > 0.0]
-            width = 2.4 if one.entry.method else 1.0
-            axis.loglog(*zip(*points, strict=True), "o-", markersize=3, linewidth=width, label=one.entry.name)
-        axis.set(title=work, xlabel=f"error ({measure})", ylabel="time [ms]")
-        axis.invert_xaxis()
-        axis.grid(True, which="major", alpha=0.3)
-        axis.legend(fontsize=7)
-    figure.savefig(path, dpi=150)
-
-
-def race(works: list[str]) -> list[Sweep]:
+def race(works: list[str]) -> Record:
     """Run, print, return everything."""
-    print(f"{machine()}; one thread, least of {REPEATS} or more")
-    done = []
+    facts, rows = machine_facts(), []
+    print("\n".join(f"{name}: {value}" for name, value in facts.items()))
     for work in works:
-        print(f"\n{work}")
-        print("\n".join(head(work)))
-        sweeps = []
+        print(f"\n{work}", flush=True)
+        taking_part: list[Entry] = []
         for entry in (e for e in entries() if e.work == work):
             if entry.missing:
                 print(f"  {entry.name}: left out, without {entry.missing}")
             else:
-                sweeps.append(sweep(entry))
+                taking_part.append(entry)
+        best = Best(taking_part)
+        best.warm_up()
+        for k in range(REPEATS):
+            best.round(last=k == REPEATS - 1)
+        facts |= {f"{work}, {name}": value for name, value in work_facts(work).items()}
+        rows += best.rows()
+        record = Record(facts, tuple(rows))
+        print("\n".join(race_page.facts(record, work)))
         for measure in MEASURES[work]:
-            print("\n".join(["", *table([s for s in sweeps if s.points], measure)]))
-        done += sweeps
-    return done
+            print("\n".join(["", *race_page.table(record, work, measure)]), flush=True)
+    return Record(facts, tuple(rows))
 
 
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--work", nargs="+", choices=WORKS, default=list(WORKS))
-    parser.add_argument("--csv", type=Path, help="a row for every tolerance of every entry")
-    parser.add_argument("--figure", type=Path, help="time against error")
+    parser.add_argument("--write", action="store_true", help="keep CSV, figures and the page; all works")
     options = parser.parse_args()
-    sweeps = race(options.work)
-    if options.csv:
-        write_csv(options.csv, sweeps)
-    if options.figure:
-        draw(options.figure, sweeps)
+    if options.write and set(options.work) != set(WORKS):
+        parser.error("--write keeps whole races: leave out --work")
+    record = race(options.work)
+    print("\nfound, and in brackets over what is asked: 1 or more meets it\n")
+    print("\n".join(race_page.bars(record)))
+    if options.write:
+        race_record.write(race_page.CSV, record)
+        race_page.main()
 
 
 if __name__ == "__main__":

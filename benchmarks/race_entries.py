@@ -1,6 +1,6 @@
 """Who takes part in the race: the peers, and gudgeon with each of its methods. One line an entry.
 
-A method of gudgeon that does not exist yet, or a peer that is not installed, is left out with a line that says so.
+A peer that is not installed is left out with a line that says so.
 """
 
 from __future__ import annotations
@@ -15,12 +15,32 @@ from typing import Any
 import numpy as np
 
 import gudgeon
-from benchmarks.peers import andrews, cvode, dop853, exudyn_andrews, ideal, lsoda, press, rk4
-from gudgeon.simulation import METHODS
+from benchmarks import many
+from benchmarks.peers import (
+    andrews,
+    cvode,
+    cvode_sweep,
+    dop853,
+    exudyn_andrews,
+    exudyn_press,
+    ideal,
+    lsoda,
+    press,
+    pydy_andrews,
+    rk4,
+)
 
 BODIES = ("L1", "L2", "L3", "L4", "L6", "L7", "L8", "S9")
 TOLERANCES = tuple(10.0**-k for k in range(3, 13))
-WORKS = ("lubricated", "dry", "andrews", "ideal")
+WORKS = ("andrews", "ideal", "dry", "lubricated", "sweep")
+RK4_STEPS = {
+    "lubricated": (2e-5, 1e-5, 5e-6),
+    "dry": (1e-5, 5e-6, 2e-6, 1e-6, 5e-7),
+    "andrews": (2e-4, 1e-4, 5e-5, 2e-5, 1e-5),
+}
+EXUDYN_STEPS = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
+CVODE_SWEEP = (1e-7, 1e-8)  # neighbours of a worst error of 1e-6
+SWEEP = (10, 20)  # clearances, speeds
 
 
 @dataclass(frozen=True)
@@ -42,14 +62,12 @@ class Entry:
     controls: tuple[float, ...]
     needs: tuple[str, ...] = ()  # modules
     method: str = ""  # gudgeon's own; "" for a peer
+    runs: int = 1  # that `seconds` is one share of
 
     @property
     def missing(self) -> str:
         """What is not there; "" if all is."""
-        lacking = [module for module in self.needs if find_spec(module) is None]
-        if self.method and self.method not in METHODS:
-            lacking.append(f"gudgeon's method {self.method!r}")
-        return ", ".join(lacking)
+        return ", ".join(module for module in self.needs if find_spec(module) is None)
 
 
 Press = Callable[[press.Work, float], tuple[press.Samples, float, int]]
@@ -124,40 +142,94 @@ def own_ideal(_: float) -> Found:
     return Found({"motion": error}, run.diagnostics.seconds / ideal.SAMPLES, -1)
 
 
+@cache
+def sweep_reference() -> np.ndarray:
+    """Slider's y (runs, OUTPUTS) by the stiff method at 1e-10; `many.confirm` tells how far it is from the race's."""
+    batch = many.run(loaded("nine_bar_press", "lubricated"), many.grid(*SWEEP), method="rodas5p", rtol=1e-10)
+    return batch.q[:, :, batch.source.coordinates.index(many.SLIDER)]
+
+
+def sweep_found(y: np.ndarray, seconds: float) -> Found:
+    """The worst error of the slider over all runs, and seconds a run."""
+    error = float(np.abs(y - sweep_reference()).max() / press.work("lubricated").stroke)
+    return Found({"worst": error}, seconds / len(y), -1)
+
+
+def own_sweep(threads: int) -> Callable[[float], Found]:
+    """gudgeon on all runs of the sweep, whole batches: starts, runs and arrays."""
+
+    def found(rtol: float) -> Found:
+        batch = many.run(loaded("nine_bar_press", "lubricated"), many.grid(*SWEEP), rtol=rtol, threads=threads)
+        return sweep_found(batch.q[:, :, batch.source.coordinates.index(many.SLIDER)], batch.seconds)
+
+    return found
+
+
+def peer_sweep(rtol: float) -> Found:
+    """CVODE on the same."""
+    columns = many.grid(*SWEEP)
+    c, omega = np.asarray(columns["c"]), np.asarray(columns["omega"])
+    return sweep_found(*cvode_sweep.run(cvode_sweep.works(c, omega), rtol))
+
+
 def entries() -> list[Entry]:
     """Everyone, gudgeon first in each work."""
-    own = [("dop853", "rtol", TOLERANCES), ("rodas5p", "rtol", TOLERANCES), ("auto", "rtol", TOLERANCES)]
-    rk4_steps = {
-        "lubricated": (2e-5, 1e-5, 5e-6),
-        "dry": (1e-5, 5e-6, 2e-6, 1e-6, 5e-7),
-        "andrews": (2e-4, 1e-4, 5e-5, 2e-5, 1e-5),
-    }
-    sundae, jit = ("sksundae",), ("jitcode",)
-    found = []
+    return [*press_entries(), *andrews_entries(), *ideal_entries(), *sweep_entries()]
+
+
+def own_methods(work: str) -> list[tuple[str, str, tuple[float, ...]]]:
+    """gudgeon's methods, what controls them and its values; what a user gets who names none comes first."""
+    adaptive = [(method, "rtol", TOLERANCES) for method in ("auto", "dop853", "rodas5p")]
+    return [*adaptive, ("rk4", "step", RK4_STEPS[work])]
+
+
+def press_entries() -> list[Entry]:
+    """The press with play."""
+    found, sundae = [], ("sksundae",)
     for work in ("lubricated", "dry"):
-        for method, control, values in [*own, ("rk4", "step", rk4_steps[work])]:
+        for method, control, values in own_methods(work):
             found.append(Entry(work, f"gudgeon {method}", own_press(work, method, control), values, (), method))
         found += [
             Entry(work, "CVODE BDF from C", on_press(cvode.in_c, work), TOLERANCES, sundae),
             Entry(work, "LSODA (SciPy)", on_press(lsoda.plain, work), TOLERANCES),
             Entry(work, "LSODA, J in C", on_press(lsoda.jacobian, work), TOLERANCES),
-            Entry(work, "RK4 in dense C", on_press(rk4.run, work), rk4_steps[work]),
+            Entry(work, "RK4 in dense C", on_press(rk4.run, work), RK4_STEPS[work]),
         ]
-    found += [
-        Entry("lubricated", "scikit-sundae", on_press(cvode.sundae, "lubricated"), TOLERANCES[:9], sundae),
-        Entry(
-            "lubricated", "scikit-sundae, J in C", on_press(cvode.sundae_jacobian, "lubricated"), TOLERANCES[:9], sundae
-        ),
-    ]
-    for method, control, values in [*own, ("rk4", "step", rk4_steps["andrews"])]:
+    for name, run in (("scikit-sundae", cvode.sundae), ("scikit-sundae, J in C", cvode.sundae_jacobian)):
+        found.append(Entry("lubricated", name, on_press(run, "lubricated"), TOLERANCES[:9], sundae))
+    return found
+
+
+def andrews_entries() -> list[Entry]:
+    """Andrews' squeezer."""
+    found, jit = [], ("jitcode",)
+    for method, control, values in own_methods("andrews"):
         found.append(Entry("andrews", f"gudgeon {method}", own_andrews(method, control), values, (), method))
-    exudyn_steps = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
-    found += [
+    return [
+        *found,
         Entry("andrews", "jitcode dop853", plain(dop853.jitcode, "angle"), TOLERANCES, jit),
         Entry("andrews", "SciPy DOP853", plain(dop853.scipy, "angle"), TOLERANCES, jit),
         Entry("andrews", "SciPy LSODA", plain(dop853.scipy_lsoda, "angle"), TOLERANCES, jit),
-        Entry("andrews", "Exudyn gen.-alpha", plain(exudyn_andrews.run, "angle"), exudyn_steps, ("exudyn",)),
-        Entry("ideal", "gudgeon kinematic", own_ideal, (math.nan,), (), "kinematic"),
-        Entry("ideal", "Newton in dense C", plain(ideal.dense, "motion"), (math.nan,)),
+        Entry("andrews", "PyDy, DOP853", plain(pydy_andrews.run, "angle"), TOLERANCES[1:8], ("pydy", "Cython")),
+        Entry("andrews", "Exudyn gen.-alpha", plain(exudyn_andrews.run, "angle"), EXUDYN_STEPS, ("exudyn",)),
     ]
-    return found
+
+
+def ideal_entries() -> list[Entry]:
+    """The press without play."""
+    steps, n = (1e-3, 1e-4), ideal.SAMPLES  # a step a sample, and ten
+    return [
+        Entry("ideal", "gudgeon kinematic", own_ideal, (math.nan,), (), "kinematic", n),
+        Entry("ideal", "Newton in dense C", plain(ideal.dense, "motion"), (math.nan,), (), "", n),
+        Entry("ideal", "Exudyn gen.-alpha", plain(exudyn_press.run, "motion"), steps, ("exudyn",), "", n),
+    ]
+
+
+def sweep_entries() -> list[Entry]:
+    """200 lubricated runs, clearance × speed."""
+    n, sundae = SWEEP[0] * SWEEP[1], ("sksundae",)
+    own = [
+        Entry("sweep", f"gudgeon auto, {k} thread{'s' * (k > 1)}", own_sweep(k), many.TOLERANCES, (), "auto", n)
+        for k in (1, 2)
+    ]
+    return [*own, Entry("sweep", "CVODE BDF from C, 1 thread", peer_sweep, CVODE_SWEEP, sundae, "", n)]

@@ -1,15 +1,18 @@
-"""How derivation, emitted code and right-hand side grow with the number of joints: the N-four-bar.
+"""How derivation, emitted code, compiling and right-hand side grow with the number of joints: the N-four-bar.
 
-    python benchmarks/scaling.py [--largest 64]
+    python -m benchmarks.scaling [--largest 64] [--long 40] [--formulation reduced full]
 
-Prints a row for each N and the exponent of each column, fitted over all N ≥ 4 on logarithmic axes
-(a straight line through the smallest systems would fit what is constant, the start of SymPy and gcc).
-Times are minima of a few runs.
+Prints for both formulations a row for each N and the exponent of each column, fitted over all N ≥ 4 on logarithmic
+axes (a straight line through the smallest systems would fit what is constant, the start of SymPy and gcc). Derive,
+emit and compile are processor time, ours and gcc's, so that other work on the machine hardly shows. `rhs` is the least
+time of a run of rk4 over its right-hand sides: closures, projection and all that a user pays for.
+`--long N` then runs N four-bars through their singular positions for 20 s.
 """
 
 from __future__ import annotations
 
 import argparse
+import resource
 import tempfile
 import time
 from collections.abc import Callable
@@ -18,70 +21,108 @@ from pathlib import Path
 import numpy as np
 from sympy.core.cache import clear_cache
 
+import gudgeon
 from gudgeon.build import compile_kernels
 from gudgeon.compiled import CompiledModel
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.c.emit import emit
+from gudgeon.loading import FORMULATIONS
 from gudgeon.mechanisms.n_four_bar import text as yaml_text
 from gudgeon.simulation import Simulation
 
 COLUMNS = ("derive [s]", "emit [s]", "operations", "C [kB]", "compile [s]", "rhs [us]")
+BAR = 1.15  # the largest exponent that is asked for
+STEP, STEPS = 1e-3, 200
+GRAVITY, BAR_INERTIA = 9.81, 1.0 / 12.0
+DRIFT, PARALLEL = 1e-3, 1e-6  # J, rad: asked of the long run
 
 
-def minimum(call: Callable[[], object], repeats: int) -> float:
-    """Seconds of the fastest of some runs; SymPy's cache is emptied, or small systems would be in it whole."""
+def processor_time() -> float:
+    """Of this process and of those that it waited for, s."""
+    return time.process_time() + sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+
+
+def least(call: Callable[[], object], repeats: int) -> float:
+    """Processor time of the fastest of some calls; SymPy's cache is emptied, or small systems would be in it whole."""
     times = []
     for _ in range(repeats):
         clear_cache()
-        before = time.perf_counter()
+        before = processor_time()
         call()
-        times.append(time.perf_counter() - before)
+        times.append(processor_time() - before)
     return min(times)
 
 
-def measure(n: int, folder: Path) -> tuple[float, ...]:
+def measure(n: int, formulation: str, folder: Path) -> tuple[float, ...]:
     """One row of the table."""
     data, file = yaml_text(n).encode(), folder / f"n_four_bar_{n}.yaml"
     file.write_bytes(data)
-    repeats = 3 if n <= 16 else 2
-    derived = minimum(lambda: derive(data, file.name, "ideal"), repeats)
+    repeats = 2 if n <= 16 else 1
+    derived = least(lambda: derive(data, file.name, "ideal"), repeats)
     model = derive(data, file.name, "ideal")
-    emitted = minimum(lambda: emit(derive(data, file.name, "ideal")), repeats) - derived
-    source = emit(model)
-    compiled = minimum(lambda: compile_kernels(source, rebuild=True), 1)
+    emitted = least(lambda: emit(model, formulation), repeats)
+    source = emit(model, formulation)
+    compiled = least(lambda: compile_kernels(source, rebuild=True), repeats)
     simulation = Simulation(CompiledModel(source, compile_kernels(source)), file)
+    kernel = "reduced_dynamics" if formulation == "reduced" else "dynamics"
     size = sum(map(len, source.files.values())) / 1000
-    return derived, emitted, source.operations["dynamics"], size, compiled, 1e6 * rhs_seconds(simulation)
+    return derived, emitted, source.operations[kernel], size, compiled, 1e6 * rhs_seconds(simulation)
 
 
 def rhs_seconds(simulation: Simulation) -> float:
-    """One right-hand side at the start, minimum of 5 batches."""
-    model, start = simulation.compiled, simulation.start()
-    y = np.concatenate([start.q, start.v, np.zeros(3)])
-    memory, count = model.memory_array(None), 20_000
-
-    def batch() -> None:
-        pointers = (model.pointer(x) for x in (y, memory, simulation.p))
-        model.lib.gudgeon_time_rhs(count, 0.0, *pointers)
-
-    return minimum(batch, 5) / count
+    """Of a run of rk4, the least of 7, over its right-hand sides."""
+    runs = [simulation.simulate(STEPS * STEP, output=1, method="rk4", step=STEP).diagnostics for _ in range(7)]
+    return min(d.seconds / d.right_hand_sides for d in runs)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
-    parser.add_argument("--largest", type=int, default=64)
-    largest = parser.parse_args().largest
-    sizes = [n for n in (2, 4, 8, 16, 32, 64) if n <= largest]
-    print(f"{'N':>4}" + "".join(f"{name:>14}" for name in COLUMNS))
+def table(formulation: str, sizes: list[int]) -> None:
+    """Rows and exponents."""
+    print(f"\n{formulation}\n{'N':>9}" + "".join(f"{name:>14}" for name in COLUMNS))
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for n in sizes:
-            rows.append(measure(n, Path(folder)))
-            print(f"{n:>4}" + "".join(f"{value:>14.4g}" for value in rows[-1]), flush=True)
+            rows.append(measure(n, formulation, Path(folder)))
+            print(f"{n:>9}" + "".join(f"{value:>14.4g}" for value in rows[-1]), flush=True)
     fitted = [k for k, n in enumerate(sizes) if n >= 4]
-    logs = np.log(np.array(rows)[fitted])
-    exponents = np.polyfit(np.log([sizes[k] for k in fitted]), logs, 1)[0]
-    print("exponents" + "".join(f"{value:>14.2f}" for value in exponents)[5:])
+    if len(fitted) < 2:
+        return
+    exponents = np.polyfit(np.log([sizes[k] for k in fitted]), np.log(np.array(rows)[fitted]), 1)[0]
+    print("exponents" + "".join(f"{value:>14.2f}" for value in exponents))
+    beyond = [name for name, value in zip(COLUMNS, exponents, strict=True) if value > BAR]
+    print(f"asked: at most {BAR}; beyond it: {', '.join(beyond) or 'none'}")
+
+
+def long_run(n: int) -> None:
+    """20 s: the energy's drift and how parallel the cranks stay, through every singular position."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / f"n_four_bar_{n}.yaml"
+        file.write_text(yaml_text(n), encoding="utf-8")
+        run = gudgeon.load(file).simulate(20.0, output=2000)
+    bars = [f"crank{i}" for i in range(n + 1)] + [f"coupler{i}" for i in range(1, n + 1)]
+    energy = sum(
+        0.5 * (run[f"{bar}.vx"] ** 2 + run[f"{bar}.vy"] ** 2 + BAR_INERTIA * run[f"{bar}.omega"] ** 2)
+        + GRAVITY * run[f"{bar}.y"]
+        for bar in bars
+    )
+    cranks = np.stack([run[f"crank{i}.theta"] for i in range(n + 1)])
+    drift, apart = np.abs(energy - energy[0]).max(), np.abs(cranks - cranks[0]).max()
+    turned = float(np.ptp(cranks[0]) / (2.0 * np.pi))
+    print(f"\nN = {n}, 20 s, {turned:.1f} turns, in {run.diagnostics.seconds:.2f} s: ", end="")
+    print(f"energy drifts by {drift:.1e} J (asked {DRIFT:.0e}), ", end="")
+    print(f"cranks parallel to {apart:.1e} rad (asked {PARALLEL:.0e})")
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--largest", type=int, default=64)
+    parser.add_argument("--long", type=int, default=40, help="0: leave it out")
+    parser.add_argument("--formulation", nargs="+", choices=FORMULATIONS, default=["reduced", "full"])
+    options = parser.parse_args()
+    for formulation in options.formulation:
+        table(formulation, [n for n in (2, 4, 8, 16, 32, 64) if n <= options.largest])
+    if options.long:
+        long_run(options.long)
 
 
 if __name__ == "__main__":

@@ -48,6 +48,7 @@ class Kernel:
     sections: tuple[Section, ...]
     returns: str = "void"
     inline: bool = False
+    attribute: str = ""  # of the compiler: "noinline"
 
     @property
     def operations(self) -> int:

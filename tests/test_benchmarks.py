@@ -6,6 +6,7 @@ import importlib.machinery
 import importlib.util
 import json
 import math
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -20,10 +21,10 @@ if "benchmarks" not in sys.modules:  # the root stays off sys.path, so the folde
     spec.submodule_search_locations = [str(Path(__file__).resolve().parents[1] / "benchmarks")]
     sys.modules["benchmarks"] = importlib.util.module_from_spec(spec)
 
-from benchmarks import callgrind, rhs  # noqa: E402
-from benchmarks.peers import ideal, press  # noqa: E402
+from benchmarks import callgrind, race_page, race_record, rhs  # noqa: E402
+from benchmarks.peers import cvode_sweep, ideal, press  # noqa: E402
 from benchmarks.peers.reference import ONSETS  # noqa: E402
-from benchmarks.race import time_to  # noqa: E402
+from benchmarks.race_record import time_to  # noqa: E402
 
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 
@@ -118,3 +119,47 @@ def test_callgrind_counts_a_call_and_nothing_else() -> None:
     assert hundred == counted(100, (10, 110))  # start and end of the process are gone
     assert 2.0 * hundred > counted(200, (10, 20)) > 1.9 * hundred  # less the loop around it
     assert hundred >= 100
+
+
+def record() -> race_record.Record:
+    """Of one work: ours twice as fast and as exact at each control, a peer that never comes to 1e-8."""
+    errors = ((1e-3, 1e-5, 1e-9), (1e-3, 1e-5, math.nan))
+    rows = [
+        race_record.Row("andrews", name, own, 10.0**-k, (1.0 + own) ** -1 * 4.0**k * 1e-3, -1, {"angle": error[k]})
+        for name, own, error in zip(("gudgeon auto", "jitcode dop853"), (True, False), errors, strict=True)
+        for k in range(3)
+    ]
+    return race_record.Record({"machine": "one: of two", "andrews, note": "5 µs"}, tuple(rows))
+
+
+def test_a_record_is_read_as_it_was_written(tmp_path: Path) -> None:
+    race_record.write(tmp_path / "race.csv", record())
+    back = race_record.read(tmp_path / "race.csv")
+    assert back.facts == record().facts
+    assert repr(back.rows) == repr(record().rows)  # NaN is no equal of itself
+
+
+def test_tables_tell_times_ratios_and_what_is_not_reached() -> None:
+    lines = race_page.table(record(), "andrews", "angle")
+    (cells,) = ([cell.strip() for cell in line.split("|")] for line in lines if "jitcode" in line)
+    # 1e-4 is half-way, log-log, from 1e-3 (1 ms) to 1e-5 (4 ms); ours takes half the time
+    assert cells[1:-1] == ["jitcode dop853", "2.00", "–", "–", "2.00", "–", "–"]
+    (bar,) = ([cell.strip() for cell in line.split("|")] for line in race_page.bars(record()) if "jitcode" in line)
+    assert bar[1:-1] == ["andrews", "3.00 × jitcode dop853", "", "– (–)", "– (–)"]
+
+
+def test_the_page_is_what_the_committed_record_makes_of_it() -> None:
+    page = race_page.PAGE.read_text(encoding="utf-8")
+    assert race_page.filled(page, race_record.read(race_page.CSV)) == page
+    assert set(re.findall(r"<!-- race: (\w+) -->", page)) == {"machine", "bars", *race_record.MEASURES}
+    with pytest.raises(ValueError, match="nobody"):
+        race_page.filled("<!-- race: nobody -->\n<!-- end -->", record())
+
+
+@needs_compiler
+def test_the_peers_of_the_sweep_are_the_runs_of_the_sweep() -> None:
+    c, omega = np.array([3e-4, 6e-4]), np.array([math.pi, 5.0 * math.pi])
+    first, second = cvode_sweep.works(c, omega)
+    assert second == press.work("lubricated")
+    geometry = first.press.geometry
+    assert (first.press.clearance, geometry.omega1, geometry.omega4) == (3e-4, math.pi, -math.pi)

@@ -9,6 +9,8 @@ all symbolic, so that jitcode compiles straight-line C. Error: the largest relat
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -63,12 +65,20 @@ class Steps:
         return name
 
 
-@cache
-def equations() -> tuple[list[Any], list[tuple[Any, Any]]]:
-    """(ẏ, helpers) for jitcode."""
-    y, symengine = import_module("jitcode").y, import_module("symengine")
-    cos, sin, sqrt = symengine.cos, symengine.sin, symengine.sqrt
-    step, q, v = Steps(), [y(i) for i in range(7)], [y(i) for i in range(7, 14)]
+@dataclass(frozen=True)
+class Parts:
+    """Of M q̈ + Gᵀ λ = f, G q̈ = −curve: M's 2 × 2 blocks as ((i, j), (a, b, d)), its M[2][2], G (6 × 7), f, Ġ q̇."""
+
+    blocks: list[tuple[tuple[int, int], tuple[Any, Any, Any]]]
+    m33: float
+    G: list[list[Any]]
+    f: list[Any]
+    curve: list[Any]
+
+
+def parts(algebra: Any, step: Callable[[Any], Any], q: list[Any], v: list[Any]) -> Parts:
+    """The equations with the functions of `algebra` (SymEngine or SymPy); `step` may name what it is given."""
+    cos, sin, sqrt = algebra.cos, algebra.sin, algebra.sqrt
     be, th, ga, ph, de, om, ep = q
     vb, vt, vg, vp, vd, vo, ve = v
     angle = {"b": be, "bt": be + th, "g": ga, "d": de, "pd": ph + de, "e": ep, "oe": om + ep}
@@ -115,8 +125,16 @@ def equations() -> tuple[list[Any], list[tuple[Any, Any]]]:
         bias[0] + ZT * c["d"] * vd**2 + E * s["pd"] * wp, bias[1] + ZT * s["d"] * vd**2 - E * c["pd"] * wp,
         bias[0] + U * s["e"] * ve**2 + ZF * c["oe"] * wo, bias[1] - U * c["e"] * ve**2 + ZF * s["oe"] * wo,
     ]  # fmt: skip
-    acceleration = _eliminate(step, blocks, M3 * (SA**2 + SB**2) + I3, G, [step(x) for x in f], curve)
-    return [*v, *acceleration], step.all
+    return Parts(blocks, M3 * (SA**2 + SB**2) + I3, G, [step(x) for x in f], curve)
+
+
+@cache
+def equations() -> tuple[list[Any], list[tuple[Any, Any]]]:
+    """(ẏ, helpers) for jitcode."""
+    y, step = import_module("jitcode").y, Steps()
+    q, v = [y(i) for i in range(7)], [y(i) for i in range(7, 14)]
+    found = parts(import_module("symengine"), step, q, v)
+    return [*v, *_eliminate(step, found.blocks, found.m33, found.G, found.f, found.curve)], step.all
 
 
 def _eliminate(step: Steps, blocks: list[Any], m33: float, G: list[Any], f: list[Any], curve: list[Any]) -> list[Any]:

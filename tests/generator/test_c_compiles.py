@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from cffi import FFI
 
 import gudgeon
 from gudgeon.generator.pipeline import generate
@@ -92,6 +93,24 @@ def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> Non
     source = gudgeon.load(name, scene).source
     main = write(source, tmp_path)
     compile_c(compiler, main, [*FLAGS, "-c", "-o", "scene.o"])
+
+
+@pytest.mark.parametrize(("name", "scene"), [("nine_bar_press", "ideal"), ("nine_bar_press", "lubricated"),
+                                             ("andrews_squeezer", "ideal"), ("belt_block", "ideal")])  # fmt: skip
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulation: str, tmp_path: Path) -> None:
+    """The wrapper is compiled apart and sees only what cffi is told: prototypes and structs must be the scene's."""
+    file = shipped_file(name)
+    source = generate(file.read_bytes(), file.name, scene, None, formulation)
+    write(source, tmp_path)
+    ffi = FFI()
+    ffi.cdef(source.cdef)
+    fields = [field for field, _ in ffi.typeof("Batch").fields] if "} Batch;" in source.cdef else []
+    same = [f"_Static_assert(offsetof(Batch, {f}) == offsetof(Told, {f}), \"{f}\");" for f in fields]
+    same += ['_Static_assert(sizeof(Batch) == sizeof(Told), "Batch");'] * bool(fields)
+    told = f"#define Batch Told\n{source.cdef}#undef Batch\n"
+    (tmp_path / "both.c").write_text('#include "scene.c"\n' + told + "\n".join(same) + "\n", encoding="utf-8")
+    compile_c(COMPILERS[0], tmp_path / "both.c", [*FLAGS, "-fsyntax-only"])
 
 
 # Structure that no shipped scene has: each option of each law once.

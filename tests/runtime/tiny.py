@@ -14,7 +14,7 @@ def tiny(factor: int = 2, **changes: object) -> KernelSource:
         "title": "",
         "sha256": "0" * 64,
         "files": {
-            "tiny.c": '#include "tiny.h"\nstatic double scale(double x) { return FACTOR * x; }\n',
+            "tiny.c": '#include "tiny.h"\ndouble scale(double x) { return FACTOR * x; }\n',
             "tiny.h": f"#define FACTOR {factor}\n",
         },
         "main": "tiny.c",

@@ -10,6 +10,7 @@ import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
 from gudgeon.generator.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.parts import cut
 
 WIDTH = 110
 
@@ -138,13 +139,20 @@ def section(item: Section) -> str:
 
 
 def kernel(item: Kernel) -> str:
-    """A whole function, its doc comment in front; arguments that it does not read are voided."""
+    """A whole function, a long one behind its parts."""
+    return "\n".join(map(_function, cut(item)))
+
+
+def _function(item: Kernel) -> str:
+    """Its doc comment in front; arguments that it does not read are voided."""
     body = "\n\n".join(section(s) for s in item.sections)
     code = re.sub(r"/\*.*?\*/", "", body, flags=re.S)
     unused = [a.name for a in item.arguments if not re.search(rf"\b{re.escape(a.name)}\b", code)]
     voids = "".join(f"    (void){name};\n" for name in unused)
     doc = "\n".join(f" * {comment_text(line)}" for line in item.doc)
-    head = f"static {'inline ' if item.inline else ''}{item.returns} {item.name}({arguments(item.arguments)})"
+    attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""
+    inline = "inline " if item.inline else ""
+    head = f"{attribute}static {inline}{item.returns} {item.name}({arguments(item.arguments)})"
     wrapped = textwrap.wrap(head.replace(" *", "\0*"), WIDTH, subsequent_indent="    ")  # no break inside a type
     head = "\n".join(wrapped).replace("\0*", " *")
     return f"/*\n{doc}\n */\n{head}\n{{\n{voids}{body}\n}}\n"

@@ -1,0 +1,84 @@
+"""Cold and warm starts: what a scene costs from nothing to its first result, by stage.
+
+    python -m benchmarks.cold [--repeats 3]
+
+Each start is a process of its own with `regenerate=True`: it reads, derives, emits and compiles one scene. The least
+wall time of a few is told, and the processor time of Python and of the compiler in the same start. Before that one
+start is thrown away: it leaves Python's compiled modules behind, which an installed gudgeon has. A warm start finds
+equations and library in the cache; its time is from the start of the process to its end behind the first result.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from time import perf_counter
+
+from benchmarks.rhs import machine
+
+# (scene, seconds that are asked for)
+SCENES = (("andrews_squeezer", "ideal", 3.0), ("nine_bar_press", "ideal", 5.0), ("nine_bar_press", "dry", 5.0),
+          ("nine_bar_press", "lubricated", 5.0))  # fmt: skip
+WARM = 0.3  # s
+START = """
+import json, resource, sys
+from time import perf_counter, process_time
+begin = perf_counter()
+import gudgeon
+name, scene, regenerate = sys.argv[1], sys.argv[2], sys.argv[3] == "1"
+if regenerate:
+    import gudgeon.generator.pipeline
+imported = perf_counter()
+simulation = gudgeon.load(name, scene=scene, regenerate=regenerate)
+if not regenerate:
+    simulation.simulate(1e-3, output=2)
+stages, children = simulation.loading, resource.getrusage(resource.RUSAGE_CHILDREN)
+print(json.dumps({
+    "import": imported - begin, "derive and emit": stages.source, "compile": stages.compile,
+    "python": process_time(), "compiler": children.ru_utime + children.ru_stime,
+}))
+"""
+COLUMNS = ("import", "derive and emit", "compile", "all", "asked", "python", "compiler")
+
+
+def start(name: str, scene: str, regenerate: bool) -> dict[str, float]:
+    """One process: its stages, "all" from before its start to its end (s)."""
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    line = [sys.executable, "-c", START, name, scene, str(int(regenerate))]
+    begin = perf_counter()
+    done = subprocess.run(line, env=environment, capture_output=True, text=True)
+    seconds = perf_counter() - begin
+    if done.returncode:
+        raise SystemExit(done.stderr)
+    return {**json.loads(done.stdout), "all": seconds}
+
+
+def least(name: str, scene: str, regenerate: bool, repeats: int) -> dict[str, float]:
+    """The fastest of some, after one that is thrown away."""
+    start(name, scene, regenerate)
+    return min((start(name, scene, regenerate) for _ in range(repeats)), key=lambda found: found["all"])
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--repeats", type=int, default=3)
+    repeats = parser.parse_args().repeats
+    with tempfile.TemporaryDirectory() as folder:
+        os.environ["GUDGEON_CACHE"] = folder
+        print(f"{machine()}; s, the fastest of {repeats}; wall, and processor time of Python and of the compiler\n")
+        for regenerate in (True, False):
+            print(f"{'cold' if regenerate else 'warm':<28}" + "".join(f"{name:>16}" for name in COLUMNS))
+            for name, scene, asked in SCENES:
+                found = least(name, scene, regenerate, repeats)
+                row = {**found, "asked": asked if regenerate else WARM}
+                print(f"{name + ' ' + scene:<28}" + "".join(f"{row[c]:>16.2f}" for c in COLUMNS), flush=True)
+            print()
+
+
+if __name__ == "__main__":
+    main()

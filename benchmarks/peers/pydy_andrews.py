@@ -1,0 +1,82 @@
+"""Andrews' squeezer by PyDy: its code generator on the same equations, integrated by SciPy's DOP853.
+
+PyDy takes M(x) u̇ = F(x, u), writes both as C with common subexpressions, and solves with LAPACK at every call from
+Python. The multipliers are carried along as speeds: [M Gᵀ; G 0] [v̇; μ̇] = [f; −Ġ q̇], so μ̇ = λ. Whoever lets PyDy's
+own KanesMethod derive a closed linkage gets the same sort of system, only longer.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from benchmarks.peers import andrews
+
+ATOL = 1e-2  # of rtol
+FREE = 1e30  # absolute tolerance of μ: nobody asks for it
+
+
+@cache
+def compiled() -> Any:
+    """ẏ = f(y, t) of 7 coordinates and 13 speeds, as PyDy generates it with Cython."""
+    sp = import_module("sympy")
+    generator = import_module("pydy.codegen.ode_function_generators").CythonODEFunctionGenerator
+    q, v, m = (list(sp.symbols(f"{name}0:{n}", real=True)) for name, n in (("q", 7), ("v", 7), ("m", 6)))
+    found = andrews.parts(sp, lambda x: x, q, v)
+    mass = sp.zeros(13, 13)
+    mass[2, 2] = found.m33
+    for (i, j), (a, b, d) in found.blocks:
+        mass[i, i], mass[i, j], mass[j, i], mass[j, j] = a, b, b, d
+    G = sp.Matrix(found.G)
+    mass[7:, :7], mass[:7, 7:] = G, G.T
+    torque = sp.Symbol("torque", real=True)  # one constant has to be there
+    force = sp.Matrix([found.f[0] - andrews.TORQUE + torque, *found.f[1:], *(-x for x in found.curve)])
+    speeds = [*v, *m]
+    built = generator(
+        force, [*q, *_unused()], speeds, [torque], mass_matrix=mass,
+        coordinate_derivatives=sp.Matrix([*v, *[0] * 6]), constants_arg_type="array",
+    )  # fmt: skip
+    return built.generate()
+
+
+def _unused() -> list[Any]:
+    """Coordinates that stand beside the multipliers, since PyDy wants as many as there are speeds."""
+    return list(import_module("sympy").symbols("z0:6", real=True))
+
+
+def start() -> np.ndarray:
+    """q, six that nobody reads, v, μ."""
+    y = andrews.start()
+    return np.array([*y[:7], *[0.0] * 6, *y[7:], *[0.0] * 6])
+
+
+def run(rtol: float) -> andrews.Measured:
+    """(error, seconds of integration only, right-hand sides)."""
+    from scipy.integrate import solve_ivp
+
+    f, y0 = compiled(), start()
+    free = np.ones(26, dtype=bool)
+    free[:7] = free[13:20] = False
+    atol = np.where(free, FREE, ATOL * rtol)
+    torque = np.array([andrews.TORQUE])
+    begin = perf_counter()
+    s = solve_ivp(  # PyDy answers in one array, over and over, and solve_ivp keeps what it is given: hence the copy
+        lambda t, y: f(y, t, torque).copy(), (0.0, andrews.T_END), y0, t_eval=[andrews.T_END],
+        method="DOP853", rtol=rtol, atol=atol,
+    )  # fmt: skip
+    return andrews.error(s.y[:7, -1]), perf_counter() - begin, int(s.nfev)
+
+
+def seconds_per_rhs(batch: int = 500, repeats: int = 7) -> float:
+    """Least time of a call from Python (s), LAPACK's solve included."""
+    f, y, torque, best = compiled(), start(), np.array([andrews.TORQUE]), float("inf")
+    for _ in range(repeats):
+        begin = perf_counter()
+        for _ in range(batch):
+            f(y, 0.0, torque)
+        best = min(best, (perf_counter() - begin) / batch)
+    return best

@@ -1,0 +1,119 @@
+"""What a race found, as a CSV that everything else is made from: the tables, the figures and docs/race.md.
+
+Lines that begin with "# " hold facts, `# name: value`: the machine, the versions, the peers' right-hand sides. No times
+of day and no paths. Then a row a control (tolerance or step) of every entry.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+MEASURES = {
+    "andrews": ("angle",),
+    "ideal": ("motion",),
+    "dry": ("slider", "path", "onset"),
+    "lubricated": ("slider", "path"),
+    "sweep": ("worst",),
+}
+LEVELS = (1e-4, 1e-6, 1e-8)
+ONSET_LEVELS = (1e-6, 1e-8, 1e-10)  # s
+PACKAGES = ("numpy", "scipy", "sympy", "cffi", "scikit-sundae", "jitcode", "exudyn", "pydy", "cython")
+COLUMNS = ("work", "entry", "own", "control", "seconds", "right_hand_sides")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One control of one entry: seconds of integration (of one run, or one sample), errors by measure."""
+
+    work: str
+    entry: str
+    own: bool  # gudgeon's
+    control: float
+    seconds: float
+    right_hand_sides: int  # −1: not told
+    errors: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Record:
+    """A whole race."""
+
+    facts: dict[str, str] = field(default_factory=dict)
+    rows: tuple[Row, ...] = ()
+
+    def entries(self, work: str) -> list[str]:
+        """In the order of the rows."""
+        return list(dict.fromkeys(row.entry for row in self.rows if row.work == work))
+
+    def points(self, work: str, entry: str, measure: str) -> list[tuple[float, float]]:
+        """(error, seconds) along an entry's controls."""
+        return [(r.errors[measure], r.seconds) for r in self.rows if (r.work, r.entry) == (work, entry)]
+
+    def is_own(self, work: str, entry: str) -> bool:
+        """Whether gudgeon ran."""
+        return any(r.own for r in self.rows if (r.work, r.entry) == (work, entry))
+
+    def time_to(self, work: str, entry: str, measure: str, level: float) -> float:
+        """Seconds to an error; NaN if it never gets there."""
+        return time_to(self.points(work, entry, measure), level)
+
+
+def time_to(points: Iterable[tuple[float, float]], level: float) -> float:
+    """Seconds to reach an error: the least over points (error, seconds) that do, and over neighbours that enclose it.
+
+    NaN where no point reaches it. Nothing is extrapolated: a sweep whose loosest point is better than asked for
+    gives that point's time.
+    """
+    good = [(e, s) for e, s in points if math.isfinite(e)]
+    times = [s for e, s in good if e <= level]
+    for (e0, s0), (e1, s1) in zip(good, good[1:], strict=False):
+        if min(e0, e1) > 0.0 and min(e0, e1) <= level < max(e0, e1):
+            share = math.log(level / e0) / math.log(e1 / e0)
+            times.append(s0 * (s1 / s0) ** share)
+    return min(times, default=math.nan)
+
+
+def versions() -> str:
+    """Of the packages that take part; what is not installed is left out."""
+    found = []
+    for name in PACKAGES:
+        try:
+            found.append(f"{name} {version(name)}")
+        except PackageNotFoundError:
+            continue
+    return ", ".join(found)
+
+
+def write(path: Path, record: Record) -> None:
+    """The CSV."""
+    measures = sorted({m for names in MEASURES.values() for m in names})
+    with path.open("w", newline="", encoding="utf-8") as file:
+        file.writelines(f"# {name}: {value}\n" for name, value in record.facts.items())
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow([*COLUMNS, *measures])
+        for r in record.rows:
+            cells = [f"{r.errors[m]:.4g}" if m in r.errors else "" for m in measures]
+            writer.writerow(
+                [r.work, r.entry, int(r.own), f"{r.control:g}", f"{r.seconds:.4g}", r.right_hand_sides, *cells]
+            )
+
+
+def read(path: Path) -> Record:
+    """What `write` wrote."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    facts = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
+    rows = []
+    for cells in csv.DictReader(line for line in lines if not line.startswith("# ")):
+        errors = {m: float(cells[m]) for m in MEASURES[cells["work"]]}
+        rows.append(
+            Row(
+                cells["work"], cells["entry"], cells["own"] == "1", float(cells["control"]), float(cells["seconds"]),
+                int(cells["right_hand_sides"]), errors,
+            )
+        )  # fmt: skip
+    return Record(facts, tuple(rows))
