@@ -740,8 +740,9 @@ static void watch_force(LaneRun *x, int i, const LaneClearance *joint)
     const LaneBits closed = x->latch[i].closed > 0.0;
     const Lanes F_peak = x->latch[i].F_peak, F_open = x->latch[i].F_open;
     const Lanes square = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
-    const LaneBits near = (square >= 0.999999 * (F_peak * F_peak)) | (closed & (square >= 0.999999 * (F_open * F_open)));
-    if (!any_of(near & (square > 0.0)))
+    const LaneBits near_peak = square >= 0.999999 * (F_peak * F_peak), near_open = square >= 0.999999 * (F_open * F_open);
+    const LaneBits acts = lanes_fabs(joint->F_n) + lanes_fabs(joint->F_t) > 0.0;
+    if (!any_of((near_peak | (closed & near_open)) & acts))
         return;
     const Lanes F = lanes_hypot(joint->F_n, joint->F_t);
     const LaneBits higher = F > F_peak, higher_open = closed & (F > F_open);
@@ -763,7 +764,8 @@ static void watch(LaneRun *x, const LaneAside *aside, double h, const Lanes *phi
         const Lanes e = x->latch[i].e, rate = x->latch[i].deltadot;
         const LaneBits closed = x->latch[i].closed > 0.0, turned = (rate > 0.0) & (joint->deltadot < 0.0);
         if (any_of(turned))
-            x->latch[i].e_max = lanes_max_of(top_of(e, h * rate, joint->e, h * joint->deltadot, turned), x->latch[i].e_max);
+            x->latch[i].e_max =
+                lanes_max_of(top_of(e, h * rate, joint->e, h * joint->deltadot, turned), x->latch[i].e_max);
         x->latch[i].e = joint->e;
         x->latch[i].delta = joint->delta;
         x->latch[i].deltadot = joint->deltadot;
