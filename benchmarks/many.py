@@ -1,4 +1,4 @@
-"""200 lubricated runs, clearance x speed: time a run and core, and what a second thread brings.
+"""200 lubricated runs, clearance x speed: time a run and core, what a second thread brings, and a vector to rk4.
 
     python -m benchmarks.many [--clearances 10] [--speeds 20]
 
@@ -6,6 +6,9 @@ The press of the race (l5 = .25 m, no gravity), c = .3 ... .8 mm, omega = pi ...
 loosest tolerance of a list whose worst slider error over all runs is at most 1e-6 of the ideal stroke is timed, the
 reference being the stiff method at 1e-10; at the race's clearance and speed it is compared with the race's reference,
 which owes nothing to gudgeon. Times are of whole batches: starts assembled, runs, arrays.
+
+Then rk4 with one step for all, in one thread: runs side by side in vector registers against the same one after the
+other, which gives the same bits.
 """
 
 from __future__ import annotations
@@ -23,6 +26,15 @@ from benchmarks.peers import press
 from gudgeon.batch import Batch
 from gudgeon.simulation import Simulation
 
+BATCH = 64  # runs side by side
+# mechanism, scene, columns (address, from, to), end and step in s
+BESIDE: tuple[tuple[str, str, dict[str, tuple[float, float]], float, float], ...] = (
+    ("andrews_squeezer", "ideal", {"bodies.OF.mass": (0.03, 0.06)}, 0.03, 1e-5),
+    ("nine_bar_press", "lubricated", {"c": (3e-4, 8e-4), "omega": (3.0, 20.0)}, 0.1, 2e-5),
+    ("nine_bar_press", "dry", {"c": (3e-4, 8e-4), "omega": (3.0, 20.0)}, 0.1, 2e-5),
+    ("n_four_bar", "ideal", {"gravity.y": (-12.0, -3.0)}, 0.5, 1e-4),
+    ("slider_crank_spring", "ideal", {"forces.coil.stiffness": (100.0, 5000.0)}, 0.5, 1e-4),
+)
 TOLERANCES = (1e-5, 5e-6, 2e-6, 1e-6)
 WANTED = 1e-6  # of the stroke
 SLIDER = "S9.y"
@@ -82,13 +94,35 @@ def machine(repeats: int) -> float:
     return 2.0 * found[0] / found[1]
 
 
+def side_by_side(repeats: int) -> None:
+    """Prints the time of a step and run of rk4, alone and beside others, taken in turns."""
+    print("\n  rk4, one thread                 us a step and run: alone  side by side  ratio")
+    for name, scene, columns, t_end, step in BESIDE:
+        simulation = gudgeon.load(name, scene=scene)
+        parameters = {address: np.linspace(*ends, BATCH) for address, ends in columns.items()}
+        found, samples = [math.inf, math.inf], [b"", b""]
+        for _ in range(repeats + 1):  # the first compiles
+            for k in (0, 1):
+                batch = simulation.simulate_many(
+                    parameters, t_end, output=20, method="rk4", step=step, threads=1, side_by_side=bool(k)
+                )
+                found[k], samples[k] = min(found[k], batch.seconds), batch.q.tobytes()
+        if samples[0] != samples[1]:
+            raise SystemExit(f"{name}, {scene}: not the same bits")
+        alone, beside = (1e6 * seconds / BATCH / (t_end / step) for seconds in found)
+        print(f"  {name + ', ' + scene:<48} {alone:9.3f} {beside:13.3f} {alone / beside:6.1f}")
+
+
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--clearances", type=int, default=10)
     parser.add_argument("--speeds", type=int, default=20)
     parser.add_argument("--repeats", type=int, default=9)
+    parser.add_argument("--beside", action="store_true", help="only rk4's runs side by side")
     options = parser.parse_args()
+    if options.beside:
+        return side_by_side(options.repeats)
     simulation = gudgeon.load("nine_bar_press", scene="lubricated")
     parameters = grid(options.clearances, options.speeds)
     reference = run(simulation, parameters, method="rodas5p", rtol=1e-10)
@@ -106,6 +140,7 @@ def main() -> None:
     print(f"  1 thread   {1e3 * one / n:8.2f}   {1e3 * cpu_one / n:12.2f}")
     print(f"  2 threads  {1e3 * two / n:8.2f}   {1e3 * cpu_two / n:12.2f}")
     print(f"  two threads are {one / two:.2f} times as fast as one; two that only hash: {machine(options.repeats):.2f}")
+    side_by_side(options.repeats)
 
 
 if __name__ == "__main__":

@@ -26,6 +26,17 @@ class Statement:
     comment: str = ""
 
 
+class Guard(str):
+    """A line of the target language that goes another way unless `condition` holds."""
+
+    condition: str
+
+    def __new__(cls, condition: str, otherwise: str) -> Guard:
+        line = super().__new__(cls, f"if (!({condition})) {otherwise};")
+        line.condition = condition
+        return line
+
+
 @dataclass(frozen=True)
 class Section:
     title: str

@@ -16,7 +16,7 @@ import sympy as sp
 
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.factorization import Elimination, choose_elimination
-from gudgeon.generator.kernels import KernelBuilder
+from gudgeon.generator.kernels import Guard, KernelBuilder
 from gudgeon.generator.system import System
 
 ZERO = sp.Integer(0)
@@ -160,8 +160,8 @@ class KKT:
         if rows:
             early = any(i < self.n for i in self.elimination.structure[second])
             share = max(share, EARLY) if early else share
-            build.line(f"if (!({own[0]} > {share!r} * {scale[0]})) {failed[0]};")
-            build.line(f"if (!({determinant} > {share!r} * {scale[1]} * {own[0]})) {failed[1]};")
+            build.line(Guard(f"{own[0]} > {share!r} * {scale[0]}", failed[0]))
+            build.line(Guard(f"{determinant} > {share!r} * {scale[1]} * {own[0]}", failed[1]))
         inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
         one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
         both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
@@ -196,12 +196,12 @@ class KKT:
         if others:
             value = scale + sum((L[k, j] * W[k, j] for j in others), sp.Integer(0))
             pivot = build.local(f"pivot_{name}", value)
-        test = f"!({pivot.name} > {least!r} * {scale.name})"
+        test = f"{pivot.name} > {least!r} * {scale.name}"
         if k < self.first_friction:
-            build.line(f"if ({test}) {failed};")
+            build.line(Guard(test, failed))
             return -build.local(f"inverse_pivot_{name}", 1 / pivot)
         stick = self.sticks[k]  # a row that slips is switched off: its multiplier is zero
-        build.line(f"if ({stick.name} != 0.0 && {test}) {failed};")
+        build.line(f"if ({stick.name} != 0.0 && !({test})) {failed};")
         return -build.local(f"inverse_pivot_{name}", f"{stick.name} != 0.0 ? 1.0 / {pivot.name} : 0.0")
 
     @staticmethod

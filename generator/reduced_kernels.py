@@ -14,7 +14,6 @@ from gudgeon.generator.kkt import KKT
 from gudgeon.generator.model import Model
 from gudgeon.generator.projection import projection_kernel
 from gudgeon.generator.reduction import TreeSystem
-from gudgeon.generator.sine_pairs import side_by_side
 from gudgeon.generator.tree import Link
 from gudgeon.generator.watched import watched_kernel
 
@@ -36,13 +35,13 @@ def motion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
 
 
 def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
-    """Closures, right-hand side and projection in tree coordinates; the order of the pivots."""
+    """Closures, right-hand side and projection in tree coordinates, sines one by one; the order of the pivots."""
     kkt = KKT(system, daring=is_rescued(system))
     dynamics = dynamics_kernel(system, kkt, "reduced_dynamics", _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
     watched = watched_kernel(dynamics, system.model)
     kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
-    return [side_by_side(without_unused(kernel)) for kernel in kernels], kkt
+    return [without_unused(kernel) for kernel in kernels], kkt
 
 
 def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:

@@ -45,8 +45,9 @@ def contiguous(values: ArrayLike) -> Array:
 class CompiledModel:
     """The library of one scene. `p` is what `prepare` returns: slots, then derived numbers."""
 
-    def __init__(self, source: KernelSource, module: ModuleType) -> None:
+    def __init__(self, source: KernelSource, module: ModuleType, portable: bool = False) -> None:
         self.source = source
+        self.portable = portable  # how its library was compiled, and others beside it will be
         self.lib: Any = module.lib
         self.ffi: Any = module.ffi
         self.n = len(source.coordinates)

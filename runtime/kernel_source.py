@@ -160,6 +160,7 @@ class KernelSource:
     closures: tuple[str, ...] = ()  # its rows
     events: tuple[EventInfo, ...] = ()
     story: Story = Story()  # how the equations became what is integrated (check -v)
+    lanes: str = ""  # the file to compile for runs side by side; "": there is none
 
     @property
     def degrees_of_freedom(self) -> int:

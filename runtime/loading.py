@@ -71,7 +71,8 @@ def load(
     from gudgeon.simulation import Simulation
 
     loading = Loading(origin, read - start, have_source - read, have_module - have_source, have_module - start)
-    return Simulation(CompiledModel(source, module), file=file, overrides=dict(overrides or {}), loading=loading)
+    compiled = CompiledModel(source, module, portable)
+    return Simulation(compiled, file=file, overrides=dict(overrides or {}), loading=loading)
 
 
 def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:

@@ -36,7 +36,7 @@ def available_threads() -> int:
 def simulate_many(
     simulation: Simulation, parameters: ParameterSets, t_end: float | str | None, output: int | ArrayLike | None,
     method: str, rtol: float | None, step: float | str | None, threads: int | None, progress: Progress | None,
-    stop: bool,
+    stop: bool, side_by_side: bool = True,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
     given, is_given = given_sets(simulation.source, parameters)
@@ -51,7 +51,7 @@ def simulate_many(
         steps = np.array([simulation._step(step, chosen, row, float(times[-1])) for row in p])
         if (times[-1] / steps).max() > MAX_STEPS:
             raise BadValueError(f"step {steps.min():.3g} s means more than {MAX_STEPS:.0e} steps")
-        runs = many.Runs(simulation.compiled, p, motion, times, chosen, steps, _tolerance(rtol), stop)
+        runs = many.Runs(simulation.compiled, p, motion, times, chosen, steps, _tolerance(rtol), stop, side_by_side)
         runs.leave_out(bad)
         before = time.perf_counter()
         runs.run(workers, progress)

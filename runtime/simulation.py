@@ -178,7 +178,7 @@ class Simulation:
     def simulate_many(
         self, parameters: ParameterSets, t_end: float | str | None = None, *, output: int | ArrayLike | None = None,
         method: str = "auto", rtol: float | None = None, step: float | str | None = None, threads: int | None = None,
-        progress: Progress | None = None, stop: bool = True,
+        progress: Progress | None = None, stop: bool = True, side_by_side: bool = True,
     ) -> Batch:  # fmt: skip
         """Run the scene from t = 0 with each of many parameter sets, in threads; arguments as in `simulate`.
 
@@ -186,12 +186,16 @@ class Simulation:
         structured array counts. `threads`: None for the cores there are; every number is the same with any.
         Each run is bit for bit what `simulate` makes of its parameters. A run that fails, or whose parameters
         break a condition of the file, is listed in `failures` and stops no other. Ctrl-C ends all where they are.
+        `side_by_side`: whether runs of rk4 that have the same step may share vector registers, several in each
+        thread; the numbers are the same without, and what that takes is compiled on its first use.
 
         Raises InputError for arguments.
         """
         from gudgeon.many import simulate_many
 
-        return simulate_many(self, parameters, t_end, output, method, rtol, step, threads, progress, stop)
+        return simulate_many(
+            self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side
+        )
 
     def _begin(self, p: Array, start: State | None) -> tuple[Array, Array, Array]:
         count = self.compiled.n_memory

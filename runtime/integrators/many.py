@@ -16,15 +16,14 @@ from numpy.typing import NDArray
 
 from gudgeon.compiled import N_WORK, Array, CompiledModel
 from gudgeon.errors import GudgeonError, SolverError
-from gudgeon.integrators import adaptive, rk4
+from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.failure import failure
+from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Progress, Trajectory
 from gudgeon.start import assemble, mechanism_sizes
 
 METHODS = ("rk4", "dop853", "rodas5p", "adaptive")
-NOT_CLOSED = -8
-OVER = 2  # phase of a run
 ALL_OVER, LISTS, RUN_OVER = 0, 1, 2  # what a call returns
 PORTION = 16  # runs handed out at once, at most
 GLANCE = 0.05  # s between two looks of the waiting thread
@@ -35,7 +34,7 @@ class Runs:
 
     def __init__(
         self, compiled: CompiledModel, p: Array, motion: Array, times: Array, method: str, step: Array, rtol: float,
-        stop: bool,
+        stop: bool, side_by_side: bool,
     ) -> None:  # fmt: skip
         from gudgeon.results import IMPACT_DTYPE
 
@@ -59,6 +58,7 @@ class Runs:
         self.events = [[np.zeros(0, EVENT_DTYPE)] for _ in range(n)]
         self.failures: dict[int, GudgeonError] = {}
         self.stopping = self.interrupted = False
+        self.lanes = Lanes(compiled) if side_by_side and lanes.wanted(compiled, method, step) else None
 
     def _struct(self, fixed: bool, stop: bool) -> Any:
         struct = self.compiled.ffi.new("Batch *")
@@ -108,10 +108,9 @@ class Runs:
 
     def _in_threads(self, threads: int, progress: Progress | None, wanted: range | list[int]) -> None:
         portion = max(1, min(PORTION, len(wanted) // (8 * threads)))
-        if isinstance(wanted, list):
-            portions = deque((i, i + 1) for i in wanted)
-        else:
-            portions = deque((k, min(k + portion, self.n)) for k in range(0, self.n, portion))
+        if self.lanes:
+            portion = math.ceil(portion / self.lanes.count) * self.lanes.count
+        portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
         with ThreadPoolExecutor(threads, thread_name_prefix="gudgeon") as pool:
             waiting: set[Future[None]] = {pool.submit(self._work, portions) for _ in range(threads)}
             try:
@@ -125,25 +124,41 @@ class Runs:
                 self.stopping = True
                 raise
 
-    def _work(self, portions: deque[tuple[int, int]]) -> None:
+    def _work(self, portions: deque[range | list[int]]) -> None:
         """One thread: portions of runs until none is left."""
-        compiled, current = self.compiled, self.compiled.ffi.new("long *")
-        memory = np.zeros(compiled.lib.gudgeon_run_size(), dtype=np.uint8)
-        run, t_first = compiled.pointer(memory, "void *"), float(self.times[0])
+        size, count = self.compiled.lib.gudgeon_run_size(), self.lanes.count if self.lanes else 1
+        memories = np.zeros((count, size), dtype=np.uint8)
         while portions and not self.stopping:
             try:
-                current[0], end = portions.popleft()
+                portion = portions.popleft()
             except IndexError:  # another thread was quicker
                 return
-            while not self.stopping:
-                status = compiled.lib.gudgeon_many(self.struct, run, current, end)
-                if status == ALL_OVER:
-                    break
-                i = int(current[0])
-                if status in (LISTS, RUN_OVER):
-                    self.impacts[i].append(fetch_impacts(compiled, run, status == RUN_OVER))
-                    self.events[i].append(fetch_events(compiled, run, t_first))
-                current[0] += status == RUN_OVER
+            if self.lanes is None and isinstance(portion, range):
+                self._alone(portion.start, portion.stop, memories[0])
+                continue
+            new = [i for i in portion if self.arrays["phase"][i] == NEW]
+            for group in self.lanes.groups(new, self.arrays["step"]) if self.lanes else [[i] for i in new]:
+                if self.lanes and len(group) >= lanes.LEAST and not self.stopping:
+                    self.lanes.together(self, group, memories)
+                for k, i in enumerate(group):
+                    self._alone(i, i + 1, memories[k])
+
+    def _alone(self, first: int, end: int, memory: NDArray[np.uint8]) -> None:
+        """Runs one after the other, from where they are to their ends."""
+        compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
+        run = compiled.pointer(memory, "void *")
+        while not self.stopping:
+            status = compiled.lib.gudgeon_many(self.struct, run, current, end)
+            if status == ALL_OVER:
+                break
+            if status in (LISTS, RUN_OVER):
+                self.fetch(int(current[0]), run, status == RUN_OVER)
+            current[0] += status == RUN_OVER
+
+    def fetch(self, i: int, run: Any, last: bool) -> None:
+        """Takes over the lists of contacts and events of run i."""
+        self.impacts[i].append(fetch_impacts(self.compiled, run, last))
+        self.events[i].append(fetch_events(self.compiled, run, float(self.times[0])))
 
     def _failure(self, i: int) -> GudgeonError:
         """What ended run i, as a single run says it."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import platform
 import shutil
 import subprocess
 from collections.abc import Sequence
@@ -18,6 +19,7 @@ from gudgeon.kernel_source import KernelSource
 from gudgeon.shipped import shipped, shipped_file
 
 FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror"]
+WIDTHS = ([], ["-mavx2"], ["-mavx512f"]) if platform.machine() in ("x86_64", "AMD64") else ([],)  # 2, 4, 8 lanes
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 SCENES = [
     (name, scene) for name in shipped() for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
@@ -93,6 +95,9 @@ def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> Non
     source = gudgeon.load(name, scene).source
     main = write(source, tmp_path)
     compile_c(compiler, main, [*FLAGS, "-c", "-o", "scene.o"])
+    if source.lanes:
+        for width in WIDTHS:
+            compile_c(compiler, tmp_path / source.lanes, [*FLAGS, *width, "-c", "-o", "lanes.o"])
 
 
 @pytest.mark.parametrize(("name", "scene"), [("nine_bar_press", "ideal"), ("nine_bar_press", "lubricated"),
@@ -129,6 +134,7 @@ def test_no_warning_under_any_option(option: str, tmp_path: Path) -> None:
     source = generate(file.read_bytes(), file.name, "lubricated", OPTIONS[option])
     main = write(source, tmp_path)
     compile_c(COMPILERS[0], main, [*FLAGS, "-c", "-o", "scene.o"])
+    compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, "-c", "-o", "lanes.o"])
 
 
 @pytest.mark.parametrize(("name", "scene"), SCENES)

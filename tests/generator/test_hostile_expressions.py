@@ -80,12 +80,25 @@ COMPILED = [
 ]
 
 
+def _without_includes(texts: dict[str, str]) -> str:
+    return re.sub(r'^#include ".*"$', "", "\n".join(texts.values()), flags=re.M)
+
+
+def _in_place(texts: dict[str, str]) -> str:
+    """lanes.c with what it includes; a declaration where a scene has no lanes."""
+    main = texts.get("lanes.c", "extern int none;\n")
+    return re.sub(r'^#include "(.*)"$', lambda found: texts[found[1]], main, flags=re.M)
+
+
 def test_compiled(tmp_path: Path) -> None:
     for number, text in enumerate(COMPILED):
         source = generate(text.encode(), "f", "ideal")
-        parts = [part for name, part in source.files.items() if name != source.main]
-        path = tmp_path / f"{number}.c"
-        path.write_text(re.sub(r'^#include ".*"$', "", "\n".join(parts), flags=re.M))
+        lanes = {name: part for name, part in source.files.items() if name.startswith("lanes.")}
+        parts = {name: part for name, part in source.files.items() if name not in (source.main, *lanes)}
+        headers = {name: parts[name] for name in ("model.h", "batch.h")} if lanes else {}
+        for kind, texts in (("scene", parts), ("lanes", headers | lanes)):
+            path = tmp_path / f"{number}_{kind}.c"
+            path.write_text(_without_includes(texts) if kind == "scene" else _in_place(texts))
     command = [*find_compiler(), "-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"]
     done = subprocess.run(
         [*command, *map(str, sorted(tmp_path.glob("*.c")))], capture_output=True, text=True, check=False

@@ -21,4 +21,5 @@
 #include "peaks.c"
 #include "changes.c"
 #include "adaptive.c"
+#include "batch.h"
 #include "many.c"

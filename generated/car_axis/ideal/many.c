@@ -4,30 +4,6 @@
  */
 #include <time.h>
 
-enum {
-    NOT_CLOSED = -8,                      /* status: the start is left to Python */
-    NEW = 0, BEGUN = 1, OVER = 2,         /* phase of a run */
-    ALL_OVER = 0, LISTS = 1, RUN_OVER = 2, GOES_ON = 3
-};
-
-/* Arrays with a row for each run; `numbers` are the doubles of Parameters, `samples` the times of t. */
-typedef struct {
-    long samples, numbers, limit;         /* steps after which a call returns */
-    int choice, stop;                     /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
-    double fixed, *t;
-    double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
-    double *step, *scale, *floor;         /* rk4's step; tolerances as gudgeon_adaptive_setup takes them */
-    double *start;                        /* (q, v) where `started`, else filled here */
-    unsigned char *started, *phase;
-    double *y, *latched;                  /* samples */
-    signed char *state;
-    long *done, *within;                  /* samples stored; rk4's steps since the last one */
-    int *status;
-    double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
-    long *counts;                         /* as gudgeon_run_report has them */
-    double *residuals, *peaks;
-} Batch;
-
 static double seconds_now(void)
 {
     struct timespec now;
@@ -153,3 +129,72 @@ int gudgeon_many(const void *batch, void *memory, long *current, long end)
     }
     return ALL_OVER;
 }
+
+static int begin_single(const Batch *b, long i, void *run) { return begin_run(b, i, run); }
+static void sample_single(const Batch *b, long i, long k, void *run) { take_sample(b, i, k, run); }
+
+static void end_single(const Batch *b, long i, int status, void *run) { end_run(b, i, status, run); }
+
+static void give_state(const void *memory, Moving *state)
+{
+    const Run *run = memory;
+    *state = (Moving){.t = run->t, .steps = (double)run->steps, .evaluations = (double)run->evaluations,
+        .phi_max = run->phi_max, .phi_dot_max = run->phi_dot_max, .ratio_min = run->ratio_min,
+        .ratio_max = run->ratio_max, .ratio_outside = (double)run->ratio_outside};
+    for (int k = 0; k < N_Y; k++) {
+        state->y[k] = run->y[k];
+        state->dy[k] = run->dy[k];
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Latch *latch = &run->memory.latch[i];
+        const Clearance *joint = &run->aside.clearance[i];
+        state->latch[i].closed = latch->closed;
+        state->latch[i].deltadot_minus = latch->deltadot_minus;
+        state->latch[i].compressing = run->compressing[i];
+        state->latch[i].e = joint->e;
+        state->latch[i].delta = joint->delta;
+        state->latch[i].deltadot = joint->deltadot;
+        state->latch[i].F_peak = run->F_peak[i];
+        state->latch[i].t_peak = run->t_peak[i];
+        state->latch[i].e_max = run->e_max[i];
+        state->latch[i].F_open = run->open[i].F_peak;
+        state->latch[i].t_open = run->open[i].t_peak;
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        state->event_side[i] = run->memory.event_side[i];
+}
+
+static void take_state(void *memory, const Moving *state)
+{
+    Run *run = memory;
+    run->t = state->t;
+    run->steps = (long)state->steps;
+    run->evaluations = (long)state->evaluations;
+    run->phi_max = state->phi_max;
+    run->phi_dot_max = state->phi_dot_max;
+    run->ratio_min = state->ratio_min;
+    run->ratio_max = state->ratio_max;
+    run->ratio_outside = (long)state->ratio_outside;
+    for (int k = 0; k < N_Y; k++) {
+        run->y[k] = state->y[k];
+        run->dy[k] = state->dy[k];
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) { /* neither an onset nor a separation was among these steps */
+        run->compressing[i] = state->latch[i].compressing > 0.0;
+        run->aside.clearance[i].e = state->latch[i].e;
+        run->aside.clearance[i].delta = state->latch[i].delta;
+        run->aside.clearance[i].deltadot = state->latch[i].deltadot;
+        run->F_peak[i] = state->latch[i].F_peak;
+        run->t_peak[i] = state->latch[i].t_peak;
+        run->e_max[i] = state->latch[i].e_max;
+        run->open[i].F_peak = state->latch[i].F_open;
+        run->open[i].t_peak = state->latch[i].t_open;
+    }
+}
+
+const void *gudgeon_single(void)
+{
+    static const Single single = {begin_single, gudgeon_run_steps, sample_single, end_single, give_state, take_state};
+    return &single;
+}
+

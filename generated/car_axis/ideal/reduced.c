@@ -122,10 +122,13 @@ static void closures(const double t, const double *q, const Parameters *p, doubl
 
     /* directions, arms, drives */
     const double bump_value = asin(par_r*sin(omega*time)/length);
-    const double cos_theta_road = cos(bump_value);
-    const double sin_theta_road = sin(bump_value);
-    const double cos_theta_axle = cos(axle_theta);
-    const double sin_theta_axle = sin(axle_theta);
+    const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_road = cosines_0[0];
+    const double sin_theta_road = sines_0[0];
+    const double cos_theta_axle = cosines_0[1];
+    const double sin_theta_axle = sines_0[1];
     const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
     const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
 
@@ -155,12 +158,15 @@ static void closure_rates(const double t, const double *q, const double *v, cons
 
     /* directions, arms, drives */
     const double bump_value = asin(par_r*sin(omega*time)/length);
+    const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_road = cosines_0[0];
+    const double sin_theta_road = sines_0[0];
+    const double cos_theta_axle = cosines_0[1];
+    const double sin_theta_axle = sines_0[1];
     const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
         sin(omega*time))/(length * length)));
-    const double cos_theta_road = cos(bump_value);
-    const double sin_theta_road = sin(bump_value);
-    const double cos_theta_axle = cos(axle_theta);
-    const double sin_theta_axle = sin(axle_theta);
     const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
     const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
 
@@ -204,16 +210,19 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
 
     /* directions, arms, drives */
     const double bump_value = asin(par_r*sin(omega*time)/length);
+    const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_road = cosines_0[0];
+    const double sin_theta_road = sines_0[0];
+    const double cos_theta_axle = cosines_0[1];
+    const double sin_theta_axle = sines_0[1];
     const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
         sin(omega*time))/(length * length)));
     const double bump_acceleration = -(omega * omega)*par_r*sin(omega*time)/(length*sqrt(1.0 - (par_r *
         par_r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(par_r * par_r *
         par_r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 -
         (par_r * par_r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
-    const double cos_theta_road = cos(bump_value);
-    const double sin_theta_road = sin(bump_value);
-    const double cos_theta_axle = cos(axle_theta);
-    const double sin_theta_axle = sin(axle_theta);
     const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
     const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
     const double axle_tail_x = axle_x + span_axle_tail_x;
@@ -309,10 +318,13 @@ static int reduced_project(const double t, const double *q, const double *r, con
 
     /* directions, arms, drives */
     const double bump_value = asin(par_r*sin(omega*time)/length);
-    const double cos_theta_road = cos(bump_value);
-    const double sin_theta_road = sin(bump_value);
-    const double cos_theta_axle = cos(axle_theta);
-    const double sin_theta_axle = sin(axle_theta);
+    const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_road = cosines_0[0];
+    const double sin_theta_road = sines_0[0];
+    const double cos_theta_axle = cosines_0[1];
+    const double sin_theta_axle = sines_0[1];
     const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
     const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
 

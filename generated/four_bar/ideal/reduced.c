@@ -342,10 +342,13 @@ static int reduced_project(const double t, const double *q, const double *r, con
     const double inverse_mass_coupler_coupler = p->inverse_mass_coupler_coupler;
 
     /* directions, arms, drives */
-    const double cos_theta_rocker = cos(rocker_theta);
-    const double sin_theta_rocker = sin(rocker_theta);
-    const double cos_theta_coupler = cos(coupler_theta);
-    const double sin_theta_coupler = sin(coupler_theta);
+    const Four angles_0 = {rocker_theta, coupler_theta, coupler_theta, coupler_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_rocker = cosines_0[0];
+    const double sin_theta_rocker = sines_0[0];
+    const double cos_theta_coupler = cosines_0[1];
+    const double sin_theta_coupler = sines_0[1];
     const double span_coupler_head_x = cos_theta_coupler*coupler_head_span_x;
     const double span_coupler_head_y = coupler_head_span_x*sin_theta_coupler;
     const double span_rocker_head_x = cos_theta_rocker*rocker_head_span_x;

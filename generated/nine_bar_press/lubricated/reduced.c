@@ -244,8 +244,11 @@ static void closures(const double t, const double *q, const Parameters *p, doubl
     const double L8_head_span_x = p->L8_head_span_x;
 
     /* directions, arms, drives */
-    const double cos_theta_L6 = cos(L6_theta);
-    const double cos_theta_L8 = cos(L8_theta);
+    const Four angles_0 = {L6_theta, L8_theta, L8_theta, L8_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_L6 = cosines_0[0];
+    const double cos_theta_L8 = cosines_0[1];
     const double span_L6_head_x = L6_head_span_x*cos_theta_L6;
     const double span_L8_head_x = L8_head_span_x*cos_theta_L8;
 
@@ -269,8 +272,11 @@ static void closure_rates(const double t, const double *q, const double *v, cons
     const double L8_head_span_x = p->L8_head_span_x;
 
     /* directions, arms, drives */
-    const double sin_theta_L6 = sin(L6_theta);
-    const double sin_theta_L8 = sin(L8_theta);
+    const Four angles_0 = {L6_theta, L8_theta, L8_theta, L8_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double sin_theta_L6 = sines_0[0];
+    const double sin_theta_L8 = sines_0[1];
     const double span_L6_head_y = L6_head_span_x*sin_theta_L6;
     const double span_L8_head_y = L8_head_span_x*sin_theta_L8;
 

@@ -21,10 +21,13 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double inverse_mass_crank_crank = p->inverse_mass_crank_crank;
 
     /* directions, arms, drives */
-    const double cos_theta_crank = cos(crank_theta);
-    const double sin_theta_crank = sin(crank_theta);
-    const double cos_theta_rod = cos(rod_theta);
-    const double sin_theta_rod = sin(rod_theta);
+    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_crank = cosines_0[0];
+    const double sin_theta_crank = sines_0[0];
+    const double cos_theta_rod = cosines_0[1];
+    const double sin_theta_rod = sines_0[1];
     const double span_crank_head_x = cos_theta_crank*crank_length;
     const double span_crank_head_y = crank_length*sin_theta_crank;
     const double span_rod_com_x = cos_theta_rod*rod_com_span_x;

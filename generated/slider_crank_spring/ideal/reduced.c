@@ -118,8 +118,11 @@ static void closures(const double t, const double *q, const Parameters *p, doubl
     const double rod_com_span_x = p->rod_com_span_x;
 
     /* directions, arms, drives */
-    const double sin_theta_crank = sin(crank_theta);
-    const double sin_theta_rod = sin(rod_theta);
+    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double sin_theta_crank = sines_0[0];
+    const double sin_theta_rod = sines_0[1];
     const double span_crank_head_y = crank_length*sin_theta_crank;
     const double span_rod_com_y = rod_com_span_x*sin_theta_rod;
 
@@ -143,8 +146,11 @@ static void closure_rates(const double t, const double *q, const double *v, cons
     const double rod_com_span_x = p->rod_com_span_x;
 
     /* directions, arms, drives */
-    const double cos_theta_crank = cos(crank_theta);
-    const double cos_theta_rod = cos(rod_theta);
+    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_crank = cosines_0[0];
+    const double cos_theta_rod = cosines_0[1];
     const double span_crank_head_x = cos_theta_crank*crank_length;
     const double span_rod_com_x = cos_theta_rod*rod_com_span_x;
 
@@ -180,10 +186,13 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     const double inverse_mass_crank_crank = p->inverse_mass_crank_crank;
 
     /* directions, arms, drives */
-    const double cos_theta_crank = cos(crank_theta);
-    const double sin_theta_crank = sin(crank_theta);
-    const double cos_theta_rod = cos(rod_theta);
-    const double sin_theta_rod = sin(rod_theta);
+    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_crank = cosines_0[0];
+    const double sin_theta_crank = sines_0[0];
+    const double cos_theta_rod = cosines_0[1];
+    const double sin_theta_rod = sines_0[1];
     const double span_crank_head_x = cos_theta_crank*crank_length;
     const double span_crank_head_y = crank_length*sin_theta_crank;
     const double crank_head_vx = -crank_omega*span_crank_head_y;
@@ -286,10 +295,13 @@ static int reduced_project(const double t, const double *q, const double *r, con
     const double inverse_mass_crank_crank = p->inverse_mass_crank_crank;
 
     /* directions, arms, drives */
-    const double cos_theta_crank = cos(crank_theta);
-    const double sin_theta_crank = sin(crank_theta);
-    const double cos_theta_rod = cos(rod_theta);
-    const double sin_theta_rod = sin(rod_theta);
+    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_crank = cosines_0[0];
+    const double sin_theta_crank = sines_0[0];
+    const double cos_theta_rod = cosines_0[1];
+    const double sin_theta_rod = sines_0[1];
     const double span_crank_head_x = cos_theta_crank*crank_length;
     const double span_rod_com_x = cos_theta_rod*rod_com_span_x;
     const double cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+
+import sympy as sp
 
 from gudgeon.generator import contact
 from gudgeon.generator.clearance import Clearance
@@ -46,7 +48,7 @@ def clearance_code(model: Model, clearance: Clearance, render: Render) -> str:
         parts.append(
             render("film.c.jinja", joint=joint, before=_lines(model, before, owner), after=_lines(model, after, owner))
         )
-    share = [contact.blend(clearance, closed=True)] if _template(clearance) == "clearance_transition.c.jinja" else []
+    share = [contact.blend(clearance, closed=True)] if has_transition(clearance) else []
     gap, blend = _lines(model, contact.gap(clearance), owner), _lines(model, share, owner)
     switches = [switch.index for switch in model.symbols.switches.of(owner)]
     parts.append(
@@ -59,13 +61,25 @@ def clearance_code(model: Model, clearance: Clearance, render: Render) -> str:
 
 
 def _lines(model: Model, steps: Sequence[Step], owner: str) -> str:
-    """Steps as C statements, parameters read in place, corners as sides of switches."""
+    return lines(model, steps, owner, _GUARDED, printer.statement)
+
+
+def lines(
+    model: Model, steps: Sequence[Step], owner: str, guarded: Mapping[sp.Symbol, str],
+    written: Callable[[Statement], str],
+) -> str:  # fmt: skip
+    """Steps as statements, parameters read in place, corners as sides of switches."""
     statements = []
     for step in steps:
-        value = _GUARDED.get(step.symbol) or in_place(model, step.value)
+        value = guarded.get(step.symbol) or in_place(model, step.value)
         statements.append(Statement(step.symbol.name, value))
     (section,) = hold_sides(model.symbols.switches, owner, [Section("", tuple(statements))])
-    return "\n".join(map(printer.statement, section.statements))
+    return "\n".join(written(item) for item in section.statements if isinstance(item, Statement))
+
+
+def has_transition(clearance: Clearance) -> bool:
+    """Film and dry contact, blended."""
+    return clearance.film is not None and clearance.normal is not None
 
 
 def _template(clearance: Clearance) -> str:

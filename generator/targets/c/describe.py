@@ -35,7 +35,7 @@ def describe(
     model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "", cdef: str = "",
     methods: tuple[str, ...] = (), pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
     operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
-    motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = UNTOLD,
+    motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = UNTOLD, lanes: str = "",
 ) -> KernelSource:  # fmt: skip
     """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
     scene, mechanism = model.scene, model.scene.mechanism
@@ -89,7 +89,7 @@ def describe(
         operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
         tree=tree, closures=closures, motion_pivots=motion_pivots, formulation=formulation,
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
-        story=story,
+        story=story, lanes=lanes,
     )  # fmt: skip
 
 

@@ -11,19 +11,20 @@ import jinja2
 from gudgeon.generator import interface
 from gudgeon.generator.dynamics import dynamics_kernel
 from gudgeon.generator.events import SIGNS
-from gudgeon.generator.kernels import Kernel
+from gudgeon.generator.kernels import Kernel, without_unused
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
+from gudgeon.generator.projection import closing_kernel
 from gudgeon.generator.reduced_kernels import is_rescued
 from gudgeon.generator.story import tell
 from gudgeon.generator.system import absolute
-from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.c import lanes_code, printer
 from gudgeon.generator.targets.c.clearance_code import clearance_code
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.loops import Integrated, LoopCode, integrator_loops, kinematic_code
 from gudgeon.generator.targets.c.newton_code import jacobian_code, newton_code, tangent_code
-from gudgeon.generator.targets.c.reduced_code import reduced_code
+from gudgeon.generator.targets.c.reduced_code import ReducedCode, reduced_code
 from gudgeon.generator.watched import watched_kernel
 from gudgeon.kernel_source import KernelSource
 
@@ -88,6 +89,7 @@ typedef struct {
 } Batch;
 int gudgeon_many(const void *batch, void *memory, long *current, long end);
 """
+SINGLE_CDEF = "const void *gudgeon_single(void);\n"
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # of which each rate is the derivative
 
 
@@ -114,17 +116,15 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     integrated = reduced.integrated if reduced else plain
     counts = _counts(model, integrated)
     if integrates:
-        linearized, kernels_of_loops = _newton(model, integrated)
-        files = integrator_loops(model, integrated, linearized, counts, render)
-        loops = LoopCode(files, tuple(kernels_of_loops), integrated.kkt)
+        loops, beside = _loops(model, integrated, reduced, counts)
     else:
-        loops = kinematic_code(model, kkt, integrated, counts, render)
+        loops, beside = kinematic_code(model, kkt, integrated, counts, render), {}
     prepare = interface.prepare_kernel(model, printer.expression)
     rescued = reduced is not None and is_rescued(reduced.system)  # the absolute formulation tells what vanished
     kernels = [*right_hand_side, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
     files = {
         "model.h": render("model.h.jinja", **_header(model), **counts),
-        "trigonometry.c": render("trigonometry.c.jinja"),
+        "trigonometry.c": render("trigonometry.c.jinja", vector="Four", bits="FourBits", given="*angle"),
         "parameters.c": _kernels(prepare),
         "constraints.c": _kernels(*around),
         "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
@@ -136,7 +136,9 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         **loops.files,
     }
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
+    files |= beside
     cdef = COMMON_CDEF + (reduced.cdef if reduced else "") + (METHOD_CDEF if integrates else KINEMATIC_CDEF)
+    cdef += SINGLE_CDEF * bool(beside)
     cdef += (TREE_NEWTON_CDEF if reduced else NEWTON_CDEF) * integrates + EVENTS_CDEF * ("kinematic_events.c" in files)
     return describe(
         model, files=files, main="scene.c", cdef=cdef,
@@ -146,11 +148,26 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         tree=reduced.system.unknowns if reduced else (),
         closures=tuple(row.name for row in reduced.system.rows) if reduced else (), formulation=formulation,
         story=tell(model, kkt, loops.solved, integrated.system, loops.groups),
+        lanes=lanes_code.MAIN if beside else "",
     )  # fmt: skip
 
 
 def _angles(model: Model) -> tuple[int, ...]:
     return tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
+
+
+def _loops(
+    model: Model, integrated: Integrated, reduced: ReducedCode | None, counts: Mapping[str, int]
+) -> tuple[LoopCode, dict[str, str]]:
+    """The methods, and the files of a library beside: runs side by side."""
+    linearized, kernels = _newton(model, integrated)
+    closing = closing_kernel(integrated.system)
+    lanes = reduced is not None and lanes_code.has_lanes(model)
+    files = integrator_loops(model, integrated, linearized, closing, counts, render, lanes)
+    beside = {}
+    if reduced is not None and lanes:
+        beside = lanes_code.lanes_code(model, (*reduced.plain, without_unused(closing)), counts, render)
+    return LoopCode(files, tuple(kernels), integrated.kkt), beside
 
 
 def _newton(model: Model, integrated: Integrated) -> tuple[str, list[Kernel]]:

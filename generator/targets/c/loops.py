@@ -8,12 +8,13 @@ from typing import Any
 
 import sympy as sp
 
+from gudgeon.generator.clearance import Clearance
 from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kinematic_kernels import kinematic_kernels
 from gudgeon.generator.kkt import KKT
 from gudgeon.generator.methods import dop853, rodas5p
 from gudgeon.generator.model import Model
-from gudgeon.generator.projection import closing_kernel, projection_kernel
+from gudgeon.generator.projection import projection_kernel
 from gudgeon.generator.square_rows import Block, SquareRows
 from gudgeon.generator.system import System
 from gudgeon.generator.targets.c import printer
@@ -92,21 +93,22 @@ def kinematic_code(
 
 
 def integrator_loops(
-    model: Model, integrated: Integrated, linearized: str, counts: Mapping[str, int], render: Render
-) -> dict[str, str]:
+    model: Model, integrated: Integrated, linearized: str, closing: Kernel, counts: Mapping[str, int], render: Render,
+    lanes: bool,
+) -> dict[str, str]:  # fmt: skip
     """All methods, in the order in which they call each other."""
-    pivots, closing = _friction_pivots(integrated.kkt), integrated.finish(closing_kernel(integrated.system))
+    pivots = _friction_pivots(integrated.kkt)
     kind = "friction" if pivots else "no_friction"
     modes, events = (render(f"{name}.c.jinja", pivots=pivots).strip() for name in (kind, f"{kind}_events"))
     common = {**counts, "floors": _floors(model), "clearances": _lengths(model, [c.pair.c for c in model.clearances])}
-    common["deepest"] = _lengths(model, [c.pair.R_i / 10 for c in model.clearances])
+    common["deepest"] = _lengths(model, [deepest(c) for c in model.clearances])
     common["n_watched"] = len(integrated.corners) + counts["n_events"]
     common["meeting"] = _meeting(model, counts["n_switches"])
     constraints, projection = _PROJECTED if integrated.reduced else _STABILISED
     residuals = _FROM_CLOSURES if integrated.reduced else _FROM_DYNAMICS
     return {
         "motion.c": render(f"motion_{'reduced' if integrated.reduced else 'full'}.c.jinja"),
-        "projection.c": printer.kernel(closing),
+        "projection.c": printer.kernel(integrated.finish(closing)),
         "newton.c": linearized,
         "run.c": render(
             "run.c.jinja", **common, friction_modes=modes, angles=integrated.angles or (0,), residuals=residuals
@@ -123,7 +125,8 @@ def integrator_loops(
         "peaks.c": render("peaks.c.jinja", **counts),
         "changes.c": render("changes.c.jinja", **common),
         "adaptive.c": render("adaptive.c.jinja", **common),
-        "many.c": render("many.c.jinja", **counts),
+        "batch.h": render("batch.h.jinja", **counts, lanes=lanes),
+        "many.c": render("many.c.jinja", **counts, lanes=lanes),
     }
 
 
@@ -172,6 +175,11 @@ def _watched(integrated: Integrated, counts: Mapping[str, int]) -> dict[str, lis
     margins += range(first, first + counts["n_events"])
     place = {k: i for i, k in enumerate(margins)}
     return {"watched": margins, "watched_as": [place.get(k, -1) for k in range(max(counts["n_margins"], 1))]}
+
+
+def deepest(clearance: Clearance) -> sp.Expr:
+    """The penetration beyond which contact laws mean nothing: a tenth of the bearing's radius."""
+    return sp.sympify(clearance.pair.R_i) / 10
 
 
 def _lengths(model: Model, values: Sequence[sp.Expr]) -> list[str]:

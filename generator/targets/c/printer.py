@@ -47,10 +47,13 @@ class CPrinter(C99CodePrinter):
         if exponent == -1:
             return f"1.0/{self.parenthesize(base, 60)}"
         if exponent == sp.Rational(1, 2):
-            return f"sqrt({self._print(base)})"
+            return self._call("sqrt", base)
         if exponent == sp.Rational(-1, 2):
-            return f"1.0/sqrt({self._print(base)})"
-        return f"pow({self._print(base)}, {self._print(exponent)})"
+            return f"1.0/{self._call('sqrt', base)}"
+        return self._call("pow", base, exponent)
+
+    def _call(self, function: str, *arguments: sp.Expr) -> str:
+        return f"{function}({', '.join(map(self._print, arguments))})"
 
     def _print_Max(self, expr: sp.Max) -> str:
         return self._nested("max_of", expr)
@@ -67,10 +70,10 @@ class CPrinter(C99CodePrinter):
         return text
 
     def _print_Abs(self, expr: sp.Expr) -> str:
-        return f"fabs({self._print(expr.args[0])})"
+        return self._call("fabs", expr.args[0])
 
     def _print_sign(self, expr: sp.Expr) -> str:
-        return f"sign_of({self._print(expr.args[0])})"
+        return self._call("sign_of", expr.args[0])
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         """From the rates of ramps and corners; 1 at 0, so that a ramp that begins at the start moves at once."""
@@ -104,11 +107,11 @@ def expression(expr: sp.Expr | str) -> str:
     return expr if isinstance(expr, str) else _printer.doprint(expr)
 
 
-def statement(item: Statement | str) -> str:
-    """One statement or raw line, wrapped at operators."""
+def statement(item: Statement | str, number: str = "double") -> str:
+    """One statement or raw line, wrapped at operators; `number` is the type of locals."""
     if isinstance(item, str):
         return f"    {item}"
-    head = f"const double {item.target}" if item.local else item.target
+    head = f"const {number} {item.target}" if item.local else item.target
     comment = f"  /* {comment_text(item.comment)} */" if item.comment else ""
     text = f"    {head} = {expression(item.value)};"
     if len(text) > WIDTH:
@@ -133,19 +136,19 @@ def arguments(items: tuple[Argument, ...]) -> str:
     return ", ".join(f"{a.type}{a.name}" if a.type.endswith("*") else f"{a.type} {a.name}" for a in items)
 
 
-def section(item: Section) -> str:
-    lines = [f"    /* {comment_text(item.title)} */", *(statement(s) for s in item.statements)]
+def section(item: Section, number: str = "double") -> str:
+    lines = [f"    /* {comment_text(item.title)} */", *(statement(s, number) for s in item.statements)]
     return "\n".join(lines)
 
 
-def kernel(item: Kernel) -> str:
-    """A whole function, a long one behind its parts."""
-    return "\n".join(map(_function, cut(item)))
+def kernel(item: Kernel, number: str = "double") -> str:
+    """A whole function, a long one behind its parts; of vectors in one piece."""
+    return "\n".join(_function(part, number) for part in (cut(item) if number == "double" else [item]))
 
 
-def _function(item: Kernel) -> str:
+def _function(item: Kernel, number: str) -> str:
     """Its doc comment in front; arguments that it does not read are voided."""
-    body = "\n\n".join(section(s) for s in item.sections)
+    body = "\n\n".join(section(s, number) for s in item.sections)
     code = re.sub(r"/\*.*?\*/", "", body, flags=re.S)
     unused = [a.name for a in item.arguments if not re.search(rf"\b{re.escape(a.name)}\b", code)]
     voids = "".join(f"    (void){name};\n" for name in unused)

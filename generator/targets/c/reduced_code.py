@@ -31,20 +31,22 @@ int gudgeon_reduced_rescue(double t, const double *q, const double *v, const dou
 
 @dataclass(frozen=True)
 class ReducedCode:
-    """`files` go behind system.c."""
+    """`files` go behind system.c; `plain` are the kernels of the motion before sines are put side by side."""
 
     system: TreeSystem
     files: Mapping[str, str]
     cdef: str
     kernels: tuple[Kernel, ...]
     integrated: Integrated
+    plain: tuple[Kernel, ...]
 
 
 def reduced_code(model: Model, render: Callable[..., str], print_kernels: Callable[..., str]) -> ReducedCode:
     """Derives the reduced formulation. Everything absolute must have been derived before: names of parameters."""
     system = reduce(model)
     around = motion_kernels(model, system)
-    kernels, kkt = reduced_kernels(system)
+    plain, kkt = reduced_kernels(system)
+    kernels = [side_by_side(kernel) for kernel in plain]
     rescued = is_rescued(system)
     parts = [print_kernels(*around)]
     if rescued:
@@ -56,7 +58,7 @@ def reduced_code(model: Model, render: Callable[..., str], print_kernels: Callab
         system, kkt, angles, True, lambda kernel: side_by_side(without_unused(kernel)),
         any(kernel.name == WATCHED for kernel in kernels),
     )
-    return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, (*around, *kernels), integrated)
+    return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, (*around, *kernels), integrated, tuple(plain))
 
 
 def _multipliers(model: Model, system: TreeSystem) -> list[str]:

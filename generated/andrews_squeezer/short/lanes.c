@@ -1,0 +1,1280 @@
+/*
+ * The runs of a batch by rk4 with one step for all, several side by side (lanes.h). Steps on which nothing happens
+ * but motion are made here; one on which in any lane a contact begins or ends, a watched expression crosses zero,
+ * a pivot vanishes or a number ceases to be finite is made by the single runs themselves (rk4.c, many.c), each
+ * for its own. A library of its own, compiled when it is first asked for.
+ */
+#include "model.h"
+#include "batch.h"
+#include "lanes.h"
+#include <time.h>
+
+enum { LANE_JOINTS = 1, LANE_EVENTS = 1, EVENTS_FULL = -3 };
+
+typedef struct {
+    Lanes OF_mass;
+    Lanes OF_inertia;
+    Lanes FE_mass;
+    Lanes FE_inertia;
+    Lanes BDE_mass;
+    Lanes BDE_inertia;
+    Lanes EG_mass;
+    Lanes EG_inertia;
+    Lanes AG_mass;
+    Lanes AG_inertia;
+    Lanes HE_mass;
+    Lanes HE_inertia;
+    Lanes AH_mass;
+    Lanes AH_inertia;
+    Lanes OF_points_O_x;
+    Lanes OF_points_F_x;
+    Lanes FE_points_E_x;
+    Lanes FE_points_F_x;
+    Lanes BDE_points_B_x;
+    Lanes BDE_points_B_y;
+    Lanes BDE_points_E_x;
+    Lanes BDE_points_E_y;
+    Lanes BDE_points_D_x;
+    Lanes BDE_points_D_y;
+    Lanes EG_points_G_y;
+    Lanes EG_points_E_y;
+    Lanes AG_points_A_x;
+    Lanes AG_points_A_y;
+    Lanes AG_points_G_x;
+    Lanes AG_points_G_y;
+    Lanes HE_points_H_x;
+    Lanes HE_points_E_x;
+    Lanes AH_points_A_x;
+    Lanes AH_points_A_y;
+    Lanes AH_points_H_x;
+    Lanes AH_points_H_y;
+    Lanes alpha;
+    Lanes beta;
+    Lanes B_x;
+    Lanes B_y;
+    Lanes A_x;
+    Lanes A_y;
+    Lanes C_x;
+    Lanes C_y;
+    Lanes spring_stiffness;
+    Lanes spring_free_length;
+    Lanes motor_value;
+    Lanes guess_FE_theta;
+    Lanes guess_BDE_theta;
+    Lanes guess_EG_theta;
+    Lanes guess_AG_theta;
+    Lanes guess_HE_theta;
+    Lanes guess_AH_theta;
+    Lanes set_OF_theta;
+    Lanes two_alpha;
+    Lanes beta_squared;
+    Lanes inverse_OF_mass;
+    Lanes inverse_BDE_mass;
+    Lanes inverse_EG_mass;
+    Lanes inverse_AG_mass;
+    Lanes inverse_HE_mass;
+    Lanes inverse_AH_mass;
+    Lanes inverse_OF_inertia;
+    Lanes inverse_FE_mass;
+    Lanes inverse_BDE_inertia;
+    Lanes inverse_EG_inertia;
+    Lanes inverse_AG_inertia;
+    Lanes inverse_HE_inertia;
+    Lanes inverse_AH_inertia;
+    Lanes inverse_FE_inertia;
+    Lanes OF_com_span_x;
+    Lanes BDE_com_span_x;
+    Lanes BDE_com_span_y;
+    Lanes AG_com_span_x;
+    Lanes AG_com_span_y;
+    Lanes AH_com_span_x;
+    Lanes AH_com_span_y;
+    Lanes OF_F_span_x;
+    Lanes FE_com_span_x;
+    Lanes BDE_E_span_x;
+    Lanes BDE_E_span_y;
+    Lanes HE_com_span_x;
+    Lanes FE_E_span_x;
+    Lanes EG_com_span_y;
+    Lanes EG_G_span_y;
+    Lanes AG_G_span_x;
+    Lanes AG_G_span_y;
+    Lanes HE_H_span_x;
+    Lanes AH_H_span_x;
+    Lanes AH_H_span_y;
+    Lanes BDE_D_span_x;
+    Lanes BDE_D_span_y;
+    Lanes inertia_OF_OF;
+    Lanes inertia_OF_FE;
+    Lanes inertia_FE_FE;
+    Lanes inertia_BDE_BDE;
+    Lanes twist_OF_EG;
+    Lanes twist_FE_EG;
+    Lanes inertia_EG_EG;
+    Lanes inertia_AG_AG;
+    Lanes inertia_BDE_HE;
+    Lanes twist_BDE_HE;
+    Lanes inertia_HE_HE;
+    Lanes inertia_AH_AH;
+    Lanes mass_OF_OF;
+    Lanes mass_FE_FE;
+    Lanes mass_BDE_BDE;
+    Lanes mass_EG_EG;
+    Lanes mass_AG_AG;
+    Lanes mass_HE_HE;
+    Lanes mass_AH_AH;
+    Lanes inverse_mass_AG_AG;
+    Lanes inverse_mass_AH_AH;
+    Lanes inverse_mass_HE_HE;
+    Lanes inverse_mass_EG_EG;
+} LaneParameters;
+
+_Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
+
+typedef struct {
+    Lanes t, steps, evaluations, y[N_Y], dy[N_Y];
+    Lanes phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
+    struct LaneLatch {
+        Lanes closed, deltadot_minus, compressing; /* 0 or 1, m/s, 0 or 1 */
+        Lanes e, delta, deltadot, F_peak, t_peak, e_max;
+        Lanes F_open, t_open;                      /* peak of the contact that goes on */
+    } latch[1];
+    Lanes event_side[1];
+} LaneRun;
+
+typedef struct {
+    Lanes Fx, Fy, F_n, F_t, e, deltadot, delta, moment_first, moment_second, power;
+} LaneClearance;
+
+typedef struct {
+    Lanes lambda[N_LOOPS + 1], power[N_WORK], event[LANE_EVENTS];
+    LaneClearance clearance[LANE_JOINTS];
+} LaneAside;
+
+/*
+ * Phi of the loop closures in tree coordinates; m and rad.
+ */
+static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lanes *out, LaneBits *rare)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const Lanes OF_theta = q[0];
+    const Lanes BDE_theta = q[1];
+    const Lanes AG_theta = q[2];
+    const Lanes AH_theta = q[3];
+    const Lanes FE_theta = q[4];
+    const Lanes HE_theta = q[5];
+    const Lanes EG_theta = q[6];
+
+    /* parameters */
+    const Lanes B_x = p->B_x;
+    const Lanes B_y = p->B_y;
+    const Lanes A_x = p->A_x;
+    const Lanes A_y = p->A_y;
+    const Lanes OF_F_span_x = p->OF_F_span_x;
+    const Lanes BDE_E_span_x = p->BDE_E_span_x;
+    const Lanes BDE_E_span_y = p->BDE_E_span_y;
+    const Lanes FE_E_span_x = p->FE_E_span_x;
+    const Lanes EG_G_span_y = p->EG_G_span_y;
+    const Lanes AG_G_span_x = p->AG_G_span_x;
+    const Lanes AG_G_span_y = p->AG_G_span_y;
+    const Lanes HE_H_span_x = p->HE_H_span_x;
+    const Lanes AH_H_span_x = p->AH_H_span_x;
+    const Lanes AH_H_span_y = p->AH_H_span_y;
+
+    /* directions, arms, drives */
+    Lanes sine_0, cosine_0;
+    sines_and_cosines(OF_theta, &sine_0, &cosine_0, rare);
+    Lanes sine_1, cosine_1;
+    sines_and_cosines(BDE_theta, &sine_1, &cosine_1, rare);
+    Lanes sine_2, cosine_2;
+    sines_and_cosines(AG_theta, &sine_2, &cosine_2, rare);
+    Lanes sine_3, cosine_3;
+    sines_and_cosines(AH_theta, &sine_3, &cosine_3, rare);
+    Lanes sine_4, cosine_4;
+    sines_and_cosines(FE_theta, &sine_4, &cosine_4, rare);
+    Lanes sine_5, cosine_5;
+    sines_and_cosines(HE_theta, &sine_5, &cosine_5, rare);
+    Lanes sine_6, cosine_6;
+    sines_and_cosines(EG_theta, &sine_6, &cosine_6, rare);
+    const Lanes cos_theta_OF = cosine_0;
+    const Lanes sin_theta_OF = sine_0;
+    const Lanes cos_theta_BDE = cosine_1;
+    const Lanes sin_theta_BDE = sine_1;
+    const Lanes cos_theta_AG = cosine_2;
+    const Lanes sin_theta_AG = sine_2;
+    const Lanes cos_theta_AH = cosine_3;
+    const Lanes sin_theta_AH = sine_3;
+    const Lanes cos_theta_FE = cosine_4;
+    const Lanes sin_theta_FE = sine_4;
+    const Lanes cos_theta_HE = cosine_5;
+    const Lanes sin_theta_HE = sine_5;
+    const Lanes cos_theta_EG = cosine_6;
+    const Lanes sin_theta_EG = sine_6;
+    const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
+    const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
+    const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
+    const Lanes span_BDE_E_y = BDE_E_span_x*sin_theta_BDE + BDE_E_span_y*cos_theta_BDE;
+    const Lanes span_FE_E_x = FE_E_span_x*cos_theta_FE;
+    const Lanes span_FE_E_y = FE_E_span_x*sin_theta_FE;
+    const Lanes span_EG_G_x = -EG_G_span_y*sin_theta_EG;
+    const Lanes span_EG_G_y = EG_G_span_y*cos_theta_EG;
+    const Lanes span_AG_G_x = AG_G_span_x*cos_theta_AG - AG_G_span_y*sin_theta_AG;
+    const Lanes span_AG_G_y = AG_G_span_x*sin_theta_AG + AG_G_span_y*cos_theta_AG;
+    const Lanes span_HE_H_x = HE_H_span_x*cos_theta_HE;
+    const Lanes span_HE_H_y = HE_H_span_x*sin_theta_HE;
+    const Lanes span_AH_H_x = AH_H_span_x*cos_theta_AH - AH_H_span_y*sin_theta_AH;
+    const Lanes span_AH_H_y = AH_H_span_x*sin_theta_AH + AH_H_span_y*cos_theta_AH;
+
+    /* rows */
+    out[0] = -A_x - span_AG_G_x + span_EG_G_x + span_FE_E_x + span_OF_F_x;  /* G.x */
+    out[1] = -A_y - span_AG_G_y + span_EG_G_y + span_FE_E_y + span_OF_F_y;  /* G.y */
+    out[2] = -A_x + B_x - span_AH_H_x + span_BDE_E_x + span_HE_H_x;  /* H.x */
+    out[3] = -A_y + B_y - span_AH_H_y + span_BDE_E_y + span_HE_H_y;  /* H.y */
+    out[4] = -B_x - span_BDE_E_x + span_FE_E_x + span_OF_F_x;  /* E3.x */
+    out[5] = -B_y - span_BDE_E_y + span_FE_E_y + span_OF_F_y;  /* E3.y */
+}
+
+/*
+ * Its rate Phi_q v - nu.
+ */
+static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const LaneParameters *p, Lanes *out,
+    LaneBits *rare)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const Lanes OF_theta = q[0];
+    const Lanes OF_omega = v[0];
+    const Lanes BDE_theta = q[1];
+    const Lanes BDE_omega = v[1];
+    const Lanes AG_theta = q[2];
+    const Lanes AG_omega = v[2];
+    const Lanes AH_theta = q[3];
+    const Lanes AH_omega = v[3];
+    const Lanes FE_theta = q[4];
+    const Lanes FE_omega = v[4];
+    const Lanes HE_theta = q[5];
+    const Lanes HE_omega = v[5];
+    const Lanes EG_theta = q[6];
+    const Lanes EG_omega = v[6];
+
+    /* parameters */
+    const Lanes OF_F_span_x = p->OF_F_span_x;
+    const Lanes BDE_E_span_x = p->BDE_E_span_x;
+    const Lanes BDE_E_span_y = p->BDE_E_span_y;
+    const Lanes FE_E_span_x = p->FE_E_span_x;
+    const Lanes EG_G_span_y = p->EG_G_span_y;
+    const Lanes AG_G_span_x = p->AG_G_span_x;
+    const Lanes AG_G_span_y = p->AG_G_span_y;
+    const Lanes HE_H_span_x = p->HE_H_span_x;
+    const Lanes AH_H_span_x = p->AH_H_span_x;
+    const Lanes AH_H_span_y = p->AH_H_span_y;
+
+    /* directions, arms, drives */
+    Lanes sine_0, cosine_0;
+    sines_and_cosines(OF_theta, &sine_0, &cosine_0, rare);
+    Lanes sine_1, cosine_1;
+    sines_and_cosines(BDE_theta, &sine_1, &cosine_1, rare);
+    Lanes sine_2, cosine_2;
+    sines_and_cosines(AG_theta, &sine_2, &cosine_2, rare);
+    Lanes sine_3, cosine_3;
+    sines_and_cosines(AH_theta, &sine_3, &cosine_3, rare);
+    Lanes sine_4, cosine_4;
+    sines_and_cosines(FE_theta, &sine_4, &cosine_4, rare);
+    Lanes sine_5, cosine_5;
+    sines_and_cosines(HE_theta, &sine_5, &cosine_5, rare);
+    Lanes sine_6, cosine_6;
+    sines_and_cosines(EG_theta, &sine_6, &cosine_6, rare);
+    const Lanes cos_theta_OF = cosine_0;
+    const Lanes sin_theta_OF = sine_0;
+    const Lanes cos_theta_BDE = cosine_1;
+    const Lanes sin_theta_BDE = sine_1;
+    const Lanes cos_theta_AG = cosine_2;
+    const Lanes sin_theta_AG = sine_2;
+    const Lanes cos_theta_AH = cosine_3;
+    const Lanes sin_theta_AH = sine_3;
+    const Lanes cos_theta_FE = cosine_4;
+    const Lanes sin_theta_FE = sine_4;
+    const Lanes cos_theta_HE = cosine_5;
+    const Lanes sin_theta_HE = sine_5;
+    const Lanes cos_theta_EG = cosine_6;
+    const Lanes sin_theta_EG = sine_6;
+    const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
+    const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
+    const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
+    const Lanes span_BDE_E_y = BDE_E_span_x*sin_theta_BDE + BDE_E_span_y*cos_theta_BDE;
+    const Lanes span_FE_E_x = FE_E_span_x*cos_theta_FE;
+    const Lanes span_FE_E_y = FE_E_span_x*sin_theta_FE;
+    const Lanes span_EG_G_x = -EG_G_span_y*sin_theta_EG;
+    const Lanes span_EG_G_y = EG_G_span_y*cos_theta_EG;
+    const Lanes span_AG_G_x = AG_G_span_x*cos_theta_AG - AG_G_span_y*sin_theta_AG;
+    const Lanes span_AG_G_y = AG_G_span_x*sin_theta_AG + AG_G_span_y*cos_theta_AG;
+    const Lanes span_HE_H_x = HE_H_span_x*cos_theta_HE;
+    const Lanes span_HE_H_y = HE_H_span_x*sin_theta_HE;
+    const Lanes span_AH_H_x = AH_H_span_x*cos_theta_AH - AH_H_span_y*sin_theta_AH;
+    const Lanes span_AH_H_y = AH_H_span_x*sin_theta_AH + AH_H_span_y*cos_theta_AH;
+
+    /* rows */
+    out[0] = AG_omega*span_AG_G_y - EG_omega*span_EG_G_y - FE_omega*span_FE_E_y - OF_omega*span_OF_F_y;  /* G.x */
+    out[1] = -AG_omega*span_AG_G_x + EG_omega*span_EG_G_x + FE_omega*span_FE_E_x + OF_omega*span_OF_F_x;  /* G.y */
+    out[2] = AH_omega*span_AH_H_y - BDE_omega*span_BDE_E_y - HE_omega*span_HE_H_y;  /* H.x */
+    out[3] = -AH_omega*span_AH_H_x + BDE_omega*span_BDE_E_x + HE_omega*span_HE_H_x;  /* H.y */
+    out[4] = BDE_omega*span_BDE_E_y - FE_omega*span_FE_E_y - OF_omega*span_OF_F_y;  /* E3.x */
+    out[5] = -BDE_omega*span_BDE_E_x + FE_omega*span_FE_E_x + OF_omega*span_OF_F_x;  /* E3.y */
+}
+
+/*
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ */
+static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneRun *memory, const
+    LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
+{
+    (void)t;
+    (void)memory;
+    /* coordinates, velocities, time */
+    const Lanes OF_theta = q[0];
+    const Lanes OF_omega = v[0];
+    const Lanes BDE_theta = q[1];
+    const Lanes BDE_omega = v[1];
+    const Lanes AG_theta = q[2];
+    const Lanes AG_omega = v[2];
+    const Lanes AH_theta = q[3];
+    const Lanes AH_omega = v[3];
+    const Lanes FE_theta = q[4];
+    const Lanes FE_omega = v[4];
+    const Lanes HE_theta = q[5];
+    const Lanes HE_omega = v[5];
+    const Lanes EG_theta = q[6];
+    const Lanes EG_omega = v[6];
+
+    /* parameters */
+    const Lanes B_x = p->B_x;
+    const Lanes B_y = p->B_y;
+    const Lanes C_x = p->C_x;
+    const Lanes C_y = p->C_y;
+    const Lanes spring_stiffness = p->spring_stiffness;
+    const Lanes spring_free_length = p->spring_free_length;
+    const Lanes motor_value = p->motor_value;
+    const Lanes OF_F_span_x = p->OF_F_span_x;
+    const Lanes BDE_E_span_x = p->BDE_E_span_x;
+    const Lanes BDE_E_span_y = p->BDE_E_span_y;
+    const Lanes FE_E_span_x = p->FE_E_span_x;
+    const Lanes EG_G_span_y = p->EG_G_span_y;
+    const Lanes AG_G_span_x = p->AG_G_span_x;
+    const Lanes AG_G_span_y = p->AG_G_span_y;
+    const Lanes HE_H_span_x = p->HE_H_span_x;
+    const Lanes AH_H_span_x = p->AH_H_span_x;
+    const Lanes AH_H_span_y = p->AH_H_span_y;
+    const Lanes BDE_D_span_x = p->BDE_D_span_x;
+    const Lanes BDE_D_span_y = p->BDE_D_span_y;
+    const Lanes inertia_OF_FE = p->inertia_OF_FE;
+    const Lanes twist_OF_EG = p->twist_OF_EG;
+    const Lanes twist_FE_EG = p->twist_FE_EG;
+    const Lanes inertia_BDE_HE = p->inertia_BDE_HE;
+    const Lanes twist_BDE_HE = p->twist_BDE_HE;
+    const Lanes mass_OF_OF = p->mass_OF_OF;
+    const Lanes mass_FE_FE = p->mass_FE_FE;
+    const Lanes mass_BDE_BDE = p->mass_BDE_BDE;
+    const Lanes inverse_mass_AG_AG = p->inverse_mass_AG_AG;
+    const Lanes inverse_mass_AH_AH = p->inverse_mass_AH_AH;
+    const Lanes inverse_mass_HE_HE = p->inverse_mass_HE_HE;
+    const Lanes inverse_mass_EG_EG = p->inverse_mass_EG_EG;
+
+    /* directions, arms, drives */
+    Lanes sine_0, cosine_0;
+    sines_and_cosines(OF_theta, &sine_0, &cosine_0, rare);
+    Lanes sine_1, cosine_1;
+    sines_and_cosines(BDE_theta, &sine_1, &cosine_1, rare);
+    Lanes sine_2, cosine_2;
+    sines_and_cosines(AG_theta, &sine_2, &cosine_2, rare);
+    Lanes sine_3, cosine_3;
+    sines_and_cosines(AH_theta, &sine_3, &cosine_3, rare);
+    Lanes sine_4, cosine_4;
+    sines_and_cosines(FE_theta, &sine_4, &cosine_4, rare);
+    Lanes sine_5, cosine_5;
+    sines_and_cosines(HE_theta, &sine_5, &cosine_5, rare);
+    Lanes sine_6, cosine_6;
+    sines_and_cosines(EG_theta, &sine_6, &cosine_6, rare);
+    const Lanes cos_theta_OF = cosine_0;
+    const Lanes sin_theta_OF = sine_0;
+    const Lanes cos_theta_BDE = cosine_1;
+    const Lanes sin_theta_BDE = sine_1;
+    const Lanes cos_theta_AG = cosine_2;
+    const Lanes sin_theta_AG = sine_2;
+    const Lanes cos_theta_AH = cosine_3;
+    const Lanes sin_theta_AH = sine_3;
+    const Lanes cos_theta_FE = cosine_4;
+    const Lanes sin_theta_FE = sine_4;
+    const Lanes cos_theta_HE = cosine_5;
+    const Lanes sin_theta_HE = sine_5;
+    const Lanes cos_theta_EG = cosine_6;
+    const Lanes sin_theta_EG = sine_6;
+    const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
+    const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
+    const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
+    const Lanes span_BDE_E_y = BDE_E_span_x*sin_theta_BDE + BDE_E_span_y*cos_theta_BDE;
+    const Lanes span_FE_E_x = FE_E_span_x*cos_theta_FE;
+    const Lanes span_FE_E_y = FE_E_span_x*sin_theta_FE;
+    const Lanes span_EG_G_x = -EG_G_span_y*sin_theta_EG;
+    const Lanes span_EG_G_y = EG_G_span_y*cos_theta_EG;
+    const Lanes span_AG_G_x = AG_G_span_x*cos_theta_AG - AG_G_span_y*sin_theta_AG;
+    const Lanes span_AG_G_y = AG_G_span_x*sin_theta_AG + AG_G_span_y*cos_theta_AG;
+    const Lanes span_HE_H_x = HE_H_span_x*cos_theta_HE;
+    const Lanes span_HE_H_y = HE_H_span_x*sin_theta_HE;
+    const Lanes span_AH_H_x = AH_H_span_x*cos_theta_AH - AH_H_span_y*sin_theta_AH;
+    const Lanes span_AH_H_y = AH_H_span_x*sin_theta_AH + AH_H_span_y*cos_theta_AH;
+    const Lanes span_BDE_D_x = BDE_D_span_x*cos_theta_BDE - BDE_D_span_y*sin_theta_BDE;
+    const Lanes span_BDE_D_y = BDE_D_span_x*sin_theta_BDE + BDE_D_span_y*cos_theta_BDE;
+    const Lanes BDE_D_x = B_x + span_BDE_D_x;
+    const Lanes BDE_D_y = B_y + span_BDE_D_y;
+    const Lanes spring_span_x = BDE_D_x - C_x;
+    const Lanes spring_span_y = BDE_D_y - C_y;
+    const Lanes spring_length = lanes_sqrt((spring_span_x * spring_span_x) + (spring_span_y * spring_span_y));
+    const Lanes spring_force = spring_stiffness*(-spring_free_length + spring_length);
+    const Lanes spring_pull = spring_force/spring_length;
+    const Lanes cos_FE_less_OF = cos_theta_FE*cos_theta_OF + sin_theta_FE*sin_theta_OF;
+    const Lanes sin_FE_less_OF = -cos_theta_FE*sin_theta_OF + cos_theta_OF*sin_theta_FE;
+    const Lanes dot_OF_FE = cos_FE_less_OF*inertia_OF_FE;
+    const Lanes cross_OF_FE = inertia_OF_FE*sin_FE_less_OF;
+    const Lanes cos_EG_less_OF = cos_theta_EG*cos_theta_OF + sin_theta_EG*sin_theta_OF;
+    const Lanes sin_EG_less_OF = -cos_theta_EG*sin_theta_OF + cos_theta_OF*sin_theta_EG;
+    const Lanes dot_OF_EG = -sin_EG_less_OF*twist_OF_EG;
+    const Lanes cross_OF_EG = cos_EG_less_OF*twist_OF_EG;
+    const Lanes cos_EG_less_FE = cos_theta_EG*cos_theta_FE + sin_theta_EG*sin_theta_FE;
+    const Lanes sin_EG_less_FE = -cos_theta_EG*sin_theta_FE + cos_theta_FE*sin_theta_EG;
+    const Lanes dot_FE_EG = -sin_EG_less_FE*twist_FE_EG;
+    const Lanes cross_FE_EG = cos_EG_less_FE*twist_FE_EG;
+    const Lanes cos_HE_less_BDE = cos_theta_BDE*cos_theta_HE + sin_theta_BDE*sin_theta_HE;
+    const Lanes sin_HE_less_BDE = cos_theta_BDE*sin_theta_HE - cos_theta_HE*sin_theta_BDE;
+    const Lanes dot_BDE_HE = cos_HE_less_BDE*inertia_BDE_HE - sin_HE_less_BDE*twist_BDE_HE;
+    const Lanes cross_BDE_HE = cos_HE_less_BDE*twist_BDE_HE + inertia_BDE_HE*sin_HE_less_BDE;
+
+    /* constraints: gamma */
+    const Lanes rhs_G_x = -(AG_omega * AG_omega)*span_AG_G_x + (EG_omega * EG_omega)*span_EG_G_x + (FE_omega *
+        FE_omega)*span_FE_E_x + (OF_omega * OF_omega)*span_OF_F_x;
+    const Lanes rhs_G_y = -(AG_omega * AG_omega)*span_AG_G_y + (EG_omega * EG_omega)*span_EG_G_y + (FE_omega *
+        FE_omega)*span_FE_E_y + (OF_omega * OF_omega)*span_OF_F_y;
+    const Lanes rhs_H_x = -(AH_omega * AH_omega)*span_AH_H_x + (BDE_omega * BDE_omega)*span_BDE_E_x +
+        (HE_omega * HE_omega)*span_HE_H_x;
+    const Lanes rhs_H_y = -(AH_omega * AH_omega)*span_AH_H_y + (BDE_omega * BDE_omega)*span_BDE_E_y +
+        (HE_omega * HE_omega)*span_HE_H_y;
+    const Lanes rhs_E3_x = -(BDE_omega * BDE_omega)*span_BDE_E_x + (FE_omega * FE_omega)*span_FE_E_x +
+        (OF_omega * OF_omega)*span_OF_F_x;
+    const Lanes rhs_E3_y = -(BDE_omega * BDE_omega)*span_BDE_E_y + (FE_omega * FE_omega)*span_FE_E_y +
+        (OF_omega * OF_omega)*span_OF_F_y;
+
+    /* L D L^T of the KKT matrix */
+    const Lanes l_G_x__AG_theta = inverse_mass_AG_AG*span_AG_G_y;
+    const Lanes l_G_y__AG_theta = -inverse_mass_AG_AG*span_AG_G_x;
+    const Lanes l_H_x__AH_theta = inverse_mass_AH_AH*span_AH_H_y;
+    const Lanes l_H_y__AH_theta = -inverse_mass_AH_AH*span_AH_H_x;
+    const Lanes l_H_x__HE_theta = -inverse_mass_HE_HE*span_HE_H_y;
+    const Lanes l_H_y__HE_theta = inverse_mass_HE_HE*span_HE_H_x;
+    const Lanes l_BDE_theta__HE_theta = dot_BDE_HE*inverse_mass_HE_HE;
+    const Lanes scale_H_x = l_H_x__AH_theta*span_AH_H_y - l_H_x__HE_theta*span_HE_H_y;
+    const Lanes scale_H_y = -l_H_y__AH_theta*span_AH_H_x + l_H_y__HE_theta*span_HE_H_x;
+    const Lanes pivot_H_x__H_y = l_H_y__AH_theta*span_AH_H_y - l_H_y__HE_theta*span_HE_H_y;
+    const Lanes determinant_H_x__H_y = -(pivot_H_x__H_y * pivot_H_x__H_y) + scale_H_x*scale_H_y;
+    *rare |= ~(scale_H_x > 1e-05 * scale_H_x);
+    *rare |= ~(determinant_H_x__H_y > 1e-05 * scale_H_y * scale_H_x);
+    const Lanes inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
+    const Lanes inverse_pivot_H_x = inverse_H_x__H_y*scale_H_y;
+    const Lanes inverse_pivot_H_y = inverse_H_x__H_y*scale_H_x;
+    const Lanes inverse_cross_H_x__H_y = -inverse_H_x__H_y*pivot_H_x__H_y;
+    const Lanes w_BDE_theta__H_x = l_BDE_theta__HE_theta*span_HE_H_y - span_BDE_E_y;
+    const Lanes w_BDE_theta__H_y = -l_BDE_theta__HE_theta*span_HE_H_x + span_BDE_E_x;
+    const Lanes l_BDE_theta__H_x = inverse_cross_H_x__H_y*w_BDE_theta__H_y +
+        inverse_pivot_H_x*w_BDE_theta__H_x;
+    const Lanes l_BDE_theta__H_y = inverse_cross_H_x__H_y*w_BDE_theta__H_x +
+        inverse_pivot_H_y*w_BDE_theta__H_y;
+    const Lanes inverse_pivot_BDE_theta = 1.0/(-dot_BDE_HE*l_BDE_theta__HE_theta -
+        l_BDE_theta__H_x*w_BDE_theta__H_x - l_BDE_theta__H_y*w_BDE_theta__H_y + mass_BDE_BDE);
+    const Lanes l_E3_x__BDE_theta = inverse_pivot_BDE_theta*span_BDE_E_y;
+    const Lanes l_E3_y__BDE_theta = -inverse_pivot_BDE_theta*span_BDE_E_x;
+    const Lanes l_G_x__EG_theta = -inverse_mass_EG_EG*span_EG_G_y;
+    const Lanes l_G_y__EG_theta = inverse_mass_EG_EG*span_EG_G_x;
+    const Lanes l_OF_theta__EG_theta = dot_OF_EG*inverse_mass_EG_EG;
+    const Lanes l_FE_theta__EG_theta = dot_FE_EG*inverse_mass_EG_EG;
+    const Lanes scale_G_x = l_G_x__AG_theta*span_AG_G_y - l_G_x__EG_theta*span_EG_G_y;
+    const Lanes scale_G_y = -l_G_y__AG_theta*span_AG_G_x + l_G_y__EG_theta*span_EG_G_x;
+    const Lanes pivot_G_x__G_y = l_G_y__AG_theta*span_AG_G_y - l_G_y__EG_theta*span_EG_G_y;
+    const Lanes determinant_G_x__G_y = -(pivot_G_x__G_y * pivot_G_x__G_y) + scale_G_x*scale_G_y;
+    *rare |= ~(scale_G_x > 1e-05 * scale_G_x);
+    *rare |= ~(determinant_G_x__G_y > 1e-05 * scale_G_y * scale_G_x);
+    const Lanes inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
+    const Lanes inverse_pivot_G_x = inverse_G_x__G_y*scale_G_y;
+    const Lanes inverse_pivot_G_y = inverse_G_x__G_y*scale_G_x;
+    const Lanes inverse_cross_G_x__G_y = -inverse_G_x__G_y*pivot_G_x__G_y;
+    const Lanes w_OF_theta__G_x = l_OF_theta__EG_theta*span_EG_G_y - span_OF_F_y;
+    const Lanes w_OF_theta__G_y = -l_OF_theta__EG_theta*span_EG_G_x + span_OF_F_x;
+    const Lanes l_OF_theta__G_x = inverse_cross_G_x__G_y*w_OF_theta__G_y + inverse_pivot_G_x*w_OF_theta__G_x;
+    const Lanes l_OF_theta__G_y = inverse_cross_G_x__G_y*w_OF_theta__G_x + inverse_pivot_G_y*w_OF_theta__G_y;
+    const Lanes w_FE_theta__G_x = l_FE_theta__EG_theta*span_EG_G_y - span_FE_E_y;
+    const Lanes w_FE_theta__G_y = -l_FE_theta__EG_theta*span_EG_G_x + span_FE_E_x;
+    const Lanes l_FE_theta__G_x = inverse_cross_G_x__G_y*w_FE_theta__G_y + inverse_pivot_G_x*w_FE_theta__G_x;
+    const Lanes l_FE_theta__G_y = inverse_cross_G_x__G_y*w_FE_theta__G_x + inverse_pivot_G_y*w_FE_theta__G_y;
+    const Lanes pivot_OF_theta = -dot_OF_EG*l_OF_theta__EG_theta - l_OF_theta__G_x*w_OF_theta__G_x -
+        l_OF_theta__G_y*w_OF_theta__G_y + mass_OF_OF;
+    const Lanes pivot_FE_theta = -dot_FE_EG*l_FE_theta__EG_theta - l_FE_theta__G_x*w_FE_theta__G_x -
+        l_FE_theta__G_y*w_FE_theta__G_y + mass_FE_FE;
+    const Lanes pivot_OF_theta__FE_theta = -dot_OF_EG*l_FE_theta__EG_theta + dot_OF_FE -
+        l_FE_theta__G_x*w_OF_theta__G_x - l_FE_theta__G_y*w_OF_theta__G_y;
+    const Lanes determinant_OF_theta__FE_theta = pivot_FE_theta*pivot_OF_theta - (pivot_OF_theta__FE_theta *
+        pivot_OF_theta__FE_theta);
+    const Lanes inverse_OF_theta__FE_theta = 1.0/determinant_OF_theta__FE_theta;
+    const Lanes inverse_pivot_OF_theta = inverse_OF_theta__FE_theta*pivot_FE_theta;
+    const Lanes inverse_pivot_FE_theta = inverse_OF_theta__FE_theta*pivot_OF_theta;
+    const Lanes inverse_cross_OF_theta__FE_theta = -inverse_OF_theta__FE_theta*pivot_OF_theta__FE_theta;
+    const Lanes l_E3_x__OF_theta = -inverse_cross_OF_theta__FE_theta*span_FE_E_y -
+        inverse_pivot_OF_theta*span_OF_F_y;
+    const Lanes l_E3_x__FE_theta = -inverse_cross_OF_theta__FE_theta*span_OF_F_y -
+        inverse_pivot_FE_theta*span_FE_E_y;
+    const Lanes l_E3_y__OF_theta = inverse_cross_OF_theta__FE_theta*span_FE_E_x +
+        inverse_pivot_OF_theta*span_OF_F_x;
+    const Lanes l_E3_y__FE_theta = inverse_cross_OF_theta__FE_theta*span_OF_F_x +
+        inverse_pivot_FE_theta*span_FE_E_x;
+    const Lanes scale_E3_x = l_E3_x__BDE_theta*span_BDE_E_y - l_E3_x__FE_theta*span_FE_E_y -
+        l_E3_x__OF_theta*span_OF_F_y;
+    const Lanes scale_E3_y = -l_E3_y__BDE_theta*span_BDE_E_x + l_E3_y__FE_theta*span_FE_E_x +
+        l_E3_y__OF_theta*span_OF_F_x;
+    const Lanes pivot_E3_x__E3_y = l_E3_y__BDE_theta*span_BDE_E_y - l_E3_y__FE_theta*span_FE_E_y -
+        l_E3_y__OF_theta*span_OF_F_y;
+    const Lanes determinant_E3_x__E3_y = -(pivot_E3_x__E3_y * pivot_E3_x__E3_y) + scale_E3_x*scale_E3_y;
+    *rare |= ~(scale_E3_x > 1e-08 * scale_E3_x);
+    *rare |= ~(determinant_E3_x__E3_y > 1e-08 * scale_E3_y * scale_E3_x);
+    const Lanes inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
+    const Lanes inverse_pivot_E3_x = inverse_E3_x__E3_y*scale_E3_y;
+    const Lanes inverse_pivot_E3_y = inverse_E3_x__E3_y*scale_E3_x;
+    const Lanes inverse_cross_E3_x__E3_y = -inverse_E3_x__E3_y*pivot_E3_x__E3_y;
+
+    /* forward substitution */
+    const Lanes z_HE_theta = -(BDE_omega * BDE_omega)*cross_BDE_HE;
+    const Lanes z_H_x = -l_H_x__HE_theta*z_HE_theta + rhs_H_x;
+    const Lanes z_H_y = -l_H_y__HE_theta*z_HE_theta + rhs_H_y;
+    const Lanes z_BDE_theta = (HE_omega * HE_omega)*cross_BDE_HE - l_BDE_theta__HE_theta*z_HE_theta -
+        l_BDE_theta__H_x*z_H_x - l_BDE_theta__H_y*z_H_y - span_BDE_D_x*spring_pull*spring_span_y +
+        span_BDE_D_y*spring_pull*spring_span_x;
+    const Lanes z_EG_theta = -(FE_omega * FE_omega)*cross_FE_EG - (OF_omega * OF_omega)*cross_OF_EG;
+    const Lanes z_G_x = -l_G_x__EG_theta*z_EG_theta + rhs_G_x;
+    const Lanes z_G_y = -l_G_y__EG_theta*z_EG_theta + rhs_G_y;
+    const Lanes z_OF_theta = (EG_omega * EG_omega)*cross_OF_EG + (FE_omega * FE_omega)*cross_OF_FE -
+        l_OF_theta__EG_theta*z_EG_theta - l_OF_theta__G_x*z_G_x - l_OF_theta__G_y*z_G_y + motor_value;
+    const Lanes z_FE_theta = (EG_omega * EG_omega)*cross_FE_EG - (OF_omega * OF_omega)*cross_OF_FE -
+        l_FE_theta__EG_theta*z_EG_theta - l_FE_theta__G_x*z_G_x - l_FE_theta__G_y*z_G_y;
+    const Lanes z_E3_x = -l_E3_x__BDE_theta*z_BDE_theta - l_E3_x__FE_theta*z_FE_theta -
+        l_E3_x__OF_theta*z_OF_theta + rhs_E3_x;
+    const Lanes z_E3_y = -l_E3_y__BDE_theta*z_BDE_theta - l_E3_y__FE_theta*z_FE_theta -
+        l_E3_y__OF_theta*z_OF_theta + rhs_E3_y;
+
+    /* backward substitution */
+    const Lanes lambda_E3_y = inverse_cross_E3_x__E3_y*z_E3_x + inverse_pivot_E3_y*z_E3_y;
+    const Lanes lambda_E3_x = inverse_cross_E3_x__E3_y*z_E3_y + inverse_pivot_E3_x*z_E3_x;
+    const Lanes acceleration_FE_theta = inverse_cross_OF_theta__FE_theta*z_OF_theta +
+        inverse_pivot_FE_theta*z_FE_theta - l_E3_x__FE_theta*lambda_E3_x - l_E3_y__FE_theta*lambda_E3_y;
+    const Lanes acceleration_OF_theta = inverse_cross_OF_theta__FE_theta*z_FE_theta +
+        inverse_pivot_OF_theta*z_OF_theta - l_E3_x__OF_theta*lambda_E3_x - l_E3_y__OF_theta*lambda_E3_y;
+    const Lanes lambda_G_y = -acceleration_FE_theta*l_FE_theta__G_y - acceleration_OF_theta*l_OF_theta__G_y +
+        inverse_cross_G_x__G_y*z_G_x + inverse_pivot_G_y*z_G_y;
+    const Lanes lambda_G_x = -acceleration_FE_theta*l_FE_theta__G_x - acceleration_OF_theta*l_OF_theta__G_x +
+        inverse_cross_G_x__G_y*z_G_y + inverse_pivot_G_x*z_G_x;
+    const Lanes acceleration_EG_theta = -acceleration_FE_theta*l_FE_theta__EG_theta -
+        acceleration_OF_theta*l_OF_theta__EG_theta + inverse_mass_EG_EG*z_EG_theta -
+        l_G_x__EG_theta*lambda_G_x - l_G_y__EG_theta*lambda_G_y;
+    const Lanes acceleration_BDE_theta = inverse_pivot_BDE_theta*z_BDE_theta - l_E3_x__BDE_theta*lambda_E3_x -
+        l_E3_y__BDE_theta*lambda_E3_y;
+    const Lanes lambda_H_y = -acceleration_BDE_theta*l_BDE_theta__H_y + inverse_cross_H_x__H_y*z_H_x +
+        inverse_pivot_H_y*z_H_y;
+    const Lanes lambda_H_x = -acceleration_BDE_theta*l_BDE_theta__H_x + inverse_cross_H_x__H_y*z_H_y +
+        inverse_pivot_H_x*z_H_x;
+    const Lanes acceleration_HE_theta = -acceleration_BDE_theta*l_BDE_theta__HE_theta +
+        inverse_mass_HE_HE*z_HE_theta - l_H_x__HE_theta*lambda_H_x - l_H_y__HE_theta*lambda_H_y;
+    const Lanes acceleration_AH_theta = -l_H_x__AH_theta*lambda_H_x - l_H_y__AH_theta*lambda_H_y;
+    const Lanes acceleration_AG_theta = -l_G_x__AG_theta*lambda_G_x - l_G_y__AG_theta*lambda_G_y;
+
+    /* results */
+    a[0] = acceleration_OF_theta;
+    a[1] = acceleration_BDE_theta;
+    a[2] = acceleration_AG_theta;
+    a[3] = acceleration_AH_theta;
+    a[4] = acceleration_FE_theta;
+    a[5] = acceleration_HE_theta;
+    a[6] = acceleration_EG_theta;
+    aside->lambda[0] = lambda_G_x;
+    aside->lambda[1] = lambda_G_y;
+    aside->lambda[2] = lambda_H_x;
+    aside->lambda[3] = lambda_H_y;
+    aside->lambda[4] = lambda_E3_x;
+    aside->lambda[5] = lambda_E3_y;
+
+    /* a pivot vanished: rows depend on each other here */
+    aside->power[0] = all_of(0.0);
+    aside->power[1] = OF_omega*motor_value;
+    aside->power[2] = all_of(0.0);
+}
+
+/*
+ * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
+ * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
+ */
+static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneRun *memory, const
+    LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
+{
+    (void)t;
+    (void)memory;
+    /* coordinates, velocities, time */
+    const Lanes OF_theta = q[0];
+    const Lanes OF_omega = v[0];
+    const Lanes BDE_theta = q[1];
+    const Lanes BDE_omega = v[1];
+    const Lanes AG_theta = q[2];
+    const Lanes AG_omega = v[2];
+    const Lanes AH_theta = q[3];
+    const Lanes AH_omega = v[3];
+    const Lanes FE_theta = q[4];
+    const Lanes FE_omega = v[4];
+    const Lanes HE_theta = q[5];
+    const Lanes HE_omega = v[5];
+    const Lanes EG_theta = q[6];
+    const Lanes EG_omega = v[6];
+
+    /* parameters */
+    const Lanes B_x = p->B_x;
+    const Lanes B_y = p->B_y;
+    const Lanes A_x = p->A_x;
+    const Lanes A_y = p->A_y;
+    const Lanes OF_F_span_x = p->OF_F_span_x;
+    const Lanes BDE_E_span_x = p->BDE_E_span_x;
+    const Lanes BDE_E_span_y = p->BDE_E_span_y;
+    const Lanes FE_E_span_x = p->FE_E_span_x;
+    const Lanes EG_G_span_y = p->EG_G_span_y;
+    const Lanes AG_G_span_x = p->AG_G_span_x;
+    const Lanes AG_G_span_y = p->AG_G_span_y;
+    const Lanes HE_H_span_x = p->HE_H_span_x;
+    const Lanes AH_H_span_x = p->AH_H_span_x;
+    const Lanes AH_H_span_y = p->AH_H_span_y;
+    const Lanes inertia_OF_FE = p->inertia_OF_FE;
+    const Lanes twist_OF_EG = p->twist_OF_EG;
+    const Lanes twist_FE_EG = p->twist_FE_EG;
+    const Lanes inertia_BDE_HE = p->inertia_BDE_HE;
+    const Lanes twist_BDE_HE = p->twist_BDE_HE;
+    const Lanes mass_OF_OF = p->mass_OF_OF;
+    const Lanes mass_FE_FE = p->mass_FE_FE;
+    const Lanes mass_BDE_BDE = p->mass_BDE_BDE;
+    const Lanes inverse_mass_AG_AG = p->inverse_mass_AG_AG;
+    const Lanes inverse_mass_AH_AH = p->inverse_mass_AH_AH;
+    const Lanes inverse_mass_HE_HE = p->inverse_mass_HE_HE;
+    const Lanes inverse_mass_EG_EG = p->inverse_mass_EG_EG;
+
+    /* directions, arms, drives */
+    Lanes sine_0, cosine_0;
+    sines_and_cosines(OF_theta, &sine_0, &cosine_0, rare);
+    Lanes sine_1, cosine_1;
+    sines_and_cosines(BDE_theta, &sine_1, &cosine_1, rare);
+    Lanes sine_2, cosine_2;
+    sines_and_cosines(AG_theta, &sine_2, &cosine_2, rare);
+    Lanes sine_3, cosine_3;
+    sines_and_cosines(AH_theta, &sine_3, &cosine_3, rare);
+    Lanes sine_4, cosine_4;
+    sines_and_cosines(FE_theta, &sine_4, &cosine_4, rare);
+    Lanes sine_5, cosine_5;
+    sines_and_cosines(HE_theta, &sine_5, &cosine_5, rare);
+    Lanes sine_6, cosine_6;
+    sines_and_cosines(EG_theta, &sine_6, &cosine_6, rare);
+    const Lanes cos_theta_OF = cosine_0;
+    const Lanes sin_theta_OF = sine_0;
+    const Lanes cos_theta_BDE = cosine_1;
+    const Lanes sin_theta_BDE = sine_1;
+    const Lanes cos_theta_AG = cosine_2;
+    const Lanes sin_theta_AG = sine_2;
+    const Lanes cos_theta_AH = cosine_3;
+    const Lanes sin_theta_AH = sine_3;
+    const Lanes cos_theta_FE = cosine_4;
+    const Lanes sin_theta_FE = sine_4;
+    const Lanes cos_theta_HE = cosine_5;
+    const Lanes sin_theta_HE = sine_5;
+    const Lanes cos_theta_EG = cosine_6;
+    const Lanes sin_theta_EG = sine_6;
+    const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
+    const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
+    const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
+    const Lanes span_BDE_E_y = BDE_E_span_x*sin_theta_BDE + BDE_E_span_y*cos_theta_BDE;
+    const Lanes span_FE_E_x = FE_E_span_x*cos_theta_FE;
+    const Lanes span_FE_E_y = FE_E_span_x*sin_theta_FE;
+    const Lanes span_EG_G_x = -EG_G_span_y*sin_theta_EG;
+    const Lanes span_EG_G_y = EG_G_span_y*cos_theta_EG;
+    const Lanes span_AG_G_x = AG_G_span_x*cos_theta_AG - AG_G_span_y*sin_theta_AG;
+    const Lanes span_AG_G_y = AG_G_span_x*sin_theta_AG + AG_G_span_y*cos_theta_AG;
+    const Lanes span_HE_H_x = HE_H_span_x*cos_theta_HE;
+    const Lanes span_HE_H_y = HE_H_span_x*sin_theta_HE;
+    const Lanes span_AH_H_x = AH_H_span_x*cos_theta_AH - AH_H_span_y*sin_theta_AH;
+    const Lanes span_AH_H_y = AH_H_span_x*sin_theta_AH + AH_H_span_y*cos_theta_AH;
+    const Lanes cos_FE_less_OF = cos_theta_FE*cos_theta_OF + sin_theta_FE*sin_theta_OF;
+    const Lanes dot_OF_FE = cos_FE_less_OF*inertia_OF_FE;
+    const Lanes sin_EG_less_OF = -cos_theta_EG*sin_theta_OF + cos_theta_OF*sin_theta_EG;
+    const Lanes dot_OF_EG = -sin_EG_less_OF*twist_OF_EG;
+    const Lanes sin_EG_less_FE = -cos_theta_EG*sin_theta_FE + cos_theta_FE*sin_theta_EG;
+    const Lanes dot_FE_EG = -sin_EG_less_FE*twist_FE_EG;
+    const Lanes cos_HE_less_BDE = cos_theta_BDE*cos_theta_HE + sin_theta_BDE*sin_theta_HE;
+    const Lanes sin_HE_less_BDE = cos_theta_BDE*sin_theta_HE - cos_theta_HE*sin_theta_BDE;
+    const Lanes dot_BDE_HE = cos_HE_less_BDE*inertia_BDE_HE - sin_HE_less_BDE*twist_BDE_HE;
+
+    /* Phi and Phi_dot */
+    const Lanes phi_G_x = -A_x - span_AG_G_x + span_EG_G_x + span_FE_E_x + span_OF_F_x;
+    const Lanes phi_dot_G_x = AG_omega*span_AG_G_y - EG_omega*span_EG_G_y - FE_omega*span_FE_E_y -
+        OF_omega*span_OF_F_y;
+    const Lanes phi_G_y = -A_y - span_AG_G_y + span_EG_G_y + span_FE_E_y + span_OF_F_y;
+    const Lanes phi_dot_G_y = -AG_omega*span_AG_G_x + EG_omega*span_EG_G_x + FE_omega*span_FE_E_x +
+        OF_omega*span_OF_F_x;
+    const Lanes phi_H_x = -A_x + B_x - span_AH_H_x + span_BDE_E_x + span_HE_H_x;
+    const Lanes phi_dot_H_x = AH_omega*span_AH_H_y - BDE_omega*span_BDE_E_y - HE_omega*span_HE_H_y;
+    const Lanes phi_H_y = -A_y + B_y - span_AH_H_y + span_BDE_E_y + span_HE_H_y;
+    const Lanes phi_dot_H_y = -AH_omega*span_AH_H_x + BDE_omega*span_BDE_E_x + HE_omega*span_HE_H_x;
+    const Lanes phi_E3_x = -B_x - span_BDE_E_x + span_FE_E_x + span_OF_F_x;
+    const Lanes phi_dot_E3_x = BDE_omega*span_BDE_E_y - FE_omega*span_FE_E_y - OF_omega*span_OF_F_y;
+    const Lanes phi_E3_y = -B_y - span_BDE_E_y + span_FE_E_y + span_OF_F_y;
+    const Lanes phi_dot_E3_y = -BDE_omega*span_BDE_E_x + FE_omega*span_FE_E_x + OF_omega*span_OF_F_x;
+
+    /* L D L^T of the KKT matrix */
+    const Lanes l_G_x__AG_theta_4 = inverse_mass_AG_AG*span_AG_G_y;
+    const Lanes l_G_y__AG_theta_4 = -inverse_mass_AG_AG*span_AG_G_x;
+    const Lanes l_H_x__AH_theta_4 = inverse_mass_AH_AH*span_AH_H_y;
+    const Lanes l_H_y__AH_theta_4 = -inverse_mass_AH_AH*span_AH_H_x;
+    const Lanes l_BDE_theta__HE_theta_4 = dot_BDE_HE*inverse_mass_HE_HE;
+    const Lanes l_H_x__HE_theta_4 = -inverse_mass_HE_HE*span_HE_H_y;
+    const Lanes l_H_y__HE_theta_4 = inverse_mass_HE_HE*span_HE_H_x;
+    const Lanes inverse_pivot_BDE_theta_4 = 1.0/(-dot_BDE_HE*l_BDE_theta__HE_theta_4 + mass_BDE_BDE);
+    const Lanes w_H_x__BDE_theta_2 = -dot_BDE_HE*l_H_x__HE_theta_4 - span_BDE_E_y;
+    const Lanes l_H_x__BDE_theta_3 = inverse_pivot_BDE_theta_4*w_H_x__BDE_theta_2;
+    const Lanes w_H_y__BDE_theta_2 = -dot_BDE_HE*l_H_y__HE_theta_4 + span_BDE_E_x;
+    const Lanes l_H_y__BDE_theta_3 = inverse_pivot_BDE_theta_4*w_H_y__BDE_theta_2;
+    const Lanes l_E3_x__BDE_theta_4 = inverse_pivot_BDE_theta_4*span_BDE_E_y;
+    const Lanes l_E3_y__BDE_theta_4 = -inverse_pivot_BDE_theta_4*span_BDE_E_x;
+    const Lanes scale_H_x_4 = l_H_x__AH_theta_4*span_AH_H_y + l_H_x__BDE_theta_3*w_H_x__BDE_theta_2 -
+        l_H_x__HE_theta_4*span_HE_H_y;
+    const Lanes scale_H_y_4 = -l_H_y__AH_theta_4*span_AH_H_x + l_H_y__BDE_theta_3*w_H_y__BDE_theta_2 +
+        l_H_y__HE_theta_4*span_HE_H_x;
+    const Lanes pivot_H_x__H_y_3 = l_H_y__AH_theta_4*span_AH_H_y + l_H_y__BDE_theta_3*w_H_x__BDE_theta_2 -
+        l_H_y__HE_theta_4*span_HE_H_y;
+    const Lanes determinant_H_x__H_y_3 = -(pivot_H_x__H_y_3 * pivot_H_x__H_y_3) + scale_H_x_4*scale_H_y_4;
+    *rare |= ~(scale_H_x_4 > 1e-13 * scale_H_x_4);
+    *rare |= ~(determinant_H_x__H_y_3 > 1e-13 * scale_H_y_4 * scale_H_x_4);
+    const Lanes inverse_H_x__H_y_3 = -1.0/determinant_H_x__H_y_3;
+    const Lanes inverse_pivot_H_x_4 = inverse_H_x__H_y_3*scale_H_y_4;
+    const Lanes inverse_pivot_H_y_4 = inverse_H_x__H_y_3*scale_H_x_4;
+    const Lanes inverse_cross_H_x__H_y_3 = -inverse_H_x__H_y_3*pivot_H_x__H_y_3;
+    const Lanes w_E3_x__H_x_2 = -l_E3_x__BDE_theta_4*w_H_x__BDE_theta_2;
+    const Lanes w_E3_x__H_y_2 = -l_E3_x__BDE_theta_4*w_H_y__BDE_theta_2;
+    const Lanes l_E3_x__H_x_3 = inverse_cross_H_x__H_y_3*w_E3_x__H_y_2 + inverse_pivot_H_x_4*w_E3_x__H_x_2;
+    const Lanes l_E3_x__H_y_3 = inverse_cross_H_x__H_y_3*w_E3_x__H_x_2 + inverse_pivot_H_y_4*w_E3_x__H_y_2;
+    const Lanes w_E3_y__H_x_2 = -l_E3_y__BDE_theta_4*w_H_x__BDE_theta_2;
+    const Lanes w_E3_y__H_y_2 = -l_E3_y__BDE_theta_4*w_H_y__BDE_theta_2;
+    const Lanes l_E3_y__H_x_3 = inverse_cross_H_x__H_y_3*w_E3_y__H_y_2 + inverse_pivot_H_x_4*w_E3_y__H_x_2;
+    const Lanes l_E3_y__H_y_3 = inverse_cross_H_x__H_y_3*w_E3_y__H_x_2 + inverse_pivot_H_y_4*w_E3_y__H_y_2;
+    const Lanes l_OF_theta__EG_theta_4 = dot_OF_EG*inverse_mass_EG_EG;
+    const Lanes l_FE_theta__EG_theta_4 = dot_FE_EG*inverse_mass_EG_EG;
+    const Lanes l_G_x__EG_theta_4 = -inverse_mass_EG_EG*span_EG_G_y;
+    const Lanes l_G_y__EG_theta_4 = inverse_mass_EG_EG*span_EG_G_x;
+    const Lanes pivot_OF_theta_3 = -dot_OF_EG*l_OF_theta__EG_theta_4 + mass_OF_OF;
+    const Lanes pivot_FE_theta_3 = -dot_FE_EG*l_FE_theta__EG_theta_4 + mass_FE_FE;
+    const Lanes pivot_OF_theta__FE_theta_3 = -dot_OF_EG*l_FE_theta__EG_theta_4 + dot_OF_FE;
+    const Lanes determinant_OF_theta__FE_theta_3 = pivot_FE_theta_3*pivot_OF_theta_3 -
+        (pivot_OF_theta__FE_theta_3 * pivot_OF_theta__FE_theta_3);
+    const Lanes inverse_OF_theta__FE_theta_3 = 1.0/determinant_OF_theta__FE_theta_3;
+    const Lanes inverse_pivot_OF_theta_4 = inverse_OF_theta__FE_theta_3*pivot_FE_theta_3;
+    const Lanes inverse_pivot_FE_theta_4 = inverse_OF_theta__FE_theta_3*pivot_OF_theta_3;
+    const Lanes inverse_cross_OF_theta__FE_theta_3 = -inverse_OF_theta__FE_theta_3*pivot_OF_theta__FE_theta_3;
+    const Lanes w_G_x__OF_theta_2 = -dot_OF_EG*l_G_x__EG_theta_4 - span_OF_F_y;
+    const Lanes w_G_x__FE_theta_2 = -dot_FE_EG*l_G_x__EG_theta_4 - span_FE_E_y;
+    const Lanes l_G_x__OF_theta_3 = inverse_cross_OF_theta__FE_theta_3*w_G_x__FE_theta_2 +
+        inverse_pivot_OF_theta_4*w_G_x__OF_theta_2;
+    const Lanes l_G_x__FE_theta_3 = inverse_cross_OF_theta__FE_theta_3*w_G_x__OF_theta_2 +
+        inverse_pivot_FE_theta_4*w_G_x__FE_theta_2;
+    const Lanes w_G_y__OF_theta_2 = -dot_OF_EG*l_G_y__EG_theta_4 + span_OF_F_x;
+    const Lanes w_G_y__FE_theta_2 = -dot_FE_EG*l_G_y__EG_theta_4 + span_FE_E_x;
+    const Lanes l_G_y__OF_theta_3 = inverse_cross_OF_theta__FE_theta_3*w_G_y__FE_theta_2 +
+        inverse_pivot_OF_theta_4*w_G_y__OF_theta_2;
+    const Lanes l_G_y__FE_theta_3 = inverse_cross_OF_theta__FE_theta_3*w_G_y__OF_theta_2 +
+        inverse_pivot_FE_theta_4*w_G_y__FE_theta_2;
+    const Lanes l_E3_x__OF_theta_4 = -inverse_cross_OF_theta__FE_theta_3*span_FE_E_y -
+        inverse_pivot_OF_theta_4*span_OF_F_y;
+    const Lanes l_E3_x__FE_theta_4 = -inverse_cross_OF_theta__FE_theta_3*span_OF_F_y -
+        inverse_pivot_FE_theta_4*span_FE_E_y;
+    const Lanes l_E3_y__OF_theta_4 = inverse_cross_OF_theta__FE_theta_3*span_FE_E_x +
+        inverse_pivot_OF_theta_4*span_OF_F_x;
+    const Lanes l_E3_y__FE_theta_4 = inverse_cross_OF_theta__FE_theta_3*span_OF_F_x +
+        inverse_pivot_FE_theta_4*span_FE_E_x;
+    const Lanes scale_G_x_4 = l_G_x__AG_theta_4*span_AG_G_y - l_G_x__EG_theta_4*span_EG_G_y +
+        l_G_x__FE_theta_3*w_G_x__FE_theta_2 + l_G_x__OF_theta_3*w_G_x__OF_theta_2;
+    const Lanes scale_G_y_4 = -l_G_y__AG_theta_4*span_AG_G_x + l_G_y__EG_theta_4*span_EG_G_x +
+        l_G_y__FE_theta_3*w_G_y__FE_theta_2 + l_G_y__OF_theta_3*w_G_y__OF_theta_2;
+    const Lanes pivot_G_x__G_y_3 = l_G_y__AG_theta_4*span_AG_G_y - l_G_y__EG_theta_4*span_EG_G_y +
+        l_G_y__FE_theta_3*w_G_x__FE_theta_2 + l_G_y__OF_theta_3*w_G_x__OF_theta_2;
+    const Lanes determinant_G_x__G_y_3 = -(pivot_G_x__G_y_3 * pivot_G_x__G_y_3) + scale_G_x_4*scale_G_y_4;
+    *rare |= ~(scale_G_x_4 > 1e-13 * scale_G_x_4);
+    *rare |= ~(determinant_G_x__G_y_3 > 1e-13 * scale_G_y_4 * scale_G_x_4);
+    const Lanes inverse_G_x__G_y_3 = -1.0/determinant_G_x__G_y_3;
+    const Lanes inverse_pivot_G_x_4 = inverse_G_x__G_y_3*scale_G_y_4;
+    const Lanes inverse_pivot_G_y_4 = inverse_G_x__G_y_3*scale_G_x_4;
+    const Lanes inverse_cross_G_x__G_y_3 = -inverse_G_x__G_y_3*pivot_G_x__G_y_3;
+    const Lanes w_E3_x__G_x_2 = -l_E3_x__FE_theta_4*w_G_x__FE_theta_2 - l_E3_x__OF_theta_4*w_G_x__OF_theta_2;
+    const Lanes w_E3_x__G_y_2 = -l_E3_x__FE_theta_4*w_G_y__FE_theta_2 - l_E3_x__OF_theta_4*w_G_y__OF_theta_2;
+    const Lanes l_E3_x__G_x_3 = inverse_cross_G_x__G_y_3*w_E3_x__G_y_2 + inverse_pivot_G_x_4*w_E3_x__G_x_2;
+    const Lanes l_E3_x__G_y_3 = inverse_cross_G_x__G_y_3*w_E3_x__G_x_2 + inverse_pivot_G_y_4*w_E3_x__G_y_2;
+    const Lanes w_E3_y__G_x_2 = -l_E3_y__FE_theta_4*w_G_x__FE_theta_2 - l_E3_y__OF_theta_4*w_G_x__OF_theta_2;
+    const Lanes w_E3_y__G_y_2 = -l_E3_y__FE_theta_4*w_G_y__FE_theta_2 - l_E3_y__OF_theta_4*w_G_y__OF_theta_2;
+    const Lanes l_E3_y__G_x_3 = inverse_cross_G_x__G_y_3*w_E3_y__G_y_2 + inverse_pivot_G_x_4*w_E3_y__G_x_2;
+    const Lanes l_E3_y__G_y_3 = inverse_cross_G_x__G_y_3*w_E3_y__G_x_2 + inverse_pivot_G_y_4*w_E3_y__G_y_2;
+    const Lanes scale_E3_x_4 = l_E3_x__BDE_theta_4*span_BDE_E_y - l_E3_x__FE_theta_4*span_FE_E_y -
+        l_E3_x__OF_theta_4*span_OF_F_y;
+    const Lanes scale_E3_y_4 = -l_E3_y__BDE_theta_4*span_BDE_E_x + l_E3_y__FE_theta_4*span_FE_E_x +
+        l_E3_y__OF_theta_4*span_OF_F_x;
+    const Lanes pivot_E3_x_3 = l_E3_x__G_x_3*w_E3_x__G_x_2 + l_E3_x__G_y_3*w_E3_x__G_y_2 +
+        l_E3_x__H_x_3*w_E3_x__H_x_2 + l_E3_x__H_y_3*w_E3_x__H_y_2 + scale_E3_x_4;
+    const Lanes pivot_E3_y_3 = l_E3_y__G_x_3*w_E3_y__G_x_2 + l_E3_y__G_y_3*w_E3_y__G_y_2 +
+        l_E3_y__H_x_3*w_E3_y__H_x_2 + l_E3_y__H_y_3*w_E3_y__H_y_2 + scale_E3_y_4;
+    const Lanes pivot_E3_x__E3_y_3 = l_E3_y__BDE_theta_4*span_BDE_E_y - l_E3_y__FE_theta_4*span_FE_E_y +
+        l_E3_y__G_x_3*w_E3_x__G_x_2 + l_E3_y__G_y_3*w_E3_x__G_y_2 + l_E3_y__H_x_3*w_E3_x__H_x_2 +
+        l_E3_y__H_y_3*w_E3_x__H_y_2 - l_E3_y__OF_theta_4*span_OF_F_y;
+    const Lanes determinant_E3_x__E3_y_3 = pivot_E3_x_3*pivot_E3_y_3 - (pivot_E3_x__E3_y_3 *
+        pivot_E3_x__E3_y_3);
+    *rare |= ~(pivot_E3_x_3 > 1e-13 * scale_E3_x_4);
+    *rare |= ~(determinant_E3_x__E3_y_3 > 1e-13 * scale_E3_y_4 * pivot_E3_x_3);
+    const Lanes inverse_E3_x__E3_y_3 = -1.0/determinant_E3_x__E3_y_3;
+    const Lanes inverse_pivot_E3_x_4 = inverse_E3_x__E3_y_3*pivot_E3_y_3;
+    const Lanes inverse_pivot_E3_y_4 = inverse_E3_x__E3_y_3*pivot_E3_x_3;
+    const Lanes inverse_cross_E3_x__E3_y_3 = -inverse_E3_x__E3_y_3*pivot_E3_x__E3_y_3;
+
+    /* forward substitution */
+    const Lanes dq_z_E3_x = -l_E3_x__G_x_3*phi_G_x - l_E3_x__G_y_3*phi_G_y - l_E3_x__H_x_3*phi_H_x -
+        l_E3_x__H_y_3*phi_H_y + phi_E3_x;
+    const Lanes dq_z_E3_y = -l_E3_y__G_x_3*phi_G_x - l_E3_y__G_y_3*phi_G_y - l_E3_y__H_x_3*phi_H_x -
+        l_E3_y__H_y_3*phi_H_y + phi_E3_y;
+
+    /* backward substitution */
+    const Lanes dq_lambda_E3_y = dq_z_E3_x*inverse_cross_E3_x__E3_y_3 + dq_z_E3_y*inverse_pivot_E3_y_4;
+    const Lanes dq_lambda_E3_x = dq_z_E3_x*inverse_pivot_E3_x_4 + dq_z_E3_y*inverse_cross_E3_x__E3_y_3;
+    const Lanes dq_lambda_G_y = -dq_lambda_E3_x*l_E3_x__G_y_3 - dq_lambda_E3_y*l_E3_y__G_y_3 +
+        inverse_cross_G_x__G_y_3*phi_G_x + inverse_pivot_G_y_4*phi_G_y;
+    const Lanes dq_lambda_G_x = -dq_lambda_E3_x*l_E3_x__G_x_3 - dq_lambda_E3_y*l_E3_y__G_x_3 +
+        inverse_cross_G_x__G_y_3*phi_G_y + inverse_pivot_G_x_4*phi_G_x;
+    const Lanes dq_acceleration_FE_theta = -dq_lambda_E3_x*l_E3_x__FE_theta_4 -
+        dq_lambda_E3_y*l_E3_y__FE_theta_4 - dq_lambda_G_x*l_G_x__FE_theta_3 - dq_lambda_G_y*l_G_y__FE_theta_3;
+    const Lanes dq_acceleration_OF_theta = -dq_lambda_E3_x*l_E3_x__OF_theta_4 -
+        dq_lambda_E3_y*l_E3_y__OF_theta_4 - dq_lambda_G_x*l_G_x__OF_theta_3 - dq_lambda_G_y*l_G_y__OF_theta_3;
+    const Lanes dq_acceleration_EG_theta = -dq_acceleration_FE_theta*l_FE_theta__EG_theta_4 -
+        dq_acceleration_OF_theta*l_OF_theta__EG_theta_4 - dq_lambda_G_x*l_G_x__EG_theta_4 -
+        dq_lambda_G_y*l_G_y__EG_theta_4;
+    const Lanes dq_lambda_H_y = -dq_lambda_E3_x*l_E3_x__H_y_3 - dq_lambda_E3_y*l_E3_y__H_y_3 +
+        inverse_cross_H_x__H_y_3*phi_H_x + inverse_pivot_H_y_4*phi_H_y;
+    const Lanes dq_lambda_H_x = -dq_lambda_E3_x*l_E3_x__H_x_3 - dq_lambda_E3_y*l_E3_y__H_x_3 +
+        inverse_cross_H_x__H_y_3*phi_H_y + inverse_pivot_H_x_4*phi_H_x;
+    const Lanes dq_acceleration_BDE_theta = -dq_lambda_E3_x*l_E3_x__BDE_theta_4 -
+        dq_lambda_E3_y*l_E3_y__BDE_theta_4 - dq_lambda_H_x*l_H_x__BDE_theta_3 -
+        dq_lambda_H_y*l_H_y__BDE_theta_3;
+    const Lanes dq_acceleration_HE_theta = -dq_acceleration_BDE_theta*l_BDE_theta__HE_theta_4 -
+        dq_lambda_H_x*l_H_x__HE_theta_4 - dq_lambda_H_y*l_H_y__HE_theta_4;
+    const Lanes dq_acceleration_AH_theta = -dq_lambda_H_x*l_H_x__AH_theta_4 - dq_lambda_H_y*l_H_y__AH_theta_4;
+    const Lanes dq_acceleration_AG_theta = -dq_lambda_G_x*l_G_x__AG_theta_4 - dq_lambda_G_y*l_G_y__AG_theta_4;
+
+    /* forward substitution */
+    const Lanes dv_z_E3_x = -l_E3_x__G_x_3*phi_dot_G_x - l_E3_x__G_y_3*phi_dot_G_y - l_E3_x__H_x_3*phi_dot_H_x
+        - l_E3_x__H_y_3*phi_dot_H_y + phi_dot_E3_x;
+    const Lanes dv_z_E3_y = -l_E3_y__G_x_3*phi_dot_G_x - l_E3_y__G_y_3*phi_dot_G_y - l_E3_y__H_x_3*phi_dot_H_x
+        - l_E3_y__H_y_3*phi_dot_H_y + phi_dot_E3_y;
+
+    /* backward substitution */
+    const Lanes dv_lambda_E3_y = dv_z_E3_x*inverse_cross_E3_x__E3_y_3 + dv_z_E3_y*inverse_pivot_E3_y_4;
+    const Lanes dv_lambda_E3_x = dv_z_E3_x*inverse_pivot_E3_x_4 + dv_z_E3_y*inverse_cross_E3_x__E3_y_3;
+    const Lanes dv_lambda_G_y = -dv_lambda_E3_x*l_E3_x__G_y_3 - dv_lambda_E3_y*l_E3_y__G_y_3 +
+        inverse_cross_G_x__G_y_3*phi_dot_G_x + inverse_pivot_G_y_4*phi_dot_G_y;
+    const Lanes dv_lambda_G_x = -dv_lambda_E3_x*l_E3_x__G_x_3 - dv_lambda_E3_y*l_E3_y__G_x_3 +
+        inverse_cross_G_x__G_y_3*phi_dot_G_y + inverse_pivot_G_x_4*phi_dot_G_x;
+    const Lanes dv_acceleration_FE_theta = -dv_lambda_E3_x*l_E3_x__FE_theta_4 -
+        dv_lambda_E3_y*l_E3_y__FE_theta_4 - dv_lambda_G_x*l_G_x__FE_theta_3 - dv_lambda_G_y*l_G_y__FE_theta_3;
+    const Lanes dv_acceleration_OF_theta = -dv_lambda_E3_x*l_E3_x__OF_theta_4 -
+        dv_lambda_E3_y*l_E3_y__OF_theta_4 - dv_lambda_G_x*l_G_x__OF_theta_3 - dv_lambda_G_y*l_G_y__OF_theta_3;
+    const Lanes dv_acceleration_EG_theta = -dv_acceleration_FE_theta*l_FE_theta__EG_theta_4 -
+        dv_acceleration_OF_theta*l_OF_theta__EG_theta_4 - dv_lambda_G_x*l_G_x__EG_theta_4 -
+        dv_lambda_G_y*l_G_y__EG_theta_4;
+    const Lanes dv_lambda_H_y = -dv_lambda_E3_x*l_E3_x__H_y_3 - dv_lambda_E3_y*l_E3_y__H_y_3 +
+        inverse_cross_H_x__H_y_3*phi_dot_H_x + inverse_pivot_H_y_4*phi_dot_H_y;
+    const Lanes dv_lambda_H_x = -dv_lambda_E3_x*l_E3_x__H_x_3 - dv_lambda_E3_y*l_E3_y__H_x_3 +
+        inverse_cross_H_x__H_y_3*phi_dot_H_y + inverse_pivot_H_x_4*phi_dot_H_x;
+    const Lanes dv_acceleration_BDE_theta = -dv_lambda_E3_x*l_E3_x__BDE_theta_4 -
+        dv_lambda_E3_y*l_E3_y__BDE_theta_4 - dv_lambda_H_x*l_H_x__BDE_theta_3 -
+        dv_lambda_H_y*l_H_y__BDE_theta_3;
+    const Lanes dv_acceleration_HE_theta = -dv_acceleration_BDE_theta*l_BDE_theta__HE_theta_4 -
+        dv_lambda_H_x*l_H_x__HE_theta_4 - dv_lambda_H_y*l_H_y__HE_theta_4;
+    const Lanes dv_acceleration_AH_theta = -dv_lambda_H_x*l_H_x__AH_theta_4 - dv_lambda_H_y*l_H_y__AH_theta_4;
+    const Lanes dv_acceleration_AG_theta = -dv_lambda_G_x*l_G_x__AG_theta_4 - dv_lambda_G_y*l_G_y__AG_theta_4;
+
+    /* results */
+    dq[0] = dq_acceleration_OF_theta;
+    dv[0] = dv_acceleration_OF_theta;
+    dq[1] = dq_acceleration_BDE_theta;
+    dv[1] = dv_acceleration_BDE_theta;
+    dq[2] = dq_acceleration_AG_theta;
+    dv[2] = dv_acceleration_AG_theta;
+    dq[3] = dq_acceleration_AH_theta;
+    dv[3] = dv_acceleration_AH_theta;
+    dq[4] = dq_acceleration_FE_theta;
+    dv[4] = dv_acceleration_FE_theta;
+    dq[5] = dq_acceleration_HE_theta;
+    dv[5] = dv_acceleration_HE_theta;
+    dq[6] = dq_acceleration_EG_theta;
+    dv[6] = dv_acceleration_EG_theta;
+    *worst = all_of(0.0);
+    *worst = lanes_max_of(lanes_fabs(phi_G_x), *worst);
+    *worst = lanes_max_of(lanes_fabs(phi_G_y), *worst);
+    *worst = lanes_max_of(lanes_fabs(phi_H_x), *worst);
+    *worst = lanes_max_of(lanes_fabs(phi_H_y), *worst);
+    *worst = lanes_max_of(lanes_fabs(phi_E3_x), *worst);
+    *worst = lanes_max_of(lanes_fabs(phi_E3_y), *worst);
+}
+
+static void motion(Lanes t, const Lanes *y, const LaneRun *x, const LaneParameters *p, Lanes *dy, LaneAside *aside,
+    LaneBits *rare)
+{
+    reduced_dynamics(t, y, y + N_X, x, p, dy + N_X, aside, rare);
+    for (int k = 0; k < N_X; k++)
+        dy[k] = y[N_X + k];
+    for (int k = 0; k < N_WORK; k++)
+        dy[2 * N_X + k] = aside->power[k];
+}
+
+static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
+{
+    Lanes sum = all_of(0.0);
+    for (int k = 0; k < n; k++)
+        sum += b ? a[k] + b[k] : a[k];
+    return ~(lanes_fabs(sum) <= DBL_MAX);
+}
+
+/* As project_state of step.c: each lane is left as it is once it is closed. */
+static void project_state(Lanes t, Lanes *y, const LaneRun *x, const LaneParameters *p, LaneBits *rare)
+{
+    LaneBits open = ~(LaneBits){0};
+    for (int pass = 0; pass < 3 && N_LOOPS > 0 && any_of(open); pass++) {
+        Lanes dq[N_X], dv[N_X], worst;
+        closing_step(t, y, y + N_X, x, p, dq, dv, &worst, rare);
+        *rare |= open & (not_finite(dq, NULL, N_X) | not_finite(dv, NULL, N_X));
+        for (int k = 0; k < N_X; k++) {
+            y[k] = pick(open, y[k] - dq[k], y[k]);
+            y[N_X + k] = pick(open, y[N_X + k] - dv[k], y[N_X + k]);
+        }
+        open &= ~(worst < 1e-15);
+    }
+}
+
+/*
+ * Lanes in which a contact begins, ends or is touched within the step or goes too deep, or an event's expression
+ * changes its side.
+ */
+static LaneBits happens(const LaneRun *x, const LaneAside *aside, const LaneBits *touched, const LaneParameters *p)
+{
+    const Lanes deepest[] = {all_of(0.0)};
+    LaneBits some = {0};
+    (void)p;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Lanes delta = aside->clearance[i].delta;
+        const LaneBits closed = x->latch[i].closed > 0.0;
+        some |= (closed & (delta < 0.0)) | (~closed & (touched[i] | (delta >= 0.0))) | (delta > deepest[i]);
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        const Lanes value = aside->event[i], side = x->event_side[i];
+        some |= ((value > 0.0) & ~(side > 0.0)) | ((value < 0.0) & ~(side < 0.0));
+    }
+    return some;
+}
+
+/* Height of the top of the cubic, as cubic_top of run.c, where the journal turned back within the step; else 0. */
+static Lanes top_of(Lanes d0, Lanes r0, Lanes d1, Lanes r1, LaneBits turned)
+{
+    const Lanes b = 3.0 * (d1 - d0) - 2.0 * r0 - r1, c = r0 + r1 - 2.0 * (d1 - d0);
+    const Lanes s = r0 / (lanes_sqrt(b * b - 3.0 * c * r0) - b);
+    return pick(turned, d0 + s * (r0 + s * (b + s * c)), all_of(0.0));
+}
+
+/* Peaks of one joint; the force's length is asked for only where it may be one. */
+static void watch_force(LaneRun *x, int i, const LaneClearance *joint)
+{
+    const LaneBits closed = x->latch[i].closed > 0.0;
+    const Lanes F_peak = x->latch[i].F_peak, F_open = x->latch[i].F_open;
+    const Lanes square = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
+    const LaneBits near_peak = square >= 0.999999 * (F_peak * F_peak), near_open = square >= 0.999999 * (F_open * F_open);
+    const LaneBits acts = lanes_fabs(joint->F_n) + lanes_fabs(joint->F_t) > 0.0;
+    if (!any_of((near_peak | (closed & near_open)) & acts))
+        return;
+    const Lanes F = lanes_hypot(joint->F_n, joint->F_t);
+    const LaneBits higher = F > F_peak, higher_open = closed & (F > F_open);
+    x->latch[i].F_peak = pick(higher, F, F_peak);
+    x->latch[i].t_peak = pick(higher, x->t, x->latch[i].t_peak);
+    x->latch[i].F_open = pick(higher_open, F, F_open);
+    x->latch[i].t_open = pick(higher_open, x->t, x->latch[i].t_open);
+}
+
+/* As accept of rk4.c, update_latches and watch of run.c where nothing happens. */
+static void watch(LaneRun *x, const LaneAside *aside, double h, const Lanes *phi, const Lanes *phi_dot)
+{
+    for (int r = 0; r < N_LOOPS; r++) {
+        x->phi_max = lanes_max_of(lanes_fabs(phi[r]), x->phi_max);
+        x->phi_dot_max = lanes_max_of(lanes_fabs(phi_dot[r]), x->phi_dot_max);
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const LaneClearance *joint = &aside->clearance[i];
+        const Lanes e = x->latch[i].e, rate = x->latch[i].deltadot;
+        const LaneBits closed = x->latch[i].closed > 0.0, turned = (rate > 0.0) & (joint->deltadot < 0.0);
+        if (any_of(turned))
+            x->latch[i].e_max =
+                lanes_max_of(top_of(e, h * rate, joint->e, h * joint->deltadot, turned), x->latch[i].e_max);
+        x->latch[i].e = joint->e;
+        x->latch[i].delta = joint->delta;
+        x->latch[i].deltadot = joint->deltadot;
+        x->latch[i].e_max = lanes_max_of(joint->e, x->latch[i].e_max);
+        watch_force(x, i, joint);
+        if (!any_of(closed))
+            continue;
+        const Lanes ratio = joint->deltadot / x->latch[i].deltadot_minus;
+        x->latch[i].compressing = pick(closed & (joint->deltadot <= 0.0), all_of(0.0), x->latch[i].compressing);
+        x->ratio_min = pick(closed & (ratio < x->ratio_min), ratio, x->ratio_min);
+        x->ratio_max = pick(closed & (ratio > x->ratio_max), ratio, x->ratio_max);
+        x->ratio_outside = pick(closed & ((ratio < -1.0) | (ratio > 1.0)), x->ratio_outside + 1.0, x->ratio_outside);
+    }
+}
+
+/*
+ * One step of all lanes, as rk4_trial and accept of rk4.c. Returns the lanes in which something rare is met; where
+ * there are any, `before` is x as it was.
+ */
+static LaneBits lane_step(LaneRun *x, double h, double t_new, const LaneParameters *p, LaneRun *before)
+{
+    static const double reach[3] = {0.5, 0.5, 1.0}, weight[3] = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+    const double t = x->t[0];
+    Lanes y[N_Y], k[N_Y], next[N_Y], phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];
+    LaneBits rare = {0}, touched[LANE_JOINTS] = { {0} };
+    LaneAside aside;
+    for (int j = 0; j < N_Y; j++)
+        next[j] = x->y[j] + h / 6.0 * x->dy[j];
+    const Lanes *slope = x->dy;
+    for (int stage = 0; stage < 3; stage++) {
+        for (int j = 0; j < N_Y; j++)
+            y[j] = x->y[j] + reach[stage] * h * slope[j];
+        motion(all_of(t + reach[stage] * h), y, x, p, k, &aside, &rare);
+        for (int j = 0; j < N_Y; j++)
+            next[j] += weight[stage] * h * k[j];
+        for (int i = 0; i < N_CLEARANCES; i++)
+            touched[i] |= aside.clearance[i].delta > 0.0;
+        slope = k;
+    }
+    project_state(all_of(t + h), next, x, p, &rare);
+    motion(all_of(t + h), next, x, p, k, &aside, &rare);
+    closures(all_of(t_new), next, p, phi, &rare);
+    closure_rates(all_of(t_new), next, next + N_X, p, phi_dot, &rare);
+    rare |= not_finite(k, next, N_Y) | happens(x, &aside, touched, p);
+    if (any_of(rare))
+        *before = *x;
+    for (int j = 0; j < N_Y; j++) {
+        x->y[j] = next[j];
+        x->dy[j] = k[j];
+    }
+    x->t = all_of(t_new);
+    x->steps += 1.0;
+    x->evaluations += 4.0;
+    watch(x, &aside, h, phi, phi_dot);
+    return rare;
+}
+/*
+ * Runs side by side: run[k] is the memory of number[k], which is -1 once that run has left. The lane of one that has
+ * left mirrors another: what fills it must not be rare.
+ */
+typedef struct {
+    const Batch *b;
+    const Single *one;
+    void *const *run;
+    long number[LANES];
+    LaneRun x;
+    LaneParameters p;
+    long made, rare; /* steps of all lanes, those of single runs among them */
+} Side;
+
+static void copy_lane(Lanes *x, size_t n, int to, int from)
+{
+    for (size_t j = 0; j < n; j++)
+        x[j][to] = x[j][from];
+}
+
+static int first_of(const Side *side)
+{
+    int k = 0;
+    while (k < LANES && side->number[k] < 0)
+        k++;
+    return k;
+}
+
+static int count_of(const Side *side)
+{
+    int count = 0;
+    for (int k = 0; k < LANES; k++)
+        count += side->number[k] >= 0;
+    return count;
+}
+
+static void mirror(Side *side)
+{
+    const int from = first_of(side);
+    for (int k = 0; k < LANES && from < LANES; k++) {
+        if (side->number[k] >= 0)
+            continue;
+        copy_lane((Lanes *)&side->x, sizeof(LaneRun) / sizeof(Lanes), k, from);
+        copy_lane((Lanes *)&side->p, sizeof(LaneParameters) / sizeof(Lanes), k, from);
+    }
+}
+
+static void gather(Side *side, int k)
+{
+    Moving state;
+    side->one->give(side->run[k], &state);
+    for (size_t j = 0; j < sizeof state / sizeof(double); j++)
+        ((Lanes *)&side->x)[j][k] = ((const double *)&state)[j];
+}
+
+static void scatter(const Side *side, const LaneRun *x, int k)
+{
+    Moving state;
+    for (size_t j = 0; j < sizeof state / sizeof(double); j++)
+        ((double *)&state)[j] = ((const Lanes *)x)[j][k];
+    side->one->take(side->run[k], &state);
+}
+
+static const double *parameters_of(const Side *side, int k)
+{
+    return side->b->p_motion + side->number[k] * side->b->numbers;
+}
+
+/* Begins run k, unless it goes on, and makes its first sample; what cannot begin leaves. */
+static void enter(Side *side, int k)
+{
+    const Batch *b = side->b;
+    const long i = side->number[k];
+    long taken;
+    if (b->phase[i] == NEW) {
+        b->status[i] = side->one->begin(b, i, side->run[k]);
+        b->phase[i] = b->status[i] ? OVER : BEGUN;
+        const double *p = parameters_of(side, k);
+        const int status = b->status[i] ? 0 : side->one->steps(side->run[k], p, b->t[0], b->t[0], 1, 0, 0, &taken);
+        if (status)
+            side->one->end(b, i, status, side->run[k]);
+        else if (!b->status[i])
+            side->one->sample(b, i, b->done[i]++, side->run[k]);
+        if (b->phase[i] == OVER) {
+            side->number[k] = -1;
+            return;
+        }
+    }
+    for (long j = 0; j < b->numbers; j++)
+        ((Lanes *)&side->p)[j][k] = parameters_of(side, k)[j];
+    gather(side, k);
+}
+
+/*
+ * The step of the rare lanes, which began at x, by their runs themselves. One whose lists are full leaves before it,
+ * one that it ends leaves after it.
+ */
+static void single_steps(Side *side, LaneBits rare, const LaneRun *x, double t0, double t1, long total, long first)
+{
+    const Batch *b = side->b;
+    for (int k = 0; k < LANES; k++) {
+        const long i = side->number[k];
+        long taken;
+        if (i < 0 || !rare[k])
+            continue;
+        scatter(side, x, k);
+        side->rare++;
+        const int status = side->one->steps(side->run[k], parameters_of(side, k), t0, t1, total, first, 1, &taken);
+        b->within[i] = first + taken;
+        b->t_last[i] = t0 + (double)b->within[i] * (t1 - t0) / (double)total;
+        if (!status) {
+            gather(side, k);
+            continue;
+        }
+        if (status != EVENTS_FULL)
+            side->one->end(b, i, status, side->run[k]);
+        side->number[k] = -1;
+    }
+    mirror(side);
+}
+
+/* Towards the next sample by at most `left` steps; whether it was reached. */
+static int advance(Side *side, long *left)
+{
+    const Batch *b = side->b;
+    const long i = side->number[first_of(side)], done = b->done[i];
+    const double t0 = b->t[done - 1], t1 = b->t[done];
+    const long total = (long)fmax(1.0, ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)));
+    const double h = (t1 - t0) / (double)total;
+    long within = b->within[i];
+    LaneRun before;
+    for (; within < total && *left > 0 && count_of(side); within++, --*left) {
+        const double t_new = within + 1 == total ? t1 : t0 + (double)(within + 1) * h;
+        const LaneBits rare = lane_step(&side->x, h, t_new, &side->p, &before);
+        side->made += LANES;
+        if (any_of(rare))
+            single_steps(side, rare, &before, t0, t1, total, within);
+    }
+    for (int k = 0; k < LANES; k++) {
+        const long own = side->number[k];
+        if (own < 0)
+            continue;
+        scatter(side, &side->x, k);
+        b->within[own] = within < total ? within : 0;
+        b->t_last[own] = t0 + (double)within * (t1 - t0) / (double)total;
+        if (within == total)
+            side->one->sample(b, own, b->done[own]++, side->run[k]);
+    }
+    return within == total;
+}
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    timespec_get(&now, TIME_UTC);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+int gudgeon_lane_count(void) { return LANES; }
+
+/*
+ * Runs number[k] (LANES of them, -1: none), which have the same step and have come equally far, each in a memory of
+ * its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes on alone
+ * from where it is (gudgeon_many), because it has come to its end, is the last, or most steps are rare.
+ */
+int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
+{
+    Side side = {.b = batch, .one = single, .run = run};
+    const double before = seconds_now();
+    long left = side.b->limit;
+    int entered = 0, together = 1;
+    for (int k = 0; k < LANES; k++) {
+        side.number[k] = number[k];
+        entered += number[k] >= 0;
+        if (number[k] >= 0)
+            enter(&side, k);
+    }
+    mirror(&side);
+    while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
+        if (side.b->done[side.number[first_of(&side)]] == side.b->samples) {
+            together = 0;
+            break;
+        }
+        advance(&side, &left);
+    }
+    const double share = (seconds_now() - before) / entered;
+    for (int k = 0; k < LANES; k++) {
+        if (number[k] >= 0)
+            side.b->seconds[number[k]] += share;
+        number[k] = side.number[k];
+    }
+    return together ? GOES_ON : ALL_OVER;
+}

@@ -1,0 +1,1119 @@
+/*
+ * The runs of a batch by rk4 with one step for all, several side by side (lanes.h). Steps on which nothing happens
+ * but motion are made here; one on which in any lane a contact begins or ends, a watched expression crosses zero,
+ * a pivot vanishes or a number ceases to be finite is made by the single runs themselves (rk4.c, many.c), each
+ * for its own. A library of its own, compiled when it is first asked for.
+ */
+#include "model.h"
+#include "batch.h"
+#include "lanes.h"
+#include <time.h>
+
+enum { LANE_JOINTS = 2, LANE_EVENTS = 1, EVENTS_FULL = -3 };
+
+typedef struct {
+    Lanes omega;
+    Lanes omega4;
+    Lanes l5;
+    Lanes c;
+    Lanes L1_mass;
+    Lanes L1_inertia;
+    Lanes L2_mass;
+    Lanes L2_inertia;
+    Lanes L3_mass;
+    Lanes L3_inertia;
+    Lanes L4_mass;
+    Lanes L4_inertia;
+    Lanes L6_mass;
+    Lanes L6_inertia;
+    Lanes L7_mass;
+    Lanes L7_inertia;
+    Lanes L8_mass;
+    Lanes L8_inertia;
+    Lanes S9_mass;
+    Lanes S9_inertia;
+    Lanes L1_length;
+    Lanes L2_length;
+    Lanes L3_length;
+    Lanes L4_length;
+    Lanes L6_length;
+    Lanes L7_length;
+    Lanes L8_length;
+    Lanes alpha;
+    Lanes beta;
+    Lanes O4_y;
+    Lanes O6_x;
+    Lanes guide_axis_y;
+    Lanes pin_radius;
+    Lanes pin_clearance;
+    Lanes pin_length;
+    Lanes aluminium_E;
+    Lanes aluminium_nu;
+    Lanes dry_normal_restitution;
+    Lanes dry_normal_exponent;
+    Lanes dry_friction_mu;
+    Lanes dry_friction_v0;
+    Lanes dry_friction_v1;
+    Lanes velocity_floor;
+    Lanes par_y;
+    Lanes guess_L2_theta;
+    Lanes guess_L3_theta;
+    Lanes guess_L6_theta;
+    Lanes guess_L7_theta;
+    Lanes guess_L8_theta;
+    Lanes L1_head_x;
+    Lanes L2_head_x;
+    Lanes L3_head_x;
+    Lanes L4_head_x;
+    Lanes L6_head_x;
+    Lanes L7_head_x;
+    Lanes L8_head_x;
+    Lanes R_j_pin;
+    Lanes dry_pin_K;
+    Lanes dry_pin_hysteresis;
+    Lanes dry_pin_friction_slope;
+    Lanes weight_L1_y;
+    Lanes weight_L2_y;
+    Lanes weight_L3_y;
+    Lanes weight_L4_y;
+    Lanes weight_L6_y;
+    Lanes weight_L7_y;
+    Lanes weight_L8_y;
+    Lanes weight_S9_y;
+    Lanes two_alpha;
+    Lanes beta_squared;
+    Lanes inverse_L1_mass;
+    Lanes inverse_L2_mass;
+    Lanes inverse_L3_mass;
+    Lanes inverse_L4_mass;
+    Lanes inverse_S9_mass;
+    Lanes inverse_S9_inertia;
+    Lanes inverse_L2_inertia;
+    Lanes inverse_L3_inertia;
+    Lanes inverse_L6_mass;
+    Lanes inverse_L8_mass;
+    Lanes inverse_L1_inertia;
+    Lanes inverse_L4_inertia;
+    Lanes inverse_L6_inertia;
+    Lanes inverse_L7_mass;
+    Lanes inverse_L8_inertia;
+    Lanes inverse_L7_inertia;
+    Lanes L6_head_span_x;
+    Lanes L7_com_span_x;
+    Lanes L7_tail_span_x;
+    Lanes L2_com_span_x;
+    Lanes L3_com_span_x;
+    Lanes L8_head_span_x;
+    Lanes L1_head_span_x;
+    Lanes L2_tail_span_x;
+    Lanes L4_head_span_x;
+    Lanes L3_tail_span_x;
+    Lanes inertia_L1_L1;
+    Lanes inertia_L6_L6;
+    Lanes inertia_L6_L7;
+    Lanes inertia_L6_L2;
+    Lanes inertia_L7_L7;
+    Lanes inertia_L7_L2;
+    Lanes inertia_L2_L2;
+    Lanes inertia_L6_L3;
+    Lanes inertia_L7_L3;
+    Lanes inertia_L3_L3;
+    Lanes inertia_L4_L4;
+    Lanes inertia_L6_L8;
+    Lanes inertia_L8_L8;
+    Lanes mass_crank1_crank1;
+    Lanes mass_L6_L6;
+    Lanes mass_L7_L7;
+    Lanes mass_L2_L2;
+    Lanes mass_L3_L3;
+    Lanes mass_crank4_crank4;
+    Lanes mass_L8_L8;
+    Lanes weight_L1__across;
+    Lanes weight_L6__across;
+    Lanes weight_L7__across;
+    Lanes weight_L2__across;
+    Lanes weight_L3__across;
+    Lanes weight_L4__across;
+    Lanes weight_L8__across;
+    Lanes inverse_mass_L8_L8;
+    Lanes inverse_mass_L2_L2;
+} LaneParameters;
+
+_Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
+
+typedef struct {
+    Lanes t, steps, evaluations, y[N_Y], dy[N_Y];
+    Lanes phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
+    struct LaneLatch {
+        Lanes closed, deltadot_minus, compressing; /* 0 or 1, m/s, 0 or 1 */
+        Lanes e, delta, deltadot, F_peak, t_peak, e_max;
+        Lanes F_open, t_open;                      /* peak of the contact that goes on */
+    } latch[2];
+    Lanes event_side[1];
+} LaneRun;
+
+typedef struct LaneLatch LaneLatch;
+
+typedef struct {
+    Lanes n, t, M_i, M_j;
+} LanePinForce;
+
+typedef struct {
+    Lanes Fx, Fy, F_n, F_t, e, deltadot, delta, moment_first, moment_second, power;
+} LaneClearance;
+
+typedef struct {
+    Lanes lambda[N_LOOPS + 1], power[N_WORK], event[LANE_EVENTS];
+    LaneClearance clearance[LANE_JOINTS];
+} LaneAside;
+
+/*
+ * Lankarani and Nikravesh: Hertz stiffness with hysteresis damping.
+ * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
+ * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
+ * Options: geometry: external.
+ */
+static inline void normal_A_force(Lanes delta, Lanes ratio, const LaneParameters *p, Lanes *F_n_out)
+{
+    /* parameters */
+    const Lanes dry_normal_exponent = p->dry_normal_exponent;
+    const Lanes dry_pin_K = p->dry_pin_K;
+    const Lanes dry_pin_hysteresis = p->dry_pin_hysteresis;
+
+    /* law of joint A */
+    const Lanes side_0 = lanes_sign_of(dry_pin_hysteresis*ratio + 1.0);
+    *F_n_out = lanes_pow(delta, dry_normal_exponent)*dry_pin_K*pick(side_0 < 0.0, all_of(0.0),
+        dry_pin_hysteresis*ratio + 1.0);
+}
+
+/*
+ * modified Coulomb friction.
+ * Source: physics.md section 3, after J. A. C. Ambrosio.
+ * Valid: sliding; creeps below v1 where Coulomb's law would stick.
+ */
+static inline void friction_A_force(Lanes F_n, Lanes v_t, const LaneParameters *p, Lanes *F_t_out)
+{
+    /* parameters */
+    const Lanes dry_friction_mu = p->dry_friction_mu;
+    const Lanes dry_friction_v0 = p->dry_friction_v0;
+    const Lanes dry_pin_friction_slope = p->dry_pin_friction_slope;
+
+    /* law of joint A */
+    const Lanes side_1 = lanes_sign_of(-dry_pin_friction_slope*(-dry_friction_v0 - v_t) + 1.0);
+    const Lanes side_2 = lanes_sign_of(pick(side_1 < 0.0, all_of(1.0),
+        dry_pin_friction_slope*(-dry_friction_v0 - v_t)));
+    const Lanes side_3 = lanes_sign_of(-dry_pin_friction_slope*(-dry_friction_v0 + v_t) + 1.0);
+    const Lanes side_4 = lanes_sign_of(pick(side_3 < 0.0, all_of(1.0),
+        dry_pin_friction_slope*(-dry_friction_v0 + v_t)));
+    *F_t_out = -F_n*dry_friction_mu*(-pick(side_2 < 0.0, all_of(0.0), pick(side_1 < 0.0, all_of(1.0),
+        dry_pin_friction_slope*(-dry_friction_v0 - v_t))) + pick(side_4 < 0.0, all_of(0.0), pick(side_3 < 0.0,
+        all_of(1.0), dry_pin_friction_slope*(-dry_friction_v0 + v_t))));
+}
+
+/* Dry contact in joint A, as in clearance.c. */
+static inline LanePinForce dry_A(Lanes delta, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
+    const LaneLatch *latch, const LaneParameters *p)
+{
+    const Lanes ratio = pick(latch->closed > 0.0, deltadot / latch->deltadot_minus, all_of(1.0));
+    const Lanes a_i = (0.5)*delta + p->pin_radius;
+    const Lanes a_j = -0.5*delta + p->R_j_pin;
+    const Lanes v_t = -a_i*omega_i + a_j*omega_j + de_t;
+    Lanes F_n, F_along_t_dry;
+    normal_A_force(lanes_max_of(delta, all_of(0.0)), ratio, p, &F_n);
+    friction_A_force(F_n, v_t, p, &F_along_t_dry);
+    const Lanes M_i_dry = -F_along_t_dry*a_i;
+    const Lanes M_j_dry = F_along_t_dry*a_j;
+    return (LanePinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry};
+}
+
+/* Joint A: what each lane does not have is passed over where no lane has it. */
+static void clearance_A(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
+    const LaneLatch *latch, const LaneParameters *p, LaneClearance *out)
+{
+    const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
+    const Lanes n_x = pick(e > 0.0, e_x / e, all_of(1.0));
+    const Lanes n_y = pick(e > 0.0, e_y / e, all_of(0.0));
+    const Lanes delta = e - p->pin_clearance;
+    const Lanes deltadot = de_x*n_x + de_y*n_y;
+    const Lanes de_t = -de_x*n_y + de_y*n_x;
+    LanePinForce F = {all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)};
+    const LaneBits touching = delta > 0.0;
+    if (any_of(touching)) {
+        LanePinForce dry = dry_A(delta, deltadot, de_t, omega_i, omega_j, latch, p);
+        F.n = pick(touching, dry.n, F.n);
+        F.t = pick(touching, dry.t, F.t);
+        F.M_i = pick(touching, dry.M_i, F.M_i);
+        F.M_j = pick(touching, dry.M_j, F.M_j);
+    }
+    *out = (LaneClearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t, .e = e,
+        .deltadot = deltadot, .delta = delta, .moment_first = F.M_i, .moment_second = F.M_j};
+}
+
+/*
+ * Lankarani and Nikravesh: Hertz stiffness with hysteresis damping.
+ * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
+ * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
+ * Options: geometry: external.
+ */
+static inline void normal_B_force(Lanes delta, Lanes ratio, const LaneParameters *p, Lanes *F_n_out)
+{
+    /* parameters */
+    const Lanes dry_normal_exponent = p->dry_normal_exponent;
+    const Lanes dry_pin_K = p->dry_pin_K;
+    const Lanes dry_pin_hysteresis = p->dry_pin_hysteresis;
+
+    /* law of joint B */
+    const Lanes side_5 = lanes_sign_of(dry_pin_hysteresis*ratio + 1.0);
+    *F_n_out = lanes_pow(delta, dry_normal_exponent)*dry_pin_K*pick(side_5 < 0.0, all_of(0.0),
+        dry_pin_hysteresis*ratio + 1.0);
+}
+
+/*
+ * modified Coulomb friction.
+ * Source: physics.md section 3, after J. A. C. Ambrosio.
+ * Valid: sliding; creeps below v1 where Coulomb's law would stick.
+ */
+static inline void friction_B_force(Lanes F_n, Lanes v_t, const LaneParameters *p, Lanes *F_t_out)
+{
+    /* parameters */
+    const Lanes dry_friction_mu = p->dry_friction_mu;
+    const Lanes dry_friction_v0 = p->dry_friction_v0;
+    const Lanes dry_pin_friction_slope = p->dry_pin_friction_slope;
+
+    /* law of joint B */
+    const Lanes side_6 = lanes_sign_of(-dry_pin_friction_slope*(-dry_friction_v0 - v_t) + 1.0);
+    const Lanes side_7 = lanes_sign_of(pick(side_6 < 0.0, all_of(1.0),
+        dry_pin_friction_slope*(-dry_friction_v0 - v_t)));
+    const Lanes side_8 = lanes_sign_of(-dry_pin_friction_slope*(-dry_friction_v0 + v_t) + 1.0);
+    const Lanes side_9 = lanes_sign_of(pick(side_8 < 0.0, all_of(1.0),
+        dry_pin_friction_slope*(-dry_friction_v0 + v_t)));
+    *F_t_out = -F_n*dry_friction_mu*(-pick(side_7 < 0.0, all_of(0.0), pick(side_6 < 0.0, all_of(1.0),
+        dry_pin_friction_slope*(-dry_friction_v0 - v_t))) + pick(side_9 < 0.0, all_of(0.0), pick(side_8 < 0.0,
+        all_of(1.0), dry_pin_friction_slope*(-dry_friction_v0 + v_t))));
+}
+
+/* Dry contact in joint B, as in clearance.c. */
+static inline LanePinForce dry_B(Lanes delta, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
+    const LaneLatch *latch, const LaneParameters *p)
+{
+    const Lanes ratio = pick(latch->closed > 0.0, deltadot / latch->deltadot_minus, all_of(1.0));
+    const Lanes a_i = (0.5)*delta + p->pin_radius;
+    const Lanes a_j = -0.5*delta + p->R_j_pin;
+    const Lanes v_t = -a_i*omega_i + a_j*omega_j + de_t;
+    Lanes F_n, F_along_t_dry;
+    normal_B_force(lanes_max_of(delta, all_of(0.0)), ratio, p, &F_n);
+    friction_B_force(F_n, v_t, p, &F_along_t_dry);
+    const Lanes M_i_dry = -F_along_t_dry*a_i;
+    const Lanes M_j_dry = F_along_t_dry*a_j;
+    return (LanePinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry};
+}
+
+/* Joint B: what each lane does not have is passed over where no lane has it. */
+static void clearance_B(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
+    const LaneLatch *latch, const LaneParameters *p, LaneClearance *out)
+{
+    const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
+    const Lanes n_x = pick(e > 0.0, e_x / e, all_of(1.0));
+    const Lanes n_y = pick(e > 0.0, e_y / e, all_of(0.0));
+    const Lanes delta = e - p->pin_clearance;
+    const Lanes deltadot = de_x*n_x + de_y*n_y;
+    const Lanes de_t = -de_x*n_y + de_y*n_x;
+    LanePinForce F = {all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)};
+    const LaneBits touching = delta > 0.0;
+    if (any_of(touching)) {
+        LanePinForce dry = dry_B(delta, deltadot, de_t, omega_i, omega_j, latch, p);
+        F.n = pick(touching, dry.n, F.n);
+        F.t = pick(touching, dry.t, F.t);
+        F.M_i = pick(touching, dry.M_i, F.M_i);
+        F.M_j = pick(touching, dry.M_j, F.M_j);
+    }
+    *out = (LaneClearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t, .e = e,
+        .deltadot = deltadot, .delta = delta, .moment_first = F.M_i, .moment_second = F.M_j};
+}
+
+/*
+ * Phi of the loop closures in tree coordinates; m and rad.
+ */
+static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lanes *out, LaneBits *rare)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const Lanes L6_theta = q[0];
+    const Lanes L8_theta = q[2];
+
+    /* parameters */
+    const Lanes L6_head_span_x = p->L6_head_span_x;
+    const Lanes L8_head_span_x = p->L8_head_span_x;
+
+    /* directions, arms, drives */
+    Lanes sine_0, cosine_0;
+    sines_and_cosines(L6_theta, &sine_0, &cosine_0, rare);
+    Lanes sine_1, cosine_1;
+    sines_and_cosines(L8_theta, &sine_1, &cosine_1, rare);
+    const Lanes cos_theta_L6 = cosine_0;
+    const Lanes cos_theta_L8 = cosine_1;
+    const Lanes span_L6_head_x = L6_head_span_x*cos_theta_L6;
+    const Lanes span_L8_head_x = L8_head_span_x*cos_theta_L8;
+
+    /* rows */
+    out[0] = -span_L6_head_x - span_L8_head_x;  /* guide.offset */
+}
+
+/*
+ * Its rate Phi_q v - nu.
+ */
+static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const LaneParameters *p, Lanes *out,
+    LaneBits *rare)
+{
+    (void)t;
+    /* coordinates, velocities, time */
+    const Lanes L6_theta = q[0];
+    const Lanes L6_omega = v[0];
+    const Lanes L8_theta = q[2];
+    const Lanes L8_omega = v[2];
+
+    /* parameters */
+    const Lanes L6_head_span_x = p->L6_head_span_x;
+    const Lanes L8_head_span_x = p->L8_head_span_x;
+
+    /* directions, arms, drives */
+    Lanes sine_0, cosine_0;
+    sines_and_cosines(L6_theta, &sine_0, &cosine_0, rare);
+    Lanes sine_1, cosine_1;
+    sines_and_cosines(L8_theta, &sine_1, &cosine_1, rare);
+    const Lanes sin_theta_L6 = sine_0;
+    const Lanes sin_theta_L8 = sine_1;
+    const Lanes span_L6_head_y = L6_head_span_x*sin_theta_L6;
+    const Lanes span_L8_head_y = L8_head_span_x*sin_theta_L8;
+
+    /* rows */
+    out[0] = L6_omega*span_L6_head_y + L8_omega*span_L8_head_y;  /* guide.offset */
+}
+
+/*
+ * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
+ * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
+ * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
+ */
+static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneRun *memory, const
+    LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
+{
+    /* coordinates, velocities, time */
+    const Lanes time = t;
+    const Lanes L6_theta = q[0];
+    const Lanes L6_omega = v[0];
+    const Lanes L7_theta = q[1];
+    const Lanes L7_omega = v[1];
+    const Lanes L8_theta = q[2];
+    const Lanes L8_omega = v[2];
+    const Lanes L2_theta = q[3];
+    const Lanes L2_omega = v[3];
+    const Lanes L3_theta = q[4];
+    const Lanes L3_omega = v[4];
+
+    /* parameters */
+    const Lanes omega = p->omega;
+    const Lanes omega4 = p->omega4;
+    const Lanes O4_y = p->O4_y;
+    const Lanes O6_x = p->O6_x;
+    const Lanes L6_head_span_x = p->L6_head_span_x;
+    const Lanes L7_tail_span_x = p->L7_tail_span_x;
+    const Lanes L8_head_span_x = p->L8_head_span_x;
+    const Lanes L1_head_span_x = p->L1_head_span_x;
+    const Lanes L2_tail_span_x = p->L2_tail_span_x;
+    const Lanes L4_head_span_x = p->L4_head_span_x;
+    const Lanes L3_tail_span_x = p->L3_tail_span_x;
+    const Lanes inertia_L6_L7 = p->inertia_L6_L7;
+    const Lanes inertia_L6_L2 = p->inertia_L6_L2;
+    const Lanes inertia_L7_L2 = p->inertia_L7_L2;
+    const Lanes inertia_L6_L3 = p->inertia_L6_L3;
+    const Lanes inertia_L7_L3 = p->inertia_L7_L3;
+    const Lanes inertia_L6_L8 = p->inertia_L6_L8;
+    const Lanes mass_crank1_crank1 = p->mass_crank1_crank1;
+    const Lanes mass_L6_L6 = p->mass_L6_L6;
+    const Lanes mass_L7_L7 = p->mass_L7_L7;
+    const Lanes mass_L3_L3 = p->mass_L3_L3;
+    const Lanes mass_crank4_crank4 = p->mass_crank4_crank4;
+    const Lanes weight_L1__across = p->weight_L1__across;
+    const Lanes weight_L6__across = p->weight_L6__across;
+    const Lanes weight_L7__across = p->weight_L7__across;
+    const Lanes weight_L2__across = p->weight_L2__across;
+    const Lanes weight_L3__across = p->weight_L3__across;
+    const Lanes weight_L4__across = p->weight_L4__across;
+    const Lanes weight_L8__across = p->weight_L8__across;
+    const Lanes inverse_mass_L8_L8 = p->inverse_mass_L8_L8;
+    const Lanes inverse_mass_L2_L2 = p->inverse_mass_L2_L2;
+
+    /* directions, arms, drives */
+    const Lanes crank1_value = omega*time - 0.689754120388159;
+    const Lanes crank4_value = omega4*time + 3.4814082589530893;
+    Lanes sine_0, cosine_0;
+    sines_and_cosines(crank1_value, &sine_0, &cosine_0, rare);
+    Lanes sine_1, cosine_1;
+    sines_and_cosines(crank4_value, &sine_1, &cosine_1, rare);
+    Lanes sine_2, cosine_2;
+    sines_and_cosines(L6_theta, &sine_2, &cosine_2, rare);
+    Lanes sine_3, cosine_3;
+    sines_and_cosines(L7_theta, &sine_3, &cosine_3, rare);
+    Lanes sine_4, cosine_4;
+    sines_and_cosines(L8_theta, &sine_4, &cosine_4, rare);
+    Lanes sine_5, cosine_5;
+    sines_and_cosines(L2_theta, &sine_5, &cosine_5, rare);
+    Lanes sine_6, cosine_6;
+    sines_and_cosines(L3_theta, &sine_6, &cosine_6, rare);
+    const Lanes cos_theta_L1 = cosine_0;
+    const Lanes sin_theta_L1 = sine_0;
+    const Lanes cos_theta_L4 = cosine_1;
+    const Lanes sin_theta_L4 = sine_1;
+    const Lanes cos_theta_L6 = cosine_2;
+    const Lanes sin_theta_L6 = sine_2;
+    const Lanes cos_theta_L7 = cosine_3;
+    const Lanes sin_theta_L7 = sine_3;
+    const Lanes cos_theta_L8 = cosine_4;
+    const Lanes sin_theta_L8 = sine_4;
+    const Lanes cos_theta_L2 = cosine_5;
+    const Lanes sin_theta_L2 = sine_5;
+    const Lanes cos_theta_L3 = cosine_6;
+    const Lanes sin_theta_L3 = sine_6;
+    const Lanes crank1_rate = omega;
+    const Lanes crank1_acceleration = all_of(0.0);
+    const Lanes crank4_rate = omega4;
+    const Lanes crank4_acceleration = all_of(0.0);
+    const Lanes span_L6_head_x = L6_head_span_x*cos_theta_L6;
+    const Lanes span_L6_head_y = L6_head_span_x*sin_theta_L6;
+    const Lanes L6_head_x_2 = O6_x + span_L6_head_x;
+    const Lanes L6_head_vx = -L6_omega*span_L6_head_y;
+    const Lanes L6_head_vy = L6_omega*span_L6_head_x;
+    const Lanes span_L7_tail_x = L7_tail_span_x*cos_theta_L7;
+    const Lanes span_L7_tail_y = L7_tail_span_x*sin_theta_L7;
+    const Lanes L7_tail_x = L6_head_x_2 + span_L7_tail_x;
+    const Lanes L7_tail_vx = L6_head_vx - L7_omega*span_L7_tail_y;
+    const Lanes L7_tail_y = span_L6_head_y + span_L7_tail_y;
+    const Lanes L7_tail_vy = L6_head_vy + L7_omega*span_L7_tail_x;
+    const Lanes span_L8_head_x = L8_head_span_x*cos_theta_L8;
+    const Lanes span_L8_head_y = L8_head_span_x*sin_theta_L8;
+    const Lanes span_L1_head_x = L1_head_span_x*cos_theta_L1;
+    const Lanes span_L1_head_y = L1_head_span_x*sin_theta_L1;
+    const Lanes L1_head_vx = -crank1_rate*span_L1_head_y;
+    const Lanes L1_head_vy = crank1_rate*span_L1_head_x;
+    const Lanes span_L2_tail_x = L2_tail_span_x*cos_theta_L2;
+    const Lanes span_L2_tail_y = L2_tail_span_x*sin_theta_L2;
+    const Lanes L2_tail_x = L7_tail_x + span_L2_tail_x;
+    const Lanes L2_tail_vx = -L2_omega*span_L2_tail_y + L7_tail_vx;
+    const Lanes L2_tail_y = L7_tail_y + span_L2_tail_y;
+    const Lanes L2_tail_vy = L2_omega*span_L2_tail_x + L7_tail_vy;
+    const Lanes span_L4_head_x = L4_head_span_x*cos_theta_L4;
+    const Lanes span_L4_head_y = L4_head_span_x*sin_theta_L4;
+    const Lanes L4_head_vx = -crank4_rate*span_L4_head_y;
+    const Lanes L4_head_y = O4_y + span_L4_head_y;
+    const Lanes L4_head_vy = crank4_rate*span_L4_head_x;
+    const Lanes span_L3_tail_x = L3_tail_span_x*cos_theta_L3;
+    const Lanes span_L3_tail_y = L3_tail_span_x*sin_theta_L3;
+    const Lanes L3_tail_x = L7_tail_x + span_L3_tail_x;
+    const Lanes L3_tail_vx = -L3_omega*span_L3_tail_y + L7_tail_vx;
+    const Lanes L3_tail_y = L7_tail_y + span_L3_tail_y;
+    const Lanes L3_tail_vy = L3_omega*span_L3_tail_x + L7_tail_vy;
+    const Lanes cos_L7_less_L6 = cos_theta_L6*cos_theta_L7 + sin_theta_L6*sin_theta_L7;
+    const Lanes sin_L7_less_L6 = cos_theta_L6*sin_theta_L7 - cos_theta_L7*sin_theta_L6;
+    const Lanes dot_L6_L7 = cos_L7_less_L6*inertia_L6_L7;
+    const Lanes cross_L6_L7 = inertia_L6_L7*sin_L7_less_L6;
+    const Lanes cos_L2_less_L6 = cos_theta_L2*cos_theta_L6 + sin_theta_L2*sin_theta_L6;
+    const Lanes sin_L2_less_L6 = -cos_theta_L2*sin_theta_L6 + cos_theta_L6*sin_theta_L2;
+    const Lanes dot_L6_L2 = cos_L2_less_L6*inertia_L6_L2;
+    const Lanes cross_L6_L2 = inertia_L6_L2*sin_L2_less_L6;
+    const Lanes cos_L2_less_L7 = cos_theta_L2*cos_theta_L7 + sin_theta_L2*sin_theta_L7;
+    const Lanes sin_L2_less_L7 = -cos_theta_L2*sin_theta_L7 + cos_theta_L7*sin_theta_L2;
+    const Lanes dot_L7_L2 = cos_L2_less_L7*inertia_L7_L2;
+    const Lanes cross_L7_L2 = inertia_L7_L2*sin_L2_less_L7;
+    const Lanes cos_L3_less_L6 = cos_theta_L3*cos_theta_L6 + sin_theta_L3*sin_theta_L6;
+    const Lanes sin_L3_less_L6 = -cos_theta_L3*sin_theta_L6 + cos_theta_L6*sin_theta_L3;
+    const Lanes dot_L6_L3 = cos_L3_less_L6*inertia_L6_L3;
+    const Lanes cross_L6_L3 = inertia_L6_L3*sin_L3_less_L6;
+    const Lanes cos_L3_less_L7 = cos_theta_L3*cos_theta_L7 + sin_theta_L3*sin_theta_L7;
+    const Lanes sin_L3_less_L7 = -cos_theta_L3*sin_theta_L7 + cos_theta_L7*sin_theta_L3;
+    const Lanes dot_L7_L3 = cos_L3_less_L7*inertia_L7_L3;
+    const Lanes cross_L7_L3 = inertia_L7_L3*sin_L3_less_L7;
+    const Lanes cos_L8_less_L6 = cos_theta_L6*cos_theta_L8 + sin_theta_L6*sin_theta_L8;
+    const Lanes sin_L8_less_L6 = cos_theta_L6*sin_theta_L8 - cos_theta_L8*sin_theta_L6;
+    const Lanes dot_L6_L8 = cos_L8_less_L6*inertia_L6_L8;
+    const Lanes cross_L6_L8 = inertia_L6_L8*sin_L8_less_L6;
+
+    /* clearance joint A */
+    const Lanes e_A_x = L2_tail_x - span_L1_head_x;
+    const Lanes e_A_y = L2_tail_y - span_L1_head_y;
+    const Lanes edot_A_x = -L1_head_vx + L2_tail_vx;
+    const Lanes edot_A_y = -L1_head_vy + L2_tail_vy;
+    clearance_A(e_A_x, e_A_y, edot_A_x, edot_A_y, crank1_rate, L2_omega, &memory->latch[0], p, &aside->clearance[0]);
+    const Lanes F_A_x = aside->clearance[0].Fx;
+    const Lanes F_A_y = aside->clearance[0].Fy;
+    const Lanes M_A_first = aside->clearance[0].moment_first;
+    const Lanes M_A_second = aside->clearance[0].moment_second;
+    aside->clearance[0].power = F_A_x*edot_A_x + F_A_y*edot_A_y + L2_omega*M_A_second + M_A_first*crank1_rate;
+
+    /* clearance joint B */
+    const Lanes e_B_x = L3_tail_x - span_L4_head_x;
+    const Lanes e_B_y = L3_tail_y - L4_head_y;
+    const Lanes edot_B_x = L3_tail_vx - L4_head_vx;
+    const Lanes edot_B_y = L3_tail_vy - L4_head_vy;
+    clearance_B(e_B_x, e_B_y, edot_B_x, edot_B_y, crank4_rate, L3_omega, &memory->latch[1], p, &aside->clearance[1]);
+    const Lanes F_B_x = aside->clearance[1].Fx;
+    const Lanes F_B_y = aside->clearance[1].Fy;
+    const Lanes M_B_first = aside->clearance[1].moment_first;
+    const Lanes M_B_second = aside->clearance[1].moment_second;
+    aside->clearance[1].power = F_B_x*edot_B_x + F_B_y*edot_B_y + L3_omega*M_B_second + M_B_first*crank4_rate;
+
+    /* constraints: gamma */
+    const Lanes rhs_guide_offset = -(L6_omega * L6_omega)*span_L6_head_x - (L8_omega *
+        L8_omega)*span_L8_head_x;
+
+    /* L D L^T of the KKT matrix */
+    const Lanes l_L6_theta__L8_theta = dot_L6_L8*inverse_mass_L8_L8;
+    const Lanes l_guide_offset__L8_theta = inverse_mass_L8_L8*span_L8_head_y;
+    const Lanes l_L7_theta__L2_theta = dot_L7_L2*inverse_mass_L2_L2;
+    const Lanes l_L6_theta__L2_theta = dot_L6_L2*inverse_mass_L2_L2;
+    const Lanes pivot_L7_theta = -dot_L7_L2*l_L7_theta__L2_theta + mass_L7_L7;
+    const Lanes determinant_L7_theta__L3_theta = -(dot_L7_L3 * dot_L7_L3) + mass_L3_L3*pivot_L7_theta;
+    const Lanes inverse_L7_theta__L3_theta = 1.0/determinant_L7_theta__L3_theta;
+    const Lanes inverse_pivot_L7_theta = inverse_L7_theta__L3_theta*mass_L3_L3;
+    const Lanes inverse_pivot_L3_theta = inverse_L7_theta__L3_theta*pivot_L7_theta;
+    const Lanes inverse_cross_L7_theta__L3_theta = -dot_L7_L3*inverse_L7_theta__L3_theta;
+    const Lanes w_L6_theta__L7_theta = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta;
+    const Lanes l_L6_theta__L7_theta = dot_L6_L3*inverse_cross_L7_theta__L3_theta +
+        inverse_pivot_L7_theta*w_L6_theta__L7_theta;
+    const Lanes l_L6_theta__L3_theta = dot_L6_L3*inverse_pivot_L3_theta +
+        inverse_cross_L7_theta__L3_theta*w_L6_theta__L7_theta;
+    const Lanes inverse_pivot_L6_theta = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta - dot_L6_L3*l_L6_theta__L3_theta
+        - dot_L6_L8*l_L6_theta__L8_theta - l_L6_theta__L7_theta*w_L6_theta__L7_theta + mass_L6_L6);
+    const Lanes w_guide_offset__L6_theta = -dot_L6_L8*l_guide_offset__L8_theta + span_L6_head_y;
+    const Lanes l_guide_offset__L6_theta = inverse_pivot_L6_theta*w_guide_offset__L6_theta;
+    const Lanes scale_guide_offset = l_guide_offset__L6_theta*w_guide_offset__L6_theta +
+        l_guide_offset__L8_theta*span_L8_head_y;
+    *rare |= ~(scale_guide_offset > 1e-08 * scale_guide_offset);
+    const Lanes inverse_pivot_guide_offset = 1.0/scale_guide_offset;
+
+    /* forward substitution */
+    const Lanes z_L8_theta = -(L6_omega * L6_omega)*cross_L6_L8 + cos_theta_L8*weight_L8__across;
+    const Lanes z_L2_theta = -F_A_x*span_L2_tail_y + F_A_y*span_L2_tail_x - (L6_omega * L6_omega)*cross_L6_L2
+        - (L7_omega * L7_omega)*cross_L7_L2 + M_A_second + cos_theta_L2*weight_L2__across;
+    const Lanes z_L7_theta = (L2_omega * L2_omega)*cross_L7_L2 + (L3_omega * L3_omega)*cross_L7_L3 - (L6_omega
+        * L6_omega)*cross_L6_L7 + cos_theta_L7*weight_L7__across - l_L7_theta__L2_theta*z_L2_theta +
+        span_L7_tail_x*(F_A_y + F_B_y) - span_L7_tail_y*(F_A_x + F_B_x);
+    const Lanes z_L3_theta = -F_B_x*span_L3_tail_y + F_B_y*span_L3_tail_x - (L6_omega * L6_omega)*cross_L6_L3
+        - (L7_omega * L7_omega)*cross_L7_L3 + M_B_second + cos_theta_L3*weight_L3__across;
+    const Lanes z_L6_theta = (L2_omega * L2_omega)*cross_L6_L2 + (L3_omega * L3_omega)*cross_L6_L3 + (L7_omega
+        * L7_omega)*cross_L6_L7 + (L8_omega * L8_omega)*cross_L6_L8 + cos_theta_L6*weight_L6__across -
+        l_L6_theta__L2_theta*z_L2_theta - l_L6_theta__L3_theta*z_L3_theta - l_L6_theta__L7_theta*z_L7_theta -
+        l_L6_theta__L8_theta*z_L8_theta + span_L6_head_x*(F_A_y + F_B_y) - span_L6_head_y*(F_A_x + F_B_x);
+    const Lanes z_guide_offset = -l_guide_offset__L6_theta*z_L6_theta - l_guide_offset__L8_theta*z_L8_theta +
+        rhs_guide_offset;
+
+    /* backward substitution */
+    const Lanes lambda_guide_offset = -inverse_pivot_guide_offset*z_guide_offset;
+    const Lanes acceleration_L6_theta = inverse_pivot_L6_theta*z_L6_theta -
+        l_guide_offset__L6_theta*lambda_guide_offset;
+    const Lanes acceleration_L3_theta = -acceleration_L6_theta*l_L6_theta__L3_theta +
+        inverse_cross_L7_theta__L3_theta*z_L7_theta + inverse_pivot_L3_theta*z_L3_theta;
+    const Lanes acceleration_L7_theta = -acceleration_L6_theta*l_L6_theta__L7_theta +
+        inverse_cross_L7_theta__L3_theta*z_L3_theta + inverse_pivot_L7_theta*z_L7_theta;
+    const Lanes acceleration_L2_theta = -acceleration_L6_theta*l_L6_theta__L2_theta -
+        acceleration_L7_theta*l_L7_theta__L2_theta + inverse_mass_L2_L2*z_L2_theta;
+    const Lanes acceleration_L8_theta = -acceleration_L6_theta*l_L6_theta__L8_theta +
+        inverse_mass_L8_L8*z_L8_theta - l_guide_offset__L8_theta*lambda_guide_offset;
+
+    /* results */
+    a[0] = acceleration_L6_theta;
+    a[1] = acceleration_L7_theta;
+    a[2] = acceleration_L8_theta;
+    a[3] = acceleration_L2_theta;
+    a[4] = acceleration_L3_theta;
+    aside->lambda[0] = lambda_guide_offset;
+
+    /* a pivot vanished: rows depend on each other here */
+    aside->power[0] = crank1_rate*(-F_A_x*span_L1_head_y + F_A_y*span_L1_head_x - M_A_first -
+        cos_theta_L1*weight_L1__across + crank1_acceleration*mass_crank1_crank1) +
+        crank4_rate*(-F_B_x*span_L4_head_y + F_B_y*span_L4_head_x - M_B_first - cos_theta_L4*weight_L4__across
+        + crank4_acceleration*mass_crank4_crank4);
+    aside->power[1] = all_of(0.0);
+    aside->power[2] = aside->clearance[0].power + aside->clearance[1].power;
+}
+
+/*
+ * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
+ * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
+ */
+static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneRun *memory, const
+    LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
+{
+    (void)t;
+    (void)memory;
+    /* coordinates, velocities, time */
+    const Lanes L6_theta = q[0];
+    const Lanes L6_omega = v[0];
+    const Lanes L7_theta = q[1];
+    const Lanes L8_theta = q[2];
+    const Lanes L8_omega = v[2];
+    const Lanes L2_theta = q[3];
+    const Lanes L3_theta = q[4];
+
+    /* parameters */
+    const Lanes L6_head_span_x = p->L6_head_span_x;
+    const Lanes L8_head_span_x = p->L8_head_span_x;
+    const Lanes inertia_L6_L7 = p->inertia_L6_L7;
+    const Lanes inertia_L6_L2 = p->inertia_L6_L2;
+    const Lanes inertia_L7_L2 = p->inertia_L7_L2;
+    const Lanes inertia_L6_L3 = p->inertia_L6_L3;
+    const Lanes inertia_L7_L3 = p->inertia_L7_L3;
+    const Lanes inertia_L6_L8 = p->inertia_L6_L8;
+    const Lanes mass_L6_L6 = p->mass_L6_L6;
+    const Lanes mass_L7_L7 = p->mass_L7_L7;
+    const Lanes mass_L3_L3 = p->mass_L3_L3;
+    const Lanes inverse_mass_L8_L8 = p->inverse_mass_L8_L8;
+    const Lanes inverse_mass_L2_L2 = p->inverse_mass_L2_L2;
+
+    /* directions, arms, drives */
+    Lanes sine_0, cosine_0;
+    sines_and_cosines(L6_theta, &sine_0, &cosine_0, rare);
+    Lanes sine_1, cosine_1;
+    sines_and_cosines(L7_theta, &sine_1, &cosine_1, rare);
+    Lanes sine_2, cosine_2;
+    sines_and_cosines(L8_theta, &sine_2, &cosine_2, rare);
+    Lanes sine_3, cosine_3;
+    sines_and_cosines(L2_theta, &sine_3, &cosine_3, rare);
+    Lanes sine_4, cosine_4;
+    sines_and_cosines(L3_theta, &sine_4, &cosine_4, rare);
+    const Lanes cos_theta_L6 = cosine_0;
+    const Lanes sin_theta_L6 = sine_0;
+    const Lanes cos_theta_L7 = cosine_1;
+    const Lanes sin_theta_L7 = sine_1;
+    const Lanes cos_theta_L8 = cosine_2;
+    const Lanes sin_theta_L8 = sine_2;
+    const Lanes cos_theta_L2 = cosine_3;
+    const Lanes sin_theta_L2 = sine_3;
+    const Lanes cos_theta_L3 = cosine_4;
+    const Lanes sin_theta_L3 = sine_4;
+    const Lanes span_L6_head_x = L6_head_span_x*cos_theta_L6;
+    const Lanes span_L6_head_y = L6_head_span_x*sin_theta_L6;
+    const Lanes span_L8_head_x = L8_head_span_x*cos_theta_L8;
+    const Lanes span_L8_head_y = L8_head_span_x*sin_theta_L8;
+    const Lanes cos_L7_less_L6 = cos_theta_L6*cos_theta_L7 + sin_theta_L6*sin_theta_L7;
+    const Lanes dot_L6_L7 = cos_L7_less_L6*inertia_L6_L7;
+    const Lanes cos_L2_less_L6 = cos_theta_L2*cos_theta_L6 + sin_theta_L2*sin_theta_L6;
+    const Lanes dot_L6_L2 = cos_L2_less_L6*inertia_L6_L2;
+    const Lanes cos_L2_less_L7 = cos_theta_L2*cos_theta_L7 + sin_theta_L2*sin_theta_L7;
+    const Lanes dot_L7_L2 = cos_L2_less_L7*inertia_L7_L2;
+    const Lanes cos_L3_less_L6 = cos_theta_L3*cos_theta_L6 + sin_theta_L3*sin_theta_L6;
+    const Lanes dot_L6_L3 = cos_L3_less_L6*inertia_L6_L3;
+    const Lanes cos_L3_less_L7 = cos_theta_L3*cos_theta_L7 + sin_theta_L3*sin_theta_L7;
+    const Lanes dot_L7_L3 = cos_L3_less_L7*inertia_L7_L3;
+    const Lanes cos_L8_less_L6 = cos_theta_L6*cos_theta_L8 + sin_theta_L6*sin_theta_L8;
+    const Lanes dot_L6_L8 = cos_L8_less_L6*inertia_L6_L8;
+
+    /* Phi and Phi_dot */
+    const Lanes phi_guide_offset = -span_L6_head_x - span_L8_head_x;
+    const Lanes phi_dot_guide_offset = L6_omega*span_L6_head_y + L8_omega*span_L8_head_y;
+
+    /* L D L^T of the KKT matrix */
+    const Lanes l_L6_theta__L8_theta_4 = dot_L6_L8*inverse_mass_L8_L8;
+    const Lanes l_guide_offset__L8_theta_4 = inverse_mass_L8_L8*span_L8_head_y;
+    const Lanes l_L7_theta__L2_theta_4 = dot_L7_L2*inverse_mass_L2_L2;
+    const Lanes l_L6_theta__L2_theta_4 = dot_L6_L2*inverse_mass_L2_L2;
+    const Lanes pivot_L7_theta_3 = -dot_L7_L2*l_L7_theta__L2_theta_4 + mass_L7_L7;
+    const Lanes determinant_L7_theta__L3_theta_3 = -(dot_L7_L3 * dot_L7_L3) + mass_L3_L3*pivot_L7_theta_3;
+    const Lanes inverse_L7_theta__L3_theta_3 = 1.0/determinant_L7_theta__L3_theta_3;
+    const Lanes inverse_pivot_L7_theta_4 = inverse_L7_theta__L3_theta_3*mass_L3_L3;
+    const Lanes inverse_pivot_L3_theta_4 = inverse_L7_theta__L3_theta_3*pivot_L7_theta_3;
+    const Lanes inverse_cross_L7_theta__L3_theta_3 = -dot_L7_L3*inverse_L7_theta__L3_theta_3;
+    const Lanes w_L6_theta__L7_theta_3 = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta_4;
+    const Lanes l_L6_theta__L7_theta_4 = dot_L6_L3*inverse_cross_L7_theta__L3_theta_3 +
+        inverse_pivot_L7_theta_4*w_L6_theta__L7_theta_3;
+    const Lanes l_L6_theta__L3_theta_4 = dot_L6_L3*inverse_pivot_L3_theta_4 +
+        inverse_cross_L7_theta__L3_theta_3*w_L6_theta__L7_theta_3;
+    const Lanes inverse_pivot_L6_theta_4 = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta_4 -
+        dot_L6_L3*l_L6_theta__L3_theta_4 - dot_L6_L8*l_L6_theta__L8_theta_4 -
+        l_L6_theta__L7_theta_4*w_L6_theta__L7_theta_3 + mass_L6_L6);
+    const Lanes w_guide_offset__L6_theta_3 = -dot_L6_L8*l_guide_offset__L8_theta_4 + span_L6_head_y;
+    const Lanes l_guide_offset__L6_theta_4 = inverse_pivot_L6_theta_4*w_guide_offset__L6_theta_3;
+    const Lanes scale_guide_offset_4 = l_guide_offset__L6_theta_4*w_guide_offset__L6_theta_3 +
+        l_guide_offset__L8_theta_4*span_L8_head_y;
+    *rare |= ~(scale_guide_offset_4 > 1e-13 * scale_guide_offset_4);
+    const Lanes inverse_pivot_guide_offset_4 = 1.0/scale_guide_offset_4;
+
+    /* backward substitution */
+    const Lanes dq_lambda_guide_offset = -inverse_pivot_guide_offset_4*phi_guide_offset;
+    const Lanes dq_acceleration_L6_theta = -dq_lambda_guide_offset*l_guide_offset__L6_theta_4;
+    const Lanes dq_acceleration_L3_theta = -dq_acceleration_L6_theta*l_L6_theta__L3_theta_4;
+    const Lanes dq_acceleration_L7_theta = -dq_acceleration_L6_theta*l_L6_theta__L7_theta_4;
+    const Lanes dq_acceleration_L2_theta = -dq_acceleration_L6_theta*l_L6_theta__L2_theta_4 -
+        dq_acceleration_L7_theta*l_L7_theta__L2_theta_4;
+    const Lanes dq_acceleration_L8_theta = -dq_acceleration_L6_theta*l_L6_theta__L8_theta_4 -
+        dq_lambda_guide_offset*l_guide_offset__L8_theta_4;
+
+    /* backward substitution */
+    const Lanes dv_lambda_guide_offset = -inverse_pivot_guide_offset_4*phi_dot_guide_offset;
+    const Lanes dv_acceleration_L6_theta = -dv_lambda_guide_offset*l_guide_offset__L6_theta_4;
+    const Lanes dv_acceleration_L3_theta = -dv_acceleration_L6_theta*l_L6_theta__L3_theta_4;
+    const Lanes dv_acceleration_L7_theta = -dv_acceleration_L6_theta*l_L6_theta__L7_theta_4;
+    const Lanes dv_acceleration_L2_theta = -dv_acceleration_L6_theta*l_L6_theta__L2_theta_4 -
+        dv_acceleration_L7_theta*l_L7_theta__L2_theta_4;
+    const Lanes dv_acceleration_L8_theta = -dv_acceleration_L6_theta*l_L6_theta__L8_theta_4 -
+        dv_lambda_guide_offset*l_guide_offset__L8_theta_4;
+
+    /* results */
+    dq[0] = dq_acceleration_L6_theta;
+    dv[0] = dv_acceleration_L6_theta;
+    dq[1] = dq_acceleration_L7_theta;
+    dv[1] = dv_acceleration_L7_theta;
+    dq[2] = dq_acceleration_L8_theta;
+    dv[2] = dv_acceleration_L8_theta;
+    dq[3] = dq_acceleration_L2_theta;
+    dv[3] = dv_acceleration_L2_theta;
+    dq[4] = dq_acceleration_L3_theta;
+    dv[4] = dv_acceleration_L3_theta;
+    *worst = all_of(0.0);
+    *worst = lanes_max_of(lanes_fabs(phi_guide_offset), *worst);
+}
+
+static void motion(Lanes t, const Lanes *y, const LaneRun *x, const LaneParameters *p, Lanes *dy, LaneAside *aside,
+    LaneBits *rare)
+{
+    reduced_dynamics(t, y, y + N_X, x, p, dy + N_X, aside, rare);
+    for (int k = 0; k < N_X; k++)
+        dy[k] = y[N_X + k];
+    for (int k = 0; k < N_WORK; k++)
+        dy[2 * N_X + k] = aside->power[k];
+}
+
+static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
+{
+    Lanes sum = all_of(0.0);
+    for (int k = 0; k < n; k++)
+        sum += b ? a[k] + b[k] : a[k];
+    return ~(lanes_fabs(sum) <= DBL_MAX);
+}
+
+/* As project_state of step.c: each lane is left as it is once it is closed. */
+static void project_state(Lanes t, Lanes *y, const LaneRun *x, const LaneParameters *p, LaneBits *rare)
+{
+    LaneBits open = ~(LaneBits){0};
+    for (int pass = 0; pass < 3 && N_LOOPS > 0 && any_of(open); pass++) {
+        Lanes dq[N_X], dv[N_X], worst;
+        closing_step(t, y, y + N_X, x, p, dq, dv, &worst, rare);
+        *rare |= open & (not_finite(dq, NULL, N_X) | not_finite(dv, NULL, N_X));
+        for (int k = 0; k < N_X; k++) {
+            y[k] = pick(open, y[k] - dq[k], y[k]);
+            y[N_X + k] = pick(open, y[N_X + k] - dv[k], y[N_X + k]);
+        }
+        open &= ~(worst < 1e-15);
+    }
+}
+
+/*
+ * Lanes in which a contact begins, ends or is touched within the step or goes too deep, or an event's expression
+ * changes its side.
+ */
+static LaneBits happens(const LaneRun *x, const LaneAside *aside, const LaneBits *touched, const LaneParameters *p)
+{
+    const Lanes deepest[] = {(1.0/10.0)*p->pin_radius, (1.0/10.0)*p->pin_radius};
+    LaneBits some = {0};
+    (void)p;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Lanes delta = aside->clearance[i].delta;
+        const LaneBits closed = x->latch[i].closed > 0.0;
+        some |= (closed & (delta < 0.0)) | (~closed & (touched[i] | (delta >= 0.0))) | (delta > deepest[i]);
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        const Lanes value = aside->event[i], side = x->event_side[i];
+        some |= ((value > 0.0) & ~(side > 0.0)) | ((value < 0.0) & ~(side < 0.0));
+    }
+    return some;
+}
+
+/* Height of the top of the cubic, as cubic_top of run.c, where the journal turned back within the step; else 0. */
+static Lanes top_of(Lanes d0, Lanes r0, Lanes d1, Lanes r1, LaneBits turned)
+{
+    const Lanes b = 3.0 * (d1 - d0) - 2.0 * r0 - r1, c = r0 + r1 - 2.0 * (d1 - d0);
+    const Lanes s = r0 / (lanes_sqrt(b * b - 3.0 * c * r0) - b);
+    return pick(turned, d0 + s * (r0 + s * (b + s * c)), all_of(0.0));
+}
+
+/* Peaks of one joint; the force's length is asked for only where it may be one. */
+static void watch_force(LaneRun *x, int i, const LaneClearance *joint)
+{
+    const LaneBits closed = x->latch[i].closed > 0.0;
+    const Lanes F_peak = x->latch[i].F_peak, F_open = x->latch[i].F_open;
+    const Lanes square = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
+    const LaneBits near_peak = square >= 0.999999 * (F_peak * F_peak), near_open = square >= 0.999999 * (F_open * F_open);
+    const LaneBits acts = lanes_fabs(joint->F_n) + lanes_fabs(joint->F_t) > 0.0;
+    if (!any_of((near_peak | (closed & near_open)) & acts))
+        return;
+    const Lanes F = lanes_hypot(joint->F_n, joint->F_t);
+    const LaneBits higher = F > F_peak, higher_open = closed & (F > F_open);
+    x->latch[i].F_peak = pick(higher, F, F_peak);
+    x->latch[i].t_peak = pick(higher, x->t, x->latch[i].t_peak);
+    x->latch[i].F_open = pick(higher_open, F, F_open);
+    x->latch[i].t_open = pick(higher_open, x->t, x->latch[i].t_open);
+}
+
+/* As accept of rk4.c, update_latches and watch of run.c where nothing happens. */
+static void watch(LaneRun *x, const LaneAside *aside, double h, const Lanes *phi, const Lanes *phi_dot)
+{
+    for (int r = 0; r < N_LOOPS; r++) {
+        x->phi_max = lanes_max_of(lanes_fabs(phi[r]), x->phi_max);
+        x->phi_dot_max = lanes_max_of(lanes_fabs(phi_dot[r]), x->phi_dot_max);
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const LaneClearance *joint = &aside->clearance[i];
+        const Lanes e = x->latch[i].e, rate = x->latch[i].deltadot;
+        const LaneBits closed = x->latch[i].closed > 0.0, turned = (rate > 0.0) & (joint->deltadot < 0.0);
+        if (any_of(turned))
+            x->latch[i].e_max =
+                lanes_max_of(top_of(e, h * rate, joint->e, h * joint->deltadot, turned), x->latch[i].e_max);
+        x->latch[i].e = joint->e;
+        x->latch[i].delta = joint->delta;
+        x->latch[i].deltadot = joint->deltadot;
+        x->latch[i].e_max = lanes_max_of(joint->e, x->latch[i].e_max);
+        watch_force(x, i, joint);
+        if (!any_of(closed))
+            continue;
+        const Lanes ratio = joint->deltadot / x->latch[i].deltadot_minus;
+        x->latch[i].compressing = pick(closed & (joint->deltadot <= 0.0), all_of(0.0), x->latch[i].compressing);
+        x->ratio_min = pick(closed & (ratio < x->ratio_min), ratio, x->ratio_min);
+        x->ratio_max = pick(closed & (ratio > x->ratio_max), ratio, x->ratio_max);
+        x->ratio_outside = pick(closed & ((ratio < -1.0) | (ratio > 1.0)), x->ratio_outside + 1.0, x->ratio_outside);
+    }
+}
+
+/*
+ * One step of all lanes, as rk4_trial and accept of rk4.c. Returns the lanes in which something rare is met; where
+ * there are any, `before` is x as it was.
+ */
+static LaneBits lane_step(LaneRun *x, double h, double t_new, const LaneParameters *p, LaneRun *before)
+{
+    static const double reach[3] = {0.5, 0.5, 1.0}, weight[3] = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+    const double t = x->t[0];
+    Lanes y[N_Y], k[N_Y], next[N_Y], phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];
+    LaneBits rare = {0}, touched[LANE_JOINTS] = { {0} };
+    LaneAside aside;
+    for (int j = 0; j < N_Y; j++)
+        next[j] = x->y[j] + h / 6.0 * x->dy[j];
+    const Lanes *slope = x->dy;
+    for (int stage = 0; stage < 3; stage++) {
+        for (int j = 0; j < N_Y; j++)
+            y[j] = x->y[j] + reach[stage] * h * slope[j];
+        motion(all_of(t + reach[stage] * h), y, x, p, k, &aside, &rare);
+        for (int j = 0; j < N_Y; j++)
+            next[j] += weight[stage] * h * k[j];
+        for (int i = 0; i < N_CLEARANCES; i++)
+            touched[i] |= aside.clearance[i].delta > 0.0;
+        slope = k;
+    }
+    project_state(all_of(t + h), next, x, p, &rare);
+    motion(all_of(t + h), next, x, p, k, &aside, &rare);
+    closures(all_of(t_new), next, p, phi, &rare);
+    closure_rates(all_of(t_new), next, next + N_X, p, phi_dot, &rare);
+    rare |= not_finite(k, next, N_Y) | happens(x, &aside, touched, p);
+    if (any_of(rare))
+        *before = *x;
+    for (int j = 0; j < N_Y; j++) {
+        x->y[j] = next[j];
+        x->dy[j] = k[j];
+    }
+    x->t = all_of(t_new);
+    x->steps += 1.0;
+    x->evaluations += 4.0;
+    watch(x, &aside, h, phi, phi_dot);
+    return rare;
+}
+/*
+ * Runs side by side: run[k] is the memory of number[k], which is -1 once that run has left. The lane of one that has
+ * left mirrors another: what fills it must not be rare.
+ */
+typedef struct {
+    const Batch *b;
+    const Single *one;
+    void *const *run;
+    long number[LANES];
+    LaneRun x;
+    LaneParameters p;
+    long made, rare; /* steps of all lanes, those of single runs among them */
+} Side;
+
+static void copy_lane(Lanes *x, size_t n, int to, int from)
+{
+    for (size_t j = 0; j < n; j++)
+        x[j][to] = x[j][from];
+}
+
+static int first_of(const Side *side)
+{
+    int k = 0;
+    while (k < LANES && side->number[k] < 0)
+        k++;
+    return k;
+}
+
+static int count_of(const Side *side)
+{
+    int count = 0;
+    for (int k = 0; k < LANES; k++)
+        count += side->number[k] >= 0;
+    return count;
+}
+
+static void mirror(Side *side)
+{
+    const int from = first_of(side);
+    for (int k = 0; k < LANES && from < LANES; k++) {
+        if (side->number[k] >= 0)
+            continue;
+        copy_lane((Lanes *)&side->x, sizeof(LaneRun) / sizeof(Lanes), k, from);
+        copy_lane((Lanes *)&side->p, sizeof(LaneParameters) / sizeof(Lanes), k, from);
+    }
+}
+
+static void gather(Side *side, int k)
+{
+    Moving state;
+    side->one->give(side->run[k], &state);
+    for (size_t j = 0; j < sizeof state / sizeof(double); j++)
+        ((Lanes *)&side->x)[j][k] = ((const double *)&state)[j];
+}
+
+static void scatter(const Side *side, const LaneRun *x, int k)
+{
+    Moving state;
+    for (size_t j = 0; j < sizeof state / sizeof(double); j++)
+        ((double *)&state)[j] = ((const Lanes *)x)[j][k];
+    side->one->take(side->run[k], &state);
+}
+
+static const double *parameters_of(const Side *side, int k)
+{
+    return side->b->p_motion + side->number[k] * side->b->numbers;
+}
+
+/* Begins run k, unless it goes on, and makes its first sample; what cannot begin leaves. */
+static void enter(Side *side, int k)
+{
+    const Batch *b = side->b;
+    const long i = side->number[k];
+    long taken;
+    if (b->phase[i] == NEW) {
+        b->status[i] = side->one->begin(b, i, side->run[k]);
+        b->phase[i] = b->status[i] ? OVER : BEGUN;
+        const double *p = parameters_of(side, k);
+        const int status = b->status[i] ? 0 : side->one->steps(side->run[k], p, b->t[0], b->t[0], 1, 0, 0, &taken);
+        if (status)
+            side->one->end(b, i, status, side->run[k]);
+        else if (!b->status[i])
+            side->one->sample(b, i, b->done[i]++, side->run[k]);
+        if (b->phase[i] == OVER) {
+            side->number[k] = -1;
+            return;
+        }
+    }
+    for (long j = 0; j < b->numbers; j++)
+        ((Lanes *)&side->p)[j][k] = parameters_of(side, k)[j];
+    gather(side, k);
+}
+
+/*
+ * The step of the rare lanes, which began at x, by their runs themselves. One whose lists are full leaves before it,
+ * one that it ends leaves after it.
+ */
+static void single_steps(Side *side, LaneBits rare, const LaneRun *x, double t0, double t1, long total, long first)
+{
+    const Batch *b = side->b;
+    for (int k = 0; k < LANES; k++) {
+        const long i = side->number[k];
+        long taken;
+        if (i < 0 || !rare[k])
+            continue;
+        scatter(side, x, k);
+        side->rare++;
+        const int status = side->one->steps(side->run[k], parameters_of(side, k), t0, t1, total, first, 1, &taken);
+        b->within[i] = first + taken;
+        b->t_last[i] = t0 + (double)b->within[i] * (t1 - t0) / (double)total;
+        if (!status) {
+            gather(side, k);
+            continue;
+        }
+        if (status != EVENTS_FULL)
+            side->one->end(b, i, status, side->run[k]);
+        side->number[k] = -1;
+    }
+    mirror(side);
+}
+
+/* Towards the next sample by at most `left` steps; whether it was reached. */
+static int advance(Side *side, long *left)
+{
+    const Batch *b = side->b;
+    const long i = side->number[first_of(side)], done = b->done[i];
+    const double t0 = b->t[done - 1], t1 = b->t[done];
+    const long total = (long)fmax(1.0, ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)));
+    const double h = (t1 - t0) / (double)total;
+    long within = b->within[i];
+    LaneRun before;
+    for (; within < total && *left > 0 && count_of(side); within++, --*left) {
+        const double t_new = within + 1 == total ? t1 : t0 + (double)(within + 1) * h;
+        const LaneBits rare = lane_step(&side->x, h, t_new, &side->p, &before);
+        side->made += LANES;
+        if (any_of(rare))
+            single_steps(side, rare, &before, t0, t1, total, within);
+    }
+    for (int k = 0; k < LANES; k++) {
+        const long own = side->number[k];
+        if (own < 0)
+            continue;
+        scatter(side, &side->x, k);
+        b->within[own] = within < total ? within : 0;
+        b->t_last[own] = t0 + (double)within * (t1 - t0) / (double)total;
+        if (within == total)
+            side->one->sample(b, own, b->done[own]++, side->run[k]);
+    }
+    return within == total;
+}
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    timespec_get(&now, TIME_UTC);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+int gudgeon_lane_count(void) { return LANES; }
+
+/*
+ * Runs number[k] (LANES of them, -1: none), which have the same step and have come equally far, each in a memory of
+ * its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes on alone
+ * from where it is (gudgeon_many), because it has come to its end, is the last, or most steps are rare.
+ */
+int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
+{
+    Side side = {.b = batch, .one = single, .run = run};
+    const double before = seconds_now();
+    long left = side.b->limit;
+    int entered = 0, together = 1;
+    for (int k = 0; k < LANES; k++) {
+        side.number[k] = number[k];
+        entered += number[k] >= 0;
+        if (number[k] >= 0)
+            enter(&side, k);
+    }
+    mirror(&side);
+    while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
+        if (side.b->done[side.number[first_of(&side)]] == side.b->samples) {
+            together = 0;
+            break;
+        }
+        advance(&side, &left);
+    }
+    const double share = (seconds_now() - before) / entered;
+    for (int k = 0; k < LANES; k++) {
+        if (number[k] >= 0)
+            side.b->seconds[number[k]] += share;
+        number[k] = side.number[k];
+    }
+    return together ? GOES_ON : ALL_OVER;
+}

@@ -1,0 +1,73 @@
+"""Runs of a batch side by side in vector registers (templates/c/lanes.c.jinja): rk4 with one step for all.
+
+Their library is compiled when a batch first asks for it. It moves runs on as far as they go together; what is then
+not over goes on alone, from where it is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.compiled import Array, CompiledModel
+
+if TYPE_CHECKING:
+    from gudgeon.integrators.many import Runs
+
+CDEF = """\
+int gudgeon_lane_count(void);
+int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number);
+"""
+NEW, OVER = 0, 2  # phases of a run
+NOT_CLOSED = -9  # status: the start is left to the search in Python
+NONE = -1  # in place of the number of a run
+LEAST = 2  # runs that are worth a vector
+
+
+class Lanes:
+    """The library of a scene's runs side by side; `count` of them."""
+
+    def __init__(self, compiled: CompiledModel) -> None:
+        from gudgeon.build import compile_kernels
+
+        source = replace(compiled.source, main=compiled.source.lanes, cdef=CDEF)
+        module: Any = compile_kernels(source, portable=compiled.portable)
+        self.lib, self.ffi = module.lib, module.ffi
+        self.count = int(self.lib.gudgeon_lane_count())
+        single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single())
+        self.single = self.ffi.cast("void *", int(single))
+
+    def groups(self, numbers: list[int], steps: Array) -> list[list[int]]:
+        """Runs that go side by side: neighbours with the same step."""
+        groups: list[list[int]] = []
+        for i in numbers:
+            if groups and len(groups[-1]) < self.count and steps[groups[-1][0]] == steps[i]:
+                groups[-1].append(i)
+            else:
+                groups.append([i])
+        return groups
+
+    def together(self, runs: Runs, group: list[int], memories: NDArray[np.uint8]) -> None:
+        """Moves these runs on, each in a row of `memories`, until none goes on with others."""
+        size = memories.strides[0]
+        rows = [memories.ctypes.data + k * size for k in range(self.count)]
+        pointers = self.ffi.new("void *[]", [self.ffi.cast("void *", row) for row in rows])
+        number = self.ffi.new("long[]", [*group, *[NONE] * (self.count - len(group))])
+        batch = self.ffi.cast("void *", int(runs.compiled.ffi.cast("uintptr_t", runs.struct)))
+        listed = bool(runs.compiled.source.clearances or runs.compiled.source.events)
+        goes_on = True
+        while goes_on and not runs.stopping:
+            before = list(number)
+            goes_on = bool(self.lib.gudgeon_lanes(batch, self.single, pointers, number))
+            for k, i in enumerate(group):
+                if listed and before[k] != NONE and runs.arrays["status"][i] != NOT_CLOSED:
+                    over = bool(runs.arrays["phase"][i] == OVER)
+                    runs.fetch(i, runs.compiled.ffi.cast("void *", rows[k]), over)
+
+
+def wanted(compiled: CompiledModel, method: str, steps: Array) -> bool:
+    """Whether a batch has runs that may go side by side."""
+    return method == "rk4" and bool(compiled.source.lanes) and bool((steps[1:] == steps[:-1]).any())
