@@ -72,7 +72,7 @@ COMPILED = [
     drive("smooth_step(" * 2 + T + ", 0.1, 1)" * 2),
     drive("ramp(" * 5 + T + ", 0.1, 2)" * 5),
     drive("sin(" * 40 + T + ")" * 40),
-    drive("abs(sign(t)) + ramp(t, 0, 1 s) + min(t, 2 s) * max(t, 1 s) * 1 1/s * 1 1/s"),
+    drive(f"abs(sin({T})) + ramp(t, 0, 1 s) + min(t, 2 s) * max(t, 1 s) * 1 1/s * 1 1/s"),
     torque("a.theta * 1e300 * 1e300"),
     torque("(-1 - a.theta**2)**0.5 * log(-abs(a.theta))"),
     torque("a.theta**a.theta * exp(-a.theta**2)**2**2**2"),
