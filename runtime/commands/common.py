@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from pathlib import Path
 
 from gudgeon.errors import GudgeonError, InputError, UnknownNameError
 from gudgeon.loading import find_mechanism, generator_hash, read_bytes
+from gudgeon.parameters import spaced
 
 SCENES = "scenes.json"
-# a number and a unit without the space that the file format wants between them: nothing else can be meant
-_GLUED = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµμ°].*)")
 
 
 def scene_names(mechanism: str) -> tuple[str, ...]:
@@ -56,8 +54,7 @@ def value(text: str) -> float | str:
     try:
         return float(text)
     except ValueError:
-        glued = _GLUED.fullmatch(text.strip())
-        return f"{glued[1]} {glued[2]}" if glued else text.strip()
+        return spaced(text)
 
 
 def write_text(path: Path, text: str) -> None:
@@ -71,6 +68,22 @@ def write_text(path: Path, text: str) -> None:
         raise GudgeonError(f"cannot write {path}: {error.strerror or error}") from error
     finally:
         aside.unlink(missing_ok=True)
+
+
+def check_folder(option: str, out: Path) -> None:
+    """What can be known about a folder is told before anything is run, not after an hour."""
+    there = next(path for path in (out, *out.absolute().parents) if path.exists())
+    if not there.is_dir():
+        raise InputError(f"{option} {out}: {there} is a file", hint="name a folder")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise InputError(f"{option} {out}: nothing may be written to {there}", hint="name another folder")
+
+
+def check_file(option: str, path: Path) -> None:
+    """The same of a file that will be written, or replaced."""
+    check_folder(option, path.parent)
+    if path.is_dir():
+        raise InputError(f"{option}: {path} is a folder", hint="name a file")
 
 
 def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
