@@ -142,6 +142,8 @@ class Simulation:
         when the equations cannot be solved; its `partial` is the result up to there.
         """
         if method in python_driver.NAMES and self.source.formulation != "full":
+            if progress and self._full is None:
+                progress(0.0, "deriving the full formulation")
             return self.full.simulate(
                 t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
                 progress=progress, horizon=horizon, stop=stop,

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 WORST = 8  # points that are told with what runs them again; the rest is in the table on disk
 SEVERITY = (Status.DIVERGED, Status.INACCURATE, Status.OUTSIDE, Status.STABLE, Status.MISSING)  # worst first
-_NUMBER = re.compile(r"[<>]? ?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
+_NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 
 
 def show_box(source: KernelSource, found: Sequence[StressBox], table: Path, as_json: bool = False) -> None:
@@ -79,7 +79,7 @@ def grouped(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
 
 def kind(reason: str) -> str:
     """What a reason says without the figures of its run."""
-    return _NUMBER.sub("…", re.split(r" at t = |: ", reason)[0])
+    return _NUMBER.sub("…", re.split(r",? at t = |: ", reason)[0]).strip(", ")
 
 
 def worst_cells(cells: Sequence[Cell]) -> list[Cell]:

@@ -118,9 +118,9 @@ def test_reasons_are_grouped_without_their_numbers() -> None:
     found = [(status, reason, len(own)) for status, reason, own in grouped(cells)]
     assert found == [
         (Status.DIVERGED, "no step is small enough", 2), (Status.DIVERGED, "a journal flew through its bearing", 1),
-        (Status.INACCURATE, "joint force off by… of its peak", 2), (Status.STABLE, "", 1),
+        (Status.INACCURATE, "joint force off by … of its peak", 2), (Status.STABLE, "", 1),
     ]  # fmt: skip
-    assert kind("more than 120 s of processor time") == "more than… s of processor time"
+    assert kind("more than 120 s of processor time") == "more than … s of processor time"
     worst = [c.reason for c in worst_cells(cells)]
     assert worst[:3] == [cells[0].reason, cells[5].reason, cells[3].reason] and len(worst) == 5  # one of each first
     assert len(worst_cells(cells * 9)) == WORST
