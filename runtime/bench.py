@@ -10,15 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from fnmatch import fnmatchcase
-from importlib.util import find_spec
 
 import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.integrators import python_driver
-from gudgeon.integrators.sundials_backend import INSTALL
 from gudgeon.measure import work as measured
+from gudgeon.measure.choice import ADAPTIVE, adaptive, choice
 from gudgeon.measure.rhs import RhsTime, time_rhs
 from gudgeon.measure.work import NAN, Attempt, Error, Parameters, Setting, Work, difference, natural_step, size
 from gudgeon.simulation import Simulation
@@ -29,7 +27,6 @@ REFERENCE_STEPS = 200_000  # of the finest step: what bounds a smooth scene's wi
 FINER = (4, 8)  # where nothing but a fixed step fits: the references' steps, the finest tested one divided by these
 REFERENCES = (Setting("dop853", 1e-13), Setting("rodas5p", 1e-12))
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 12))
-ADAPTIVE = ("dop853", "rodas5p", "auto")
 KINEMATIC = (10, 100, 1_000, 10_000)  # samples of a scene without a degree of freedom
 LONG, LIMIT = 2.0, 5.0  # s: a cross-check that took so long gets no tighter tolerance, and is stopped then
 QUICK = 0.02  # s of timed runs
@@ -146,8 +143,11 @@ def bench(
     work = replace(work, enough=QUICK if quick else work.enough)
     settings = [Setting("rk4", step) for step in steps if "rk4" in chosen]
     settings += [Setting(method, x) for method in chosen if method in ADAPTIVE for x in tolerances]
-    settings += [Setting(method, x) for method in chosen if method in python_driver.NAMES for x in tolerances[::2]]
-    wanted = REFERENCES if _adaptive(simulation) else references(settings)
+    checks = [method for method in chosen if method in python_driver.NAMES]
+    if checks:
+        _ = simulation.full  # derived and compiled before any of them is timed
+    settings += [Setting(method, x) for method in checks for x in tolerances[::2]]
+    wanted = REFERENCES if adaptive(simulation) else references(settings)
     found = _measure(work, settings, wanted, progress or (lambda fraction, text: None))
     return replace(found, left_out=(*left_out, *found.left_out))
 
@@ -156,39 +156,6 @@ def usual_steps(simulation: Simulation, parameters: Parameters | None = None, qu
     """1, 2, 5 · 10^k s around the step of a plain run."""
     usual = natural_step(simulation, parameters)
     return measured.round_numbers(usual * (1 if quick else FINEST), usual * COARSEST)
-
-
-def _adaptive(simulation: Simulation) -> bool:
-    return set(ADAPTIVE[:2]) <= set(simulation.source.methods)
-
-
-def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
-    """Methods that fit a scene, of those wanted (names, or patterns such as "scipy:*"), and why others are left out.
-
-    By default all; with `quick` without the cross-checks, which take long. BadValueError for a name that is none.
-    """
-    every = ("rk4", *ADAPTIVE, *python_driver.NAMES)
-    usual = every[: 1 + len(ADAPTIVE)] if quick else every
-    named = usual if wanted is None else [m for m in every if any(fnmatchcase(m, text) for text in wanted)]
-    for text in wanted or ():
-        if not any(fnmatchcase(method, text) for method in every):
-            raise BadValueError(f"method {text!r}: expected some of {', '.join(every)}, or a pattern such as 'scipy:*'")
-    reason = python_driver.unfit(simulation.source)
-    found, left_out = [], []
-    for method in named:
-        package = method.partition(":")[0]
-        if method in ADAPTIVE and not _adaptive(simulation):
-            continue
-        if method in python_driver.NAMES and reason:
-            left_out.append(f"{package}:* left out: {reason}")
-        elif method in python_driver.SUNDIALS and find_spec("sksundae") is None:
-            left_out.append(f"sundials:* left out: scikit-sundae is not installed ({INSTALL})")
-        else:
-            found.append(method)
-    if not found:
-        told = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} takes a fixed step only: rk4"]
-        raise BadValueError("none of the methods fits", hint="; ".join(told))
-    return found, list(dict.fromkeys(left_out))
 
 
 def references(settings: Sequence[Setting]) -> tuple[Setting, Setting]:
@@ -244,12 +211,16 @@ def _rows(
             rows.append(_row(work, found, good))
         except KeyboardInterrupt:
             return rows, list(slow.values()), sum(other.method not in slow for other in settings[k:])
-        if setting.method in python_driver.NAMES and found.cpu > LONG and k + 1 < len(settings):
+        if setting.method in python_driver.NAMES and _seconds(found) > LONG and k + 1 < len(settings):
             following = settings[k + 1]
             if following.method == setting.method:
-                took = f"{setting} took {found.cpu:.2g} s"
+                took = f"{setting} took {_seconds(found):.2g} s"
                 slow[setting.method] = f"{setting.method}: {following} and tighter left out: {took}"
     return rows, list(slow.values()), 0
+
+
+def _seconds(found: Attempt) -> float:
+    return found.run.diagnostics.seconds if found.run is not None else 0.0
 
 
 def _row(work: Work, found: Attempt, good: Sequence[Attempt]) -> Row:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from gudgeon.bench import SceneBench, bench, choice, usual_steps
+from gudgeon.bench import SceneBench, bench, usual_steps
 from gudgeon.commands.measure import Request, each, exit_code, load_scenes
 from gudgeon.commands.progress import Report
+from gudgeon.measure.choice import choice
 from gudgeon.measure.show_bench import show_bench
 from gudgeon.simulation import Simulation
 

@@ -72,6 +72,12 @@ def test_the_reference_has_the_parameters_of_the_scene(call: Gudgeon, tmp_path: 
         (("--t-end", "0"), "t_end"),
         (("--step", "-1us"), "step"),
         (("--method", "euler"), "rk4"),
+        (("--scene", "worn", "--method", "kinematic"), "use auto"),
+        (("--method", "rk4", "--rtol", "1e-6"), "no tolerance"),
+        (("--step", "1us", "--rtol", "1e-6"), "leave out rtol"),
+        (("--rtol", "1e-16"), "from 1e-14 to 1"),
+        (("--set", "contacts.dry.normal.restitution=1.5"), "expected > 0 and <= 1"),
+        (("--formulation", "tree"), "reduced, full"),
         (("--output", "0"), "output"),
     ],
 )
@@ -81,8 +87,22 @@ def test_bad_arguments_end_with_2_and_nothing_written(
     done = call("run", pump, *arguments)
     assert done.exit_code == 2, done.output
     assert told in done.stderr
-    assert "Traceback" not in done.stderr
+    assert "Traceback" not in done.stderr and "adaptive" not in done.stderr
     assert written(tmp_path) == set()
+
+
+@needs_compiler
+def test_the_full_formulation_is_what_is_integrated(call: Gudgeon, pump: str) -> None:
+    """Baumgarte's gains act there and nowhere else."""
+
+    def run(*arguments: str) -> Any:
+        done = call("run", pump, "--scene", "worn", "--method", "rk4", "--json", *arguments)
+        assert done.exit_code == 0, done.output
+        return json.loads(done.stdout)["scenes"]["worn"]["diagnostics"]["phi_dot_max"]
+
+    gains = ("--set", "baumgarte.alpha=1", "--set", "baumgarte.beta=1")
+    assert run() == run(*gains)
+    assert run("--formulation", "full") != run("--formulation", "full", *gains)
 
 
 @needs_compiler
