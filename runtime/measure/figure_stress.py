@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from gudgeon.measure.cells import Cell, Status
-from gudgeon.measure.show_stress import value
+from gudgeon.measure.show_stress import explain, value
 from gudgeon.measure.words import seconds
 from gudgeon.plots import IDEAL, STYLE
 from gudgeon.stress import StressMap
@@ -22,14 +22,6 @@ if TYPE_CHECKING:
 FILL = {
     Status.STABLE: "#a8d8c0", Status.OUTSIDE: "#c9c9c9", Status.INACCURATE: "#f6d48f", Status.DIVERGED: "#e79a78",
     Status.MISSING: "#f4f4f4",
-}  # fmt: skip
-# what a cell's label may begin with, and what that says; told where a cell has it
-LABELS = {
-    "at": "at: when the run failed", "energy": "energy: residual, or it comes from nowhere",
-    "motion": "motion: coordinates off by", "force": "force, path: off by", "path": "force, path: off by",
-    "through": "through: a journal left its bearing",
-    "lost": "lost: a contact was", "|Φ|": "|Φ|: constraints open", "?": "?: the finer run fails", "–": "–: not judged",
-    "δ": "δ: penetration beyond half the clearance or a hundredth of the bearing's radius",
 }  # fmt: skip
 NAMES = {"step": "step", "rtol": "tolerance", "clearance": "radial clearance"}
 
@@ -56,14 +48,6 @@ def stress_figure(title: str, found: Sequence[StressMap], mark_step: float | Non
             handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=explain(found), title_fontsize=8
         )
     return picture
-
-
-def explain(found: Sequence[StressMap]) -> str:
-    """What stands in the cells, of all that may stand there what does; three to a line."""
-    used = {cell.label.split(" ")[0] for scene in found for cell in scene.cells}
-    told = dict.fromkeys(text for word, text in LABELS.items() if word in used)
-    parts = ["a number: largest error against a finer run", *told]
-    return "\n".join(" · ".join(parts[k : k + 3]) for k in range(0, len(parts), 3))
 
 
 def _draw_map(ax: Axes, scene: StressMap, mark_step: float | None) -> None:

@@ -30,6 +30,15 @@ PASCAL = {"kg/m/s^2": "Pa", "kg/m/s": "Pa*s"}  # what only base units are known 
 SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", Status.DIVERGED: "✗",
          Status.MISSING: "·"}  # fmt: skip
 
+# what a cell's label may begin with, and what that says; told where a cell has it
+LABELS = {
+    "at": "at: when the run failed", "energy": "energy: residual, or it comes from nowhere",
+    "motion": "motion: coordinates off by", "force": "force, path: off by", "path": "force, path: off by",
+    "through": "through: a journal left its bearing",
+    "lost": "lost: a contact was", "|Φ|": "|Φ|: constraints open", "?": "?: the finer run fails", "–": "–: not judged",
+    "δ": "δ: penetration beyond half the clearance or a hundredth of the bearing's radius",
+}  # fmt: skip
+
 
 def show_stress(
     source: KernelSource, found: Sequence[StressMap], table: Path, mark_step: float | None, as_json: bool = False
@@ -63,6 +72,8 @@ def show_stress(
         elif failures := [cell for cell in scene.cells if cell.failed]:
             out.print(failure_table(source.mechanism, scene, failures))
     out.print(legend(found))
+    for line in explain(found).splitlines():
+        out.print(f"  {line}", markup=False)
     for line in verdict(found, mark_step):
         out.print(line, markup=False)
     for path in written:
@@ -118,6 +129,14 @@ def legend(found: Sequence[StressMap | StressBox]) -> str:
     """Signs and verdicts, "not judged" only where there is such a cell."""
     shown = [s for s in Status if s is not Status.MISSING or any(scene.interrupted for scene in found)]
     return "   ".join(f"[{COLOURS[status]}]{SIGNS[status]} {status.value}[/]" for status in shown)
+
+
+def explain(found: Sequence[StressMap]) -> str:
+    """What stands in the cells, of all that may stand there what does; three to a line."""
+    used = {cell.label.split(" ")[0] for scene in found for cell in scene.cells}
+    told = dict.fromkeys(text for word, text in LABELS.items() if word in used)
+    parts = ["a number: largest error against a finer run", *told]
+    return "\n".join(" · ".join(parts[k : k + 3]) for k in range(0, len(parts), 3))
 
 
 def command(mechanism: str, scene: str, cell: Cell, full: bool = False) -> str:
