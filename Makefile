@@ -5,7 +5,7 @@ ARGS ?=
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run checks test test-all lint types fuzz bench race stress generated setup setup-test clean
+.PHONY: help run checks test test-all lint types fuzz bench race stress peers generated setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -50,6 +50,9 @@ race:  ## time to reach an error, gudgeon beside its peers; writes docs/race.md.
 
 stress: setup  ## step of rk4 × clearance: stable, inaccurate, diverged; without --method: tolerance × clearance
 	@$(GUDGEON) stress nine_bar_press --method rk4 --mark-step 0.1ms $(ARGS)
+
+peers: setup  ## scikit-sundae, for the methods sundials:*; the next `bench` includes them
+	@.venv/bin/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt scikit-sundae
 
 generated: setup  ## derive and write generated/ anew for every shipped mechanism
 	@.venv/bin/python tools/regenerate.py

@@ -14,7 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gudgeon.errors import BadValueError
+from gudgeon.integrators import python_driver
 from gudgeon.measure import work as measured
+from gudgeon.measure.choice import ADAPTIVE, adaptive, choice
 from gudgeon.measure.rhs import RhsTime, time_rhs
 from gudgeon.measure.work import NAN, Attempt, Error, Parameters, Setting, Work, difference, natural_step, size
 from gudgeon.simulation import Simulation
@@ -25,8 +27,8 @@ REFERENCE_STEPS = 200_000  # of the finest step: what bounds a smooth scene's wi
 FINER = (4, 8)  # where nothing but a fixed step fits: the references' steps, the finest tested one divided by these
 REFERENCES = (Setting("dop853", 1e-13), Setting("rodas5p", 1e-12))
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 12))
-ADAPTIVE = ("dop853", "rodas5p", "auto")
 KINEMATIC = (10, 100, 1_000, 10_000)  # samples of a scene without a degree of freedom
+LONG, LIMIT = 2.0, 5.0  # s: a cross-check that took so long gets no tighter tolerance, and is stopped then
 QUICK = 0.02  # s of timed runs
 TRUSTED = 20  # times the references' difference: smaller errors are not resolved
 SMALL = 1e-3  # the largest error that tells an order
@@ -60,6 +62,18 @@ class SceneBench:
     agreement: Error  # of the two references
     contact: float  # s, the shortest contact in the window; NaN: none
     rhs: tuple[RhsTime, ...]
+    left_out: tuple[str, ...] = ()  # sentences: cross-checks that were not run, or not so tightly
+    missing: int = 0  # settings that Ctrl-C cut short or left out
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether Ctrl-C left rows out."""
+        return self.missing > 0
+
+    @property
+    def done(self) -> tuple[int, int]:
+        """Rows that there are, rows that were asked for."""
+        return len(self.rows), len(self.rows) + self.missing
 
     @property
     def methods(self) -> tuple[str, ...]:
@@ -106,30 +120,42 @@ Report = Callable[[float, str], None]
 def bench(
     simulation: Simulation, steps: Sequence[float] | None = None, tolerances: Sequence[float] | None = None, *,
     t_end: float | None = None, parameters: Parameters | None = None, quick: bool = False,
-    progress: Report | None = None,
+    methods: Sequence[str] | None = None, progress: Report | None = None,
 ) -> SceneBench:  # fmt: skip
     """Measure one scene. `steps` (s) of rk4 default to 1, 2, 5 · 10^k around the step of a plain run.
 
-    `tolerances` of the other methods default to 1e-3 … 1e-11. `t_end` (s) defaults to the first few contacts
-    or, without contact, to as many of the shortest steps as are affordable. `quick` takes fewer of both, a
-    tenth of the window and shorter measurements.
+    `methods`: as `choice` takes them, by default all that fit. `tolerances` default to 1e-3 … 1e-11. `t_end` (s)
+    defaults to the first few contacts or, without contact, to as many of the shortest steps as are affordable.
+    `quick` takes fewer of both, a tenth of the window, shorter measurements and no cross-checks. After Ctrl-C the
+    rows until then.
     """
     parameters = dict(parameters or {})
     if simulation.source.degrees_of_freedom == 0:
         return _kinematic(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
-    usual = natural_step(simulation, parameters)
-    steps = sorted(steps or measured.round_numbers(usual * (1 if quick else FINEST), usual * COARSEST), reverse=True)
+    chosen, left_out = choice(simulation, methods, quick)
+    steps = sorted(steps or usual_steps(simulation, parameters, quick), reverse=True)
     tolerances = sorted(tolerances or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True)
     if not steps[-1] > 0 or not 0 < tolerances[-1] <= tolerances[0] < 1:
         raise BadValueError("expected positive steps (s) and tolerances between 0 and 1")
     longest = max(REFERENCE_STEPS * steps[-1] / (10 if quick else 1), 2 * steps[0])
-    pilot = Setting("rk4", usual)
+    pilot = Setting("rk4", natural_step(simulation, parameters))
     work = Work(simulation, t_end, parameters) if t_end else measured.window(simulation, longest, pilot, parameters)
     work = replace(work, enough=QUICK if quick else work.enough)
-    settings = [Setting("rk4", step) for step in steps]
-    fitting = [m for m in ADAPTIVE if set(ADAPTIVE[:2]) <= set(simulation.source.methods)]
-    settings += [Setting(method, tolerance) for method in fitting for tolerance in tolerances]
-    return _measure(work, settings, references(settings), progress or (lambda fraction, text: None))
+    settings = [Setting("rk4", step) for step in steps if "rk4" in chosen]
+    settings += [Setting(method, x) for method in chosen if method in ADAPTIVE for x in tolerances]
+    checks = [method for method in chosen if method in python_driver.NAMES]
+    if checks:
+        _ = simulation.full  # derived and compiled before any of them is timed
+    settings += [Setting(method, x) for method in checks for x in tolerances[::2]]
+    wanted = REFERENCES if adaptive(simulation) else references(settings)
+    found = _measure(work, settings, wanted, progress or (lambda fraction, text: None))
+    return replace(found, left_out=(*left_out, *found.left_out))
+
+
+def usual_steps(simulation: Simulation, parameters: Parameters | None = None, quick: bool = False) -> tuple[float, ...]:
+    """1, 2, 5 · 10^k s around the step of a plain run."""
+    usual = natural_step(simulation, parameters)
+    return measured.round_numbers(usual * (1 if quick else FINEST), usual * COARSEST)
 
 
 def references(settings: Sequence[Setting]) -> tuple[Setting, Setting]:
@@ -146,9 +172,10 @@ def _measure(work: Work, settings: Sequence[Setting], wanted: Sequence[Setting],
 
     def attempt(done: int, setting: Setting) -> Attempt:
         text = f"{setting.method} {setting}"
-        return work.run(setting, lambda fraction, _: progress((done + fraction) / count, text))
+        limited = replace(work, limit=LIMIT) if setting.method in python_driver.NAMES else work
+        return limited.run(setting, lambda fraction, _: progress((done + fraction) / count, text))
 
-    found = [attempt(done, setting) for done, setting in enumerate(wanted)]
+    found = [attempt(done, setting) for done, setting in enumerate(wanted)]  # without them there is nothing to say
     good = [a for a in found if a.run is not None and not a.failure]
     agreement, contact = Error(math.inf, math.inf, math.inf), NAN
     if good and good[0].run is not None:
@@ -156,20 +183,57 @@ def _measure(work: Work, settings: Sequence[Setting], wanted: Sequence[Setting],
         contact = float(np.nanmin(lengths)) if np.isfinite(lengths).any() else NAN
     if len(good) == 2 and good[0].run is not None and good[1].run is not None:
         agreement = difference(good[0].run, good[1].run)
-    rows = [_row(work, attempt(len(wanted) + k, setting), good) for k, setting in enumerate(settings)]
-    rhs = tuple(time_rhs(work.simulation, work.t_end))
+    rows, left_out, missing = _rows(work, settings, good, lambda k, one: attempt(len(wanted) + k, one))
+    rhs = () if missing else tuple(time_rhs(work.simulation, work.t_end))
     name = work.simulation.source.scene
-    return SceneBench(name, work.t_end, work.why, tuple(rows), tuple(wanted), agreement, contact, rhs)
+    return SceneBench(
+        name, work.t_end, work.why, tuple(rows), tuple(wanted), agreement, contact, rhs, tuple(left_out), missing
+    )
+
+
+def _rows(
+    work: Work, settings: Sequence[Setting], good: Sequence[Attempt], attempt: Callable[[int, Setting], Attempt]
+) -> tuple[list[Row], list[str], int]:
+    """Row by row, loose before tight; where a cross-check took long its tighter ones are left out. (rows, why, missing)
+
+    `missing`: how many Ctrl-C left out.
+    """
+    rows: list[Row] = []
+    slow: dict[str, str] = {}
+    for k, setting in enumerate(settings):
+        if setting.method in slow:
+            continue
+        try:
+            found = attempt(k, setting)
+            if found.slow:
+                slow[setting.method] = f"{setting.method}: {setting} and tighter left out: {found.failure}"
+                continue
+            rows.append(_row(work, found, good))
+        except KeyboardInterrupt:
+            return rows, list(slow.values()), sum(other.method not in slow for other in settings[k:])
+        if setting.method in python_driver.NAMES and _seconds(found) > LONG and k + 1 < len(settings):
+            following = settings[k + 1]
+            if following.method == setting.method:
+                took = f"{setting} took {_seconds(found):.2g} s"
+                slow[setting.method] = f"{setting.method}: {following} and tighter left out: {took}"
+    return rows, list(slow.values()), 0
+
+
+def _seconds(found: Attempt) -> float:
+    return found.run.diagnostics.seconds if found.run is not None else 0.0
 
 
 def _row(work: Work, found: Attempt, good: Sequence[Attempt]) -> Row:
     if found.failure or found.run is None:
         return Row(found.setting, NAN, 0, Error(), 0, 0, None, found.failure or "no result", found.failed_at)
     diagnostics = found.run.diagnostics
-    other = other_than(diagnostics.method.split("+"), good)
+    names = diagnostics.method.split("+")
+    other = other_than([*names, names[0].rpartition(":")[2].lower()], good)  # nor by the same from elsewhere
     error = difference(found.run, other.run) if other is not None and other.run is not None else Error()
+    known = diagnostics.seconds if found.setting.method in python_driver.NAMES else 0.0
+    seconds = known if known > work.enough else work.seconds(found.setting)
     return Row(
-        found.setting, work.seconds(found.setting) / work.t_end, diagnostics.right_hand_sides, error,
+        found.setting, seconds / work.t_end, diagnostics.right_hand_sides, error,
         diagnostics.jacobians, 0, None if other is None else other.setting,
     )  # fmt: skip
 

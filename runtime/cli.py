@@ -95,6 +95,9 @@ def run(
         list[str] | None,
         typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
     ] = None,
+    formulation: Annotated[
+        str, typer.Option(help="reduced (coordinates of a tree), or full: absolute ones, rk4 with Baumgarte's gains.")
+    ] = "reduced",
     horizon: Annotated[
         bool, typer.Option("--horizon", help="Run thrice more to find the time to which each trace can be trusted.")
     ] = False,
@@ -114,7 +117,7 @@ def run(
 
     request = Request(
         file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, rtol, tuple(watch or ()), out,
-        horizon, regenerate, json,
+        horizon, regenerate, json, formulation,
     )  # fmt: skip
     return run_scenes(request)
 
@@ -194,18 +197,25 @@ Csv = Annotated[Path | None, typer.Option("--csv", help="Where the table goes, t
 @_told
 def bench(
     file: File, scene: Scenes = None, set_: Set = None, t_end: End = None, out: Out = Path("out"), csv: Csv = None,
-    quick: Quick = False, mark: Mark = None, json: Json = False,
+    quick: Quick = False, mark: Mark = None,
+    methods: Annotated[
+        list[str] | None,
+        typer.Option("--methods", metavar="NAMES", help="Only these: auto,dop853,rodas5p,rk4,scipy:*,sundials:cvode."),
+    ] = None,
+    json: Json = False,
 ) -> int:  # fmt: skip
     """Run time against error with every method, for each scene: a table, a CSV file, a picture.
 
-    Errors are taken against another method at a much tighter tolerance.
+    Errors are taken against another method at a much tighter tolerance. The cross-checks (scipy:*, sundials:*)
+    take part where a scene allows them, at fewer tolerances where they are slow; with --quick they stay away.
 
     Example: gudgeon bench engine.yaml --scene dry --mark-step 0.1ms
     """
-    from gudgeon.commands.measure import Request, bench_file
+    from gudgeon.commands.bench import bench_file
+    from gudgeon.commands.measure import Request
 
-    sets = tuple(set_ or ())
-    return bench_file(Request(file, tuple(scene or ()), sets, t_end, out, csv, quick, mark, json))
+    request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
+    return bench_file(request, tuple(methods or ()))
 
 
 @app.command()
@@ -239,7 +249,8 @@ def stress(
 
     Example: gudgeon stress engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
     """
-    from gudgeon.commands.measure import Request, Stress, stress_file
+    from gudgeon.commands.measure import Request
+    from gudgeon.commands.stress import Stress, stress_file
 
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
     return stress_file(request, Stress(method, at, tuple(axis or ()), box, tuple(range_ or ())))

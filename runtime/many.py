@@ -14,12 +14,12 @@ from numpy.typing import ArrayLike
 from gudgeon.batch import Batch, as_failures, given_values, peaks_of
 from gudgeon.compiled import Array
 from gudgeon.errors import BadValueError, SolverError
-from gudgeon.integrators import many
+from gudgeon.integrators import adaptive, many
 from gudgeon.integrators.trajectory import Counts, Problem, Progress
 from gudgeon.left_out import left_out
 from gudgeon.parameter_sets import Mask, ParameterSets, given_sets, prepare_sets
 from gudgeon.results import Result
-from gudgeon.simulation import MAX_STEPS, _tolerance
+from gudgeon.simulation import MAX_STEPS
 from gudgeon.single_runs import run_singly
 
 if TYPE_CHECKING:
@@ -45,17 +45,18 @@ def simulate_many(
         raise BadValueError(f"threads is {threads!r}: expected a number of threads, 1 or more")
     times = simulation._times(0.0, t_end, output)
     chosen = simulation._method(method, step is not None)
+    tolerance = adaptive.tolerance(rtol, chosen, step is not None)
     if chosen in many.METHODS and not left_out(simulation.compiled):
         free = chosen != "rk4"
         p, motion, bad = prepare_sets(simulation.compiled, given, is_given, free)
         steps = np.array([simulation._step(step, chosen, row, float(times[-1])) for row in p])
         if (times[-1] / steps).max() > MAX_STEPS:
             raise BadValueError(f"step {steps.min():.3g} s means more than {MAX_STEPS:.0e} steps")
-        runs = many.Runs(simulation.compiled, p, motion, times, chosen, steps, _tolerance(rtol), stop, side_by_side)
+        runs = many.Runs(simulation.compiled, p, motion, times, chosen, steps, tolerance, stop, side_by_side)
         runs.leave_out(bad)
         before = time.perf_counter()
         runs.run(workers, progress)
-        batch = _of_runs(simulation, runs, given, is_given, _tolerance(rtol), stop, chosen)
+        batch = _of_runs(simulation, runs, given, is_given, tolerance, stop, chosen)
         return replace(batch, seconds=time.perf_counter() - before, threads=workers)
     options = {"t_end": t_end, "output": output, "method": method, "rtol": rtol, "step": step, "stop": stop}
     return run_singly(simulation, given, is_given, times, options, workers, progress)

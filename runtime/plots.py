@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+import textwrap
 import threading
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
 # Okabe and Ito's palette: told apart by readers with any of the common colour deficiencies
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 IDEAL = "#222222"
+TITLE = 66  # characters of a line, beside which the legend fits
+UNTRUSTED = "#888888"  # beyond a run's horizon
 STYLE = {
     "font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "xtick.labelsize": 8, "ytick.labelsize": 8,
     "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#888888", "axes.grid": True,
@@ -103,11 +106,16 @@ def reach(run: Result, joint: str) -> float:
     return 1.04 * max(1.0, _peak(run[f"{joint}.eps"]))
 
 
+def _trusted(run: Result) -> float | None:
+    """Time (s) to which a run can be trusted, None: to its end, or nobody asked."""
+    horizon = run.diagnostics.horizon
+    return horizon if np.isfinite(horizon) and horizon < run.t[-1] else None
+
+
 def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
     """Over time: a thin line where the trace can no longer be trusted, and grey beyond; nothing where it always can."""
-    horizon = run.diagnostics.horizon
-    if np.isfinite(horizon) and horizon < run.t[-1]:
-        ax.axvspan(horizon, float(run.t[-1]), color="#888888", alpha=0.1, lw=0, zorder=0)
+    if (horizon := _trusted(run)) is not None:
+        ax.axvspan(horizon, float(run.t[-1]), color=UNTRUSTED, alpha=0.1, lw=0, zorder=0)
         ax.axvline(horizon, color=colour, lw=0.8, ls=":", zorder=1)
 
 
@@ -116,9 +124,13 @@ def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half: float) -> N
     c = run.constants[f"{joint}.c"]
     x, y, angle = run[f"{joint}.ex"] / c, run[f"{joint}.ey"] / c, np.linspace(0.0, 2 * np.pi, 181)
     ax.fill(np.cos(angle), np.sin(angle), facecolor="#f6f6f6", edgecolor="#777777", lw=0.9, zorder=1)
-    ax.plot(x, y, color=colour, lw=0.7, alpha=0.8, zorder=2)
-    touching = run[f"{joint}.delta"] >= 0
-    ax.plot(x[touching], y[touching], ".", color=colour, ms=2.2, zorder=3)
+    ends = _trusted(run) or float(run.t[-1])
+    touching, known = run[f"{joint}.delta"] >= 0, run.t <= ends
+    beyond = run.t >= run.t[known][-1]  # from the last trusted sample on, so that the path has no gap
+    ax.plot(x[known], y[known], color=colour, lw=0.7, alpha=0.8, zorder=2)
+    ax.plot(x[touching & known], y[touching & known], ".", color=colour, ms=2.2, zorder=3)
+    if not known.all():
+        ax.plot(x[beyond], y[beyond], color=UNTRUSTED, lw=0.5, alpha=0.6, zorder=1.5)
     ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=IDEAL, mew=0.9, zorder=4)
     ax.set(xlim=(-half, half), ylim=(-half, half), aspect="equal", xticks=[], yticks=[])
     factor, text = scale(c, "m")
@@ -210,7 +222,7 @@ def _draw_forces(
 
 def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
     """Only the last row of a column is labelled with the time."""
-    ax.set_ylabel(text)
+    ax.set_ylabel(_folded(ax, text))
     start, end = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
     ax.set_xlim(start, end if end > start else start + 1.0)
     ax.tick_params(labelbottom=last)
@@ -219,6 +231,18 @@ def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
         ax.xaxis.set_major_formatter(lambda t, _: f"{t * factor:g}")
         ax.set_xlabel(label("t", text))
     ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]))
+
+
+def _folded(ax: Axes, text: str) -> str:
+    """A label in as many lines as the height of its axes asks for: names of bodies may be long."""
+    spec = ax.get_subplotspec()
+    share = spec.rowspan.stop - spec.rowspan.start if spec else 1
+    rows = spec.get_gridspec().nrows if spec else 1
+    points = 72 * float(ax.get_figure(root=True).get_size_inches()[1]) * 0.85 * share / rows
+    width = max(8, int(points / (0.58 * float(ax.yaxis.label.get_size()))))
+    words = [word if len(word) <= width else word.replace(".", ".\u200b") for word in text.split(" ")]
+    lines = textwrap.wrap(" ".join(words).replace("\u200b", " \u200b"), width, break_long_words=False)
+    return "\n".join(lines).replace(" \u200b", "").replace("\u200b", "")
 
 
 def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
@@ -237,12 +261,16 @@ def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], c
 def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str], compared: bool) -> None:
     """Title from the mechanism's file and one legend for all panels."""
     from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
 
     run = next(iter(runs.values()))
-    picture.suptitle(run.source.title or run.source.mechanism, fontsize=13, fontweight="bold", x=0.012, ha="left")
-    handles = [Line2D([], [], color=colour, lw=2.2, label=scene) for scene, colour in colours.items()]
+    title = "\n".join(textwrap.wrap(run.source.title or run.source.mechanism, TITLE))
+    picture.suptitle(title, fontsize=13, fontweight="bold", x=0.012, ha="left")
+    handles: list[Any] = [Line2D([], [], color=colour, lw=2.2, label=scene) for scene, colour in colours.items()]
     if compared:
         handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls="--", label="ideal"))
+    if any(_trusted(run) is not None for run in runs.values()):
+        handles.append(Patch(facecolor=UNTRUSTED, alpha=0.25, lw=0, label="not to be trusted"))
     picture.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
 
 

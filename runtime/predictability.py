@@ -32,19 +32,27 @@ if TYPE_CHECKING:
 APART = 0.25  # see above: of the clearance, where orbits part for the eye; dry motion is on a plateau below it
 MOVED = 1e-12  # a relative tolerance (integrators/adaptive.py): as much as one step of such a run may err
 TIGHTER, SHORTER = 100.0, 4.0  # tolerance, step
+UNFINISHED = "interrupted while its horizon was sought: the run is complete, how far to trust it is not known"
 TIMES = 4000  # intervals between compared times: the horizon's resolution
 
 
 def with_horizon(simulation: Simulation, run: Result, progress: Progress | None = None) -> Result:
-    """The run with diagnostics.horizon; see `horizon`."""
-    return replace(run, diagnostics=replace(run.diagnostics, horizon=horizon(simulation, run, progress)))
+    """The run with diagnostics.horizon; see `horizon`. After Ctrl-C the run itself, complete, and a note."""
+    try:
+        found, interrupted = horizon(simulation, run, progress), False
+    except KeyboardInterrupt:
+        found, interrupted = math.nan, True
+    diagnostics = replace(run.diagnostics, horizon=found)
+    if interrupted:
+        diagnostics = replace(diagnostics, interrupted=True, notes=(*diagnostics.notes, UNFINISHED))
+    return replace(run, diagnostics=diagnostics)
 
 
 def horizon(simulation: Simulation, run: Result, progress: Progress | None = None, apart: float = APART) -> float:
     """Time (s) up to which a run agrees with its repetitions; inf: to its end.
 
     The runs are those of `run.diagnostics.method`, from the run's first sample to its last one. A repetition that
-    ends early (an error) is compared as far as it came. NaN after Ctrl-C. `apart`: see above.
+    ends early (an error) is compared as far as it came. Ctrl-C is passed on. `apart`: see above.
     """
     source, t0, t1 = simulation.source, float(run.t[0]), float(run.t[-1])
     if source.degrees_of_freedom == 0 or not t1 > t0:
@@ -61,7 +69,7 @@ def horizon(simulation: Simulation, run: Result, progress: Progress | None = Non
                 return t0
             runs.append(error.partial)
         if runs[-1].diagnostics.interrupted:
-            return math.nan
+            raise KeyboardInterrupt
     return _agreement(simulation, runs, apart)
 
 

@@ -142,6 +142,8 @@ class Simulation:
         when the equations cannot be solved; its `partial` is the result up to there.
         """
         if method in python_driver.NAMES and self.source.formulation != "full":
+            if progress and self._full is None:
+                progress(0.0, "deriving the full formulation")
             return self.full.simulate(
                 t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
                 progress=progress, horizon=horizon, stop=stop,
@@ -152,6 +154,7 @@ class Simulation:
         if self.source.degrees_of_freedom < 0:
             assemble(self.compiled, p)  # names the joints that contradict each other
         chosen = self._method(method, step is not None)
+        tolerance = adaptive.tolerance(rtol, chosen, step is not None)
         h = self._step(step, chosen, p, float(times[-1] - t0))
         if (times[-1] - t0) / h > MAX_STEPS:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
@@ -159,7 +162,7 @@ class Simulation:
         check_start(self.compiled, p, t0, q)
         problem = Problem(
             self.compiled, p, times, q, v, memory, h, progress, None if start is None else start.state,
-            chosen, _tolerance(rtol), without_baumgarte(self.compiled, given, is_given), stop,
+            chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop,
         )  # fmt: skip
         before = time.perf_counter()
         trajectory = METHODS[chosen](problem)
@@ -237,11 +240,12 @@ class Simulation:
         if method == "auto":
             return fitting[0] if len(fitting) == 1 or fixed else "adaptive"
         if method not in METHODS:
-            raise BadValueError(f"method {method!r}: expected auto, {', '.join(METHODS)}")
+            offered = ", ".join(name for name in METHODS if name != "adaptive")  # a name of ours for what auto runs
+            raise BadValueError(f"method {method!r}: expected auto, {offered}")
         if method not in fitting:
-            raise BadValueError(
-                f"method {method!r} does not fit: this scene has {dof} degrees of freedom, use {fitting[0]}"
-            )
+            freedom = f"{dof} degree{'' if dof == 1 else 's'} of freedom"
+            fit = ", ".join(self.source.methods)
+            raise BadValueError(f"method {method!r} does not fit: this scene has {freedom}, use auto ({fit} fit)")
         return method
 
     def _step(self, step: float | str | None, method: str, p: Array, duration: float) -> float:
@@ -274,13 +278,6 @@ class Simulation:
         if evaluation is not None and len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
         return result
-
-
-def _tolerance(rtol: float | None) -> float:
-    value = adaptive.RTOL if rtol is None else float(rtol)
-    if not 0.0 < value < 1.0:
-        raise BadValueError(f"rtol is {value:g}: expected a share between 0 and 1, such as 1e-8")
-    return max(value, adaptive.SMALLEST)
 
 
 def _seconds(name: str, value: float | str) -> float:

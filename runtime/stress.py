@@ -12,9 +12,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from gudgeon.errors import BadValueError
-from gudgeon.measure.axes import Axis, axis, clearances
+from gudgeon.measure.axes import GAINS, Axis, axis, clearances
 from gudgeon.measure.box import Range, corners, judge_point, sobol
-from gudgeon.measure.cells import Cell, Limits, Status, judge
+from gudgeon.measure.cells import Cell, Limits, Status, judge, not_judged
 from gudgeon.measure.pool import Pool, Report
 from gudgeon.measure.work import FIXED, NAN, Attempt, Parameters, Setting, Work, natural_step, round_numbers, window
 from gudgeon.parameters import prepare
@@ -40,6 +40,17 @@ class StressMap:
     columns: Axis
     cells: tuple[Cell, ...]
     t_long: float  # s, over which stability is judged
+    full: bool = False  # whether the full formulation was asked for: Baumgarte's gains act there
+
+    @property
+    def done(self) -> tuple[int, int]:
+        """Cells that are judged, and all."""
+        return _done(self.cells)
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether Ctrl-C left cells that are not judged."""
+        return any(cell.status is Status.MISSING for cell in self.cells)
 
     def cell(self, row: float, column: float) -> Cell:
         """One cell; KeyError if it is not in the map."""
@@ -65,8 +76,20 @@ class StressBox:
     scene: str
     setting: Setting
     ranges: tuple[Range, ...]
+    points: tuple[Mapping[str, float], ...]  # of the cells: range -> value
     cells: tuple[Cell, ...]
     t_long: float
+    full: bool = False
+
+    @property
+    def done(self) -> tuple[int, int]:
+        """Points that are judged, and all."""
+        return _done(self.cells)
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether Ctrl-C left points that are not judged."""
+        return any(cell.status is Status.MISSING for cell in self.cells)
 
 
 def stress(
@@ -78,11 +101,12 @@ def stress(
 
     `value`: the step or tolerance where neither axis is one. `t_long` (s) is the run over which a cell has to
     stay sane; `t_short` bounds the window in which a step is compared with a tenth of itself (see `window`);
-    `parameters` as in `simulate`; `quick` takes a few pairs. Raises BadValueError for a scene in which nothing
-    is integrated, and for axes that do not fit.
+    `parameters` as in `simulate`; `quick` takes a few pairs. After Ctrl-C what was judged until then, the rest
+    Status.MISSING. Raises BadValueError for a scene in which nothing is integrated, and for axes that do not fit.
     """
     _check(simulation)
-    given = dict(parameters or {})
+    given, full = dict(parameters or {}), needs_full(axes, method)
+    simulation = simulation.full if full else simulation
     rows, columns = arrange(simulation, axes, method, given, quick)
     usual = Setting(method, value or (natural_step(simulation, given) if method in FIXED else USUAL))
     jobs = _jobs(simulation, rows, columns, usual, given)
@@ -91,8 +115,9 @@ def stress(
     longest = t_short or SHORT * least / FINER / (10 if quick else 1)
     with Pool[_Job, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
         found = pool.map(lambda job, tick: _judge(simulation, job, t_long, longest, limits, tick), jobs)
-    cells = tuple(cell for own in found for cell in own)
-    return StressMap(simulation.source.scene, usual, rows, columns, cells, t_long)
+    missing = ([not_judged(job.parameters, setting) for setting in job.settings] for job in jobs)
+    cells = tuple(cell for own, none in zip(found, missing, strict=True) for cell in own or none)
+    return StressMap(simulation.source.scene, usual, rows, columns, cells, t_long, full)
 
 
 def arrange(
@@ -118,25 +143,51 @@ def arrange(
 def stress_box(
     simulation: Simulation, ranges: Sequence[Range], count: int, *, setting: Setting | None = None,
     t_long: float | None = None, parameters: Parameters | None = None, limits: Limits | None = None,
-    addresses: Mapping[str, Axis] | None = None, progress: Report | None = None,
+    addresses: Mapping[str, Axis] | None = None, quick: bool = False, progress: Report | None = None,
 ) -> StressBox:  # fmt: skip
-    """Judge all corners of the box and `count` Sobol points; `addresses`: axes for names that are groups."""
+    """Judge all corners of the box and `count` Sobol points; `addresses`: axes for names that are groups.
+
+    `quick`: over a tenth of the time. After Ctrl-C what was judged until then, the rest Status.MISSING.
+    """
     _check(simulation)
     if not ranges:
         raise BadValueError("a box wants ranges: --range name=low..high")
-    setting, t_long = setting or Setting("auto", USUAL), t_long or scene_end(simulation.source)
+    setting, t_long = setting or Setting("auto", USUAL), t_long or scene_end(simulation.source) / (10 if quick else 1)
+    known = addresses or {}
+    full = needs_full([known.get(edge.name) or axis(simulation, edge.name, ()) for edge in ranges], setting.method)
+    simulation = simulation.full if full else simulation
+
+    def moved(point: Mapping[str, float]) -> dict[str, float | str]:
+        found: dict[str, float | str] = dict(parameters or {})
+        for name, value in point.items():
+            found |= known[name].parameters(value) if name in known else {name: value}
+        return found
 
     def one(point: Mapping[str, float], tick: Report) -> Cell:
-        moved: dict[str, float | str] = dict(parameters or {})
-        for name, value in point.items():
-            moved |= addresses[name].parameters(value) if addresses and name in addresses else {name: value}
-        prepare(simulation.compiled, moved)
-        return judge_point(simulation, moved, t_long, setting, limits, LIMIT, tick)
+        return judge_point(simulation, moved(point), t_long, setting, limits, LIMIT, tick)
 
     points = [*corners(ranges), *sobol(ranges, count)]
+    for point in points:
+        prepare(simulation.compiled, moved(point))
     with Pool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
-        cells = pool.map(one, points)
-    return StressBox(simulation.source.scene, setting, tuple(ranges), tuple(cells), t_long)
+        found = pool.map(one, points)
+    cells = tuple(cell or not_judged(moved(point), setting) for cell, point in zip(found, points, strict=True))
+    return StressBox(simulation.source.scene, setting, tuple(ranges), tuple(points), cells, t_long, full)
+
+
+def needs_full(axes: Sequence[Axis], method: str) -> bool:
+    """Whether an axis moves Baumgarte's gains, which pull back what drifts in the full formulation with rk4.
+
+    Everybody else projects onto the constraints: BadValueError, for no gain would change anything.
+    """
+    moved = next((a.name for a in axes if any(address in GAINS for address, _ in a.ratios)), "")
+    if moved and method != "rk4":
+        raise BadValueError(f"axis {moved}: method {method!r} projects and has no gains", hint="take --method rk4")
+    return bool(moved)
+
+
+def _done(cells: Sequence[Cell]) -> tuple[int, int]:
+    return sum(cell.status is not Status.MISSING for cell in cells), len(cells)
 
 
 def default_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
@@ -191,7 +242,9 @@ def _jobs(
     for x in columns.values:
         if rows.of_method:
             settings = tuple(Setting(usual.method, y) for y in rows.values)
-            found.append(_Job({**given, **columns.parameters(x)}, settings))
+            moved = {**given, **columns.parameters(x)}
+            # fixed steps serve as references for each other, tolerances need nobody
+            found += [_Job(moved, settings)] if usual.fixed else [_Job(moved, (setting,)) for setting in settings]
             continue
         for y in rows.values:
             found.append(_Job({**given, **columns.parameters(x), **rows.parameters(y)}, (usual,)))
@@ -203,14 +256,10 @@ def _jobs(
 def _judge(
     simulation: Simulation, job: _Job, t_long: float, longest: float, limits: Limits | None, tick: Report
 ) -> list[Cell]:
-    """Fixed steps serve as references for each other; a tolerance is judged like a point of a box."""
+    """A tolerance is judged like a point of a box."""
     if job.settings[0].fixed:
         return _steps(simulation, job, t_long, longest, limits, tick)
-    share = 1 / len(job.settings)
-    return [
-        judge_point(simulation, job.parameters, t_long, setting, limits, LIMIT, _part(tick, k * share, share))
-        for k, setting in enumerate(job.settings)
-    ]
+    return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, LIMIT, tick)]
 
 
 def _steps(

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from pathlib import Path
 
 from gudgeon.errors import GudgeonError, InputError, UnknownNameError
 from gudgeon.loading import find_mechanism, generator_hash, read_bytes
+from gudgeon.parameters import spaced
 
 SCENES = "scenes.json"
-# a number and a unit without the space that the file format wants between them: nothing else can be meant
-_GLUED = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµμ°].*)")
 
 
 def scene_names(mechanism: str) -> tuple[str, ...]:
@@ -42,13 +40,19 @@ def chosen_scenes(mechanism: str, wanted: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def unknown(message: str, name: str, known: tuple[str, ...]) -> UnknownNameError:
-    """An error for a name that does not exist; it tells the nearest ones, or all if they are few."""
+    """An error for a name that does not exist; it tells the nearest ones, or all if they are few.
+
+    Of many names those without a dot: the parameters, not every number of every body.
+    """
     import difflib
 
     near = difflib.get_close_matches(name, known, n=3, cutoff=0.5)
     if near:
         return UnknownNameError(message, hint=f"nearest: {', '.join(near)}")
-    return UnknownNameError(message, hint=f"there are: {', '.join(known)}" if len(known) <= 12 else "")
+    if len(known) <= 12:
+        return UnknownNameError(message, hint=f"there are: {', '.join(known)}")
+    short, address = [n for n in known if "." not in n], next((n for n in known if "." in n), "")
+    return UnknownNameError(message, hint=f"there are: {', '.join(short[:20])}, and addresses such as {address}")
 
 
 def value(text: str) -> float | str:
@@ -56,8 +60,7 @@ def value(text: str) -> float | str:
     try:
         return float(text)
     except ValueError:
-        glued = _GLUED.fullmatch(text.strip())
-        return f"{glued[1]} {glued[2]}" if glued else text.strip()
+        return spaced(text)
 
 
 def write_text(path: Path, text: str) -> None:
@@ -71,6 +74,28 @@ def write_text(path: Path, text: str) -> None:
         raise GudgeonError(f"cannot write {path}: {error.strerror or error}") from error
     finally:
         aside.unlink(missing_ok=True)
+
+
+def check_folder(option: str, out: Path) -> None:
+    """What can be known about a folder is told before anything is run, not after an hour."""
+    import tempfile
+
+    there = next(path for path in (out, *out.absolute().parents) if path.exists())
+    if not there.is_dir():
+        raise InputError(f"{option} {out}: {there} is a file", hint="name a folder")
+    try:
+        with tempfile.TemporaryFile(dir=there):  # permissions alone do not tell: a folder may be read-only or made up
+            pass
+    except OSError as error:
+        told = f"{option} {out}: nothing can be written to {there} ({error.strerror or error})"
+        raise InputError(told, hint="name another folder") from error
+
+
+def check_file(option: str, path: Path) -> None:
+    """The same of a file that will be written, or replaced."""
+    check_folder(option, path.parent)
+    if path.is_dir():
+        raise InputError(f"{option}: {path} is a folder", hint="name a file")
 
 
 def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:

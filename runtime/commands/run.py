@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import chosen_scenes, unknown, value
+from gudgeon.commands.common import check_folder, chosen_scenes, unknown, value
 from gudgeon.commands.progress import progress_bar
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, SolverError
 from gudgeon.loading import load
@@ -46,6 +45,7 @@ class Request:
     horizon: bool
     regenerate: bool
     json: bool
+    formulation: str = "reduced"
 
 
 @dataclass
@@ -62,9 +62,9 @@ class Session:
 def run_scenes(request: Request) -> int:
     """Run, compare, save, show; the exit code."""
     settings = _settings(request.settings)
-    _check_folder(request.out)
+    check_folder("--out", request.out)
     names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
-    simulations = {name: load(request.file, name, regenerate=request.regenerate) for name in names}
+    simulations = {name: _load(request, name) for name in names}
     _check(request, settings, simulations)
     session = Session()
     try:
@@ -78,18 +78,25 @@ def run_scenes(request: Request) -> int:
     if session.unwritten:
         print(f"error: {session.unwritten}", file=sys.stderr)
     if session.interrupted:
-        print("interrupted: what was computed is shown and saved", file=sys.stderr)
+        print(_interrupted(request, session), file=sys.stderr)
         return 130
     return max((error.exit_code for error in (*session.failures.values(), session.unwritten) if error), default=0)
 
 
-def _check_folder(out: Path) -> None:
-    """What can be known about the folder is told before anything is run, not after an hour."""
-    there = next(path for path in (out, *out.absolute().parents) if path.exists())
-    if not there.is_dir():
-        raise InputError(f"--out {out}: {there} is a file", hint="name a folder")
-    if not os.access(there, os.W_OK | os.X_OK):
-        raise InputError(f"--out {out}: nothing may be written to {there}", hint="name another folder")
+def _load(request: Request, scene: str) -> Simulation:
+    return load(request.file, scene, regenerate=request.regenerate, formulation=request.formulation)
+
+
+def _interrupted(request: Request, session: Session) -> str:
+    """What Ctrl-C left."""
+    from gudgeon.predictability import UNFINISHED
+
+    if not session.runs:
+        return "interrupted before anything was computed: nothing is shown or saved"
+    told = "interrupted: what was computed is shown and saved"
+    if any(UNFINISHED in run.diagnostics.notes for run in session.runs.values()):
+        return f"{told}; the search for the horizon was not finished"
+    return told
 
 
 def _settings(texts: tuple[str, ...]) -> dict[str, float | str]:

@@ -19,7 +19,7 @@ from time import perf_counter
 import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
-from gudgeon.errors import SolverError
+from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.session import ENDED, EVENTS_FULL, RunEnded, Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.start import mechanism_sizes
@@ -71,6 +71,28 @@ def _chunk(session: Session) -> None:
         session.fail(status, t, ADVICE)
     if problem.progress:
         problem.progress((t - problem.t[0]) / max(problem.t[-1] - problem.t[0], 1e-300), "integrating")
+
+
+def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
+    """The tolerance of a step. Raises BadValueError for one that is none, or that nobody would look at."""
+    if rtol is None:
+        return RTOL
+    if method == "rk4" or (fixed and method != "kinematic"):
+        raise BadValueError(
+            f"method {method!r} with a fixed step has no tolerance",
+            hint="leave out rtol; or leave out step and take auto, dop853 or rodas5p",
+        )
+    try:
+        value = float(rtol)
+    except (TypeError, ValueError):
+        value = math.nan
+    if not SMALLEST <= value < 1.0:
+        told = f"{value:g}" if math.isfinite(value) else repr(rtol)
+        raise BadValueError(
+            f"rtol is {told}: expected a share from {SMALLEST:g} to 1, such as 1e-8",
+            hint="below that rounding would be controlled" if 0.0 < value < 1.0 else "",
+        )
+    return value
 
 
 def choice_of(compiled: CompiledModel, method: str) -> int:

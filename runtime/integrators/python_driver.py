@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,7 @@ from gudgeon.integrators.adaptive import tolerances
 from gudgeon.integrators.contacts import Contacts, Piece
 from gudgeon.integrators.projection import project, residuals
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
+from gudgeon.kernel_source import KernelSource
 
 SCIPY = ("scipy:DOP853", "scipy:RK45", "scipy:Radau", "scipy:BDF", "scipy:LSODA")
 SUNDIALS = ("sundials:cvode", "sundials:cvode_adams")
@@ -91,19 +93,25 @@ class Stepper(ABC):
         """Go on from y, the projected end of the last step."""
 
 
+def unfit(source: KernelSource) -> str:
+    """Why these methods do not fit a scene; "" if they do."""
+    if source.degrees_of_freedom == 0:
+        return "nothing is integrated"
+    if source.frictions:
+        elements = ", ".join(source.frictions)
+        return f"dry_friction elements ({elements}) switch between stick and slip in the C methods only"
+    if source.rate_jumps:
+        jumps = f"where the rate of {', '.join(source.rate_jumps)} jumps the linkage follows by an impulse"
+        return f"{jumps}, which the adaptive methods in C give it"
+    return ""
+
+
 def run(problem: Problem) -> Trajectory:
     """Integrate over the output times with the integrator that problem.method names."""
-    if problem.compiled.source.frictions:
+    if reason := unfit(problem.compiled.source):
         raise BadValueError(
-            f"method {problem.method!r}: dry_friction elements ({', '.join(problem.compiled.source.frictions)})"
-            " switch between stick and slip in the C methods only",
-            hint="use dop853, rodas5p or rk4",
-        )
-    if problem.compiled.source.rate_jumps:
-        raise BadValueError(
-            f"method {problem.method!r}: where the rate of {', '.join(problem.compiled.source.rate_jumps)} jumps the"
-            " linkage follows by an impulse, which the adaptive methods in C give it",
-            hint="use auto, dop853 or rodas5p, or a smooth_step in place of the ramp",
+            f"method {problem.method!r}: {reason}",
+            hint="use auto, dop853 or rodas5p, or a smooth_step in place of a ramp",
         )
     stopping = [event.name for event in problem.compiled.source.events if event.action == "stop"]
     if stopping and problem.stop:
@@ -135,7 +143,8 @@ class _Driver:
         self.problem, self.n = problem, problem.compiled.n
         self.contacts = Contacts(problem.compiled, problem.p, problem.memory, problem.state)
         self.equations = Equations(problem, self.contacts)
-        self.stepper = _stepper(self.equations, problem)
+        self.stepper: Stepper
+        self.began = math.nan  # s, when the packages were there
         duration = float(problem.t[-1] - problem.t[0])
         self.scale, self.speed_floor = tolerances(problem.compiled, problem.p, problem.rtol, duration)
         self.angle = np.array([name.endswith(".theta") for name in problem.compiled.source.coordinates])
@@ -146,10 +155,13 @@ class _Driver:
         self.samples: list[tuple[NDArray[Any], ...]] = []  # y, a, memory, codes
 
     def run(self) -> Trajectory:
-        """As far as it goes."""
+        """As far as it goes; the start is stored before packages are imported, which Ctrl-C may cut short."""
         interrupted, stopped = False, None
+        self._begin()
         try:
-            self._begin()
+            self.stepper = _stepper(self.equations, self.problem)
+            self.began = perf_counter()
+            self._restart()
             while len(self.samples) < len(self.problem.t):
                 self._step()
         except KeyboardInterrupt:
@@ -161,7 +173,6 @@ class _Driver:
     def _begin(self) -> None:
         self.contacts.begin(self.t, self.y)
         self._watch()
-        self._restart()
         self._sample_present()
 
     def _atol(self) -> Array:
@@ -268,5 +279,5 @@ class _Driver:
         return Trajectory(
             self.problem.t[:count].copy(), y[:, :n].copy(), y[:, n : 2 * n].copy(), a, memory, state.astype(np.int8),
             y[:, 2 * n :].copy(), impacts[np.argsort(impacts["t_on"], kind="stable")], contacts.peaks, counts,
-            interrupted, stopped,
+            interrupted, stopped, seconds=perf_counter() - self.began if self.began == self.began else 0.0,
         )  # fmt: skip

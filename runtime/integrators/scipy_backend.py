@@ -26,19 +26,19 @@ class ScipyStepper(Stepper):
 
     def __init__(self, equations: Equations, t_end: float, name: str) -> None:
         super().__init__(equations, t_end)
-        self.name = name
+        from scipy import integrate
+
+        self.name, self.kind = name, getattr(integrate, name)
         self.patience = 1e-3 if name in ONE_STEP else 10.0  # to move a method of several steps is to begin anew
         self.solver: Any = None
         self.dense: Any = None
 
     def restart(self, t: float, y: Array, atol: Array) -> None:
         """SciPy controls a root mean square over all components (LSODA the largest): no one of them may be larger."""
-        from scipy import integrate
-
         mean = 1.0 if self.name == "LSODA" else math.sqrt(len(y))
         options = {} if self.name in EXPLICIT else {"jac": self.equations.jacobian}
-        kind = getattr(integrate, self.name)
-        self.solver = kind(self.equations.rates, t, y.copy(), self.t_end, rtol=RELATIVE, atol=atol / mean, **options)
+        controlled = {"rtol": RELATIVE, "atol": atol / mean}
+        self.solver = self.kind(self.equations.rates, t, y.copy(), self.t_end, **controlled, **options)
 
     def step(self) -> float:
         """One step; SciPy's own words where there is none small enough."""

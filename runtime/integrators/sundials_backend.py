@@ -15,6 +15,7 @@ from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.python_driver import Equations, Stepper
 
 METHODS = {"cvode": "BDF", "cvode_adams": "Adams"}
+INSTALL = "make peers in a clone, else pip install scikit-sundae"
 RELATIVE = 1e-15  # of rtol · |y|, which our tolerances have no place for
 
 
@@ -82,5 +83,5 @@ def _cvode() -> Any:
     try:
         from sksundae.cvode import CVODE
     except ModuleNotFoundError as error:
-        raise GudgeonError("methods sundials:… need scikit-sundae: pip install 'gudgeon[bench]'") from error
+        raise GudgeonError(f"methods sundials:… need scikit-sundae\n  {INSTALL}") from error
     return CVODE

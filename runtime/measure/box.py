@@ -38,6 +38,7 @@ class Range:
     name: str
     low: float
     high: float
+    unit: str = ""
 
     def __post_init__(self) -> None:
         if not 0.0 < self.low <= self.high < math.inf:

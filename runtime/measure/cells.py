@@ -20,12 +20,13 @@ Pair: TypeAlias = tuple[Attempt, Attempt]  # the same window with a setting and 
 
 
 class Status(StrEnum):
-    """From good to bad; a cell takes the worst that applies."""
+    """From good to bad; a cell takes the worst that applies. The last stands where Ctrl-C came first."""
 
     STABLE = "stable"
     OUTSIDE = "outside the model"
     INACCURATE = "inaccurate"
     DIVERGED = "diverged"
+    MISSING = "not judged"
 
 
 @dataclass(frozen=True)
@@ -72,6 +73,11 @@ class Cell:
     def failed(self) -> bool:
         """Whether the method is to blame."""
         return self.status in (Status.INACCURATE, Status.DIVERGED)
+
+
+def not_judged(parameters: Parameters, setting: Setting) -> Cell:
+    """The cell of a run that Ctrl-C cut short or left out."""
+    return Cell(setting, parameters, Status.MISSING, "interrupted", "–", Error())
 
 
 def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: Limits | None = None) -> Cell:

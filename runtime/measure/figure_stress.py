@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from gudgeon.measure.cells import Cell, Status
-from gudgeon.measure.show_stress import value
+from gudgeon.measure.show_stress import explain, value
 from gudgeon.measure.words import seconds
 from gudgeon.plots import IDEAL, STYLE
 from gudgeon.stress import StressMap
@@ -21,11 +21,8 @@ if TYPE_CHECKING:
 
 FILL = {
     Status.STABLE: "#a8d8c0", Status.OUTSIDE: "#c9c9c9", Status.INACCURATE: "#f6d48f", Status.DIVERGED: "#e79a78",
+    Status.MISSING: "#f4f4f4",
 }  # fmt: skip
-EXPLAIN = (
-    "a number: largest error against a finer run, or energy residual · at: when the run failed"
-    " · energy: it comes from nowhere"
-)
 NAMES = {"step": "step", "rtol": "tolerance", "clearance": "radial clearance"}
 
 
@@ -42,12 +39,13 @@ def stress_figure(title: str, found: Sequence[StressMap], mark_step: float | Non
         axes[0].set_ylabel(NAMES.get(found[0].rows.name, found[0].rows.name))
         used = {cell.status for scene in found for cell in scene.cells}
         handles: list[Any] = [Patch(facecolor=FILL[s], label=s.value) for s in Status if s in used]
-        if mark_step is not None:
+        if mark_step is not None and any(_marked(scene, y, mark_step) for scene in found for y in scene.rows.values):
             handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {seconds(mark_step)}"))
         question = "which step will do?" if found[0].rows.name == "step" else "where does it fail?"
-        picture.suptitle(f"{title}: {question}", fontsize=12, fontweight="bold", x=0.012, ha="left")
+        told = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
+        picture.suptitle(f"{title}: {question}{told}", fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(
-            handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=EXPLAIN, title_fontsize=8
+            handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=explain(found), title_fontsize=8
         )
     return picture
 
@@ -57,7 +55,7 @@ def _draw_map(ax: Axes, scene: StressMap, mark_step: float | None) -> None:
     for i, y in enumerate(rows):
         for j, x in enumerate(columns):
             _draw_cell(ax, i, j, scene.cell(y, x))
-        if scene.rows.name == "step" and mark_step is not None and math.isclose(y, mark_step):
+        if _marked(scene, y, mark_step):
             ax.add_patch(Rectangle((-0.5, i - 0.5), len(columns), 1, fill=False, ec=IDEAL, lw=1.8, zorder=4))
     limits = {"xlim": (-0.5, len(columns) - 0.5), "ylim": (-0.5, len(rows) - 0.5)}
     ax.set(**limits, title=f"{scene.scene}, {scene.setting.method}")
@@ -67,6 +65,10 @@ def _draw_map(ax: Axes, scene: StressMap, mark_step: float | None) -> None:
     ax.grid(False)
     ax.tick_params(length=0)
     ax.spines[:].set_visible(False)
+
+
+def _marked(scene: StressMap, row: float, step: float | None) -> bool:
+    return scene.rows.name == "step" and step is not None and math.isclose(row, step)
 
 
 def _draw_cell(ax: Axes, row: int, column: int, cell: Cell) -> None:

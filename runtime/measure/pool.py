@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from typing import Generic, TypeVar
 
 Report = Callable[[float, str], None]
@@ -14,7 +14,7 @@ Found = TypeVar("Found")
 
 
 class Pool(Generic[Piece, Found]):
-    """Ctrl-C ends all pieces at their next report."""
+    """Ctrl-C ends all pieces at their next report; those that are done are handed back."""
 
     def __init__(self, report: Report, count: int) -> None:
         self.report, self.fractions, self.stop = report, [0.0] * count, threading.Event()
@@ -28,11 +28,19 @@ class Pool(Generic[Piece, Found]):
         self.stop.set()
         self.executor.shutdown(wait=True, cancel_futures=True)
 
-    def map(self, function: Callable[[Piece, Report], Found], pieces: Sequence[Piece]) -> list[Found]:
-        """Like the built-in, in order."""
+    def map(self, function: Callable[[Piece, Report], Found], pieces: Sequence[Piece]) -> list[Found | None]:
+        """Like the built-in, in order; after Ctrl-C None for what is not done. KeyboardInterrupt where nothing is."""
         futures = [self.executor.submit(self._one, function, piece, i) for i, piece in enumerate(pieces)]
-        for future in as_completed(futures):
-            future.result()
+        try:
+            for future in as_completed(futures):
+                future.result()
+        except KeyboardInterrupt:
+            self.stop.set()
+            self.executor.shutdown(wait=True, cancel_futures=True)
+            found = [_done(future) for future in futures]
+            if all(piece is None for piece in found):
+                raise
+            return found
         return [future.result() for future in futures]
 
     def _one(self, function: Callable[[Piece, Report], Found], piece: Piece, i: int) -> Found:
@@ -50,3 +58,10 @@ class Pool(Generic[Piece, Found]):
                 self.report(sum(self.fractions) / len(self.fractions), "")
 
         return tick
+
+
+def _done(future: Future[Found]) -> Found | None:
+    """What an interrupted piece has to show, or raises what broke it."""
+    if future.cancelled() or isinstance(future.exception(), KeyboardInterrupt):
+        return None
+    return future.result()

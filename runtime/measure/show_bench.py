@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.bench import TRUSTED, Row, SceneBench
+from gudgeon.integrators.python_driver import NAMES
 from gudgeon.kernel_source import KernelSource
 from gudgeon.measure.tables import console, new_table, print_json, write_csv
 from gudgeon.measure.words import seconds, share
@@ -36,26 +37,37 @@ def show_bench(
         written.append(table.with_suffix(".png"))
         save_figure(bench_figure(source.title or source.mechanism, found, mark_step), written[-1])
     if as_json:
-        scenes = [{"scene": scene.scene, "t_end_s": scene.t_end, "notes": notes(scene, mark_step)} for scene in found]
+        scenes = [
+            {"scene": scene.scene, "t_end_s": scene.t_end, "interrupted": scene.interrupted,
+             "notes": notes(scene, mark_step)} for scene in found
+        ]  # fmt: skip
         files = [str(path) for path in written]
         print_json({"mechanism": source.mechanism, "scenes": scenes, "rows": rows, "files": files})
         return
     out = console()
     for scene in found:
         out.print(_title(scene), style="bold", markup=False)
-        out.print(_kinematic_table(scene) if scene.methods == ("kinematic",) else _table(scene))
+        if scene.methods == ("kinematic",):
+            out.print(_kinematic_table(scene))
+        elif own := [row for row in scene.rows if row.setting.method not in NAMES]:
+            out.print(_table(scene, own))
+        if checks := [row for row in scene.rows if row.setting.method in NAMES]:
+            out.print("  cross-checks: others' methods on the full formulation, driven from Python", markup=False)
+            out.print(_table(scene, checks, [name for name in COLUMNS if name != "Jacobians"]))
         for line in notes(scene, mark_step):
             out.print(f"  {line}", markup=False)
         if scene.references:
             out.print(_target_table(scene))
-    out.print("one right-hand side", style="bold")
-    out.print(_rhs_table(found))
+    if any(scene.rhs for scene in found):
+        out.print("one right-hand side", style="bold")
+        out.print(_rhs_table(found))
     for path in written:
         out.print(f"wrote {path}", markup=False)
 
 
 def _title(scene: SceneBench) -> str:
-    return f"{scene.scene}: the first {seconds(scene.t_end)}" + (f" ({scene.why})" if scene.why else "")
+    part = " (partial: interrupted after {} of {} rows)".format(*scene.done) if scene.interrupted else ""
+    return f"{scene.scene}: the first {seconds(scene.t_end)}" + (f" ({scene.why})" if scene.why else "") + part
 
 
 def _kinematic_table(scene: SceneBench) -> Table:
@@ -66,20 +78,20 @@ def _kinematic_table(scene: SceneBench) -> Table:
     return table
 
 
-def _table(scene: SceneBench) -> Table:
+def _table(scene: SceneBench, rows: Sequence[Row], columns: Sequence[str] = COLUMNS) -> Table:
     """Run time is that of the window, rhs its right-hand sides. Errors in brackets are not resolved."""
-    table = new_table(COLUMNS)
+    table = new_table(columns)
     before = ""
-    for row in scene.rows:
+    for row in rows:
         method = row.setting.method if row.setting.method != before else ""
         before = row.setting.method
         if row.failure:
             table.add_row(method, str(row.setting), "[red]fails[/red]", f"[red]at {seconds(row.failed_at)}[/red]")
             continue
         errors = (_told(scene, m, getattr(row.error, m)) for m in ("motion", "path", "force"))
-        jacobians = f"{row.jacobians:,}" if row.jacobians else "–"
+        jacobians = [f"{row.jacobians:,}" if row.jacobians else "–"] if "Jacobians" in columns else []
         time = seconds(row.seconds * scene.t_end)
-        table.add_row(method, str(row.setting), time, f"{row.right_hand_sides:,}", jacobians, *errors)
+        table.add_row(method, str(row.setting), time, f"{row.right_hand_sides:,}", *jacobians, *errors)
     return table
 
 
@@ -93,10 +105,10 @@ def _error(value: float) -> str:
 
 def _target_table(scene: SceneBench) -> Table:
     """Run time of the window to bring every error below a bound, by method; what it is not told for is no better."""
-    table = new_table(("run time to errors below", *scene.methods))
-    for target in TARGETS:
-        times = (scene.seconds_to(target, method) * scene.t_end for method in scene.methods)
-        table.add_row(_error(target), *(seconds(x) if x == x else "–" for x in times))
+    table = new_table(("run time to errors below", *map(_error, TARGETS)), left=("run time to errors below",))
+    for method in scene.methods:
+        times = (scene.seconds_to(target, method) * scene.t_end for target in TARGETS)
+        table.add_row(method, *(seconds(x) if x == x else "–" for x in times))
     return table
 
 
@@ -116,14 +128,15 @@ def notes(scene: SceneBench, mark_step: float | None) -> list[str]:
     orders = _named(*(scene.order(m) for m in ("motion", "path", "force")))
     if told := ", ".join(f"{name} {order:.2f}" for name, order in orders):
         lines.append(f"observed order of rk4: {told}")
-    good = [row for row in scene.of("rk4") if not row.failure and row.error.force < GOOD_FORCE]
-    bad = [row.setting.value for row in scene.of("rk4") if row.failure]
-    told = str(good[0].setting) if good else "none"
-    line = f"largest step of rk4 with forces within {share(GOOD_FORCE)} of their peak: {told}"
-    lines.append(line + (f"; from {seconds(min(bad))} on the run diverges" if bad else ""))
+    if scene.of("rk4"):
+        good = [row for row in scene.of("rk4") if not row.failure and row.error.force < GOOD_FORCE]
+        bad = [row.setting.value for row in scene.of("rk4") if row.failure]
+        told = str(good[0].setting) if good else "none"
+        line = f"largest step of rk4 with forces within {share(GOOD_FORCE)} of their peak: {told}"
+        lines.append(line + (f"; from {seconds(min(bad))} on the run diverges" if bad else ""))
     if mark_step is not None:
         lines.append(f"rk4 at {seconds(mark_step)}: {_marked(scene, mark_step)}")
-    return lines
+    return [*lines, *scene.left_out]
 
 
 def _named(motion: float, path: float, force: float) -> list[tuple[str, float]]:

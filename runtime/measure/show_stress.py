@@ -1,4 +1,4 @@
-"""What `gudgeon stress` prints and writes: maps, boxes, failures with all their numbers, CSV, JSON, a figure."""
+"""What `gudgeon stress` prints and writes: maps, failures with all their numbers, CSV, JSON, a figure."""
 
 from __future__ import annotations
 
@@ -23,9 +23,21 @@ if TYPE_CHECKING:
 
 COLOURS = {
     Status.STABLE: "green", Status.OUTSIDE: "bright_black", Status.INACCURATE: "yellow", Status.DIVERGED: "red",
+    Status.MISSING: "bright_black",
 }  # fmt: skip
+FULL = "integrated in the full formulation (absolute coordinates): the gains act there alone"
 PASCAL = {"kg/m/s^2": "Pa", "kg/m/s": "Pa*s"}  # what only base units are known of
-SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", Status.DIVERGED: "✗"}
+SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", Status.DIVERGED: "✗",
+         Status.MISSING: "·"}  # fmt: skip
+
+# what a cell's label may begin with, and what that says; told where a cell has it
+LABELS = {
+    "at": "at: when the run failed", "energy": "energy: residual, or it comes from nowhere",
+    "motion": "motion: coordinates off by", "force": "force, path: off by", "path": "force, path: off by",
+    "through": "through: a journal left its bearing",
+    "lost": "lost: a contact was", "|Φ|": "|Φ|: constraints open", "?": "?: the finer run fails", "–": "–: not judged",
+    "δ": "δ: penetration beyond half the clearance or a hundredth of the bearing's radius",
+}  # fmt: skip
 
 
 def show_stress(
@@ -42,51 +54,30 @@ def show_stress(
         written.append(table.with_suffix(".png"))
         save_figure(stress_figure(source.title or source.mechanism, found, mark_step), written[-1])
     if as_json:
-        print_json({"mechanism": source.mechanism, "cells": rows, "files": [str(path) for path in written]})
+        print_json({"mechanism": source.mechanism, "interrupted": any(scene.interrupted for scene in found),
+                    "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
         return
     out = console()
     for scene in found:
         finer = "a ten times shorter step" if scene.setting.fixed else "a hundred times tighter tolerance"
         title = f"{scene.scene}, {scene.setting.method}: sane over {seconds(scene.t_long)}, and equal to {finer}?"
-        out.print(title, style="bold", markup=False)
+        out.print(title + partial(scene), style="bold", markup=False)
+        if scene.full:
+            out.print(f"  {FULL}", markup=False)
         if scene.columns.ratios:
             out.print(f"  {scene.rows.name} down, {scene.columns.name} across", markup=False)
         out.print(_map_table(scene))
         if scene.rows.name == "step":
             out.print(_boundary_table(scene))
         elif failures := [cell for cell in scene.cells if cell.failed]:
-            out.print(_failure_table(source.mechanism, scene.scene, failures))
-    out.print("   ".join(f"[{COLOURS[status]}]{sign} {status.value}[/]" for status, sign in SIGNS.items()))
+            out.print(failure_table(source.mechanism, scene, failures))
+    out.print(legend(found))
+    for line in explain(found).splitlines():
+        out.print(f"  {line}", markup=False)
     for line in verdict(found, mark_step):
         out.print(line, markup=False)
     for path in written:
         out.print(f"wrote {path}", markup=False)
-
-
-def show_box(source: KernelSource, found: Sequence[StressBox], table: Path, as_json: bool = False) -> None:
-    """The same of boxes: counts, then every failure."""
-    rows = [row for box in found for row in stress_rows(box)]
-    write_csv(table, rows)
-    if as_json:
-        print_json({"mechanism": source.mechanism, "cells": rows, "files": [str(table)]})
-        return
-    out = console()
-    for box in found:
-        edges = ", ".join(f"{edge.name} {edge.low:.4g} … {edge.high:.4g}" for edge in box.ranges)
-        title = f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point: {edges}"
-        out.print(title, style="bold", markup=False)
-        out.print(f"  {count(box.cells)}", markup=False)
-        if failures := [cell for cell in box.cells if cell.failed]:
-            out.print(_failure_table(source.mechanism, box.scene, failures))
-    out.print(f"wrote {table}", markup=False)
-
-
-def count(cells: Sequence[Cell]) -> str:
-    """ "28 points: 27 stable, 1 outside the model; slowest 0.3 s"."""
-    counts = Counter(cell.status for cell in cells)
-    told = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
-    slowest = max((cell.seconds for cell in cells if math.isfinite(cell.seconds)), default=math.nan)
-    return f"{len(cells)} points: {told}; slowest {seconds(slowest)}"
 
 
 def value(axis: Axis, x: float) -> str:
@@ -121,17 +112,37 @@ def _boundary_table(scene: StressMap) -> Table:
     return table
 
 
-def _failure_table(mechanism: str, scene: str, failures: Sequence[Cell]) -> Table:
+def failure_table(mechanism: str, found: StressMap | StressBox, failures: Sequence[Cell]) -> Table:
     """Why, and what to type to see it again."""
     table = new_table(("status", "reason", "to see it again"), left=("reason", "to see it again"))
     for cell in failures:
-        table.add_row(cell.status.value, cell.reason, command(mechanism, scene, cell))
+        table.add_row(cell.status.value, cell.reason, command(mechanism, found.scene, cell, found.full))
     return table
 
 
-def command(mechanism: str, scene: str, cell: Cell) -> str:
+def partial(found: StressMap | StressBox) -> str:
+    """What follows the title of what Ctrl-C cut short."""
+    return " (partial: interrupted after {} of {} runs)".format(*found.done) if found.interrupted else ""
+
+
+def legend(found: Sequence[StressMap | StressBox]) -> str:
+    """Signs and verdicts, "not judged" only where there is such a cell."""
+    shown = [s for s in Status if s is not Status.MISSING or any(scene.interrupted for scene in found)]
+    return "   ".join(f"[{COLOURS[status]}]{SIGNS[status]} {status.value}[/]" for status in shown)
+
+
+def explain(found: Sequence[StressMap]) -> str:
+    """What stands in the cells, of all that may stand there what does; three to a line."""
+    used = {cell.label.split(" ")[0] for scene in found for cell in scene.cells}
+    told = dict.fromkeys(text for word, text in LABELS.items() if word in used)
+    parts = ["a number: largest error against a finer run", *told]
+    return "\n".join(" · ".join(parts[k : k + 3]) for k in range(0, len(parts), 3))
+
+
+def command(mechanism: str, scene: str, cell: Cell, full: bool = False) -> str:
     """The line that runs a cell again."""
     chosen = f"--method {cell.setting.method} --{'step' if cell.setting.fixed else 'rtol'} {cell.setting.value:g}"
+    chosen += " --formulation full" if full else ""
     sets = " ".join(f"--set {name}={value}" for name, value in cell.parameters.items())
     return f"gudgeon run {mechanism} --scene {scene} {chosen} {sets}".rstrip()
 

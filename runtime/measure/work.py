@@ -12,6 +12,7 @@ import numpy as np
 
 from gudgeon.compiled import Array
 from gudgeon.errors import GudgeonError, SolverError
+from gudgeon.integrators.adaptive import SMALLEST
 from gudgeon.integrators.trajectory import Progress
 from gudgeon.measure.words import seconds
 from gudgeon.parameters import prepare
@@ -61,7 +62,8 @@ class Setting:
 
     def finer(self, factor: float) -> Setting:
         """The same method, its step or tolerance divided; as few digits, so that it is found again."""
-        return Setting(self.method, float(f"{self.value / factor:.6g}"))
+        least = 0.0 if self.fixed else SMALLEST
+        return Setting(self.method, max(float(f"{self.value / factor:.6g}"), least))
 
     def __str__(self) -> str:
         return seconds(self.value) if self.fixed else f"{self.value:.0e}".replace("e-0", "e-")
@@ -75,6 +77,7 @@ class Attempt:
     run: Result | None
     failure: str = ""
     failed_at: float = NAN  # s
+    slow: bool = False  # stopped because it took longer than it may
     outside: bool = False  # stopped because the model does not hold there, and said so
     cpu: float = NAN  # s of this thread's own time, samples included
 
@@ -151,11 +154,11 @@ def attempt(
         )
     except _TooSlowError:
         told, at = f"more than {limit:.3g} s of processor time", float(times[0] + reached * (times[-1] - times[0]))
-        return Attempt(setting, None, told, at, cpu=limit)
+        return Attempt(setting, None, told, at, slow=True, cpu=limit)
     except SolverError as error:
         outside = bool(getattr(error, "outside_model", False))
         first = str(error).partition("\n")[0]
-        return Attempt(setting, error.partial, first, error.time, outside, time.thread_time() - before)
+        return Attempt(setting, error.partial, first, error.time, False, outside, time.thread_time() - before)
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
     return Attempt(setting, run, cpu=time.thread_time() - before)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from gudgeon.cli import app
 from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.kernel_source import (
     BodyInfo,
@@ -21,6 +24,7 @@ from gudgeon.kernel_source import (
     Slot,
 )
 from gudgeon.results import IMPACT_DTYPE, Result
+from tests.runtime.pump import TEXT, Gudgeon
 
 OMEGA, RADIUS, CLEARANCE = 2 * np.pi, 0.08, 0.3e-3
 FREE, IMPACT, CONTACT = 0, 1, 2
@@ -147,3 +151,17 @@ def ideal() -> Result:
 def stripped(run: Result) -> Result:
     """As if a file held nothing but what the integrator stored."""
     return replace(run, compiled=None, stored={})
+
+
+@pytest.fixture
+def pump(tmp_path: Path) -> str:
+    path = tmp_path / "pump.yaml"
+    path.write_text(TEXT)
+    return str(path)
+
+
+@pytest.fixture
+def call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Gudgeon:
+    """Runs `gudgeon …` in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+    return lambda *arguments: CliRunner().invoke(app, list(arguments))

@@ -109,3 +109,44 @@ def test_a_prefix_brings_a_number_near_one_and_does_not_change_it(size: float, u
 )  # fmt: skip
 def test_quantities_as_people_write_them(value: float, unit: str, text: str) -> None:
     assert quantity(value, unit) == text
+
+
+def test_long_labels_stay_beside_their_axes(run: Result, ideal: Result) -> None:
+    """Names of bodies are up to their owner: a label is folded until it is no taller than its row."""
+    name = "the_rocker_of_the_second_stage.theta"
+    picture = plots.figure({"dry": run}, ideal, ["S9.y"])
+    folded = plots._folded(picture.subfigs[0].axes[0], f"error of {name} [mrad]")
+    assert folded.replace("\n", " ").replace(". theta", ".theta") == f"error of {name} [mrad]"
+    axes = picture.subfigs[0].axes[:3]
+    for ax in axes:
+        ax.set_ylabel(plots._folded(ax, "error of second_rocker.theta [mrad]"))
+    picture.draw_without_rendering()
+    spans = sorted((ax.yaxis.label.get_window_extent() for ax in axes), key=lambda box: -box.y1)
+    assert all(above.y0 >= below.y1 for above, below in zip(spans, spans[1:], strict=False))
+    assert spans[0].y1 <= picture.bbox.y1
+
+
+def test_a_long_title_leaves_the_legend_its_place(run: Result, ideal: Result) -> None:
+    long = replace(run, source=replace(run.source, title="a word and " * 12), stored={})
+    picture = plots.figure({"dry": long}, ideal, ["S9.y"])
+    picture.draw_without_rendering()
+    title: Any = picture._suptitle  # type: ignore[attr-defined]
+    title, legend = title.get_window_extent(), picture.legends[0].get_window_extent()
+    assert title.x1 < legend.x0
+
+
+def test_what_lies_beyond_the_horizon_is_marked_and_told(run: Result, ideal: Result) -> None:
+    """Grey over time with a word in the legend, grey in the orbits; nothing where it holds to the end."""
+    short = replace(run, diagnostics=replace(run.diagnostics, horizon=0.4), stored={})
+    for shown, marked in ((short, True), (run, False)):
+        picture = plots.figure({"dry": shown}, ideal, ["S9.y"])
+        told = [text.get_text() for text in picture.legends[0].get_texts()]
+        assert ("not to be trusted" in told) == marked
+        lines = picture.subfigs[1].axes[0].lines
+        grey = [line for line in lines if line.get_color() == plots.UNTRUSTED]
+        assert len(grey) == marked
+    trusted = lines[0].get_xdata()
+    part = short.plot.orbit("A").lines
+    known = int((run.t <= 0.4).sum())
+    assert len(part[0].get_xdata()) == known < len(trusted)
+    assert len(part[2].get_xdata()) == len(run.t) - known + 1  # from the last trusted sample on

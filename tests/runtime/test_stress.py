@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import csv
-import json
 import math
-import shutil
 import threading
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 import gudgeon
@@ -19,14 +16,13 @@ from gudgeon.cli import app
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.measure import words
 from gudgeon.measure.axes import Axis, axis, clearances, typed
-from gudgeon.measure.box import Range, _horizon, corners, judge_point, predictable, sobol
-from gudgeon.measure.cells import STRICT, Cell, Limits, Status, judge, limits_of
+from gudgeon.measure.cells import Cell, Limits, Status, judge
 from gudgeon.measure.show_stress import command, verdict
-from gudgeon.measure.work import ONSETS, Attempt, Error, Setting, Work
+from gudgeon.measure.work import Attempt, Error, Setting, Work
 from gudgeon.simulation import Simulation
-from gudgeon.stress import StressMap, default_clearances, default_steps, stress, stress_box
+from gudgeon.stress import StressMap, default_clearances, default_steps, stress
+from tests.runtime.pump import needs_compiler
 
-needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pendulum.yaml")
 C = 0.3e-3
 
@@ -245,62 +241,6 @@ def test_groups_keep_the_ratios_of_their_numbers() -> None:
     )
 
 
-def test_corners_and_sobol_points_fill_the_box_and_are_the_same_every_time() -> None:
-    edges = [Range("a", 1e-3, 1.0), Range("b", 2.0, 3.0), Range("c", 1.0, 1.0)]
-    found = corners(edges)
-    assert len(found) == 8 and found[0] == {"a": 1e-3, "b": 2.0, "c": 1.0} and found[-1]["b"] == 3.0
-    points = sobol(edges, 100)
-    assert points == sobol(edges, 100) and points[:30] == sobol(edges, 30)  # a sample is the beginning of the whole
-    logs = np.log10([point["a"] for point in points])
-    assert all(-3 <= x <= 0 for x in logs)
-    assert np.histogram(logs, 4, (-3, 0))[0] == pytest.approx([25] * 4, abs=3)  # uniform on its scale
-    with pytest.raises(BadValueError, match="low"):
-        Range("a", 0.0, 1.0)
-
-
-@needs_compiler
-def test_box_judges_every_corner_and_point() -> None:
-    dry = press("dry")
-    found = stress_box(dry, [Range("omega", 5.0, 20.0)], 2, t_long=0.02)
-    assert [cell.parameters["omega"] for cell in found.cells[:2]] == [5.0, 20.0] and len(found.cells) == 4
-    assert not any(cell.failed for cell in found.cells)
-    with pytest.raises(BadValueError, match="radius"):
-        stress_box(dry, [Range("c", 1e-3, 0.02)], 0)
-
-
-@needs_compiler
-def test_tolerance_is_held_to_what_it_promises() -> None:
-    assert limits_of(Setting("auto", 1e-8)) is STRICT and limits_of(rk4(1e-6)) == Limits()
-    assert judge_point(press("dry"), {}, 0.02, Setting("dop853", 1e-8)).status is Status.STABLE
-    loose = judge_point(press("dry"), {}, 0.02, Setting("rodas5p", 1e-2))
-    assert loose.status is Status.INACCURATE and "energy" in loose.reason
-
-
-@needs_compiler
-def test_comparison_ends_between_two_contacts_after_the_fourth() -> None:
-    run = press("dry").simulate(0.05, output=10)
-    onsets = np.sort(run.impacts["t_on"])
-    assert onsets[ONSETS - 1] < predictable(run)[-1] < onsets[ONSETS]
-    assert predictable(press("lubricated").simulate(0.01, output=10))[-1] == pytest.approx(0.01)
-
-
-@needs_compiler
-def test_horizon_lies_where_tight_runs_come_apart_by_more_than_their_tolerance_allows() -> None:
-    """Dry motion multiplies differences: a late sample says nothing of a run, the first contacts do."""
-    work, times = Work(press("dry"), 0.5), np.linspace(0.0, 0.5, 1001)
-    fine = work.sampled(Setting("auto", 1e-10), times)
-    known = _horizon(work, fine, STRICT)
-    assert 0.01 < times[known] < 0.45
-    work = Work(press("lubricated"), 0.05)
-    assert _horizon(work, work.sampled(Setting("auto", 1e-10), times[:100]), STRICT) > 100
-
-
-@needs_compiler
-def test_run_that_takes_too_long_is_ended_and_fails() -> None:
-    cell = judge_point(press("dry"), {}, 1.0, Setting("auto", 1e-10), limit=0.0)
-    assert cell.status is Status.DIVERGED and "processor time" in cell.reason
-
-
 @needs_compiler
 def test_command_writes_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["stress", PENDULUM, "--scene", "dry", "--quick", "--out", str(tmp_path)]
@@ -311,17 +251,6 @@ def test_command_writes_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     assert len({row["step_or_tolerance"] for row in rows}) == 3
     assert (tmp_path / "double_pendulum_stress.png").stat().st_size > 5_000
     assert "largest stable step" in capsys.readouterr().out
-
-
-@needs_compiler
-def test_command_judges_a_box(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    table = tmp_path / "box.csv"
-    app(["stress", "nine_bar_press", "--scene", "dry", "--box", "1", "--range", "c=.1mm..1mm", "--range",
-         "stiffness=50GPa..100GPa", "--t-end", "10ms", "--csv", str(table), "--json"],
-        standalone_mode=False)  # fmt: skip
-    cells = json.loads(capsys.readouterr().out)["cells"]
-    assert len(cells) == 5 and all("materials.aluminium.E=" in cell["parameters"] for cell in cells)
-    assert len(table.read_text(encoding="utf-8").splitlines()) == 6
 
 
 @pytest.mark.parametrize(

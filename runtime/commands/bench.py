@@ -1,0 +1,35 @@
+"""`gudgeon bench`: scenes from the command line, measured, shown, written."""
+
+from __future__ import annotations
+
+from gudgeon.bench import SceneBench, bench, usual_steps
+from gudgeon.commands.measure import Request, each, exit_code, load_scenes
+from gudgeon.commands.progress import Report
+from gudgeon.measure.choice import choice
+from gudgeon.measure.show_bench import show_bench
+from gudgeon.simulation import Simulation
+
+
+def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
+    """Measure, print, write the table and the picture; the exit code."""
+    step, t_end = request.seconds("--mark-step", request.mark), request.seconds("--t-end", request.t_end)
+    loaded = load_scenes(request)
+    wanted = [name.strip() for text in methods for name in text.split(",") if name.strip()] or None
+    for simulation in loaded:
+        if simulation.source.degrees_of_freedom != 0:
+            choice(simulation, wanted, request.quick)  # a name that is none is told before anything is run
+    table = request.table(loaded[0].source.mechanism, "bench")
+
+    def one(simulation: Simulation, report: Report | None) -> SceneBench:
+        parameters, steps = request.of(simulation), None
+        if step is not None and simulation.source.degrees_of_freedom != 0:
+            steps = {*usual_steps(simulation, parameters, request.quick), step}
+        return bench(
+            simulation, sorted(steps) if steps else None, t_end=t_end, parameters=parameters, quick=request.quick,
+            methods=wanted, progress=report,
+        )  # fmt: skip
+
+    found, interrupted = each(loaded, one, request.json)
+    if found:
+        show_bench(loaded[0].source, found, table, step, request.json)
+    return exit_code(loaded, found, interrupted)

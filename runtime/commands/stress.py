@@ -1,0 +1,146 @@
+"""`gudgeon stress`: a map or a box of every scene, judged, shown, written."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from gudgeon.commands.common import unknown, value
+from gudgeon.commands.measure import Request, each, exit_code, load_scenes
+from gudgeon.commands.progress import Report
+from gudgeon.commands.run import addresses
+from gudgeon.errors import BadValueError
+from gudgeon.integrators.adaptive import tolerance
+from gudgeon.kernel_source import Slot
+from gudgeon.measure.axes import GROUPS, SETTINGS, axis, typed
+from gudgeon.measure.box import Range
+from gudgeon.measure.show_box import show_box
+from gudgeon.measure.show_stress import PASCAL, show_stress
+from gudgeon.measure.work import FIXED, Setting, natural_step
+from gudgeon.parameters import number
+from gudgeon.simulation import Simulation
+from gudgeon.stress import USUAL, StressBox, StressMap, default_steps, stress, stress_box
+
+METHODS = ("auto", "dop853", "rodas5p", "rk4")
+
+
+@dataclass(frozen=True)
+class Stress:
+    """What only `stress` is asked for."""
+
+    method: str = "auto"
+    at: str | None = None  # a step or a tolerance, where no axis is one
+    axes: tuple[str, ...] = ()
+    box: int | None = None
+    ranges: tuple[str, ...] = ()
+
+    @property
+    def fixed(self) -> bool:
+        """Whether the method takes a step."""
+        return self.method in FIXED
+
+
+def stress_file(request: Request, asked: Stress) -> int:
+    """Judge, print, write the table and the picture; the exit code."""
+    step, t_end = request.seconds("--mark-step", request.mark), request.seconds("--t-end", request.t_end)
+    _check(asked, step)
+    wanted, loaded = _value(asked), load_scenes(request)
+    _check_names(asked, loaded)
+    moving = [simulation for simulation in loaded if simulation.source.degrees_of_freedom != 0]
+    if not request.json:
+        for simulation in loaded:
+            if simulation not in moving:
+                print(f"{simulation.source.scene}: no degree of freedom, nothing is integrated, no step to choose")
+    if not moving:
+        return 0
+    table = request.table(moving[0].source.mechanism, "stress")
+    if asked.box is not None:
+        return _box(request, asked, moving, t_end, wanted, table)
+    steps = sorted({*default_steps(moving, request.quick), *([] if step is None else [step])})
+
+    def one(simulation: Simulation, report: Report | None) -> StressMap:
+        parameters = request.of(simulation)
+        axes = [typed(simulation, text, parameters) for text in asked.axes]
+        if asked.fixed and not any(a.of_method for a in axes) and len(axes) < 2:
+            axes = [axis(simulation, "step", steps), *axes]
+        return stress(
+            simulation, axes, method=asked.method, value=wanted, t_long=t_end, parameters=parameters,
+            quick=request.quick, progress=report,
+        )  # fmt: skip
+
+    found, interrupted = each(moving, one, request.json)
+    if found:
+        show_stress(moving[0].source, found, table, step, request.json)
+    return exit_code(moving, found, interrupted)
+
+
+def _box(
+    request: Request, asked: Stress, moving: Sequence[Simulation], t_end: float | None, wanted: float | None,
+    table: Path,
+) -> int:  # fmt: skip
+    def one(simulation: Simulation, report: Report | None) -> StressBox:
+        parameters = request.of(simulation)
+        axes = {a.name: a for a in (typed(simulation, text, parameters) for text in asked.ranges)}
+        ranges = [Range(a.name, a.values[0], a.values[-1], PASCAL.get(a.unit, a.unit)) for a in axes.values()]
+        usual = natural_step(simulation, parameters) if asked.fixed else USUAL
+        return stress_box(
+            simulation, ranges, asked.box or 0, setting=Setting(asked.method, wanted or usual), t_long=t_end,
+            parameters=parameters, addresses=axes, quick=request.quick, progress=report,
+        )  # fmt: skip
+
+    found, interrupted = each(moving, one, request.json)
+    if found:
+        show_box(moving[0].source, found, table, request.json)
+    return exit_code(moving, found, interrupted)
+
+
+def _check(asked: Stress, step: float | None) -> None:
+    """Options that would say nothing together are refused: what was typed was meant."""
+    if asked.method not in METHODS:
+        raise BadValueError(f"--method {asked.method!r}: expected {', '.join(METHODS)}")
+    own = [name for name in map(_name, asked.axes) if name in SETTINGS]
+    if asked.box is None and asked.ranges:
+        hint = "add --box COUNT (0: its corners alone), or vary the number along an --axis"
+        raise BadValueError(f"--range {asked.ranges[0]}: an edge of a box, and there is no --box", hint=hint)
+    if asked.box is not None:
+        if asked.axes:
+            raise BadValueError("--box and --axis: a box has edges, give --range NAME=LOW..HIGH")
+        if not asked.ranges:
+            raise BadValueError("--box: give its edges, --range NAME=LOW..HIGH")
+        for text in asked.ranges:
+            if ".." not in text.partition("=")[2] or ":" in text:
+                raise BadValueError(f"--range {text}: expected NAME=LOW..HIGH")
+            if _name(text) in SETTINGS:
+                raise BadValueError(f"--range {text}: a box has one {_name(text)}", hint="--at gives it")
+    elif asked.at is not None and (own or len(asked.axes) < 2):
+        what = "step" if asked.fixed else "rtol"
+        raise BadValueError(f"--at {asked.at}: here {what} is an axis of the map", hint="give two other axes, or --box")
+    rows = asked.box is None and asked.fixed and ("step" in own or len(asked.axes) < 2)
+    if step is not None and not rows:
+        raise BadValueError("--mark-step: no row is a step", hint="with --method rk4 the rows of the map are steps")
+
+
+def _check_names(asked: Stress, loaded: Sequence[Simulation]) -> None:
+    """A name that no scene has is told with the nearest ones."""
+    every = [name for simulation in loaded for name in addresses(simulation)]
+    known = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
+    for option, texts in (("--axis", asked.axes), ("--range", asked.ranges)):
+        for text in texts:
+            if "=" in text and _name(text) not in known:
+                raise unknown(f"{option} {text}: no scene has a number {_name(text)!r}", _name(text), known)
+
+
+def _name(text: str) -> str:
+    return text.partition("=")[0].strip()
+
+
+def _value(asked: Stress) -> float | None:
+    """The step (s) or tolerance of --at."""
+    if asked.at is None:
+        return None
+    unit, power = ("s", 1) if asked.fixed else ("", 0)
+    found = number(value(asked.at), Slot("--at", unit, 0.0, False, (0, 0, power)))
+    if asked.fixed and not found > 0:
+        raise BadValueError(f"--at {asked.at}: expected a positive step")
+    return found if asked.fixed else tolerance(found, asked.method, False)
