@@ -149,11 +149,12 @@ def _simulate(
     with progress_bar(quiet=request.json) as bar:
         for name in sorted(simulations, key=lambda name: name == IDEAL):
             simulation, until = simulations[name], t_end
+            method = "auto" if name == IDEAL and len(simulations) > 1 else request.method
             if until is None:
                 until = simulation.source.simulate.get("t_end", longest if name == IDEAL else T_END)
             try:
                 run = simulation.simulate(
-                    until, output=request.output, method="auto" if name == IDEAL else request.method, step=step,
+                    until, output=request.output, method=method, step=step,
                     rtol=request.rtol, horizon=request.horizon,
                     parameters=_own(settings, simulation), progress=bar(name),
                 )  # fmt: skip

@@ -176,7 +176,6 @@ def test_momentum_of_three_bodies_in_flight(load: Load, method: str) -> None:
     assert np.ptp(turn) < 1e-11
 
 
-@pytest.mark.xfail(strict=True, reason="`gudgeon run` takes auto for `ideal`, even where it alone is asked for")
 @pytest.mark.parametrize(("method", "code"), [("rodas5p", 0), ("nonsense", 2)])
 def test_run_takes_the_method_that_is_asked_for(tmp_path: Path, method: str, code: int) -> None:
     """`--scene ideal --method rodas5p`, as `gudgeon stress` prints it to see a cell again."""
