@@ -238,8 +238,8 @@ def _folded(ax: Axes, text: str) -> str:
     spec = ax.get_subplotspec()
     share = spec.rowspan.stop - spec.rowspan.start if spec else 1
     rows = spec.get_gridspec().nrows if spec else 1
-    points = 72 * float(ax.get_figure(root=True).get_size_inches()[1]) * 0.85 * share / rows
-    width = max(8, int(points / (0.58 * float(ax.yaxis.label.get_size()))))
+    points = 72 * ax.figure.bbox.height / ax.figure.dpi * 0.85 * share / rows
+    width = max(8, int(points / (0.58 * float(ax.yaxis.label.get_fontsize()))))
     words = [word if len(word) <= width else word.replace(".", ".\u200b") for word in text.split(" ")]
     lines = textwrap.wrap(" ".join(words).replace("\u200b", " \u200b"), width, break_long_words=False)
     return "\n".join(lines).replace(" \u200b", "").replace("\u200b", "")

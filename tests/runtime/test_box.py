@@ -6,6 +6,7 @@ import json
 import math
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -150,7 +151,7 @@ def test_every_judged_point_is_in_the_figure(count: int) -> None:
     edges = tuple(Range(name, 1e-3, 1.0, "m") for name in ("a.b.c", "d", "e"))[:count]
     points = (*corners(edges), *sobol(edges, 5))
     box = made([(list(Status)[k % 4], 1e-6) for k in range(len(points))], edges)
-    axes = box_figure("A box", [box, box]).axes
+    axes: Any = box_figure("A box", [box, box]).axes
     assert len(axes) == 2 * (2 if count > 2 else 1)
     assert len(axes[0].collections) == len(points)
     assert axes[0].get_xscale() == axes[0].get_yscale() == "log"

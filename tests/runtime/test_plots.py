@@ -142,11 +142,11 @@ def test_what_lies_beyond_the_horizon_is_marked_and_told(run: Result, ideal: Res
         picture = plots.figure({"dry": shown}, ideal, ["S9.y"])
         told = [text.get_text() for text in picture.legends[0].get_texts()]
         assert ("not to be trusted" in told) == marked
-        lines = picture.subfigs[1].axes[0].lines
+        lines: Any = picture.subfigs[1].axes[0].lines
         grey = [line for line in lines if line.get_color() == plots.UNTRUSTED]
         assert len(grey) == marked
     trusted = lines[0].get_xdata()
-    part = short.plot.orbit("A").lines
+    part: Any = short.plot.orbit("A").lines
     known = int((run.t <= 0.4).sum())
     assert len(part[0].get_xdata()) == known < len(trusted)
     assert len(part[2].get_xdata()) == len(run.t) - known + 1  # from the last trusted sample on
