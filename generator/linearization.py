@@ -58,6 +58,9 @@ class Linearization:
         self.t = system.model.t
         self.q, self.v = ({s: k for k, s in enumerate(group)} for group in (system.q, system.v))
         self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, self.t))
+        for known in system.known:  # functions of t
+            for symbol, rate in ((known.q, known.rate), (known.rate, known.second), (known.second, known.third)):
+                self.tangents.know(symbol, {self.t: rate})
         self.parts = Parts()
         self.a = [self._held(f"a_{q.name}", f"a[{k}]") for k, q in enumerate(system.q)]
         self.multiplier = [

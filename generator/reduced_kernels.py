@@ -39,7 +39,7 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
     kkt = KKT(system, daring=is_rescued(system))
     dynamics = dynamics_kernel(system, kkt, "reduced_dynamics", _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
-    watched = watched_kernel(dynamics, system.model)
+    watched = None if system.chain else watched_kernel(dynamics, system.model)  # chains are closed by rates()
     kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
     return [without_unused(kernel) for kernel in kernels], kkt
 
@@ -71,18 +71,21 @@ def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
     """Tree coordinates of an absolute state, and the accelerations of an absolute one."""
     pairs = list(zip(model.q, model.v, strict=True))
     diff = model.symbols.diff
-    positions = _tree_coordinates(model, system)
+    names = (*system.unknowns, *(system.chain.names if system.chain else ()))
+    positions = _tree_coordinates(model, system, names)
     rates = [sp.Add(*(diff(s, q) * v for q, v in pairs)) for s in positions]
     state = KernelBuilder(model.symbols, "reduce_state", [
         "Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.",
     ])  # fmt: skip
     state.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
-        state.out(f"s[{k}]", position, system.unknowns[k])
+        state.out(f"s[{k}]", position, names[k])
         state.out(f"s_rate[{k}]", rate)
     accelerations = KernelBuilder(model.symbols, "reduce_accelerations", ["Their second rates a, from absolute all_a."])
     accelerations.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
+        if k == len(system.unknowns):
+            break
         along = (diff(position, q) * sp.Symbol(f"all_a[{i}]") for i, q in enumerate(model.q))
         accelerations.out(f"a[{k}]", sp.Add(*along, *(diff(rate, q) * v for q, v in pairs)), system.unknowns[k])
     out = (Argument("double *", "s"), Argument("double *", "s_rate"))
@@ -93,14 +96,14 @@ def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
     return kernels
 
 
-def _tree_coordinates(model: Model, system: TreeSystem) -> list[sp.Expr]:
-    """The unknowns in absolute coordinates: angles, and slides along their axes."""
+def _tree_coordinates(model: Model, system: TreeSystem, names: Sequence[str]) -> list[sp.Expr]:
+    """Coordinates of the tree in absolute ones: angles, and slides along their axes."""
     slides: dict[str, sp.Expr] = {}
     for link in system.tree.links:
         body = model.geometry.bodies[link.body]
         for name, value in zip(link.coordinates, (body.x, body.y), strict=False):
             slides[name] = value if link.joint is None else _slide(model, link)
-    return [slides[name] if name in slides else model.geometry.bodies[name].theta for name in system.unknowns]
+    return [slides[name] if name in slides else model.geometry.bodies[name].theta for name in names]
 
 
 def _slide(model: Model, link: Link) -> sp.Expr:

@@ -14,6 +14,7 @@ import sympy as sp
 
 from gudgeon.generator.clearance import make_clearance
 from gudgeon.generator.constraints import Constraints, Row
+from gudgeon.generator.driven_chains import Chain, determined, prescribe, with_directions
 from gudgeon.generator.elements import PointLoad, apply_element
 from gudgeon.generator.events import make_event
 from gudgeon.generator.friction import make_friction
@@ -35,6 +36,7 @@ class TreeSystem(System):
     unknowns: tuple[str, ...]
     slides: Mapping[str, Affine]  # slides that a drive prescribes, or that another slide tells
     sliding: tuple[str, ...]  # the rows that say so, one a slide
+    chain: Chain | None = None  # what the drives determine through loops (driven_chains.py)
 
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Generalized forces of loads; forces with the same lever are added first."""
@@ -84,11 +86,27 @@ def reduce(model: Model) -> TreeSystem:
         rows = _closures(model, tree, constraints)
         found = _known_slide(model, geometry, constraints, rows)
         if found is None:
-            return _system(model, tree, (slides, sliding), geometry, constraints, rows)
+            return _without_chains(model, _system(model, tree, (slides, sliding), geometry, constraints, rows))
         row, name, value = found
         slides = {k: substitute(v, name, value) for k, v in slides.items()} | {name: value}
         sliding += (row,)
         tree = replace(tree, rows=tree.rows | {row})
+
+
+def _without_chains(model: Model, system: TreeSystem) -> TreeSystem:
+    """The system with what the drives determine as functions of t; a scene without freedom is not integrated."""
+    if model.degrees_of_freedom <= 0 or not system.rows:
+        return system
+    held = {row.name for row in system.rows if stays_a_row(model, row)}
+    columns, rows = determined(system, held)
+    if not columns:
+        return system
+    free = tuple(name for k, name in enumerate(system.unknowns) if k not in columns)
+    reduced, chain = prescribe(system, system.unknowns, columns, rows)
+    geometry: TreeGeometry = reduced.model.geometry  # type: ignore[assignment]
+    driven = {name for name, c in geometry.motions.coordinates.items() if c.acceleration is not None}
+    chain = with_directions(chain, reduced, geometry.frames.values(), driven)
+    return replace(reduced, unknowns=free, chain=chain)
 
 
 def _place(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tuple[TreeGeometry, TreeConstraints]:

@@ -18,6 +18,7 @@ from sympy.utilities.iterables import strongly_connected_components
 
 from gudgeon.generator.kernels import KernelBuilder
 from gudgeon.generator.kkt import SINGULAR
+from gudgeon.generator.switches import Size
 from gudgeon.generator.system import System
 
 ZERO = sp.Integer(0)
@@ -104,7 +105,9 @@ class SquareRows:
         else:
             entry = entries.get(column, ZERO)
             size = sp.Abs(entry) + sp.Abs(self._symbols.diff(entry, self._q[column]))
-        return size if size.is_Number else build.local(f"size_{self.names[row]}__{self.unknowns[column]}", size)
+        if size.is_Number:
+            return size
+        return build.local(f"size_{self.names[row]}__{self.unknowns[column]}", size.replace(sp.Abs, Size))
 
     def _dense(self, build: KernelBuilder, block: Block) -> Solver:
         n, name = len(block.rows), self._symbols.unique(f"block_{self.names[block.rows[0]]}")
@@ -151,11 +154,9 @@ class SquareRows:
         return [f"{name}[{k}]" for k in range(n)]
 
 
-def triangular_blocks(pattern: Sequence[set[int]], n: int) -> tuple[Block, ...] | None:
-    """Blocks in solving order of a square pattern, columns by row; None where no row is left for some column."""
-    if len(pattern) != n:
-        return None
-    owner: dict[int, int] = {}  # column -> row
+def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
+    """Rows by columns of their own, for as many rows as there is one for (augmenting paths)."""
+    owner: dict[int, int] = {}
 
     def find(row: int, tried: set[int]) -> bool:
         for column in sorted(pattern[row]):
@@ -166,7 +167,17 @@ def triangular_blocks(pattern: Sequence[set[int]], n: int) -> tuple[Block, ...] 
                     return True
         return False
 
-    if not all(find(row, set()) for row in range(n)):
+    for row in range(len(pattern)):
+        find(row, set())
+    return owner
+
+
+def triangular_blocks(pattern: Sequence[set[int]], n: int) -> tuple[Block, ...] | None:
+    """Blocks in solving order of a square pattern, columns by row; None where no row is left for some column."""
+    if len(pattern) != n:
+        return None
+    owner = match_rows(pattern)
+    if len(owner) < n:
         return None
     matched = {row: column for column, row in owner.items()}
     needs = [(row, owner[column]) for row in range(n) for column in sorted(pattern[row]) if owner[column] != row]

@@ -73,6 +73,10 @@ def _reduced(model: Model, system: TreeSystem) -> Iterator[Step]:
     if system.slides:
         by = dict.fromkeys(k for affine in system.slides.values() for k in affine if k != CONSTANT)
         yield Step(told.KNOWN, tuple(by) or tuple(system.slides), tuple(system.slides), rows_gone=system.sliding)
+    if system.chain:
+        rows = tuple(row.name for row in system.chain.rows)
+        gone = tuple(name if "." in name else f"{name}.theta" for name in system.chain.names)
+        yield Step(told.CHAIN, tuple(dict.fromkeys(row.owner for row in system.chain.rows)), gone, rows_gone=rows)
 
 
 def _owners(links: Iterable[Link]) -> tuple[str, ...]:

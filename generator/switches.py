@@ -51,6 +51,13 @@ class Magnitude(sp.Function):
         return sp.Integer(1)
 
 
+class Size(sp.Function):
+    """|x| in a bound, which is compared with and no part of the motion: its corner is none."""
+
+    nargs = 1
+    is_real = True
+
+
 @dataclass(frozen=True)
 class Switch:
     """One corner: `owner` is the joint with play that it belongs to, "" for the scene."""

@@ -25,6 +25,7 @@ expand reduce_state reduce_accelerations solve_by_absolute all_q all_v all_a s s
 e_x e_y de_x de_y de_t omega_i omega_j n_x n_y stored a_i a_j share F_r T0 F_x F_y F_along_n F_along_t M_i M_j
 eta eta_row eta_stick lin r s u x depth unclipped dF value slope film
 close_step arrive step rates worst factor_block solve_block
+chain_step chain_rates chain_third chain_corners chain_directions row most bend
 """
 _TAKEN = frozenset(_WORDS.split())
 

@@ -9,7 +9,7 @@ Jacobians) holds for both.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import sympy as sp
 
@@ -40,6 +40,16 @@ class Given:
 
 
 @dataclass(frozen=True)
+class Known:
+    """A coordinate that is computed before all else, a function of t, with its first three rates."""
+
+    q: sp.Symbol
+    rate: sp.Symbol
+    second: sp.Symbol
+    third: sp.Symbol
+
+
+@dataclass(frozen=True)
 class System:
     """Coordinates q with velocities v; `mass` holds the lower triangle's non-zeros (i ≥ j) of M."""
 
@@ -52,6 +62,7 @@ class System:
     given: tuple[Given, ...]
     rows: tuple[Row, ...]
     frictions: tuple[Friction, ...]
+    known: tuple[Known, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
 
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Generalized forces (n) of loads, and those on given coordinates by name: Jᵀ f at each point."""

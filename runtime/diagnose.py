@@ -25,7 +25,7 @@ def diagnose(
     """What a run says about itself, from its trajectory and what follows from its samples (None: nothing does)."""
     x, counts = trajectory, trajectory.counts
     worst = turned = math.nan
-    if evaluation is not None:
+    if evaluation is not None and len(x.t):  # none where not even the start has accelerations
         energy = evaluation.energy
         residual = energy.sum(axis=1) - energy[0].sum() - x.work.sum(axis=1)
         turned = float(np.abs(np.diff(x.work, axis=0)).sum() + np.ptp(energy[:, 0]))
@@ -35,7 +35,7 @@ def diagnose(
         used = max(
             (d / max(1, math.ceil(d / used * (1 - 1e-12))) for d in np.diff(problem.t).tolist()), default=math.nan
         )
-    simulated = float(x.t[-1] - x.t[0])
+    simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
     if method == "adaptive":
         method = "dop853+rodas5p" if 0 < counts.stiff_steps < counts.steps else ORDER_OF_CHOICE[counts.stiff_steps > 0]
     return Diagnostics(

@@ -158,6 +158,8 @@ class KernelSource:
     motion_pivots: tuple[str, ...] = ()  # as pivots, of what is integrated
     tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
     closures: tuple[str, ...] = ()  # its rows
+    chain: tuple[str, ...] = ()  # coordinates that drives determine through loops: they are evaluated, not integrated
+    chain_rows: tuple[str, ...] = ()  # the rows of these loops
     events: tuple[EventInfo, ...] = ()
     story: Story = Story()  # how the equations became what is integrated (check -v)
     lanes: str = ""  # the file to compile for runs side by side; "": there is none

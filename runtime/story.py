@@ -21,6 +21,7 @@ HUB = "hub"  # joints of points where more than two bodies meet
 HINGES = "hinges"  # joints of the tree whose points coincide
 SLIDES = "slides"  # joints of the tree that carry a body along an axis
 KNOWN = "known"  # slides and drives that say a slide
+CHAIN = "chain"  # joints whose loops determine what drives move
 
 
 @dataclass(frozen=True)

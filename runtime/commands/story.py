@@ -142,9 +142,15 @@ def _known(step: Step) -> str:
     return f"the slide{_s(step.gone)} of {_of(step.gone)} follow{_verb(step.gone)} {listed(step.owners)}"
 
 
+def _chain(step: Step) -> str:
+    closes = f"{listed(step.owners)} close{_verb(step.owners)} loops that drives alone move"
+    return f"{closes}: what they make of {_of(step.gone)} is evaluated, not integrated"
+
+
 _WORDS: Mapping[str, Callable[[Step], str]] = {
     told.PLAY: _play, told.REDUNDANT: _redundant, told.PRESCRIBED: _prescribed, told.CONSTANT: _constant,
     told.FOLLOWING: _following, told.HUB: _hub, told.HINGES: _hinges, told.SLIDES: _slides, told.KNOWN: _known,
+    told.CHAIN: _chain,
 }  # fmt: skip
 
 
@@ -220,7 +226,11 @@ def _operations(source: KernelSource) -> str:
     if source.formulation == "full" or "reduced_dynamics" not in counts:
         return f"accelerations {full:,}{_laws(source)}"
     reduced = counts["reduced_dynamics"]
-    return f"accelerations {full:,} → {reduced:,}, {_factor(full, reduced)}{_laws(source)}"
+    chains = ""
+    if source.chain:
+        steps, rates = counts["chain_step"], counts["chain_rates"]
+        chains = f"; driven chains with two rates {rates:,}, each step to close them {steps:,}"
+    return f"accelerations {full:,} → {reduced:,}, {_factor(full, reduced)}{_laws(source)}{chains}"
 
 
 def _factor(before: int, after: int) -> str:

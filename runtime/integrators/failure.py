@@ -30,6 +30,13 @@ def failure(
         return SolverError(f"a contact was lost at t = {t:.9g} s: a free journal lies outside its bearing", t)
     if status == OUTSIDE:
         return _too_deep(compiled, e_max, p, t)
+    row = compiled.source.motion_pivots[status - 1]
+    if row in compiled.source.chain_rows:
+        return SingularError(
+            f"the linkage reaches a dead centre at t = {t:.9g} s: where its drives want it, nothing closes constraint"
+            f" row {row}\n  the lengths do not let the drives move on from there; end the run before it, or change the"
+            " drive", t, row
+        )  # fmt: skip
     try:
         compiled.check_pivot(status, t, compiled.source.motion_pivots)
     except SingularError as error:

@@ -16,7 +16,10 @@ from gudgeon.generator.redundancy import MODULES
 
 @dataclass(frozen=True)
 class Reduced:
-    """The library's functions in tree coordinates s (n,)."""
+    """The library's functions in tree coordinates: s and rates (n + c,), free ones, then those of driven chains.
+
+    Of the latter s is a guess, which the functions close themselves, and the rates are not looked at.
+    """
 
     library: CompiledModel
     p: Array
@@ -29,6 +32,17 @@ class Reduced:
     def rows(self) -> int:
         return len(self.library.source.closures)
 
+    @property
+    def chained(self) -> int:
+        return len(self.library.source.chain)
+
+    def chains(self, t: float, s: Array) -> tuple[Array, Array]:
+        """Coordinates of the chains (c,) next to the guess in s, and three rates of each (3, c)."""
+        c, rates = s[self.n :].copy(), np.empty((3, self.chained))
+        if self.chained:
+            assert self.library.lib.gudgeon_chains(t, *map(self.library.pointer, (c, self.p, rates))) == 0
+        return c, rates
+
     def expand(self, t: float, s: Array, rate: Array) -> tuple[Array, Array]:
         """Absolute q and v."""
         q, v = np.empty(self.library.n), np.empty(self.library.n)
@@ -37,9 +51,10 @@ class Reduced:
 
     def reduce(self, t: float, q: Array, v: Array) -> tuple[Array, Array]:
         """s and its rates of an absolute state."""
-        s, rate = np.empty(self.n + 1), np.empty(self.n + 1)
+        n = self.n + self.chained
+        s, rate = np.empty(n + 1), np.empty(n + 1)
         self._call("reduce", t, q, v, self.p, s, rate)
-        return s[: self.n], rate[: self.n]
+        return s[:n], rate[:n]
 
     def closures(self, t: float, s: Array, rate: Array) -> tuple[Array, Array]:
         """Φ of the loops and its rate."""
@@ -49,9 +64,9 @@ class Reduced:
 
     def project(self, t: float, s: Array, r: Array) -> Array:
         """The smallest x with Φ_s x = r."""
-        x = np.zeros(self.n + 1)
+        x = np.zeros(self.n + self.chained + 1)
         assert self._call("reduced_project", t, s, r, self.p, x) == 0
-        return x[: self.n]
+        return x[:-1]
 
     def accelerations(self, t: float, s: Array, rate: Array, memory: Array) -> tuple[Array, Array, Array]:
         """s̈, multipliers of the closures, powers."""
@@ -81,16 +96,20 @@ class Reduced:
 
 
 class Numbers:
-    """Expressions of a reduced system as functions of (t, s, ṡ) and the slots."""
+    """Expressions of a reduced system as functions of (t, s, ṡ) and the slots; `chains` as Reduced has them."""
 
     def __init__(self, model: Model, p: Array) -> None:
         self.model, self.p = model, p
         self.system: TreeSystem = reduce(model)
+        self.chains = np.zeros(0), np.zeros((3, 0))
 
     def __call__(self, expressions: Sequence[sp.Expr], t: float, s: Array, rate: Array) -> Array:
         system, symbols = self.system, self.system.model.symbols
         slots = [entry.symbol for entry in self.model.slots.entries.values()]
+        known = [x for k in system.known for x in (k.q, k.rate, k.second, k.third)]
         steps = [(x, symbols.definitions[x]) for x in symbols.info if x in symbols.definitions]
-        arguments = [[system.model.t], list(system.q), list(system.v), slots]
+        arguments = [[system.model.t], list(system.q), list(system.v), slots, known]
         function = sp.lambdify(arguments, list(expressions), MODULES, cse=lambda e: (steps, list(e)))
-        return np.array(function([t], list(s), list(rate), list(self.p[: len(slots)])), dtype=float)
+        n = len(system.q)
+        chains = [x for c, rates in zip(self.chains[0], self.chains[1].T, strict=True) for x in (c, *rates)]
+        return np.array(function([t], list(s[:n]), list(rate[:n]), list(self.p[: len(slots)]), chains), dtype=float)

@@ -30,7 +30,7 @@ SHIPPED = [
     ("nine_bar_press", "ideal"), ("nine_bar_press", "dry"), ("nine_bar_press", "lubricated"),
     ("andrews_squeezer", "ideal"), ("four_bar", "ideal"), ("slider_crank", "ideal"), ("slider_crank_spring", "ideal"),
     ("pendulum", "ideal"), ("car_axis", "ideal"), ("belt_block", "ideal"), ("bouncing_ball", "ideal"),
-    ("n_four_bar", "ideal"),
+    ("n_four_bar", "ideal"), ("shaker", "ideal"),
 ]  # fmt: skip
 ALWAYS, ALL = 24, 500
 QUICK = (*range(ALWAYS), 25)  # 25: a slide on a turning body closes a loop
@@ -62,6 +62,7 @@ def check_state(
 ) -> None:
     """Accelerations of all bodies, multipliers and powers at a state that closes its loops."""
     library = reduced.library
+    numbers.chains = reduced.chains(t, s)
     q, v = reduced.expand(t, s, rate)
     assert close(library.phi(t, q, reduced.p), np.zeros(len(library.source.rows)), 1e-12, 1.0)
     assert close(

@@ -142,11 +142,11 @@ def slopes(reduced: Reduced, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """∂(all positions)/∂s and Φ_s by central differences."""
     s, rate = reduced.reduce(0.3, q, np.zeros_like(q))
     h, columns, rows = 1e-5, [], []
-    for k in range(len(s)):
+    for k in range(reduced.n):
         up, down = (s + sign * h * np.eye(len(s))[k] for sign in (1.0, -1.0))
         columns.append((reduced.expand(0.3, up, rate)[0] - reduced.expand(0.3, down, rate)[0]) / (2.0 * h))
         rows.append((reduced.closures(0.3, up, rate)[0] - reduced.closures(0.3, down, rate)[0]) / (2.0 * h))
-    return np.array(columns).T, np.array(rows).T.reshape(reduced.rows, len(s))
+    return np.array(columns).T, np.array(rows).T.reshape(reduced.rows, reduced.n)
 
 
 @pytest.mark.parametrize("name", PLACED_BY_PAIRS)

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang")
 CASES = (
     ("andrews_squeezer", "ideal", 0.01), ("car_axis", "ideal", 0.3), ("slider_crank_spring", "ideal", 1.0),
     ("n_four_bar", "ideal", 0.4), ("nine_bar_press", "lubricated", 0.05), ("nine_bar_press", "dry", 0.0068),
-    ("slider_crank", "dry", 0.011), ("pendulum", "ideal", 0.5),
+    ("slider_crank", "dry", 0.011), ("pendulum", "ideal", 0.5), ("shaker", "ideal", 0.017),
 )  # fmt: skip
 
 
@@ -34,14 +34,16 @@ class Tree:
         self.p = without_baumgarte(self.compiled, zeros, zeros.astype(bool))
         self.memory = self.compiled.memory_array(run.memory[-1] if self.compiled.n_memory else None)
         self.n = len(simulation.source.tree)
-        q, v = np.zeros(self.n), np.zeros(self.n)
+        chained = len(simulation.source.chain)
+        q, v = np.zeros(self.n + chained), np.zeros(self.n + chained)
         final = [np.ascontiguousarray(x) for x in (run.q[-1], run.v[-1])]
         self.lib.gudgeon_reduce(t, *map(self.pointer, (*final, self.p, q, v)))
-        self.y = np.concatenate([q, v, np.zeros(3)])
+        self.y = np.concatenate([q[: self.n], v[: self.n], np.zeros(3)])
+        self.chain = q[self.n :]
 
     def rates(self, t: float, y: np.ndarray) -> np.ndarray:
         """ẏ, (2n + 3,)."""
-        q, v = y[: self.n].copy(), y[self.n : 2 * self.n].copy()
+        q, v = np.concatenate([y[: self.n], self.chain]), y[self.n : 2 * self.n].copy()
         a, power = np.zeros(self.n), np.zeros(3)
         multipliers = np.zeros(len(self.simulation.source.closures) + 1)
         arrays = (q, v, self.memory, self.p, a, multipliers, power)
@@ -51,12 +53,14 @@ class Tree:
     def jacobian(self) -> tuple[np.ndarray, np.ndarray]:
         size = 2 * self.n + 3
         J, f_t = np.zeros((size, size)), np.zeros(size)
-        assert self.lib.gudgeon_tree_jacobian(self.t, *map(self.pointer, (self.y, self.memory, self.p, J, f_t))) == 0
+        arrays = (np.concatenate([self.y, self.chain]), self.memory, self.p, J, f_t)
+        assert self.lib.gudgeon_tree_jacobian(self.t, *map(self.pointer, arrays)) == 0
         return J, f_t
 
     def solve(self, eta: float, s: float, r: np.ndarray) -> np.ndarray:
         u = np.zeros_like(r)
-        arrays = map(self.pointer, (self.y, self.memory, self.p))
+        y = np.concatenate([self.y, self.chain])
+        arrays = map(self.pointer, (y, self.memory, self.p))
         assert self.lib.gudgeon_newton(self.t, *arrays, eta, s, self.pointer(r), self.pointer(u)) == 0
         return u
 

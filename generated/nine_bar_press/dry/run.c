@@ -238,7 +238,7 @@ void gudgeon_run_start(void *memory, const double *p, double t, const double *y,
 {
     Run *run = memory;
     *run = (Run){.t = t, .ratio_min = INFINITY, .ratio_max = -INFINITY};
-    from_absolute(t, y, (const Parameters *)p, run->y);
+    from_absolute(t, y, &run->memory, (const Parameters *)p, run->y);
     read_memory(latched, &run->memory);
     for (int i = 0; i < N_CLEARANCES; i++)
         run->open[i] = (Impact){t, NAN, latched[i], 0.0, t, i};
@@ -257,7 +257,7 @@ static void store_sample(const Run *run, double t, const double *now, const Para
     double *latched, signed char *state)
 {
     enum { MEMORY = 2, JOINTS = 2 };
-    to_absolute(t, now, p, y + i * N_S);
+    to_absolute(t, now, &run->memory, p, y + i * N_S);
     for (int k = 0; k < N_CLEARANCES; k++) {
         latched[i * MEMORY + k] = run->memory.latch[k].closed ? run->memory.latch[k].deltadot_minus : NAN;
         state[i * JOINTS + k] = (signed char)(run->memory.latch[k].closed ? 2 - run->compressing[k] : 0);

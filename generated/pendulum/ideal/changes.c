@@ -46,11 +46,11 @@ static void cross(Run *run, int k, const Parameters *p)
 }
 
 /* Of all bodies, J. */
-static double kinetic_energy(double t, const double *y, const Parameters *p)
+static double kinetic_energy(const Run *run, const Parameters *p)
 {
     double m[N_Q], all[N_S], sum = 0.0;
     mass_matrix(p, m);
-    to_absolute(t, y, p, all);
+    to_absolute(run->t, run->y, &run->memory, p, all);
     for (int k = 0; k < N_Q; k++)
         sum += 0.5 * m[k] * all[N_Q + k] * all[N_Q + k];
     return sum;
@@ -83,9 +83,9 @@ static int change(Run *run, int event, const Parameters *p)
     if (is_corner) {
         pace_corner(run, corner);
         /* a drive whose rate jumps moves the linkage by an impulse */
-        const double before = kinetic_energy(run->t, run->y, p);
+        const double before = kinetic_energy(run, p);
         project_state(run, run->t, run->y, p);
-        run->y[2 * N_X] += kinetic_energy(run->t, run->y, p) - before;
+        run->y[2 * N_X] += kinetic_energy(run, p) - before;
     }
     int status = settle_sides(run, is_corner ? corner : -1, p);
     const int friction = corner - N_SWITCHES, watched = friction - N_FRICTIONS;

@@ -9,6 +9,7 @@ import sympy as sp
 
 from gudgeon.expression_tree import to_json
 from gudgeon.generator.constraints import Row, rate_jumps
+from gudgeon.generator.driven_chains import Chain
 from gudgeon.generator.interface import element_series, kept_joints
 from gudgeon.generator.mechanism import GROUND
 from gudgeon.generator.model import Model
@@ -36,6 +37,7 @@ def describe(
     methods: tuple[str, ...] = (), pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
     operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
     motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = UNTOLD, lanes: str = "",
+    chain: Chain | None = None,
 ) -> KernelSource:  # fmt: skip
     """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
     scene, mechanism = model.scene, model.scene.mechanism
@@ -88,6 +90,7 @@ def describe(
         simulate=_simulate(model),
         operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
         tree=tree, closures=closures, motion_pivots=motion_pivots, formulation=formulation,
+        chain=chain.names if chain else (), chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         story=story, lanes=lanes,
     )  # fmt: skip

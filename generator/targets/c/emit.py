@@ -16,7 +16,6 @@ from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.law_kernels import law_kernels
 from gudgeon.generator.model import Model
 from gudgeon.generator.projection import closing_kernel
-from gudgeon.generator.reduced_kernels import is_rescued
 from gudgeon.generator.story import tell
 from gudgeon.generator.system import absolute
 from gudgeon.generator.targets.c import lanes_code, printer
@@ -109,10 +108,11 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     ]  # fmt: skip
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
-    reduced = reduced_code(model, render, _kernels) if formulation == "reduced" else None
+    reduced = reduced_code(model, kkt.pivots, render, _kernels) if formulation == "reduced" else None
     watched = watched_kernel(dynamics, model) if formulation == "full" else None
     right_hand_side = [dynamics, *([watched] if watched else [])]
-    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched is not None)
+    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched is not None,
+                       render("motion_full.c.jinja"), kkt.pivots)  # fmt: skip
     integrated = reduced.integrated if reduced else plain
     counts = _counts(model, integrated)
     if integrates:
@@ -120,7 +120,6 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     else:
         loops, beside = kinematic_code(model, kkt, integrated, counts, render), {}
     prepare = interface.prepare_kernel(model, printer.expression)
-    rescued = reduced is not None and is_rescued(reduced.system)  # the absolute formulation tells what vanished
     kernels = [*right_hand_side, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
     files = {
         "model.h": render("model.h.jinja", **_header(model), **counts),
@@ -143,9 +142,9 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     return describe(
         model, files=files, main="scene.c", cdef=cdef,
         methods=("rk4", "dop853", "rodas5p") if integrates else ("kinematic",),
-        pivots=kkt.pivots, start_pivots=loops.pivots, motion_pivots=kkt.pivots if rescued else integrated.kkt.pivots,
+        pivots=kkt.pivots, start_pivots=loops.pivots, motion_pivots=integrated.pivots,
         operations=_operations(model, kernels),
-        tree=reduced.system.unknowns if reduced else (),
+        tree=reduced.system.unknowns if reduced else (), chain=integrated.chain,
         closures=tuple(row.name for row in reduced.system.rows) if reduced else (), formulation=formulation,
         story=tell(model, kkt, loops.solved, integrated.system, loops.groups),
         lanes=lanes_code.MAIN if beside else "",
@@ -162,7 +161,7 @@ def _loops(
     """The methods, and the files of a library beside: runs side by side."""
     linearized, kernels = _newton(model, integrated)
     closing = closing_kernel(integrated.system)
-    lanes = reduced is not None and lanes_code.has_lanes(model)
+    lanes = reduced is not None and reduced.system.chain is None and lanes_code.has_lanes(model)
     files = integrator_loops(model, integrated, linearized, closing, counts, render, lanes)
     beside = {}
     if reduced is not None and lanes:
@@ -174,7 +173,7 @@ def _newton(model: Model, integrated: Integrated) -> tuple[str, list[Kernel]]:
     """The linearized equations: Newton's matrix, Jacobian."""
     tangents, slopes = tangent_code(model, render)
     text, kernels = newton_code(integrated.system, render)
-    return tangents + text + jacobian_code(model, integrated.reduced, render), [*kernels, *slopes]
+    return tangents + text + jacobian_code(model, integrated, render), [*kernels, *slopes]
 
 
 def render(name: str, /, **values: Any) -> str:
@@ -209,6 +208,8 @@ def _counts(model: Model, integrated: Integrated) -> dict[str, int]:
         "n_switches": switches,
         "n_x": len(system.q),
         "n_loops": len(system.rows),
+        "n_chain": len(system.known),
+        "n_led": len(system.known) + 2 * len(chain.directions) if (chain := integrated.chain) else 0,
         "n_memory": len(model.clearances) + len(model.frictions),
         "n_margins": len(model.clearances) + switches + len(model.frictions) + len(model.events),
         "n_events": len(model.events),

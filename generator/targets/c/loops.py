@@ -9,6 +9,7 @@ from typing import Any
 import sympy as sp
 
 from gudgeon.generator.clearance import Clearance
+from gudgeon.generator.driven_chains import Chain
 from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kinematic_kernels import kinematic_kernels
 from gudgeon.generator.kkt import KKT
@@ -38,6 +39,18 @@ _FROM_CLOSURES = """\
     }"""
 
 
+_FROM_TREE = """\
+    TreeState at; /* from here on the driven chains are followed */
+    int status = tree_state(run->t, run->y, &run->memory, p, &at);
+    if (!status)
+        status = keep_chains(run->t, &at, &run->memory, p);
+    if (status)
+        return status;
+""" + _FROM_CLOSURES.replace("run->y, run->y + N_X", "at.q, at.v").replace("run->y", "at.q")
+# what kernels of the motion read at the accepted state, at a state y, and with driven chains
+_STATES = {"run": "run->y, run->y + N_X", "y": "y, y + N_X", "chain": "at.q, at.v"}
+
+
 @dataclass(frozen=True)
 class Integrated:
     """What the loops move forward: a system, with the order of its pivots and its angles (1) and lengths (0)."""
@@ -48,11 +61,18 @@ class Integrated:
     reduced: bool
     finish: Callable[[Kernel], Kernel]  # a last pass over kernels
     cheap: bool  # whether generator/watched.py has a kernel of what is watched
+    motion: str  # the text of motion.c
+    pivots: tuple[str, ...]  # rows that a status of motion() counts through
+    chain: Chain | None = None
 
     @property
     def corners(self) -> list[int]:
         """The scene's own switches."""
         return sorted(switch.index for switch in self.system.model.symbols.switches.of(""))
+
+    def state(self, where: str) -> str:
+        """The arguments q and v of the system's kernels."""
+        return _STATES["chain" if self.system.known else where]
 
 
 @dataclass(frozen=True)
@@ -106,19 +126,21 @@ def integrator_loops(
     common["meeting"] = _meeting(model, counts["n_switches"])
     constraints, projection = _PROJECTED if integrated.reduced else _STABILISED
     residuals = _FROM_CLOSURES if integrated.reduced else _FROM_DYNAMICS
+    residuals = _FROM_TREE if integrated.system.known else residuals
+    chain = {"n_chain": counts["n_chain"]}
     return {
-        "motion.c": render(f"motion_{'reduced' if integrated.reduced else 'full'}.c.jinja"),
+        "motion.c": integrated.motion,
         "projection.c": printer.kernel(integrated.finish(closing)),
         "newton.c": linearized,
         "run.c": render(
             "run.c.jinja", **common, friction_modes=modes, angles=integrated.angles or (0,), residuals=residuals
         ),
-        "step.c": render("step.c.jinja", **counts),
+        "step.c": render("step.c.jinja", state=integrated.state("y"), **counts),
         "rk4.c": render(
             "rk4.c.jinja", **common, friction_events=events, constraints=constraints, projection=projection
         ),
         "dop853.c": render("dop853.c.jinja", **_dop853()),
-        "rodas5p.c": render("rodas5p.c.jinja", **_rodas5p()),
+        "rodas5p.c": render("rodas5p.c.jinja", state=integrated.state("run"), **chain, **_rodas5p()),
         "roots.c": render("roots.c.jinja", **counts),
         "watched.c": render("watched.c.jinja", cheap=integrated.cheap, **_watched(integrated, counts)),
         "events.c": render("events.c.jinja", **counts),

@@ -13,6 +13,7 @@ from gudgeon.generator.model import Model
 from gudgeon.generator.newton import Newton
 from gudgeon.generator.system import System
 from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.c.loops import Integrated
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
@@ -46,16 +47,17 @@ def newton_code(system: System, render: Render, prefix: str = "") -> tuple[str, 
     return text, kernels
 
 
-def jacobian_code(model: Model, reduced: bool, render: Render) -> str:
+def jacobian_code(model: Model, integrated: Integrated, render: Render) -> str:
     """The functions that Python calls; the reduced formulation has no Baumgarte's terms."""
     stick = f"((const Parameters *)p)->{stick_gain(model)}" if model.frictions else "0.0"
-    if reduced:
+    chain = {"n_chain": len(integrated.system.known), "state": integrated.state("y")}
+    if integrated.reduced:
         none = {"two_alpha": "0.0", "beta_squared": "0.0"}
-        return render("jacobian.c.jinja", name="gudgeon_tree_jacobian", stick=stick, **none)
+        return render("jacobian.c.jinja", name="gudgeon_tree_jacobian", stick=stick, **chain, **none)
     derive, (alpha, beta) = model.slots.derive, model.baumgarte
     gains = {"two_alpha": derive("two_alpha", 2 * alpha), "beta_squared": derive("beta_squared", beta**2)}
     read = {name: f"((const Parameters *)p)->{gain}" for name, gain in gains.items()}
-    return render("jacobian.c.jinja", name="gudgeon_jacobian", stick=stick, **read)
+    return render("jacobian.c.jinja", name="gudgeon_jacobian", stick=stick, **chain, **read)
 
 
 def tangent_code(model: Model, render: Render) -> tuple[str, list[Kernel]]:

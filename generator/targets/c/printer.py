@@ -72,6 +72,8 @@ class CPrinter(C99CodePrinter):
     def _print_Abs(self, expr: sp.Expr) -> str:
         return self._call("fabs", expr.args[0])
 
+    _print_Size = _print_Abs
+
     def _print_sign(self, expr: sp.Expr) -> str:
         return self._call("sign_of", expr.args[0])
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from gudgeon.generator.chain_kernels import ChainKernels
 from gudgeon.generator.kernels import Kernel, without_unused
 from gudgeon.generator.model import Model
 from gudgeon.generator.reduced_kernels import is_rescued, motion_kernels, reduced_kernels
@@ -22,6 +23,9 @@ void gudgeon_closures(double t, const double *q, const double *v, const double *
 int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x);
 double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory,
     const double *p);
+"""
+CHAIN_CDEF = """\
+int gudgeon_chains(double t, double *q, const double *p, double *v);
 """
 RESCUE_CDEF = """\
 int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *memory, const double *p,
@@ -41,8 +45,13 @@ class ReducedCode:
     plain: tuple[Kernel, ...]
 
 
-def reduced_code(model: Model, render: Callable[..., str], print_kernels: Callable[..., str]) -> ReducedCode:
-    """Derives the reduced formulation. Everything absolute must have been derived before: names of parameters."""
+def reduced_code(
+    model: Model, pivots: tuple[str, ...], render: Callable[..., str], print_kernels: Callable[..., str]
+) -> ReducedCode:
+    """Derives the reduced formulation. Everything absolute must have been derived before: names of parameters.
+
+    `pivots`: rows through which a status of the absolute formulation counts.
+    """
     system = reduce(model)
     around = motion_kernels(model, system)
     plain, kkt = reduced_kernels(system)
@@ -51,14 +60,42 @@ def reduced_code(model: Model, render: Callable[..., str], print_kernels: Callab
     parts = [print_kernels(*around)]
     if rescued:
         parts.append(render("rescue.c.jinja", multipliers=_multipliers(model, system)))
-    parts += [print_kernels(*kernels), render("reduced_calls.c.jinja", rescued=rescued)]
-    cdef = CDEF + (RESCUE_CDEF if rescued else "")
+    parts.append(print_kernels(*kernels))
+    cdef = CDEF + (RESCUE_CDEF if rescued else "") + (CHAIN_CDEF if system.chain else "")
     angles = tuple(int("." not in name) for name in system.unknowns)
+    if not rescued:
+        pivots = kkt.pivots
+    if system.chain is None:
+        parts.append(render("reduced_calls.c.jinja", rescued=rescued))
+        motion, own = render("motion_reduced.c.jinja"), []
+    else:
+        chains = ChainKernels(system, system.chain)
+        motion, own = _chain_code(chains, len(pivots), rescued, render, print_kernels), chains.kernels
+        pivots = (*pivots, *(row.name for row in system.chain.rows))
     integrated = Integrated(
         system, kkt, angles, True, lambda kernel: side_by_side(without_unused(kernel)),
-        any(kernel.name == WATCHED for kernel in kernels),
-    )
-    return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, (*around, *kernels), integrated, tuple(plain))
+        any(kernel.name == WATCHED for kernel in kernels), motion, pivots, system.chain,
+    )  # fmt: skip
+    every = (*around, *kernels, *own)
+    return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, every, integrated, tuple(plain))
+
+
+def _chain_code(
+    chains: ChainKernels, pivots: int, rescued: bool, render: Callable[..., str], print_kernels: Callable[..., str]
+) -> str:
+    """What evaluates driven chains, the motion with them, and its calls from outside; they are followed from state to
+
+    state, so that a status of theirs counts on behind the `pivots`.
+    """
+    kernels = print_kernels(*chains.kernels)
+    if chains.square.largest > 2:
+        kernels = render("block.c.jinja", most=chains.square.largest) + kernels
+    smooth = not chains.corners
+    return "\n".join([
+        render("chain.c.jinja", kernels=kernels, shares=chains.shares(), smooth=smooth, pivots=pivots,
+               turned=chains.turned()),
+        render("motion_chain.c.jinja", smooth=smooth), render("chain_calls.c.jinja", rescued=rescued),
+    ])  # fmt: skip
 
 
 def _multipliers(model: Model, system: TreeSystem) -> list[str]:

@@ -1,0 +1,250 @@
+/*
+ * Methods that choose their step: error control by component, projection, events, samples from the interpolant,
+ * and the choice between the explicit and the stiff method from what the steps themselves measure.
+ */
+enum { STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8 };
+/* h rho beyond which an explicit step is not taken: at h rho = 5.65 the estimate of order 5 vanishes for a decaying
+ * mode, at 6.4 the mode grows (both are zeros of polynomials that follow from the coefficients) */
+#define UNSTABLE 4.8
+#define BOUNDED 4.0   /* h rho at which stability bounds its steps */
+#define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
+#define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
+
+/* Takes a step, or its part up to an event, as the new state. */
+static int commit(Run *run, Step *step, double share, double t_new, int event, const Parameters *p)
+{
+    /* the interpolant is made already where the step ends early: its end may be replaced */
+    int status = share < 1.0 ? state_at(run, step, share, p, step->y, step->dy, &step->aside) : 0;
+    if (status)
+        return status;
+    inner_peaks(run, step, share, p);
+    for (int k = 0; k < N_Y; k++) {
+        run->y[k] = step->y[k];
+        run->dy[k] = step->dy[k];
+    }
+    run->aside = step->aside;
+    run->stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->stuck + 1 : 0;
+    run->t = t_new;
+    run->steps++;
+    run->stiff_steps += step->stiff;
+    run->linear_ready = 0;
+    note_speed(run);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (run->memory.latch[i].closed && run->aside.clearance[i].deltadot <= 0.0)
+            run->compressing[i] = 0;
+    status = watch(run, p);
+    if (!status && event < 0 && run->skip >= 0) { /* away from the corner, on whichever side */
+        run->skip = -1;
+        status = settle_sides(run, -1, p);
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++) /* begun on a zero: wherever it went */
+        if (run->memory.event_side[i] == 0)
+            event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
+    if (!status && event >= 0)
+        status = run->stuck > MAX_STUCK + 2 * N_MARGINS ? CHATTERING : change(run, event, p);
+    return status ? status : check_contacts(run, p);
+}
+
+/* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
+static void change_method(Run *run)
+{
+    if (!run->stiff)
+        run->patience = run->since > 400 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
+    run->h_stiff = run->stiff ? run->h : 0.0;
+    run->stiff = !run->stiff;
+    run->votes = 0;
+    run->since = 0;
+}
+
+/* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
+static void choose(Run *run)
+{
+    /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
+    const int slower = run->since > 8 && run->since < 200 && run->h < WORTH * run->h_stiff;
+    const int against = run->stiff ? run->stability < SLACK : run->stability > BOUNDED || slower;
+    run->votes = against ? run->votes + 1 : 0;
+    run->since++;
+    if (run->choice == AUTOMATIC && run->votes >= (run->stiff ? run->patience : 3))
+        change_method(run);
+}
+
+/* One accepted step towards t_end; the next step's length in run->h. Events are not looked for here. */
+static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step)
+{
+    const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * fmax(fabs(run->t), fabs(t_end));
+    double h = run->fixed > 0.0 ? run->fixed : run->h;
+    int again = 0, shortened = 0;
+    if (run->skip >= 0 && run->fixed <= 0.0)
+        h = fmin(h, run->pace);
+    if (h > left * (1.0 - 1e-9))
+        h = left;
+    for (;;) {
+        const double power = run->stiff ? 0.2 : 0.125;
+        const int status = run->stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
+        if (status && run->fixed > 0.0)
+            return status;
+        if (!status && step->error <= run->accept && !run->stiff && run->fixed <= 0.0 && run->stability > UNSTABLE) {
+            run->rejected++;
+            if (run->choice == AUTOMATIC)
+                change_method(run);
+            else
+                h *= BOUNDED / run->stability;
+            continue;
+        }
+        if (!status && step->error <= run->accept && is_unresolved(run, step, p) && run->fixed <= 0.0
+            && shortened++ < SHORTENED) {
+            again = 1;
+            run->rejected++;
+            h *= 0.25;
+            continue;
+        }
+        if (!status && step->error <= run->accept) {
+            const double error = fmax(step->error, 1e-12);
+            double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
+            if (!run->stiff && run->stability > 1.0)
+                factor = fmin(factor, 1.1 * BOUNDED / run->stability);
+            factor = fmin(fmax(factor, 0.3), again ? 1.0 : step->looked ? 2.0 : 6.0);
+            run->error_before = fmax(error, 1e-4);
+            if (run->first)
+                *run->first = h;
+            run->first = NULL;
+            if (h * factor > run->h || (h < left && run->skip < 0) || factor < 1.0)
+                run->h = h * factor;
+            /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
+            run->crawl = h < 256.0 * least ? run->crawl + 1 : 0;
+            return run->crawl > MAX_CRAWL ? TOO_SMALL : 0;
+        }
+        again = 1;
+        run->rejected++;
+        h *= status ? 0.25 : fmin(fmax(0.9 * pow(step->error, -power), 0.1), 0.9);
+        if (!(h > least))
+            return status ? status : TOO_SMALL;
+    }
+}
+
+/* A first step from the size of the motion's first two rates. */
+static int first_size(Run *run, double left, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
+    Aside aside;
+    for (int k = 0; k < 2 * N_X; k++)
+        one = fmax(fabs(run->dy[k]) / tolerance(run, k), one);
+    double h = fmin(1e-2 * left, one > 0.0 ? 1.0 / one : INFINITY);
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    if (status)
+        return status;
+    for (int k = 0; k < 2 * N_X; k++)
+        two = fmax(fabs(dy[k] - run->dy[k]) / h / tolerance(run, k), two);
+    const double most = fmax(one, sqrt(two));
+    run->h = fmin(fmax(h, most > 0.0 ? pow(0.01, 0.125) / most : left), 1e-2 * left);
+    return 0;
+}
+
+/* The side of what is watched and begins on a zero: that to which it goes. */
+static int leave_zeros(Run *run, const Parameters *p)
+{
+    int zeros = 0;
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        zeros |= run->memory.event_side[i] == 0;
+    if (!zeros)
+        return 0;
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    const double h = 1e-6 * run->h;
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        if (run->memory.event_side[i] == 0)
+            event_crosses(i, &run->memory.event_side[i], aside.event[i]);
+    return status;
+}
+
+/* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
+static int begin_adaptive(Run *run, double left, const Parameters *p)
+{
+    int status = run->ready ? 0 : begin(run, p);
+    for (int k = 0; k < N_SWITCHES; k++)
+        run->memory.side[k] = run->aside.g[k] < 0.0 ? -1.0 : 1.0;
+    run->memory.held = 1;
+    if (!status)
+        status = settle_sides(run, -1, p);
+    note_speed(run);
+    if (!status && !(run->h > 0.0))
+        status = first_size(run, left, p);
+    return status ? status : leave_zeros(run, p);
+}
+
+/* choice: 0 explicit, 1 stiff, 2 automatic, 3 automatic from stiff; scale (2 N_X): tolerances, those of velocities a unit of speed. */
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double fixed)
+{
+    Run *run = memory;
+    run->choice = choice == BEGIN_STIFF ? AUTOMATIC : choice;
+    run->stiff = choice == STIFF || choice == BEGIN_STIFF;
+    run->patience = choice == BEGIN_STIFF ? 4 * PATIENCE : PATIENCE;
+    run->fixed = fixed;
+    run->error_before = 1e-4;
+    run->crossed = run->skip = -1;
+    run->accept = fixed > 0.0 ? INFINITY : 1.0;
+    for (int k = 0; k < 2 * N_X; k++)
+        run->scale[k] = scale[k];
+    run->speed_floor[0] = floor[0];
+    run->speed_floor[1] = floor[1];
+}
+
+/* Samples of the step before `t_new`, from its interpolant. */
+static int sample_step(Run *run, Step *step, double t_new, long n, const double *t, const Parameters *p,
+    double *y, double *latched, signed char *state, long *done)
+{
+    const long evaluations = run->evaluations;
+    while (*done < n && t[*done] < t_new) {
+        double now[N_Y];
+        const int status = make_dense(run, p, step);
+        if (status)
+            return status;
+        interpolate(run, step, (t[*done] - step->t) / step->h, now);
+        project_state(run, t[*done], now, p);
+        store_sample(run, t[*done], now, p, *done, y, latched, state);
+        ++*done;
+    }
+    run->evaluations = evaluations; /* samples are output, not integration */
+    return 0;
+}
+
+/*
+ * Towards the last of n output times, at most `limit` steps: samples go to row `done` and on. Returns 0 (at the end,
+ * or to be called again), EVENTS_FULL, or what went wrong.
+ */
+int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
+    double *y, double *latched, signed char *state, long *done)
+{
+    Run *run = memory;
+    const Parameters *p = (const Parameters *)parameters;
+    const double t_end = t[n - 1];
+    int status = run->memory.held ? 0 : begin_adaptive(run, t_end - run->t, p);
+    for (long i = 0; !status; i++) {
+        while (*done < n && t[*done] <= run->t) {
+            store_sample(run, run->t, run->y, p, *done, y, latched, state);
+            ++*done;
+        }
+        if (*done == n || i == limit)
+            return 0;
+        if (lists_full(run))
+            return EVENTS_FULL;
+        Step *step = &run->step;
+        status = accepted_step(run, t_end, p, step);
+        if (status)
+            break;
+        choose(run);
+        int event;
+        const double share = first_event(run, step, p, &event);
+        const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
+        const double close = event < 0 ? 0.0 : fmax(2e-12, 8.0 * DBL_EPSILON * fabs(t_new)); /* is at the event */
+        status = sample_step(run, step, t_new - close, n, t, p, y, latched, state, done);
+        if (!status)
+            status = commit(run, step, share, t_new, event, p);
+    }
+    return status;
+}

@@ -1,0 +1,26 @@
+/* A batch of runs, as many.c and Python know it. */
+enum {
+    NOT_CLOSED = -9,                      /* status, beside those of run.c: the start is left to Python */
+    NEW = 0, BEGUN = 1, OVER = 2,         /* phase of a run */
+    ALL_OVER = 0, LISTS = 1, RUN_OVER = 2, GOES_ON = 3
+};
+
+/* Arrays with a row for each run; `numbers` are the doubles of Parameters, `samples` the times of t. */
+typedef struct {
+    long samples, numbers, limit;         /* steps after which a call returns */
+    int choice, stop;                     /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
+    double fixed, *t;
+    double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
+    double *step, *scale, *floor;         /* rk4's step; tolerances as gudgeon_adaptive_setup takes them */
+    double *start;                        /* (q, v) where `started`, else filled here */
+    unsigned char *started, *phase;
+    double *y, *latched;                  /* samples */
+    signed char *state;
+    long *done, *within;                  /* samples stored; rk4's steps since the last one */
+    int *status;
+    double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
+    long *counts;                         /* as gudgeon_run_report has them */
+    double *residuals, *peaks;
+} Batch;
+
+

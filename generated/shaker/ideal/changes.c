@@ -1,0 +1,109 @@
+/*
+ * What changes at an event: contacts begin and end, corners of laws and expressions change their side, friction its
+ * mode; a drive whose rate jumps moves the linkage by an impulse.
+ */
+/* Sides of all corners that act from their functions; the one that was just crossed keeps what it was given. */
+static int settle_sides(Run *run, int crossed, const Parameters *p)
+{
+    for (int pass = 0; pass < 6; pass++) {
+        int changed = 0;
+        const int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+        if (status)
+            return status;
+        for (int k = 0; k < N_SWITCHES; k++)
+            if (k != crossed && run->memory.side[k] * run->aside.g[k] < 0.0) {
+                run->memory.side[k] = -run->memory.side[k];
+                changed = 1;
+            }
+        if (!changed)
+            return 0;
+    }
+    return 0;
+}
+
+/* A contact begins with no longer a step than the last one could begin with, free flight likewise. */
+static void cross_contact(Run *run, int i, double floor)
+{
+    const int opens = run->memory.latch[i].closed;
+    if (opens)
+        open_joint(run, i, run->t);
+    else
+        close_joint(run, i, run->t, run->aside.clearance[i].deltadot, floor);
+    if (run->h_first[opens] > 0.0)
+        run->h = fmin(run->h, 2.0 * run->h_first[opens]);
+    run->first = &run->h_first[opens];
+    run->h_stiff = 0.0;
+}
+
+static void cross(Run *run, int k, const Parameters *p)
+{
+    const double floors[] = {0.0};
+    (void)p;
+    if (k < N_CLEARANCES)
+        cross_contact(run, k, floors[k]);
+    else if (k < N_CLEARANCES + N_SWITCHES)
+        run->memory.side[k - N_CLEARANCES] *= -1.0;
+}
+
+/* Of all bodies, J. */
+static double kinetic_energy(const Run *run, const Parameters *p)
+{
+    double m[N_Q], all[N_S], sum = 0.0;
+    mass_matrix(p, m);
+    to_absolute(run->t, run->y, &run->memory, p, all);
+    for (int k = 0; k < N_Q; k++)
+        sum += 0.5 * m[k] * all[N_Q + k] * all[N_Q + k];
+    return sum;
+}
+
+/*
+ * A motion that stays by a corner (a journal that hardly moves in its film) may cross it again and again. One that
+ * comes back at once is not looked for in the next step, which is as short as the way between the crossings and
+ * grows from there: the corner's branches meet, so that little is wrong with the held one so near.
+ */
+static void pace_corner(Run *run, int corner)
+{
+    static const unsigned char meets[] = {0}; /* whether a corner's branches meet in it */
+    const double way = run->t - run->t_crossed;
+    const int again = meets[corner] && run->crossed == corner && way < 1e-3 * run->h;
+    run->skip = again ? corner : -1;
+    run->pace = again ? 20.0 * fmax(fmax(way, run->pace), 1e-10) : 0.0;
+    run->crossed = corner;
+    run->t_crossed = run->t;
+}
+
+/* At an event: everything whose margin is used up changes, then the right-hand side is that of what follows. */
+static int change(Run *run, int event, const Parameters *p)
+{
+    for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
+        if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < -SHALLOW))
+            cross(run, k, p);
+    const int corner = event - N_CLEARANCES;
+    const int is_corner = corner >= 0 && corner < N_SWITCHES;
+    if (is_corner) {
+        pace_corner(run, corner);
+        /* a drive whose rate jumps moves the linkage by an impulse */
+        const double before = kinetic_energy(run, p);
+        project_state(run, run->t, run->y, p);
+        run->y[2 * N_X] += kinetic_energy(run, p) - before;
+    }
+    int status = settle_sides(run, is_corner ? corner : -1, p);
+    const int friction = corner - N_SWITCHES, watched = friction - N_FRICTIONS;
+    if (!status && friction >= 0 && watched < 0)
+        status = switch_friction(run, p);
+    if (!status && watched >= 0 && event_crosses(watched, &run->memory.event_side[watched], run->aside.event[watched])
+        && note_event(run, watched, run->t))
+        status = ENDED;
+    return status;
+}
+
+/* A free journal never lies outside its bearing, whatever the method thought of its contact. */
+static int check_contacts(const Run *run, const Parameters *p)
+{
+    const double clearance[] = {0.0};
+    (void)p;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (!run->memory.latch[i].closed && run->aside.clearance[i].delta > 1e-9 + 1e-3 * clearance[i])
+            return LOST;
+    return 0;
+}

@@ -1,0 +1,1 @@
+/* No joint has play. */

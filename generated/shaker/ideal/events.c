@@ -1,0 +1,92 @@
+/*
+ * Events: contacts, corners of laws and expressions, and friction that may stick end a step where their margin
+ * crosses zero. What is looked at is a range of signs, not a crossing alone, so that a contact that starts again on
+ * the wrong side of zero is not lost.
+ */
+
+/* The stage at which margin k was smallest; -1: none was. */
+static int nearest_stage(const Step *step, int k)
+{
+    int nearest = -1;
+    double least = INFINITY;
+    for (int i = 0; i < step->n_seen; i++)
+        if (step->seen[k][i] < least) {
+            least = step->seen[k][i];
+            nearest = i;
+        }
+    return nearest;
+}
+
+/* The bracket's upper end for margin k: a share at which it is below zero; 0 if there is none. */
+static double violated(Run *run, Step *step, int k, const Parameters *p, double *value)
+{
+    const double end = margin(&run->memory, &step->aside, k);
+    const int nearest = nearest_stage(step, k);
+    const double least = nearest < 0 ? INFINITY : step->seen[k][nearest], s = nearest < 0 ? 1.0 : step->node[nearest];
+    if (watched_as[k] >= 0)
+        return first_look(run, step, watched_as[k], p, value);
+    if (k < N_CLEARANCES && may_graze(run, step, k, least) && make_dense(run, p, step) == 0)
+        return look_along(run, step, k, p, value);
+    if (least < 0.0 && s < 1.0 && make_dense(run, p, step) == 0) {
+        *value = margin_at(run, step, s, k, p);
+        if (*value < 0.0)
+            return s;
+    }
+    *value = end;
+    return end < 0.0 ? 1.0 : 0.0;
+}
+
+/* What was not seen at the stages but shows where an event was found crossed before it: the first of all. */
+static double earlier_event(Run *run, const Step *step, double first, const Parameters *p, int *event)
+{
+    for (int again = 0; again < N_MARGINS && first > 0.0; again++) {
+        double y[N_Y], dy[N_Y], at_high = 0.0;
+        Aside aside;
+        int found = -1;
+        if (state_at(run, step, first, p, y, dy, &aside))
+            return first;
+        for (int k = 0; k < N_MARGINS; k++) {
+            const double now = margin(&run->memory, &aside, k);
+            if (k != *event && (run->skip < 0 || k != N_CLEARANCES + run->skip) && now < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0) {
+                found = k;
+                at_high = now;
+            }
+        }
+        if (found < 0)
+            return first;
+        const double s = root(run, step, found, 0.0, margin(&run->memory, &run->aside, found), first, at_high, p);
+        if (!(s < first))
+            return first;
+        first = s;
+        *event = found;
+    }
+    return first;
+}
+
+/* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
+static double first_event(Run *run, Step *step, const Parameters *p, int *event)
+{
+    double first = 1.0;
+    *event = -1;
+    for (int k = 0; k < N_MARGINS; k++) {
+        if (run->skip >= 0 && k == N_CLEARANCES + run->skip)
+            continue;
+        double at_high, at_low = margin(&run->memory, &run->aside, k), low = 0.0;
+        double high = violated(run, step, k, p, &at_high);
+        if (high == 0.0 || make_dense(run, p, step))
+            continue;
+        if (*event >= 0 && high > first && margin_at(run, step, first, k, p) >= 0.0)
+            continue; /* later than what was found */
+        for (int j = 1; j < 4 && !(at_low >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
+            const double s = 0.25 * j * high, now = margin_at(run, step, s, k, p);
+            if (now >= 0.0)
+                low = s, at_low = now;
+        }
+        const double s = at_low >= 0.0 ? root(run, step, k, low, at_low, high, at_high, p) : 0.0;
+        if (*event < 0 || s < first) {
+            first = s;
+            *event = k;
+        }
+    }
+    return *event < 0 ? first : earlier_event(run, step, first, p, event);
+}

@@ -1,0 +1,132 @@
+/*
+ * Many runs, one after the other: start, time loop and report of each without Python. Several threads may work on
+ * one Batch, each on runs of its own and with a Run of its own; a run is the same as if it were alone.
+ */
+#include <time.h>
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    timespec_get(&now, TIME_UTC);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int begin_run(const Batch *b, long i, Run *run)
+{
+    double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0}, latched[1], residual;
+    if (!b->started[i] && gudgeon_start(b->t[0], b->p + i * b->numbers, b->size[i], start, start + N_Q, &residual))
+        return NOT_CLOSED;
+    for (int k = 0; k < 2 * N_Q; k++)
+        y[k] = start[k];
+    for (int k = 0; k < 1; k++)
+        latched[k] = NAN;
+    gudgeon_run_start(run, b->p_motion + i * b->numbers, b->t[0], y, latched);
+    gudgeon_run_stop(run, b->stop);
+    if (b->choice >= 0)
+        gudgeon_adaptive_setup(run, b->choice, b->scale + i * 2 * N_X, b->floor + 2 * i, b->fixed);
+    return 0;
+}
+
+/* Row k of run i's samples is the present state. */
+static void take_sample(const Batch *b, long i, long k, Run *run)
+{
+    const long row = i * b->samples + k;
+    store_sample(run, run->t, run->y, (const Parameters *)(b->p_motion + i * b->numbers), 0, b->y + row * N_S,
+        b->latched + row * 1, b->state + row * 1);
+}
+
+/* Runge-Kutta from sample to sample, each interval divided evenly; at most `limit` steps. */
+static int advance_rk4(const Batch *b, long i, Run *run)
+{
+    const double *p = b->p_motion + i * b->numbers;
+    long left = b->limit, taken = 0;
+    int status = 0;
+    if (!b->done[i]) {
+        status = gudgeon_run_steps(run, p, b->t[0], b->t[0], 1, 0, 0, &taken);
+        if (!status)
+            take_sample(b, i, b->done[i]++, run);
+    }
+    while (!status && b->done[i] < b->samples && left > 0) {
+        const double t0 = b->t[b->done[i] - 1], t1 = b->t[b->done[i]];
+        const long total = (long)fmax(1.0, ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)));
+        const long rest = total - b->within[i];
+        status = gudgeon_run_steps(run, p, t0, t1, total, b->within[i], rest < left ? rest : left, &taken);
+        b->within[i] += taken;
+        b->t_last[i] = t0 + (double)b->within[i] * (t1 - t0) / (double)total;
+        left -= taken;
+        if (!status && b->within[i] == total) {
+            take_sample(b, i, b->done[i]++, run);
+            b->within[i] = 0;
+        }
+    }
+    return status;
+}
+
+static int advance(const Batch *b, long i, Run *run)
+{
+    if (b->choice < 0)
+        return advance_rk4(b, i, run);
+    const long row = i * b->samples;
+    const int status = gudgeon_adaptive_run(run, b->p_motion + i * b->numbers, b->samples, b->t, b->limit,
+        b->y + row * N_S, b->latched + row * 1, b->state + row * 1,
+        b->done + i);
+    b->t_last[i] = run->t;
+    return status;
+}
+
+/* Run i is over: its report; where an event ended it, a last sample in place of those that are as late. */
+static void end_run(const Batch *b, long i, int status, Run *run)
+{
+    double t, *last = b->last + i * N_S, latched[1];
+    signed char state[1];
+    if (status == ENDED) {
+        b->t_last[i] = run->t;
+        while (b->done[i] > 0 && b->t[b->done[i] - 1] >= run->t - 1e-11)
+            b->done[i]--;
+        take_sample(b, i, b->done[i]++, run);
+    }
+    b->status[i] = status;
+    b->phase[i] = OVER;
+    gudgeon_run_sample(run, b->p_motion + i * b->numbers, last, latched, state);
+    gudgeon_run_report(run, &t, b->counts + 9 * i, b->residuals + 4 * i, b->peaks + 3 * 1 * i);
+}
+
+static int has_lists(const Run *run)
+{
+    int some = run->n_impacts > 0 || run->n_events > 0;
+    for (int k = 0; k < N_CLEARANCES; k++)
+        some = some || run->memory.latch[k].closed;
+    return some;
+}
+
+/*
+ * Runs *current to end - 1. Returns ALL_OVER; LISTS or RUN_OVER: contacts or events of run *current wait to be
+ * fetched, and it goes on or is over; GOES_ON: `limit` steps were made. To be called again, after RUN_OVER with
+ * the next run.
+ */
+int gudgeon_many(const void *batch, void *memory, long *current, long end)
+{
+    const Batch *b = batch;
+    Run *run = memory;
+    for (; *current < end; ++*current) {
+        const long i = *current;
+        if (b->phase[i] == NEW) {
+            b->status[i] = begin_run(b, i, run);
+            b->phase[i] = b->status[i] ? OVER : BEGUN;
+        }
+        if (b->phase[i] == OVER)
+            continue;
+        const double before = seconds_now();
+        const int status = advance(b, i, run);
+        b->seconds[i] += seconds_now() - before;
+        if (status == EVENTS_FULL)
+            return LISTS;
+        if (!status && b->done[i] < b->samples)
+            return GOES_ON;
+        end_run(b, i, status, run);
+        if (has_lists(run))
+            return RUN_OVER;
+    }
+    return ALL_OVER;
+}
+

@@ -1,0 +1,116 @@
+/*
+ * Slider-crank shaker with an inverted pendulum
+ * mechanism shaker, scene ideal, from the YAML with sha256 d058bcc84cd8db0cfa3b59880ed1601bea9854aec13609101c9934218ed8e6e0
+ *
+ * Sizes, and the structs that the functions of this scene pass to each other.
+ */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+enum {
+    N_Q = 12,                 /* coordinates */
+    N_ROWS = 11,              /* constraint rows of the motion */
+    N_ALL_ROWS = 11,          /* rows of the closed linkage */
+    N_JOINTS = 5,            /* joints without play */
+    N_DRIVES = 1,
+    N_CLEARANCES = 0,        /* joints with play */
+    N_FRICTIONS = 0,         /* slips that friction may hold */
+    N_SWITCHES = 0,          /* corners of min, max, abs and sign */
+    N_USER_EVENTS = 0,      /* expressions whose zeros are watched */
+    N_SERIES = 0,            /* results of force elements */
+    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
+    N_S = 2 * N_Q + N_WORK,   /* state of all bodies: q, v, works */
+    N_X = 1,                  /* coordinates that are integrated */
+    N_LOOPS = 0,              /* constraint rows of these */
+    N_Y = 2 * N_X + N_WORK,
+    N_CHAIN = 1,              /* coordinates that drives determine through loops */
+    N_LED = 5                 /* these, and cosines and sines of the angles in their loops */
+};
+
+/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
+typedef struct {    double omega;  /* parameters.omega */    double tilt;  /* parameters.tilt */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double table_mass;  /* bodies.table.mass */    double table_inertia;  /* bodies.table.inertia */    double arm_mass;  /* bodies.arm.mass */    double arm_inertia;  /* bodies.arm.inertia */    double crank_length;  /* bodies.crank.length */    double rod_length;  /* bodies.rod.length */    double table_points_top_y;  /* bodies.table.points.top.y */    double arm_length;  /* bodies.arm.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double guide_axis_y;  /* joints.guide.axis.y */    double par_y;  /* gravity.y */    double guess_rod_theta;  /* start.guess.rod.theta */    double set_arm_theta;  /* start.set.arm.theta */    double crank_head_x;  /* point from the centre of mass */    double rod_head_x;  /* point from the centre of mass */    double arm_head_x;  /* point from the centre of mass */    double weight_crank_y;  /* weight */    double weight_rod_y;  /* weight */    double weight_table_y;  /* weight */    double weight_arm_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_arm_mass;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_table_mass;  /* 1/M */    double inverse_arm_inertia;  /* 1/M */    double inverse_table_inertia;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double crank_head_span_x;  /* vector in its frame */    double rod_head_span_x;  /* vector in its frame */    double table_top_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_rod;  /* sum of m w.w */    double inertia_rod_rod;  /* sum of m w.w */    double inertia_crank_arm;  /* sum of m w.w */    double inertia_rod_arm;  /* sum of m w.w */    double inertia_arm_arm;  /* sum of m w.w */    double mass_motor_motor;  /* constant of M */    double mass_rod_rod;  /* constant of M */    double mass_arm_arm;  /* constant of M */    double weight_crank__across;  /* weight */    double weight_rod__across;  /* weight */    double weight_arm__across;  /* weight */    double inverse_mass_arm_arm;  /* 1/M */} Parameters;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+/* Coordinates that the drives determine through loops, and three rates of each, at a time. */
+typedef struct {
+    double t, q[N_LED], v[3 * N_CHAIN];
+    int failed; /* 0, or a closure that was at a dead centre there */
+} Chain;
+
+/*
+ * What the right-hand side remembers beside the state: latches, and each friction's mode: 0 stick, 1 or -1 the
+ * sign of its slip, 2 no force at all, where others hold the slip at zero. While it is `held`, contacts and the
+ * sides of all corners stay as they are here, whatever the state says.
+ */
+typedef struct {
+    Latch latch[1];
+    double mode[1];
+    double side[1];
+    signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
+    int held;
+    Chain chain, recent; /* at the last state that was accepted; where they were found last */
+} Memory;
+
+/* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
+typedef struct {
+    double v, rate, speed, force, static_limit;
+} Friction;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* The force of a joint with play along n and t on the journal, moments about both pin centres, slip. */
+typedef struct {
+    double n, t, M_i, M_j, v_t;
+} PinForce;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[11];
+    double phi[11], phi_dot[11];
+    double power[N_WORK];
+    Clearance clearance[1];
+    Friction friction[1];
+    double g[1]; /* switching functions; NaN: does not act */
+    double event[1]; /* values of the expressions that are watched */
+} Aside;
+
+/* The expressions that are watched: which way they are to cross zero (1 rising, -1 falling, 0 both), and what then. */
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+
+/*
+ * Whether expression i, seen last on `side` of zero (1 or -1; 0: nowhere yet), has crossed to `value`; `side` is
+ * where it is then. A zero itself lies on neither side.
+ */
+static inline int event_crosses(int i, signed char *side, double value)
+{
+    const int from = *side, to = (value > 0.0) - (value < 0.0);
+    if (to)
+        *side = (signed char)to;
+    return from * to < 0 && event_direction[i] * to >= 0;
+}
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
+/* The side of corner k: as it is held, or where g is. */
+static inline double side_of(const double *side, double *g, int k, double value)
+{
+    g[k] = value;
+    return side ? side[k] : sign_of(value);
+}

@@ -1,0 +1,307 @@
+/* The equations of motion linearized at a state, and Newton's matrix factorized. */
+typedef struct {
+    const Parameters *p;
+    double value[6]; /* what linearize() found */
+    double lu[1];    /* L, U and inverse pivots */
+} Linear;
+
+/*
+ * The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:
+ * non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.
+ */
+static void linearize(const double t, const double *q, const double *v, const Memory *memory, const
+    Parameters *p, const double *a, const Aside *aside, Linear *lin)
+{
+    (void)t;
+    (void)memory;
+    (void)aside;
+    /* coordinates, velocities, time */
+    const double rod_omega = v[1];
+    const double arm_theta = q[0];
+    const double arm_omega = v[0];
+    const double cos_theta_crank = q[2];
+    const double sin_theta_crank = q[3];
+    const double cos_theta_rod = q[4];
+    const double sin_theta_rod = q[5];
+    const double rod_theta_second = v[2];
+    const double rod_theta_third = v[3];
+    const double a_arm_theta = a[0];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double inertia_crank_rod = p->inertia_crank_rod;
+    const double inertia_crank_arm = p->inertia_crank_arm;
+    const double inertia_rod_arm = p->inertia_rod_arm;
+    const double mass_motor_motor = p->mass_motor_motor;
+    const double mass_rod_rod = p->mass_rod_rod;
+    const double weight_crank__across = p->weight_crank__across;
+    const double weight_rod__across = p->weight_rod__across;
+    const double weight_arm__across = p->weight_arm__across;
+
+    /* directions, arms, drives */
+    const double motor_rate = omega;
+    const double motor_acceleration = 0.0;
+    const double cos_theta_arm = cos(arm_theta);
+    const double sin_theta_arm = sin(arm_theta);
+    const double cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
+    const double sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
+    const double dot_crank_rod = cos_rod_less_crank*inertia_crank_rod;
+    const double cross_crank_rod = inertia_crank_rod*sin_rod_less_crank;
+    const double cos_arm_less_crank = cos_theta_arm*cos_theta_crank + sin_theta_arm*sin_theta_crank;
+    const double sin_arm_less_crank = -cos_theta_arm*sin_theta_crank + cos_theta_crank*sin_theta_arm;
+    const double dot_crank_arm = cos_arm_less_crank*inertia_crank_arm;
+    const double cross_crank_arm = inertia_crank_arm*sin_arm_less_crank;
+    const double cos_arm_less_rod = cos_theta_arm*cos_theta_rod + sin_theta_arm*sin_theta_rod;
+    const double sin_arm_less_rod = -cos_theta_arm*sin_theta_rod + cos_theta_rod*sin_theta_arm;
+    const double dot_rod_arm = cos_arm_less_rod*inertia_rod_arm;
+    const double cross_rod_arm = inertia_rod_arm*sin_arm_less_rod;
+
+    /* coordinates */
+    const double cross_crank_arm_by_time = -dot_crank_arm*motor_rate;
+    const double cross_rod_arm_by_time = -dot_rod_arm*rod_omega;
+    const double dot_crank_arm_by_time = cross_crank_arm*motor_rate;
+    const double dot_rod_arm_by_time = cross_rod_arm*rod_omega;
+
+    /* powers */
+    const double cos_theta_crank_by_time = -motor_rate*sin_theta_crank;
+    const double cos_theta_rod_by_time = -rod_omega*sin_theta_rod;
+    const double cross_crank_rod_by_time = -dot_crank_rod*motor_rate + dot_crank_rod*rod_omega;
+    const double dot_crank_rod_by_time = cross_crank_rod*motor_rate - cross_crank_rod*rod_omega;
+
+    /* results */
+    lin->value[0] = -cross_crank_arm*motor_acceleration - cross_rod_arm*rod_theta_second +
+        dot_crank_arm*(motor_rate * motor_rate) + dot_rod_arm*(rod_omega * rod_omega) +
+        sin_theta_arm*weight_arm__across;
+    lin->value[1] = 2.0*cross_crank_arm*motor_acceleration*motor_rate + cross_crank_arm_by_time*(motor_rate *
+        motor_rate) + 2.0*cross_rod_arm*rod_omega*rod_theta_second + cross_rod_arm_by_time*(rod_omega *
+        rod_omega) + dot_crank_arm_by_time*motor_acceleration + dot_rod_arm*rod_theta_third +
+        dot_rod_arm_by_time*rod_theta_second;
+    lin->value[2] = -a_arm_theta*cross_crank_arm*motor_rate - a_arm_theta*cross_rod_arm*rod_omega - (arm_omega
+        * arm_omega)*dot_crank_arm*motor_rate - (arm_omega * arm_omega)*dot_rod_arm*rod_omega;
+    lin->value[3] = -2.0*arm_omega*cross_crank_arm*motor_rate - 2.0*arm_omega*cross_rod_arm*rod_omega;
+    lin->value[4] = dot_crank_arm*motor_rate + dot_rod_arm*rod_omega;
+    lin->value[5] = a_arm_theta*dot_crank_arm_by_time*motor_rate + a_arm_theta*dot_rod_arm_by_time*rod_omega -
+        (arm_omega * arm_omega)*cross_crank_arm_by_time*motor_rate - (arm_omega *
+        arm_omega)*cross_rod_arm_by_time*rod_omega - cos_theta_crank_by_time*motor_rate*weight_crank__across -
+        cos_theta_rod_by_time*rod_omega*weight_rod__across + cross_crank_rod_by_time*((motor_rate *
+        motor_rate)*rod_omega - motor_rate*(rod_omega * rod_omega)) +
+        dot_crank_rod_by_time*(motor_acceleration*rod_omega + motor_rate*rod_theta_second) +
+        motor_acceleration*(a_arm_theta*dot_crank_arm - (arm_omega * arm_omega)*cross_crank_arm -
+        cos_theta_crank*weight_crank__across + 2.0*cross_crank_rod*motor_rate*rod_omega -
+        cross_crank_rod*(rod_omega * rod_omega) + dot_crank_rod*rod_theta_second +
+        mass_motor_motor*motor_acceleration) + rod_theta_second*(a_arm_theta*dot_rod_arm - (arm_omega *
+        arm_omega)*cross_rod_arm - cos_theta_rod*weight_rod__across + cross_crank_rod*(motor_rate *
+        motor_rate) - 2.0*cross_crank_rod*motor_rate*rod_omega + dot_crank_rod*motor_acceleration +
+        mass_rod_rod*rod_theta_second) + rod_theta_third*(dot_crank_rod*motor_rate + mass_rod_rod*rod_omega);
+    lin->p = p;
+}
+
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ */
+static int newton_factor(double eta, Linear *lin)
+{
+    /* numbers of the run */
+    const Parameters *const p = lin->p;
+
+    /* linearization */
+    const double by_q_arm_theta_arm_theta = lin->value[0];
+
+    /* parameters */
+    const double mass_arm_arm = p->mass_arm_arm;
+
+    /* matrix */
+    const double n_arm_theta__arm_theta = by_q_arm_theta_arm_theta*(eta * eta) + mass_arm_arm;
+
+    /* L U */
+    const double scale_arm_theta = n_arm_theta__arm_theta;
+    if (!(fabs(scale_arm_theta) > 1e-13 * fabs(n_arm_theta__arm_theta)))
+        return 1;
+    const double inverse_pivot_arm_theta = 1.0/scale_arm_theta;
+    lin->lu[0] = inverse_pivot_arm_theta;
+    return 0;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ */
+static void newton_substitute(const Linear *lin, double *x)
+{
+    /* linearization */
+    const double inverse_pivot_arm_theta = lin->lu[0];
+
+    /* forward */
+    const double b_arm_theta = x[0];
+
+    /* backward */
+    const double x_arm_theta = b_arm_theta*inverse_pivot_arm_theta;
+    x[0] = x_arm_theta;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ */
+static void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u)
+{
+    /* numbers of the run */
+    const Parameters *const p = lin->p;
+
+    /* linearization */
+    const double by_q_arm_theta_arm_theta = lin->value[0];
+    const double by_t_arm_theta = lin->value[1];
+    const double power_q_0_arm_theta = lin->value[2];
+    const double power_v_0_arm_theta = lin->value[3];
+    const double power_0_arm_theta = lin->value[4];
+    const double power_t_0 = lin->value[5];
+
+    /* parameters */
+    const double mass_arm_arm = p->mass_arm_arm;
+
+    /* right-hand side */
+    double x[1];
+    x[0] = eta*(-by_q_arm_theta_arm_theta*eta*r[0] - by_t_arm_theta*s + mass_arm_arm*r[1]);
+    newton_substitute(lin, x);
+
+    /* solution */
+    u[0] = eta*(r[0] + x[0]);
+    u[1] = x[0];
+    u[2] = eta*(power_q_0_arm_theta*u[0] + power_t_0*s + power_v_0_arm_theta*u[1] + r[2]) +
+        power_0_arm_theta*(-eta*r[1] + x[0]);
+    u[3] = eta*r[3];
+    u[4] = eta*r[4];
+}
+
+/* Where a part of the linearization is in `value`. */
+typedef struct {
+    int row, column, value, sign;
+} LinearEntry;
+static const LinearEntry phi_q_entries[] = {
+    {0, 0, 0, 0}
+};
+static const LinearEntry residual_entries[] = {
+    {0, 0, 0, 1}
+};
+static const LinearEntry residual_t_entries[] = {
+    {0, 0, 1, 1}
+};
+static const LinearEntry power_entries[] = {
+    {0, 0, 2, 1}, {0, 1, 3, 1}
+};
+static const LinearEntry power_row_entries[] = {
+    {0, 0, 4, 1}
+};
+static const LinearEntry power_t_entries[] = {
+    {0, 0, 5, 1}
+};
+enum {
+    N_PHI_Q = 0,
+    N_RESIDUAL = 1,
+    N_RESIDUAL_T = 1,
+    N_POWER = 2,
+    N_POWER_ROW = 1,
+    N_POWER_T = 1,
+    N_NODES = 1,
+};
+/*
+ * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_X - 1) or of R1_t, R2_t (2 N_X); 0 if all
+ * are zero.
+ */
+static int residual_column(const Linear *lin, int column, const double *gain, double stick, double *x)
+{
+    int found = 0;
+    for (int i = 0; i < N_NODES; i++)
+        x[i] = 0.0;
+    for (int i = 0; i < N_RESIDUAL && column < 2 * N_X; i++) {
+        const LinearEntry *at = &residual_entries[i];
+        if (at->column == column) {
+            x[at->row] -= at->sign * lin->value[at->value];
+            found = 1;
+        }
+    }
+    for (int i = 0; i < N_PHI_Q && column < 2 * N_X; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
+        const LinearEntry *at = &phi_q_entries[i];
+        if (at->column == column % N_X && (column >= N_X || at->row < N_X + N_LOOPS)) {
+            x[at->row] -= (at->row < N_X + N_LOOPS ? gain[column / N_X] : stick) * at->sign * lin->value[at->value];
+            found = 1;
+        }
+    }
+    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_X; i++) {
+        x[residual_t_entries[i].row] -= residual_t_entries[i].sign * lin->value[residual_t_entries[i].value];
+        found = 1;
+    }
+    return found;
+}
+
+/* The column of the Jacobian that follows from x, the change of accelerations and multipliers; `out` has a stride. */
+static void jacobian_column(const Linear *lin, int column, const double *x, double *out, size_t stride)
+{
+    for (int k = 0; k < N_X; k++) {
+        out[k * stride] = column == N_X + k ? 1.0 : 0.0;
+        out[(N_X + k) * stride] = x[k];
+    }
+    for (int w = 0; w < N_WORK; w++)
+        out[(2 * N_X + w) * stride] = 0.0;
+    for (int i = 0; i < N_POWER_ROW; i++) {
+        const LinearEntry *at = &power_row_entries[i];
+        out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
+    }
+    for (int i = 0; i < N_POWER; i++)
+        if (power_entries[i].column == column)
+            out[(2 * N_X + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
+    for (int i = 0; i < N_POWER_T && column == 2 * N_X; i++)
+        out[(2 * N_X + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
+}
+
+/* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
+static int linearized(double t, const double *y, const double *memory, const Parameters *p, double eta, Linear *lin)
+{
+    Memory now;
+    Aside aside;
+    double dy[N_Y];
+    read_memory(memory, &now);
+    TreeState at;
+    seat_chains(t, y + N_Y, &now, p); /* what lies behind the state is where to look for them */
+    const int status = motion(t, y, &now, p, dy, &aside);
+    if (status)
+        return status;
+    tree_state(t, y, &now, p, &at);
+    chain_third(t, at.q, at.v, &now, p, at.v + N_X + 2 * N_CHAIN);
+    linearize(t, at.q, at.v, &now, p, dy + N_X, &aside, lin);
+    return -newton_factor(eta, lin);
+}
+
+/*
+ * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
+ * KKT matrix. Contacts, corners and modes of friction stay as they are.
+ */
+int gudgeon_tree_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
+{
+    Linear lin;
+    const double gain[2] = {0.0, 0.0};
+    const int status = linearized(t, y, memory, (const Parameters *)p, 0.0, &lin);
+    if (status)
+        return status;
+    for (int column = 0; column <= 2 * N_X; column++) {
+        double x[N_NODES];
+        if (residual_column(&lin, column, gain, 0.0, x))
+            newton_substitute(&lin, x);
+        jacobian_column(&lin, column, x, column < 2 * N_X ? J + column : f_t, column < 2 * N_X ? N_Y : 1);
+    }
+    for (int k = 0; k < N_Y; k++) /* nothing depends on the works */
+        for (int w = 0; w < N_WORK; w++)
+            J[k * N_Y + 2 * N_X + w] = 0.0;
+    return 0;
+}
+
+/* (1/eta - J) u = r + s f_t at a state. */
+int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
+    const double *r, double *u)
+{
+    Linear lin;
+    const int status = linearized(t, y, memory, (const Parameters *)p, eta, &lin);
+    if (status)
+        return status;
+    newton_solve(&lin, eta, s, r, u);
+    return 0;
+}

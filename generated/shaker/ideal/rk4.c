@@ -1,0 +1,159 @@
+/*
+ * The classical Runge-Kutta method of order 4 with fixed step (W. Kutta, Z. Math. Phys. 46, 1901).
+ * Constraints are closed after every step.
+ */
+
+/* Where a step would lead: the new state, its right-hand side, and which joints touched on the way. */
+typedef struct {
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    unsigned char touched[1];
+} Trial;
+
+/*
+ * k1 = f(t, y), k2 = f(t + h/2, y + h/2 k1), k3 = f(t + h/2, y + h/2 k2), k4 = f(t + h, y + h k3),
+ * y + h/6 (k1 + 2 k2 + 2 k3 + k4). k1 is left over from the step before.
+ */
+static int rk4_trial(Run *run, double h, const Parameters *p, Trial *trial)
+{
+    static const double reach[3] = {0.5, 0.5, 1.0}, weight[3] = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+    double y[N_Y], k[N_Y];
+    const double *slope = run->dy;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        trial->touched[i] = 0;
+    for (int j = 0; j < N_Y; j++)
+        trial->y[j] = run->y[j] + h / 6.0 * run->dy[j];
+    for (int stage = 0; stage < 3; stage++) {
+        for (int j = 0; j < N_Y; j++)
+            y[j] = run->y[j] + reach[stage] * h * slope[j];
+        const int status = rates(run, run->t + reach[stage] * h, y, p, k, &trial->aside);
+        if (status)
+            return status;
+        for (int j = 0; j < N_Y; j++)
+            trial->y[j] += weight[stage] * h * k[j];
+        for (int i = 0; i < N_CLEARANCES; i++)
+            trial->touched[i] |= trial->aside.clearance[i].delta > 0.0;
+        slope = k;
+    }
+    project_state(run, run->t + h, trial->y, p);
+    return rates(run, run->t + h, trial->y, p, trial->dy, &trial->aside);
+}
+
+/* No friction that may stick: a step never ends early. */
+static double friction_event(Run *run, double h, const Parameters *p, const Trial *trial)
+{
+    (void)run, (void)h, (void)p, (void)trial;
+    return 1.0;
+}
+
+/* Takes a trial as the new state; latches follow from the gaps at both of its ends. */
+static int accept(Run *run, double h, double t_new, const Trial *trial, const Parameters *p)
+{
+    const double t = run->t;
+    const Aside before = run->aside;
+    run->t = t_new;
+    for (int j = 0; j < N_Y; j++) {
+        run->y[j] = trial->y[j];
+        run->dy[j] = trial->dy[j];
+    }
+    run->aside = trial->aside;
+    int status = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *a = &before.clearance[i], *b = &run->aside.clearance[i];
+        double top = 0.0;
+        if (a->deltadot > 0.0 && b->deltadot < 0.0)
+            cubic_top(a->e, h * a->deltadot, b->e, h * b->deltadot, &top);
+        run->e_max[i] = max_of(top, run->e_max[i]);
+    }
+    if (update_latches(run, t, h, before.clearance, run->aside.clearance, trial->touched, p))
+        status = rates(run, t_new, run->y, p, run->dy, &run->aside);
+    return status ? status : watch(run, p);
+}
+
+/* Share of h at which watched expression i first lies beyond zero, by halving: the step is tried again up to there. */
+static double rk4_crossing(Run *run, int i, double h, const Parameters *p)
+{
+    const double close = fmax(1e-12, 4.0 * DBL_EPSILON * fabs(run->t)) / h;
+    double low = 0.0, high = 1.0;
+    while (high - low > close) {
+        const double share = 0.5 * (low + high);
+        Trial trial;
+        if (rk4_trial(run, share * h, p, &trial) || run->memory.event_side[i] * trial.aside.event[i] < 0.0)
+            high = share;
+        else
+            low = share;
+    }
+    return high;
+}
+
+/* User events on the way of a step; one that ends the run takes the step up to there. */
+static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *p)
+{
+    double share[1], end = INFINITY;
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        signed char side = run->memory.event_side[i];
+        share[i] = event_crosses(i, &side, trial->aside.event[i]) ? rk4_crossing(run, i, h, p) : INFINITY;
+        if (run->stop && event_stops[i])
+            end = fmin(end, share[i]);
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        event_crosses(i, &run->memory.event_side[i], trial->aside.event[i]);
+        if (share[i] <= end && isfinite(share[i]))
+            note_event(run, i, run->t + share[i] * h);
+    }
+    if (!isfinite(end))
+        return 0;
+    Trial last;
+    const int status = rk4_trial(run, end * h, p, &last);
+    const int failed = status ? status : accept(run, end * h, run->t + end * h, &last, p);
+    return failed ? failed : ENDED;
+}
+
+/* One step to t_new; where friction changes on the way, in parts that end there. */
+static int rk4_step(Run *run, double h, double t_new, const Parameters *p)
+{
+    Trial trial;
+    run->steps++;
+    for (int part = 0; part < MAX_PARTS; part++) {
+        const int status = rk4_trial(run, h, p, &trial);
+        if (status)
+            return status;
+        const double share = friction_event(run, h, p, &trial);
+        if (share >= 1.0) {
+            const int ended = rk4_events(run, h, &trial, p);
+            return ended ? ended : accept(run, h, t_new, &trial, p);
+        }
+        int failed = share < 0.0 ? NOT_FINITE : accept(run, share * h, run->t + share * h, &trial, p);
+        if (!failed)
+            failed = switch_friction(run, p);
+        if (failed)
+            return failed;
+        h = t_new - run->t;
+        if (!(h > 0.0))
+            return 0;
+    }
+    return CHATTERING;
+}
+
+/*
+ * `count` steps from t0 + first h towards t0 + total h = t1, or fewer when the list of impacts is full.
+ * Returns 0, EVENTS_FULL, NOT_FINITE or the pivot that vanished; `taken` steps were made.
+ */
+int gudgeon_run_steps(void *memory, const double *parameters, double t0, double t1, long total, long first, long count,
+    long *taken)
+{
+    Run *run = memory;
+    const Parameters *p = (const Parameters *)parameters;
+    const double h = (t1 - t0) / (double)total;
+    int status = run->ready ? 0 : begin(run, p);
+    *taken = 0;
+    while (!status && *taken < count) {
+        if (lists_full(run))
+            return EVENTS_FULL;
+        const long i = first + *taken + 1;
+        status = rk4_step(run, h, i == total ? t1 : t0 + (double)i * h, p);
+        ++*taken;
+    }
+    return status;
+}
+

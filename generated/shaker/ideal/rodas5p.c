@@ -1,0 +1,111 @@
+/*
+ * Rodas5P: a Rosenbrock method of order 5 with the exact Jacobian, L-stable, dense output of order 4.
+ * G. Steinebach, BIT 63:27 (2023). (1/(h gamma) - J) u_i = f(y + sum a_ij u_j) + sum c_ij/h u_j + d_i h f_t.
+ */
+
+static const double rodas5p_node[] = {0.0, 0.6358126895828704, 0.4095798393397535, 0.9769306725060716, 0.4288403609558664, 1.0, 1.0, 1.0}, rodas5p_time[] = {0.21193756319429014, -0.42387512638858027, -0.3384627126235924, 1.8046452872882734, 2.325825639765069, 0.0, 0.0, 0.0};
+static const double rodas5p_a[8][8] = {
+    {0.0},
+    {3.0},
+    {2.849394379747939, 0.45842242204463923},
+    {-6.954028509809101, 2.489845061869568, -10.358996098473584},
+    {2.8029986275628964, 0.5072464736228206, -0.3988312541770524, -0.04721187230404641},
+    {-7.502846399306121, 2.561846144803919, -11.627539656261098, -0.18268767659942256, 0.030198172008377946},
+    {-7.502846399306121, 2.561846144803919, -11.627539656261098, -0.18268767659942256, 0.030198172008377946, 1.0},
+    {-7.502846399306121, 2.561846144803919, -11.627539656261098, -0.18268767659942256, 0.030198172008377946, 1.0, 1.0},
+};
+static const double rodas5p_c[8][8] = {
+    {0.0},
+    {-14.155112264123755},
+    {-17.97296035885952, -2.859693295451294},
+    {147.12150275711716, -1.41221402718213, 71.68940251302358},
+    {165.43517024871676, -0.4592823456491126, 42.90938336958603, -5.961986721573306},
+    {24.854864614690072, -3.0009227002832186, 47.4931110020768, 5.5814197821558125, -0.6610691825249471},
+    {30.91273214028599, -3.1208243349937974, 77.79954646070892, 34.28646028294783, -19.097331116725623, -28.087943162872662},
+    {37.80277123390563, -3.2571969029072276, 112.26918849496327, 66.9347231244047, -40.06618937091002, -54.66780262877968, -9.48861652309627},
+};
+static const double rodas5p_h[3][8] = {
+    {25.948786856663858, -2.5579724845846235, 10.433815404888879, -2.3679251022685204, 0.524948541321073, 1.1241088310450404, 0.4272876194431874, -0.17202221070155493},
+    {-9.91568850695171, -0.9689944594115154, 3.0438037242978453, -24.495224566215796, 20.176138334709044, 15.98066361424651, -6.789040303419874, -6.710236069923372},
+    {11.419903575922262, 2.8879645146136994, 72.92137995996029, 80.12511834622643, -52.072871366152654, -59.78993625266729, -0.15582684282751913, 4.883087185713722},
+};
+
+static int rodas5p_try(Run *run, double h, const Parameters *p, Step *step)
+{
+    const double hg = h * 0.21193756319429014;
+    double y[N_Y], f[N_Y], r[N_Y], before[N_Y];
+    Aside aside;
+    step->t = run->t, step->h = h, step->stiff = 1, step->dense_ready = 0;
+    forget_stages(step);
+    if (!run->linear_ready) {
+        TreeState at;
+        const int lost = tree_state(run->t, run->y, &run->memory, p, &at);
+        if (lost)
+            return lost;
+        chain_third(run->t, at.q, at.v, &run->memory, p, at.v + N_X + 2 * N_CHAIN);
+        linearize(run->t, at.q, at.v, &run->memory, p, run->dy + N_X, &run->aside, &run->linear);
+        run->jacobians++;
+        run->linear_ready = 1;
+    }
+    int status = newton_factor(hg, &run->linear) ? NOT_FINITE : 0;
+    double change = 0.0, way = 0.0;
+    for (int s = 0; s < 8 && !status; s++) {
+        for (int i = 0; i < N_Y; i++) {
+            before[i] = f[i];
+            f[i] = run->dy[i];
+            y[i] = run->y[i];
+        }
+        if (s > 0) {
+            for (int j = 0; j < s; j++)
+                for (int i = 0; i < N_Y; i++)
+                    y[i] += rodas5p_a[s][j] * step->k[j][i];
+            status = all_finite(y, N_Y) ? rates(run, run->t + rodas5p_node[s] * h, y, p, f, &aside) : NOT_FINITE;
+            if (status)
+                return status;
+            note_stage(run, step, &aside, rodas5p_node[s]);
+        }
+        for (int i = 0; i < N_Y; i++)
+            r[i] = f[i];
+        for (int j = 0; j < s; j++)
+            for (int i = 0; i < N_Y; i++)
+                r[i] += rodas5p_c[s][j] / h * step->k[j][i];
+        newton_solve(&run->linear, hg, h * rodas5p_time[s], r, step->k[s]);
+        if (s == 7) /* the last two stages lie at one time: what f changes between them is J times their way */
+            for (int i = 0; i < 2 * N_X; i++) {
+                const double by = 1.0 / tolerance(run, i);
+                change = fmax(fabs(f[i] - before[i]) * by, change);
+                way = fmax(fabs(step->k[6][i]) * by, way);
+            }
+    }
+    if (status)
+        return status;
+    step->error = 0.0;
+    for (int i = 0; i < N_Y; i++)
+        step->y[i] = y[i] + step->k[7][i];
+    for (int i = 0; i < 2 * N_X; i++)
+        step->error = max_of(fabs(step->k[7][i]) / tolerance(run, i), step->error);
+    if (!isfinite(step->error))
+        return NOT_FINITE;
+    run->stability = way > 0.0 ? h * change / way : 0.0;
+    return step->error > run->accept ? 0 : finish_step(run, step, p);
+}
+
+static void rodas5p_dense(const Run *run, Step *step)
+{
+    for (int i = 0; i < N_Y; i++) {
+        step->dense[0][i] = step->y[i] - run->y[i];
+        for (int m = 0; m < 3; m++) {
+            double sum = 0.0;
+            for (int j = 0; j < 8; j++)
+                sum += rodas5p_h[m][j] * step->k[j][i];
+            step->dense[m + 1][i] = sum;
+        }
+    }
+}
+
+static void rodas5p_interpolate(const Run *run, const Step *step, double s, double *y)
+{
+    const double (*d)[N_Y] = (const double (*)[N_Y])step->dense;
+    for (int i = 0; i < N_Y; i++)
+        y[i] = run->y[i] + s * (d[0][i] + (1.0 - s) * (d[1][i] + s * (d[2][i] + s * d[3][i])));
+}

@@ -1,0 +1,339 @@
+/*
+ * A run: the state that a method moves forward, and what is watched on the way: onsets and separations of
+ * joints with play, peaks, residuals.
+ */
+enum {
+    N_IMPACTS = 256, MAX_PARTS = 50,
+    NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7, OUTSIDE = -8
+};
+
+typedef struct {
+    double t_on, t_off, deltadot, F_peak, t_peak;
+    int joint;
+} Impact;
+
+/* A step that was tried: contacts and the sides of corners are held while it is made. */
+enum {
+    N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
+    N_STAGES = 16, N_DENSE = 7, N_WATCHED = 0, N_LOOKS = 16
+};
+
+typedef struct {
+    double t, h, error;
+    double y[N_Y], dy[N_Y];                  /* at the end */
+    Aside aside;
+    double k[N_STAGES][N_Y];                 /* rates or increments of the stages */
+    double dense[N_DENSE][N_Y];
+    int dense_ready, stiff;
+    int n_seen;                              /* stages so far, their nodes and margins */
+    double node[N_STAGES], seen[1][N_STAGES];
+    double look[1][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (watched.c) */
+    unsigned char near[1], looked;
+    double rate[1][2];   /* smallest and largest d delta/dt of the stages */
+} Step;
+
+static const unsigned char is_angle[] = {1};
+
+typedef struct {
+    double t, y[N_Y], dy[N_Y];
+    Aside aside;
+    Memory memory;
+    Impact open[1];      /* the contact going on in each joint */
+    int compressing[1];  /* from onset until the penetration first stops growing */
+    double F_peak[1], t_peak[1], e_max[1];
+    Impact impacts[N_IMPACTS];
+    double event_t[N_IMPACTS];
+    int event[N_IMPACTS], n_events, stop; /* user events found; whether they may end the run */
+    int n_impacts, ready;
+    long steps, evaluations, onsets, grazes, ratio_outside, switches, rejected, jacobians, stiff_steps;
+    double phi_max, phi_dot_max, ratio_min, ratio_max;
+    /* of methods that choose their step (adaptive.c) */
+    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace, scale[2 * N_X], speed[2], speed_floor[2];
+    int rising[1]; /* whether a joint's force rose at the end of the last step */
+    int crossed, skip, choice, stiff, votes, patience, since, stuck, crawl, linear_ready;
+    Linear linear;
+    Step step;
+} Run;
+
+static int rates(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
+{
+    run->evaluations++;
+    return motion(t, y, &run->memory, p, dy, aside);
+}
+
+/* Parameter s in [0, 1] at which the cubic through (d0, h r0) and (d1, h r1) crosses zero; its slope in `rate`. */
+static double crossing(double d0, double r0, double d1, double r1, double h, double *rate)
+{
+    double low = 0.0, high = 1.0, s = 0.5;
+    for (int i = 0; i < 60; i++) {
+        s = 0.5 * (low + high);
+        const double u = 1.0 - s;
+        const double d = u * u * (1.0 + 2.0 * s) * d0 + s * u * u * h * r0 + s * s * (3.0 - 2.0 * s) * d1 - s * s * u * h * r1;
+        if ((d >= 0.0) == (d1 >= 0.0))
+            high = s;
+        else
+            low = s;
+    }
+    *rate = 6.0 * s * (1.0 - s) * (d1 - d0) / h + (1.0 - s) * (1.0 - 3.0 * s) * r0 + s * (3.0 * s - 2.0) * r1;
+    return s;
+}
+
+/* Place in (0, 1) and height of the top of the cubic through (d0, r0) and (d1, r1), slopes r0 > 0 > r1. */
+static double cubic_top(double d0, double r0, double d1, double r1, double *height)
+{
+    const double b = 3.0 * (d1 - d0) - 2.0 * r0 - r1, c = r0 + r1 - 2.0 * (d1 - d0);
+    const double s = r0 / (sqrt(b * b - 3.0 * c * r0) - b);
+    *height = d0 + s * (r0 + s * (b + s * c));
+    return s;
+}
+
+/* Onset: remember the impact velocity, not below its floor. */
+static void close_joint(Run *run, int i, double t, double deltadot, double floor)
+{
+    run->memory.latch[i].closed = 1;
+    run->memory.latch[i].deltadot_minus = max_of(deltadot, floor);
+    run->compressing[i] = 1;
+    run->rising[i] = 1;
+    run->onsets++;
+    run->open[i] = (Impact){t, NAN, run->memory.latch[i].deltadot_minus, 0.0, t, i};
+}
+
+/* Separation: the contact goes into the list that Python fetches. */
+static void open_joint(Run *run, int i, double t)
+{
+    run->memory.latch[i].closed = 0;
+    run->open[i].t_off = t;
+    if (run->n_impacts < N_IMPACTS) /* more in one step than the list holds: only where friction cuts it in parts */
+        run->impacts[run->n_impacts++] = run->open[i];
+}
+
+/* Free, impact, contact from gap and approach at both ends of a step; 1 if any joint changed. */
+static int update_latches(Run *run, double t, double h, const Clearance *before, const Clearance *after,
+    const unsigned char *touched, const Parameters *p)
+{
+    const double floors[] = {0.0};
+    int changed = 0;
+    (void)p;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const double d0 = before[i].delta, d1 = after[i].delta;
+        double rate;
+        if (!run->memory.latch[i].closed && d1 >= 0.0) {
+            const double s = d0 < 0.0 ? crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate) : 0.0;
+            close_joint(run, i, t + s * h, d0 < 0.0 ? rate : before[i].deltadot, floors[i]);
+            changed = 1;
+        } else if (run->memory.latch[i].closed && d1 < 0.0) {
+            open_joint(run, i, t + h * crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate));
+            changed = 1;
+        } else if (!run->memory.latch[i].closed && touched[i]) {
+            run->grazes++; /* in and out again within one step */
+        }
+        if (run->memory.latch[i].closed && after[i].deltadot <= 0.0)
+            run->compressing[i] = 0;
+    }
+    return changed;
+}
+
+/* A journal deeper in its bearing than a tenth of the radius: contact laws mean nothing there. */
+static int outside_model(const Run *run, const Parameters *p)
+{
+    const double deepest[] = {0.0};
+    (void)p;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (run->aside.clearance[i].delta > deepest[i])
+            return 1;
+    return 0;
+}
+
+/* Peaks, residuals and the ratio deltadot/deltadot_minus at an accepted state. */
+static int watch(Run *run, const Parameters *p)
+{
+    (void)p;
+    const Aside *aside = &run->aside;
+    double sum = 0.0;
+    for (int k = 0; k < N_Y; k++)
+        sum += run->dy[k] + run->y[k];
+    TreeState at; /* from here on the driven chains are followed */
+    int status = tree_state(run->t, run->y, &run->memory, p, &at);
+    if (!status)
+        status = keep_chains(run->t, &at, &run->memory, p);
+    if (status)
+        return status;
+    double phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];
+    closures(run->t, at.q, p, phi);
+    closure_rates(run->t, at.q, at.v, p, phi_dot);
+    for (int r = 0; r < N_LOOPS; r++) {
+        run->phi_max = max_of(fabs(phi[r]), run->phi_max);
+        run->phi_dot_max = max_of(fabs(phi_dot[r]), run->phi_dot_max);
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *joint = &aside->clearance[i];
+        const double F = hypot(joint->F_n, joint->F_t);
+        run->e_max[i] = max_of(joint->e, run->e_max[i]);
+        if (F > run->F_peak[i]) {
+            run->F_peak[i] = F;
+            run->t_peak[i] = run->t;
+        }
+        if (run->memory.latch[i].closed) {
+            const double ratio = joint->deltadot / run->memory.latch[i].deltadot_minus;
+            run->ratio_min = ratio < run->ratio_min ? ratio : run->ratio_min;
+            run->ratio_max = ratio > run->ratio_max ? ratio : run->ratio_max;
+            run->ratio_outside += ratio < -1.0 || ratio > 1.0;
+            if (F > run->open[i].F_peak) {
+                run->open[i].F_peak = F;
+                run->open[i].t_peak = run->t;
+            }
+        }
+    }
+    return !isfinite(sum) ? NOT_FINITE : outside_model(run, p) ? OUTSIDE : 0;
+}
+
+/* No friction that may stick. */
+static double indicator(const Memory *memory, const Aside *aside, int i)
+{
+    (void)memory, (void)aside, (void)i;
+    return 1.0;
+}
+
+static int switch_friction(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+
+static int begin_friction(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+
+/* User event i at time t; whether it ends the run. */
+static int note_event(Run *run, int i, double t)
+{
+    if (run->n_events < N_IMPACTS) {
+        run->event_t[run->n_events] = t;
+        run->event[run->n_events++] = i;
+    }
+    return run->stop && event_stops[i];
+}
+
+/* Whether the next step may find more than the lists hold. */
+static int lists_full(const Run *run)
+{
+    return run->n_impacts > N_IMPACTS - 1 || run->n_events > N_IMPACTS - 1;
+}
+
+/* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
+static int begin(Run *run, const Parameters *p)
+{
+    const unsigned char touched[1] = {0};
+    int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    if (!status)
+        status = begin_friction(run, p);
+    if (!status && update_latches(run, run->t, 0.0, run->aside.clearance, run->aside.clearance, touched, p))
+        status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
+    run->ready = 1;
+    return status ? status : watch(run, p);
+}
+
+size_t gudgeon_run_size(void) { return sizeof(Run); }
+
+/* `y` is a state of all bodies. */
+void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched)
+{
+    Run *run = memory;
+    *run = (Run){.t = t, .ratio_min = INFINITY, .ratio_max = -INFINITY};
+    from_absolute(t, y, &run->memory, (const Parameters *)p, run->y);
+    read_memory(latched, &run->memory);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        run->open[i] = (Impact){t, NAN, latched[i], 0.0, t, i};
+}
+
+/* The codes with which an earlier run ended: whether a contact that goes on is still being compressed. */
+void gudgeon_run_codes(void *memory, const signed char *state)
+{
+    Run *run = memory;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        run->compressing[i] = state[i] == 1;
+}
+
+/* State of all bodies, latches and codes (0 free, 1 impact, 2 contact) as row i of the samples. */
+static void store_sample(const Run *run, double t, const double *now, const Parameters *p, long i, double *y,
+    double *latched, signed char *state)
+{
+    enum { MEMORY = 1, JOINTS = 1 };
+    to_absolute(t, now, &run->memory, p, y + i * N_S);
+    for (int k = 0; k < N_CLEARANCES; k++) {
+        latched[i * MEMORY + k] = run->memory.latch[k].closed ? run->memory.latch[k].deltadot_minus : NAN;
+        state[i * JOINTS + k] = (signed char)(run->memory.latch[k].closed ? 2 - run->compressing[k] : 0);
+    }
+    for (int k = 0; k < N_FRICTIONS; k++)
+        latched[i * MEMORY + N_CLEARANCES + k] = run->memory.mode[k];
+}
+
+void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state)
+{
+    const Run *run = memory;
+    store_sample(run, run->t, run->y, (const Parameters *)p, 0, y, latched, state);
+}
+
+void gudgeon_run_stop(void *memory, int stop) { ((Run *)memory)->stop = stop; }
+
+/* Fetches and empties the list of user events. */
+int gudgeon_run_events(void *memory, double *t, int *event)
+{
+    Run *run = memory;
+    const int n = run->n_events;
+    for (int i = 0; i < n; i++) {
+        t[i] = run->event_t[i];
+        event[i] = run->event[i];
+    }
+    run->n_events = 0;
+    return n;
+}
+
+/* Fetches and empties the list of impacts: 5 numbers each, and the joint; with `last` the open ones too. */
+int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints)
+{
+    Run *run = memory;
+    for (int i = 0; last && i < N_CLEARANCES; i++)
+        if (run->memory.latch[i].closed && run->n_impacts < N_IMPACTS)
+            run->impacts[run->n_impacts++] = run->open[i];
+    const int n = run->n_impacts;
+    for (int i = 0; i < n; i++) {
+        const Impact *impact = &run->impacts[i];
+        numbers[5 * i] = impact->t_on;
+        numbers[5 * i + 1] = impact->t_off;
+        numbers[5 * i + 2] = impact->deltadot;
+        numbers[5 * i + 3] = impact->F_peak;
+        numbers[5 * i + 4] = impact->t_peak;
+        joints[i] = impact->joint;
+    }
+    run->n_impacts = 0;
+    return n;
+}
+
+void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks)
+{
+    const Run *run = memory;
+    *t = run->t;
+    counts[0] = run->steps;
+    counts[1] = run->evaluations;
+    counts[2] = run->onsets;
+    counts[3] = run->grazes;
+    counts[4] = run->ratio_outside;
+    counts[5] = run->switches;
+    counts[6] = run->rejected;
+    counts[7] = run->jacobians;
+    counts[8] = run->stiff_steps;
+    numbers[0] = run->phi_max;
+    numbers[1] = run->phi_dot_max;
+    numbers[2] = run->ratio_min;
+    numbers[3] = run->ratio_max;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        peaks[3 * i] = run->F_peak[i];
+        peaks[3 * i + 1] = run->t_peak[i];
+        peaks[3 * i + 2] = run->e_max[i];
+    }
+}

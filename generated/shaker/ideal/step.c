@@ -1,0 +1,93 @@
+/*
+ * One attempted step of a method that looks ahead: how near it came to what may end it, its tolerances, and its
+ * end, brought back onto the constraints.
+ */
+/* Not negative while things go on as they are; NaN: does not act. */
+static double margin(const Memory *memory, const Aside *aside, int k)
+{
+    if (k < N_CLEARANCES)
+        return memory->latch[k].closed ? aside->clearance[k].delta : -aside->clearance[k].delta;
+    k -= N_CLEARANCES;
+    if (k < N_SWITCHES)
+        return memory->side[k] * aside->g[k];
+    k -= N_SWITCHES;
+    if (k < N_FRICTIONS)
+        return indicator(memory, aside, k);
+    return memory->event_side[k - N_FRICTIONS] * aside->event[k - N_FRICTIONS];
+}
+
+static void forget_stages(Step *step)
+{
+    step->n_seen = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        step->rate[i][0] = INFINITY;
+        step->rate[i][1] = -INFINITY;
+    }
+}
+
+/* What a stage at `node` saw. */
+static void note_stage(const Run *run, Step *step, const Aside *aside, double node)
+{
+    for (int k = 0; k < N_MARGINS; k++)
+        step->seen[k][step->n_seen] = margin(&run->memory, aside, k);
+    step->node[step->n_seen++] = node;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *joint = &aside->clearance[i];
+        step->rate[i][0] = fmin(step->rate[i][0], joint->deltadot);
+        step->rate[i][1] = fmax(step->rate[i][1], joint->deltadot);
+    }
+}
+
+/* Tolerances of coordinates are given; those of velocities grow with the largest speed so far. */
+static double tolerance(const Run *run, int k)
+{
+    return k < N_X ? run->scale[k] : run->scale[k] * (run->speed[is_angle[k - N_X]] + run->speed_floor[is_angle[k - N_X]]);
+}
+
+static void note_speed(Run *run)
+{
+    for (int k = 0; k < N_X; k++)
+        run->speed[is_angle[k]] = fmax(run->speed[is_angle[k]], fabs(run->y[N_X + k]));
+}
+
+static int all_finite(const double *x, int n)
+{
+    double sum = 0.0;
+    for (int k = 0; k < n; k++)
+        sum += x[k];
+    return isfinite(sum);
+}
+
+/*
+ * Back onto Phi = 0 and Phi_dot = 0 by the smallest changes of q and v, measured by M. The second time for the
+ * velocities at the mended positions. A pivot that vanishes (links in line) leaves the state as it is.
+ */
+static void project_state(Run *run, double t, double *y, const Parameters *p)
+{
+    TreeState at;
+    if (N_LOOPS == 0 || tree_state(t, y, &run->memory, p, &at))
+        return;
+    for (int pass = 0; pass < 3 && N_LOOPS > 0; pass++) {
+        double dq[N_X], dv[N_X], worst;
+        if (closing_step(t, at.q, at.v, &run->memory, p, dq, dv, &worst) || !all_finite(dq, N_X) || !all_finite(dv, N_X))
+            return;
+        for (int k = 0; k < N_X; k++) {
+            y[k] -= dq[k];
+            y[N_X + k] -= dv[k];
+            at.q[k] = y[k];
+            at.v[k] = y[N_X + k];
+        }
+        if (worst < 1e-15)
+            return;
+    }
+}
+
+/* The end of a step: projected, with its right-hand side. */
+static int finish_step(Run *run, Step *step, const Parameters *p)
+{
+    if (!all_finite(step->y, N_Y))
+        return NOT_FINITE;
+    project_state(run, step->t + step->h, step->y, p);
+    const int status = rates(run, step->t + step->h, step->y, p, step->dy, &step->aside);
+    return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;
+}
