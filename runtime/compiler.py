@@ -19,11 +19,15 @@ INSTALL_HEADERS = (
     "install Python's headers — Debian, Ubuntu: apt-get install python3-dev; Fedora: dnf install python3-devel"
 )
 
-# -O1 and two passes of gcc's -O2, which keep registers across calls: runs are as fast as with -O2, within 2 %, since
-# straight-line code leaves it little to do, and a scene is compiled in 60 % of the time.
+# -O1, two passes of gcc's -O2, which keep registers across calls, and vectors for the methods' loops over components:
+# runs are as fast as with -O2 or faster, since straight-line code leaves it little to do, and a scene is compiled in
+# 60 % of the time.
 # Never -ffast-math: it deletes the isnan tests. No contraction to fused multiply-adds, so that gcc and clang
 # round alike. Nobody reads errno after sqrt, and without it sqrt is one instruction.
-FLAGS = ("-O1", "-fcaller-saves", "-fipa-ra", "-std=c11", "-fPIC", "-ffp-contract=off", "-fno-math-errno")
+FLAGS = (
+    "-O1", "-fcaller-saves", "-fipa-ra", "-ftree-loop-vectorize", "-std=c11", "-fPIC", "-ffp-contract=off",
+    "-fno-math-errno",
+)
 
 
 def flags(portable: bool) -> tuple[str, ...]:

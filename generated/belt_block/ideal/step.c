@@ -16,6 +16,17 @@ static double margin(const Memory *memory, const Aside *aside, int k)
     return memory->event_side[k - N_FRICTIONS] * aside->event[k - N_FRICTIONS];
 }
 
+/* All of them. */
+static void margins_of(const Memory *memory, const Aside *aside, double *out)
+{
+    for (int i = 0; i < N_CLEARANCES; i++)
+        out[i] = memory->latch[i].closed ? aside->clearance[i].delta : -aside->clearance[i].delta;
+    for (int k = 0; k < N_SWITCHES; k++)
+        out[N_CLEARANCES + k] = memory->side[k] * aside->g[k];
+    for (int k = N_CLEARANCES + N_SWITCHES; k < N_MARGINS; k++)
+        out[k] = margin(memory, aside, k);
+}
+
 static void forget_stages(Step *step)
 {
     step->n_seen = 0;
@@ -28,13 +39,12 @@ static void forget_stages(Step *step)
 /* What a stage at `node` saw. */
 static void note_stage(const Run *run, Step *step, const Aside *aside, double node)
 {
-    for (int k = 0; k < N_MARGINS; k++)
-        step->seen[k][step->n_seen] = margin(&run->memory, aside, k);
+    margins_of(&run->memory, aside, step->seen[step->n_seen]);
     step->node[step->n_seen++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &aside->clearance[i];
-        step->rate[i][0] = fmin(step->rate[i][0], joint->deltadot);
-        step->rate[i][1] = fmax(step->rate[i][1], joint->deltadot);
+        step->rate[i][0] = min_of(step->rate[i][0], joint->deltadot);
+        step->rate[i][1] = max_of(step->rate[i][1], joint->deltadot);
     }
 }
 
@@ -47,15 +57,15 @@ static double tolerance(const Run *run, int k)
 static void note_speed(Run *run)
 {
     for (int k = 0; k < N_X; k++)
-        run->speed[is_angle[k]] = fmax(run->speed[is_angle[k]], fabs(run->y[N_X + k]));
+        run->speed[is_angle[k]] = max_of(run->speed[is_angle[k]], fabs(run->y[N_X + k]));
 }
 
 static int all_finite(const double *x, int n)
 {
-    double sum = 0.0;
+    int bad = 0;
     for (int k = 0; k < n; k++)
-        sum += x[k];
-    return isfinite(sum);
+        bad |= !(fabs(x[k]) <= DBL_MAX);
+    return !bad;
 }
 
 /*

@@ -19,8 +19,8 @@ static int may_vanish(const Run *run, const Step *step, int k, double *range)
     const double start = margin(&run->memory, &run->aside, k), end = margin(&run->memory, &step->aside, k);
     double least = fmin(start, end), most = fmax(start, end);
     for (int i = 0; i < step->n_seen; i++) {
-        least = fmin(least, step->seen[k][i]);
-        most = fmax(most, step->seen[k][i]);
+        least = fmin(least, step->seen[i][k]);
+        most = fmax(most, step->seen[i][k]);
     }
     *range = most - least;
     return least < *range;

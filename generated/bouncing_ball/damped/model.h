@@ -99,6 +99,7 @@ static inline int event_crosses(int i, signed char *side, double value)
 static inline double max_of(double x, double y) { return x < y ? y : x; }
 static inline double min_of(double x, double y) { return x > y ? y : x; }
 static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
+static inline double total_force(const Clearance *joint) { return sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t); }
 /* The side of corner k: as it is held, or where g is. */
 static inline double side_of(const double *side, double *g, int k, double value)
 {

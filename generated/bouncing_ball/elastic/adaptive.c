@@ -238,6 +238,7 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         if (status)
             break;
         choose(run);
+        pass_corners(run, step, p);
         int event;
         const double share = first_event(run, step, p, &event);
         const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;

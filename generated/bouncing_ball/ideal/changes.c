@@ -63,7 +63,6 @@ static double kinetic_energy(const Run *run, const Parameters *p)
  */
 static void pace_corner(Run *run, int corner)
 {
-    static const unsigned char meets[] = {0}; /* whether a corner's branches meet in it */
     const double way = run->t - run->t_crossed;
     const int again = meets[corner] && run->crossed == corner && way < 1e-3 * run->h;
     run->skip = again ? corner : -1;

@@ -21,10 +21,13 @@ static void expand(const double t, const double *q, const double *v, const Param
 
     /* directions, arms, drives */
     const double bump_value = asin(par_r*sin(omega*time)/length);
+    const Four angles_0 = {bump_value, bump_value, bump_value, bump_value};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_road = cosines_0[0];
+    const double sin_theta_road = sines_0[0];
     const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
         sin(omega*time))/(length * length)));
-    const double cos_theta_road = cos(bump_value);
-    const double sin_theta_road = sin(bump_value);
     const double span_road_com_x = cos_theta_road*road_head_x;
     const double span_road_com_y = road_head_x*sin_theta_road;
     const double road_vx = -bump_rate*span_road_com_y;

@@ -21,13 +21,16 @@ static void expand(const double t, const double *q, const double *v, const Param
 
     /* directions, arms, drives */
     const double motor_value = omega*time + 1.5707963267948966;
+    const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_crank = cosines_0[0];
+    const double sin_theta_crank = sines_0[0];
+    const double cos_theta_rocker = cosines_0[1];
+    const double sin_theta_rocker = sines_0[1];
+    const double cos_theta_coupler = cosines_0[2];
+    const double sin_theta_coupler = sines_0[2];
     const double motor_rate = omega;
-    const double cos_theta_crank = cos(motor_value);
-    const double sin_theta_crank = sin(motor_value);
-    const double cos_theta_rocker = cos(rocker_theta);
-    const double sin_theta_rocker = sin(rocker_theta);
-    const double cos_theta_coupler = cos(coupler_theta);
-    const double sin_theta_coupler = sin(coupler_theta);
     const double span_crank_com_x = cos_theta_crank*crank_head_x;
     const double span_crank_com_y = crank_head_x*sin_theta_crank;
     const double crank_vx = -motor_rate*span_crank_com_y;

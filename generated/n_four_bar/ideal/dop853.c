@@ -117,8 +117,8 @@ static int dop853_try(Run *run, double h, const Parameters *p, Step *step)
         return status_last;
     for (int i = 0; i < 2 * N_X; i++) {
         const double by = 1.0 / tolerance(run, i);
-        change = fmax(fabs(step->dy[i] - step->k[11][i]) * by, change);
-        way = fmax(fabs(step->y[i] - y[i]) * by, way);
+        change = max_of(fabs(step->dy[i] - step->k[11][i]) * by, change);
+        way = max_of(fabs(step->y[i] - y[i]) * by, way);
     }
     run->stability = way > 0.0 ? h * change / way : 0.0;
     return 0;

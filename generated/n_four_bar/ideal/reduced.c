@@ -29,16 +29,22 @@ static void expand(const double t, const double *q, const double *v, const Param
     const double crank1_head_span_x = p->crank1_head_span_x;
 
     /* directions, arms, drives */
-    const double cos_theta_crank0 = cos(crank0_theta);
-    const double sin_theta_crank0 = sin(crank0_theta);
-    const double cos_theta_crank1 = cos(crank1_theta);
-    const double sin_theta_crank1 = sin(crank1_theta);
-    const double cos_theta_crank2 = cos(crank2_theta);
-    const double sin_theta_crank2 = sin(crank2_theta);
-    const double cos_theta_coupler1 = cos(coupler1_theta);
-    const double sin_theta_coupler1 = sin(coupler1_theta);
-    const double cos_theta_coupler2 = cos(coupler2_theta);
-    const double sin_theta_coupler2 = sin(coupler2_theta);
+    const Four angles_0 = {crank0_theta, crank1_theta, crank2_theta, coupler1_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const Four angles_1 = {coupler2_theta, coupler2_theta, coupler2_theta, coupler2_theta};
+    Four sines_1, cosines_1;
+    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    const double cos_theta_crank0 = cosines_0[0];
+    const double sin_theta_crank0 = sines_0[0];
+    const double cos_theta_crank1 = cosines_0[1];
+    const double sin_theta_crank1 = sines_0[1];
+    const double cos_theta_crank2 = cosines_0[2];
+    const double sin_theta_crank2 = sines_0[2];
+    const double cos_theta_coupler1 = cosines_0[3];
+    const double sin_theta_coupler1 = sines_0[3];
+    const double cos_theta_coupler2 = cosines_1[0];
+    const double sin_theta_coupler2 = sines_1[0];
     const double span_crank0_com_x = cos_theta_crank0*crank0_head_x;
     const double span_crank0_com_y = crank0_head_x*sin_theta_crank0;
     const double crank0_vx = -crank0_omega*span_crank0_com_y;

@@ -280,7 +280,7 @@ static void watch_force(LaneRun *x, int i, const LaneClearance *joint)
     const LaneBits acts = lanes_fabs(joint->F_n) + lanes_fabs(joint->F_t) > 0.0;
     if (!any_of((near_peak | (closed & near_open)) & acts))
         return;
-    const Lanes F = lanes_hypot(joint->F_n, joint->F_t);
+    const Lanes F = lanes_sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t);
     const LaneBits higher = F > F_peak, higher_open = closed & (F > F_open);
     x->latch[i].F_peak = pick(higher, F, F_peak);
     x->latch[i].t_peak = pick(higher, x->t, x->latch[i].t_peak);

@@ -19,7 +19,7 @@ static double force_at(Run *run, const Step *step, double s, int i, const Parame
     Aside aside;
     if (state_at(run, step, s, p, y, dy, &aside))
         return 0.0;
-    const double F = hypot(aside.clearance[i].F_n, aside.clearance[i].F_t);
+    const double F = total_force(&aside.clearance[i]);
     peak(run, i, step->t + s * step->h, F);
     run->e_max[i] = max_of(aside.clearance[i].e, run->e_max[i]);
     return F;
@@ -79,8 +79,10 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
         outermost(run, step, share, i, p);
         const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
         const double known = run->memory.latch[i].closed ? run->open[i].F_peak : run->F_peak[i];
-        before[i] = hypot(a->F_n, a->F_t), after[i] = hypot(b->F_n, b->F_t);
-        const int looked = fmax(before[i], after[i]) > 0.9 * known && after[i] > 0.0;
+        before[i] = total_force(a), after[i] = total_force(b);
+        /* a contact's force may double in a step, a film's grows by some percent */
+        const double share_of = run->memory.latch[i].closed ? 0.9 : 0.97;
+        const int looked = max_of(before[i], after[i]) > share_of * known && after[i] > 0.0;
         run->rising[i] = looked ? run->rising[i] : 1;
         near |= looked << i % 16;
     }
@@ -94,7 +96,7 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
     if (rates(run, step->t + share * step->h + e, x, p, dx, &aside))
         return;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const double slope = hypot(aside.clearance[i].F_n, aside.clearance[i].F_t) - after[i];
+        const double slope = total_force(&aside.clearance[i]) - after[i];
         if ((near >> i % 16 & 1) && run->rising[i] && slope < 0.0 && make_dense(run, p, step) == 0)
             inner_peak(run, step, share, i, p);
         run->rising[i] = slope > 0.0;

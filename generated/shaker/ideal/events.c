@@ -4,14 +4,59 @@
  * the wrong side of zero is not lost.
  */
 
+static const unsigned char meets[] = {0}; /* whether a corner's branches meet in it */
+#define HARMLESS 0.1 /* of the tolerance, that the wrong branch of a corner may change a step */
+
+/*
+ * Corners of contact laws that the step crossed for good, near enough to its end: their branches meet, so that what
+ * the held one did wrong is at most the step times what the rates differ by at its end. Where that is harmless the
+ * step stays as it is, and what follows begins on the other side.
+ */
+static void pass_corners(Run *run, Step *step, const Parameters *p)
+{
+    double dy[N_Y], most = 0.0;
+    int crossed = 0;
+    Aside aside;
+    for (int k = 0; k < N_SWITCHES; k++) {
+        const int margin_of = N_CLEARANCES + k;
+        step->passed[k] = meets[k] && watched_as[margin_of] < 0 && margin(&run->memory, &step->aside, margin_of) < 0.0;
+        crossed |= step->passed[k];
+    }
+    if (!crossed)
+        return;
+    const Memory before = run->memory;
+    for (int k = 0; k < N_SWITCHES; k++)
+        if (step->passed[k])
+            run->memory.side[k] *= -1.0;
+    int status = rates(run, step->t + step->h, step->y, p, dy, &aside);
+    for (int k = 0; k < 2 * N_X && !status; k++)
+        most = fmax(most, fabs(step->h * (dy[k] - step->dy[k])) / tolerance(run, k));
+    if (!status && most < HARMLESS) {
+        for (int k = 0; k < N_Y; k++)
+            step->dy[k] = dy[k];
+        step->aside = aside;
+        return;
+    }
+    run->memory = before;
+    for (int k = 0; k < N_SWITCHES; k++)
+        step->passed[k] = 0;
+}
+
+/* Whether margin k is not looked at: a corner left alone, or passed without harm. */
+static int is_passed(const Run *run, const Step *step, int k)
+{
+    const int corner = k - N_CLEARANCES;
+    return corner >= 0 && corner < N_SWITCHES && (corner == run->skip || step->passed[corner]);
+}
+
 /* The stage at which margin k was smallest; -1: none was. */
 static int nearest_stage(const Step *step, int k)
 {
     int nearest = -1;
     double least = INFINITY;
     for (int i = 0; i < step->n_seen; i++)
-        if (step->seen[k][i] < least) {
-            least = step->seen[k][i];
+        if (step->seen[i][k] < least) {
+            least = step->seen[i][k];
             nearest = i;
         }
     return nearest;
@@ -22,7 +67,7 @@ static double violated(Run *run, Step *step, int k, const Parameters *p, double 
 {
     const double end = margin(&run->memory, &step->aside, k);
     const int nearest = nearest_stage(step, k);
-    const double least = nearest < 0 ? INFINITY : step->seen[k][nearest], s = nearest < 0 ? 1.0 : step->node[nearest];
+    const double least = nearest < 0 ? INFINITY : step->seen[nearest][k], s = nearest < 0 ? 1.0 : step->node[nearest];
     if (watched_as[k] >= 0)
         return first_look(run, step, watched_as[k], p, value);
     if (k < N_CLEARANCES && may_graze(run, step, k, least) && make_dense(run, p, step) == 0)
@@ -47,7 +92,7 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
             return first;
         for (int k = 0; k < N_MARGINS; k++) {
             const double now = margin(&run->memory, &aside, k);
-            if (k != *event && (run->skip < 0 || k != N_CLEARANCES + run->skip) && now < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0) {
+            if (k != *event && !is_passed(run, step, k) && now < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0) {
                 found = k;
                 at_high = now;
             }
@@ -66,10 +111,15 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
 /* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
 static double first_event(Run *run, Step *step, const Parameters *p, int *event)
 {
-    double first = 1.0;
+    double first = 1.0, least[1];
     *event = -1;
+    margins_of(&run->memory, &step->aside, least);
+    for (int i = 0; i < step->n_seen; i++)
+        for (int k = 0; k < N_MARGINS; k++)
+            least[k] = step->seen[i][k] < least[k] ? step->seen[i][k] : least[k];
     for (int k = 0; k < N_MARGINS; k++) {
-        if (run->skip >= 0 && k == N_CLEARANCES + run->skip)
+        const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !(least[k] < 0.0);
+        if (quiet || is_passed(run, step, k))
             continue;
         double at_high, at_low = margin(&run->memory, &run->aside, k), low = 0.0;
         double high = violated(run, step, k, p, &at_high);

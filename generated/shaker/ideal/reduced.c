@@ -25,10 +25,13 @@ static void expand(const double t, const double *q, const double *v, const Param
     const double table_top_x = p->table_top_x;
 
     /* directions, arms, drives */
+    const Four angles_0 = {arm_theta, arm_theta, arm_theta, arm_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_arm = cosines_0[0];
+    const double sin_theta_arm = sines_0[0];
     const double motor_value = omega*time;
     const double motor_rate = omega;
-    const double cos_theta_arm = cos(arm_theta);
-    const double sin_theta_arm = sin(arm_theta);
     const double span_crank_com_x = cos_theta_crank*crank_head_x;
     const double span_crank_com_y = crank_head_x*sin_theta_crank;
     const double crank_vx = -motor_rate*span_crank_com_y;

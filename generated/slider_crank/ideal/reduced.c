@@ -18,11 +18,14 @@ static void expand(const double t, const double *q, const double *v, const Param
 
     /* directions, arms, drives */
     const double motor_value = omega*time;
+    const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_crank = cosines_0[0];
+    const double sin_theta_crank = sines_0[0];
+    const double cos_theta_rod = cosines_0[1];
+    const double sin_theta_rod = sines_0[1];
     const double motor_rate = omega;
-    const double cos_theta_crank = cos(motor_value);
-    const double sin_theta_crank = sin(motor_value);
-    const double cos_theta_rod = cos(rod_theta);
-    const double sin_theta_rod = sin(rod_theta);
     const double span_crank_com_x = cos_theta_crank*crank_head_x;
     const double span_crank_com_y = crank_head_x*sin_theta_crank;
     const double crank_vx = -motor_rate*span_crank_com_y;

@@ -16,10 +16,13 @@ static void expand(const double t, const double *q, const double *v, const Param
     const double rod_com_span_x = p->rod_com_span_x;
 
     /* directions, arms, drives */
-    const double cos_theta_crank = cos(crank_theta);
-    const double sin_theta_crank = sin(crank_theta);
-    const double cos_theta_rod = cos(rod_theta);
-    const double sin_theta_rod = sin(rod_theta);
+    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const double cos_theta_crank = cosines_0[0];
+    const double sin_theta_crank = sines_0[0];
+    const double cos_theta_rod = cosines_0[1];
+    const double sin_theta_rod = sines_0[1];
     const double crank_x = 0.0;
     const double crank_y = 0.0;
     const double crank_vx = 0.0;

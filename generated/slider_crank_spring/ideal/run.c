@@ -26,8 +26,9 @@ typedef struct {
     double dense[N_DENSE][N_Y];
     int dense_ready, stiff;
     int n_seen;                              /* stages so far, their nodes and margins */
-    double node[N_STAGES], seen[1][N_STAGES];
+    double node[N_STAGES], seen[N_STAGES][1];
     double look[1][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (watched.c) */
+    unsigned char passed[1]; /* corners that this step crosses without harm */
     unsigned char near[1], looked;
     double rate[1][2];   /* smallest and largest d delta/dt of the stages */
 } Step;
@@ -161,7 +162,7 @@ static int watch(Run *run, const Parameters *p)
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &aside->clearance[i];
-        const double F = hypot(joint->F_n, joint->F_t);
+        const double F = total_force(joint);
         run->e_max[i] = max_of(joint->e, run->e_max[i]);
         if (F > run->F_peak[i]) {
             run->F_peak[i] = F;

@@ -143,7 +143,7 @@ def integrator_loops(
         "rodas5p.c": render("rodas5p.c.jinja", state=integrated.state("run"), **chain, **_rodas5p()),
         "roots.c": render("roots.c.jinja", **counts),
         "watched.c": render("watched.c.jinja", cheap=integrated.cheap, **_watched(integrated, counts)),
-        "events.c": render("events.c.jinja", **counts),
+        "events.c": render("events.c.jinja", **common),
         "peaks.c": render("peaks.c.jinja", **counts),
         "changes.c": render("changes.c.jinja", **common),
         "adaptive.c": render("adaptive.c.jinja", **common),
@@ -152,20 +152,26 @@ def integrator_loops(
     }
 
 
-def _dop853() -> dict[str, Any]:
-    def terms(row: Mapping[int, float]) -> str:
-        return " + ".join(f"{value!r} * k[{j}][i]" for j, value in row.items())
+def _terms(row: Mapping[int, float]) -> str:
+    """A row of coefficients as a sum over stages: so unrolled it is one vector loop."""
+    return " + ".join(f"{value!r} * k[{j}][i]" for j, value in row.items())
 
+
+def _dop853() -> dict[str, Any]:
     return {
-        "nodes": dop853.C, "stages": [terms(row) for row in dop853.A[1:]], "n_stages": dop853.STAGES,
-        "error_3": terms(dop853.E[0]), "error_5": terms(dop853.E[1]), "dense": [terms(row) for row in dop853.D],
+        "nodes": dop853.C, "stages": [_terms(row) for row in dop853.A[1:]], "n_stages": dop853.STAGES,
+        "error_3": _terms(dop853.E[0]), "error_5": _terms(dop853.E[1]), "dense": [_terms(row) for row in dop853.D],
     }  # fmt: skip
 
 
 def _rodas5p() -> dict[str, Any]:
+    def terms(row: Sequence[float]) -> str:
+        return _terms({j: value for j, value in enumerate(row) if value})
+
     return {
-        "nodes": rodas5p.NODES, "time": rodas5p.TIME, "gamma": rodas5p.GAMMA, "a": rodas5p.A, "c": rodas5p.C,
-        "dense": rodas5p.H,
+        "nodes": rodas5p.NODES, "time": rodas5p.TIME, "gamma": rodas5p.GAMMA,
+        "stages": [terms(row) for row in rodas5p.A[1:]], "rights": [terms(row) for row in rodas5p.C[1:]],
+        "dense": [terms(row) for row in rodas5p.H],
     }  # fmt: skip
 
 

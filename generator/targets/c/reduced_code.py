@@ -53,7 +53,7 @@ def reduced_code(
     `pivots`: rows through which a status of the absolute formulation counts.
     """
     system = reduce(model)
-    around = motion_kernels(model, system)
+    around = [side_by_side(without_unused(kernel)) for kernel in motion_kernels(model, system)]
     plain, kkt = reduced_kernels(system)
     kernels = [side_by_side(kernel) for kernel in plain]
     rescued = is_rescued(system)
