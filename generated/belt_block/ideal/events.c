@@ -7,12 +7,20 @@
 static const unsigned char meets[] = {0}; /* whether a corner's branches meet in it */
 #define HARMLESS 0.1 /* of the tolerance, that the wrong branch of a corner may change a step */
 
+/* To the other side with the corners that are passed, or back. */
+static void turn_passed(Run *run, const Step *step)
+{
+    for (int k = 0; k < N_SWITCHES; k++)
+        if (step->passed[k])
+            run->memory.side[k] *= -1.0;
+}
+
 /*
  * Corners of contact laws that the step crossed for good, near enough to its end: their branches meet, so that what
  * the held one did wrong is at most the step times what the rates differ by at its end. Where that is harmless the
  * step stays as it is, and what follows begins on the other side.
  */
-static void pass_corners(Run *run, Step *step, const Parameters *p)
+static int pass_corners(Run *run, Step *step, const Parameters *p)
 {
     double dy[N_Y], most = 0.0;
     int crossed = 0;
@@ -23,23 +31,21 @@ static void pass_corners(Run *run, Step *step, const Parameters *p)
         crossed |= step->passed[k];
     }
     if (!crossed)
-        return;
-    const Memory before = run->memory;
-    for (int k = 0; k < N_SWITCHES; k++)
-        if (step->passed[k])
-            run->memory.side[k] *= -1.0;
-    int status = rates(run, step->t + step->h, step->y, p, dy, &aside);
+        return 0;
+    turn_passed(run, step);
+    const int status = rates(run, step->t + step->h, step->y, p, dy, &aside);
+    turn_passed(run, step); /* held until the step is taken: what lies inside it is on this side */
     for (int k = 0; k < 2 * N_X && !status; k++)
         most = fmax(most, fabs(step->h * (dy[k] - step->dy[k])) / tolerance(run, k));
     if (!status && most < HARMLESS) {
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];
         step->aside = aside;
-        return;
+        return 1;
     }
-    run->memory = before;
     for (int k = 0; k < N_SWITCHES; k++)
         step->passed[k] = 0;
+    return 0;
 }
 
 /* Whether margin k is not looked at: a corner left alone, or passed without harm. */
@@ -108,8 +114,8 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
     return first;
 }
 
-/* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
-static double first_event(Run *run, Step *step, const Parameters *p, int *event)
+/* The first share of the step at which one of the margins that count ends it, and which (-1: nothing, share 1). */
+static double first_counting(Run *run, Step *step, const Parameters *p, int *event)
 {
     double first = 1.0, least[2];
     *event = -1;
@@ -139,4 +145,17 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
         }
     }
     return *event < 0 ? first : earlier_event(run, step, first, p, event);
+}
+
+/* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
+static double first_event(Run *run, Step *step, const Parameters *p, int *event)
+{
+    const int passed = pass_corners(run, step, p);
+    const double share = first_counting(run, step, p, event);
+    if (*event < 0 || !passed)
+        return share;
+    /* something else ends the step: what was passed may lie behind it */
+    for (int k = 0; k < N_SWITCHES; k++)
+        step->passed[k] = 0;
+    return first_counting(run, step, p, event);
 }

@@ -18,6 +18,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     if (status)
         return status;
     inner_peaks(run, step, share, p);
+    turn_passed(run, step);
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = step->y[k];
         run->dy[k] = step->dy[k];
@@ -238,7 +239,6 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         if (status)
             break;
         choose(run);
-        pass_corners(run, step, p);
         int event;
         const double share = first_event(run, step, p, &event);
         const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;

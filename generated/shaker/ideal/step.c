@@ -30,6 +30,8 @@ static void margins_of(const Memory *memory, const Aside *aside, double *out)
 static void forget_stages(Step *step)
 {
     step->n_seen = 0;
+    for (int k = 0; k < N_SWITCHES; k++)
+        step->passed[k] = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         step->rate[i][0] = INFINITY;
         step->rate[i][1] = -INFINITY;
