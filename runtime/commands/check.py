@@ -98,6 +98,11 @@ def begins_with(source: KernelSource) -> str:
     return "rodas5p" if any(joint.film for joint in source.clearances) else "dop853"
 
 
+def _takes_checks(source: KernelSource) -> bool:
+    """Friction that sticks and impulses of drives are the C methods' own (integrators/python_driver.py)."""
+    return "dop853" in source.methods and not (source.frictions or source.rate_jumps)
+
+
 def _reduction(source: KernelSource) -> dict[str, Any]:
     """What is integrated, and the operations of its accelerations beside those in absolute coordinates."""
     operations = {"full": source.operations["dynamics"]}
@@ -106,7 +111,7 @@ def _reduction(source: KernelSource) -> dict[str, Any]:
     return {
         "formulation": source.formulation, "tree": list(source.tree), "closures": list(source.closures),
         "driven": list(driven(source)), "operations of the accelerations": operations,
-        "methods": [*source.methods, *(CHECKS if "dop853" in source.methods else ())],
+        "methods": [*source.methods, *(CHECKS if _takes_checks(source) else ())],
         "auto begins with": begins_with(source),
     }  # fmt: skip
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from pathlib import Path
@@ -78,7 +78,7 @@ def run_scenes(request: Request) -> int:
     if session.unwritten:
         print(f"error: {session.unwritten}", file=sys.stderr)
     if session.interrupted:
-        print(_interrupted(request, session), file=sys.stderr)
+        print(_interrupted(names, session), file=sys.stderr)
         return 130
     return max((error.exit_code for error in (*session.failures.values(), session.unwritten) if error), default=0)
 
@@ -87,16 +87,18 @@ def _load(request: Request, scene: str) -> Simulation:
     return load(request.file, scene, regenerate=request.regenerate, formulation=request.formulation)
 
 
-def _interrupted(request: Request, session: Session) -> str:
-    """What Ctrl-C left."""
+def _interrupted(names: Iterable[str], session: Session) -> str:
+    """What Ctrl-C left, and what it left out."""
     from gudgeon.predictability import UNFINISHED
 
     if not session.runs:
         return "interrupted before anything was computed: nothing is shown or saved"
     told = "interrupted: what was computed is shown and saved"
     if any(UNFINISHED in run.diagnostics.notes for run in session.runs.values()):
-        return f"{told}; the search for the horizon was not finished"
-    return told
+        told += "; the search for the horizon was not finished"
+    ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in session.runs.items() if run.diagnostics.interrupted]
+    missing = [f"{name} was not begun" for name in names if name not in session.runs and name not in session.failures]
+    return "; ".join([told, *ended, *missing])
 
 
 def _settings(texts: tuple[str, ...]) -> dict[str, float | str]:

@@ -225,16 +225,18 @@ def _operations(source: KernelSource) -> str:
         return f"accelerations {full:,}; each of Newton's steps, in absolute coordinates, {counts['project']:,}"
     if source.formulation == "full" or "reduced_dynamics" not in counts:
         return f"accelerations {full:,}{_laws(source)}"
-    reduced = counts["reduced_dynamics"]
-    chains = ""
+    reduced, chains = counts["reduced_dynamics"], ""
     if source.chain:
         steps, rates = counts["chain_step"], counts["chain_rates"]
-        chains = f"; driven chains with two rates {rates:,}, each step to close them {steps:,}"
-    return f"accelerations {full:,} → {reduced:,}, {_factor(full, reduced)}{_laws(source)}{chains}"
+        reduced += steps + rates
+        chains = f" with {rates:,} for the rates of driven chains and {steps:,} for each step that closes them"
+    return f"accelerations {full:,} → {reduced:,}{chains}, {_factor(full, reduced)}{_laws(source)}"
 
 
 def _factor(before: int, after: int) -> str:
-    return f"{before / after:.1f} times fewer" if after else "none"
+    if before == after:
+        return "as many"
+    return f"{before / after:.1f} times fewer" if after else "none are left"
 
 
 def _laws(source: KernelSource) -> str:
