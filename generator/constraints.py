@@ -137,6 +137,6 @@ def rate_jumps(drive: Drive) -> bool:
 
 
 def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
-    """d/dt with the corners of min, max, abs and sign taken from one side: no impulse at them."""
-    rate = sp.diff(value, t)
-    return rate.replace(sp.DiracDelta, lambda *_: sp.Integer(0))
+    """d/dt with the corners of min, max and abs taken from one side, at the corner from behind it: no impulse there."""
+    rate = sp.diff(value, t).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
+    return rate.replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)

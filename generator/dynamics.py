@@ -200,7 +200,7 @@ def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> 
     for given in kkt.system.given:
         needed = sp.Add(*(m * sp.Symbol(f"a[{k}]") for k, m in given.mass.items())) - given.applied
         for r, friction in enumerate(kkt.frictions):
-            needed -= model.symbols.diff(friction.slip.v, given.rate) * sp.Symbol(f"aside->friction[{r}].force")
+            needed -= model.symbols.written_out(friction.slip.v, given.rate) * sp.Symbol(f"aside->friction[{r}].force")
         drives += given.rate * (needed - on_given.get(given.name, ZERO))
     clearances = " + ".join(f"aside->clearance[{i}].power" for i in range(len(model.clearances)))
     build.out("aside->power[0]", drives)

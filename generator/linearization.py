@@ -185,7 +185,7 @@ class Linearization:
         self.powers[1] += force * moving
         self.parts.power_row[1, node] = -stick * moving
         for given in self.system.given:  # what friction asks of a drive
-            along = given.rate * self.symbols.diff(friction.slip.v, given.rate)
+            along = given.rate * self.symbols.written_out(friction.slip.v, given.rate)
             if along != 0:
                 self.powers[0] -= along * force
                 self.parts.power_row[0, node] = self.parts.power_row.get((0, node), ZERO) + stick * along

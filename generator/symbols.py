@@ -121,6 +121,16 @@ class Symbols:
                 total += sp.diff(expression, symbol) * inner
         return total
 
+    def written_out(self, expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
+        """The same through definitions, for a symbol that rules do not name: a rate that a drive prescribes."""
+        total = sp.Integer(0)
+        for symbol in sorted(expression.free_symbols, key=lambda s: s.name):
+            known = symbol != by and symbol in self.definitions
+            inner = self.written_out(self.definitions[symbol], by) if known else sp.Integer(symbol == by)
+            if inner != 0:
+                total += sp.diff(expression, symbol) * inner
+        return total
+
     def explicit(self, expression: sp.Expr) -> sp.Expr:
         """`expression` with every derived symbol written out."""
         while found := {s: self.definitions[s] for s in expression.free_symbols if s in self.definitions}:

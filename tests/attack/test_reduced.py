@@ -57,16 +57,14 @@ start: {{guess: {{b.theta: 0 deg, c.theta: {start}, arm.theta: -80 deg}}}}
 """
 
 
-@pytest.mark.xfail(strict=True, reason="works are no part of the error that bounds steps: a chain of its own is unseen")
-@pytest.mark.parametrize("turns", [20, 50])
-def test_work_of_a_drive_whose_chain_nothing_free_feels(load: Load, turns: int) -> None:
+@pytest.mark.parametrize(("turns", "allowed"), [(20, 1e-5), (50, 1e-3)])  # J, of 0.2 and 1.3 J of motion
+def test_work_of_a_drive_whose_chain_nothing_free_feels(load: Load, turns: int, allowed: float) -> None:
     """After whole revolutions at one speed the chain has the energy that it began with; the arm keeps its own."""
     text = SHAKER.format(pivot="ground.P", value="0.4 rad + w * t")
     run = load(text).simulate(2.0, output=np.arange(1, 6) * 2 * np.pi / turns, parameters={"w": float(turns)})
-    assert run["work.drives"] == pytest.approx(0.0, abs=1e-5)
+    assert run["work.drives"] == pytest.approx(0.0, abs=allowed)
 
 
-@pytest.mark.xfail(strict=True, reason="where a chain's pivot vanishes a sample has the chain of the last step")
 def test_sample_where_a_chain_is_flat(load: Load) -> None:
     """At t = 1/4 s and 3/4 s the bars lie in a line: the sample closes, or the run says that it does not."""
     scene = load(PARALLELOGRAM.format(start="90 deg"))
@@ -83,7 +81,6 @@ def test_event_where_a_chain_is_flat(load: Load) -> None:
     assert run.events_of("down") == pytest.approx([1 / 3, 4 / 3], abs=1e-9)
 
 
-@pytest.mark.xfail(strict=True, reason="power of a drive: friction between bodies that it moves alike counts twice")
 def test_work_of_a_drive_that_carries_friction(load: Load) -> None:
     """A cart at 1 m/s drags a plate along that is slower: 0.1 N hold it back while they slide."""
     text = """
@@ -102,7 +99,6 @@ def test_work_of_a_drive_that_carries_friction(load: Load) -> None:
     assert run["work.drives"] == pytest.approx(0.1 * run.t, abs=1e-9)
 
 
-@pytest.mark.xfail(strict=True, reason="the start takes sign(0) = 0 for the rate of a drive with its corner at t = 0")
 def test_corner_of_a_drive_at_the_start(load: Load) -> None:
     """From t = 0 on |t| is t: the start has the rate that the motion goes on with."""
     runs = [

@@ -8,6 +8,7 @@ enum { STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, MAX_CRAWL = 2
 #define UNSTABLE 4.8
 #define BOUNDED 4.0   /* h rho at which stability bounds its steps */
 #define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
+#define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
 
 /* Takes a step, or its part up to an event, as the new state. */
@@ -19,6 +20,8 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         return status;
     inner_peaks(run, step, share, p);
     turn_passed(run, step);
+    for (int k = 2 * N_X; k < N_Y; k++)
+        run->turned_over += fabs(step->y[k] - run->y[k]);
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = step->y[k];
         run->dy[k] = step->dy[k];
@@ -173,6 +176,7 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     if (!status)
         status = settle_sides(run, -1, p);
     note_speed(run);
+    run->turned_over = energy_scale(run, p);
     if (!status && !(run->h > 0.0))
         status = first_size(run, left, p);
     return status ? status : leave_zeros(run, p);
@@ -191,6 +195,7 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
     run->accept = fixed > 0.0 ? INFINITY : 1.0;
     for (int k = 0; k < 2 * N_X; k++)
         run->scale[k] = scale[k];
+    run->work_scale = WORKS * scale[2 * N_X - 1];
     run->speed_floor[0] = floor[0];
     run->speed_floor[1] = floor[1];
 }

@@ -56,6 +56,16 @@ static double kinetic_energy(const Run *run, const Parameters *p)
     return sum;
 }
 
+/* What works are measured by at the start: the energy of the motion, at least that of the speeds that count, J. */
+static double energy_scale(const Run *run, const Parameters *p)
+{
+    double m[N_Q], sum = kinetic_energy(run, p);
+    mass_matrix(p, m);
+    for (int k = 0; k < N_Q; k++)
+        sum += 0.5 * m[k] * run->speed_floor[k % 3 == 2] * run->speed_floor[k % 3 == 2];
+    return sum;
+}
+
 /*
  * A motion that stays by a corner (a journal that hardly moves in its film) may cross it again and again. One that
  * comes back at once is not looked for in the next step, which is as short as the way between the crossings and

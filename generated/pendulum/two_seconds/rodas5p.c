@@ -120,7 +120,7 @@ static int rodas5p_try(Run *run, double h, const Parameters *p, Step *step)
     step->error = 0.0;
     for (int i = 0; i < N_Y; i++)
         step->y[i] = y[i] + step->k[7][i];
-    for (int i = 0; i < 2 * N_X; i++)
+    for (int i = 0; i < N_Y; i++)
         step->error = max_of(fabs(step->k[7][i]) / tolerance(run, i), step->error);
     if (!isfinite(step->error))
         return NOT_FINITE;

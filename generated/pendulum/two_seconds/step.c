@@ -50,9 +50,14 @@ static void note_stage(const Run *run, Step *step, const Aside *aside, double no
     }
 }
 
-/* Tolerances of coordinates are given; those of velocities grow with the largest speed so far. */
+/*
+ * Tolerances of coordinates are given; those of velocities grow with the largest speed so far, those of works with
+ * the energy that was turned over: nothing in the motion feels them, but a balance of energy does.
+ */
 static double tolerance(const Run *run, int k)
 {
+    if (k >= 2 * N_X)
+        return run->work_scale * run->turned_over;
     return k < N_X ? run->scale[k] : run->scale[k] * (run->speed[is_angle[k - N_X]] + run->speed_floor[is_angle[k - N_X]]);
 }
 

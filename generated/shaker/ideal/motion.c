@@ -226,7 +226,8 @@ static int close_chains(double t, double *q, const Memory *memory, const Paramet
         }
         if (!isfinite(sum) || bent > 0.25 * size)
             return row;
-        if (4.0 * bent * bent < 1e-17 * size || size < 1e-15)
+        /* the bend may vanish where the cube of the step still counts */
+        if ((4.0 * bent * bent < 1e-17 * size && size * size * size < 1e-17) || size < 1e-15)
             return 0;
     }
     return *moved < 1e-9 ? 0 : row;
@@ -377,13 +378,38 @@ static int motion(double t, const double *y, Memory *memory, const Parameters *p
     return status;
 }
 
+/*
+ * The chains where they lie flat and nothing closes them: from a place so near that its rates tell the way to there.
+ * If there is none, where they were a moment ago.
+ */
+static void beside_flat(double t, const double *y, const Memory *memory, const Parameters *p, TreeState *at)
+{
+    double fastest = 1e-300;
+    for (int k = 0; k < N_CHAIN; k++)
+        fastest = max_of(fastest, fabs(memory->chain.v[k]));
+    for (double e = 1e-7; e < 0.05; e *= 10.0)
+        for (int side = -1; side <= 1; side += 2) {
+            const double h = side * e / fastest;
+            Memory now = *memory;
+            if (tree_state(t - h, y, &now, p, at))
+                continue;
+            for (int k = 0; k < N_CHAIN; k++) {
+                at->q[N_X + k] += h * (at->v[N_X + k] + 0.5 * h * at->v[N_X + N_CHAIN + k]);
+                at->v[N_X + k] += h * at->v[N_X + N_CHAIN + k];
+            }
+            chain_directions(t, at->q, memory, p, at->q);
+            return;
+        }
+    recall_chains(&memory->chain, at);
+}
+
 /* The state of all bodies, (q, v, work). */
 static void to_absolute(double t, const double *y, const Memory *memory, const Parameters *p, double *all)
 {
     TreeState at;
     Memory now = *memory;
-    if (tree_state(t, y, &now, p, &at)) /* it was there a moment ago */
-        recall_chains(&memory->chain, &at);
+    if (tree_state(t, y, &now, p, &at))
+        beside_flat(t, y, memory, p, &at);
     expand(t, at.q, at.v, p, all, all + N_Q);
     for (int k = 0; k < N_WORK; k++)
         all[2 * N_Q + k] = y[2 * N_X + k];
