@@ -131,9 +131,10 @@ def race(works: list[str]) -> Record:
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--work", nargs="+", choices=WORKS, default=list(WORKS))
+    parser.add_argument("--work", nargs="+", action="extend", choices=WORKS, help="only these")
     parser.add_argument("--write", action="store_true", help="keep CSV, figures and the page; all works")
     options = parser.parse_args()
+    options.work = options.work or list(WORKS)
     if options.write and set(options.work) != set(WORKS):
         parser.error("--write keeps whole races: leave out --work")
     record = race(options.work)
