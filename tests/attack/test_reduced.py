@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -153,7 +154,7 @@ def test_arm_on_a_driven_table_whose_acceleration_jumps(load: Load, method: str)
 
 
 @pytest.mark.parametrize("options", [{}, {"method": "rk4", "step": 1e-3}])
-def test_batch_whose_chains_jump_is_that_of_single_runs(load: Load, options: dict[str, object]) -> None:
+def test_batch_whose_chains_jump_is_that_of_single_runs(load: Load, options: dict[str, Any]) -> None:
     """Lengths and speeds by run, a drive with corners, an event that ends some: the same bits, also of works."""
     value = "0.4 rad + w*t + 3 rad/s*abs(t - 0.13 s) + 0.1*max(sin(30*t), 0.2)"
     text = SHAKER.format(pivot="table.origin", value=value) + "events: {near: {zero: table.x - 0.28 m, action: stop}}\n"
