@@ -195,7 +195,7 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
     run->accept = fixed > 0.0 ? INFINITY : 1.0;
     for (int k = 0; k < 2 * N_X; k++)
         run->scale[k] = scale[k];
-    run->work_scale = WORKS * scale[2 * N_X - 1];
+    run->work_scale = fmax(WORKS * scale[2 * N_X - 1], 1e-10); /* below it a sum of works is rounded */
     run->speed_floor[0] = floor[0];
     run->speed_floor[1] = floor[1];
 }
