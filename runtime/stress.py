@@ -30,17 +30,10 @@ FINER = 10
 LIMIT = 120.0  # s of processor time of a run
 
 
-@dataclass(frozen=True)
-class StressMap:
-    """The cells of one scene over two axes, column by column; both axes ascend."""
+class _Judged:
+    """What Ctrl-C may leave in part."""
 
-    scene: str
-    setting: Setting  # its value counts where neither axis is the method's
-    rows: Axis
-    columns: Axis
     cells: tuple[Cell, ...]
-    t_long: float  # s, over which stability is judged
-    full: bool = False  # whether the full formulation was asked for: Baumgarte's gains act there
 
     @property
     def done(self) -> tuple[int, int]:
@@ -51,6 +44,19 @@ class StressMap:
     def interrupted(self) -> bool:
         """Whether Ctrl-C left cells that are not judged."""
         return any(cell.status is Status.MISSING for cell in self.cells)
+
+
+@dataclass(frozen=True)
+class StressMap(_Judged):
+    """The cells of one scene over two axes, column by column; both axes ascend."""
+
+    scene: str
+    setting: Setting  # its value counts where neither axis is the method's
+    rows: Axis
+    columns: Axis
+    cells: tuple[Cell, ...]
+    t_long: float  # s, over which stability is judged
+    full: bool = False  # whether the full formulation was asked for: Baumgarte's gains act there
 
     def cell(self, row: float, column: float) -> Cell:
         """One cell; KeyError if it is not in the map."""
@@ -70,7 +76,7 @@ class StressMap:
 
 
 @dataclass(frozen=True)
-class StressBox:
+class StressBox(_Judged):
     """All corners of a box, then Sobol points in it."""
 
     scene: str
@@ -80,16 +86,6 @@ class StressBox:
     cells: tuple[Cell, ...]
     t_long: float
     full: bool = False
-
-    @property
-    def done(self) -> tuple[int, int]:
-        """Points that are judged, and all."""
-        return _done(self.cells)
-
-    @property
-    def interrupted(self) -> bool:
-        """Whether Ctrl-C left points that are not judged."""
-        return any(cell.status is Status.MISSING for cell in self.cells)
 
 
 def stress(

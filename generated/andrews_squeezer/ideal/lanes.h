@@ -67,7 +67,6 @@ static inline Lanes lanes_sqrt(Lanes x)
             y[k] = function(a[k], b[k]); \
         return y; \
     }
-LANE_AFTER_LANE_OF_TWO(hypot)
 LANE_AFTER_LANE_OF_TWO(pow)
 LANE_AFTER_LANE_OF_TWO(atan2)
 LANE_AFTER_LANE(sin)

@@ -71,11 +71,11 @@ static int nearest_stage(const Step *step, int k)
 /* The bracket's upper end for margin k: a share at which it is below zero; 0 if there is none. */
 static double violated(Run *run, Step *step, int k, const Parameters *p, double *value)
 {
+    if (watched_as[k] >= 0)
+        return first_look(run, step, watched_as[k], p, value);
     const double end = margin(&run->memory, &step->aside, k);
     const int nearest = nearest_stage(step, k);
     const double least = nearest < 0 ? INFINITY : step->seen[nearest][k], s = nearest < 0 ? 1.0 : step->node[nearest];
-    if (watched_as[k] >= 0)
-        return first_look(run, step, watched_as[k], p, value);
     if (k < N_CLEARANCES && may_graze(run, step, k, least) && make_dense(run, p, step) == 0)
         return look_along(run, step, k, p, value);
     if (least < 0.0 && s < 1.0 && make_dense(run, p, step) == 0) {

@@ -94,12 +94,12 @@ static int rodas5p_try(Run *run, double h, const Parameters *p, Step *step)
     }
     int status = newton_factor(hg, &run->linear) ? NOT_FINITE : 0;
     double change = 0.0, way = 0.0;
+    for (int i = 0; i < N_Y; i++)
+        f[i] = run->dy[i];
     for (int s = 0; s < 8 && !status; s++) {
-        for (int i = 0; i < N_Y; i++) {
-            before[i] = f[i];
-            f[i] = run->dy[i];
-        }
         if (s > 0) {
+            for (int i = 0; i < N_Y; i++)
+                before[i] = f[i];
             rodas5p_stage(s, run->y, step->k, y);
             status = rates(run, run->t + rodas5p_node[s] * h, y, p, f, &aside);
             if (status)

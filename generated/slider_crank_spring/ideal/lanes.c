@@ -379,16 +379,11 @@ static Lanes top_of(Lanes d0, Lanes r0, Lanes d1, Lanes r1, LaneBits turned)
     return pick(turned, d0 + s * (r0 + s * (b + s * c)), all_of(0.0));
 }
 
-/* Peaks of one joint; the force's length is asked for only where it may be one. */
+/* Peaks of one joint. */
 static void watch_force(LaneRun *x, int i, const LaneClearance *joint)
 {
     const LaneBits closed = x->latch[i].closed > 0.0;
     const Lanes F_peak = x->latch[i].F_peak, F_open = x->latch[i].F_open;
-    const Lanes square = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
-    const LaneBits near_peak = square >= 0.999999 * (F_peak * F_peak), near_open = square >= 0.999999 * (F_open * F_open);
-    const LaneBits acts = lanes_fabs(joint->F_n) + lanes_fabs(joint->F_t) > 0.0;
-    if (!any_of((near_peak | (closed & near_open)) & acts))
-        return;
     const Lanes F = lanes_sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t);
     const LaneBits higher = F > F_peak, higher_open = closed & (F > F_open);
     x->latch[i].F_peak = pick(higher, F, F_peak);
