@@ -18,6 +18,7 @@ from gudgeon.generator.forces.law import RESULTS
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Statement
 from gudgeon.generator.law_kernels import SIDES
 from gudgeon.generator.model import Model
+from gudgeon.generator.reciprocals import hoisted
 from gudgeon.generator.tangents import Tangent, Tangents
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
@@ -55,7 +56,7 @@ class _Slopes:
         inner = self.tangents.inside(dict(zip(equations.variables, given, strict=True)))
         results = {}
         for name, equation in equations.steps.items():
-            symbol, value = sp.Symbol(name, real=True), sp.sympify(equation)
+            symbol, value = sp.Symbol(name, real=True), hoisted(self.model.slots, sp.sympify(equation))
             self.build.line_statement(Statement(name, inner.shared(inner.held(value))))
             inner.know(symbol, inner.gradient(value, symbol))
             if name in RESULTS[equations.law.role]:
@@ -124,7 +125,8 @@ def unlatched(step: Step) -> Step:
 
 
 def in_place(model: Model, value: sp.Expr) -> sp.Expr:
-    """A step's value with parameters read from their struct."""
+    """A step's value with parameters read from their struct, the reciprocals that it needs of them as well."""
+    value = hoisted(model.slots, value)
     return value.xreplace({s: sp.Symbol(f"p->{s.name}") for s in value.free_symbols if s in model.symbols.info})
 
 

@@ -8,38 +8,40 @@ from gudgeon.generator.clearance import Clearance, LawEquations
 from gudgeon.generator.dynamics import PARAMETERS
 from gudgeon.generator.forces.law import RESULTS
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement
-from gudgeon.generator.symbols import Symbols
+from gudgeon.generator.model import Model
+from gudgeon.generator.reciprocals import hoisted, with_reciprocals
 
 # Corners: the sides that are held over a step (NULL: none), and where the switching functions go.
 SIDES = (Argument("const double *", "side"), Argument("double *", "g"))
 
 
-def law_kernels(symbols: Symbols, clearance: Clearance) -> list[Kernel]:
+def law_kernels(model: Model, clearance: Clearance) -> list[Kernel]:
     """`normal_<joint>`, `friction_<joint>`, `film_<joint>`, as far as the joint has them."""
     kernels = []
     if clearance.normal is not None:
-        kernels.append(_law_kernel(symbols, clearance, clearance.normal))
+        kernels.append(_law_kernel(model, clearance, clearance.normal))
         kernels.append(
             _no_friction(clearance)
             if clearance.friction is None
-            else _law_kernel(symbols, clearance, clearance.friction)
+            else _law_kernel(model, clearance, clearance.friction)
         )
     if clearance.film is not None:
-        kernels.append(_law_kernel(symbols, clearance, clearance.film))
+        kernels.append(_law_kernel(model, clearance, clearance.film))
     return kernels
 
 
-def _law_kernel(symbols: Symbols, clearance: Clearance, equations: LawEquations) -> Kernel:
+def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
     """Abbreviations become locals, results `*F_…` pointers; the law says its source and validity."""
     law = equations.law
     results = RESULTS[law.role]
     chosen = [f"{name}: {value}" for name, value in equations.options.items()]
-    build = KernelBuilder(symbols, f"{law.role}_{clearance.name}_force", [
+    build = KernelBuilder(model.symbols, f"{law.role}_{clearance.name}_force", [
         f"{law.title}.", f"Source: {law.source}.", f"Valid: {law.validity}.",
         *([f"Options: {', '.join(chosen)}."] if chosen else []),
     ])  # fmt: skip
     build.section(f"law of joint {clearance.name}")
-    for name, value in equations.steps.items():
+    for name, equation in equations.steps.items():
+        value = hoisted(model.slots, sp.sympify(equation))
         if name in results:
             build.out(f"*{name}_out", value)
         else:
@@ -47,7 +49,8 @@ def _law_kernel(symbols: Symbols, clearance: Clearance, equations: LawEquations)
             build.line_statement(Statement(name, value))
     variables = (Argument("double", symbol.name) for symbol in equations.variables)
     outs = (Argument("double *", f"{name}_out") for name in results)
-    return build.build((*variables, PARAMETERS, *SIDES, *outs), inline=True, owner=clearance.name)
+    kernel = build.build((*variables, PARAMETERS, *SIDES, *outs), inline=True, owner=clearance.name)
+    return with_reciprocals(kernel)
 
 
 def _no_friction(clearance: Clearance) -> Kernel:

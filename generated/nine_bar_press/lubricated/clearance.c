@@ -60,9 +60,11 @@ static inline void film_A_force(double epsilon, double w_n, double w_t, const Pa
     const double W = sqrt((w_n * w_n) + (w_t * w_t));
     const double side_5 = side_of(side, g, 5, w_n);
     const double factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*side_5*w_n + 1e-150) + 1.0;
-    *F_r_out = -oil_pin_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) +
-        3.141592653589793*factor*w_n)/(root * root * root);
-    *F_t_out = -2.0*3.141592653589793*factor*oil_pin_S*w_t/(root*((epsilon * epsilon) + 2.0));
+    const double inverse_root = 1.0/root;
+    const double inverse_sum = 1.0/((epsilon * epsilon) + 2.0);
+    *F_r_out = -(inverse_root * inverse_root * inverse_root)*oil_pin_S*(4.0*W*epsilon*inverse_sum*root +
+        3.141592653589793*factor*w_n);
+    *F_t_out = -2.0*3.141592653589793*factor*inverse_root*inverse_sum*oil_pin_S*w_t;
     *T0_out = 0.0;
 }
 
@@ -95,10 +97,10 @@ static inline PinForce dry_A(double delta, double deltadot, double de_t, double 
 static inline PinForce film_A(double e, double deltadot, double de_t, double omega_i, double omega_j,
     const Parameters *p, const double *side, double *g)
 {
-    const double side_6 = side_of(side, g, 6, -e/p->pin_clearance + 0.9999);
-    const double epsilon = (side_6 < 0.0 ? 0.9999 : e/p->pin_clearance);
-    const double w_n = deltadot/p->pin_clearance;
-    const double w_t = (de_t - 0.5*e*(omega_i + omega_j))/p->pin_clearance;
+    const double side_6 = side_of(side, g, 6, -e*p->inverse_pin_clearance + 0.9999);
+    const double epsilon = (side_6 < 0.0 ? 0.9999 : e*p->inverse_pin_clearance);
+    const double w_n = deltadot*p->inverse_pin_clearance;
+    const double w_t = p->inverse_pin_clearance*(de_t - 0.5*e*(omega_i + omega_j));
     double F_r, F_along_t_film, T0;
     film_A_force(epsilon, w_n, w_t, p, side, g, &F_r, &F_along_t_film, &T0);
     (void)T0; /* read only with shear */
@@ -115,8 +117,9 @@ static void clearance_A(double e_x, double e_y, double de_x, double de_y, double
     const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
-    const double n_x = e > 0.0 ? e_x / e : 1.0;
-    const double n_y = e > 0.0 ? e_y / e : 0.0;
+    const double inverse_e = 1.0/e;
+    const double n_x = e > 0.0 ? e_x * inverse_e : 1.0;
+    const double n_y = e > 0.0 ? e_y * inverse_e : 0.0;
     const double delta = e - p->pin_clearance;
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
@@ -129,8 +132,8 @@ static void clearance_A(double e_x, double e_y, double de_x, double de_y, double
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};
         return;
     }
-    const double side_7 = side_of(side, g, 7, -delta/p->oil_transition + 1.0);
-    const double share = (side_7 < 0.0 ? 1.0 : delta/p->oil_transition);
+    const double side_7 = side_of(side, g, 7, -delta*p->inverse_oil_transition + 1.0);
+    const double share = (side_7 < 0.0 ? 1.0 : delta*p->inverse_oil_transition);
     PinForce F = dry_A(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     if (share < 1.0) {
         const PinForce film = film_A(e, deltadot, de_t, omega_i, omega_j, p, side, g);
@@ -206,9 +209,11 @@ static inline void film_B_force(double epsilon, double w_n, double w_t, const Pa
     const double W = sqrt((w_n * w_n) + (w_t * w_t));
     const double side_13 = side_of(side, g, 13, w_n);
     const double factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*side_13*w_n + 1e-150) + 1.0;
-    *F_r_out = -oil_pin_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) +
-        3.141592653589793*factor*w_n)/(root * root * root);
-    *F_t_out = -2.0*3.141592653589793*factor*oil_pin_S*w_t/(root*((epsilon * epsilon) + 2.0));
+    const double inverse_root = 1.0/root;
+    const double inverse_sum = 1.0/((epsilon * epsilon) + 2.0);
+    *F_r_out = -(inverse_root * inverse_root * inverse_root)*oil_pin_S*(4.0*W*epsilon*inverse_sum*root +
+        3.141592653589793*factor*w_n);
+    *F_t_out = -2.0*3.141592653589793*factor*inverse_root*inverse_sum*oil_pin_S*w_t;
     *T0_out = 0.0;
 }
 
@@ -241,10 +246,10 @@ static inline PinForce dry_B(double delta, double deltadot, double de_t, double 
 static inline PinForce film_B(double e, double deltadot, double de_t, double omega_i, double omega_j,
     const Parameters *p, const double *side, double *g)
 {
-    const double side_14 = side_of(side, g, 14, -e/p->pin_clearance + 0.9999);
-    const double epsilon = (side_14 < 0.0 ? 0.9999 : e/p->pin_clearance);
-    const double w_n = deltadot/p->pin_clearance;
-    const double w_t = (de_t - 0.5*e*(omega_i + omega_j))/p->pin_clearance;
+    const double side_14 = side_of(side, g, 14, -e*p->inverse_pin_clearance + 0.9999);
+    const double epsilon = (side_14 < 0.0 ? 0.9999 : e*p->inverse_pin_clearance);
+    const double w_n = deltadot*p->inverse_pin_clearance;
+    const double w_t = p->inverse_pin_clearance*(de_t - 0.5*e*(omega_i + omega_j));
     double F_r, F_along_t_film, T0;
     film_B_force(epsilon, w_n, w_t, p, side, g, &F_r, &F_along_t_film, &T0);
     (void)T0; /* read only with shear */
@@ -261,8 +266,9 @@ static void clearance_B(double e_x, double e_y, double de_x, double de_y, double
     const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
-    const double n_x = e > 0.0 ? e_x / e : 1.0;
-    const double n_y = e > 0.0 ? e_y / e : 0.0;
+    const double inverse_e = 1.0/e;
+    const double n_x = e > 0.0 ? e_x * inverse_e : 1.0;
+    const double n_y = e > 0.0 ? e_y * inverse_e : 0.0;
     const double delta = e - p->pin_clearance;
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
@@ -275,8 +281,8 @@ static void clearance_B(double e_x, double e_y, double de_x, double de_y, double
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};
         return;
     }
-    const double side_15 = side_of(side, g, 15, -delta/p->oil_transition + 1.0);
-    const double share = (side_15 < 0.0 ? 1.0 : delta/p->oil_transition);
+    const double side_15 = side_of(side, g, 15, -delta*p->inverse_oil_transition + 1.0);
+    const double share = (side_15 < 0.0 ? 1.0 : delta*p->inverse_oil_transition);
     PinForce F = dry_B(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     if (share < 1.0) {
         const PinForce film = film_B(e, deltadot, de_t, omega_i, omega_j, p, side, g);

@@ -101,6 +101,8 @@ typedef struct {
     Lanes inverse_L7_mass;
     Lanes inverse_L8_inertia;
     Lanes inverse_L7_inertia;
+    Lanes inverse_pin_clearance;
+    Lanes inverse_oil_transition;
     Lanes L6_head_span_x;
     Lanes L7_com_span_x;
     Lanes L7_tail_span_x;
@@ -230,9 +232,11 @@ static inline void film_A_force(Lanes epsilon, Lanes w_n, Lanes w_t, const LaneP
     const Lanes W = lanes_sqrt((w_n * w_n) + (w_t * w_t));
     const Lanes side_5 = lanes_sign_of(w_n);
     const Lanes factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*side_5*w_n + 1e-150) + 1.0;
-    *F_r_out = -oil_pin_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) +
-        3.141592653589793*factor*w_n)/(root * root * root);
-    *F_t_out = -2.0*3.141592653589793*factor*oil_pin_S*w_t/(root*((epsilon * epsilon) + 2.0));
+    const Lanes inverse_root = 1.0/root;
+    const Lanes inverse_sum = 1.0/((epsilon * epsilon) + 2.0);
+    *F_r_out = -(inverse_root * inverse_root * inverse_root)*oil_pin_S*(4.0*W*epsilon*inverse_sum*root +
+        3.141592653589793*factor*w_n);
+    *F_t_out = -2.0*3.141592653589793*factor*inverse_root*inverse_sum*oil_pin_S*w_t;
     *T0_out = all_of(0.0);
 }
 
@@ -256,10 +260,10 @@ static inline LanePinForce dry_A(Lanes delta, Lanes deltadot, Lanes de_t, Lanes 
 static inline LanePinForce film_A(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
     const LaneParameters *p)
 {
-    const Lanes side_6 = lanes_sign_of(-e/p->pin_clearance + 0.9999);
-    const Lanes epsilon = pick(side_6 < 0.0, all_of(0.9999), e/p->pin_clearance);
-    const Lanes w_n = deltadot/p->pin_clearance;
-    const Lanes w_t = (de_t - 0.5*e*(omega_i + omega_j))/p->pin_clearance;
+    const Lanes side_6 = lanes_sign_of(-e*p->inverse_pin_clearance + 0.9999);
+    const Lanes epsilon = pick(side_6 < 0.0, all_of(0.9999), e*p->inverse_pin_clearance);
+    const Lanes w_n = deltadot*p->inverse_pin_clearance;
+    const Lanes w_t = p->inverse_pin_clearance*(de_t - 0.5*e*(omega_i + omega_j));
     Lanes F_r, F_along_t_film, T0;
     film_A_force(epsilon, w_n, w_t, p, &F_r, &F_along_t_film, &T0);
     (void)T0;
@@ -273,8 +277,9 @@ static void clearance_A(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omeg
     const LaneLatch *latch, const LaneParameters *p, LaneClearance *out)
 {
     const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
-    const Lanes n_x = pick(e > 0.0, e_x / e, all_of(1.0));
-    const Lanes n_y = pick(e > 0.0, e_y / e, all_of(0.0));
+    const Lanes inverse_e = 1.0/e;
+    const Lanes n_x = pick(e > 0.0, e_x * inverse_e, all_of(1.0));
+    const Lanes n_y = pick(e > 0.0, e_y * inverse_e, all_of(0.0));
     const Lanes delta = e - p->pin_clearance;
     const Lanes deltadot = de_x*n_x + de_y*n_y;
     const Lanes de_t = -de_x*n_y + de_y*n_x;
@@ -282,8 +287,8 @@ static void clearance_A(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omeg
     const LaneBits touching = delta > 0.0;
     if (any_of(touching)) {
         LanePinForce dry = dry_A(delta, deltadot, de_t, omega_i, omega_j, latch, p);
-    const Lanes side_7 = lanes_sign_of(-delta/p->oil_transition + 1.0);
-    const Lanes share = pick(side_7 < 0.0, all_of(1.0), delta/p->oil_transition);
+    const Lanes side_7 = lanes_sign_of(-delta*p->inverse_oil_transition + 1.0);
+    const Lanes share = pick(side_7 < 0.0, all_of(1.0), delta*p->inverse_oil_transition);
         const LaneBits mixed = share < 1.0;
         dry.n = pick(mixed, dry.n + (1.0 - share) * (F.n - dry.n), dry.n);
         dry.t = pick(mixed, dry.t + (1.0 - share) * (F.t - dry.t), dry.t);
@@ -358,9 +363,11 @@ static inline void film_B_force(Lanes epsilon, Lanes w_n, Lanes w_t, const LaneP
     const Lanes W = lanes_sqrt((w_n * w_n) + (w_t * w_t));
     const Lanes side_13 = lanes_sign_of(w_n);
     const Lanes factor = (1.5)*epsilon*w_n/(W*root + (1.5)*epsilon*side_13*w_n + 1e-150) + 1.0;
-    *F_r_out = -oil_pin_S*(4.0*W*epsilon*root/((epsilon * epsilon) + 2.0) +
-        3.141592653589793*factor*w_n)/(root * root * root);
-    *F_t_out = -2.0*3.141592653589793*factor*oil_pin_S*w_t/(root*((epsilon * epsilon) + 2.0));
+    const Lanes inverse_root = 1.0/root;
+    const Lanes inverse_sum = 1.0/((epsilon * epsilon) + 2.0);
+    *F_r_out = -(inverse_root * inverse_root * inverse_root)*oil_pin_S*(4.0*W*epsilon*inverse_sum*root +
+        3.141592653589793*factor*w_n);
+    *F_t_out = -2.0*3.141592653589793*factor*inverse_root*inverse_sum*oil_pin_S*w_t;
     *T0_out = all_of(0.0);
 }
 
@@ -384,10 +391,10 @@ static inline LanePinForce dry_B(Lanes delta, Lanes deltadot, Lanes de_t, Lanes 
 static inline LanePinForce film_B(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
     const LaneParameters *p)
 {
-    const Lanes side_14 = lanes_sign_of(-e/p->pin_clearance + 0.9999);
-    const Lanes epsilon = pick(side_14 < 0.0, all_of(0.9999), e/p->pin_clearance);
-    const Lanes w_n = deltadot/p->pin_clearance;
-    const Lanes w_t = (de_t - 0.5*e*(omega_i + omega_j))/p->pin_clearance;
+    const Lanes side_14 = lanes_sign_of(-e*p->inverse_pin_clearance + 0.9999);
+    const Lanes epsilon = pick(side_14 < 0.0, all_of(0.9999), e*p->inverse_pin_clearance);
+    const Lanes w_n = deltadot*p->inverse_pin_clearance;
+    const Lanes w_t = p->inverse_pin_clearance*(de_t - 0.5*e*(omega_i + omega_j));
     Lanes F_r, F_along_t_film, T0;
     film_B_force(epsilon, w_n, w_t, p, &F_r, &F_along_t_film, &T0);
     (void)T0;
@@ -401,8 +408,9 @@ static void clearance_B(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omeg
     const LaneLatch *latch, const LaneParameters *p, LaneClearance *out)
 {
     const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
-    const Lanes n_x = pick(e > 0.0, e_x / e, all_of(1.0));
-    const Lanes n_y = pick(e > 0.0, e_y / e, all_of(0.0));
+    const Lanes inverse_e = 1.0/e;
+    const Lanes n_x = pick(e > 0.0, e_x * inverse_e, all_of(1.0));
+    const Lanes n_y = pick(e > 0.0, e_y * inverse_e, all_of(0.0));
     const Lanes delta = e - p->pin_clearance;
     const Lanes deltadot = de_x*n_x + de_y*n_y;
     const Lanes de_t = -de_x*n_y + de_y*n_x;
@@ -410,8 +418,8 @@ static void clearance_B(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omeg
     const LaneBits touching = delta > 0.0;
     if (any_of(touching)) {
         LanePinForce dry = dry_B(delta, deltadot, de_t, omega_i, omega_j, latch, p);
-    const Lanes side_15 = lanes_sign_of(-delta/p->oil_transition + 1.0);
-    const Lanes share = pick(side_15 < 0.0, all_of(1.0), delta/p->oil_transition);
+    const Lanes side_15 = lanes_sign_of(-delta*p->inverse_oil_transition + 1.0);
+    const Lanes share = pick(side_15 < 0.0, all_of(1.0), delta*p->inverse_oil_transition);
         const LaneBits mixed = share < 1.0;
         dry.n = pick(mixed, dry.n + (1.0 - share) * (F.n - dry.n), dry.n);
         dry.t = pick(mixed, dry.t + (1.0 - share) * (F.t - dry.t), dry.t);

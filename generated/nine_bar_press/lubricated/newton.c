@@ -64,17 +64,14 @@ static inline void film_slopes_A(double e, double deltadot, double de_t, double 
     const double oil_pin_S = p->oil_pin_S;
 
     /* eccentricity ratio and effective squeeze velocity */
-    const double side_6 = side_of(side, g, 6, -e/p->pin_clearance + 0.9999);
-    const double inverse_pin_clearance = 1.0/p->pin_clearance;
-    const double epsilon = (side_6 < 0.0 ? 0.9999 : e*inverse_pin_clearance);
-    const double epsilon_by_e = (side_6 < 0.0 ? 0.0 : inverse_pin_clearance);
-    const double w_n = deltadot*inverse_pin_clearance;
-    const double w_n_by_deltadot = inverse_pin_clearance;
-    const double w_t = inverse_pin_clearance*(de_t - 0.5*e*(omega_i + omega_j));
-    const double w_t_by_de_t = inverse_pin_clearance;
-    const double w_t_by_e = inverse_pin_clearance*(-0.5*omega_i - 0.5*omega_j);
-    const double w_t_by_omega_i = -0.5*e*inverse_pin_clearance;
-    const double w_t_by_omega_j = -0.5*e*inverse_pin_clearance;
+    const double side_6 = side_of(side, g, 6, -e*p->inverse_pin_clearance + 0.9999);
+    const double epsilon = (side_6 < 0.0 ? 0.9999 : e*p->inverse_pin_clearance);
+    const double epsilon_by_e = (side_6 < 0.0 ? 0.0 : p->inverse_pin_clearance);
+    const double w_n = deltadot*p->inverse_pin_clearance;
+    const double w_t = p->inverse_pin_clearance*(de_t - 0.5*e*(omega_i + omega_j));
+    const double w_t_by_e = p->inverse_pin_clearance*(-0.5*omega_i - 0.5*omega_j);
+    const double w_t_by_omega_i = -0.5*e*p->inverse_pin_clearance;
+    const double w_t_by_omega_j = -0.5*e*p->inverse_pin_clearance;
 
     /* film of joint A */
     const double root = sqrt(1.0 - (epsilon * epsilon));
@@ -107,8 +104,8 @@ static inline void film_slopes_A(double e, double deltadot, double de_t, double 
         root_by_epsilon*(-4.0*W*epsilon*(inverse_root * inverse_root * inverse_root)*inverse_sum_4*oil_pin_S +
         3.0*(inverse_root * inverse_root * inverse_root *
         inverse_root)*oil_pin_S*(4.0*W*epsilon*inverse_sum_4*root + 3.141592653589793*factor*w_n));
-    const double F_r_by_deltadot = F_r_by_w_n*w_n_by_deltadot;
-    const double F_r_by_de_t = F_r_by_w_t*w_t_by_de_t;
+    const double F_r_by_deltadot = F_r_by_w_n*p->inverse_pin_clearance;
+    const double F_r_by_de_t = F_r_by_w_t*p->inverse_pin_clearance;
     const double F_r_by_e = F_r_by_epsilon*epsilon_by_e + F_r_by_w_t*w_t_by_e;
     const double F_r_by_omega_i = F_r_by_w_t*w_t_by_omega_i;
     const double F_r_by_omega_j = F_r_by_w_t*w_t_by_omega_j;
@@ -121,8 +118,8 @@ static inline void film_slopes_A(double e, double deltadot, double de_t, double 
     const double F_t_by_w_t = -2.0*3.141592653589793*factor*inverse_root*inverse_sum_4*oil_pin_S -
         2.0*3.141592653589793*factor_by_w_t*inverse_root*inverse_sum_4*oil_pin_S*w_t;
     const double F_t_by_e = F_t_by_epsilon*epsilon_by_e + F_t_by_w_t*w_t_by_e;
-    const double F_t_by_deltadot = F_t_by_w_n*w_n_by_deltadot;
-    const double F_t_by_de_t = F_t_by_w_t*w_t_by_de_t;
+    const double F_t_by_deltadot = F_t_by_w_n*p->inverse_pin_clearance;
+    const double F_t_by_de_t = F_t_by_w_t*p->inverse_pin_clearance;
     const double F_t_by_omega_i = F_t_by_w_t*w_t_by_omega_i;
     const double F_t_by_omega_j = F_t_by_w_t*w_t_by_omega_j;
 
@@ -264,9 +261,9 @@ static inline void share_slope_A(double delta, const Parameters *p, const double
     double *out)
 {
     /* share */
-    const double side_7 = side_of(side, g, 7, -delta/p->oil_transition + 1.0);
-    out[0] = (side_7 < 0.0 ? 1.0 : delta/p->oil_transition);
-    out[1] = (side_7 < 0.0 ? 0.0 : 1.0/p->oil_transition);
+    const double side_7 = side_of(side, g, 7, -delta*p->inverse_oil_transition + 1.0);
+    out[0] = (side_7 < 0.0 ? 1.0 : delta*p->inverse_oil_transition);
+    out[1] = (side_7 < 0.0 ? 0.0 : p->inverse_oil_transition);
 }
 
 /*
@@ -297,10 +294,10 @@ static void tangent_A(double e_x, double e_y, double de_x, double de_y, double o
     PinSlopes F;
     const double e = sqrt(e_x * e_x + e_y * e_y);
     if (e > CENTRED * p->pin_clearance) {
-        const double n_x = e_x / e, n_y = e_y / e;
+        const double inverse_e = 1.0 / e, n_x = e_x * inverse_e, n_y = e_y * inverse_e;
         const double deltadot = de_x * n_x + de_y * n_y, de_t = de_y * n_x - de_x * n_y;
         slopes_A(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
-        in_ground_axes(&F, n_x, n_y, deltadot, de_t, 1.0 / e, dF);
+        in_ground_axes(&F, n_x, n_y, deltadot, de_t, inverse_e, dF);
         return;
     }
     /* at the centre each axis in turn is the normal */
@@ -325,17 +322,14 @@ static inline void film_slopes_B(double e, double deltadot, double de_t, double 
     const double oil_pin_S = p->oil_pin_S;
 
     /* eccentricity ratio and effective squeeze velocity */
-    const double side_14 = side_of(side, g, 14, -e/p->pin_clearance + 0.9999);
-    const double inverse_pin_clearance_2 = 1.0/p->pin_clearance;
-    const double epsilon = (side_14 < 0.0 ? 0.9999 : e*inverse_pin_clearance_2);
-    const double epsilon_by_e_2 = (side_14 < 0.0 ? 0.0 : inverse_pin_clearance_2);
-    const double w_n = deltadot*inverse_pin_clearance_2;
-    const double w_n_by_deltadot_2 = inverse_pin_clearance_2;
-    const double w_t = inverse_pin_clearance_2*(de_t - 0.5*e*(omega_i + omega_j));
-    const double w_t_by_de_t_2 = inverse_pin_clearance_2;
-    const double w_t_by_e_2 = inverse_pin_clearance_2*(-0.5*omega_i - 0.5*omega_j);
-    const double w_t_by_omega_i_2 = -0.5*e*inverse_pin_clearance_2;
-    const double w_t_by_omega_j_2 = -0.5*e*inverse_pin_clearance_2;
+    const double side_14 = side_of(side, g, 14, -e*p->inverse_pin_clearance + 0.9999);
+    const double epsilon = (side_14 < 0.0 ? 0.9999 : e*p->inverse_pin_clearance);
+    const double epsilon_by_e_2 = (side_14 < 0.0 ? 0.0 : p->inverse_pin_clearance);
+    const double w_n = deltadot*p->inverse_pin_clearance;
+    const double w_t = p->inverse_pin_clearance*(de_t - 0.5*e*(omega_i + omega_j));
+    const double w_t_by_e_2 = p->inverse_pin_clearance*(-0.5*omega_i - 0.5*omega_j);
+    const double w_t_by_omega_i_2 = -0.5*e*p->inverse_pin_clearance;
+    const double w_t_by_omega_j_2 = -0.5*e*p->inverse_pin_clearance;
 
     /* film of joint B */
     const double root = sqrt(1.0 - (epsilon * epsilon));
@@ -370,8 +364,8 @@ static inline void film_slopes_B(double e, double deltadot, double de_t, double 
         4.0*W*inverse_sum_8*root) + root_by_epsilon_2*(-4.0*W*epsilon*(inverse_root_2 * inverse_root_2 *
         inverse_root_2)*inverse_sum_8*oil_pin_S + 3.0*(inverse_root_2 * inverse_root_2 * inverse_root_2 *
         inverse_root_2)*oil_pin_S*(4.0*W*epsilon*inverse_sum_8*root + 3.141592653589793*factor*w_n));
-    const double F_r_by_deltadot_2 = F_r_by_w_n_2*w_n_by_deltadot_2;
-    const double F_r_by_de_t_2 = F_r_by_w_t_2*w_t_by_de_t_2;
+    const double F_r_by_deltadot_2 = F_r_by_w_n_2*p->inverse_pin_clearance;
+    const double F_r_by_de_t_2 = F_r_by_w_t_2*p->inverse_pin_clearance;
     const double F_r_by_e_2 = F_r_by_epsilon_2*epsilon_by_e_2 + F_r_by_w_t_2*w_t_by_e_2;
     const double F_r_by_omega_i_2 = F_r_by_w_t_2*w_t_by_omega_i_2;
     const double F_r_by_omega_j_2 = F_r_by_w_t_2*w_t_by_omega_j_2;
@@ -385,8 +379,8 @@ static inline void film_slopes_B(double e, double deltadot, double de_t, double 
     const double F_t_by_w_t_2 = -2.0*3.141592653589793*factor*inverse_root_2*inverse_sum_8*oil_pin_S -
         2.0*3.141592653589793*factor_by_w_t_2*inverse_root_2*inverse_sum_8*oil_pin_S*w_t;
     const double F_t_by_e_3 = F_t_by_epsilon_2*epsilon_by_e_2 + F_t_by_w_t_2*w_t_by_e_2;
-    const double F_t_by_deltadot_3 = F_t_by_w_n_2*w_n_by_deltadot_2;
-    const double F_t_by_de_t_2 = F_t_by_w_t_2*w_t_by_de_t_2;
+    const double F_t_by_deltadot_3 = F_t_by_w_n_2*p->inverse_pin_clearance;
+    const double F_t_by_de_t_2 = F_t_by_w_t_2*p->inverse_pin_clearance;
     const double F_t_by_omega_i_3 = F_t_by_w_t_2*w_t_by_omega_i_2;
     const double F_t_by_omega_j_3 = F_t_by_w_t_2*w_t_by_omega_j_2;
 
@@ -528,9 +522,9 @@ static inline void share_slope_B(double delta, const Parameters *p, const double
     double *out)
 {
     /* share */
-    const double side_15 = side_of(side, g, 15, -delta/p->oil_transition + 1.0);
-    out[0] = (side_15 < 0.0 ? 1.0 : delta/p->oil_transition);
-    out[1] = (side_15 < 0.0 ? 0.0 : 1.0/p->oil_transition);
+    const double side_15 = side_of(side, g, 15, -delta*p->inverse_oil_transition + 1.0);
+    out[0] = (side_15 < 0.0 ? 1.0 : delta*p->inverse_oil_transition);
+    out[1] = (side_15 < 0.0 ? 0.0 : p->inverse_oil_transition);
 }
 
 /*
@@ -561,10 +555,10 @@ static void tangent_B(double e_x, double e_y, double de_x, double de_y, double o
     PinSlopes F;
     const double e = sqrt(e_x * e_x + e_y * e_y);
     if (e > CENTRED * p->pin_clearance) {
-        const double n_x = e_x / e, n_y = e_y / e;
+        const double inverse_e = 1.0 / e, n_x = e_x * inverse_e, n_y = e_y * inverse_e;
         const double deltadot = de_x * n_x + de_y * n_y, de_t = de_y * n_x - de_x * n_y;
         slopes_B(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
-        in_ground_axes(&F, n_x, n_y, deltadot, de_t, 1.0 / e, dF);
+        in_ground_axes(&F, n_x, n_y, deltadot, de_t, inverse_e, dF);
         return;
     }
     /* at the centre each axis in turn is the normal */

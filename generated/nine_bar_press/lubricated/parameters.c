@@ -186,6 +186,10 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     p->inverse_L8_inertia = inverse_L8_inertia;
     const double inverse_L7_inertia = 1.0/L7_inertia;  /* 1/M */
     p->inverse_L7_inertia = inverse_L7_inertia;
+    const double inverse_pin_clearance = 1.0/pin_clearance;  /* 1/pin_clearance */
+    p->inverse_pin_clearance = inverse_pin_clearance;
+    const double inverse_oil_transition = 1.0/oil_transition;  /* 1/oil_transition */
+    p->inverse_oil_transition = inverse_oil_transition;
     const double L6_head_span_x = 2.0*L6_head_x;  /* vector in its frame */
     p->L6_head_span_x = L6_head_span_x;
     const double L7_com_span_x = -L7_head_x;  /* vector in its frame */

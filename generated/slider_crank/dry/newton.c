@@ -154,10 +154,10 @@ static void tangent_wristpin(double e_x, double e_y, double de_x, double de_y, d
     PinSlopes F;
     const double e = sqrt(e_x * e_x + e_y * e_y);
     if (e > CENTRED * p->pin_clearance) {
-        const double n_x = e_x / e, n_y = e_y / e;
+        const double inverse_e = 1.0 / e, n_x = e_x * inverse_e, n_y = e_y * inverse_e;
         const double deltadot = de_x * n_x + de_y * n_y, de_t = de_y * n_x - de_x * n_y;
         slopes_wristpin(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
-        in_ground_axes(&F, n_x, n_y, deltadot, de_t, 1.0 / e, dF);
+        in_ground_axes(&F, n_x, n_y, deltadot, de_t, inverse_e, dF);
         return;
     }
     /* at the centre each axis in turn is the normal */

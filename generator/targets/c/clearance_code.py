@@ -22,7 +22,7 @@ _ARGUMENTS = (
     "    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out"
 )
 # At e = 0 any direction will do for the normal: the force is isotropic there.
-_GUARDED = {contact.n_x: "e > 0.0 ? e_x / e : 1.0", contact.n_y: "e > 0.0 ? e_y / e : 0.0"}
+_GUARDED = {contact.n_x: "e > 0.0 ? e_x * inverse_e : 1.0", contact.n_y: "e > 0.0 ? e_y * inverse_e : 0.0"}
 _STORE = """\
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
@@ -33,7 +33,7 @@ _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
 def clearance_code(model: Model, clearance: Clearance, render: Render) -> str:
     """Law functions, then the joint's own function."""
     joint, film = clearance.name, clearance.film
-    parts = [printer.kernel(kernel) for kernel in law_kernels(model.symbols, clearance)]
+    parts = [printer.kernel(kernel) for kernel in law_kernels(model, clearance)]
     owner = clearance.name
     if clearance.normal is not None:
         before = [unlatched(step) for step in contact.before_dry(clearance)]
@@ -73,6 +73,8 @@ def lines(
     for step in steps:
         value = guarded.get(step.symbol) or in_place(model, step.value)
         statements.append(Statement(step.symbol.name, value))
+        if step.symbol == contact.e:
+            statements.append(Statement("inverse_e", 1 / contact.e))
     (section,) = hold_sides(model.symbols.switches, owner, [Section("", tuple(statements))])
     return "\n".join(written(item) for item in section.statements if isinstance(item, Statement))
 

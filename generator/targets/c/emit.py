@@ -246,5 +246,5 @@ def _start(model: Model) -> str:
 
 
 def _operations(model: Model, kernels: list[Kernel]) -> dict[str, int]:
-    laws = [kernel for clearance in model.clearances for kernel in law_kernels(model.symbols, clearance)]
+    laws = [kernel for clearance in model.clearances for kernel in law_kernels(model, clearance)]
     return {kernel.name: kernel.operations for kernel in [*kernels, *laws]}

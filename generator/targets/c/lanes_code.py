@@ -17,7 +17,8 @@ from gudgeon.generator.targets.c.loops import deepest
 
 MAIN = "lanes.c"
 _GUARDED = {
-    contact.n_x: "pick(e > 0.0, e_x / e, all_of(1.0))", contact.n_y: "pick(e > 0.0, e_y / e, all_of(0.0))"
+    contact.n_x: "pick(e > 0.0, e_x * inverse_e, all_of(1.0))",
+    contact.n_y: "pick(e > 0.0, e_y * inverse_e, all_of(0.0))",
 }  # fmt: skip
 _WANTED = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
 
@@ -70,7 +71,7 @@ def _pin(model: Model, clearance: Clearance, render: Callable[..., str]) -> str:
         parts["after_film"] = text(contact.after_film(film))
     if has_transition(clearance):
         parts["share"] = text([contact.blend(clearance, closed=True)])
-    laws = [lanes_printer.kernel(kernel) for kernel in law_kernels(model.symbols, clearance)]
+    laws = [lanes_printer.kernel(kernel) for kernel in law_kernels(model, clearance)]
     pin = render(
         "lane_pin.c.jinja", joint=name, dry=dry, film=film is not None, gap=text(contact.gap(clearance)),
         ratio_name="unclipped" if clearance.clip_ratio else "ratio", **parts,
