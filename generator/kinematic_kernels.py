@@ -72,4 +72,4 @@ def _largest(build: KernelBuilder, name: str, values: list[sp.Symbol]) -> None:
     """*name = the largest magnitude; NaN counts as nothing here, steps and solutions tell it."""
     build.line(f"*{name} = 0.0;")
     for value in values:
-        build.line(f"*{name} = fmax(fabs({value}), *{name});")
+        build.line(f"*{name} = max_of(*{name}, fabs({value}));")

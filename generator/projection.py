@@ -58,7 +58,7 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
         build.out(f"dv[{k}]", u[k])
     build.line("*worst = 0.0;")
     for value in phi.values():  # text: this maximum is no corner of the motion
-        build.line(f"*worst = fmax(fabs({value}), *worst);")
+        build.line(f"*worst = max_of(*worst, fabs({value}));")
     build.line("return 0;")
     outs = (Argument("double *", name) for name in ("dq", "dv", "worst"))
     kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), "int", owner="")

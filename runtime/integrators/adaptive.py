@@ -9,6 +9,8 @@
 The error of a step is controlled component by component: lengths to rtol · L, angles to rtol · L/S, velocities
 to rtol times the largest speed of their kind so far. S is the mechanism's size; L is S in a scene without play
 and the smallest radial clearance in a scene with play, since what happens in the clearance decides the motion.
+A film's force follows the journal's speed in its bearing, L/S of the links' speeds: where there is a film, rtol of
+velocities is FELT_BY_FILMS · L/S at most, or their errors throw the journal about and steps are lost on that.
 """
 
 from __future__ import annotations
@@ -27,6 +29,7 @@ from gudgeon.start import mechanism_sizes
 CHOICES = {"dop853": 0, "rodas5p": 1, "adaptive": 2}
 BEGIN_STIFF = 3  # adaptive in a scene with a film: stiff from rest on (physics.md, section 6)
 RTOL = 1e-8  # of a plain run
+FELT_BY_FILMS = 0.02  # share of the speeds within a film that an error of velocities may be
 SMALLEST = 1e-14  # rounding would be controlled below it
 CHUNK = 4_000  # steps between two looks of Python: some 20 ms
 ADVICE = "the motion may leave what the model holds for; look at the last samples"
@@ -122,4 +125,6 @@ def tolerances(compiled: CompiledModel, p: Array, rtol: float, duration: float) 
         is_angle = np.array([name.endswith(".theta") for name in source.coordinates])
     of_q = rtol * np.where(is_angle, (length / size)[..., None], length[..., None])
     floor = np.stack([length, length / size], axis=-1) / max(duration, 1e-300)
-    return np.concatenate([of_q, np.full_like(of_q, rtol)], axis=-1), floor
+    film = any(joint.film for joint in source.clearances)
+    of_v = np.minimum(rtol, FELT_BY_FILMS * length / size if film else rtol)
+    return np.concatenate([of_q, np.broadcast_to(of_v[..., None], of_q.shape)], axis=-1), floor

@@ -40,8 +40,11 @@ def failure(
     try:
         compiled.check_pivot(status, t, compiled.source.motion_pivots)
     except SingularError as error:
-        if np.isfinite(last).all() and np.abs(last).max() < 1e12:
+        finite = bool(np.isfinite(last).all())
+        if finite and np.abs(last).max() < 1e12:
             return error
+        if finite and (dead := _dead_centre(compiled, last, p, t)):  # speeds grew so far that a pivot drowned in them
+            return dead
         where = f"t = {t:.9g} s (constraint row {error.pivot})"
         return NonFiniteError(f"the motion diverged before {where}\n  {advice}", t, error.pivot)
     raise AssertionError(f"status {status} stands for no failure")

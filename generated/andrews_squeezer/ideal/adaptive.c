@@ -33,6 +33,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     run->stiff_steps += step->stiff;
     run->linear_ready = 0;
     note_speed(run);
+    weigh(run);
     for (int i = 0; i < N_CLEARANCES; i++)
         if (run->memory.latch[i].closed && run->aside.clearance[i].deltadot <= 0.0)
             run->compressing[i] = 0;
@@ -75,11 +76,11 @@ static void choose(Run *run)
 /* One accepted step towards t_end; the next step's length in run->h. Events are not looked for here. */
 static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step)
 {
-    const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * fmax(fabs(run->t), fabs(t_end));
+    const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * max_of(fabs(t_end), fabs(run->t));
     double h = run->fixed > 0.0 ? run->fixed : run->h;
     int again = 0, shortened = 0;
     if (run->skip >= 0 && run->fixed <= 0.0)
-        h = fmin(h, run->pace);
+        h = min_of(h, run->pace);
     if (h > left * (1.0 - 1e-9))
         h = left;
     for (;;) {
@@ -103,12 +104,12 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
             continue;
         }
         if (!status && step->error <= run->accept) {
-            const double error = fmax(step->error, 1e-12);
+            const double error = max_of(1e-12, step->error);
             double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
             if (!run->stiff && run->stability > 1.0)
-                factor = fmin(factor, 1.1 * BOUNDED / run->stability);
-            factor = fmin(fmax(factor, 0.3), again ? 1.0 : step->looked ? 2.0 : 6.0);
-            run->error_before = fmax(error, 1e-4);
+                factor = min_of(factor, 1.1 * BOUNDED / run->stability);
+            factor = min_of(again ? 1.0 : step->looked ? 2.0 : 6.0, max_of(0.3, factor));
+            run->error_before = max_of(1e-4, error);
             if (run->first)
                 *run->first = h;
             run->first = NULL;
@@ -120,7 +121,7 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
         }
         again = 1;
         run->rejected++;
-        h *= status ? 0.25 : fmin(fmax(0.9 * pow(step->error, -power), 0.1), 0.9);
+        h *= status ? 0.25 : min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -power)));
         if (!(h > least))
             return status ? status : TOO_SMALL;
     }
@@ -132,17 +133,17 @@ static int first_size(Run *run, double left, const Parameters *p)
     double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
     Aside aside;
     for (int k = 0; k < 2 * N_X; k++)
-        one = fmax(fabs(run->dy[k]) / tolerance(run, k), one);
-    double h = fmin(1e-2 * left, one > 0.0 ? 1.0 / one : INFINITY);
+        one = max_of(one, fabs(run->dy[k]) * run->weight[k]);
+    double h = min_of(one > 0.0 ? 1.0 / one : INFINITY, 1e-2 * left);
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
     const int status = rates(run, run->t + h, y, p, dy, &aside);
     if (status)
         return status;
     for (int k = 0; k < 2 * N_X; k++)
-        two = fmax(fabs(dy[k] - run->dy[k]) / h / tolerance(run, k), two);
-    const double most = fmax(one, sqrt(two));
-    run->h = fmin(fmax(h, most > 0.0 ? pow(0.01, 0.125) / most : left), 1e-2 * left);
+        two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
+    const double most = max_of(sqrt(two), one);
+    run->h = min_of(1e-2 * left, max_of(most > 0.0 ? pow(0.01, 0.125) / most : left, h));
     return 0;
 }
 
@@ -177,6 +178,7 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
         status = settle_sides(run, -1, p);
     note_speed(run);
     run->turned_over = energy_scale(run, p);
+    weigh(run);
     if (!status && !(run->h > 0.0))
         status = first_size(run, left, p);
     return status ? status : leave_zeros(run, p);
@@ -194,8 +196,8 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
     run->crossed = run->skip = -1;
     run->accept = fixed > 0.0 ? INFINITY : 1.0;
     for (int k = 0; k < 2 * N_X; k++)
-        run->scale[k] = scale[k];
-    run->work_scale = fmax(WORKS * scale[2 * N_X - 1], 1e-10); /* below it a sum of works is rounded */
+        run->inverse_scale[k] = 1.0 / scale[k];
+    run->work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */
     run->speed_floor[0] = floor[0];
     run->speed_floor[1] = floor[1];
 }
@@ -247,7 +249,7 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         int event;
         const double share = first_event(run, step, p, &event);
         const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
-        const double close = event < 0 ? 0.0 : fmax(2e-12, 8.0 * DBL_EPSILON * fabs(t_new)); /* is at the event */
+        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2e-12); /* is at the event */
         status = sample_step(run, step, t_new - close, n, t, p, y, latched, state, done);
         if (!status)
             status = commit(run, step, share, t_new, event, p);

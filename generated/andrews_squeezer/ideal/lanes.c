@@ -926,12 +926,12 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     dq[6] = dq_acceleration_EG_theta;
     dv[6] = dv_acceleration_EG_theta;
     *worst = all_of(0.0);
-    *worst = lanes_max_of(lanes_fabs(phi_G_x), *worst);
-    *worst = lanes_max_of(lanes_fabs(phi_G_y), *worst);
-    *worst = lanes_max_of(lanes_fabs(phi_H_x), *worst);
-    *worst = lanes_max_of(lanes_fabs(phi_H_y), *worst);
-    *worst = lanes_max_of(lanes_fabs(phi_E3_x), *worst);
-    *worst = lanes_max_of(lanes_fabs(phi_E3_y), *worst);
+    *worst = lanes_max_of(*worst, lanes_fabs(phi_G_x));
+    *worst = lanes_max_of(*worst, lanes_fabs(phi_G_y));
+    *worst = lanes_max_of(*worst, lanes_fabs(phi_H_x));
+    *worst = lanes_max_of(*worst, lanes_fabs(phi_H_y));
+    *worst = lanes_max_of(*worst, lanes_fabs(phi_E3_x));
+    *worst = lanes_max_of(*worst, lanes_fabs(phi_E3_y));
 }
 
 static void motion(Lanes t, const Lanes *y, const LaneRun *x, const LaneParameters *p, Lanes *dy, LaneAside *aside,
@@ -1207,7 +1207,7 @@ static int advance(Side *side, long *left)
     const Batch *b = side->b;
     const long i = side->number[first_of(side)], done = b->done[i];
     const double t0 = b->t[done - 1], t1 = b->t[done];
-    const long total = (long)fmax(1.0, ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)));
+    const long total = (long)max_of(ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)), 1.0);
     const double h = (t1 - t0) / (double)total;
     long within = b->within[i];
     LaneRun before;

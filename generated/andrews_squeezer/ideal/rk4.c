@@ -73,7 +73,7 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
 /* Share of h at which watched expression i first lies beyond zero, by halving: the step is tried again up to there. */
 static double rk4_crossing(Run *run, int i, double h, const Parameters *p)
 {
-    const double close = fmax(1e-12, 4.0 * DBL_EPSILON * fabs(run->t)) / h;
+    const double close = max_of(4.0 * DBL_EPSILON * fabs(run->t), 1e-12) / h;
     double low = 0.0, high = 1.0;
     while (high - low > close) {
         const double share = 0.5 * (low + high);
@@ -94,7 +94,7 @@ static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *
         signed char side = run->memory.event_side[i];
         share[i] = event_crosses(i, &side, trial->aside.event[i]) ? rk4_crossing(run, i, h, p) : INFINITY;
         if (run->stop && event_stops[i])
-            end = fmin(end, share[i]);
+            end = min_of(end, share[i]);
     }
     for (int i = 0; i < N_USER_EVENTS; i++) {
         event_crosses(i, &run->memory.event_side[i], trial->aside.event[i]);

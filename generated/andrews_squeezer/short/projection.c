@@ -307,11 +307,11 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dq[6] = dq_acceleration_EG_theta;
     dv[6] = dv_acceleration_EG_theta;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_G_x), *worst);
-    *worst = fmax(fabs(phi_G_y), *worst);
-    *worst = fmax(fabs(phi_H_x), *worst);
-    *worst = fmax(fabs(phi_H_y), *worst);
-    *worst = fmax(fabs(phi_E3_x), *worst);
-    *worst = fmax(fabs(phi_E3_y), *worst);
+    *worst = max_of(*worst, fabs(phi_G_x));
+    *worst = max_of(*worst, fabs(phi_G_y));
+    *worst = max_of(*worst, fabs(phi_H_x));
+    *worst = max_of(*worst, fabs(phi_H_y));
+    *worst = max_of(*worst, fabs(phi_E3_x));
+    *worst = max_of(*worst, fabs(phi_E3_y));
     return 0;
 }

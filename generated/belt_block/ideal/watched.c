@@ -17,10 +17,10 @@ static void look_at(Run *run, double t, const double *y, const Parameters *p, As
 static int may_vanish(const Run *run, const Step *step, int k, double *range)
 {
     const double start = margin(&run->memory, &run->aside, k), end = margin(&run->memory, &step->aside, k);
-    double least = fmin(start, end), most = fmax(start, end);
+    double least = min_of(end, start), most = max_of(end, start);
     for (int i = 0; i < step->n_seen; i++) {
-        least = fmin(least, step->seen[i][k]);
-        most = fmax(most, step->seen[i][k]);
+        least = min_of(least, step->seen[i][k]);
+        most = max_of(most, step->seen[i][k]);
     }
     *range = most - least;
     return least < *range;
@@ -32,7 +32,7 @@ static void noise(Run *run, const Step *step, const Parameters *p, double *chang
     double y[N_Y];
     Aside aside;
     for (int k = 0; k < N_Y; k++)
-        y[k] = run->y[k] + (k < 2 * N_X ? tolerance(run, k) : 0.0);
+        y[k] = run->y[k] + (k < 2 * N_X ? 1.0 / run->weight[k] : 0.0);
     look_at(run, step->t, y, p, &aside);
     for (int i = 0; i < N_WATCHED; i++)
         change[i] = fabs(margin(&run->memory, &aside, watched[i]) - margin(&run->memory, &run->aside, watched[i]));
@@ -43,7 +43,7 @@ static double misfit(const double *f)
 {
     double worst = 0.0;
     for (int j = 3; j + 3 <= N_LOOKS; j += 2)
-        worst = fmax(worst, fabs(f[j] - (9.0 * (f[j - 1] + f[j + 1]) - f[j - 3] - f[j + 3]) / 16.0));
+        worst = max_of(worst, fabs(f[j] - (9.0 * (f[j - 1] + f[j + 1]) - f[j - 3] - f[j + 3]) / 16.0));
     return worst;
 }
 
@@ -72,10 +72,10 @@ static int is_unresolved(Run *run, Step *step, const Parameters *p)
     for (int i = 0; i < N_WATCHED; i++) {
         double least = INFINITY, most = -INFINITY;
         for (int j = 0; j <= N_LOOKS; j++) {
-            least = fmin(least, step->look[i][j]);
-            most = fmax(most, step->look[i][j]);
+            least = min_of(least, step->look[i][j]);
+            most = max_of(most, step->look[i][j]);
         }
-        const double missed = misfit(step->look[i]), enough = fmax(0.05 * (most - least), 10.0 * change[i]);
+        const double missed = misfit(step->look[i]), enough = max_of(10.0 * change[i], 0.05 * (most - least));
         /* stages that see far more than the looks: these keep time with what they look at */
         const int beats = range[i] > 2.0 * (most - least) + 10.0 * change[i] && !step->stiff;
         if (step->near[i] && (missed > enough || beats) && least - missed < 0.0)

@@ -519,7 +519,7 @@ static int advance(Side *side, long *left)
     const Batch *b = side->b;
     const long i = side->number[first_of(side)], done = b->done[i];
     const double t0 = b->t[done - 1], t1 = b->t[done];
-    const long total = (long)fmax(1.0, ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)));
+    const long total = (long)max_of(ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)), 1.0);
     const double h = (t1 - t0) / (double)total;
     long within = b->within[i];
     LaneRun before;

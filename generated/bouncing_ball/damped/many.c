@@ -48,7 +48,7 @@ static int advance_rk4(const Batch *b, long i, Run *run)
     }
     while (!status && b->done[i] < b->samples && left > 0) {
         const double t0 = b->t[b->done[i] - 1], t1 = b->t[b->done[i]];
-        const long total = (long)fmax(1.0, ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)));
+        const long total = (long)max_of(ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)), 1.0);
         const long rest = total - b->within[i];
         status = gudgeon_run_steps(run, p, t0, t1, total, b->within[i], rest < left ? rest : left, &taken);
         b->within[i] += taken;

@@ -36,7 +36,7 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
     const int status = rates(run, step->t + step->h, step->y, p, dy, &aside);
     turn_passed(run, step); /* held until the step is taken: what lies inside it is on this side */
     for (int k = 0; k < 2 * N_X && !status; k++)
-        most = fmax(most, fabs(step->h * (dy[k] - step->dy[k])) / tolerance(run, k));
+        most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->weight[k]);
     if (!status && most < HARMLESS) {
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];

@@ -49,7 +49,8 @@ typedef struct {
     long steps, evaluations, onsets, grazes, ratio_outside, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max;
     /* of methods that choose their step (adaptive.c) */
-    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace, scale[2 * N_X + 1], speed[2], speed_floor[2];
+    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace, inverse_scale[2 * N_X + 1], speed[2], speed_floor[2];
+    double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
     double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
     int rising[1]; /* whether a joint's force rose at the end of the last step */
     int crossed, skip, choice, stiff, votes, patience, since, stuck, crawl, linear_ready;

@@ -76,6 +76,6 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dq[2] = dq_acceleration_axle_theta;
     dv[2] = dv_acceleration_axle_theta;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_slot_offset), *worst);
+    *worst = max_of(*worst, fabs(phi_slot_offset));
     return 0;
 }

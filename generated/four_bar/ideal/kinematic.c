@@ -93,8 +93,8 @@ static int close_step(const double t, const double *q, const Parameters *p, doub
     step[1] = step_coupler_theta;
     rates[1] = rate_coupler_theta;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_B_x), *worst);
-    *worst = fmax(fabs(phi_B_y), *worst);
+    *worst = max_of(*worst, fabs(phi_B_x));
+    *worst = max_of(*worst, fabs(phi_B_y));
     return 0;
 }
 
@@ -186,8 +186,8 @@ static int arrive(const double t, const double *q, const double *v, const Parame
     const double phi_dot_B_y = coupler_omega*span_coupler_head_x + motor_rate*span_crank_head_x -
         rocker_omega*span_rocker_head_x;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_dot_B_x), *worst);
-    *worst = fmax(fabs(phi_dot_B_y), *worst);
+    *worst = max_of(*worst, fabs(phi_dot_B_x));
+    *worst = max_of(*worst, fabs(phi_dot_B_y));
 
     /* groups of rows that are solved one after the other */
     const double determinant_B_x__B_y_4 = -span_coupler_head_x*span_rocker_head_y +

@@ -211,12 +211,12 @@ static int first_velocities(Closing *w, double t, const Parameters *p, const dou
         }
         most = worst = 0.0;
         for (int r = 0; r < ROWS; r++) {
-            most = fmax(most, fabs(w->rest[r]));
+            most = max_of(most, fabs(w->rest[r]));
             for (int k = 0; k < N_Q; k++) {
                 w->rest[r] -= w->row[r][k] * v[k];
                 w->row[r][k] /= root[k];
             }
-            worst = fmax(worst, fabs(w->rest[r]));
+            worst = max_of(worst, fabs(w->rest[r]));
         }
         if (pass == 3)
             break;
@@ -248,7 +248,7 @@ int gudgeon_start(double t, const double *parameters, double size, double *q, do
     *residual = 0.0;
     for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
         const int is_length = r < N_ALL_ROWS ? row_is_length[r] : set_place[r - N_ALL_ROWS] % 3 != 2;
-        *residual = fmax(*residual, fabs(w->rest[r]) * (is_length ? size : 1.0));
+        *residual = max_of(*residual, fabs(w->rest[r]) * (is_length ? size : 1.0));
     }
     free(w);
     return status;

@@ -214,9 +214,9 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dq[4] = dq_acceleration_coupler2_theta;
     dv[4] = dv_acceleration_coupler2_theta;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_B2_x), *worst);
-    *worst = fmax(fabs(phi_B2_y), *worst);
-    *worst = fmax(fabs(phi_B1_x), *worst);
-    *worst = fmax(fabs(phi_B1_y), *worst);
+    *worst = max_of(*worst, fabs(phi_B2_x));
+    *worst = max_of(*worst, fabs(phi_B2_y));
+    *worst = max_of(*worst, fabs(phi_B1_x));
+    *worst = max_of(*worst, fabs(phi_B1_y));
     return 0;
 }

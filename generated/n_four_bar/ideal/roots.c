@@ -56,16 +56,16 @@ static double inverse_zero(const double *x, const double *f, int n)
 static double root(Run *run, const Step *step, int k, double low, double at_low, double high, double at_high,
     const Parameters *p)
 {
-    const double close = fmax(1e-12, 4.0 * DBL_EPSILON * fabs(step->t)) / step->h;
+    const double close = max_of(4.0 * DBL_EPSILON * fabs(step->t), 1e-12) / step->h;
     double x[3] = {low, high, 0.0}, f[3] = {at_low, at_high, 0.0};
     for (int i = 0; i < ROOT_STEPS && high - low > close; i++) {
         double s = inverse_zero(x, f, i + 2);
         if (!(s > low && s < high) || i % 12 == 11)
             s = 0.5 * (low + high);
         if (s - low < 2.0 * close)
-            s = fmin(s + 0.75 * close, low + 0.9 * (high - low));
+            s = min_of(low + 0.9 * (high - low), s + 0.75 * close);
         else if (high - s < 2.0 * close)
-            s = fmax(s - 0.75 * close, high - 0.9 * (high - low));
+            s = max_of(high - 0.9 * (high - low), s - 0.75 * close);
         const double now = margin_at(run, step, s, k, p);
         if (now >= 0.0)
             low = s;
@@ -85,9 +85,9 @@ static double root(Run *run, const Step *step, int k, double low, double at_low,
 static int may_graze(const Run *run, const Step *step, int i, double least)
 {
     const Clearance *before = &run->aside.clearance[i], *after = &step->aside.clearance[i];
-    const double outward = fmax(fmax(before->deltadot, after->deltadot), step->rate[i][1]);
-    const double inward = fmin(fmin(before->deltadot, after->deltadot), step->rate[i][0]);
-    const double nearest = fmax(fmax(before->delta, after->delta), -least);
+    const double outward = max_of(step->rate[i][1], max_of(after->deltadot, before->deltadot));
+    const double inward = min_of(step->rate[i][0], min_of(after->deltadot, before->deltadot));
+    const double nearest = max_of(-least, max_of(after->delta, before->delta));
     return !run->memory.latch[i].closed && outward > 0.0 && inward < 0.0
         && nearest + (outward - inward) * step->h / 16.0 > 0.0;
 }
@@ -100,7 +100,7 @@ static double dip(Run *run, const Step *step, int k, double *s, double width, do
         const double bend = left - 2.0 * best + right;
         double at[3] = {*s - width, *s + width, *s}, value[3] = {left, right, best};
         if (bend > 0.0) {
-            at[2] = fmin(fmax(*s + 0.5 * width * (left - right) / bend, at[0]), at[1]);
+            at[2] = min_of(at[1], max_of(at[0], *s + 0.5 * width * (left - right) / bend));
             value[2] = margin_at(run, step, at[2], k, p);
         }
         for (int j = 0; j < 3; j++)

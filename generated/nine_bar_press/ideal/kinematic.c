@@ -166,11 +166,11 @@ static int close_step(const double t, const double *q, const Parameters *p, doub
     step[4] = step_L8_theta;
     rates[4] = rate_L8_theta;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_guide_offset), *worst);
-    *worst = fmax(fabs(phi_L2_head_L3_head_x), *worst);
-    *worst = fmax(fabs(phi_L2_head_L3_head_y), *worst);
-    *worst = fmax(fabs(phi_P2_x), *worst);
-    *worst = fmax(fabs(phi_P2_y), *worst);
+    *worst = max_of(*worst, fabs(phi_guide_offset));
+    *worst = max_of(*worst, fabs(phi_L2_head_L3_head_x));
+    *worst = max_of(*worst, fabs(phi_L2_head_L3_head_y));
+    *worst = max_of(*worst, fabs(phi_P2_x));
+    *worst = max_of(*worst, fabs(phi_P2_y));
     return 0;
 }
 
@@ -370,11 +370,11 @@ static int arrive(const double t, const double *q, const double *v, const Parame
     const double phi_dot_P2_y = L2_omega*span_L2_head_x - L6_omega*span_L6_head_x - L7_omega*span_L7_tail_x +
         crank1_rate*span_L1_head_x;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_dot_guide_offset), *worst);
-    *worst = fmax(fabs(phi_dot_L2_head_L3_head_x), *worst);
-    *worst = fmax(fabs(phi_dot_L2_head_L3_head_y), *worst);
-    *worst = fmax(fabs(phi_dot_P2_x), *worst);
-    *worst = fmax(fabs(phi_dot_P2_y), *worst);
+    *worst = max_of(*worst, fabs(phi_dot_guide_offset));
+    *worst = max_of(*worst, fabs(phi_dot_L2_head_L3_head_x));
+    *worst = max_of(*worst, fabs(phi_dot_L2_head_L3_head_y));
+    *worst = max_of(*worst, fabs(phi_dot_P2_x));
+    *worst = max_of(*worst, fabs(phi_dot_P2_y));
 
     /* groups of rows that are solved one after the other */
     const double determinant_L2_head_L3_head_x__L2_head_L3_head_y_4 = span_L2_head_x*span_L3_head_y -

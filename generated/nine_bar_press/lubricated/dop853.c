@@ -78,7 +78,7 @@ static double dop853_error(const Run *run, const Step *step)
     const double (*k)[N_Y] = (const double (*)[N_Y])step->k;
     double five = 0.0, three = 0.0;
     for (int i = 0; i < N_Y; i++) {
-        const double by = 1.0 / tolerance(run, i);
+        const double by = run->weight[i];
         five = max_of(fabs(0.01312004499419488 * k[0][i] + -1.2251564463762044 * k[5][i] + -0.4957589496572502 * k[6][i] + 1.6643771824549864 * k[7][i] + -0.35032884874997366 * k[8][i] + 0.3341791187130175 * k[9][i] + 0.08192320648511571 * k[10][i] + -0.022355307863886294 * k[11][i]) * by, five);
         three = max_of(fabs(-0.18980075407240762 * k[0][i] + 4.450312892752409 * k[5][i] + 1.8915178993145003 * k[6][i] + -5.801203960010585 * k[7][i] + -0.4226823213237919 * k[8][i] + -0.1521609496625161 * k[9][i] + 0.20136540080403034 * k[10][i] + 0.02265179219836082 * k[11][i]) * by, three);
     }
@@ -116,7 +116,7 @@ static int dop853_try(Run *run, double h, const Parameters *p, Step *step)
     if (status_last)
         return status_last;
     for (int i = 0; i < 2 * N_X; i++) {
-        const double by = 1.0 / tolerance(run, i);
+        const double by = run->weight[i];
         change = max_of(fabs(step->dy[i] - step->k[11][i]) * by, change);
         way = max_of(fabs(step->y[i] - y[i]) * by, way);
     }

@@ -127,6 +127,6 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dq[4] = dq_acceleration_L3_theta;
     dv[4] = dv_acceleration_L3_theta;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_guide_offset), *worst);
+    *worst = max_of(*worst, fabs(phi_guide_offset));
     return 0;
 }

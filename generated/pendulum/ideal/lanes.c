@@ -204,7 +204,7 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     dq[2] = dq_acceleration_bob_theta;
     dv[2] = dv_acceleration_bob_theta;
     *worst = all_of(0.0);
-    *worst = lanes_max_of(lanes_fabs(phi_rod_length), *worst);
+    *worst = lanes_max_of(*worst, lanes_fabs(phi_rod_length));
 }
 
 static void motion(Lanes t, const Lanes *y, const LaneRun *x, const LaneParameters *p, Lanes *dy, LaneAside *aside,
@@ -480,7 +480,7 @@ static int advance(Side *side, long *left)
     const Batch *b = side->b;
     const long i = side->number[first_of(side)], done = b->done[i];
     const double t0 = b->t[done - 1], t1 = b->t[done];
-    const long total = (long)fmax(1.0, ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)));
+    const long total = (long)max_of(ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)), 1.0);
     const double h = (t1 - t0) / (double)total;
     long within = b->within[i];
     LaneRun before;

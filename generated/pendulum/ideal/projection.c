@@ -54,6 +54,6 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dq[2] = dq_acceleration_bob_theta;
     dv[2] = dv_acceleration_bob_theta;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_rod_length), *worst);
+    *worst = max_of(*worst, fabs(phi_rod_length));
     return 0;
 }

@@ -110,9 +110,8 @@ static int rodas5p_try(Run *run, double h, const Parameters *p, Step *step)
         newton_solve(&run->linear, hg, h * rodas5p_time[s], r, step->k[s]);
         if (s == 7) /* the last two stages lie at one time: what f changes between them is J times their way */
             for (int i = 0; i < 2 * N_X; i++) {
-                const double by = 1.0 / tolerance(run, i);
-                change = max_of(fabs(f[i] - before[i]) * by, change);
-                way = max_of(fabs(step->k[6][i]) * by, way);
+                change = max_of(fabs(f[i] - before[i]) * run->weight[i], change);
+                way = max_of(fabs(step->k[6][i]) * run->weight[i], way);
             }
     }
     if (status)
@@ -121,7 +120,7 @@ static int rodas5p_try(Run *run, double h, const Parameters *p, Step *step)
     for (int i = 0; i < N_Y; i++)
         step->y[i] = y[i] + step->k[7][i];
     for (int i = 0; i < N_Y; i++)
-        step->error = max_of(fabs(step->k[7][i]) / tolerance(run, i), step->error);
+        step->error = max_of(fabs(step->k[7][i]) * run->weight[i], step->error);
     if (!isfinite(step->error))
         return NOT_FINITE;
     run->stability = way > 0.0 ? h * change / way : 0.0;

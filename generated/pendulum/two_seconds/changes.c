@@ -30,7 +30,7 @@ static void cross_contact(Run *run, int i, double floor)
     else
         close_joint(run, i, run->t, run->aside.clearance[i].deltadot, floor);
     if (run->h_first[opens] > 0.0)
-        run->h = fmin(run->h, 2.0 * run->h_first[opens]);
+        run->h = min_of(run->h, 2.0 * run->h_first[opens]);
     run->first = &run->h_first[opens];
     run->h_stiff = 0.0;
 }
@@ -76,7 +76,7 @@ static void pace_corner(Run *run, int corner)
     const double way = run->t - run->t_crossed;
     const int again = meets[corner] && run->crossed == corner && way < 1e-3 * run->h;
     run->skip = again ? corner : -1;
-    run->pace = again ? 20.0 * fmax(fmax(way, run->pace), 1e-10) : 0.0;
+    run->pace = again ? 20.0 * max_of(1e-10, max_of(run->pace, way)) : 0.0;
     run->crossed = corner;
     run->t_crossed = run->t;
 }

@@ -30,15 +30,15 @@ static void inner_peak(Run *run, const Step *step, double share, int i, const Pa
 {
     double s = 0.5 * share, best = force_at(run, step, s, i, p);
     for (double width = 0.5 * share; width > 0.002 && best > 0.0; width *= 0.2) {
-        const double low = fmax(s - width, 0.0), high = fmin(s + width, share), x = s - low, z = high - s;
+        const double low = max_of(0.0, s - width), high = min_of(share, s + width), x = s - low, z = high - s;
         const double left = force_at(run, step, low, i, p) - best, right = force_at(run, step, high, i, p) - best;
         const double bend = right * x + left * z;
         double top = left > right ? low : high;
         if (bend < 0.0)
-            top = fmin(fmax(s - 0.5 * (right * x * x - left * z * z) / bend, low), high);
+            top = min_of(high, max_of(low, s - 0.5 * (right * x * x - left * z * z) / bend));
         const double found = force_at(run, step, top, i, p);
-        if (found > best || fmax(left, right) > 0.0) {
-            best = fmax(found, best);
+        if (found > best || max_of(right, left) > 0.0) {
+            best = max_of(best, found);
             s = found >= best ? top : left > right ? low : high;
         }
     }

@@ -50,21 +50,23 @@ static void note_stage(const Run *run, Step *step, const Aside *aside, double no
     }
 }
 
-/*
- * Tolerances of coordinates are given; those of velocities grow with the largest speed so far, those of works with
- * the energy that was turned over: nothing in the motion feels them, but a balance of energy does.
- */
-static double tolerance(const Run *run, int k)
-{
-    if (k >= 2 * N_X)
-        return run->work_scale * run->turned_over;
-    return k < N_X ? run->scale[k] : run->scale[k] * (run->speed[is_angle[k - N_X]] + run->speed_floor[is_angle[k - N_X]]);
-}
-
 static void note_speed(Run *run)
 {
     for (int k = 0; k < N_X; k++)
         run->speed[is_angle[k]] = max_of(run->speed[is_angle[k]], fabs(run->y[N_X + k]));
+}
+
+/*
+ * Tolerances of coordinates are given; those of velocities grow with the largest speed so far, those of works with
+ * the energy that was turned over: nothing in the motion feels them, but a balance of energy does.
+ */
+static void weigh(Run *run)
+{
+    const double of_speed[2] = {1.0 / (run->speed[0] + run->speed_floor[0]), 1.0 / (run->speed[1] + run->speed_floor[1])};
+    for (int k = 0; k < 2 * N_X; k++)
+        run->weight[k] = run->inverse_scale[k] * (k < N_X ? 1.0 : of_speed[is_angle[k - N_X]]);
+    for (int k = 2 * N_X; k < N_Y; k++)
+        run->weight[k] = 1.0 / (run->work_scale * run->turned_over);
 }
 
 static int all_finite(const double *x, int n)

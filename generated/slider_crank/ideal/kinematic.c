@@ -69,7 +69,7 @@ static int close_step(const double t, const double *q, const Parameters *p, doub
     step[0] = step_rod_theta;
     rates[0] = rate_rod_theta;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_cylinder_offset), *worst);
+    *worst = max_of(*worst, fabs(phi_cylinder_offset));
     return 0;
 }
 
@@ -150,7 +150,7 @@ static int arrive(const double t, const double *q, const double *v, const Parame
     /* rates of the closures */
     const double phi_dot_cylinder_offset = motor_rate*span_crank_head_x + rod_omega*span_rod_head_x;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_dot_cylinder_offset), *worst);
+    *worst = max_of(*worst, fabs(phi_dot_cylinder_offset));
 
     /* groups of rows that are solved one after the other */
     const double pivot_cylinder_offset_2 = span_rod_head_x;

@@ -69,6 +69,6 @@ static int closing_step(const double t, const double *q, const double *v, const 
     dq[1] = dq_acceleration_rod_theta;
     dv[1] = dv_acceleration_rod_theta;
     *worst = 0.0;
-    *worst = fmax(fabs(phi_slider_offset), *worst);
+    *worst = max_of(*worst, fabs(phi_slider_offset));
     return 0;
 }

@@ -121,6 +121,6 @@ def _line(text: str) -> str:
         text = text.replace(", p, side, g,", ", p,")
         return re.sub(r"(?<=, )(-?[\d.]+)(?=,)", r"all_of(\1)", text)  # the ground's angular velocity
     if text.startswith("*worst = "):
-        value = text.removeprefix("*worst = ").replace("fmax(fabs(", "lanes_max_of(lanes_fabs(")
+        value = text.removeprefix("*worst = ").replace("max_of(*worst, fabs(", "lanes_max_of(*worst, lanes_fabs(")
         return f"*worst = {'all_of(0.0);' if value == '0.0;' else value}"
     raise ValueError(f"a line of a kernel that has no counterpart for vectors: {text}")
