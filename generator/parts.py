@@ -19,9 +19,10 @@ from itertools import groupby
 import sympy as sp
 
 from gudgeon.generator.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.locality import nearby
 from gudgeon.generator.switches import SideOf
 
-LONG, PART, SHORTEST = 1200, 250, 60
+LONG, PART, SHORTEST = 850, 250, 60
 _NAME = re.compile(r"(?<![\w.>])[A-Za-z_]\w*")
 # A test that fails with its number: `return 3;`, or `{ pivot = 3; goto dependent; };`
 _TEST = re.compile(
@@ -29,6 +30,8 @@ _TEST = re.compile(
     r"(?:return (?P<number>\d+);|\{ (?P<set>\w+) = (?P<told>\d+); (?P<jump>goto \w+); \};)"
 )
 _JUMP = re.compile(r"goto \w+;")
+_SOURCE = re.compile(r"(\w+)(?:->\w+)?(?:\[\d+\]){0,2}")  # `q[3]`, `p->mass`, `sines[2][1]`
+_ARRAYS = re.compile(r"(?P<type>Four) (?P<names>\w+\[\d+\](?:, \w+\[\d+\])*);")
 
 
 @dataclass(frozen=True)
@@ -50,14 +53,17 @@ def cut(kernel: Kernel) -> tuple[Kernel, ...]:
     """The parts in front of the function that calls them; a short kernel is its only part."""
     if sum(len(section.statements) for section in kernel.sections) <= LONG or kernel.returns not in ("void", "int"):
         return (kernel,)
-    items = _items(kernel)
+    items, sources = _items(kernel)
     pieces = _pieces(items)
     if not any(map(_is_part, pieces)):
         return (kernel,)
+    shared = tuple(Argument(f"const {kind} *", name) for name, kind in _arrays(kernel).items())
     passed = _unused_name("passed", items)
     slots = _slots(pieces)
+    cut_up = _Cut(replace(kernel, arguments=(*kernel.arguments, *shared)), slots, passed, sources)
+    title = "values that pass between the parts"
+    main = [Item(title, f"double {passed}[{max(len(slots), 1)}];", frozenset(), False)]
     parts: list[Kernel] = []
-    main = [Item("values that pass between the parts", f"double {passed}[{max(len(slots), 1)}];", frozenset(), False)]
     stored: set[str] = set()
     for k, piece in enumerate(pieces):
         if not _is_part(piece):
@@ -66,29 +72,53 @@ def cut(kernel: Kernel) -> tuple[Kernel, ...]:
         needs = {n for item in piece for n in item.reads if n in slots}
         own = {item.defines for item in piece}
         ready = {item.defines for item in main if item.defines}
-        main += [_store(name, slots, passed) for name in sorted((needs - own) & ready - stored, key=slots.__getitem__)]
+        main += [cut_up.store(name) for name in sorted((needs - own) & ready - stored, key=slots.__getitem__)]
         stored |= needs & ready
         name = f"{kernel.name}_part_{len(parts) + 1}"
-        parts.append(_part(kernel, name, piece, slots, passed))
+        parts.append(cut_up.part(name, piece))
         rest = {n for other in pieces[k + 1 :] if not _is_part(other) for item in other for n in item.reads}
-        main += _call(kernel, name, piece, slots, passed, rest)
+        main += cut_up.call(name, piece, rest)
         stored |= own & set(slots)
-    return (*parts, replace(kernel, sections=_sections(main)))
+    return (*parts, replace(kernel, sections=_sections(_with_sources(main, sources))))
 
 
-def _items(kernel: Kernel) -> list[Item]:
+def _items(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
+    """Everything in its order but for the sources, by name: what reads an argument is read again where it is needed."""
     listed = [(section.title, what) for section in kernel.sections for what in _joined(section.statements)]
     locals_ = {what.target for _, what in listed if isinstance(what, Statement) and what.local}
-    known = locals_ | {argument.name for argument in kernel.arguments}
+    constant = {argument.name for argument in kernel.arguments if argument.type.startswith("const")}
+    constant |= set(_arrays(kernel))
+    known = locals_ | {argument.name for argument in kernel.arguments} | set(_arrays(kernel))
     plain = [what for _, what in listed if isinstance(what, str) and not _TEST.fullmatch(what)]
     fixed = {name for line in plain for name in _NAME.findall(line)} - known
-    items, jumped = [], False
+    items: list[Item] = []
+    sources: dict[str, Item] = {}
+    jumped = False
     for title, what in listed:
         reads = _reads(what)
         is_plain = isinstance(what, Statement) or _TEST.fullmatch(what) is not None
-        items.append(Item(title, what, reads, is_plain and not jumped and not reads & fixed))
+        item = Item(title, what, reads, is_plain and not jumped and not reads & fixed)
         jumped = jumped or (isinstance(what, str) and _JUMP.fullmatch(what) is not None)
-    return items
+        if _source_of(what) in constant:
+            sources[item.defines] = item
+        else:
+            items.append(item)
+    return items, sources
+
+
+def _source_of(what: Statement | str) -> str:
+    """The argument or array that a local is a copy from; "" where it is none."""
+    if isinstance(what, str) or not what.local or not isinstance(what.value, str):
+        return ""
+    copied = _SOURCE.fullmatch(what.value)
+    return copied[1] if copied else ""
+
+
+def _arrays(kernel: Kernel) -> dict[str, str]:
+    """Arrays of results that the function fills before its parts read them, with their type."""
+    lines = [what for section in kernel.sections for what in section.statements if isinstance(what, str)]
+    declared = [found for line in lines if (found := _ARRAYS.fullmatch(line))]
+    return {name: found["type"] for found in declared for name in _NAME.findall(re.sub(r"\[.*?\]", "", found["names"]))}
 
 
 def _joined(statements: Sequence[Statement | str]) -> list[Statement | str]:
@@ -113,11 +143,16 @@ def _reads(what: Statement | str) -> frozenset[str]:
     return frozenset(found).union(_NAME.findall(what.value))
 
 
+def _values(what: Statement | str) -> frozenset[str]:
+    """What a statement reads, not where it writes."""
+    return _reads(replace(what, local=True) if isinstance(what, Statement) else what)
+
+
 def _pieces(items: Sequence[Item]) -> list[list[Item]]:
     """Runs of what may move, each cut into equal shares of at most PART; what stays, as it stands."""
     pieces = []
     for movable, group in groupby(items, key=lambda item: item.movable):
-        run = list(group)
+        run = _near(list(group))
         if movable and len(run) >= SHORTEST:
             count = -(-len(run) // PART)
             size = -(-len(run) // count)
@@ -151,28 +186,17 @@ def _unused_name(name: str, items: Sequence[Item]) -> str:
     return name
 
 
-def _store(name: str, slots: dict[str, int], passed: str) -> Item:
-    statement = Statement(f"{passed}[{slots[name]}]", name, False)
-    return Item("what the next part reads", statement, frozenset({name}), False)
+def _near(run: list[Item]) -> list[Item]:
+    """In the order of locality.py, unless something reads what is no local."""
+    results = [item.what.target for item in run if isinstance(item.what, Statement) and not item.what.local]
+    written = {_NAME.findall(target)[0] for target in results}
+    if any(written & _values(item.what) for item in run):
+        return run
+    return [run[k] for k in nearby([item.reads for item in run], [item.defines for item in run])]
 
 
-def _load(name: str, slots: dict[str, int], passed: str) -> Item:
-    return Item("what comes back", Statement(name, f"{passed}[{slots[name]}]"), frozenset({passed}), False)
-
-
-def _part(kernel: Kernel, name: str, piece: Sequence[Item], slots: dict[str, int], passed: str) -> Kernel:
-    """One part: what it reads of others, its own statements, what others read of it."""
-    own = {item.defines for item in piece}
-    needs = sorted({n for item in piece for n in item.reads if n in slots and n not in own}, key=slots.__getitem__)
-    tested = any(isinstance(item.what, str) for item in piece)
-    before = [replace(_load(n, slots, passed), title="from the parts before") for n in needs]
-    within = [replace(item, what=_failing(item.what)) if isinstance(item.what, str) else item for item in piece]
-    after = [replace(_store(n, slots, passed), title="for the parts that follow") for n in slots if n in own]
-    end = [Item("for the parts that follow", "return 0;", frozenset(), False)] if tested else []
-    return Kernel(
-        name, (f"A part of `{kernel.name}`, which calls it.",), (*kernel.arguments, Argument("double *", passed)),
-        _sections([*before, *within, *after, *end]), "int" if tested else "void", attribute="noinline",
-    )  # fmt: skip
+def _load(name: str, value: str) -> Item:
+    return Item("what comes back", Statement(name, value), frozenset(_NAME.findall(value)), False)
 
 
 def _failing(line: str) -> str:
@@ -182,25 +206,83 @@ def _failing(line: str) -> str:
     return f"if ({found['test']}) return {found['number'] or found['told']};"
 
 
-def _call(
-    kernel: Kernel, name: str, piece: Sequence[Item], slots: dict[str, int], passed: str, rest: set[str]
-) -> list[Item]:
-    """The call, what the function itself reads of the part, and what is done where a test failed."""
-    call = f"{name}({', '.join(argument.name for argument in kernel.arguments)}, {passed});"
-    tests = [found for item in piece if isinstance(item.what, str) and (found := _TEST.fullmatch(item.what))]
-    loads = [_load(n, slots, passed) for n in slots if n in rest and n in {item.defines for item in piece}]
-    if not tests:
-        lines, after = [call], []
-    elif tests[0]["jump"]:
-        lines, after = [f"{tests[0]['set']} = {call}"], [f"if ({tests[0]['set']}) {tests[0]['jump']};"]
-    else:
-        status = f"status_{name.rpartition('_')[2]}"
-        lines, after = [f"const int {status} = {call}"], [f"if ({status}) return {status};"]
-    title = piece[0].title
-    return [
-        *(Item(title, line, frozenset(), False) for line in lines), *loads,
-        *(Item("what comes back", line, frozenset(), False) for line in after),
-    ]  # fmt: skip
+def _with_sources(main: Sequence[Item], sources: dict[str, Item]) -> list[Item]:
+    """The function itself with the sources that it reads: arguments first of all, arrays behind what fills them.
+
+    Not where they are read: that may be in a block, or behind a label.
+    """
+    needed = [item for name, item in sources.items() if any(name in other.reads for other in main)]
+    filled = {name for item in main if isinstance(item.what, str) for name in _filled(item.what)}
+    found = [item for item in needed if not item.reads & filled]
+    for item in main:
+        found.append(item)
+        if isinstance(item.what, str) and (names := _filled(item.what)):
+            found += [source for source in needed if source.reads & names]
+    return found
+
+
+def _filled(line: str) -> set[str]:
+    """The arrays that a line has a function fill."""
+    return set(_NAME.findall(line)) if line.startswith("many_") else set()
+
+
+@dataclass(frozen=True)
+class _Cut:
+    """A kernel with the arguments of its parts, and what passes between them: places in `passed`, sources."""
+
+    kernel: Kernel
+    slots: dict[str, int]
+    passed: str
+    sources: dict[str, Item]
+
+    def store(self, name: str) -> Item:
+        """For a part."""
+        statement = Statement(f"{self.passed}[{self.slots[name]}]", name, False)
+        return Item("what the next part reads", statement, frozenset({name}), False)
+
+    def load(self, name: str) -> Item:
+        """Of a part before."""
+        return _load(name, f"{self.passed}[{self.slots[name]}]")
+
+    def part(self, name: str, piece: list[Item]) -> Kernel:
+        """One part: what it reads of others, its own statements, what others read of it."""
+        own = {item.defines for item in piece}
+        tested = any(isinstance(item.what, str) for item in piece)
+        within: list[Item] = []
+        known = set(own)
+        for item in piece:
+            for needed in sorted(item.reads - known):
+                if needed in self.sources or needed in self.slots:
+                    read = self.sources[needed] if needed in self.sources else self.load(needed)
+                    within.append(replace(read, title=item.title))
+                    known.add(needed)
+            within.append(replace(item, what=_failing(item.what)) if isinstance(item.what, str) else item)
+            if item.defines in self.slots:
+                within.append(replace(self.store(item.defines), title=item.title))
+        end = [Item("", "return 0;", frozenset(), False)] if tested else []
+        return Kernel(
+            name, (f"A part of `{self.kernel.name}`, which calls it.",),
+            (*self.kernel.arguments, Argument("double *", self.passed)), _sections([*within, *end]),
+            "int" if tested else "void", attribute="noinline",
+        )  # fmt: skip
+
+    def call(self, name: str, piece: list[Item], rest: set[str]) -> list[Item]:
+        """The call, what the function itself reads of the part, and what is done where a test failed."""
+        call = f"{name}({', '.join(argument.name for argument in self.kernel.arguments)}, {self.passed});"
+        tests = [found for item in piece if isinstance(item.what, str) and (found := _TEST.fullmatch(item.what))]
+        loads = [self.load(n) for n in self.slots if n in rest and n in {item.defines for item in piece}]
+        if not tests:
+            lines, after = [call], []
+        elif tests[0]["jump"]:
+            lines, after = [f"{tests[0]['set']} = {call}"], [f"if ({tests[0]['set']}) {tests[0]['jump']};"]
+        else:
+            status = f"status_{name.rpartition('_')[2]}"
+            lines, after = [f"const int {status} = {call}"], [f"if ({status}) return {status};"]
+        title = piece[0].title
+        return [
+            *(Item(title, line, frozenset(), False) for line in lines), *loads,
+            *(Item("what comes back", line, frozenset(), False) for line in after),
+        ]  # fmt: skip
 
 
 def _sections(items: Sequence[Item]) -> tuple[Section, ...]:

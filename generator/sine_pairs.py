@@ -14,6 +14,8 @@ import sympy as sp
 
 from gudgeon.generator.kernels import Kernel, Section, Statement
 
+MANY = 4  # groups, beyond which they are computed in a loop
+
 
 def side_by_side(kernel: Kernel) -> Kernel:
     """The kernel with the cosines and sines of symbols taken from vectors, as soon as their angles are known."""
@@ -57,19 +59,26 @@ def _grouped(
 
 
 def _vectors(angles: Sequence[sp.Symbol | None], taken: Sequence[Statement]) -> list[Statement | str]:
-    """Groups of four angles, and the statements that read the results."""
+    """Groups of four angles, and the statements that read the results; many groups in a loop, which is shorter."""
     lines: list[Statement | str] = []
-    for g in range(0, len(angles), 4):
-        names = [str(a) for a in angles[g : g + 4]]
-        names += [names[-1]] * (4 - len(names))
-        n = g // 4
-        lines.append(f"const Four angles_{n} = {{{', '.join(names)}}};")
-        lines.append(f"Four sines_{n}, cosines_{n};")
-        lines.append(f"sines_and_cosines(&angles_{n}, &sines_{n}, &cosines_{n});")
+    named = [str(a) for a in angles] + [str(angles[-1])] * (-len(angles) % 4)
+    groups = [", ".join(named[g : g + 4]) for g in range(0, len(named), 4)]
+    count, many = len(groups), len(groups) > MANY
+    if many:
+        lines.append(f"const Four angles_of[{count}] = {{{', '.join(f'{{{group}}}' for group in groups)}}};")
+        lines.append(f"Four sines_of[{count}], cosines_of[{count}];")
+        lines.append(f"many_sines_and_cosines({count}, angles_of, sines_of, cosines_of);")
+    else:
+        for n, group in enumerate(groups):
+            lines.append(f"const Four angles_{n} = {{{group}}};")
+            lines.append(f"Four sines_{n}, cosines_{n};")
+            lines.append(f"sines_and_cosines(&angles_{n}, &sines_{n}, &cosines_{n});")
+    places = {angle: k for k, angle in enumerate(angles)}
     for s in taken:
-        k = angles.index(_angle(s))
+        n, lane = divmod(places[_angle(s)], 4)
         which = "cosines" if isinstance(s.value, sp.cos) else "sines"
-        lines.append(Statement(s.target, f"{which}_{k // 4}[{k % 4}]", s.local, s.comment))
+        value = f"{which}_of[{n}][{lane}]" if many else f"{which}_{n}[{lane}]"
+        lines.append(Statement(s.target, value, s.local, s.comment))
     return lines
 
 

@@ -20,7 +20,7 @@ t q v y p g f b x a dy phi nu gamma e nx ny tx ty out given is_given latch memor
 delta deltadot ratio F_n F_t v_t epsilon w_n w_t root W factor rows force rhs powers dependent
 reactions torques series max_of min_of sign_of solve_dependent errno stdin stdout stderr signgam
 side side_of
-r Four FourBits sines_and_cosines turned_by_library
+r Four FourBits sines_and_cosines many_sines_and_cosines turned_by_library
 expand reduce_state reduce_accelerations solve_by_absolute all_q all_v all_a s s_rate whole closure
 e_x e_y de_x de_y de_t omega_i omega_j n_x n_y stored a_i a_j share F_r T0 F_x F_y F_along_n F_along_t M_i M_j
 eta eta_row eta_stick lin r s u x depth unclipped dF value slope film
@@ -37,7 +37,7 @@ _MACRO = re.compile(
 )
 # Functions that are called where a parameter of that name is a local; parts of a clearance joint's force.
 _FUNCTION = re.compile(
-    r"(angles|sines|cosines)_\d+|(clearance|tangent)_\w+|\w*newton_substitute|side_\d+"
+    r"(angles|sines|cosines)_(\d+|of)|(clearance|tangent)_\w+|\w*newton_substitute|side_\d+"
     r"|(F_along_[nt]|M_[ij])_(dry|film)"
 )
 

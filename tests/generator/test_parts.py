@@ -9,8 +9,9 @@ import pytest
 
 from gudgeon.build import compile_kernels
 from gudgeon.compiled import CompiledModel
-from gudgeon.generator import parts
+from gudgeon.generator import parts, sine_pairs
 from gudgeon.generator.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.locality import nearby
 from gudgeon.generator.pipeline import generate
 from gudgeon.mechanisms.n_four_bar import text
 from gudgeon.shipped import shipped_file
@@ -32,7 +33,8 @@ def simulation(name: str, scene: str, formulation: str, n: int = 0) -> Simulatio
 
 
 def shorten(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Everything is long."""
+    """Everything is long, and has many angles."""
+    monkeypatch.setattr(sine_pairs, "MANY", 1)
     for name, value in (("LONG", 30), ("PART", 17), ("SHORTEST", 5)):
         monkeypatch.setattr(parts, name, value)
 
@@ -69,6 +71,23 @@ def test_a_pivot_that_vanishes_within_a_part_is_dealt_with_as_before(
     one, two = (s.rhs(0.0, y) for s in (whole, cut))
     assert np.isfinite(one).all() and abs(one[21:]).max() > 0.1
     assert np.array_equal(one, two)
+
+
+def test_statements_stand_near_what_reads_them() -> None:
+    # two pairs of values, computed first and read last: each pair moves to what reads it
+    defines = ["a", "b", "c", "d", "ab", "cd", ""]
+    reads = [frozenset(names.split()) for names in ("x", "y", "x", "y", "a b", "c d", "ab cd")]
+    assert nearby(reads, defines) == [0, 1, 4, 2, 3, 5, 6]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_every_statement_comes_once_and_behind_what_it_reads(seed: int) -> None:
+    draw = np.random.default_rng(seed)
+    needs = [set(draw.integers(0, k, size=3).tolist()) if k else set() for k in range(300)]
+    order = nearby([frozenset(f"x{j}" for j in own) for own in needs], [f"x{k}" for k in range(300)])
+    place = {k: n for n, k in enumerate(order)}
+    assert sorted(order) == list(range(300)) and order != sorted(order)
+    assert all(place[j] < place[k] for k, own in enumerate(needs) for j in own)
 
 
 def test_a_short_kernel_is_its_only_part() -> None:

@@ -40,3 +40,10 @@ static inline void sines_and_cosines(const Four *angle, Four *sine, Four *cosine
     if (!(small[0] & small[1] & small[2] & small[3]))
         turned_by_library(angle, sine, cosine);
 }
+
+/* Of n groups. */
+static inline void many_sines_and_cosines(int n, const Four *angle, Four *sine, Four *cosine)
+{
+    for (int k = 0; k < n; k++)
+        sines_and_cosines(&angle[k], &sine[k], &cosine[k]);
+}
