@@ -58,7 +58,7 @@ def measure(n: int, formulation: str, folder: Path) -> tuple[float, ...]:
     data, file = yaml_text(n).encode(), folder / f"n_four_bar_{n}.yaml"
     file.write_bytes(data)
     repeats = 2 if n <= 16 else 1
-    derived = least(lambda: derive(data, file.name, "ideal"), repeats)
+    derived = least(lambda: derive(data, file.name, "ideal"), 3)
     model = derive(data, file.name, "ideal")
     emitted = least(lambda: emit(model, formulation), repeats)
     source = emit(model, formulation)
