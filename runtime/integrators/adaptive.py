@@ -29,7 +29,7 @@ from gudgeon.start import mechanism_sizes
 CHOICES = {"dop853": 0, "rodas5p": 1, "adaptive": 2}
 BEGIN_STIFF = 3  # adaptive in a scene with a film: stiff from rest on (physics.md, section 6)
 RTOL = 1e-8  # of a plain run
-FELT_BY_FILMS = 0.02  # share of the speeds within a film that an error of velocities may be
+FELT_BY_FILMS = 0.015  # share of the speeds within a film that an error of velocities may be
 SMALLEST = 1e-14  # rounding would be controlled below it
 CHUNK = 4_000  # steps between two looks of Python: some 20 ms
 ADVICE = "the motion may leave what the model holds for; look at the last samples"
