@@ -7,6 +7,7 @@ import numpy as np
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.dead_centre import nearly_dependent_rows
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
+from gudgeon.start import mechanism_size
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE = -2, -4, -5, -6, -8
 NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
@@ -43,7 +44,9 @@ def failure(
         finite = bool(np.isfinite(last).all())
         if finite and np.abs(last).max() < 1e12:
             return error
-        if finite and (dead := _dead_centre(compiled, last, p, t)):  # speeds grew so far that a pivot drowned in them
+        # at a dead centre speeds grow until a pivot drowns in them, while everything stays where it is
+        dead = _dead_centre(compiled, last, p, t) if finite and _is_in_place(compiled, last, p) else None
+        if dead:
             return dead
         where = f"t = {t:.9g} s (constraint row {error.pivot})"
         return NonFiniteError(f"the motion diverged before {where}\n  {advice}", t, error.pivot)
@@ -63,6 +66,12 @@ def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> Solv
     )  # fmt: skip
     error.outside_model = True
     return error
+
+
+def _is_in_place(compiled: CompiledModel, last: Array, p: Array) -> bool:
+    """Whether no body has flown off."""
+    places = [k for k, name in enumerate(compiled.source.coordinates) if not name.endswith(".theta")]
+    return bool(np.abs(np.ravel(last)[places]).max(initial=0.0) < 1e4 * max(mechanism_size(compiled, p), 1e-3))
 
 
 def _dead_centre(compiled: CompiledModel, last: Array, p: Array, t: float) -> SolverError | None:

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import gudgeon
 from gudgeon.cli import app
-from gudgeon.errors import BadValueError, SolverError
+from gudgeon.errors import BadValueError, NonFiniteError, SolverError
 
 from .scenes import Load, loader
 
@@ -67,6 +68,40 @@ def test_event_that_comes_often(load: Load, method: str) -> None:
     text = BLOCK.format(x=0, force="1 N") + "events: {tick: {zero: sin(20*pi*t), direction: rising}}\n"
     run = load(text).simulate(9.95, output=10, method=method)
     assert run.events_of("tick") == pytest.approx(np.arange(1, 100) * 0.1, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("zero", "height"), [("sqrt(ball.y / (1 m)) - 0.5", 0.25), ("(ball.y / (1 m))**1.5 - 0.3", 0.3 ** (2 / 3))]
+)
+@pytest.mark.parametrize("rtol", [1e-3, 1e-8])
+def test_event_whose_expression_has_an_end(load: Load, zero: str, height: float, rtol: float) -> None:
+    """A ball falls from 1 m: steps end below the ground, where the expression is no number."""
+    text = f"""
+    gravity: [0, -9.81 m/s^2]
+    bodies: {{ball: {{mass: 1 kg, inertia: 1e-2 kg*m^2}}}}
+    start: {{set: {{ball.x: 0, ball.y: 1, ball.theta: 0}}}}
+    events: {{low: {{zero: "{zero}"}}}}
+    """
+    run = load(text).simulate(2.0, output=3, method="dop853", rtol=rtol)
+    assert run.events_of("low") == pytest.approx([math.sqrt(2 * (1 - height) / 9.81)], abs=1e-9)
+
+
+def test_what_flies_off_is_no_dead_centre(tmp_path: Path) -> None:
+    """A bead on an arm that turns evenly: r = r0 cosh ωt without end."""
+    file = tmp_path / "fly.yaml"
+    file.write_text("""
+format: gudgeon/1
+name: fly
+bodies: {arm: {mass: 1 kg, inertia: 0.1 kg*m^2}, bead: {mass: 1 kg, inertia: 0.1 kg*m^2}}
+ground: {O: [0, 0]}
+joints:
+  pin: {revolute: [ground.O, arm.origin]}
+  guide: {translational: [arm.origin, bead.origin], axis: [1, 0]}
+drives: {turn: {angle: arm, value: 10 rad/s * t}}
+start: {set: {bead.x: 0.1}, rates: {bead.vx: 0}}
+""", encoding="utf-8")  # fmt: skip
+    with pytest.raises(NonFiniteError, match="diverged"):
+        gudgeon.load(file, formulation="full").simulate(4.0, output=5, method="dop853")
 
 
 @pytest.mark.parametrize("method", ["dop853", "rodas5p"])

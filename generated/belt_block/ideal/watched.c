@@ -17,7 +17,7 @@ static void look_at(Run *run, double t, const double *y, const Parameters *p, As
 static int may_vanish(const Run *run, const Step *step, int k, double *range)
 {
     const double start = margin(&run->memory, &run->aside, k), end = margin(&run->memory, &step->aside, k);
-    double least = min_of(end, start), most = max_of(end, start);
+    double least = min_of(start, end), most = max_of(start, end); /* the end may lie outside of an expression's domain */
     for (int i = 0; i < step->n_seen; i++) {
         least = min_of(least, step->seen[i][k]);
         most = max_of(most, step->seen[i][k]);
@@ -75,7 +75,7 @@ static int is_unresolved(Run *run, Step *step, const Parameters *p)
             least = min_of(least, step->look[i][j]);
             most = max_of(most, step->look[i][j]);
         }
-        const double missed = misfit(step->look[i]), enough = max_of(10.0 * change[i], 0.05 * (most - least));
+        const double missed = misfit(step->look[i]), enough = max_of(0.05 * (most - least), 10.0 * change[i]);
         /* stages that see far more than the looks: these keep time with what they look at */
         const int beats = range[i] > 2.0 * (most - least) + 10.0 * change[i] && !step->stiff;
         if (step->near[i] && (missed > enough || beats) && least - missed < 0.0)
