@@ -28,6 +28,8 @@ SINGULAR = 1e-13
 # Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
 # The rank-revealing way (templates/c/singular.c.jinja) leaves it out for the moment if the others agree.
 NEARLY_SINGULAR = 1e-8
+# Below it a state is not put back onto the constraints: rounding would be blown up to 1e-11 there.
+PROJECTED = 1e-10
 # The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
 # and the other way to solve is exact.
 EARLY = 1e-5
@@ -160,12 +162,22 @@ class KKT:
         if rows:
             early = any(i < self.n for i in self.elimination.structure[second])
             share = max(share, EARLY) if early else share
-            build.line(Guard(f"{own[0]} > {share!r} * {scale[0]}", failed[0]))
-            build.line(Guard(f"{determinant} > {share!r} * {scale[1]} * {own[0]}", failed[1]))
+            sizes = self._sizes(build, block, scale)
+            build.line(Guard(f"{own[0]} > {share!r} * {sizes[0]}", failed[0]))
+            build.line(Guard(f"{determinant} > {share!r} * {sizes[1]} * {own[0]}", failed[1]))
         inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
         one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
         both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
         return {first: {first: one, second: both}, second: {first: both, second: two}}
+
+    def _sizes(self, build: KernelBuilder, block: Sequence[int], scale: Sequence[sp.Symbol]) -> Sequence[sp.Symbol]:
+        """What pivots of two rows are compared with: of a joint's x and y their sum, since where links stand in one line
+        one of them may vanish as a whole, in a tree's angles, and is no smaller than itself."""
+        one, two = (self.rows[k - self.n] for k in block)
+        if one.owner != two.owner or one.unit != two.unit:
+            return scale
+        both = build.local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
+        return both, both
 
     def _coordinate_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],

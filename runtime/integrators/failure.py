@@ -79,9 +79,14 @@ def _dead_centre(compiled: CompiledModel, last: Array, p: Array, t: float) -> So
     rows = nearly_dependent_rows(compiled, p, t, np.ravel(last)[: compiled.n])
     if not rows:
         return None
+    advice = (
+        "the lengths do not let the drives move on from there; end the run before it, or change the drive"
+        if compiled.source.drives
+        else "links stand in one line there, and which way they go on is undetermined; another rtol may step over it"
+    )
     return SolverError(
         f"the linkage reaches a dead centre at t = {t:.9g} s: constraint rows {', '.join(rows)} depend on each other\n"
-        "  the lengths do not let the drives move on from there; end the run before it, or change the drive", t
+        f"  {advice}", t
     )  # fmt: skip
 
 

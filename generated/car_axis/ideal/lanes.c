@@ -320,7 +320,7 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes l_slot_offset__axle_theta_4 = inverse_axle_inertia*w_slot_offset__axle_theta_3;
     const Lanes scale_slot_offset_4 = -cos_theta_road*l_slot_offset__axle_x_4 +
         l_slot_offset__axle_theta_4*w_slot_offset__axle_theta_3 - l_slot_offset__axle_y_4*sin_theta_road;
-    *rare |= ~(scale_slot_offset_4 > 1e-13 * scale_slot_offset_4);
+    *rare |= ~(scale_slot_offset_4 > 1e-10 * scale_slot_offset_4);
     const Lanes inverse_pivot_slot_offset_4 = 1.0/scale_slot_offset_4;
 
     /* backward substitution */

@@ -53,7 +53,7 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double l_slot_offset__axle_theta_4 = inverse_axle_inertia*w_slot_offset__axle_theta_3;
     const double scale_slot_offset_4 = -cos_theta_road*l_slot_offset__axle_x_4 +
         l_slot_offset__axle_theta_4*w_slot_offset__axle_theta_3 - l_slot_offset__axle_y_4*sin_theta_road;
-    if (!(scale_slot_offset_4 > 1e-13 * scale_slot_offset_4)) return 1;
+    if (!(scale_slot_offset_4 > 1e-10 * scale_slot_offset_4)) return 1;
     const double inverse_pivot_slot_offset_4 = 1.0/scale_slot_offset_4;
 
     /* backward substitution */

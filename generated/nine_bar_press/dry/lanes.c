@@ -737,7 +737,7 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes l_guide_offset__L6_theta_4 = inverse_pivot_L6_theta_4*w_guide_offset__L6_theta_3;
     const Lanes scale_guide_offset_4 = l_guide_offset__L6_theta_4*w_guide_offset__L6_theta_3 +
         l_guide_offset__L8_theta_4*span_L8_head_y;
-    *rare |= ~(scale_guide_offset_4 > 1e-13 * scale_guide_offset_4);
+    *rare |= ~(scale_guide_offset_4 > 1e-10 * scale_guide_offset_4);
     const Lanes inverse_pivot_guide_offset_4 = 1.0/scale_guide_offset_4;
 
     /* backward substitution */

@@ -92,7 +92,7 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double l_guide_offset__L6_theta_4 = inverse_pivot_L6_theta_4*w_guide_offset__L6_theta_3;
     const double scale_guide_offset_4 = l_guide_offset__L6_theta_4*w_guide_offset__L6_theta_3 +
         l_guide_offset__L8_theta_4*span_L8_head_y;
-    if (!(scale_guide_offset_4 > 1e-13 * scale_guide_offset_4)) return 1;
+    if (!(scale_guide_offset_4 > 1e-10 * scale_guide_offset_4)) return 1;
     const double inverse_pivot_guide_offset_4 = 1.0/scale_guide_offset_4;
 
     /* backward substitution */

@@ -73,16 +73,33 @@ static void choose(Run *run)
         change_method(run);
 }
 
+/* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
+static void next_length(Run *run, const Step *step, double power, int again, int whole)
+{
+    const double error = max_of(1e-12, step->error);
+    double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
+    if (!run->stiff && run->stability > 1.0)
+        factor = min_of(factor, 1.1 * BOUNDED / run->stability);
+    factor = min_of(again ? 1.0 : step->looked ? 2.0 : 6.0, max_of(0.3, factor));
+    run->error_before = max_of(1e-4, error);
+    if (run->first)
+        *run->first = step->h;
+    run->first = NULL;
+    if (step->h * factor > run->h || (whole && run->skip < 0) || factor < 1.0)
+        run->h = step->h * factor;
+}
+
 /* One accepted step towards t_end; the next step's length in run->h. Events are not looked for here. */
 static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step)
 {
     const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * max_of(fabs(t_end), fabs(run->t));
     double h = run->fixed > 0.0 ? run->fixed : run->h;
-    int again = 0, shortened = 0;
+    int again = 0, shortened = 0, given_up = 0;
     if (run->skip >= 0 && run->fixed <= 0.0)
         h = min_of(h, run->pace);
     if (h > left * (1.0 - 1e-9))
         h = left;
+    const double longest = h;
     for (;;) {
         const double power = run->stiff ? 0.2 : 0.125;
         const int status = run->stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
@@ -90,7 +107,7 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
             return status;
         if (!status && step->error <= run->accept && !run->stiff && run->fixed <= 0.0 && run->stability > UNSTABLE) {
             run->rejected++;
-            if (run->choice == AUTOMATIC)
+            if (run->choice == AUTOMATIC && !given_up)
                 change_method(run);
             else
                 h *= BOUNDED / run->stability;
@@ -104,17 +121,7 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
             continue;
         }
         if (!status && step->error <= run->accept) {
-            const double error = max_of(1e-12, step->error);
-            double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
-            if (!run->stiff && run->stability > 1.0)
-                factor = min_of(factor, 1.1 * BOUNDED / run->stability);
-            factor = min_of(again ? 1.0 : step->looked ? 2.0 : 6.0, max_of(0.3, factor));
-            run->error_before = max_of(1e-4, error);
-            if (run->first)
-                *run->first = h;
-            run->first = NULL;
-            if (h * factor > run->h || (h < left && run->skip < 0) || factor < 1.0)
-                run->h = h * factor;
+            next_length(run, step, power, again, h < left);
             /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
             run->crawl = h < 256.0 * least ? run->crawl + 1 : 0;
             return run->crawl > MAX_CRAWL ? TOO_SMALL : 0;
@@ -122,8 +129,12 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
         again = 1;
         run->rejected++;
         h *= status ? 0.25 : min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -power)));
-        if (!(h > least))
+        if (h > least)
+            continue;
+        if (run->choice != AUTOMATIC || !run->stiff || given_up++)
             return status ? status : TOO_SMALL;
+        change_method(run); /* its matrix is singular where rows depend on each other; the other one knows a way */
+        h = longest;
     }
 }
 

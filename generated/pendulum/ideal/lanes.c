@@ -181,7 +181,7 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes l_rod_length__bob_y_4 = inverse_bob_mass*w_rod_length__bob_y_3;
     const Lanes scale_rod_length_4 = l_rod_length__bob_x_4*w_rod_length__bob_x_3 +
         l_rod_length__bob_y_4*w_rod_length__bob_y_3;
-    *rare |= ~(scale_rod_length_4 > 1e-13 * scale_rod_length_4);
+    *rare |= ~(scale_rod_length_4 > 1e-10 * scale_rod_length_4);
     const Lanes inverse_pivot_rod_length_4 = 1.0/scale_rod_length_4;
 
     /* backward substitution */

@@ -31,7 +31,7 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double l_rod_length__bob_y_4 = inverse_bob_mass*w_rod_length__bob_y_3;
     const double scale_rod_length_4 = l_rod_length__bob_x_4*w_rod_length__bob_x_3 +
         l_rod_length__bob_y_4*w_rod_length__bob_y_3;
-    if (!(scale_rod_length_4 > 1e-13 * scale_rod_length_4)) return 1;
+    if (!(scale_rod_length_4 > 1e-10 * scale_rod_length_4)) return 1;
     const double inverse_pivot_rod_length_4 = 1.0/scale_rod_length_4;
 
     /* backward substitution */

@@ -292,7 +292,7 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes l_slider_offset__rod_theta_4 = inverse_pivot_rod_theta_4*w_slider_offset__rod_theta_3;
     const Lanes scale_slider_offset_4 = l_slider_offset__crank_theta_4*span_crank_head_x +
         l_slider_offset__rod_theta_4*w_slider_offset__rod_theta_3;
-    *rare |= ~(scale_slider_offset_4 > 1e-13 * scale_slider_offset_4);
+    *rare |= ~(scale_slider_offset_4 > 1e-10 * scale_slider_offset_4);
     const Lanes inverse_pivot_slider_offset_4 = 1.0/scale_slider_offset_4;
 
     /* backward substitution */

@@ -48,7 +48,7 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double l_slider_offset__rod_theta_4 = inverse_pivot_rod_theta_4*w_slider_offset__rod_theta_3;
     const double scale_slider_offset_4 = l_slider_offset__crank_theta_4*span_crank_head_x +
         l_slider_offset__rod_theta_4*w_slider_offset__rod_theta_3;
-    if (!(scale_slider_offset_4 > 1e-13 * scale_slider_offset_4)) return 1;
+    if (!(scale_slider_offset_4 > 1e-10 * scale_slider_offset_4)) return 1;
     const double inverse_pivot_slider_offset_4 = 1.0/scale_slider_offset_4;
 
     /* backward substitution */
