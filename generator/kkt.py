@@ -171,8 +171,10 @@ class KKT:
         return {first: {first: one, second: both}, second: {first: both, second: two}}
 
     def _sizes(self, build: KernelBuilder, block: Sequence[int], scale: Sequence[sp.Symbol]) -> Sequence[sp.Symbol]:
-        """What pivots of two rows are compared with: of a joint's x and y their sum, since where links stand in one line
-        one of them may vanish as a whole, in a tree's angles, and is no smaller than itself."""
+        """What pivots of two rows are compared with: of a joint's x and y the sum of their scales.
+
+        In a tree's angles one of them vanishes as a whole where links stand in one line, and is as large as itself.
+        """
         one, two = (self.rows[k - self.n] for k in block)
         if one.owner != two.owner or one.unit != two.unit:
             return scale
