@@ -38,7 +38,7 @@ RK4_STEPS = {
     "dry": (1e-5, 5e-6, 2e-6, 1e-6, 5e-7),
     "andrews": (2e-4, 1e-4, 5e-5, 2e-5, 1e-5),
 }
-EXUDYN_STEPS = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7)
+EXUDYN_STEPS = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1.5e-7)  # below it rounding grows
 CVODE_SWEEP = (1e-7, 1e-8)  # neighbours of a worst error of 1e-6
 SWEEP = (10, 20)  # clearances, speeds
 
