@@ -28,8 +28,9 @@ SINGULAR = 1e-13
 # Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
 # The rank-revealing way (templates/c/singular.c.jinja) leaves it out for the moment if the others agree.
 NEARLY_SINGULAR = 1e-8
-# Below it a state is not put back onto the constraints: rounding would be blown up to 1e-11 there.
-PROJECTED = 1e-10
+# Share of a joint's two rows that is left of one of them where it counts as vanished: their size is the squared sine
+# of the angle to the singular position, and within 1e-5 of it rounding decides where things go.
+VANISHING = 1e-10
 # The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
 # and the other way to solve is exact.
 EARLY = 1e-5
@@ -162,24 +163,29 @@ class KKT:
         if rows:
             early = any(i < self.n for i in self.elimination.structure[second])
             share = max(share, EARLY) if early else share
-            sizes = self._sizes(build, block, scale)
-            build.line(Guard(f"{own[0]} > {share!r} * {sizes[0]}", failed[0]))
-            build.line(Guard(f"{determinant} > {share!r} * {sizes[1]} * {own[0]}", failed[1]))
+            build.line(Guard(f"{own[0]} > {share!r} * {scale[0]}", failed[0]))
+            build.line(Guard(f"{determinant} > {share!r} * {scale[1]} * {own[0]}", failed[1]))
+            self._look_for_vanishing(build, block, scale, (own[0], determinant), failed)
         inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
         one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
         both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
         return {first: {first: one, second: both}, second: {first: both, second: two}}
 
-    def _sizes(self, build: KernelBuilder, block: Sequence[int], scale: Sequence[sp.Symbol]) -> Sequence[sp.Symbol]:
-        """What pivots of two rows are compared with: of a joint's x and y the sum of their scales.
+    def _look_for_vanishing(
+        self, build: KernelBuilder, block: Sequence[int], scale: Sequence[sp.Symbol],
+        found: tuple[sp.Expr, sp.Expr], failed: Sequence[str],
+    ) -> None:  # fmt: skip
+        """The pivots of a joint's x and y, `found` and their determinant, against the sum of their scales.
 
-        In a tree's angles one of them vanishes as a whole where links stand in one line, and is as large as itself.
+        In a tree's angles one of these rows vanishes as a whole where links stand in one line, and is as large as
+        itself there.
         """
         one, two = (self.rows[k - self.n] for k in block)
-        if one.owner != two.owner or one.unit != two.unit:
-            return scale
-        both = build.local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
-        return both, both
+        if not self.system.in_tree or one.owner != two.owner or one.unit != two.unit:
+            return
+        size = build.local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
+        build.line(Guard(f"{found[0]} > {VANISHING!r} * {size}", failed[0]))
+        build.line(Guard(f"{found[1]} > {VANISHING!r} * {size} * {found[0]}", failed[1]))
 
     def _coordinate_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],

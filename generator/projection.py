@@ -9,7 +9,7 @@ import sympy as sp
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE
 from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Statement
-from gudgeon.generator.kkt import KKT, PROJECTED
+from gudgeon.generator.kkt import KKT, VANISHING
 from gudgeon.generator.switches import SideOf
 from gudgeon.generator.system import System
 
@@ -50,7 +50,7 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
         named = row.name.replace(".", "_")
         phi[kkt.n + r] = build.local(f"phi_{named}", row.phi)
         phi_dot[kkt.n + r] = build.local(f"phi_dot_{named}", row.phi_q_v - row.nu)
-    factor = kkt.factorize(build, share=PROJECTED)
+    factor = kkt.factorize(build, share=VANISHING)  # nearer, rounding would be blown up
     x, u = kkt.solve(build, factor, phi, "dq_"), kkt.solve(build, factor, phi_dot, "dv_")
     build.section("results")
     for k, _ in enumerate(system.q):

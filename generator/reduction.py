@@ -37,6 +37,7 @@ class TreeSystem(System):
     slides: Mapping[str, Affine]  # slides that a drive prescribes, or that another slide tells
     sliding: tuple[str, ...]  # the rows that say so, one a slide
     chain: Chain | None = None  # what the drives determine through loops (driven_chains.py)
+    in_tree = True
 
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Generalized forces of loads; forces with the same lever are added first."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import sympy as sp
 
@@ -63,6 +64,7 @@ class System:
     rows: tuple[Row, ...]
     frictions: tuple[Friction, ...]
     known: tuple[Known, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
+    in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Generalized forces (n) of loads, and those on given coordinates by name: Jᵀ f at each point."""

@@ -283,9 +283,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O_y = -arm_OF_O_x*l_O_y__OF_theta + inverse_OF_mass;
     const double pivot_O_x__O_y = arm_OF_O_y*l_O_y__OF_theta;
     const double determinant_O_x__O_y = -(pivot_O_x__O_y * pivot_O_x__O_y) + scale_O_x*scale_O_y;
-    const double size_O_x = scale_O_x + scale_O_y;
-    if (!(scale_O_x > 1e-08 * size_O_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_O_x__O_y > 1e-08 * size_O_x * scale_O_x)) { pivot = 2; goto dependent; };
+    if (!(scale_O_x > 1e-08 * scale_O_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_O_x__O_y > 1e-08 * scale_O_y * scale_O_x)) { pivot = 2; goto dependent; };
     const double inverse_O_x__O_y = -1.0/determinant_O_x__O_y;
     const double inverse_pivot_O_x = inverse_O_x__O_y*scale_O_y;
     const double inverse_pivot_O_y = inverse_O_x__O_y*scale_O_x;
@@ -306,9 +305,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_B_y = -arm_BDE_B_x*l_B_y__BDE_theta + inverse_BDE_mass;
     const double pivot_B_x__B_y = arm_BDE_B_y*l_B_y__BDE_theta;
     const double determinant_B_x__B_y = -(pivot_B_x__B_y * pivot_B_x__B_y) + scale_B_x*scale_B_y;
-    const double size_B_x = scale_B_x + scale_B_y;
-    if (!(scale_B_x > 1e-08 * size_B_x)) { pivot = 3; goto dependent; };
-    if (!(determinant_B_x__B_y > 1e-08 * size_B_x * scale_B_x)) { pivot = 4; goto dependent; };
+    if (!(scale_B_x > 1e-08 * scale_B_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * scale_B_x)) { pivot = 4; goto dependent; };
     const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
     const double inverse_pivot_B_x = inverse_B_x__B_y*scale_B_y;
     const double inverse_pivot_B_y = inverse_B_x__B_y*scale_B_x;
@@ -333,9 +331,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_A5_y = -arm_AG_A_x*l_A5_y__AG_theta + inverse_AG_mass;
     const double pivot_A5_x__A5_y = arm_AG_A_y*l_A5_y__AG_theta;
     const double determinant_A5_x__A5_y = -(pivot_A5_x__A5_y * pivot_A5_x__A5_y) + scale_A5_x*scale_A5_y;
-    const double size_A5_x = scale_A5_x + scale_A5_y;
-    if (!(scale_A5_x > 1e-08 * size_A5_x)) { pivot = 5; goto dependent; };
-    if (!(determinant_A5_x__A5_y > 1e-08 * size_A5_x * scale_A5_x)) { pivot = 6; goto dependent; };
+    if (!(scale_A5_x > 1e-08 * scale_A5_x)) { pivot = 5; goto dependent; };
+    if (!(determinant_A5_x__A5_y > 1e-08 * scale_A5_y * scale_A5_x)) { pivot = 6; goto dependent; };
     const double inverse_A5_x__A5_y = -1.0/determinant_A5_x__A5_y;
     const double inverse_pivot_A5_x = inverse_A5_x__A5_y*scale_A5_y;
     const double inverse_pivot_A5_y = inverse_A5_x__A5_y*scale_A5_x;
@@ -357,9 +354,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_G_x__G_y = arm_AG_G_y*l_G_y__AG_theta - arm_EG_G_y*l_G_y__EG_theta +
         l_G_y__A5_x*w_G_x__A5_x + l_G_y__A5_y*w_G_x__A5_y;
     const double determinant_G_x__G_y = pivot_G_x*pivot_G_y - (pivot_G_x__G_y * pivot_G_x__G_y);
-    const double size_G_x = scale_G_x + scale_G_y;
-    if (!(pivot_G_x > 1e-08 * size_G_x)) { pivot = 7; goto dependent; };
-    if (!(determinant_G_x__G_y > 1e-08 * size_G_x * pivot_G_x)) { pivot = 8; goto dependent; };
+    if (!(pivot_G_x > 1e-08 * scale_G_x)) { pivot = 7; goto dependent; };
+    if (!(determinant_G_x__G_y > 1e-08 * scale_G_y * pivot_G_x)) { pivot = 8; goto dependent; };
     const double inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
     const double inverse_pivot_G_x = inverse_G_x__G_y*pivot_G_y;
     const double inverse_pivot_G_y = inverse_G_x__G_y*pivot_G_x;
@@ -384,9 +380,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_A7_y = -arm_AH_A_x*l_A7_y__AH_theta + inverse_AH_mass;
     const double pivot_A7_x__A7_y = arm_AH_A_y*l_A7_y__AH_theta;
     const double determinant_A7_x__A7_y = -(pivot_A7_x__A7_y * pivot_A7_x__A7_y) + scale_A7_x*scale_A7_y;
-    const double size_A7_x = scale_A7_x + scale_A7_y;
-    if (!(scale_A7_x > 1e-08 * size_A7_x)) { pivot = 9; goto dependent; };
-    if (!(determinant_A7_x__A7_y > 1e-08 * size_A7_x * scale_A7_x)) { pivot = 10; goto dependent; };
+    if (!(scale_A7_x > 1e-08 * scale_A7_x)) { pivot = 9; goto dependent; };
+    if (!(determinant_A7_x__A7_y > 1e-08 * scale_A7_y * scale_A7_x)) { pivot = 10; goto dependent; };
     const double inverse_A7_x__A7_y = -1.0/determinant_A7_x__A7_y;
     const double inverse_pivot_A7_x = inverse_A7_x__A7_y*scale_A7_y;
     const double inverse_pivot_A7_y = inverse_A7_x__A7_y*scale_A7_x;
@@ -408,9 +403,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_H_x__H_y = arm_AH_H_y*l_H_y__AH_theta - arm_HE_H_y*l_H_y__HE_theta +
         l_H_y__A7_x*w_H_x__A7_x + l_H_y__A7_y*w_H_x__A7_y;
     const double determinant_H_x__H_y = pivot_H_x*pivot_H_y - (pivot_H_x__H_y * pivot_H_x__H_y);
-    const double size_H_x = scale_H_x + scale_H_y;
-    if (!(pivot_H_x > 1e-08 * size_H_x)) { pivot = 11; goto dependent; };
-    if (!(determinant_H_x__H_y > 1e-08 * size_H_x * pivot_H_x)) { pivot = 12; goto dependent; };
+    if (!(pivot_H_x > 1e-08 * scale_H_x)) { pivot = 11; goto dependent; };
+    if (!(determinant_H_x__H_y > 1e-08 * scale_H_y * pivot_H_x)) { pivot = 12; goto dependent; };
     const double inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
     const double inverse_pivot_H_x = inverse_H_x__H_y*pivot_H_y;
     const double inverse_pivot_H_y = inverse_H_x__H_y*pivot_H_x;
@@ -440,9 +434,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_F_x__F_y = arm_FE_F_y*l_F_y__FE_theta - arm_OF_F_y*l_F_y__OF_theta +
         l_F_y__O_x*w_F_x__O_x + l_F_y__O_y*w_F_x__O_y;
     const double determinant_F_x__F_y = pivot_F_x*pivot_F_y - (pivot_F_x__F_y * pivot_F_x__F_y);
-    const double size_F_x = scale_F_x + scale_F_y;
-    if (!(pivot_F_x > 1e-08 * size_F_x)) { pivot = 13; goto dependent; };
-    if (!(determinant_F_x__F_y > 1e-08 * size_F_x * pivot_F_x)) { pivot = 14; goto dependent; };
+    if (!(pivot_F_x > 1e-08 * scale_F_x)) { pivot = 13; goto dependent; };
+    if (!(determinant_F_x__F_y > 1e-08 * scale_F_y * pivot_F_x)) { pivot = 14; goto dependent; };
     const double inverse_F_x__F_y = -1.0/determinant_F_x__F_y;
     const double inverse_pivot_F_x = inverse_F_x__F_y*pivot_F_y;
     const double inverse_pivot_F_y = inverse_F_x__F_y*pivot_F_x;
@@ -482,9 +475,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_E3_x__E3_y = arm_BDE_E_y*l_E3_y__BDE_theta - arm_FE_E_y*l_E3_y__FE_theta +
         l_E3_y__B_x*w_E3_x__B_x + l_E3_y__B_y*w_E3_x__B_y + l_E3_y__F_x*w_E3_x__F_x + l_E3_y__F_y*w_E3_x__F_y;
     const double determinant_E3_x__E3_y = pivot_E3_x*pivot_E3_y - (pivot_E3_x__E3_y * pivot_E3_x__E3_y);
-    const double size_E3_x = scale_E3_x + scale_E3_y;
-    if (!(pivot_E3_x > 1e-08 * size_E3_x)) { pivot = 15; goto dependent; };
-    if (!(determinant_E3_x__E3_y > 1e-08 * size_E3_x * pivot_E3_x)) { pivot = 16; goto dependent; };
+    if (!(pivot_E3_x > 1e-08 * scale_E3_x)) { pivot = 15; goto dependent; };
+    if (!(determinant_E3_x__E3_y > 1e-08 * scale_E3_y * pivot_E3_x)) { pivot = 16; goto dependent; };
     const double inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
     const double inverse_pivot_E3_x = inverse_E3_x__E3_y*pivot_E3_y;
     const double inverse_pivot_E3_y = inverse_E3_x__E3_y*pivot_E3_x;
@@ -525,9 +517,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         l_E4_y__E3_x*w_E4_x__E3_x + l_E4_y__E3_y*w_E4_x__E3_y + l_E4_y__F_x*w_E4_x__F_x +
         l_E4_y__F_y*w_E4_x__F_y + l_E4_y__G_x*w_E4_x__G_x + l_E4_y__G_y*w_E4_x__G_y;
     const double determinant_E4_x__E4_y = pivot_E4_x*pivot_E4_y - (pivot_E4_x__E4_y * pivot_E4_x__E4_y);
-    const double size_E4_x = scale_E4_x + scale_E4_y;
-    if (!(pivot_E4_x > 1e-08 * size_E4_x)) { pivot = 17; goto dependent; };
-    if (!(determinant_E4_x__E4_y > 1e-08 * size_E4_x * pivot_E4_x)) { pivot = 18; goto dependent; };
+    if (!(pivot_E4_x > 1e-08 * scale_E4_x)) { pivot = 17; goto dependent; };
+    if (!(determinant_E4_x__E4_y > 1e-08 * scale_E4_y * pivot_E4_x)) { pivot = 18; goto dependent; };
     const double inverse_E4_x__E4_y = -1.0/determinant_E4_x__E4_y;
     const double inverse_pivot_E4_x = inverse_E4_x__E4_y*pivot_E4_y;
     const double inverse_pivot_E4_y = inverse_E4_x__E4_y*pivot_E4_x;
@@ -559,9 +550,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         l_E6_y__E4_y*w_E6_x__E4_y + l_E6_y__F_x*w_E6_x__F_x + l_E6_y__F_y*w_E6_x__F_y +
         l_E6_y__H_x*w_E6_x__H_x + l_E6_y__H_y*w_E6_x__H_y;
     const double determinant_E6_x__E6_y = pivot_E6_x*pivot_E6_y - (pivot_E6_x__E6_y * pivot_E6_x__E6_y);
-    const double size_E6_x = scale_E6_x + scale_E6_y;
-    if (!(pivot_E6_x > 1e-08 * size_E6_x)) { pivot = 19; goto dependent; };
-    if (!(determinant_E6_x__E6_y > 1e-08 * size_E6_x * pivot_E6_x)) { pivot = 20; goto dependent; };
+    if (!(pivot_E6_x > 1e-08 * scale_E6_x)) { pivot = 19; goto dependent; };
+    if (!(determinant_E6_x__E6_y > 1e-08 * scale_E6_y * pivot_E6_x)) { pivot = 20; goto dependent; };
     const double inverse_E6_x__E6_y = -1.0/determinant_E6_x__E6_y;
     const double inverse_pivot_E6_x = inverse_E6_x__E6_y*pivot_E6_y;
     const double inverse_pivot_E6_y = inverse_E6_x__E6_y*pivot_E6_x;

@@ -477,9 +477,11 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes scale_H_y = -l_H_y__AH_theta*span_AH_H_x + l_H_y__HE_theta*span_HE_H_x;
     const Lanes pivot_H_x__H_y = l_H_y__AH_theta*span_AH_H_y - l_H_y__HE_theta*span_HE_H_y;
     const Lanes determinant_H_x__H_y = -(pivot_H_x__H_y * pivot_H_x__H_y) + scale_H_x*scale_H_y;
+    *rare |= ~(scale_H_x > 1e-05 * scale_H_x);
+    *rare |= ~(determinant_H_x__H_y > 1e-05 * scale_H_y * scale_H_x);
     const Lanes size_H_x = scale_H_x + scale_H_y;
-    *rare |= ~(scale_H_x > 1e-05 * size_H_x);
-    *rare |= ~(determinant_H_x__H_y > 1e-05 * size_H_x * scale_H_x);
+    *rare |= ~(scale_H_x > 1e-10 * size_H_x);
+    *rare |= ~(determinant_H_x__H_y > 1e-10 * size_H_x * scale_H_x);
     const Lanes inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
     const Lanes inverse_pivot_H_x = inverse_H_x__H_y*scale_H_y;
     const Lanes inverse_pivot_H_y = inverse_H_x__H_y*scale_H_x;
@@ -502,9 +504,11 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes scale_G_y = -l_G_y__AG_theta*span_AG_G_x + l_G_y__EG_theta*span_EG_G_x;
     const Lanes pivot_G_x__G_y = l_G_y__AG_theta*span_AG_G_y - l_G_y__EG_theta*span_EG_G_y;
     const Lanes determinant_G_x__G_y = -(pivot_G_x__G_y * pivot_G_x__G_y) + scale_G_x*scale_G_y;
+    *rare |= ~(scale_G_x > 1e-05 * scale_G_x);
+    *rare |= ~(determinant_G_x__G_y > 1e-05 * scale_G_y * scale_G_x);
     const Lanes size_G_x = scale_G_x + scale_G_y;
-    *rare |= ~(scale_G_x > 1e-05 * size_G_x);
-    *rare |= ~(determinant_G_x__G_y > 1e-05 * size_G_x * scale_G_x);
+    *rare |= ~(scale_G_x > 1e-10 * size_G_x);
+    *rare |= ~(determinant_G_x__G_y > 1e-10 * size_G_x * scale_G_x);
     const Lanes inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
     const Lanes inverse_pivot_G_x = inverse_G_x__G_y*scale_G_y;
     const Lanes inverse_pivot_G_y = inverse_G_x__G_y*scale_G_x;
@@ -544,9 +548,11 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes pivot_E3_x__E3_y = l_E3_y__BDE_theta*span_BDE_E_y - l_E3_y__FE_theta*span_FE_E_y -
         l_E3_y__OF_theta*span_OF_F_y;
     const Lanes determinant_E3_x__E3_y = -(pivot_E3_x__E3_y * pivot_E3_x__E3_y) + scale_E3_x*scale_E3_y;
+    *rare |= ~(scale_E3_x > 1e-08 * scale_E3_x);
+    *rare |= ~(determinant_E3_x__E3_y > 1e-08 * scale_E3_y * scale_E3_x);
     const Lanes size_E3_x = scale_E3_x + scale_E3_y;
-    *rare |= ~(scale_E3_x > 1e-08 * size_E3_x);
-    *rare |= ~(determinant_E3_x__E3_y > 1e-08 * size_E3_x * scale_E3_x);
+    *rare |= ~(scale_E3_x > 1e-10 * size_E3_x);
+    *rare |= ~(determinant_E3_x__E3_y > 1e-10 * size_E3_x * scale_E3_x);
     const Lanes inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
     const Lanes inverse_pivot_E3_x = inverse_E3_x__E3_y*scale_E3_y;
     const Lanes inverse_pivot_E3_y = inverse_E3_x__E3_y*scale_E3_x;
@@ -761,6 +767,8 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes pivot_H_x__H_y_3 = l_H_y__AH_theta_4*span_AH_H_y + l_H_y__BDE_theta_3*w_H_x__BDE_theta_2 -
         l_H_y__HE_theta_4*span_HE_H_y;
     const Lanes determinant_H_x__H_y_3 = -(pivot_H_x__H_y_3 * pivot_H_x__H_y_3) + scale_H_x_4*scale_H_y_4;
+    *rare |= ~(scale_H_x_4 > 1e-10 * scale_H_x_4);
+    *rare |= ~(determinant_H_x__H_y_3 > 1e-10 * scale_H_y_4 * scale_H_x_4);
     const Lanes size_H_x_3 = scale_H_x_4 + scale_H_y_4;
     *rare |= ~(scale_H_x_4 > 1e-10 * size_H_x_3);
     *rare |= ~(determinant_H_x__H_y_3 > 1e-10 * size_H_x_3 * scale_H_x_4);
@@ -816,6 +824,8 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes pivot_G_x__G_y_3 = l_G_y__AG_theta_4*span_AG_G_y - l_G_y__EG_theta_4*span_EG_G_y +
         l_G_y__FE_theta_3*w_G_x__FE_theta_2 + l_G_y__OF_theta_3*w_G_x__OF_theta_2;
     const Lanes determinant_G_x__G_y_3 = -(pivot_G_x__G_y_3 * pivot_G_x__G_y_3) + scale_G_x_4*scale_G_y_4;
+    *rare |= ~(scale_G_x_4 > 1e-10 * scale_G_x_4);
+    *rare |= ~(determinant_G_x__G_y_3 > 1e-10 * scale_G_y_4 * scale_G_x_4);
     const Lanes size_G_x_3 = scale_G_x_4 + scale_G_y_4;
     *rare |= ~(scale_G_x_4 > 1e-10 * size_G_x_3);
     *rare |= ~(determinant_G_x__G_y_3 > 1e-10 * size_G_x_3 * scale_G_x_4);
@@ -844,6 +854,8 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
         l_E3_y__H_y_3*w_E3_x__H_y_2 - l_E3_y__OF_theta_4*span_OF_F_y;
     const Lanes determinant_E3_x__E3_y_3 = pivot_E3_x_3*pivot_E3_y_3 - (pivot_E3_x__E3_y_3 *
         pivot_E3_x__E3_y_3);
+    *rare |= ~(pivot_E3_x_3 > 1e-10 * scale_E3_x_4);
+    *rare |= ~(determinant_E3_x__E3_y_3 > 1e-10 * scale_E3_y_4 * pivot_E3_x_3);
     const Lanes size_E3_x_3 = scale_E3_x_4 + scale_E3_y_4;
     *rare |= ~(pivot_E3_x_3 > 1e-10 * size_E3_x_3);
     *rare |= ~(determinant_E3_x__E3_y_3 > 1e-10 * size_E3_x_3 * pivot_E3_x_3);

@@ -134,6 +134,8 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double pivot_H_x__H_y_3 = l_H_y__AH_theta_4*span_AH_H_y + l_H_y__BDE_theta_3*w_H_x__BDE_theta_2 -
         l_H_y__HE_theta_4*span_HE_H_y;
     const double determinant_H_x__H_y_3 = -(pivot_H_x__H_y_3 * pivot_H_x__H_y_3) + scale_H_x_4*scale_H_y_4;
+    if (!(scale_H_x_4 > 1e-10 * scale_H_x_4)) return 1;
+    if (!(determinant_H_x__H_y_3 > 1e-10 * scale_H_y_4 * scale_H_x_4)) return 2;
     const double size_H_x_3 = scale_H_x_4 + scale_H_y_4;
     if (!(scale_H_x_4 > 1e-10 * size_H_x_3)) return 1;
     if (!(determinant_H_x__H_y_3 > 1e-10 * size_H_x_3 * scale_H_x_4)) return 2;
@@ -190,6 +192,8 @@ static int closing_step(const double t, const double *q, const double *v, const 
     const double pivot_G_x__G_y_3 = l_G_y__AG_theta_4*span_AG_G_y - l_G_y__EG_theta_4*span_EG_G_y +
         l_G_y__FE_theta_3*w_G_x__FE_theta_2 + l_G_y__OF_theta_3*w_G_x__OF_theta_2;
     const double determinant_G_x__G_y_3 = -(pivot_G_x__G_y_3 * pivot_G_x__G_y_3) + scale_G_x_4*scale_G_y_4;
+    if (!(scale_G_x_4 > 1e-10 * scale_G_x_4)) return 3;
+    if (!(determinant_G_x__G_y_3 > 1e-10 * scale_G_y_4 * scale_G_x_4)) return 4;
     const double size_G_x_3 = scale_G_x_4 + scale_G_y_4;
     if (!(scale_G_x_4 > 1e-10 * size_G_x_3)) return 3;
     if (!(determinant_G_x__G_y_3 > 1e-10 * size_G_x_3 * scale_G_x_4)) return 4;
@@ -218,6 +222,8 @@ static int closing_step(const double t, const double *q, const double *v, const 
         l_E3_y__H_y_3*w_E3_x__H_y_2 - l_E3_y__OF_theta_4*span_OF_F_y;
     const double determinant_E3_x__E3_y_3 = pivot_E3_x_3*pivot_E3_y_3 - (pivot_E3_x__E3_y_3 *
         pivot_E3_x__E3_y_3);
+    if (!(pivot_E3_x_3 > 1e-10 * scale_E3_x_4)) return 5;
+    if (!(determinant_E3_x__E3_y_3 > 1e-10 * scale_E3_y_4 * pivot_E3_x_3)) return 6;
     const double size_E3_x_3 = scale_E3_x_4 + scale_E3_y_4;
     if (!(pivot_E3_x_3 > 1e-10 * size_E3_x_3)) return 5;
     if (!(determinant_E3_x__E3_y_3 > 1e-10 * size_E3_x_3 * pivot_E3_x_3)) return 6;

@@ -547,9 +547,11 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     const double scale_H_y = -l_H_y__AH_theta*span_AH_H_x + l_H_y__HE_theta*span_HE_H_x;
     const double pivot_H_x__H_y = l_H_y__AH_theta*span_AH_H_y - l_H_y__HE_theta*span_HE_H_y;
     const double determinant_H_x__H_y = -(pivot_H_x__H_y * pivot_H_x__H_y) + scale_H_x*scale_H_y;
+    if (!(scale_H_x > 1e-05 * scale_H_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_H_x__H_y > 1e-05 * scale_H_y * scale_H_x)) { pivot = 2; goto dependent; };
     const double size_H_x = scale_H_x + scale_H_y;
-    if (!(scale_H_x > 1e-05 * size_H_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_H_x__H_y > 1e-05 * size_H_x * scale_H_x)) { pivot = 2; goto dependent; };
+    if (!(scale_H_x > 1e-10 * size_H_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_H_x__H_y > 1e-10 * size_H_x * scale_H_x)) { pivot = 2; goto dependent; };
     const double inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
     const double inverse_pivot_H_x = inverse_H_x__H_y*scale_H_y;
     const double inverse_pivot_H_y = inverse_H_x__H_y*scale_H_x;
@@ -572,9 +574,11 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     const double scale_G_y = -l_G_y__AG_theta*span_AG_G_x + l_G_y__EG_theta*span_EG_G_x;
     const double pivot_G_x__G_y = l_G_y__AG_theta*span_AG_G_y - l_G_y__EG_theta*span_EG_G_y;
     const double determinant_G_x__G_y = -(pivot_G_x__G_y * pivot_G_x__G_y) + scale_G_x*scale_G_y;
+    if (!(scale_G_x > 1e-05 * scale_G_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_G_x__G_y > 1e-05 * scale_G_y * scale_G_x)) { pivot = 4; goto dependent; };
     const double size_G_x = scale_G_x + scale_G_y;
-    if (!(scale_G_x > 1e-05 * size_G_x)) { pivot = 3; goto dependent; };
-    if (!(determinant_G_x__G_y > 1e-05 * size_G_x * scale_G_x)) { pivot = 4; goto dependent; };
+    if (!(scale_G_x > 1e-10 * size_G_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_G_x__G_y > 1e-10 * size_G_x * scale_G_x)) { pivot = 4; goto dependent; };
     const double inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
     const double inverse_pivot_G_x = inverse_G_x__G_y*scale_G_y;
     const double inverse_pivot_G_y = inverse_G_x__G_y*scale_G_x;
@@ -614,9 +618,11 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     const double pivot_E3_x__E3_y = l_E3_y__BDE_theta*span_BDE_E_y - l_E3_y__FE_theta*span_FE_E_y -
         l_E3_y__OF_theta*span_OF_F_y;
     const double determinant_E3_x__E3_y = -(pivot_E3_x__E3_y * pivot_E3_x__E3_y) + scale_E3_x*scale_E3_y;
+    if (!(scale_E3_x > 1e-08 * scale_E3_x)) { pivot = 5; goto dependent; };
+    if (!(determinant_E3_x__E3_y > 1e-08 * scale_E3_y * scale_E3_x)) { pivot = 6; goto dependent; };
     const double size_E3_x = scale_E3_x + scale_E3_y;
-    if (!(scale_E3_x > 1e-08 * size_E3_x)) { pivot = 5; goto dependent; };
-    if (!(determinant_E3_x__E3_y > 1e-08 * size_E3_x * scale_E3_x)) { pivot = 6; goto dependent; };
+    if (!(scale_E3_x > 1e-10 * size_E3_x)) { pivot = 5; goto dependent; };
+    if (!(determinant_E3_x__E3_y > 1e-10 * size_E3_x * scale_E3_x)) { pivot = 6; goto dependent; };
     const double inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
     const double inverse_pivot_E3_x = inverse_E3_x__E3_y*scale_E3_y;
     const double inverse_pivot_E3_y = inverse_E3_x__E3_y*scale_E3_x;
@@ -807,9 +813,11 @@ static int reduced_project(const double t, const double *q, const double *r, con
     const double pivot_H_x__H_y_2 = l_H_y__AH_theta_2*span_AH_H_y + l_H_y__BDE_theta*w_H_x__BDE_theta -
         l_H_y__HE_theta_2*span_HE_H_y;
     const double determinant_H_x__H_y_2 = -(pivot_H_x__H_y_2 * pivot_H_x__H_y_2) + scale_H_x_2*scale_H_y_2;
+    if (!(scale_H_x_2 > 1e-13 * scale_H_x_2)) return 1;
+    if (!(determinant_H_x__H_y_2 > 1e-13 * scale_H_y_2 * scale_H_x_2)) return 2;
     const double size_H_x_2 = scale_H_x_2 + scale_H_y_2;
-    if (!(scale_H_x_2 > 1e-13 * size_H_x_2)) return 1;
-    if (!(determinant_H_x__H_y_2 > 1e-13 * size_H_x_2 * scale_H_x_2)) return 2;
+    if (!(scale_H_x_2 > 1e-10 * size_H_x_2)) return 1;
+    if (!(determinant_H_x__H_y_2 > 1e-10 * size_H_x_2 * scale_H_x_2)) return 2;
     const double inverse_H_x__H_y_2 = -1.0/determinant_H_x__H_y_2;
     const double inverse_pivot_H_x_2 = inverse_H_x__H_y_2*scale_H_y_2;
     const double inverse_pivot_H_y_2 = inverse_H_x__H_y_2*scale_H_x_2;
@@ -863,9 +871,11 @@ static int reduced_project(const double t, const double *q, const double *r, con
     const double pivot_G_x__G_y_2 = l_G_y__AG_theta_2*span_AG_G_y - l_G_y__EG_theta_2*span_EG_G_y +
         l_G_y__FE_theta*w_G_x__FE_theta + l_G_y__OF_theta*w_G_x__OF_theta;
     const double determinant_G_x__G_y_2 = -(pivot_G_x__G_y_2 * pivot_G_x__G_y_2) + scale_G_x_2*scale_G_y_2;
+    if (!(scale_G_x_2 > 1e-13 * scale_G_x_2)) return 3;
+    if (!(determinant_G_x__G_y_2 > 1e-13 * scale_G_y_2 * scale_G_x_2)) return 4;
     const double size_G_x_2 = scale_G_x_2 + scale_G_y_2;
-    if (!(scale_G_x_2 > 1e-13 * size_G_x_2)) return 3;
-    if (!(determinant_G_x__G_y_2 > 1e-13 * size_G_x_2 * scale_G_x_2)) return 4;
+    if (!(scale_G_x_2 > 1e-10 * size_G_x_2)) return 3;
+    if (!(determinant_G_x__G_y_2 > 1e-10 * size_G_x_2 * scale_G_x_2)) return 4;
     const double inverse_G_x__G_y_2 = -1.0/determinant_G_x__G_y_2;
     const double inverse_pivot_G_x_2 = inverse_G_x__G_y_2*scale_G_y_2;
     const double inverse_pivot_G_y_2 = inverse_G_x__G_y_2*scale_G_x_2;
@@ -890,9 +900,11 @@ static int reduced_project(const double t, const double *q, const double *r, con
         l_E3_y__G_x*w_E3_x__G_x + l_E3_y__G_y*w_E3_x__G_y + l_E3_y__H_x*w_E3_x__H_x + l_E3_y__H_y*w_E3_x__H_y
         - l_E3_y__OF_theta_2*span_OF_F_y;
     const double determinant_E3_x__E3_y_2 = pivot_E3_x*pivot_E3_y - (pivot_E3_x__E3_y_2 * pivot_E3_x__E3_y_2);
+    if (!(pivot_E3_x > 1e-13 * scale_E3_x_2)) return 5;
+    if (!(determinant_E3_x__E3_y_2 > 1e-13 * scale_E3_y_2 * pivot_E3_x)) return 6;
     const double size_E3_x_2 = scale_E3_x_2 + scale_E3_y_2;
-    if (!(pivot_E3_x > 1e-13 * size_E3_x_2)) return 5;
-    if (!(determinant_E3_x__E3_y_2 > 1e-13 * size_E3_x_2 * pivot_E3_x)) return 6;
+    if (!(pivot_E3_x > 1e-10 * size_E3_x_2)) return 5;
+    if (!(determinant_E3_x__E3_y_2 > 1e-10 * size_E3_x_2 * pivot_E3_x)) return 6;
     const double inverse_E3_x__E3_y_2 = -1.0/determinant_E3_x__E3_y_2;
     const double inverse_pivot_E3_x_2 = inverse_E3_x__E3_y_2*pivot_E3_y;
     const double inverse_pivot_E3_y_2 = inverse_E3_x__E3_y_2*pivot_E3_x;

@@ -125,9 +125,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_foot_x__foot_y = -arm_road_head_y*l_foot_y__road_theta;
     const double determinant_foot_x__foot_y = -(pivot_foot_x__foot_y * pivot_foot_x__foot_y) +
         scale_foot_x*scale_foot_y;
-    const double size_foot_x = scale_foot_x + scale_foot_y;
-    if (!(scale_foot_x > 1e-08 * size_foot_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_foot_x__foot_y > 1e-08 * size_foot_x * scale_foot_x)) { pivot = 2; goto dependent; };
+    if (!(scale_foot_x > 1e-08 * scale_foot_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_foot_x__foot_y > 1e-08 * scale_foot_y * scale_foot_x)) { pivot = 2; goto dependent; };
     const double inverse_foot_x__foot_y = -1.0/determinant_foot_x__foot_y;
     const double inverse_pivot_foot_x = inverse_foot_x__foot_y*scale_foot_y;
     const double inverse_pivot_foot_y = inverse_foot_x__foot_y*scale_foot_x;

@@ -138,9 +138,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_B0_y = arm_rocker_head_x*l_B0_y__rocker_theta + inverse_rocker_mass;
     const double pivot_B0_x__B0_y = -arm_rocker_head_y*l_B0_y__rocker_theta;
     const double determinant_B0_x__B0_y = -(pivot_B0_x__B0_y * pivot_B0_x__B0_y) + scale_B0_x*scale_B0_y;
-    const double size_B0_x = scale_B0_x + scale_B0_y;
-    if (!(scale_B0_x > 1e-08 * size_B0_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_B0_x__B0_y > 1e-08 * size_B0_x * scale_B0_x)) { pivot = 2; goto dependent; };
+    if (!(scale_B0_x > 1e-08 * scale_B0_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_B0_x__B0_y > 1e-08 * scale_B0_y * scale_B0_x)) { pivot = 2; goto dependent; };
     const double inverse_B0_x__B0_y = -1.0/determinant_B0_x__B0_y;
     const double inverse_pivot_B0_x = inverse_B0_x__B0_y*scale_B0_y;
     const double inverse_pivot_B0_y = inverse_B0_x__B0_y*scale_B0_x;
@@ -162,9 +161,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_B_x__B_y = -arm_coupler_head_y*l_B_y__coupler_theta +
         arm_rocker_head_y*l_B_y__rocker_theta + l_B_y__B0_x*w_B_x__B0_x + l_B_y__B0_y*w_B_x__B0_y;
     const double determinant_B_x__B_y = pivot_B_x*pivot_B_y - (pivot_B_x__B_y * pivot_B_x__B_y);
-    const double size_B_x = scale_B_x + scale_B_y;
-    if (!(pivot_B_x > 1e-08 * size_B_x)) { pivot = 3; goto dependent; };
-    if (!(determinant_B_x__B_y > 1e-08 * size_B_x * pivot_B_x)) { pivot = 4; goto dependent; };
+    if (!(pivot_B_x > 1e-08 * scale_B_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * pivot_B_x)) { pivot = 4; goto dependent; };
     const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
     const double inverse_pivot_B_x = inverse_B_x__B_y*pivot_B_y;
     const double inverse_pivot_B_y = inverse_B_x__B_y*pivot_B_x;
@@ -185,9 +183,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_A0_y = arm_crank_head_x*l_A0_y__crank_theta + inverse_crank_mass;
     const double pivot_A0_x__A0_y = -arm_crank_head_y*l_A0_y__crank_theta;
     const double determinant_A0_x__A0_y = -(pivot_A0_x__A0_y * pivot_A0_x__A0_y) + scale_A0_x*scale_A0_y;
-    const double size_A0_x = scale_A0_x + scale_A0_y;
-    if (!(scale_A0_x > 1e-08 * size_A0_x)) { pivot = 5; goto dependent; };
-    if (!(determinant_A0_x__A0_y > 1e-08 * size_A0_x * scale_A0_x)) { pivot = 6; goto dependent; };
+    if (!(scale_A0_x > 1e-08 * scale_A0_x)) { pivot = 5; goto dependent; };
+    if (!(determinant_A0_x__A0_y > 1e-08 * scale_A0_y * scale_A0_x)) { pivot = 6; goto dependent; };
     const double inverse_A0_x__A0_y = -1.0/determinant_A0_x__A0_y;
     const double inverse_pivot_A0_x = inverse_A0_x__A0_y*scale_A0_y;
     const double inverse_pivot_A0_y = inverse_A0_x__A0_y*scale_A0_x;

@@ -285,9 +285,11 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     const double pivot_B_x__B_y = -l_B_y__coupler_theta*span_coupler_head_y +
         l_B_y__rocker_theta*span_rocker_head_y;
     const double determinant_B_x__B_y = -(pivot_B_x__B_y * pivot_B_x__B_y) + scale_B_x*scale_B_y;
+    if (!(scale_B_x > 1e-08 * scale_B_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * scale_B_x)) { pivot = 2; goto dependent; };
     const double size_B_x = scale_B_x + scale_B_y;
-    if (!(scale_B_x > 1e-08 * size_B_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_B_x__B_y > 1e-08 * size_B_x * scale_B_x)) { pivot = 2; goto dependent; };
+    if (!(scale_B_x > 1e-10 * size_B_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_B_x__B_y > 1e-10 * size_B_x * scale_B_x)) { pivot = 2; goto dependent; };
     const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
     const double inverse_pivot_B_x = inverse_B_x__B_y*scale_B_y;
     const double inverse_pivot_B_y = inverse_B_x__B_y*scale_B_x;
@@ -374,9 +376,11 @@ static int reduced_project(const double t, const double *q, const double *r, con
     const double pivot_B_x__B_y_2 = -l_B_y__coupler_theta_2*span_coupler_head_y +
         l_B_y__rocker_theta_2*span_rocker_head_y;
     const double determinant_B_x__B_y_2 = -(pivot_B_x__B_y_2 * pivot_B_x__B_y_2) + scale_B_x_2*scale_B_y_2;
+    if (!(scale_B_x_2 > 1e-13 * scale_B_x_2)) return 1;
+    if (!(determinant_B_x__B_y_2 > 1e-13 * scale_B_y_2 * scale_B_x_2)) return 2;
     const double size_B_x_2 = scale_B_x_2 + scale_B_y_2;
-    if (!(scale_B_x_2 > 1e-13 * size_B_x_2)) return 1;
-    if (!(determinant_B_x__B_y_2 > 1e-13 * size_B_x_2 * scale_B_x_2)) return 2;
+    if (!(scale_B_x_2 > 1e-10 * size_B_x_2)) return 1;
+    if (!(determinant_B_x__B_y_2 > 1e-10 * size_B_x_2 * scale_B_x_2)) return 2;
     const double inverse_B_x__B_y_2 = -1.0/determinant_B_x__B_y_2;
     const double inverse_pivot_B_x_2 = inverse_B_x__B_y_2*scale_B_y_2;
     const double inverse_pivot_B_y_2 = inverse_B_x__B_y_2*scale_B_x_2;

@@ -193,9 +193,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O0_y = arm_crank0_head_x*l_O0_y__crank0_theta + inverse_crank0_mass;
     const double pivot_O0_x__O0_y = -arm_crank0_head_y*l_O0_y__crank0_theta;
     const double determinant_O0_x__O0_y = -(pivot_O0_x__O0_y * pivot_O0_x__O0_y) + scale_O0_x*scale_O0_y;
-    const double size_O0_x = scale_O0_x + scale_O0_y;
-    if (!(scale_O0_x > 1e-08 * size_O0_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_O0_x__O0_y > 1e-08 * size_O0_x * scale_O0_x)) { pivot = 2; goto dependent; };
+    if (!(scale_O0_x > 1e-08 * scale_O0_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_O0_x__O0_y > 1e-08 * scale_O0_y * scale_O0_x)) { pivot = 2; goto dependent; };
     const double inverse_O0_x__O0_y = -1.0/determinant_O0_x__O0_y;
     const double inverse_pivot_O0_x = inverse_O0_x__O0_y*scale_O0_y;
     const double inverse_pivot_O0_y = inverse_O0_x__O0_y*scale_O0_x;
@@ -216,9 +215,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O2_y = arm_crank2_head_x*l_O2_y__crank2_theta + inverse_crank2_mass;
     const double pivot_O2_x__O2_y = -arm_crank2_head_y*l_O2_y__crank2_theta;
     const double determinant_O2_x__O2_y = -(pivot_O2_x__O2_y * pivot_O2_x__O2_y) + scale_O2_x*scale_O2_y;
-    const double size_O2_x = scale_O2_x + scale_O2_y;
-    if (!(scale_O2_x > 1e-08 * size_O2_x)) { pivot = 3; goto dependent; };
-    if (!(determinant_O2_x__O2_y > 1e-08 * size_O2_x * scale_O2_x)) { pivot = 4; goto dependent; };
+    if (!(scale_O2_x > 1e-08 * scale_O2_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_O2_x__O2_y > 1e-08 * scale_O2_y * scale_O2_x)) { pivot = 4; goto dependent; };
     const double inverse_O2_x__O2_y = -1.0/determinant_O2_x__O2_y;
     const double inverse_pivot_O2_x = inverse_O2_x__O2_y*scale_O2_y;
     const double inverse_pivot_O2_y = inverse_O2_x__O2_y*scale_O2_x;
@@ -244,9 +242,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_A0_x__A0_y = -arm_coupler1_head_y*l_A0_y__coupler1_theta -
         arm_crank0_head_y*l_A0_y__crank0_theta + l_A0_y__O0_x*w_A0_x__O0_x + l_A0_y__O0_y*w_A0_x__O0_y;
     const double determinant_A0_x__A0_y = pivot_A0_x*pivot_A0_y - (pivot_A0_x__A0_y * pivot_A0_x__A0_y);
-    const double size_A0_x = scale_A0_x + scale_A0_y;
-    if (!(pivot_A0_x > 1e-08 * size_A0_x)) { pivot = 5; goto dependent; };
-    if (!(determinant_A0_x__A0_y > 1e-08 * size_A0_x * pivot_A0_x)) { pivot = 6; goto dependent; };
+    if (!(pivot_A0_x > 1e-08 * scale_A0_x)) { pivot = 5; goto dependent; };
+    if (!(determinant_A0_x__A0_y > 1e-08 * scale_A0_y * pivot_A0_x)) { pivot = 6; goto dependent; };
     const double inverse_A0_x__A0_y = -1.0/determinant_A0_x__A0_y;
     const double inverse_pivot_A0_x = inverse_A0_x__A0_y*pivot_A0_y;
     const double inverse_pivot_A0_y = inverse_A0_x__A0_y*pivot_A0_x;
@@ -272,9 +269,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_B2_x__B2_y = -arm_coupler2_head_y*l_B2_y__coupler2_theta +
         arm_crank2_head_y*l_B2_y__crank2_theta + l_B2_y__O2_x*w_B2_x__O2_x + l_B2_y__O2_y*w_B2_x__O2_y;
     const double determinant_B2_x__B2_y = pivot_B2_x*pivot_B2_y - (pivot_B2_x__B2_y * pivot_B2_x__B2_y);
-    const double size_B2_x = scale_B2_x + scale_B2_y;
-    if (!(pivot_B2_x > 1e-08 * size_B2_x)) { pivot = 7; goto dependent; };
-    if (!(determinant_B2_x__B2_y > 1e-08 * size_B2_x * pivot_B2_x)) { pivot = 8; goto dependent; };
+    if (!(pivot_B2_x > 1e-08 * scale_B2_x)) { pivot = 7; goto dependent; };
+    if (!(determinant_B2_x__B2_y > 1e-08 * scale_B2_y * pivot_B2_x)) { pivot = 8; goto dependent; };
     const double inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
     const double inverse_pivot_B2_x = inverse_B2_x__B2_y*pivot_B2_y;
     const double inverse_pivot_B2_y = inverse_B2_x__B2_y*pivot_B2_x;
@@ -297,9 +293,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O1_y = arm_crank1_head_x*l_O1_y__crank1_theta + inverse_crank1_mass;
     const double pivot_O1_x__O1_y = -arm_crank1_head_y*l_O1_y__crank1_theta;
     const double determinant_O1_x__O1_y = -(pivot_O1_x__O1_y * pivot_O1_x__O1_y) + scale_O1_x*scale_O1_y;
-    const double size_O1_x = scale_O1_x + scale_O1_y;
-    if (!(scale_O1_x > 1e-08 * size_O1_x)) { pivot = 9; goto dependent; };
-    if (!(determinant_O1_x__O1_y > 1e-08 * size_O1_x * scale_O1_x)) { pivot = 10; goto dependent; };
+    if (!(scale_O1_x > 1e-08 * scale_O1_x)) { pivot = 9; goto dependent; };
+    if (!(determinant_O1_x__O1_y > 1e-08 * scale_O1_y * scale_O1_x)) { pivot = 10; goto dependent; };
     const double inverse_O1_x__O1_y = -1.0/determinant_O1_x__O1_y;
     const double inverse_pivot_O1_x = inverse_O1_x__O1_y*scale_O1_y;
     const double inverse_pivot_O1_y = inverse_O1_x__O1_y*scale_O1_x;
@@ -332,9 +327,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         arm_crank1_head_y*l_B1_y__crank1_theta + l_B1_y__A0_x*w_B1_x__A0_x + l_B1_y__A0_y*w_B1_x__A0_y +
         l_B1_y__O1_x*w_B1_x__O1_x + l_B1_y__O1_y*w_B1_x__O1_y;
     const double determinant_B1_x__B1_y = pivot_B1_x*pivot_B1_y - (pivot_B1_x__B1_y * pivot_B1_x__B1_y);
-    const double size_B1_x = scale_B1_x + scale_B1_y;
-    if (!(pivot_B1_x > 1e-08 * size_B1_x)) { pivot = 11; goto dependent; };
-    if (!(determinant_B1_x__B1_y > 1e-08 * size_B1_x * pivot_B1_x)) { pivot = 12; goto dependent; };
+    if (!(pivot_B1_x > 1e-08 * scale_B1_x)) { pivot = 11; goto dependent; };
+    if (!(determinant_B1_x__B1_y > 1e-08 * scale_B1_y * pivot_B1_x)) { pivot = 12; goto dependent; };
     const double inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
     const double inverse_pivot_B1_x = inverse_B1_x__B1_y*pivot_B1_y;
     const double inverse_pivot_B1_y = inverse_B1_x__B1_y*pivot_B1_x;
@@ -366,9 +360,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         l_A1_y__B2_x*w_A1_x__B2_x + l_A1_y__B2_y*w_A1_x__B2_y + l_A1_y__O1_x*w_A1_x__O1_x +
         l_A1_y__O1_y*w_A1_x__O1_y;
     const double determinant_A1_x__A1_y = pivot_A1_x*pivot_A1_y - (pivot_A1_x__A1_y * pivot_A1_x__A1_y);
-    const double size_A1_x = scale_A1_x + scale_A1_y;
-    if (!(pivot_A1_x > 1e-08 * size_A1_x)) { pivot = 13; goto dependent; };
-    if (!(determinant_A1_x__A1_y > 1e-08 * size_A1_x * pivot_A1_x)) { pivot = 14; goto dependent; };
+    if (!(pivot_A1_x > 1e-08 * scale_A1_x)) { pivot = 13; goto dependent; };
+    if (!(determinant_A1_x__A1_y > 1e-08 * scale_A1_y * pivot_A1_x)) { pivot = 14; goto dependent; };
     const double inverse_A1_x__A1_y = -1.0/determinant_A1_x__A1_y;
     const double inverse_pivot_A1_x = inverse_A1_x__A1_y*pivot_A1_y;
     const double inverse_pivot_A1_y = inverse_A1_x__A1_y*pivot_A1_x;

@@ -348,9 +348,11 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes pivot_B2_x__B2_y = -l_B2_y__coupler2_theta*span_coupler2_head_y +
         l_B2_y__crank2_theta*span_crank2_head_y;
     const Lanes determinant_B2_x__B2_y = -(pivot_B2_x__B2_y * pivot_B2_x__B2_y) + scale_B2_x*scale_B2_y;
+    *rare |= ~(scale_B2_x > 1e-05 * scale_B2_x);
+    *rare |= ~(determinant_B2_x__B2_y > 1e-05 * scale_B2_y * scale_B2_x);
     const Lanes size_B2_x = scale_B2_x + scale_B2_y;
-    *rare |= ~(scale_B2_x > 1e-05 * size_B2_x);
-    *rare |= ~(determinant_B2_x__B2_y > 1e-05 * size_B2_x * scale_B2_x);
+    *rare |= ~(scale_B2_x > 1e-10 * size_B2_x);
+    *rare |= ~(determinant_B2_x__B2_y > 1e-10 * size_B2_x * scale_B2_x);
     const Lanes inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
     const Lanes inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
     const Lanes inverse_pivot_B2_y = inverse_B2_x__B2_y*scale_B2_x;
@@ -384,9 +386,11 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes pivot_B1_x__B1_y = l_B1_y__coupler1_theta*w_B1_x__coupler1_theta -
         l_B1_y__crank0_theta*span_crank0_head_y + l_B1_y__crank1_theta*span_crank1_head_y;
     const Lanes determinant_B1_x__B1_y = -(pivot_B1_x__B1_y * pivot_B1_x__B1_y) + scale_B1_x*scale_B1_y;
+    *rare |= ~(scale_B1_x > 1e-08 * scale_B1_x);
+    *rare |= ~(determinant_B1_x__B1_y > 1e-08 * scale_B1_y * scale_B1_x);
     const Lanes size_B1_x = scale_B1_x + scale_B1_y;
-    *rare |= ~(scale_B1_x > 1e-08 * size_B1_x);
-    *rare |= ~(determinant_B1_x__B1_y > 1e-08 * size_B1_x * scale_B1_x);
+    *rare |= ~(scale_B1_x > 1e-10 * size_B1_x);
+    *rare |= ~(determinant_B1_x__B1_y > 1e-10 * size_B1_x * scale_B1_x);
     const Lanes inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
     const Lanes inverse_pivot_B1_x = inverse_B1_x__B1_y*scale_B1_y;
     const Lanes inverse_pivot_B1_y = inverse_B1_x__B1_y*scale_B1_x;
@@ -569,6 +573,8 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
         l_B2_y__crank1_theta_3*w_B2_x__crank1_theta_2 + l_B2_y__crank2_theta_4*span_crank2_head_y;
     const Lanes determinant_B2_x__B2_y_3 = -(pivot_B2_x__B2_y_3 * pivot_B2_x__B2_y_3) +
         scale_B2_x_4*scale_B2_y_4;
+    *rare |= ~(scale_B2_x_4 > 1e-10 * scale_B2_x_4);
+    *rare |= ~(determinant_B2_x__B2_y_3 > 1e-10 * scale_B2_y_4 * scale_B2_x_4);
     const Lanes size_B2_x_3 = scale_B2_x_4 + scale_B2_y_4;
     *rare |= ~(scale_B2_x_4 > 1e-10 * size_B2_x_3);
     *rare |= ~(determinant_B2_x__B2_y_3 > 1e-10 * size_B2_x_3 * scale_B2_x_4);
@@ -599,6 +605,8 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
         l_B1_y__crank1_theta_4*span_crank1_head_y;
     const Lanes determinant_B1_x__B1_y_3 = pivot_B1_x_3*pivot_B1_y_3 - (pivot_B1_x__B1_y_3 *
         pivot_B1_x__B1_y_3);
+    *rare |= ~(pivot_B1_x_3 > 1e-10 * scale_B1_x_4);
+    *rare |= ~(determinant_B1_x__B1_y_3 > 1e-10 * scale_B1_y_4 * pivot_B1_x_3);
     const Lanes size_B1_x_3 = scale_B1_x_4 + scale_B1_y_4;
     *rare |= ~(pivot_B1_x_3 > 1e-10 * size_B1_x_3);
     *rare |= ~(determinant_B1_x__B1_y_3 > 1e-10 * size_B1_x_3 * pivot_B1_x_3);

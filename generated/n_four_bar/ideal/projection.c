@@ -116,6 +116,8 @@ static int closing_step(const double t, const double *q, const double *v, const 
         l_B2_y__crank1_theta_3*w_B2_x__crank1_theta_2 + l_B2_y__crank2_theta_4*span_crank2_head_y;
     const double determinant_B2_x__B2_y_3 = -(pivot_B2_x__B2_y_3 * pivot_B2_x__B2_y_3) +
         scale_B2_x_4*scale_B2_y_4;
+    if (!(scale_B2_x_4 > 1e-10 * scale_B2_x_4)) return 1;
+    if (!(determinant_B2_x__B2_y_3 > 1e-10 * scale_B2_y_4 * scale_B2_x_4)) return 2;
     const double size_B2_x_3 = scale_B2_x_4 + scale_B2_y_4;
     if (!(scale_B2_x_4 > 1e-10 * size_B2_x_3)) return 1;
     if (!(determinant_B2_x__B2_y_3 > 1e-10 * size_B2_x_3 * scale_B2_x_4)) return 2;
@@ -146,6 +148,8 @@ static int closing_step(const double t, const double *q, const double *v, const 
         l_B1_y__crank1_theta_4*span_crank1_head_y;
     const double determinant_B1_x__B1_y_3 = pivot_B1_x_3*pivot_B1_y_3 - (pivot_B1_x__B1_y_3 *
         pivot_B1_x__B1_y_3);
+    if (!(pivot_B1_x_3 > 1e-10 * scale_B1_x_4)) return 3;
+    if (!(determinant_B1_x__B1_y_3 > 1e-10 * scale_B1_y_4 * pivot_B1_x_3)) return 4;
     const double size_B1_x_3 = scale_B1_x_4 + scale_B1_y_4;
     if (!(pivot_B1_x_3 > 1e-10 * size_B1_x_3)) return 3;
     if (!(determinant_B1_x__B1_y_3 > 1e-10 * size_B1_x_3 * pivot_B1_x_3)) return 4;

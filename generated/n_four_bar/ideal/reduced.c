@@ -409,9 +409,11 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     const double pivot_B2_x__B2_y = -l_B2_y__coupler2_theta*span_coupler2_head_y +
         l_B2_y__crank2_theta*span_crank2_head_y;
     const double determinant_B2_x__B2_y = -(pivot_B2_x__B2_y * pivot_B2_x__B2_y) + scale_B2_x*scale_B2_y;
+    if (!(scale_B2_x > 1e-05 * scale_B2_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_B2_x__B2_y > 1e-05 * scale_B2_y * scale_B2_x)) { pivot = 2; goto dependent; };
     const double size_B2_x = scale_B2_x + scale_B2_y;
-    if (!(scale_B2_x > 1e-05 * size_B2_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_B2_x__B2_y > 1e-05 * size_B2_x * scale_B2_x)) { pivot = 2; goto dependent; };
+    if (!(scale_B2_x > 1e-10 * size_B2_x)) { pivot = 1; goto dependent; };
+    if (!(determinant_B2_x__B2_y > 1e-10 * size_B2_x * scale_B2_x)) { pivot = 2; goto dependent; };
     const double inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
     const double inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
     const double inverse_pivot_B2_y = inverse_B2_x__B2_y*scale_B2_x;
@@ -445,9 +447,11 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     const double pivot_B1_x__B1_y = l_B1_y__coupler1_theta*w_B1_x__coupler1_theta -
         l_B1_y__crank0_theta*span_crank0_head_y + l_B1_y__crank1_theta*span_crank1_head_y;
     const double determinant_B1_x__B1_y = -(pivot_B1_x__B1_y * pivot_B1_x__B1_y) + scale_B1_x*scale_B1_y;
+    if (!(scale_B1_x > 1e-08 * scale_B1_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_B1_x__B1_y > 1e-08 * scale_B1_y * scale_B1_x)) { pivot = 4; goto dependent; };
     const double size_B1_x = scale_B1_x + scale_B1_y;
-    if (!(scale_B1_x > 1e-08 * size_B1_x)) { pivot = 3; goto dependent; };
-    if (!(determinant_B1_x__B1_y > 1e-08 * size_B1_x * scale_B1_x)) { pivot = 4; goto dependent; };
+    if (!(scale_B1_x > 1e-10 * size_B1_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_B1_x__B1_y > 1e-10 * size_B1_x * scale_B1_x)) { pivot = 4; goto dependent; };
     const double inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
     const double inverse_pivot_B1_x = inverse_B1_x__B1_y*scale_B1_y;
     const double inverse_pivot_B1_y = inverse_B1_x__B1_y*scale_B1_x;
@@ -616,9 +620,11 @@ static int reduced_project(const double t, const double *q, const double *r, con
         l_B2_y__crank1_theta*w_B2_x__crank1_theta + l_B2_y__crank2_theta_2*span_crank2_head_y;
     const double determinant_B2_x__B2_y_2 = -(pivot_B2_x__B2_y_2 * pivot_B2_x__B2_y_2) +
         scale_B2_x_2*scale_B2_y_2;
+    if (!(scale_B2_x_2 > 1e-13 * scale_B2_x_2)) return 1;
+    if (!(determinant_B2_x__B2_y_2 > 1e-13 * scale_B2_y_2 * scale_B2_x_2)) return 2;
     const double size_B2_x_2 = scale_B2_x_2 + scale_B2_y_2;
-    if (!(scale_B2_x_2 > 1e-13 * size_B2_x_2)) return 1;
-    if (!(determinant_B2_x__B2_y_2 > 1e-13 * size_B2_x_2 * scale_B2_x_2)) return 2;
+    if (!(scale_B2_x_2 > 1e-10 * size_B2_x_2)) return 1;
+    if (!(determinant_B2_x__B2_y_2 > 1e-10 * size_B2_x_2 * scale_B2_x_2)) return 2;
     const double inverse_B2_x__B2_y_2 = -1.0/determinant_B2_x__B2_y_2;
     const double inverse_pivot_B2_x_2 = inverse_B2_x__B2_y_2*scale_B2_y_2;
     const double inverse_pivot_B2_y_2 = inverse_B2_x__B2_y_2*scale_B2_x_2;
@@ -641,9 +647,11 @@ static int reduced_project(const double t, const double *q, const double *r, con
         l_B1_y__coupler1_theta_2*w_B1_x__coupler1_theta_2 - l_B1_y__crank0_theta_2*span_crank0_head_y +
         l_B1_y__crank1_theta_2*span_crank1_head_y;
     const double determinant_B1_x__B1_y_2 = pivot_B1_x*pivot_B1_y - (pivot_B1_x__B1_y_2 * pivot_B1_x__B1_y_2);
+    if (!(pivot_B1_x > 1e-13 * scale_B1_x_2)) return 3;
+    if (!(determinant_B1_x__B1_y_2 > 1e-13 * scale_B1_y_2 * pivot_B1_x)) return 4;
     const double size_B1_x_2 = scale_B1_x_2 + scale_B1_y_2;
-    if (!(pivot_B1_x > 1e-13 * size_B1_x_2)) return 3;
-    if (!(determinant_B1_x__B1_y_2 > 1e-13 * size_B1_x_2 * pivot_B1_x)) return 4;
+    if (!(pivot_B1_x > 1e-10 * size_B1_x_2)) return 3;
+    if (!(determinant_B1_x__B1_y_2 > 1e-10 * size_B1_x_2 * pivot_B1_x)) return 4;
     const double inverse_B1_x__B1_y_2 = -1.0/determinant_B1_x__B1_y_2;
     const double inverse_pivot_B1_x_2 = inverse_B1_x__B1_y_2*pivot_B1_y;
     const double inverse_pivot_B1_y_2 = inverse_B1_x__B1_y_2*pivot_B1_x;

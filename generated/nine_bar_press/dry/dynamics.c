@@ -299,9 +299,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O1_y = arm_L1_head_x*l_O1_y__L1_theta + inverse_L1_mass;
     const double pivot_O1_x__O1_y = -arm_L1_head_y*l_O1_y__L1_theta;
     const double determinant_O1_x__O1_y = -(pivot_O1_x__O1_y * pivot_O1_x__O1_y) + scale_O1_x*scale_O1_y;
-    const double size_O1_x = scale_O1_x + scale_O1_y;
-    if (!(scale_O1_x > 1e-08 * size_O1_x)) { pivot = 3; goto dependent; };
-    if (!(determinant_O1_x__O1_y > 1e-08 * size_O1_x * scale_O1_x)) { pivot = 4; goto dependent; };
+    if (!(scale_O1_x > 1e-08 * scale_O1_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_O1_x__O1_y > 1e-08 * scale_O1_y * scale_O1_x)) { pivot = 4; goto dependent; };
     const double inverse_O1_x__O1_y = -1.0/determinant_O1_x__O1_y;
     const double inverse_pivot_O1_x = inverse_O1_x__O1_y*scale_O1_y;
     const double inverse_pivot_O1_y = inverse_O1_x__O1_y*scale_O1_x;
@@ -320,9 +319,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O4_y = arm_L4_head_x*l_O4_y__L4_theta + inverse_L4_mass;
     const double pivot_O4_x__O4_y = -arm_L4_head_y*l_O4_y__L4_theta;
     const double determinant_O4_x__O4_y = -(pivot_O4_x__O4_y * pivot_O4_x__O4_y) + scale_O4_x*scale_O4_y;
-    const double size_O4_x = scale_O4_x + scale_O4_y;
-    if (!(scale_O4_x > 1e-08 * size_O4_x)) { pivot = 6; goto dependent; };
-    if (!(determinant_O4_x__O4_y > 1e-08 * size_O4_x * scale_O4_x)) { pivot = 7; goto dependent; };
+    if (!(scale_O4_x > 1e-08 * scale_O4_x)) { pivot = 6; goto dependent; };
+    if (!(determinant_O4_x__O4_y > 1e-08 * scale_O4_y * scale_O4_x)) { pivot = 7; goto dependent; };
     const double inverse_O4_x__O4_y = -1.0/determinant_O4_x__O4_y;
     const double inverse_pivot_O4_x = inverse_O4_x__O4_y*scale_O4_y;
     const double inverse_pivot_O4_y = inverse_O4_x__O4_y*scale_O4_x;
@@ -343,9 +341,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O6_y = arm_L6_head_x*l_O6_y__L6_theta + inverse_L6_mass;
     const double pivot_O6_x__O6_y = -arm_L6_head_y*l_O6_y__L6_theta;
     const double determinant_O6_x__O6_y = -(pivot_O6_x__O6_y * pivot_O6_x__O6_y) + scale_O6_x*scale_O6_y;
-    const double size_O6_x = scale_O6_x + scale_O6_y;
-    if (!(scale_O6_x > 1e-08 * size_O6_x)) { pivot = 9; goto dependent; };
-    if (!(determinant_O6_x__O6_y > 1e-08 * size_O6_x * scale_O6_x)) { pivot = 10; goto dependent; };
+    if (!(scale_O6_x > 1e-08 * scale_O6_x)) { pivot = 9; goto dependent; };
+    if (!(determinant_O6_x__O6_y > 1e-08 * scale_O6_y * scale_O6_x)) { pivot = 10; goto dependent; };
     const double inverse_O6_x__O6_y = -1.0/determinant_O6_x__O6_y;
     const double inverse_pivot_O6_x = inverse_O6_x__O6_y*scale_O6_y;
     const double inverse_pivot_O6_y = inverse_O6_x__O6_y*scale_O6_x;
@@ -368,9 +365,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_slider_x__slider_y = -arm_L8_head_y*l_slider_y__L8_theta;
     const double determinant_slider_x__slider_y = pivot_slider_x*scale_slider_y - (pivot_slider_x__slider_y *
         pivot_slider_x__slider_y);
-    const double size_slider_x = scale_slider_x + scale_slider_y;
-    if (!(pivot_slider_x > 1e-08 * size_slider_x)) { pivot = 11; goto dependent; };
-    if (!(determinant_slider_x__slider_y > 1e-08 * size_slider_x * pivot_slider_x)) { pivot = 12; goto dependent; };
+    if (!(pivot_slider_x > 1e-08 * scale_slider_x)) { pivot = 11; goto dependent; };
+    if (!(determinant_slider_x__slider_y > 1e-08 * scale_slider_y * pivot_slider_x)) { pivot = 12; goto dependent; };
     const double inverse_slider_x__slider_y = -1.0/determinant_slider_x__slider_y;
     const double inverse_pivot_slider_x = inverse_slider_x__slider_y*scale_slider_y;
     const double inverse_pivot_slider_y = inverse_slider_x__slider_y*pivot_slider_x;
@@ -401,9 +397,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         inverse_L2_mass + inverse_L7_mass;
     const double pivot_P2_x__P2_y = -arm_L2_head_y*l_P2_y__L2_theta - arm_L7_head_y*l_P2_y__L7_theta;
     const double determinant_P2_x__P2_y = -(pivot_P2_x__P2_y * pivot_P2_x__P2_y) + scale_P2_x*scale_P2_y;
-    const double size_P2_x = scale_P2_x + scale_P2_y;
-    if (!(scale_P2_x > 1e-08 * size_P2_x)) { pivot = 13; goto dependent; };
-    if (!(determinant_P2_x__P2_y > 1e-08 * size_P2_x * scale_P2_x)) { pivot = 14; goto dependent; };
+    if (!(scale_P2_x > 1e-08 * scale_P2_x)) { pivot = 13; goto dependent; };
+    if (!(determinant_P2_x__P2_y > 1e-08 * scale_P2_y * scale_P2_x)) { pivot = 14; goto dependent; };
     const double inverse_P2_x__P2_y = -1.0/determinant_P2_x__P2_y;
     const double inverse_pivot_P2_x = inverse_P2_x__P2_y*scale_P2_y;
     const double inverse_pivot_P2_y = inverse_P2_x__P2_y*scale_P2_x;
@@ -441,9 +436,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_P3_x__P3_y = -arm_L3_head_y*l_P3_y__L3_theta - arm_L7_head_y*l_P3_y__L7_theta +
         l_P3_y__P2_x*w_P3_x__P2_x + l_P3_y__P2_y*w_P3_x__P2_y;
     const double determinant_P3_x__P3_y = pivot_P3_x*pivot_P3_y - (pivot_P3_x__P3_y * pivot_P3_x__P3_y);
-    const double size_P3_x = scale_P3_x + scale_P3_y;
-    if (!(pivot_P3_x > 1e-08 * size_P3_x)) { pivot = 15; goto dependent; };
-    if (!(determinant_P3_x__P3_y > 1e-08 * size_P3_x * pivot_P3_x)) { pivot = 16; goto dependent; };
+    if (!(pivot_P3_x > 1e-08 * scale_P3_x)) { pivot = 15; goto dependent; };
+    if (!(determinant_P3_x__P3_y > 1e-08 * scale_P3_y * pivot_P3_x)) { pivot = 16; goto dependent; };
     const double inverse_P3_x__P3_y = -1.0/determinant_P3_x__P3_y;
     const double inverse_pivot_P3_x = inverse_P3_x__P3_y*pivot_P3_y;
     const double inverse_pivot_P3_y = inverse_P3_x__P3_y*pivot_P3_x;
@@ -486,9 +480,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         l_Q6_y__O6_x*w_Q6_x__O6_x + l_Q6_y__O6_y*w_Q6_x__O6_y + l_Q6_y__P2_x*w_Q6_x__P2_x +
         l_Q6_y__P2_y*w_Q6_x__P2_y + l_Q6_y__P3_x*w_Q6_x__P3_x + l_Q6_y__P3_y*w_Q6_x__P3_y;
     const double determinant_Q6_x__Q6_y = pivot_Q6_x*pivot_Q6_y - (pivot_Q6_x__Q6_y * pivot_Q6_x__Q6_y);
-    const double size_Q6_x = scale_Q6_x + scale_Q6_y;
-    if (!(pivot_Q6_x > 1e-08 * size_Q6_x)) { pivot = 17; goto dependent; };
-    if (!(determinant_Q6_x__Q6_y > 1e-08 * size_Q6_x * pivot_Q6_x)) { pivot = 18; goto dependent; };
+    if (!(pivot_Q6_x > 1e-08 * scale_Q6_x)) { pivot = 17; goto dependent; };
+    if (!(determinant_Q6_x__Q6_y > 1e-08 * scale_Q6_y * pivot_Q6_x)) { pivot = 18; goto dependent; };
     const double inverse_Q6_x__Q6_y = -1.0/determinant_Q6_x__Q6_y;
     const double inverse_pivot_Q6_x = inverse_Q6_x__Q6_y*pivot_Q6_y;
     const double inverse_pivot_Q6_y = inverse_Q6_x__Q6_y*pivot_Q6_x;
@@ -522,9 +515,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         l_Q8_y__P3_y*w_Q8_x__P3_y + l_Q8_y__Q6_x*w_Q8_x__Q6_x + l_Q8_y__Q6_y*w_Q8_x__Q6_y +
         l_Q8_y__slider_x*w_Q8_x__slider_x + l_Q8_y__slider_y*w_Q8_x__slider_y;
     const double determinant_Q8_x__Q8_y = pivot_Q8_x*pivot_Q8_y - (pivot_Q8_x__Q8_y * pivot_Q8_x__Q8_y);
-    const double size_Q8_x = scale_Q8_x + scale_Q8_y;
-    if (!(pivot_Q8_x > 1e-08 * size_Q8_x)) { pivot = 19; goto dependent; };
-    if (!(determinant_Q8_x__Q8_y > 1e-08 * size_Q8_x * pivot_Q8_x)) { pivot = 20; goto dependent; };
+    if (!(pivot_Q8_x > 1e-08 * scale_Q8_x)) { pivot = 19; goto dependent; };
+    if (!(determinant_Q8_x__Q8_y > 1e-08 * scale_Q8_y * pivot_Q8_x)) { pivot = 20; goto dependent; };
     const double inverse_Q8_x__Q8_y = -1.0/determinant_Q8_x__Q8_y;
     const double inverse_pivot_Q8_x = inverse_Q8_x__Q8_y*pivot_Q8_y;
     const double inverse_pivot_Q8_y = inverse_Q8_x__Q8_y*pivot_Q8_x;

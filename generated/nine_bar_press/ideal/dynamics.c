@@ -302,9 +302,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O6_y = arm_L6_head_x*l_O6_y__L6_theta + inverse_L6_mass;
     const double pivot_O6_x__O6_y = -arm_L6_head_y*l_O6_y__L6_theta;
     const double determinant_O6_x__O6_y = -(pivot_O6_x__O6_y * pivot_O6_x__O6_y) + scale_O6_x*scale_O6_y;
-    const double size_O6_x = scale_O6_x + scale_O6_y;
-    if (!(scale_O6_x > 1e-08 * size_O6_x)) { pivot = 3; goto dependent; };
-    if (!(determinant_O6_x__O6_y > 1e-08 * size_O6_x * scale_O6_x)) { pivot = 4; goto dependent; };
+    if (!(scale_O6_x > 1e-08 * scale_O6_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_O6_x__O6_y > 1e-08 * scale_O6_y * scale_O6_x)) { pivot = 4; goto dependent; };
     const double inverse_O6_x__O6_y = -1.0/determinant_O6_x__O6_y;
     const double inverse_pivot_O6_x = inverse_O6_x__O6_y*scale_O6_y;
     const double inverse_pivot_O6_y = inverse_O6_x__O6_y*scale_O6_x;
@@ -327,9 +326,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_slider_y__slider_x = arm_L8_head_x*l_slider_x__L8_theta;
     const double determinant_slider_y__slider_x = pivot_slider_x*scale_slider_y - (pivot_slider_y__slider_x *
         pivot_slider_y__slider_x);
-    const double size_slider_y = scale_slider_x + scale_slider_y;
-    if (!(scale_slider_y > 1e-08 * size_slider_y)) { pivot = 5; goto dependent; };
-    if (!(determinant_slider_y__slider_x > 1e-08 * size_slider_y * scale_slider_y)) { pivot = 6; goto dependent; };
+    if (!(scale_slider_y > 1e-08 * scale_slider_y)) { pivot = 5; goto dependent; };
+    if (!(determinant_slider_y__slider_x > 1e-08 * scale_slider_x * scale_slider_y)) { pivot = 6; goto dependent; };
     const double inverse_slider_y__slider_x = -1.0/determinant_slider_y__slider_x;
     const double inverse_pivot_slider_y = inverse_slider_y__slider_x*pivot_slider_x;
     const double inverse_pivot_slider_x = inverse_slider_y__slider_x*scale_slider_y;
@@ -354,9 +352,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O1_y = arm_L1_head_x*l_O1_y__L1_theta + inverse_L1_mass;
     const double pivot_O1_x__O1_y = -arm_L1_head_y*l_O1_y__L1_theta;
     const double determinant_O1_x__O1_y = -(pivot_O1_x__O1_y * pivot_O1_x__O1_y) + scale_O1_x*scale_O1_y;
-    const double size_O1_x = scale_O1_x + scale_O1_y;
-    if (!(scale_O1_x > 1e-08 * size_O1_x)) { pivot = 7; goto dependent; };
-    if (!(determinant_O1_x__O1_y > 1e-08 * size_O1_x * scale_O1_x)) { pivot = 8; goto dependent; };
+    if (!(scale_O1_x > 1e-08 * scale_O1_x)) { pivot = 7; goto dependent; };
+    if (!(determinant_O1_x__O1_y > 1e-08 * scale_O1_y * scale_O1_x)) { pivot = 8; goto dependent; };
     const double inverse_O1_x__O1_y = -1.0/determinant_O1_x__O1_y;
     const double inverse_pivot_O1_x = inverse_O1_x__O1_y*scale_O1_y;
     const double inverse_pivot_O1_y = inverse_O1_x__O1_y*scale_O1_x;
@@ -392,9 +389,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_A_x__A_y = -arm_L1_head_y*l_A_y__L1_theta - arm_L2_head_y*l_A_y__L2_theta +
         l_A_y__O1_x*w_A_x__O1_x + l_A_y__O1_y*w_A_x__O1_y + l_A_y__crank1*w_A_x__crank1;
     const double determinant_A_x__A_y = pivot_A_x*pivot_A_y - (pivot_A_x__A_y * pivot_A_x__A_y);
-    const double size_A_x = scale_A_x + scale_A_y;
-    if (!(pivot_A_x > 1e-08 * size_A_x)) { pivot = 10; goto dependent; };
-    if (!(determinant_A_x__A_y > 1e-08 * size_A_x * pivot_A_x)) { pivot = 11; goto dependent; };
+    if (!(pivot_A_x > 1e-08 * scale_A_x)) { pivot = 10; goto dependent; };
+    if (!(determinant_A_x__A_y > 1e-08 * scale_A_y * pivot_A_x)) { pivot = 11; goto dependent; };
     const double inverse_A_x__A_y = -1.0/determinant_A_x__A_y;
     const double inverse_pivot_A_x = inverse_A_x__A_y*pivot_A_y;
     const double inverse_pivot_A_y = inverse_A_x__A_y*pivot_A_x;
@@ -415,9 +411,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O4_y = arm_L4_head_x*l_O4_y__L4_theta + inverse_L4_mass;
     const double pivot_O4_x__O4_y = -arm_L4_head_y*l_O4_y__L4_theta;
     const double determinant_O4_x__O4_y = -(pivot_O4_x__O4_y * pivot_O4_x__O4_y) + scale_O4_x*scale_O4_y;
-    const double size_O4_x = scale_O4_x + scale_O4_y;
-    if (!(scale_O4_x > 1e-08 * size_O4_x)) { pivot = 12; goto dependent; };
-    if (!(determinant_O4_x__O4_y > 1e-08 * size_O4_x * scale_O4_x)) { pivot = 13; goto dependent; };
+    if (!(scale_O4_x > 1e-08 * scale_O4_x)) { pivot = 12; goto dependent; };
+    if (!(determinant_O4_x__O4_y > 1e-08 * scale_O4_y * scale_O4_x)) { pivot = 13; goto dependent; };
     const double inverse_O4_x__O4_y = -1.0/determinant_O4_x__O4_y;
     const double inverse_pivot_O4_x = inverse_O4_x__O4_y*scale_O4_y;
     const double inverse_pivot_O4_y = inverse_O4_x__O4_y*scale_O4_x;
@@ -453,9 +448,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_B_x__B_y = -arm_L3_head_y*l_B_y__L3_theta - arm_L4_head_y*l_B_y__L4_theta +
         l_B_y__O4_x*w_B_x__O4_x + l_B_y__O4_y*w_B_x__O4_y + l_B_y__crank4*w_B_x__crank4;
     const double determinant_B_x__B_y = pivot_B_x*pivot_B_y - (pivot_B_x__B_y * pivot_B_x__B_y);
-    const double size_B_x = scale_B_x + scale_B_y;
-    if (!(pivot_B_x > 1e-08 * size_B_x)) { pivot = 15; goto dependent; };
-    if (!(determinant_B_x__B_y > 1e-08 * size_B_x * pivot_B_x)) { pivot = 16; goto dependent; };
+    if (!(pivot_B_x > 1e-08 * scale_B_x)) { pivot = 15; goto dependent; };
+    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * pivot_B_x)) { pivot = 16; goto dependent; };
     const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
     const double inverse_pivot_B_x = inverse_B_x__B_y*pivot_B_y;
     const double inverse_pivot_B_y = inverse_B_x__B_y*pivot_B_x;
@@ -485,9 +479,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double pivot_Q6_x__Q6_y = arm_L6_head_y*l_Q6_y__L6_theta - arm_L7_head_y*l_Q6_y__L7_theta +
         l_Q6_y__O6_x*w_Q6_x__O6_x + l_Q6_y__O6_y*w_Q6_x__O6_y;
     const double determinant_Q6_x__Q6_y = pivot_Q6_x*pivot_Q6_y - (pivot_Q6_x__Q6_y * pivot_Q6_x__Q6_y);
-    const double size_Q6_x = scale_Q6_x + scale_Q6_y;
-    if (!(pivot_Q6_x > 1e-08 * size_Q6_x)) { pivot = 17; goto dependent; };
-    if (!(determinant_Q6_x__Q6_y > 1e-08 * size_Q6_x * pivot_Q6_x)) { pivot = 18; goto dependent; };
+    if (!(pivot_Q6_x > 1e-08 * scale_Q6_x)) { pivot = 17; goto dependent; };
+    if (!(determinant_Q6_x__Q6_y > 1e-08 * scale_Q6_y * pivot_Q6_x)) { pivot = 18; goto dependent; };
     const double inverse_Q6_x__Q6_y = -1.0/determinant_Q6_x__Q6_y;
     const double inverse_pivot_Q6_x = inverse_Q6_x__Q6_y*pivot_Q6_y;
     const double inverse_pivot_Q6_y = inverse_Q6_x__Q6_y*pivot_Q6_x;

@@ -556,9 +556,11 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     const double determinant_L2_head_L3_head_x__L2_head_L3_head_y =
         -(pivot_L2_head_L3_head_x__L2_head_L3_head_y * pivot_L2_head_L3_head_x__L2_head_L3_head_y) +
         scale_L2_head_L3_head_x*scale_L2_head_L3_head_y;
+    if (!(scale_L2_head_L3_head_x > 1e-08 * scale_L2_head_L3_head_x)) { pivot = 2; goto dependent; };
+    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > 1e-08 * scale_L2_head_L3_head_y * scale_L2_head_L3_head_x)) { pivot = 3; goto dependent; };
     const double size_L2_head_L3_head_x = scale_L2_head_L3_head_x + scale_L2_head_L3_head_y;
-    if (!(scale_L2_head_L3_head_x > 1e-08 * size_L2_head_L3_head_x)) { pivot = 2; goto dependent; };
-    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > 1e-08 * size_L2_head_L3_head_x * scale_L2_head_L3_head_x)) { pivot = 3; goto dependent; };
+    if (!(scale_L2_head_L3_head_x > 1e-10 * size_L2_head_L3_head_x)) { pivot = 2; goto dependent; };
+    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > 1e-10 * size_L2_head_L3_head_x * scale_L2_head_L3_head_x)) { pivot = 3; goto dependent; };
     const double inverse_L2_head_L3_head_x__L2_head_L3_head_y =
         -1.0/determinant_L2_head_L3_head_x__L2_head_L3_head_y;
     const double inverse_pivot_L2_head_L3_head_x =
@@ -598,9 +600,11 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
         l_P2_y__L6_theta*w_P2_x__L6_theta + l_P2_y__L7_theta*span_L7_tail_y +
         l_P2_y__guide_offset*w_P2_x__guide_offset;
     const double determinant_P2_x__P2_y = pivot_P2_x*pivot_P2_y - (pivot_P2_x__P2_y * pivot_P2_x__P2_y);
+    if (!(pivot_P2_x > 1e-08 * scale_P2_x)) { pivot = 4; goto dependent; };
+    if (!(determinant_P2_x__P2_y > 1e-08 * scale_P2_y * pivot_P2_x)) { pivot = 5; goto dependent; };
     const double size_P2_x = scale_P2_x + scale_P2_y;
-    if (!(pivot_P2_x > 1e-08 * size_P2_x)) { pivot = 4; goto dependent; };
-    if (!(determinant_P2_x__P2_y > 1e-08 * size_P2_x * pivot_P2_x)) { pivot = 5; goto dependent; };
+    if (!(pivot_P2_x > 1e-10 * size_P2_x)) { pivot = 4; goto dependent; };
+    if (!(determinant_P2_x__P2_y > 1e-10 * size_P2_x * pivot_P2_x)) { pivot = 5; goto dependent; };
     const double inverse_P2_x__P2_y = -1.0/determinant_P2_x__P2_y;
     const double inverse_pivot_P2_x = inverse_P2_x__P2_y*pivot_P2_y;
     const double inverse_pivot_P2_y = inverse_P2_x__P2_y*pivot_P2_x;
@@ -788,9 +792,11 @@ static int reduced_project(const double t, const double *q, const double *r, con
     const double determinant_L2_head_L3_head_x__L2_head_L3_head_y_2 =
         -(pivot_L2_head_L3_head_x__L2_head_L3_head_y_2 * pivot_L2_head_L3_head_x__L2_head_L3_head_y_2) +
         scale_L2_head_L3_head_x_2*scale_L2_head_L3_head_y_2;
+    if (!(scale_L2_head_L3_head_x_2 > 1e-13 * scale_L2_head_L3_head_x_2)) return 2;
+    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y_2 > 1e-13 * scale_L2_head_L3_head_y_2 * scale_L2_head_L3_head_x_2)) return 3;
     const double size_L2_head_L3_head_x_2 = scale_L2_head_L3_head_x_2 + scale_L2_head_L3_head_y_2;
-    if (!(scale_L2_head_L3_head_x_2 > 1e-13 * size_L2_head_L3_head_x_2)) return 2;
-    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y_2 > 1e-13 * size_L2_head_L3_head_x_2 * scale_L2_head_L3_head_x_2)) return 3;
+    if (!(scale_L2_head_L3_head_x_2 > 1e-10 * size_L2_head_L3_head_x_2)) return 2;
+    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y_2 > 1e-10 * size_L2_head_L3_head_x_2 * scale_L2_head_L3_head_x_2)) return 3;
     const double inverse_L2_head_L3_head_x__L2_head_L3_head_y_2 =
         -1.0/determinant_L2_head_L3_head_x__L2_head_L3_head_y_2;
     const double inverse_pivot_L2_head_L3_head_x_2 =
@@ -831,9 +837,11 @@ static int reduced_project(const double t, const double *q, const double *r, con
         l_P2_y__guide_offset_2*w_P2_x__guide_offset_2;
     const double determinant_P2_x__P2_y_2 = pivot_P2_x_2*pivot_P2_y_2 - (pivot_P2_x__P2_y_2 *
         pivot_P2_x__P2_y_2);
+    if (!(pivot_P2_x_2 > 1e-13 * scale_P2_x_2)) return 4;
+    if (!(determinant_P2_x__P2_y_2 > 1e-13 * scale_P2_y_2 * pivot_P2_x_2)) return 5;
     const double size_P2_x_2 = scale_P2_x_2 + scale_P2_y_2;
-    if (!(pivot_P2_x_2 > 1e-13 * size_P2_x_2)) return 4;
-    if (!(determinant_P2_x__P2_y_2 > 1e-13 * size_P2_x_2 * pivot_P2_x_2)) return 5;
+    if (!(pivot_P2_x_2 > 1e-10 * size_P2_x_2)) return 4;
+    if (!(determinant_P2_x__P2_y_2 > 1e-10 * size_P2_x_2 * pivot_P2_x_2)) return 5;
     const double inverse_P2_x__P2_y_2 = -1.0/determinant_P2_x__P2_y_2;
     const double inverse_pivot_P2_x_2 = inverse_P2_x__P2_y_2*pivot_P2_y_2;
     const double inverse_pivot_P2_y_2 = inverse_P2_x__P2_y_2*pivot_P2_x_2;

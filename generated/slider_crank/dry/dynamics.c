@@ -133,9 +133,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double scale_O_y = arm_crank_head_x*l_O_y__crank_theta + inverse_crank_mass;
     const double pivot_O_x__O_y = -arm_crank_head_y*l_O_y__crank_theta;
     const double determinant_O_x__O_y = -(pivot_O_x__O_y * pivot_O_x__O_y) + scale_O_x*scale_O_y;
-    const double size_O_x = scale_O_x + scale_O_y;
-    if (!(scale_O_x > 1e-08 * size_O_x)) { pivot = 3; goto dependent; };
-    if (!(determinant_O_x__O_y > 1e-08 * size_O_x * scale_O_x)) { pivot = 4; goto dependent; };
+    if (!(scale_O_x > 1e-08 * scale_O_x)) { pivot = 3; goto dependent; };
+    if (!(determinant_O_x__O_y > 1e-08 * scale_O_y * scale_O_x)) { pivot = 4; goto dependent; };
     const double inverse_O_x__O_y = -1.0/determinant_O_x__O_y;
     const double inverse_pivot_O_x = inverse_O_x__O_y*scale_O_y;
     const double inverse_pivot_O_y = inverse_O_x__O_y*scale_O_x;
@@ -169,9 +168,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         l_crankpin_y__O_y*w_crankpin_x__O_y;
     const double determinant_crankpin_x__crankpin_y = pivot_crankpin_x*pivot_crankpin_y -
         (pivot_crankpin_x__crankpin_y * pivot_crankpin_x__crankpin_y);
-    const double size_crankpin_x = scale_crankpin_x + scale_crankpin_y;
-    if (!(pivot_crankpin_x > 1e-08 * size_crankpin_x)) { pivot = 5; goto dependent; };
-    if (!(determinant_crankpin_x__crankpin_y > 1e-08 * size_crankpin_x * pivot_crankpin_x)) { pivot = 6; goto dependent; };
+    if (!(pivot_crankpin_x > 1e-08 * scale_crankpin_x)) { pivot = 5; goto dependent; };
+    if (!(determinant_crankpin_x__crankpin_y > 1e-08 * scale_crankpin_y * pivot_crankpin_x)) { pivot = 6; goto dependent; };
     const double inverse_crankpin_x__crankpin_y = -1.0/determinant_crankpin_x__crankpin_y;
     const double inverse_pivot_crankpin_x = inverse_crankpin_x__crankpin_y*pivot_crankpin_y;
     const double inverse_pivot_crankpin_y = inverse_crankpin_x__crankpin_y*pivot_crankpin_x;

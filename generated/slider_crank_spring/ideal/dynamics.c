@@ -126,9 +126,8 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         arm_rod_crankpin_y*l_pin_y__rod_theta;
     const double determinant_pin_x__pin_y = pivot_pin_x*pivot_pin_y - (pivot_pin_x__pin_y *
         pivot_pin_x__pin_y);
-    const double size_pin_x = scale_pin_x + scale_pin_y;
-    if (!(pivot_pin_x > 1e-08 * size_pin_x)) { pivot = 4; goto dependent; };
-    if (!(determinant_pin_x__pin_y > 1e-08 * size_pin_x * pivot_pin_x)) { pivot = 5; goto dependent; };
+    if (!(pivot_pin_x > 1e-08 * scale_pin_x)) { pivot = 4; goto dependent; };
+    if (!(determinant_pin_x__pin_y > 1e-08 * scale_pin_y * pivot_pin_x)) { pivot = 5; goto dependent; };
     const double inverse_pin_x__pin_y = -1.0/determinant_pin_x__pin_y;
     const double inverse_pivot_pin_x = inverse_pin_x__pin_y*pivot_pin_y;
     const double inverse_pivot_pin_y = inverse_pin_x__pin_y*pivot_pin_x;
