@@ -14,6 +14,7 @@ from collections.abc import Iterable, Mapping
 import sympy as sp
 
 from gudgeon.generator.kernels import KernelBuilder, Statement
+from gudgeon.generator.reciprocals import base_name, is_division
 from gudgeon.generator.symbols import Symbols
 
 Tangent = Mapping[sp.Symbol, sp.Expr]  # base symbol -> derivative by it; absent: zero
@@ -98,10 +99,7 @@ class Tangents:
         """The value with what a function and its derivatives share as locals: denominators, powers of contact laws."""
         if not value.has(sp.Pow):
             return value
-        divided = value.replace(
-            lambda part: part.is_Pow and part.exp.is_Integer and part.exp < 0 and bool(part.free_symbols),
-            lambda part: self._local("inverse", 1 / part.base) ** -part.exp,
-        )
+        divided = value.replace(is_division, lambda part: self._local("inverse", 1 / part.base) ** -part.exp)
         if not self._share_powers:
             return divided
         return divided.replace(lambda part: part.is_Pow and bool(part.exp.free_symbols), self._power)
@@ -115,8 +113,7 @@ class Tangents:
     def _local(self, what: str, value: sp.Expr) -> sp.Symbol:
         """The local that holds a power; named after its base where that is a symbol."""
         if value not in self._powers:
-            name = value.base.name.removeprefix("p->") if value.base.is_Symbol else "sum"
-            self._powers[value] = self._build.local(f"{what}_{name}", value)
+            self._powers[value] = self._build.local(f"{what}_{base_name(value)}", value)
         return self._powers[value]
 
 
