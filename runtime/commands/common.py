@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
-import os
 from pathlib import Path
 
-from gudgeon.errors import GudgeonError, InputError, UnknownNameError
+from gudgeon.errors import InputError, UnknownNameError
 from gudgeon.loading import find_mechanism, generator_hash, read_bytes
 from gudgeon.parameters import spaced
 
@@ -61,19 +60,6 @@ def value(text: str) -> float | str:
         return float(text)
     except ValueError:
         return spaced(text)
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write a file aside and move it into place."""
-    aside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        aside.write_text(text, encoding="utf-8")
-        os.replace(aside, path)
-    except OSError as error:
-        raise GudgeonError(f"cannot write {path}: {error.strerror or error}") from error
-    finally:
-        aside.unlink(missing_ok=True)
 
 
 def check_folder(option: str, out: Path) -> None:
