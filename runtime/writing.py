@@ -28,10 +28,12 @@ class Aside:
     """Files of one folder, written under names of their own until they are moved into place; a context.
 
     The folder is made if it is not there. What was written and not moved is removed at the end of the context.
+    sync: each file reaches the disk before it is moved, for what cannot be made again (milliseconds, on a busy disk
+    seconds); without, a machine that loses its power in these seconds may keep neither file on some file systems.
     """
 
-    def __init__(self, folder: str | os.PathLike[str]) -> None:
-        self.folder = Path(folder)
+    def __init__(self, folder: str | os.PathLike[str], *, sync: bool = False) -> None:
+        self.folder, self.sync = Path(folder), sync
         self._fd = -1
         self._parts: list[str] = []  # on the disk
         self._whole: list[tuple[str, str]] = []  # temporary name, name
@@ -61,7 +63,8 @@ class Aside:
                 file.flush()
                 if old:
                     _hand_on(handle, old)
-                _sync(handle)
+                if self.sync:
+                    _sync(handle)
             self._whole.append((part, name))
 
     def write(self, name: str, data: bytes | memoryview) -> None:
@@ -84,13 +87,13 @@ class Aside:
 
 
 @contextmanager
-def written(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+def written(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator[BinaryIO]:
     """A file to be written, which can be read and has places; it stands at `path` once the block has ended well.
 
-    Raises OutputError, for an OSError of the block too; `path` is then as it was.
+    Raises OutputError, for an OSError of the block too; `path` is then as it was. sync: as in Aside.
     """
     path = Path(path)
-    with Aside(path.parent) as aside:
+    with Aside(path.parent, sync=sync) as aside:
         with aside.file(path.name) as file:
             yield file
         aside.move()

@@ -104,8 +104,8 @@ def test_a_disk_that_tells_late_leaves_nothing(
         raise OSError(code, os.strerror(code))
 
     monkeypatch.setattr(os, where, full)
-    with pytest.raises(OutputError, match=os.strerror(code)):
-        write_bytes(tmp_path / "x", b"new")
+    with pytest.raises(OutputError, match=os.strerror(code)), written(tmp_path / "x", sync=True) as file:
+        file.write(b"new")
     assert (tmp_path / "x").read_bytes() == b"older" and os.listdir(tmp_path) == ["x"]
 
 
