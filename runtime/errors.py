@@ -144,8 +144,13 @@ class OutputError(GudgeonError):
         self.reason = str(reason) if isinstance(reason, str) else reason.strerror or str(reason)
         self.exit_code = 2 if isinstance(reason, str) or code in _NAMED else 1
         hint = _HINTS.get(code or 0, "name another file or folder" if self.exit_code == 2 else "")
-        shown = self.path if len(self.path) < 200 else f"{self.path[:80]}…{self.path[-80:]}"
-        super().__init__(f"cannot write {shown}: {self.reason}" + (f"\n  {hint}" if hint else ""))
+        super().__init__(f"cannot write {shortened(path)}: {self.reason}" + (f"\n  {hint}" if hint else ""))
+
+
+def shortened(path: str | os.PathLike[str]) -> str:
+    """A path as it is told: of a long one both ends."""
+    text = os.fspath(path)
+    return text if len(text) < 200 else f"{text[:80]}…{text[-80:]}"
 
 
 _NAMED = {
