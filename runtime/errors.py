@@ -30,6 +30,14 @@ class GudgeonError(Exception):
 
     exit_code = 1
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled as it is, whatever its constructor takes: an error comes back from another process."""
+        return _again, (type(self), self.args), dict(self.__dict__)
+
+
+def _again(kind: type[GudgeonError], arguments: tuple[Any, ...]) -> GudgeonError:
+    return kind.__new__(kind, *arguments)
+
 
 class InputError(GudgeonError):
     """Something in a file or a call that the user can mend.
@@ -63,6 +71,10 @@ class MissingKeyError(InputError):
 
 class BadValueError(InputError):
     """A value of the wrong kind, or outside its range (negative mass, clearance ≥ radius, …)."""
+
+
+class ArrayError(BadValueError, ValueError):
+    """An array that C cannot read as it is meant: another shape, masked entries, no real numbers, NaN for a time."""
 
 
 class UnitError(InputError):
