@@ -185,14 +185,17 @@ class Result:
             return self.parameters[name]
         raise self.unknown(name)
 
-    def to_xarray(self) -> xarray.Dataset:
-        """All series as one Dataset over `time`, with units and long names; impacts over `impact`."""
+    def to_xarray(self, part: str = "series") -> xarray.Dataset:
+        """All series as one Dataset over `time`, with units and long names; `.to_dataframe()` has a row a sample.
+
+        part: "impacts", "events" or "parameters" for these, a row each.
+        """
         from gudgeon import netcdf
 
-        return netcdf.dataset(self)
+        return netcdf.dataset(self, part)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to a NetCDF file, aside first and then moved into place."""
+        """Write everything to a NetCDF file, aside first and then moved into place; OutputError where that fails."""
         from gudgeon import netcdf
 
         netcdf.save(self, path)
@@ -234,6 +237,6 @@ class Result:
 
 def read(path: str | os.PathLike[str]) -> Result:
     """Read a file that `Result.save` wrote. InputError if it is none."""
-    from gudgeon import netcdf
+    from gudgeon import netcdf_read
 
-    return netcdf.read(path)
+    return netcdf_read.read(path)
