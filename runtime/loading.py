@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
 from time import perf_counter
@@ -58,8 +58,26 @@ def load(
     """
     start = perf_counter()
     file = find_mechanism(mechanism)
-    data = read_bytes(file)
+    return load_bytes(
+        read_bytes(file), file, scene, overrides=overrides, formulation=formulation, portable=portable,
+        regenerate=regenerate, start=start,
+    )  # fmt: skip
+
+
+def load_bytes(
+    data: bytes,
+    file: Path,
+    scene: str | None = None,
+    *,
+    overrides: Overrides | None = None,
+    formulation: str = "reduced",
+    portable: bool = False,
+    regenerate: bool = False,
+    start: float | None = None,
+) -> Simulation:
+    """`load` of the bytes of a file; `start`: when reading them began (perf_counter)."""
     read = perf_counter()
+    start = read if start is None else start
     source, origin = kernel_source(
         data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate
     )
@@ -118,6 +136,7 @@ def kernel_source(
             from gudgeon.generator.pipeline import generate
 
             source = generate(data, str(file), scene, overrides, formulation)
+        source = replace(source, overrides=dict(sorted(overrides.items())))
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
     entry = cache.fetch("models", key, make, renew=regenerate)

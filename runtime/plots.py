@@ -6,12 +6,11 @@ unless the caller uses pyplot already: no display is needed and no figure is kep
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 import textwrap
-import threading
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +19,7 @@ import numpy as np
 from gudgeon.errors import GudgeonError
 from gudgeon.plot_units import label, scale
 from gudgeon.series import rates
+from gudgeon.writing import write_bytes
 
 try:
     import matplotlib
@@ -276,14 +276,7 @@ def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str
 
 def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
     """Write a picture aside and move it into place; it holds neither date nor version."""
-    path = Path(path)
-    aside = path.with_name(f".{path.stem}.{os.getpid()}.{threading.get_ident()}{path.suffix}")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        picture.savefig(aside, metadata={"Software": None} if path.suffix == ".png" else None)
-        os.replace(aside, path)
-    except OSError as error:
-        raise GudgeonError(f"cannot write {path}: {error.strerror or error}") from error
-    finally:
-        with suppress(OSError):
-            aside.unlink()
+    path, drawn = Path(path), io.BytesIO()
+    suffix = path.suffix.removeprefix(".") or None
+    picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
+    write_bytes(path, drawn.getvalue())

@@ -6,10 +6,11 @@ from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from gudgeon.commands.common import chosen_scenes, write_text
+from gudgeon.commands.common import chosen_scenes
 from gudgeon.errors import GudgeonError, InputError
 from gudgeon.loading import find_mechanism, kernel_source, read_bytes
 from gudgeon.shipped import REST
+from gudgeon.writing import write_text
 
 LIST = "emitted.sha256"  # what was written, as `sha256sum -c` reads it
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gudgeon.commands.common import chosen_scenes, need_suffix, write_text
+from gudgeon.commands.common import chosen_scenes, need_suffix
 from gudgeon.loading import find_mechanism, read_bytes
+from gudgeon.writing import write_text
 
 
 def write_equations(mechanism: str, target: Path, scene: str) -> int:

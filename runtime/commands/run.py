@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_folder, chosen_scenes, unknown, value
+from gudgeon.commands.common import check_folder, chosen_scenes, settings, unknown, value
 from gudgeon.commands.progress import progress_bar
-from gudgeon.errors import AssemblyError, GudgeonError, InputError, SolverError
+from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.loading import load
 from gudgeon.results import Result
 from gudgeon.step import T_END, scene_end
@@ -39,7 +39,7 @@ class Request:
     output: int | None
     step: str | None
     method: str
-    rtol: float | None
+    rtol: str | None
     watch: tuple[str, ...]
     out: Path
     horizon: bool
@@ -61,14 +61,14 @@ class Session:
 
 def run_scenes(request: Request) -> int:
     """Run, compare, save, show; the exit code."""
-    settings = _settings(request.settings)
+    wanted = settings(request.settings)
     check_folder("--out", request.out)
     names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
     simulations = {name: _load(request, name) for name in names}
-    _check(request, settings, simulations)
+    _check(request, wanted, simulations)
     session = Session()
     try:
-        _simulate(request, settings, simulations, session)
+        _simulate(request, wanted, simulations, session)
     except KeyboardInterrupt:
         session.interrupted = True
     if session.runs:
@@ -99,16 +99,6 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
     ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in session.runs.items() if run.diagnostics.interrupted]
     missing = [f"{name} was not begun" for name in names if name not in session.runs and name not in session.failures]
     return "; ".join([told, *ended, *missing])
-
-
-def _settings(texts: tuple[str, ...]) -> dict[str, float | str]:
-    found = {}
-    for text in texts:
-        address, equals, number = text.partition("=")
-        if not (equals and address.strip() and number.strip()):
-            raise InputError(f"--set {text}: expected ADDRESS=VALUE", hint="for example --set c=0.5mm")
-        found[address.strip()] = value(number)
-    return found
 
 
 def _check(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:

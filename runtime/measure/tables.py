@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gudgeon.commands.common import write_text
+from gudgeon.writing import write_text
 
 if TYPE_CHECKING:
     from rich.console import Console
