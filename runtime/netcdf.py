@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon import trace
 from gudgeon.diagnostics import Diagnostics
 from gudgeon.errors import GudgeonError, InputError
 from gudgeon.integrators.trajectory import EVENT_DTYPE
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     import xarray
 
 FORMAT = "gudgeon-result/1"
+TRACE = "trace"
 DIMENSIONS = ("time", "impact", "event", "slot", "prepared")
 IMPACTS = {
     "joint": ("", "index of the joint with play"),
@@ -138,6 +140,18 @@ def _write(file: Any, run: Result) -> None:
             file[variable.name].attrs[key] = text
     for key, text in attributes(run).items():
         file.attrs[key] = text
+    _write_trace(file, run)
+
+
+def _write_trace(file: Any, run: Result) -> None:
+    """In a group of its own, over its own rows: no series has their times."""
+    for name, (values, unit, meaning) in trace.variables(run).items():
+        stored = file.require_group(TRACE).create_dataset(name, data=np.ascontiguousarray(values))
+        if name == "t":
+            stored.make_scale(name)
+        else:
+            stored.dims[0].attach_scale(file[TRACE]["t"])
+        stored.attrs["units"], stored.attrs["long_name"] = unit, meaning
 
 
 def read(path: str | os.PathLike[str]) -> Result:
@@ -151,7 +165,8 @@ def read(path: str | os.PathLike[str]) -> Result:
             if found != FORMAT:
                 hint = f"expected the attribute gudgeon = {FORMAT!r}, found {found!r}"
                 raise InputError(f"{os.fspath(path)} holds no result of gudgeon", hint=hint)
-            return _result({name: item[...] for name, item in file.items()}, dict(file.attrs))
+            data = {name: item[...] for name, item in file.items() if name != TRACE}
+            return _result(data, dict(file.attrs), {name: item[...] for name, item in file.get(TRACE, {}).items()})
     except (OSError, KeyError, ValueError, TypeError) as error:
         raise InputError(f"{os.fspath(path)} cannot be read as a result: {error}") from error
 
@@ -164,7 +179,7 @@ def _h5py() -> Any:
     return h5py
 
 
-def _result(data: dict[str, Array], attributes: dict[str, str]) -> Result:
+def _result(data: dict[str, Array], attributes: dict[str, str], traced: dict[str, Array]) -> Result:
     source = KernelSource.from_json(attributes["source"])
     t = data.pop("time")
     apart = {*DIMENSIONS, *NUMBERS, *(f"impact.{name}" for name in IMPACTS), *(f"event.{name}" for name in EVENTS)}
@@ -188,6 +203,7 @@ def _result(data: dict[str, Array], attributes: dict[str, str]) -> Result:
         diagnostics=Diagnostics.from_json(attributes["diagnostics"]),
         events=events,
         stored=stored,
+        trace=trace.from_variables(source, traced),
     )
 
 

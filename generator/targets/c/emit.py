@@ -62,6 +62,8 @@ int gudgeon_kinematic_works(long n, const double *t, const double *p, double rea
 METHOD_CDEF = """\
 size_t gudgeon_run_size(void);
 void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched);
+void gudgeon_run_trace(void *memory, double *trace, long rows);
+long gudgeon_run_traced(const void *memory);
 void gudgeon_run_codes(void *memory, const signed char *state);
 int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
