@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import stat
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
@@ -13,9 +14,10 @@ from typing import TYPE_CHECKING
 
 from gudgeon.build import compile_kernels
 from gudgeon.cache import Cache, default_cache, digest
-from gudgeon.errors import BadValueError, InputError
+from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
 from gudgeon.kernel_source import KernelSource
 from gudgeon.shipped import PACKAGE, committed, shipped, shipped_file
+from gudgeon.writing import kind
 
 if TYPE_CHECKING:
     from gudgeon.simulation import Simulation
@@ -24,6 +26,7 @@ Overrides = Mapping[str, str | float | bool]
 DEFAULT_SCENE = "ideal"  # it exists in every file
 FORMULATIONS = ("reduced", "full")
 SOURCE = "source.json"
+MAX_BYTES = 1 << 20  # of a mechanism file
 
 
 @dataclass(frozen=True)
@@ -101,12 +104,29 @@ def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
 
 
 def read_bytes(file: Path) -> bytes:
-    """The file's bytes. Raises InputError if it cannot be read."""
+    """A mechanism file's bytes. InputError if it cannot be read or is no regular file, LimitError if it is too large.
+
+    A device or pipe is not opened: it may have no end, or keep us waiting; and a file is read more than once.
+    """
     try:
-        return file.read_bytes()
-    except OSError as error:
+        found = os.stat(file)
+        if stat.S_ISREG(found.st_mode):
+            handle = os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+            with open(handle, "rb") as opened:
+                found = os.fstat(handle)
+                data = opened.read(MAX_BYTES + 1) if found.st_size <= MAX_BYTES else b""
+    except (OSError, ValueError) as error:  # ValueError: a name with a zero byte
         hint = f"the mechanism that comes with gudgeon is called {file.stem}" if file.stem in shipped() else ""
-        raise InputError(f"cannot read {file}: {error.strerror or error}", hint=hint) from error
+        why = getattr(error, "strerror", "") or error
+        raise InputError(f"cannot read {shortened(file)}: {why}", hint=hint) from error
+    if not stat.S_ISREG(found.st_mode):
+        pipe = stat.S_ISFIFO(found.st_mode)
+        hint = "write what comes through the pipe to a file first" if pipe else "name a YAML file"
+        raise InputError(f"cannot read {file}: it is {kind(found)}, not a file", hint=hint)
+    size = max(found.st_size, len(data))
+    if size > MAX_BYTES:
+        raise LimitError(f"a file of {size} bytes", Location(str(file), 1, 1), f"expected at most {MAX_BYTES}")
+    return data
 
 
 def kernel_source(

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from gudgeon.compiled import CompiledModel, Evaluation
     from gudgeon.plots import Plot
     from gudgeon.series import Series
+    from gudgeon.trace import Trace
 
 Array: TypeAlias = NDArray[Any]
 
@@ -81,6 +82,7 @@ class Result:
     impacts: Array  # IMPACT_DTYPE, one an onset
     diagnostics: Diagnostics
     events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: what the file's `events` watch
+    trace: Trace | None = None  # forces and paths from the steps; None: samples are all there is
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
 
     def __getitem__(self, name: str) -> Array:
@@ -185,14 +187,17 @@ class Result:
             return self.parameters[name]
         raise self.unknown(name)
 
-    def to_xarray(self) -> xarray.Dataset:
-        """All series as one Dataset over `time`, with units and long names; impacts over `impact`."""
+    def to_xarray(self, part: str = "series") -> xarray.Dataset:
+        """All series as one Dataset over `time`, with units and long names; `.to_dataframe()` has a row a sample.
+
+        part: "impacts", "events" or "parameters" for these, a row each.
+        """
         from gudgeon import netcdf
 
-        return netcdf.dataset(self)
+        return netcdf.dataset(self, part)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to a NetCDF file, aside first and then moved into place."""
+        """Write everything to a NetCDF file, aside first and then moved into place; OutputError where that fails."""
         from gudgeon import netcdf
 
         netcdf.save(self, path)
@@ -234,6 +239,6 @@ class Result:
 
 def read(path: str | os.PathLike[str]) -> Result:
     """Read a file that `Result.save` wrote. InputError if it is none."""
-    from gudgeon import netcdf
+    from gudgeon import netcdf_read
 
-    return netcdf.read(path)
+    return netcdf_read.read(path)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterable
 from pathlib import Path
 
-from gudgeon.errors import BadValueError, GudgeonError, InputError, UnknownNameError
+from gudgeon.errors import BadValueError, InputError, OutputError, UnknownNameError, shortened
 from gudgeon.loading import find_mechanism, generator_hash, read_bytes
 from gudgeon.parameters import plain_number, spaced
+from gudgeon.writing import check_target
 
 SCENES = "scenes.json"
 
@@ -78,24 +78,15 @@ def settings(texts: Iterable[str]) -> dict[str, float | str]:
     return found
 
 
-def write_text(path: Path, text: str) -> None:
-    """Write a file aside and move it into place."""
-    aside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        aside.write_text(text, encoding="utf-8")
-        os.replace(aside, path)
-    except OSError as error:
-        raise GudgeonError(f"cannot write {path}: {error.strerror or error}") from error
-    finally:
-        aside.unlink(missing_ok=True)
-
-
 def check_folder(option: str, out: Path) -> None:
     """What can be known about a folder is told before anything is run, not after an hour."""
     import tempfile
 
-    there = next(path for path in (out, *out.absolute().parents) if path.exists())
+    try:
+        there = next(path for path in (out, *out.absolute().parents) if path.exists())
+    except OSError as error:  # a name too long, a folder that may not be entered
+        told = f"{option} {shortened(out)}: {error.strerror or error}"
+        raise InputError(told, hint="name another folder") from error
     if not there.is_dir():
         raise InputError(f"{option} {out}: {there} is a file", hint="name a folder")
     try:
@@ -109,8 +100,10 @@ def check_folder(option: str, out: Path) -> None:
 def check_file(option: str, path: Path) -> None:
     """The same of a file that will be written, or replaced."""
     check_folder(option, path.parent)
-    if path.is_dir():
-        raise InputError(f"{option}: {path} is a folder", hint="name a file")
+    try:
+        check_target(path)
+    except OutputError as error:
+        raise InputError(f"{option}: {error}") from error
 
 
 def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:

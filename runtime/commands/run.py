@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_folder, chosen_scenes, settings, unknown, value
+from gudgeon.commands.common import check_file, check_folder, chosen_scenes, settings, unknown, value
 from gudgeon.commands.progress import progress_bar
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.loading import load
@@ -55,7 +55,7 @@ class Session:
     runs: dict[str, Result] = field(default_factory=dict)
     references: dict[str, Result] = field(default_factory=dict)
     failures: dict[str, GudgeonError] = field(default_factory=dict)
-    unwritten: GudgeonError | None = None
+    unwritten: list[GudgeonError] = field(default_factory=list)
     interrupted: bool = False
 
 
@@ -66,6 +66,9 @@ def run_scenes(request: Request) -> int:
     names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
     simulations = {name: _load(request, name) for name in names}
     _check(request, wanted, simulations)
+    for name, simulation in simulations.items():
+        check_file("--out", result_path(request.out, simulation.source.mechanism, name))
+    check_file("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
     session = Session()
     try:
         _simulate(request, wanted, simulations, session)
@@ -75,12 +78,12 @@ def run_scenes(request: Request) -> int:
         _hand_over(request, simulations[IDEAL], session)
     for scene, error in session.failures.items():
         print(f"error: scene {scene}: {error}", file=sys.stderr)
-    if session.unwritten:
-        print(f"error: {session.unwritten}", file=sys.stderr)
+    for error in session.unwritten:
+        print(f"error: {error}", file=sys.stderr)
     if session.interrupted:
         print(_interrupted(names, session), file=sys.stderr)
         return 130
-    return max((error.exit_code for error in (*session.failures.values(), session.unwritten) if error), default=0)
+    return max((error.exit_code for error in (*session.failures.values(), *session.unwritten)), default=0)
 
 
 def _load(request: Request, scene: str) -> Simulation:
@@ -178,11 +181,7 @@ def _hand_over(request: Request, ideal: Simulation, session: Session) -> None:
     reports = [compare(run, session.references.get(scene), watch) for scene, run in shown.items()]
     if not request.json:
         _print(first.source.title or first.source.mechanism, reports)
-    files: Files = {}
-    try:
-        _write(request.out, shown, session.references, watch, files)
-    except GudgeonError as error:  # a full disk must not take the figures with it
-        session.unwritten = error
+    files = _write(request.out, shown, session, watch)
     if request.json:
         import json
 
@@ -202,20 +201,34 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
     return ideal.simulate(output=run.t, parameters=values, stop=False)
 
 
-def _write(
-    out: Path, runs: Mapping[str, Result], references: Mapping[str, Result], watch: Sequence[str], files: Files
-) -> None:
-    """A NetCDF file a scene and one picture, each told in `files`; a note names an optional package that is missing."""
+def _write(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequence[str]) -> Files:
+    """A NetCDF file a scene and one picture; a note names an optional package that is missing.
+
+    What a full disk refuses goes to `session.unwritten`, and the rest is written: a picture is smaller than results.
+    """
+    files: Files = {}
     mechanism = next(iter(runs.values())).source.mechanism
     if _have("NetCDF files", "h5py"):
         for scene, run in runs.items():
-            run.save(out / f"{mechanism}_{scene}.nc")
-            files[scene] = str(out / f"{mechanism}_{scene}.nc")
+            try:
+                run.save(result_path(out, mechanism, scene))
+                files[scene] = str(result_path(out, mechanism, scene))
+            except GudgeonError as error:
+                session.unwritten.append(error)
     if _have("picture", "matplotlib"):
         from gudgeon.plots import figure, save_figure
 
-        save_figure(figure(runs, references, watch), out / f"{mechanism}.png")
-        files["picture"] = str(out / f"{mechanism}.png")
+        try:
+            save_figure(figure(runs, session.references, watch), out / f"{mechanism}.png")
+            files["picture"] = str(out / f"{mechanism}.png")
+        except GudgeonError as error:
+            session.unwritten.append(error)
+    return files
+
+
+def result_path(out: Path, mechanism: str, scene: str) -> Path:
+    """Where the result of a scene goes."""
+    return out / f"{mechanism}_{scene}.nc"
 
 
 def _have(what: str, *packages: str) -> bool:
