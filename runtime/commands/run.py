@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_file, check_folder, chosen_scenes, settings, unknown, value
+from gudgeon.commands.common import check_folder, check_name, chosen_scenes, settings, unknown, value
 from gudgeon.commands.progress import progress_bar
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.loading import load
@@ -67,8 +67,8 @@ def run_scenes(request: Request) -> int:
     simulations = {name: _load(request, name) for name in names}
     _check(request, wanted, simulations)
     for name, simulation in simulations.items():
-        check_file("--out", result_path(request.out, simulation.source.mechanism, name))
-    check_file("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
+        check_name("--out", result_path(request.out, simulation.source.mechanism, name))
+    check_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
     session = Session()
     try:
         _simulate(request, wanted, simulations, session)
@@ -96,7 +96,7 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
 
     if not session.runs:
         return "interrupted before anything was computed: nothing is shown or saved"
-    told = "interrupted: what was computed is shown and saved"
+    told = "interrupted: what was computed is shown and saved" + ", but for what could not be" * bool(session.unwritten)
     if any(UNFINISHED in run.diagnostics.notes for run in session.runs.values()):
         told += "; the search for the horizon was not finished"
     ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in session.runs.items() if run.diagnostics.interrupted]
