@@ -41,10 +41,10 @@ class Runs:
         self.compiled, self.method, self.times = compiled, method, times
         n, N, size, nc = len(p), len(times), 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
         self.n = n
-        scale, floor = adaptive.tolerances(compiled, p, rtol, float(times[-1] - times[0]))
+        scale, least = adaptive.tolerances(compiled, p, rtol)
         self.arrays: dict[str, NDArray[Any]] = {
             "t": times, "p": p, "p_motion": motion, "size": mechanism_sizes(compiled, p), "step": step,
-            "scale": scale, "floor": floor, "start": np.full((n, 2 * compiled.n), np.nan),
+            "scale": scale, "least": least, "start": np.full((n, 2 * compiled.n), np.nan),
             "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((n, N, size)),
             "latched": np.empty((n, N, max(compiled.n_memory, 1))), "state": np.zeros((n, N, nc), np.int8),
             "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),

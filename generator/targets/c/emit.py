@@ -71,14 +71,14 @@ void gudgeon_run_sample(const void *memory, const double *p, double *y, double *
 void gudgeon_run_stop(void *memory, int stop);
 int gudgeon_run_events(void *memory, double *t, int *event);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
-void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double fixed);
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *least, double fixed);
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
 typedef struct {
     long samples, numbers, limit;
     int choice, stop;
-    double fixed, *t, *p, *p_motion, *size, *step, *scale, *floor, *start;
+    double fixed, *t, *p, *p_motion, *size, *step, *scale, *least, *start;
     unsigned char *started, *phase;
     double *y, *latched;
     signed char *state;
