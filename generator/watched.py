@@ -29,8 +29,7 @@ _KNOWN_LATE = "aside->"  # what a text with this in it reads is known only once 
 def watched_kernel(dynamics: Kernel, model: Model) -> Kernel | None:
     """What a right-hand side's kernel computes of the scene's corners and events; None where that hangs on forces."""
     corners = {switch.index for switch in model.symbols.switches.of("")}
-    follows = not (model.degrees_of_freedom or model.clearances or model.frictions)
-    if follows or not corners and not model.events:
+    if not corners and not model.events:
         return None
     outs = {s: out for section in dynamics.sections for s in section.statements
             if isinstance(s, Statement) and (out := _out(s, corners))}  # fmt: skip

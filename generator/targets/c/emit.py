@@ -110,8 +110,8 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
     reduced = reduced_code(model, kkt.pivots, render, _kernels) if formulation == "reduced" else None
-    watched = watched_kernel(dynamics, model) if formulation == "full" else None
-    right_hand_side = [dynamics, *([watched] if watched else [])]
+    watched = watched_kernel(dynamics, model)
+    right_hand_side = [dynamics, *([watched] if watched and formulation == "full" and integrates else [])]
     plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched,
                        render("motion_full.c.jinja"), kkt.pivots)  # fmt: skip
     integrated = reduced.integrated if reduced else plain
@@ -119,7 +119,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     if integrates:
         loops, beside = _loops(model, integrated, reduced, terms, counts)
     else:
-        loops, beside = kinematic_code(model, kkt, integrated, terms, counts, render), {}
+        loops, beside = kinematic_code(model, kkt, integrated, terms, watched, counts, render), {}
     prepare = interface.prepare_kernel(model, printer.expression)
     kernels = [*right_hand_side, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
     files = {

@@ -92,9 +92,13 @@ class LoopCode:
 
 
 def kinematic_code(
-    model: Model, kkt: KKT, integrated: Integrated, terms: Kernel | None, counts: Mapping[str, int], render: Render
-) -> LoopCode:
-    """Positions by Newton: in tree coordinates, unless the closures' pattern leaves one of them open."""
+    model: Model, kkt: KKT, integrated: Integrated, terms: Kernel | None, watched: Kernel | None,
+    counts: Mapping[str, int], render: Render,
+) -> LoopCode:  # fmt: skip
+    """Positions by Newton: in tree coordinates, unless the closures' pattern leaves one of them open.
+
+    `watched`: what is watched, in absolute coordinates.
+    """
     rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
     tree = integrated.reduced and rows.fits
     if tree:
@@ -108,15 +112,19 @@ def kinematic_code(
         projection, of_projection = projection_kernel(kkt.system, model.rows, "project")
         kernels, pivots, solved = (projection,), (*of_projection.pivots, *kkt.pivots), of_projection
         closing = printer.kernel(projection) + "\n" + render("kinematic_full.c.jinja", **counts)
-    files = {"kinematic.c": render("kinematic.c.jinja", closing=closing, tree=tree)}
+    looked = watched if model.events else None
+    files = _range_code(terms, looked, render)
+    files["kinematic.c"] = render("kinematic.c.jinja", closing=closing, tree=tree, n_terms=count_terms(terms))
     if model.events:
-        files["kinematic_events.c"] = render("kinematic_events.c.jinja")
+        corners = sorted(switch.index for switch in model.symbols.switches.of(""))
+        text = ranges_printer.kernel(ranges_kernel(watched, corners)) if watched else ""
+        files["kinematic_events.c"] = render("kinematic_events.c.jinja", kernel=text, first=len(corners))
     return LoopCode(files, kernels, solved, pivots, rows.blocks or () if tree else ())
 
 
 def integrator_loops(
-    model: Model, integrated: Integrated, linearized: str, closing: Kernel, terms: Kernel | None, counts: Mapping[str, int],
-    render: Render, lanes: bool,
+    model: Model, integrated: Integrated, linearized: str, closing: Kernel, terms: Kernel | None,
+    counts: Mapping[str, int], render: Render, lanes: bool,
 ) -> dict[str, str]:  # fmt: skip
     """All methods, in the order in which they call each other. `terms`: of time alone (generator/time_terms.py)."""
     pivots = _friction_pivots(integrated.kkt)
@@ -214,7 +222,7 @@ def _range_code(terms: Kernel | None, watched: Kernel | None, render: Render) ->
     """Arithmetic of ranges, where anything needs it, and what is known of time alone."""
     files = {"ranges.c": render("ranges.c.jinja")} if terms or watched else {}
     if terms:
-        most = max(map(len, _places().values()))
+        most = max(5, *map(len, _places().values()))  # 5: of a kinematic motion
         values = {"kernel": ranges_printer.kernel(terms), "n_terms": count_terms(terms), "n_places": most}
         files["time_terms.c"] = render("time_terms.c.jinja", **values)
     return files
