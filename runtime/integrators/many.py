@@ -19,7 +19,7 @@ from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.failure import failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
-from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts
+from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, told_apart
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Progress, Trajectory
 from gudgeon.start import assemble, mechanism_sizes
 
@@ -162,7 +162,7 @@ class Runs:
     def fetch(self, i: int, run: Any, last: bool) -> None:
         """Takes over the lists of contacts and events of run i."""
         self.impacts[i].append(fetch_impacts(self.compiled, run, last))
-        self.events[i].append(fetch_events(self.compiled, run, float(self.times[0])))
+        self.events[i].append(fetch_events(self.compiled, run, self.times))
 
     def _failure(self, i: int) -> GudgeonError:
         """What ended run i, as a single run says it."""
@@ -179,8 +179,7 @@ class Runs:
 
     def events_of(self, i: int) -> NDArray[Any]:
         """EVENT_DTYPE, the user events of run i by time."""
-        events = np.concatenate(self.events[i])
-        return events[np.argsort(events["t"], kind="stable")]
+        return told_apart(self.compiled, np.concatenate(self.events[i]))[0]
 
     def counts(self, i: int) -> Counts:
         """Sums and maxima over the steps of run i."""
@@ -201,4 +200,5 @@ class Runs:
             self.impacts_of(i), self.arrays["peaks"][i, :joints].copy(), self.counts(i),
             self.interrupted and error is not None, error if isinstance(error, SolverError) else None,
             seconds=float(self.arrays["seconds"][i]), events=self.events_of(i),
+            no_number=told_apart(compiled, np.concatenate(self.events[i]))[1],
         )  # fmt: skip
