@@ -39,7 +39,7 @@ class Batch:
 
     `batch[i]` is the full Result of run i, made when it is asked for (and anew each time), the same as that of
     the run alone; of a run that failed it raises the error, whose `partial` is the result up to there.
-    `batch["S9.y"]` is that series of all runs, (n, N), made from these.
+    `batch["S9.y"]` is that series of all runs, (n, N), made from these. It may be pickled, as a Result may.
     """
 
     source: KernelSource

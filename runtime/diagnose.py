@@ -53,7 +53,7 @@ def diagnose(
 
 def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
     """What a reader of this run should know before trusting it."""
-    p, notes, counts = problem.p, [], trajectory.counts
+    p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
     if problem.state is None and (tied := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
         notes.append(
             f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"

@@ -30,6 +30,14 @@ class GudgeonError(Exception):
 
     exit_code = 1
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled as it is, whatever its constructor takes: an error comes back from another process."""
+        return _again, (type(self), self.args), dict(self.__dict__)
+
+
+def _again(kind: type[GudgeonError], arguments: tuple[Any, ...]) -> GudgeonError:
+    return kind.__new__(kind, *arguments)
+
 
 class InputError(GudgeonError):
     """Something in a file or a call that the user can mend.
@@ -63,6 +71,10 @@ class MissingKeyError(InputError):
 
 class BadValueError(InputError):
     """A value of the wrong kind, or outside its range (negative mass, clearance ≥ radius, …)."""
+
+
+class ArrayError(BadValueError, ValueError):
+    """An array that C cannot read as it is meant: another shape, masked entries, no real numbers, NaN for a time."""
 
 
 class UnitError(InputError):
@@ -144,8 +156,13 @@ class OutputError(GudgeonError):
         self.reason = str(reason) if isinstance(reason, str) else reason.strerror or str(reason)
         self.exit_code = 2 if isinstance(reason, str) or code in _NAMED else 1
         hint = _HINTS.get(code or 0, "name another file or folder" if self.exit_code == 2 else "")
-        shown = self.path if len(self.path) < 200 else f"{self.path[:80]}…{self.path[-80:]}"
-        super().__init__(f"cannot write {shown}: {self.reason}" + (f"\n  {hint}" if hint else ""))
+        super().__init__(f"cannot write {shortened(path)}: {self.reason}" + (f"\n  {hint}" if hint else ""))
+
+
+def shortened(path: str | os.PathLike[str]) -> str:
+    """A path as it is told: of a long one both ends."""
+    text = os.fspath(path)
+    return text if len(text) < 200 else f"{text[:80]}…{text[-80:]}"
 
 
 _NAMED = {

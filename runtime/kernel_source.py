@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from gudgeon.story import Story
@@ -163,6 +163,7 @@ class KernelSource:
     events: tuple[EventInfo, ...] = ()
     story: Story = Story()  # how the equations became what is integrated (check -v)
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
+    overrides: Mapping[str, str | float | bool] = field(default_factory=dict)  # of the file, by address (load)
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -171,7 +172,10 @@ class KernelSource:
 
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""
-        return json.dumps(asdict(self), indent=1, ensure_ascii=False)
+        data = asdict(self)
+        if not self.overrides:  # nothing is said of what is rare
+            del data["overrides"]
+        return json.dumps(data, indent=1, ensure_ascii=False)
 
     @staticmethod
     def from_json(text: str) -> KernelSource:

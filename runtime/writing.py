@@ -12,7 +12,7 @@ import errno
 import os
 import re
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
@@ -20,6 +20,7 @@ from typing import BinaryIO
 from gudgeon.errors import OutputError
 
 PART = re.compile(r"\.gudgeon-[0-9a-f]{16}\.part")  # what a killed process may leave
+LARGEST = 1 << 26  # bytes of a file that may be one of those that are emitted
 _OPEN = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC | os.O_NOFOLLOW
 _FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_CLOEXEC  # O_PATH: a folder of which no list is had
 
@@ -27,28 +28,35 @@ _FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_CLOEXEC  # 
 class Aside:
     """Files of one folder, written under names of their own until they are moved into place; a context.
 
-    The folder is made if it is not there. What was written and not moved is removed at the end of the context.
+    The folder is made if it is not there; follow: it may be a link, as a folder that a user names may. What was
+    written and not moved is removed at the end of the context, after an error the folders that were made for it too.
     sync: each file reaches the disk before it is moved, for what cannot be made again (milliseconds, on a busy disk
     seconds); without, a machine that loses its power in these seconds may keep neither file on some file systems.
     """
 
-    def __init__(self, folder: str | os.PathLike[str], *, sync: bool = False) -> None:
-        self.folder, self.sync = Path(folder), sync
+    def __init__(self, folder: str | os.PathLike[str], *, sync: bool = False, follow: bool = True) -> None:
+        self.folder, self.sync, self.follow = Path(folder), sync, follow
+        self._made: list[Path] = []
         self._fd = -1
         self._parts: list[str] = []  # on the disk
         self._whole: list[tuple[str, str]] = []  # temporary name, name
 
     def __enter__(self) -> Aside:
         with telling(self.folder):
+            missing = [path for path in (self.folder, *self.folder.parents) if not os.path.lexists(path)]
             self.folder.mkdir(parents=True, exist_ok=True)
-            self._fd = os.open(self.folder, _FOLDER)
+            self._made = missing
+            self._fd = os.open(self.folder, _FOLDER | (0 if self.follow else os.O_NOFOLLOW))
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         for part in self._parts:
             with suppress(OSError):
                 os.unlink(part, dir_fd=self._fd)
         os.close(self._fd)
+        for folder in self._made if kind else ():
+            with suppress(OSError):  # it holds something else by now
+                folder.rmdir()
 
     @contextmanager
     def file(self, name: str) -> Iterator[BinaryIO]:
@@ -80,10 +88,12 @@ class Aside:
                 os.replace(part, name, src_dir_fd=self._fd, dst_dir_fd=self._fd)
                 self._parts.remove(part)
 
-    def remove(self, name: str) -> None:
-        """Remove a file of the folder; it may be gone already."""
-        with telling(self.folder / name), suppress(FileNotFoundError):
-            os.unlink(name, dir_fd=self._fd)
+    def remove(self, name: str, own: Callable[[bytes], bool]) -> None:
+        """Remove a regular file of the folder if its bytes are our own; it may be gone already."""
+        with telling(self.folder / name):
+            data = read_regular(name, dir_fd=self._fd)
+            if data is not None and own(data):
+                os.unlink(name, dir_fd=self._fd)
 
 
 @contextmanager
@@ -110,10 +120,30 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
     write_bytes(path, text.encode())
 
 
+def read_regular(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> bytes | None:
+    """The bytes of a file that may be ours; None if there is none, for a link or device, or beyond LARGEST."""
+    try:
+        handle = os.open(name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, dir_fd=dir_fd)
+    except OSError as error:
+        if error.errno in (errno.ENOENT, errno.ELOOP, errno.ENXIO, errno.EMLINK):  # EMLINK: a link, to some kernels
+            return None
+        raise
+    try:
+        found = os.fstat(handle)
+        if not stat.S_ISREG(found.st_mode) or found.st_size > LARGEST:
+            return None
+        with open(handle, "rb", closefd=False) as file:
+            return file.read(LARGEST)
+    finally:
+        os.close(handle)
+
+
 def check_target(path: str | os.PathLike[str]) -> None:
     """OutputError if it is known already that `write_bytes` would refuse this path; nothing is written."""
     path = Path(path)
     with telling(path):
+        with suppress(FileNotFoundError, NotADirectoryError):
+            path.lstat()
         if path.parent.exists():
             handle = os.open(path.parent, _FOLDER)
             try:

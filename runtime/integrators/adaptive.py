@@ -21,9 +21,11 @@ from time import perf_counter
 import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
-from gudgeon.errors import BadValueError, SolverError
+from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators.session import ENDED, EVENTS_FULL, RunEnded, Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.kernel_source import Slot
+from gudgeon.parameters import number
 from gudgeon.start import mechanism_sizes
 
 CHOICES = {"dop853": 0, "rodas5p": 1, "adaptive": 2}
@@ -86,8 +88,8 @@ def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
             hint="leave out rtol; or leave out step and take auto, dop853 or rodas5p",
         )
     try:
-        value = float(rtol)
-    except (TypeError, ValueError):
+        value = number(rtol, Slot("rtol", "", 0.0, False, (0, 0, 0)))
+    except InputError:
         value = math.nan
     if not SMALLEST <= value < 1.0:
         told = f"{value:g}" if math.isfinite(value) else repr(rtol)

@@ -69,8 +69,12 @@ class Runs:
         struct.fixed, struct.stop = float(self.arrays["step"][0]) if fixed else 0.0, int(stop)
         kinds = {"uint8": "unsigned char *", "int8": "signed char *", "int32": "int *", "int64": "long *"}
         for name, array in self.arrays.items():
-            setattr(struct, name, self.compiled.pointer(array, kinds.get(array.dtype.name, "double *")))
+            setattr(struct, name, self.compiled.pointer(array, kinds.get(array.dtype.name, "double *"), True))
         return struct
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What is over: arrays and lists, without what C worked on."""
+        return self.__dict__ | {"struct": None, "lanes": None}
 
     def leave_out(self, failures: dict[int, Any]) -> None:
         """These runs are over before they begin."""

@@ -84,11 +84,12 @@ class Session:
     @property
     def run(self) -> Any:
         """The struct as C takes it."""
-        return self.pointer(self.struct, "void *")
+        return self.pointer(self.struct, "void *", True)
 
     def rows(self, i: int) -> tuple[Any, ...]:
         """Pointers to row i of the samples: y, memory, codes."""
-        return self.pointer(self.y[i:]), self.pointer(self.memory[i:]), self.pointer(self.state[i:], "signed char *")
+        codes = self.pointer(self.state[i:], "signed char *", True)
+        return self.pointer(self.y[i:], written=True), self.pointer(self.memory[i:], written=True), codes
 
     def sample(self, i: int) -> None:
         """Store the present state as output i."""

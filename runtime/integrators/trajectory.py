@@ -40,6 +40,7 @@ class Problem:
     rtol: float = 0.0  # of methods that choose their step
     p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
     stop: bool = True  # whether events may end the run; else they are recorded only
+    remarks: tuple[str, ...] = ()  # on the start, which the run's notes say first
 
 
 @dataclass(frozen=True)

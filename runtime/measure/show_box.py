@@ -6,18 +6,18 @@ import math
 import re
 from collections import Counter
 from collections.abc import Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.kernel_source import KernelSource
 from gudgeon.measure.cells import Cell, Status
 from gudgeon.measure.show_stress import COLOURS, FULL, SIGNS, command, partial, stress_rows
-from gudgeon.measure.tables import console, new_table, print_json, write_csv
+from gudgeon.measure.tables import console, new_table, print_json, write_files
 from gudgeon.measure.words import seconds, share
 from gudgeon.stress import StressBox
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.table import Table
 
 WORST = 8  # points that are told with what runs them again; the rest is in the table on disk
@@ -28,15 +28,24 @@ _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 def show_box(source: KernelSource, found: Sequence[StressBox], table: Path, as_json: bool = False) -> None:
     """Print everything (or only JSON), write the table and beside it the picture."""
     rows = [row for box in found for row in stress_rows(box)]
-    write_csv(table, rows)
-    written = [table]
-    if find_spec("matplotlib"):
-        from gudgeon.measure.figure_box import box_figure
-        from gudgeon.plots import save_figure
 
-        written.append(table.with_suffix(".png"))
-        save_figure(box_figure(source.title or source.mechanism, found), written[-1])
+    def draw() -> Figure:
+        from gudgeon.measure.figure_box import box_figure
+
+        return box_figure(source.title or source.mechanism, found)
+
+    written, failed = write_files(table, rows, draw)
+    _show(source, found, written, as_json)
+    if failed:
+        raise failed
+
+
+def _show(
+    source: KernelSource, found: Sequence[StressBox], written: Sequence[Path], as_json: bool
+) -> None:
+    """What was found, and what was written of it."""
     if as_json:
+        rows = [row for one in found for row in stress_rows(one)]
         print_json({"mechanism": source.mechanism, "interrupted": any(box.interrupted for box in found),
                     "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
         return

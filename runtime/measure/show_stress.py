@@ -5,20 +5,20 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.kernel_source import KernelSource
 from gudgeon.measure.axes import Axis
 from gudgeon.measure.cells import Cell, Status
-from gudgeon.measure.tables import console, new_table, print_json, write_csv
+from gudgeon.measure.tables import console, new_table, print_json, write_files
 from gudgeon.measure.words import clearance, seconds
 from gudgeon.measure.work import Setting
 from gudgeon.plot_units import quantity
 from gudgeon.stress import StressBox, StressMap
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.table import Table
 
 COLOURS = {
@@ -45,15 +45,24 @@ def show_stress(
 ) -> None:
     """Print everything (or only JSON), write the table and beside it the picture."""
     rows = [row for scene in found for row in stress_rows(scene)]
-    write_csv(table, rows)
-    written = [table]
-    if find_spec("matplotlib"):
-        from gudgeon.measure.figure_stress import stress_figure
-        from gudgeon.plots import save_figure
 
-        written.append(table.with_suffix(".png"))
-        save_figure(stress_figure(source.title or source.mechanism, found, mark_step), written[-1])
+    def draw() -> Figure:
+        from gudgeon.measure.figure_stress import stress_figure
+
+        return stress_figure(source.title or source.mechanism, found, mark_step)
+
+    written, failed = write_files(table, rows, draw)
+    _show(source, found, written, mark_step, as_json)
+    if failed:
+        raise failed
+
+
+def _show(
+    source: KernelSource, found: Sequence[StressMap], written: Sequence[Path], mark_step: float | None, as_json: bool
+) -> None:
+    """What was found, and what was written of it."""
     if as_json:
+        rows = [row for one in found for row in stress_rows(one)]
         print_json({"mechanism": source.mechanism, "interrupted": any(scene.interrupted for scene in found),
                     "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
         return
