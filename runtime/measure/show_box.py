@@ -53,20 +53,20 @@ def _show(
     for box in found:
         edges = ", ".join(f"{edge.name} {edge.low:.4g} … {edge.high:.4g}" for edge in box.ranges)
         title = f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point: {edges}"
-        out.print(title + partial(box), style="bold", markup=False)
+        out.print(title + partial(box), style="bold")
         if box.full:
-            out.print(f"  {FULL}", markup=False)
-        out.print(f"  {count(box.cells)}", markup=False)
+            out.print(f"  {FULL}")
+        out.print(f"  {count(box.cells)}")
         out.print(_verdicts(box.cells))
         if worst := worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
             for cell in worst:
                 said = cell.reason or f"largest error {share(cell.error.largest)}"
-                out.print(f"  {SIGNS[cell.status]} {said}", markup=False)
+                out.print(f"  {SIGNS[cell.status]} {said}")
                 again = command(source.mechanism, box.scene, cell, box.full)
-                out.print(f"    {again} --t-end {box.t_long:g}", markup=False, soft_wrap=True)  # to be copied
+                out.print(f"    {again} --t-end {box.t_long:g}", soft_wrap=True)  # to be copied
     for path in written:
-        out.print(f"wrote {path}", markup=False)
+        out.print(f"wrote {path}")
 
 
 def count(cells: Sequence[Cell]) -> str:
@@ -102,9 +102,11 @@ def worst_cells(cells: Sequence[Cell]) -> list[Cell]:
 
 
 def _verdicts(cells: Sequence[Cell]) -> Table:
+    from rich.text import Text
+
     table = new_table(("verdict", "points", "largest error", "reason"), left=("verdict", "reason"))
     for status, reason, own in grouped(cells):
         errors = [cell.error.largest for cell in own if math.isfinite(cell.error.largest)]
-        sign = f"[{COLOURS[status]}]{SIGNS[status]} {status.value}[/]"
+        sign = Text(f"{SIGNS[status]} {status.value}", COLOURS[status])
         table.add_row(sign, str(len(own)), share(max(errors, default=math.nan)), reason)
     return table
