@@ -64,6 +64,9 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         last = compiled.source.events[trajectory.events["event"][-1]]
         if last.action == "stop":
             notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
+    for event, t in trajectory.no_number:
+        name = compiled.source.events[event].name
+        notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
     if counts.phi_max > APART * mechanism_size(compiled, p):
         notes.append(
             f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"

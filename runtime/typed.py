@@ -24,7 +24,7 @@ def check_typed(value: Any, kind: Any, where: str) -> None:
     elif isinstance(kind, UnionType):
         if not any(_is_typed(value, one) for one in get_args(kind)):
             raise TypeError(f"{where} is {type(value).__name__}, expected {kind}")
-    elif is_dataclass(kind):
+    elif isinstance(kind, type) and is_dataclass(kind):
         _check_class(value, kind, where)
         for name, one in _hints(cast(Any, kind)).items():
             check_typed(getattr(value, name), one, f"{where}.{name}")
