@@ -11,14 +11,16 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_folder, chosen_scenes, unknown, value
+from gudgeon.commands.common import check_folder, check_name, chosen_scenes, settings, unknown, value
 from gudgeon.commands.progress import progress_bar
-from gudgeon.errors import AssemblyError, GudgeonError, InputError, SolverError
+from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.loading import load
 from gudgeon.results import Result
+from gudgeon.shown import visible
 from gudgeon.step import T_END, scene_end
 
 if TYPE_CHECKING:
+    from gudgeon.kernel_source import KernelSource
     from gudgeon.report import SceneReport
     from gudgeon.simulation import Simulation
 
@@ -39,7 +41,7 @@ class Request:
     output: int | None
     step: str | None
     method: str
-    rtol: float | None
+    rtol: str | None
     watch: tuple[str, ...]
     out: Path
     horizon: bool
@@ -55,32 +57,40 @@ class Session:
     runs: dict[str, Result] = field(default_factory=dict)
     references: dict[str, Result] = field(default_factory=dict)
     failures: dict[str, GudgeonError] = field(default_factory=dict)
-    unwritten: GudgeonError | None = None
+    files: Files = field(default_factory=dict)  # what was written
+    unwritten: list[GudgeonError] = field(default_factory=list)
+    shown: bool = False
     interrupted: bool = False
 
 
 def run_scenes(request: Request) -> int:
     """Run, compare, save, show; the exit code."""
-    settings = _settings(request.settings)
+    wanted = settings(request.settings)
     check_folder("--out", request.out)
     names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
     simulations = {name: _load(request, name) for name in names}
-    _check(request, settings, simulations)
+    _check(request, wanted, simulations)
+    for name, simulation in simulations.items():
+        check_name("--out", result_path(request.out, simulation.source.mechanism, name))
+    check_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
     session = Session()
     try:
-        _simulate(request, settings, simulations, session)
+        _simulate(request, wanted, simulations, session)
     except KeyboardInterrupt:
         session.interrupted = True
-    if session.runs:
-        _hand_over(request, simulations[IDEAL], session)
+    try:
+        if session.runs:
+            _hand_over(request, simulations[IDEAL], session)
+    except KeyboardInterrupt:
+        session.interrupted = True
     for scene, error in session.failures.items():
-        print(f"error: scene {scene}: {error}", file=sys.stderr)
-    if session.unwritten:
-        print(f"error: {session.unwritten}", file=sys.stderr)
+        print(f"error: scene {scene}: {visible(error)}", file=sys.stderr)
+    for error in session.unwritten:
+        print(f"error: {visible(error)}", file=sys.stderr)
     if session.interrupted:
         print(_interrupted(names, session), file=sys.stderr)
         return 130
-    return max((error.exit_code for error in (*session.failures.values(), session.unwritten) if error), default=0)
+    return max((error.exit_code for error in (*session.failures.values(), *session.unwritten)), default=0)
 
 
 def _load(request: Request, scene: str) -> Simulation:
@@ -93,22 +103,16 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
 
     if not session.runs:
         return "interrupted before anything was computed: nothing is shown or saved"
-    told = "interrupted: what was computed is shown and saved"
+    unsaved = [name for name in session.runs if name not in session.files]
+    kept = " and ".join(["shown"] * session.shown + ["saved"] * (not unsaved)) or "neither shown nor saved"
+    told = f"interrupted: what was computed is {kept}"
+    if unsaved and session.shown or 0 < len(unsaved) < len(session.runs):
+        told += f"; not saved: {', '.join(unsaved)}"
     if any(UNFINISHED in run.diagnostics.notes for run in session.runs.values()):
         told += "; the search for the horizon was not finished"
     ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in session.runs.items() if run.diagnostics.interrupted]
     missing = [f"{name} was not begun" for name in names if name not in session.runs and name not in session.failures]
     return "; ".join([told, *ended, *missing])
-
-
-def _settings(texts: tuple[str, ...]) -> dict[str, float | str]:
-    found = {}
-    for text in texts:
-        address, equals, number = text.partition("=")
-        if not (equals and address.strip() and number.strip()):
-            raise InputError(f"--set {text}: expected ADDRESS=VALUE", hint="for example --set c=0.5mm")
-        found[address.strip()] = value(number)
-    return found
 
 
 def _check(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
@@ -173,33 +177,34 @@ def _simulate(
 
 
 def _hand_over(request: Request, ideal: Simulation, session: Session) -> None:
-    """References, figures, files: everything after the integration."""
-    from gudgeon.report import as_json, compare, default_watch
+    """Everything after the integration: the results are saved first, for nothing that follows may lose them."""
+    from gudgeon.report import compare, default_watch
 
+    runs = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
+    _save(request.out, runs, session)
+    _refer(ideal, session)
+    first = session.runs.get(IDEAL) or next(iter([*session.references.values(), *session.runs.values()]))
+    watch = request.watch or default_watch(first)
+    reports = [compare(run, session.references.get(scene), watch) for scene, run in runs.items()]
+    try:
+        _draw(request.out, runs, session, watch)
+    finally:
+        _show(request, first.source, reports, session)
+
+
+def _refer(ideal: Simulation, session: Session) -> None:
+    """An ideal run to compare with for each scene with play; one that Ctrl-C ended is none."""
     for scene, run in session.runs.items():
         if run.source.clearances:  # any other scene is the ideal one with its own numbers
             try:
-                session.references[scene] = _reference(ideal, run, session)
+                reference = _reference(ideal, run, session)
             except GudgeonError as error:
                 session.failures.setdefault(IDEAL, error)
-    first = session.runs.get(IDEAL) or next(iter([*session.references.values(), *session.runs.values()]))
-    watch = request.watch or default_watch(first)
-    shown = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
-    reports = [compare(run, session.references.get(scene), watch) for scene, run in shown.items()]
-    if not request.json:
-        _print(first.source.title or first.source.mechanism, reports)
-    files: Files = {}
-    try:
-        _write(request.out, shown, session.references, watch, files)
-    except GudgeonError as error:  # a full disk must not take the figures with it
-        session.unwritten = error
-    if request.json:
-        import json
-
-        document = {"mechanism": first.source.mechanism, "scenes": as_json(reports), "files": files}
-        print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
-    else:
-        print("".join(f"wrote {path}\n" for path in files.values()), end="")
+                continue
+            if len(reference.t) < len(run.t):
+                session.interrupted = True
+                return
+            session.references[scene] = reference
 
 
 def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
@@ -212,20 +217,36 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
     return ideal.simulate(output=run.t, parameters=values, stop=False)
 
 
-def _write(
-    out: Path, runs: Mapping[str, Result], references: Mapping[str, Result], watch: Sequence[str], files: Files
-) -> None:
-    """A NetCDF file a scene and one picture, each told in `files`; a note names an optional package that is missing."""
-    mechanism = next(iter(runs.values())).source.mechanism
-    if _have("NetCDF files", "h5py"):
-        for scene, run in runs.items():
-            run.save(out / f"{mechanism}_{scene}.nc")
-            files[scene] = str(out / f"{mechanism}_{scene}.nc")
-    if _have("picture", "matplotlib"):
-        from gudgeon.plots import figure, save_figure
+def _save(out: Path, runs: Mapping[str, Result], session: Session) -> None:
+    """A NetCDF file a scene; what a full disk refuses goes to `session.unwritten`, and the others are written."""
+    if not _have("NetCDF files", "h5py"):
+        return
+    for scene, run in runs.items():
+        path = result_path(out, run.source.mechanism, scene)
+        try:
+            run.save(path)
+            session.files[scene] = str(path)
+        except GudgeonError as error:
+            session.unwritten.append(error)
 
-        save_figure(figure(runs, references, watch), out / f"{mechanism}.png")
-        files["picture"] = str(out / f"{mechanism}.png")
+
+def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequence[str]) -> None:
+    """One picture: it is smaller than results, and there may be room for it where there was none for them."""
+    if not _have("picture", "matplotlib"):
+        return
+    from gudgeon.plots import figure, save_figure
+
+    path = out / f"{next(iter(runs.values())).source.mechanism}.png"
+    try:
+        save_figure(figure(runs, session.references, watch), path)
+        session.files["picture"] = str(path)
+    except GudgeonError as error:
+        session.unwritten.append(error)
+
+
+def result_path(out: Path, mechanism: str, scene: str) -> Path:
+    """Where the result of a scene goes."""
+    return out / f"{mechanism}_{scene}.nc"
 
 
 def _have(what: str, *packages: str) -> bool:
@@ -235,13 +256,21 @@ def _have(what: str, *packages: str) -> bool:
     return not missing
 
 
-def _print(title: str, reports: list[SceneReport]) -> None:
-    from rich.console import Console
+def _show(request: Request, source: KernelSource, reports: list[SceneReport], session: Session) -> None:
+    """What was found and written: tables and notes, or JSON."""
+    from gudgeon.report import as_json, tables
+    from gudgeon.shown import plain_console
 
-    from gudgeon.report import tables
+    if request.json:
+        import json
 
-    console = Console(width=None if sys.stdout.isatty() else 200, highlight=False)
-    for table in tables(title, reports, console.width):
-        console.print(table)
-    for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
-        console.print(f"note: {note}", markup=False)
+        document = {"mechanism": source.mechanism, "scenes": as_json(reports), "files": session.files}
+        print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
+    else:
+        console = plain_console(None if sys.stdout.isatty() else 200)
+        for table in tables(source.title or source.mechanism, reports, console.width):
+            console.print(table)
+        for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
+            console.print(f"note: {visible(note)}")
+        print("".join(f"wrote {path}\n" for path in session.files.values()), end="")
+    session.shown = True

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.bench import TRUSTED, Row, SceneBench
 from gudgeon.integrators.python_driver import NAMES
 from gudgeon.kernel_source import KernelSource
-from gudgeon.measure.tables import console, new_table, print_json, write_csv
+from gudgeon.measure.tables import console, new_table, print_json, write_files
 from gudgeon.measure.words import seconds, share
 from gudgeon.measure.work import NAN, Setting
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.table import Table
 
 COLUMNS = ("method", "step, tol", "run time", "rhs", "Jacobians", "coordinates", "paths", "forces")
@@ -28,41 +28,49 @@ def show_bench(
 ) -> None:
     """Print everything (or only JSON), write the table and beside it the picture."""
     rows = bench_rows(found)
-    write_csv(table, rows)
-    written = [table]
-    if find_spec("matplotlib"):
-        from gudgeon.measure.figure_bench import bench_figure
-        from gudgeon.plots import save_figure
 
-        written.append(table.with_suffix(".png"))
-        save_figure(bench_figure(source.title or source.mechanism, found, mark_step), written[-1])
+    def draw() -> Figure:
+        from gudgeon.measure.figure_bench import bench_figure
+
+        return bench_figure(source.title or source.mechanism, found, mark_step)
+
+    written, failed = write_files(table, rows, draw)
+    _show(source, found, written, mark_step, as_json)
+    if failed:
+        raise failed
+
+
+def _show(
+    source: KernelSource, found: Sequence[SceneBench], written: Sequence[Path], mark_step: float | None, as_json: bool
+) -> None:
+    """What was found, and what was written of it."""
     if as_json:
         scenes = [
             {"scene": scene.scene, "t_end_s": scene.t_end, "interrupted": scene.interrupted,
              "notes": notes(scene, mark_step)} for scene in found
         ]  # fmt: skip
         files = [str(path) for path in written]
-        print_json({"mechanism": source.mechanism, "scenes": scenes, "rows": rows, "files": files})
+        print_json({"mechanism": source.mechanism, "scenes": scenes, "rows": bench_rows(found), "files": files})
         return
     out = console()
     for scene in found:
-        out.print(_title(scene), style="bold", markup=False)
+        out.print(_title(scene), style="bold")
         if scene.methods == ("kinematic",):
             out.print(_kinematic_table(scene))
         elif own := [row for row in scene.rows if row.setting.method not in NAMES]:
             out.print(_table(scene, own))
         if checks := [row for row in scene.rows if row.setting.method in NAMES]:
-            out.print("  cross-checks: others' methods on the full formulation, driven from Python", markup=False)
+            out.print("  cross-checks: others' methods on the full formulation, driven from Python")
             out.print(_table(scene, checks, [name for name in COLUMNS if name != "Jacobians"]))
         for line in notes(scene, mark_step):
-            out.print(f"  {line}", markup=False)
+            out.print(f"  {line}")
         if scene.references:
             out.print(_target_table(scene))
     if any(scene.rhs for scene in found):
         out.print("one right-hand side", style="bold")
         out.print(_rhs_table(found))
     for path in written:
-        out.print(f"wrote {path}", markup=False)
+        out.print(f"wrote {path}")
 
 
 def _title(scene: SceneBench) -> str:
@@ -80,13 +88,15 @@ def _kinematic_table(scene: SceneBench) -> Table:
 
 def _table(scene: SceneBench, rows: Sequence[Row], columns: Sequence[str] = COLUMNS) -> Table:
     """Run time is that of the window, rhs its right-hand sides. Errors in brackets are not resolved."""
+    from rich.text import Text
+
     table = new_table(columns)
     before = ""
     for row in rows:
         method = row.setting.method if row.setting.method != before else ""
         before = row.setting.method
         if row.failure:
-            table.add_row(method, str(row.setting), "[red]fails[/red]", f"[red]at {seconds(row.failed_at)}[/red]")
+            table.add_row(method, str(row.setting), Text("fails", "red"), Text(f"at {seconds(row.failed_at)}", "red"))
             continue
         errors = (_told(scene, m, getattr(row.error, m)) for m in ("motion", "path", "force"))
         jacobians = [f"{row.jacobians:,}" if row.jacobians else "–"] if "Jacobians" in columns else []
