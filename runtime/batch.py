@@ -121,9 +121,8 @@ class Batch:
         for k, joint in enumerate(self.source.clearances):
             found |= {f"{joint.name}.peak.{name}": ("run", self.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
         for k, name in enumerate(self.source.coordinates):
-            units = MOTION_UNITS[k % 3]
-            found[name] = ("run", "time"), self.q[:, :, k], {"units": units[0]}
-            found[rates(name)[0]] = ("run", "time"), self.v[:, :, k], {"units": units[1]}
+            for order, (column, values) in enumerate(((name, self.q), (rates(name)[0], self.v))):
+                found[column] = ("run", "time"), values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
         for k, name in enumerate(("drives", "forces", "clearances")):
             found[f"work.{name}"] = ("run", "time"), self.work[:, :, k], {"units": "J"}
         found |= {name: (("run", "time"), self[name]) for name in names}

@@ -1,9 +1,9 @@
 """Results as NetCDF 4 files, and as xarray's Datasets.
 
 A file holds every series under its own name over `time`, so that any NetCDF tool can read it, and in groups what has
-other rows: `impacts`, `events` and `parameters`, for people; `compiled`, the kernel source and what was derived from
-the parameters, so that gudgeon reads all of it back bit for bit without a compiled library. What has no row is not
-there. A file holds no date: the same run gives the same bytes.
+other rows: `impacts`, `events`, `parameters` and `trace` (trace.py), for people; `compiled`, the kernel source and
+what was derived from the parameters, so that gudgeon reads all of it back bit for bit without a compiled library.
+What has no row is not there. A file holds no date: the same run gives the same bytes.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon import trace
 from gudgeon.errors import GudgeonError
 from gudgeon.hdf5_image import Table, Variable, pieces
 from gudgeon.results import Array, Result
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
     import xarray
 
 FORMAT = "gudgeon-result/2"
-SERIES, PARTS, COMPILED = "series", ("impacts", "events", "parameters"), "compiled"
+SERIES, TRACE, COMPILED = "series", "trace", "compiled"
+PARTS = ("impacts", "events", "parameters", TRACE)
 IMPACTS = {
     "joint": ("", "joint with play"),
     "t_on": ("s", "onset of the contact"),
@@ -43,6 +45,8 @@ def tables(run: Result) -> Iterator[Table]:
     events = [event.name for event in run.source.events]
     yield Table("events", "occurrence", tuple(_records(run.events, EVENTS, events)), {})
     yield Table("parameters", "address", tuple(_parameters(run)), {})
+    traced = (Variable(name, *of) for name, of in trace.variables(run).items())
+    yield Table(TRACE, "t", tuple(traced), {})
     derived = Variable("value", run.p[len(run.given) :], "", "what was derived from the parameters, SI")
     yield Table(COMPILED, "derived", (derived,), {"source": run.source.to_json()})
 

@@ -20,9 +20,10 @@ from gudgeon.errors import GudgeonError, InputError
 from gudgeon.hdf5_image import is_damaged
 from gudgeon.integrators.trajectory import EVENT_DTYPE
 from gudgeon.kernel_source import KernelSource
-from gudgeon.netcdf import COMPILED, FORMAT, variable
+from gudgeon.netcdf import COMPILED, FORMAT, TRACE, variable
 from gudgeon.results import IMPACT_DTYPE, Array, Result
 from gudgeon.series import MOTION
+from gudgeon.trace import COLUMNS, Trace
 from gudgeon.typed import check_typed
 
 OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
@@ -149,6 +150,7 @@ def _result(file: _File) -> Result:
         memory=_columns(stored, _memory_names(source), len(t)),
         work=_columns(stored, ["work.drives", "work.forces", "work.clearances"], len(t)),
         impacts=_impacts(file, source), diagnostics=diagnostics, events=_events(file, source), stored=stored,
+        trace=_trace(file, source),
     )  # fmt: skip
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
     return run
@@ -211,6 +213,15 @@ def _records(file: _File, what: str, dtype: np.dtype[Any], names: list[str]) -> 
     for name in others:
         table[name] = file.numbers(f"{what}.{name}" if file.is_old else f"{what}s/{name}", len(owner))
     return table
+
+
+def _trace(file: _File, source: KernelSource) -> Trace | None:
+    """None where the run had none, or the file is from before there were any."""
+    if not file.has(TRACE):
+        return None
+    t = file.numbers(f"{TRACE}/t")
+    joints = [[file.numbers(f"{TRACE}/{joint.name}.{name}", len(t)) for name in COLUMNS] for joint in source.clearances]
+    return Trace(t, np.moveaxis(np.array(joints).reshape(len(joints), len(COLUMNS), len(t)), 2, 0).copy())
 
 
 def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from gudgeon.compiled import CompiledModel, Evaluation
     from gudgeon.plots import Plot
     from gudgeon.series import Series
+    from gudgeon.trace import Trace
 
 Array: TypeAlias = NDArray[Any]
 
@@ -81,6 +82,7 @@ class Result:
     impacts: Array  # IMPACT_DTYPE, one an onset
     diagnostics: Diagnostics
     events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: what the file's `events` watch
+    trace: Trace | None = None  # forces and paths from the steps; None: samples are all there is
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
 
     def __getitem__(self, name: str) -> Array:

@@ -284,6 +284,7 @@ class Simulation:
             compiled=self.compiled, source=self.source, p=problem.p, given=given, is_given=is_given, t=trajectory.t,
             q=trajectory.q, v=trajectory.v, a=a, state=trajectory.state, memory=trajectory.memory,
             work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics, events=trajectory.events,
+            trace=trajectory.trace,
         )  # fmt: skip
         if evaluation is not None and len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again

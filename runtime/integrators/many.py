@@ -47,7 +47,7 @@ class Runs:
             "scale": scale, "floor": floor, "start": np.full((n, 2 * compiled.n), np.nan),
             "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((n, N, size)),
             "latched": np.empty((n, N, max(compiled.n_memory, 1))), "state": np.zeros((n, N, nc), np.int8),
-            "done": np.zeros(n, np.int_), "within": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
+            "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
             "t_last": np.full(n, times[0]), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
             "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, 4), np.nan),
             "peaks": np.full((n, nc, 3), np.nan),

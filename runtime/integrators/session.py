@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon import trace
 from gudgeon.compiled import N_WORK, Array, CompiledModel
 from gudgeon.errors import SolverError
 from gudgeon.integrators.failure import failure
@@ -77,6 +78,9 @@ class Session:
         p_run, y = self.pointer(self.p), self.pointer(start)
         self.lib.gudgeon_run_start(self.run, p_run, problem.t[0], y, self.pointer(latched))
         self.lib.gudgeon_run_stop(self.run, int(problem.stop))
+        self.trace = np.empty((trace.ROWS if nc else 0, trace.width(nc)))
+        if nc:
+            self.lib.gudgeon_run_trace(self.run, self.pointer(self.trace, written=True), len(self.trace))
         if problem.state is not None and nc:
             codes = np.ascontiguousarray(problem.state, dtype=np.int8)
             self.lib.gudgeon_run_codes(self.run, self.pointer(codes, "signed char *"))
@@ -137,8 +141,13 @@ class Session:
             self.memory[: self.done, : self.compiled.n_memory], self.state[: self.done, : self.nc],
             y[:, 2 * n :].copy(), impacts, peaks,
             counts_of(counts, numbers), interrupted, stopped, seconds=self.seconds,
-            events=events[np.argsort(events["t"], kind="stable")],
+            events=events[np.argsort(events["t"], kind="stable")], trace=self._trace(),
         )  # fmt: skip
+
+    def _trace(self) -> trace.Trace | None:
+        if not self.nc:
+            return None
+        return trace.Trace.of_rows(self.trace[: self.lib.gudgeon_run_traced(self.run)], self.nc)
 
     def fail(self, status: int, t: float, advice: str) -> None:
         """Raises what a status of C stands for."""

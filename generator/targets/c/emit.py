@@ -62,9 +62,11 @@ int gudgeon_kinematic_works(long n, const double *t, const double *p, double rea
 METHOD_CDEF = """\
 size_t gudgeon_run_size(void);
 void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched);
+void gudgeon_run_trace(void *memory, double *trace, long rows);
+long gudgeon_run_traced(const void *memory);
 void gudgeon_run_codes(void *memory, const signed char *state);
-int gudgeon_run_steps(void *memory, const double *parameters, double t0, double t1, long total, long first, long count,
-    long *taken);
+int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n, const double *t, long limit,
+    double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state);
 void gudgeon_run_stop(void *memory, int stop);
 int gudgeon_run_events(void *memory, double *t, int *event);
@@ -80,7 +82,7 @@ typedef struct {
     unsigned char *started, *phase;
     double *y, *latched;
     signed char *state;
-    long *done, *within;
+    long *done;
     int *status;
     double *t_last, *last, *seconds;
     long *counts;

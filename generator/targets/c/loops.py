@@ -22,8 +22,11 @@ from gudgeon.generator.targets.c import printer
 
 Render = Callable[..., str]
 
-_PROJECTED = ("Constraints are closed after every step.", "    project_state(run, run->t + h, trial->y, p);")
-_STABILISED = ("Constraints are stabilised by Baumgarte's terms.", "")
+_PROJECTED = (
+    "Constraints are closed after every step.", "    project_state(run, run->t + h, trial->y, p);",
+    "        project_state(run, t, now, p);",
+)  # fmt: skip
+_STABILISED = ("Constraints are stabilised by Baumgarte's terms.", "", "")
 _FROM_DYNAMICS = """\
     for (int r = 0; r < N_ROWS; r++) {
         run->phi_max = max_of(fabs(aside->phi[r]), run->phi_max);
@@ -124,7 +127,7 @@ def integrator_loops(
     common["deepest"] = _lengths(model, [deepest(c) for c in model.clearances])
     common["n_watched"] = len(integrated.corners) + counts["n_events"]
     common["meeting"] = _meeting(model, counts["n_switches"])
-    constraints, projection = _PROJECTED if integrated.reduced else _STABILISED
+    constraints, projection, inside = _PROJECTED if integrated.reduced else _STABILISED
     residuals = _FROM_CLOSURES if integrated.reduced else _FROM_DYNAMICS
     residuals = _FROM_TREE if integrated.system.known else residuals
     chain = {"n_chain": counts["n_chain"]}
@@ -137,7 +140,8 @@ def integrator_loops(
         ),
         "step.c": render("step.c.jinja", state=integrated.state("y"), **counts),
         "rk4.c": render(
-            "rk4.c.jinja", **common, friction_events=events, constraints=constraints, projection=projection
+            "rk4.c.jinja", **common, friction_events=events, constraints=constraints, projection=projection,
+            inside=inside,
         ),
         "dop853.c": render("dop853.c.jinja", **_dop853()),
         "rodas5p.c": render("rodas5p.c.jinja", state=integrated.state("run"), **chain, **_rodas5p()),
