@@ -188,7 +188,10 @@ class CompiledModel:
         """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions)."""
         s, time = self.source, taken(t, "t", (None,))
         N = len(time)
-        inputs = [taken(q, "q", (N, self.n)), taken(v, "v", (N, self.n)), taken(memory, "memory", (N, self.n_memory))]
+        latched = taken(memory, "memory", (N, None))
+        if self.n_memory or latched.shape[1] > 1:  # in a scene that remembers nothing one number stands for none
+            taken(latched, "memory", (N, self.n_memory))
+        inputs = [taken(q, "q", (N, self.n)), taken(v, "v", (N, self.n)), latched]
         out = Evaluation(
             np.empty((N, self.n)), np.empty((N, len(s.rows))), np.empty((N, len(s.joints), 3)),
             np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))),

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from gudgeon.story import Story
@@ -163,7 +163,7 @@ class KernelSource:
     events: tuple[EventInfo, ...] = ()
     story: Story = Story()  # how the equations became what is integrated (check -v)
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
-    overrides: Mapping[str, str | float | bool] = field(default_factory=dict)  # of the file, by address (load)
+    overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -190,7 +190,7 @@ class KernelSource:
             data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))
         for key, value in data.items():
             if isinstance(value, list) and key not in kinds:
-                data[key] = tuple(value)
+                data[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)
         return KernelSource(**data | {"story": Story.from_data(data.get("story", {}))})
 
 

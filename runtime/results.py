@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from gudgeon.compiled import CompiledModel, Evaluation
     from gudgeon.plots import Plot
     from gudgeon.series import Series
+    from gudgeon.trace import Trace
 
 Array: TypeAlias = NDArray[Any]
 
@@ -48,11 +49,11 @@ class State:
     memory: Array  # (n_clearances,) δ̇⁻ in m/s, NaN while free
     parameters: Mapping[str, float]  # address -> value, of what was overridden: a further run's, unless given others
     sha256: str = ""  # of the mechanism's file; "": made by hand
-    overrides: Mapping[str, Any] = field(default_factory=dict)  # with which the file was loaded
+    overrides: tuple[tuple[str, str | float | bool], ...] = ()  # (address, value) with which the file was loaded
     formulation: str = ""  # what was integrated; either goes on from the other's
 
     def __getstate__(self) -> dict[str, Any]:
-        return self.__dict__ | {"parameters": dict(self.parameters), "overrides": dict(self.overrides)}
+        return self.__dict__ | {"parameters": dict(self.parameters)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state | {"parameters": MappingProxyType(state["parameters"])})
@@ -81,6 +82,7 @@ class Result:
     impacts: Array  # IMPACT_DTYPE, one an onset
     diagnostics: Diagnostics
     events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: what the file's `events` watch
+    trace: Trace | None = None  # forces and paths from the steps; None: samples are all there is
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
 
     def __getitem__(self, name: str) -> Array:
@@ -150,7 +152,7 @@ class Result:
         source, parameters = self.source, MappingProxyType(overridden)
         return State(
             source.mechanism, source.scene, float(self.t[-1]), q, v, state, memory, parameters,
-            source.sha256, dict(source.overrides), source.formulation,
+            source.sha256, source.overrides, source.formulation,
         )  # fmt: skip
 
     def __getstate__(self) -> dict[str, Any]:
@@ -185,14 +187,17 @@ class Result:
             return self.parameters[name]
         raise self.unknown(name)
 
-    def to_xarray(self) -> xarray.Dataset:
-        """All series as one Dataset over `time`, with units and long names; impacts over `impact`."""
+    def to_xarray(self, part: str = "series") -> xarray.Dataset:
+        """All series as one Dataset over `time`, with units and long names; `.to_dataframe()` has a row a sample.
+
+        part: "impacts", "events" or "parameters" for these, a row each.
+        """
         from gudgeon import netcdf
 
-        return netcdf.dataset(self)
+        return netcdf.dataset(self, part)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to a NetCDF file, aside first and then moved into place."""
+        """Write everything to a NetCDF file, aside first and then moved into place; OutputError where that fails."""
         from gudgeon import netcdf
 
         netcdf.save(self, path)
@@ -234,6 +239,6 @@ class Result:
 
 def read(path: str | os.PathLike[str]) -> Result:
     """Read a file that `Result.save` wrote. InputError if it is none."""
-    from gudgeon import netcdf
+    from gudgeon import netcdf_read
 
-    return netcdf.read(path)
+    return netcdf_read.read(path)

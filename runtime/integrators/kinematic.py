@@ -15,13 +15,13 @@ import numpy as np
 from gudgeon.compiled import Array
 from gudgeon.errors import SolverError
 from gudgeon.integrators.kinematic_events import find_events
+from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
 from gudgeon.start import mechanism_size
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
 REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
-RESOLUTION = 1e-12  # s: an output so close to the end of the run is the end
 CHUNK = 20_000  # samples between two looks of Python: some 20 ms
 
 
@@ -43,22 +43,22 @@ def run(problem: Problem) -> Trajectory:
     motion = _follow(problem)
     if not problem.compiled.source.events:
         return _with_work(problem, motion)
-    events, unfinished, interrupted, ended = no_events(), None, motion.interrupted, False
+    events, lost, unfinished, interrupted, ended = no_events(), no_events(), None, motion.interrupted, False
     try:
         size = mechanism_size(problem.compiled, problem.p)
-        events, ended = find_events(problem, problem.t[: len(motion.q)], motion.q, motion.v, REACH, size)
+        events, lost, ended = find_events(problem, problem.t[: len(motion.q)], motion.q, motion.v, REACH, size)
     except KeyboardInterrupt:
         interrupted = True
     except SolverError as error:
         unfinished = error
     if ended:
         last = events["t"][-1]
-        problem = replace(problem, t=np.append(problem.t[problem.t < last - RESOLUTION], last))
+        problem = replace(problem, t=np.append(problem.t[problem.t < last - resolution(problem.t)], last))
         motion = _follow(problem)
     trajectory = _with_work(problem, motion)
     return replace(
         trajectory, events=events[events["t"] <= trajectory.t[-1]], interrupted=interrupted or trajectory.interrupted,
-        stopped=trajectory.stopped or unfinished,
+        stopped=trajectory.stopped or unfinished, no_number=lost[lost["t"] <= trajectory.t[-1]],
     )  # fmt: skip
 
 

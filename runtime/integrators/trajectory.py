@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import SolverError
+from gudgeon.trace import Trace
 
 Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is being done
 
@@ -83,3 +84,5 @@ class Trajectory:
     stopped: SolverError | None = None
     seconds: float | None = None  # spent in the time loop; None: not measured
     events: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE, by time
+    trace: Trace | None = None  # forces and paths from the steps; None: the method keeps none
+    no_number: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE: from when on an event is no number

@@ -11,12 +11,12 @@ typedef struct {
     int choice, stop;                     /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
     double fixed, *t;
     double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
-    double *step, *scale, *floor;         /* rk4's step; tolerances as gudgeon_adaptive_setup takes them */
+    double *step, *scale, *least;         /* rk4's step; tolerances as gudgeon_adaptive_setup takes them */
     double *start;                        /* (q, v) where `started`, else filled here */
     unsigned char *started, *phase;
     double *y, *latched;                  /* samples */
     signed char *state;
-    long *done, *within;                  /* samples stored; rk4's steps since the last one */
+    long *done;                           /* samples stored */
     int *status;
     double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
     long *counts;                         /* as gudgeon_run_report has them */
@@ -39,8 +39,8 @@ typedef struct {
 /* What one run does by itself, for those who move several at once. */
 typedef struct {
     int (*begin)(const Batch *b, long i, void *run);
-    int (*steps)(void *run, const double *p, double t0, double t1, long total, long first, long count, long *taken);
-    void (*sample)(const Batch *b, long i, long k, void *run);
+    int (*steps)(const Batch *b, long i, long limit, void *run);
+    void (*samples)(const Batch *b, long i, const Moving *before, void *run); /* of a step that is made */
     void (*end)(const Batch *b, long i, int status, void *run);
     void (*give)(const void *run, Moving *state);
     void (*take)(void *run, const Moving *state);

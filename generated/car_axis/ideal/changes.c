@@ -101,7 +101,7 @@ static int change(Run *run, int event, const Parameters *p)
     if (!status && friction >= 0 && watched < 0)
         status = switch_friction(run, p);
     if (!status && watched >= 0 && event_crosses(watched, &run->memory.event_side[watched], run->aside.event[watched])
-        && note_event(run, watched, run->t))
+        && !run->pole && note_event(run, watched, run->t))
         status = ENDED;
     return status;
 }

@@ -2,7 +2,7 @@
  * No degree of freedom is left: at every time the drives say where everything is. Nothing is integrated; the motion
  * is followed from sample to sample so that it stays on its branch.
  */
-enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, NEWTON_FAILED = -1 };
+enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, PULSE_HALVINGS = 30, NEWTON_FAILED = -1 };
 
 /* A place on the way: the motion of all bodies at a time, the largest |Phi| and |Phi_dot| there. */
 typedef struct {
@@ -317,6 +317,12 @@ static double bend_between(const Place *a, const Place *b, double extent)
     return larger(angles, lengths * share);
 }
 
+static int hides_a_pulse(double t0, double t1, const Parameters *p)
+{
+    (void)t0, (void)t1, (void)p;
+    return 0;
+}
+
 /*
  * One step along the same branch, to t1 at the furthest. Where Newton moves the first guess by more than the reach,
  * or the way bends more than its velocities say, the step is halved: another branch passes near dead centres as a
@@ -333,7 +339,7 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
         const int near = !status && moved <= stride->reach;
         if (near)
             bent = bend_between(here, &there, stride->extent);
-        if (near && bent <= straight) {
+        if (near && bent <= straight && (stride->halvings > PULSE_HALVINGS || !hides_a_pulse(here->t, next, p))) {
             *here = there;
             if (stride->halvings > 0 && bent < 0.1 * straight) { /* it grows with h cubed */
                 stride->h *= 2.0;

@@ -49,6 +49,12 @@ static double inverse_zero(const double *x, const double *f, int n)
     return x[0] * b * c / ((a - b) * (a - c)) + x[1] * a * c / ((b - a) * (b - c)) + x[2] * a * b / ((c - a) * (c - b));
 }
 
+/* The share to which a zero is located: 4 ulp of the time, or 1e-12 of the step. */
+static double root_width(const Step *step)
+{
+    return max_of(4.0 * DBL_EPSILON * fabs(step->t) / step->h, 1e-12);
+}
+
 /*
  * The first share at which margin k is below zero, from a bracket of it: inverse interpolation, a look just across
  * the root once it is known so well, and halving where neither helps.
@@ -56,7 +62,7 @@ static double inverse_zero(const double *x, const double *f, int n)
 static double root(Run *run, const Step *step, int k, double low, double at_low, double high, double at_high,
     const Parameters *p)
 {
-    const double close = max_of(4.0 * DBL_EPSILON * fabs(step->t), 1e-12) / step->h;
+    const double close = root_width(step);
     double x[3] = {low, high, 0.0}, f[3] = {at_low, at_high, 0.0};
     for (int i = 0; i < ROOT_STEPS && high - low > close; i++) {
         double s = inverse_zero(x, f, i + 2);
