@@ -241,7 +241,8 @@ def mechanism_sizes(compiled: CompiledModel, p: Array) -> Array:
     index += [k for k, is_length in enumerate(lengths) if is_length]
     if not index:
         return np.ones(p.shape[:-1])
-    return np.maximum(np.abs(p[..., index]).max(axis=-1, initial=0.0), 1e-9)
+    size = np.abs(p[..., index]).max(axis=-1, initial=0.0)
+    return np.where(size > 0.0, size, 1.0)
 
 
 def smallest(matrix: Array, target: Array) -> Array:
