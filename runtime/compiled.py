@@ -124,7 +124,11 @@ class CompiledModel:
 
     def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
         """γ, (m,)."""
-        return self._rows("gudgeon_gamma", t, p, q, v)[self._kept]
+        return self.closed_gamma(t, q, v, p)[self._kept]
+
+    def closed_gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: Array) -> Array:
+        """γ of the closed linkage."""
+        return self._rows("gudgeon_gamma", t, p, q, v)
 
     def start_values(self, p: ArrayLike) -> tuple[Array, Array, Array]:
         """Numbers of the file's start: guess, set, rates."""
@@ -188,7 +192,10 @@ class CompiledModel:
         """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions)."""
         s, time = self.source, taken(t, "t", (None,))
         N = len(time)
-        inputs = [taken(q, "q", (N, self.n)), taken(v, "v", (N, self.n)), taken(memory, "memory", (N, self.n_memory))]
+        latched = taken(memory, "memory", (N, None))
+        if self.n_memory or latched.shape[1] > 1:  # in a scene that remembers nothing one number stands for none
+            taken(latched, "memory", (N, self.n_memory))
+        inputs = [taken(q, "q", (N, self.n)), taken(v, "v", (N, self.n)), latched]
         out = Evaluation(
             np.empty((N, self.n)), np.empty((N, len(s.rows))), np.empty((N, len(s.joints), 3)),
             np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))),

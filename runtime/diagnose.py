@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from gudgeon import hidden_jumps
 from gudgeon.compiled import CompiledModel, Evaluation
 from gudgeon.dead_centre import dependent_rows
 from gudgeon.diagnostics import Diagnostics, Peak
@@ -64,11 +65,16 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         last = compiled.source.events[trajectory.events["event"][-1]]
         if last.action == "stop":
             notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
+    for event, t in trajectory.no_number:
+        name = compiled.source.events[event].name
+        notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
     if counts.phi_max > APART * mechanism_size(compiled, p):
         notes.append(
             f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
             " anything; a step too long does this, or a drive that pushes the links through a dead centre"
         )
+    if len(trajectory.t):
+        notes += hidden_jumps.notes(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
     if compiled.source.events and ":" in problem.method:
         notes.append(f"events are not watched by method {problem.method}")
     for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):

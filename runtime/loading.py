@@ -156,7 +156,7 @@ def kernel_source(
             from gudgeon.generator.pipeline import generate
 
             source = generate(data, str(file), scene, overrides, formulation)
-        source = replace(source, overrides=dict(sorted(overrides.items())))
+        source = replace(source, overrides=tuple(sorted(overrides.items())))
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
     entry = cache.fetch("models", key, make, renew=regenerate)

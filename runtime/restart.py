@@ -56,7 +56,7 @@ def _check_origin(source: KernelSource, start: State) -> None:
             f" (SHA-256 {start.sha256[:12]}…, now {source.sha256[:12]}…)",
             hint="go on with the file that it was computed with, or run this one from its start",
         )
-    if start.sha256 and dict(start.overrides) != dict(source.overrides):
+    if start.sha256 and tuple(start.overrides) != source.overrides:
         raise BadValueError(
             f"start: this state was computed with overrides {dict(start.overrides)},"
             f" this simulation has {dict(source.overrides)}",

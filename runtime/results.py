@@ -49,11 +49,11 @@ class State:
     memory: Array  # (n_clearances,) δ̇⁻ in m/s, NaN while free
     parameters: Mapping[str, float]  # address -> value, of what was overridden: a further run's, unless given others
     sha256: str = ""  # of the mechanism's file; "": made by hand
-    overrides: Mapping[str, Any] = field(default_factory=dict)  # with which the file was loaded
+    overrides: tuple[tuple[str, str | float | bool], ...] = ()  # (address, value) with which the file was loaded
     formulation: str = ""  # what was integrated; either goes on from the other's
 
     def __getstate__(self) -> dict[str, Any]:
-        return self.__dict__ | {"parameters": dict(self.parameters), "overrides": dict(self.overrides)}
+        return self.__dict__ | {"parameters": dict(self.parameters)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state | {"parameters": MappingProxyType(state["parameters"])})
@@ -152,7 +152,7 @@ class Result:
         source, parameters = self.source, MappingProxyType(overridden)
         return State(
             source.mechanism, source.scene, float(self.t[-1]), q, v, state, memory, parameters,
-            source.sha256, dict(source.overrides), source.formulation,
+            source.sha256, source.overrides, source.formulation,
         )  # fmt: skip
 
     def __getstate__(self) -> dict[str, Any]:

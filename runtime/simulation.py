@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
+from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -53,7 +54,6 @@ class Simulation:
         self.loading = loading  # where the kernels came from, and how long it took
         self._overrides = dict(overrides or {})
         self._model: Model | None = None
-        self._p: Array | None = None
         self._full: Simulation | None = None
 
     @property
@@ -101,15 +101,16 @@ class Simulation:
 
     @property
     def p(self) -> Array:
-        """Every run-time number with the file's defaults: slots, then derived."""
-        if self._p is None:
-            self._p = prepare(self.compiled, {})[0]
-            self._p.flags.writeable = False
-        return self._p
+        """Every run-time number with the file's defaults: slots, then derived; a copy."""
+        return self._defaults.copy()
+
+    @cached_property
+    def _defaults(self) -> Array:
+        return prepare(self.compiled, {})[0]
 
     def rhs(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
         """ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
-        return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.compiled.n]
+        return self.compiled.rhs(t, y, self._defaults, memory)[: 2 * self.compiled.n]
 
     def jacobian(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
         """∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; exact, SI.
@@ -119,27 +120,27 @@ class Simulation:
         Raises SingularError where constraint rows depend on each other, ValueError where nothing is integrated.
         """
         full = self.full
-        return full.compiled.jacobian(t, y, full.p, memory)[0][: 2 * full.compiled.n, : 2 * full.compiled.n]
+        return full.compiled.jacobian(t, y, full._defaults, memory)[0][: 2 * full.compiled.n, : 2 * full.compiled.n]
 
     def phi(self, t: float, q: ArrayLike) -> Array:
         """Φ(q, t), (m,)."""
-        return self.compiled.phi(t, q, self.p)
+        return self.compiled.phi(t, q, self._defaults)
 
     def phi_q(self, t: float, q: ArrayLike) -> Array:
         """Φ_q, (m, n)."""
-        return self.compiled.phi_q(t, q, self.p)
+        return self.compiled.phi_q(t, q, self._defaults)
 
     def nu(self, t: float, q: ArrayLike) -> Array:
         """ν = −Φ_t, (m,)."""
-        return self.compiled.nu(t, q, self.p)
+        return self.compiled.nu(t, q, self._defaults)
 
     def gamma(self, t: float, q: ArrayLike, v: ArrayLike) -> Array:
         """γ, (m,)."""
-        return self.compiled.gamma(t, q, v, self.p)
+        return self.compiled.gamma(t, q, v, self._defaults)
 
     def mass(self) -> Array:
         """Diagonal of M, (n,)."""
-        return self.compiled.mass(self.p)
+        return self.compiled.mass(self._defaults)
 
     def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
         """The assembled start at t = 0. Raises AssemblyError."""

@@ -25,10 +25,9 @@ def scene_end(source: KernelSource) -> float:
 
 
 def scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
-    """The step (s) that a plain run takes: the file's, or the default, a whole number of which fills the run."""
+    """The step (s) that a plain run takes: the file's, or the default."""
     own = float(compiled.source.simulate.get("step", 0.0))
-    longest = default_step(compiled, p, duration if duration > 0.0 else T_END)
-    return own or (duration / math.ceil(duration / longest) if duration > 0.0 else longest)
+    return own or default_step(compiled, p, duration if duration > 0.0 else T_END)
 
 
 def default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:

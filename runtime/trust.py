@@ -120,9 +120,9 @@ def _nobody() -> int:
 
 @cache
 def _root_has_no_name() -> bool:
-    """In a container whose users are numbered anew, without root: root's folders look like nobody's."""
+    """In a container whose users are numbered anew, without the machine's root: root's folders look like nobody's."""
     try:
         with open("/proc/self/uid_map") as file:
-            return not any(int(line.split()[0]) == 0 for line in file)
+            return not any(int(line.split()[1]) == 0 for line in file)  # user inside, outside, how many
     except (OSError, ValueError, IndexError):
         return False

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 
 from gudgeon.errors import BadValueError, InputError, OutputError, UnknownNameError, shortened
@@ -83,7 +84,10 @@ def check_folder(option: str, out: Path) -> None:
     import tempfile
 
     try:
-        there = next(path for path in (out, *out.absolute().parents) if path.exists())
+        there = next(path for path in (out.absolute(), *out.absolute().parents) if path.exists())
+        for name in out.absolute().relative_to(there).parts:
+            with suppress(FileNotFoundError, NotADirectoryError):
+                (there / name).lstat()  # a name too long
     except OSError as error:  # a name too long, a folder that may not be entered
         told = f"{option} {shortened(out)}: {error.strerror or error}"
         raise InputError(told, hint="name another folder") from error
@@ -100,6 +104,11 @@ def check_folder(option: str, out: Path) -> None:
 def check_file(option: str, path: Path) -> None:
     """The same of a file that will be written, or replaced."""
     check_folder(option, path.parent)
+    check_name(option, path)
+
+
+def check_name(option: str, path: Path) -> None:
+    """The same of a name in a folder that was looked at already."""
     try:
         check_target(path)
     except OutputError as error:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_file, check_folder, chosen_scenes, settings, unknown, value
+from gudgeon.commands.common import check_folder, check_name, chosen_scenes, settings, unknown, value
 from gudgeon.commands.progress import progress_bar
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.loading import load
@@ -71,8 +71,8 @@ def run_scenes(request: Request) -> int:
     simulations = {name: _load(request, name) for name in names}
     _check(request, wanted, simulations)
     for name, simulation in simulations.items():
-        check_file("--out", result_path(request.out, simulation.source.mechanism, name))
-    check_file("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
+        check_name("--out", result_path(request.out, simulation.source.mechanism, name))
+    check_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
     session = Session()
     try:
         _simulate(request, wanted, simulations, session)

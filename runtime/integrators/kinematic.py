@@ -13,15 +13,17 @@ from time import perf_counter
 import numpy as np
 
 from gudgeon.compiled import Array
-from gudgeon.errors import SolverError
+from gudgeon.errors import NonFiniteError, SolverError
+from gudgeon.integrators.failure import NO_NUMBER
 from gudgeon.integrators.kinematic_events import find_events
+from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
 from gudgeon.start import mechanism_size
+from gudgeon.written import rate_reason, reason_between
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
 REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
-RESOLUTION = 1e-12  # s: an output so close to the end of the run is the end
 CHUNK = 20_000  # samples between two looks of Python: some 20 ms
 
 
@@ -43,22 +45,22 @@ def run(problem: Problem) -> Trajectory:
     motion = _follow(problem)
     if not problem.compiled.source.events:
         return _with_work(problem, motion)
-    events, unfinished, interrupted, ended = no_events(), None, motion.interrupted, False
+    events, lost, unfinished, interrupted, ended = no_events(), no_events(), None, motion.interrupted, False
     try:
         size = mechanism_size(problem.compiled, problem.p)
-        events, ended = find_events(problem, problem.t[: len(motion.q)], motion.q, motion.v, REACH, size)
+        events, lost, ended = find_events(problem, problem.t[: len(motion.q)], motion.q, motion.v, REACH, size)
     except KeyboardInterrupt:
         interrupted = True
     except SolverError as error:
         unfinished = error
     if ended:
         last = events["t"][-1]
-        problem = replace(problem, t=np.append(problem.t[problem.t < last - RESOLUTION], last))
+        problem = replace(problem, t=np.append(problem.t[problem.t < last - resolution(problem.t)], last))
         motion = _follow(problem)
     trajectory = _with_work(problem, motion)
     return replace(
         trajectory, events=events[events["t"] <= trajectory.t[-1]], interrupted=interrupted or trajectory.interrupted,
-        stopped=trajectory.stopped or unfinished,
+        stopped=trajectory.stopped or unfinished, no_number=lost[lost["t"] <= trajectory.t[-1]],
     )  # fmt: skip
 
 
@@ -121,6 +123,14 @@ def _with_work(problem: Problem, motion: _Motion) -> Trajectory:
 
 
 def _failure(problem: Problem, status: int, t: float) -> SolverError:
+    later = problem.t[problem.t > t]
+    until = float(later[0]) if len(later) else t
+    why, when = reason_between(problem.compiled.source, problem.p, t, until + 1e-9 * max(1.0, abs(until)))
+    if not why:
+        times = np.linspace(t, until, 1001)
+        why, when = rate_reason(problem.compiled, problem.p, times, np.zeros(problem.compiled.n))
+    if why:
+        return NonFiniteError(f"{why}\n  {NO_NUMBER}", when)
     if status < 0:
         return SolverError(
             f"the linkage cannot follow its drives beyond t = {t:.9g} s: Newton's method finds no position there\n"

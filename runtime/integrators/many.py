@@ -19,7 +19,7 @@ from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.failure import failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
-from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts
+from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, told_apart
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Progress, Trajectory
 from gudgeon.start import assemble, mechanism_sizes
 
@@ -41,10 +41,10 @@ class Runs:
         self.compiled, self.method, self.times = compiled, method, times
         n, N, size, nc = len(p), len(times), 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
         self.n = n
-        scale, floor = adaptive.tolerances(compiled, p, rtol, float(times[-1] - times[0]))
+        scale, least = adaptive.tolerances(compiled, p, rtol)
         self.arrays: dict[str, NDArray[Any]] = {
             "t": times, "p": p, "p_motion": motion, "size": mechanism_sizes(compiled, p), "step": step,
-            "scale": scale, "floor": floor, "start": np.full((n, 2 * compiled.n), np.nan),
+            "scale": scale, "least": least, "start": np.full((n, 2 * compiled.n), np.nan),
             "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((n, N, size)),
             "latched": np.empty((n, N, max(compiled.n_memory, 1))), "state": np.zeros((n, N, nc), np.int8),
             "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
@@ -162,7 +162,7 @@ class Runs:
     def fetch(self, i: int, run: Any, last: bool) -> None:
         """Takes over the lists of contacts and events of run i."""
         self.impacts[i].append(fetch_impacts(self.compiled, run, last))
-        self.events[i].append(fetch_events(self.compiled, run, float(self.times[0])))
+        self.events[i].append(fetch_events(self.compiled, run, self.times))
 
     def _failure(self, i: int) -> GudgeonError:
         """What ended run i, as a single run says it."""
@@ -179,8 +179,7 @@ class Runs:
 
     def events_of(self, i: int) -> NDArray[Any]:
         """EVENT_DTYPE, the user events of run i by time."""
-        events = np.concatenate(self.events[i])
-        return events[np.argsort(events["t"], kind="stable")]
+        return told_apart(self.compiled, np.concatenate(self.events[i]))[0]
 
     def counts(self, i: int) -> Counts:
         """Sums and maxima over the steps of run i."""
@@ -201,4 +200,5 @@ class Runs:
             self.impacts_of(i), self.arrays["peaks"][i, :joints].copy(), self.counts(i),
             self.interrupted and error is not None, error if isinstance(error, SolverError) else None,
             seconds=float(self.arrays["seconds"][i]), events=self.events_of(i),
+            no_number=told_apart(compiled, np.concatenate(self.events[i]))[1],
         )  # fmt: skip

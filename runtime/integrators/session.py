@@ -16,7 +16,7 @@ from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Problem, Traject
 
 EVENTS_FULL, ENDED = -3, -7
 N_IMPACTS, N_COUNTS = 256, 9
-RESOLUTION = 1e-11  # s, to which an event and a sample are told apart
+EPSILON = float(np.finfo(np.float64).eps)
 REPORT = ("steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "switches", "rejected", "jacobians",
           "stiff_steps")  # fmt: skip
 
@@ -25,13 +25,31 @@ class RunEnded(Exception):
     """An event of the user ends the run; its sample is stored."""
 
 
-def fetch_events(compiled: CompiledModel, run: Any, t_first: float) -> NDArray[Any]:
-    """EVENT_DTYPE, the list of user events of a struct, which is emptied; those of the start do not count."""
+def resolution(t: Array) -> float:
+    """To how many seconds an event and a sample are told apart in a run with these output times (N,)."""
+    return max(32 * EPSILON * float(abs(t[[0, -1]]).max()), min(1e-11, 1e-10 * float(t[-1] - t[0])))
+
+
+def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
+    """EVENT_DTYPE, the list of user events of a struct, which is emptied; those of the start do not count.
+
+    What is beyond the events of the scene tells of the same events that they are no number at that time.
+    """
     t, event = np.zeros(N_IMPACTS), np.zeros(N_IMPACTS, dtype=np.intc)
     count = compiled.lib.gudgeon_run_events(run, compiled.pointer(t), compiled.pointer(event, "int *"))
     fetched = np.zeros(count, dtype=EVENT_DTYPE)
     fetched["event"], fetched["t"] = event[:count], t[:count]
-    return fetched[fetched["t"] > t_first + RESOLUTION]
+    told = fetched["event"] >= len(compiled.source.events)
+    return fetched[told | (fetched["t"] > times[0] + resolution(times))]
+
+
+def told_apart(compiled: CompiledModel, found: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Events by time, and those that are no number from a time on; EVENT_DTYPE both."""
+    ordered = found[np.argsort(found["t"], kind="stable")]
+    number = ordered["event"] < len(compiled.source.events)
+    lost = ordered[~number]
+    lost["event"] -= len(compiled.source.events)
+    return ordered[number], lost
 
 
 def fetch_impacts(compiled: CompiledModel, run: Any, last: bool) -> NDArray[Any]:
@@ -103,14 +121,14 @@ class Session:
     def end(self) -> None:
         """Stores the present state as the last sample, in place of those that are as late. Raises RunEnded."""
         t = self.report()[0]
-        self.done = int(np.searchsorted(self.problem.t[: self.done], t - RESOLUTION))
+        self.done = int(np.searchsorted(self.problem.t[: self.done], t - resolution(self.problem.t)))
         self.t = np.append(self.problem.t[: self.done], t)
         self.sample(self.done)
         raise RunEnded
 
     def fetch_events(self) -> None:
         """Take over the list of user events from C."""
-        self.events.append(fetch_events(self.compiled, self.run, float(self.problem.t[0])))
+        self.events.append(fetch_events(self.compiled, self.run, self.problem.t))
 
     def fetch_impacts(self, last: bool) -> None:
         """Take over the list of contacts from C; with `last` those that still go on too."""
@@ -131,7 +149,7 @@ class Session:
             self.sample(0)
         self.fetch_impacts(last=True)
         self.fetch_events()
-        events = np.concatenate(self.events)
+        events, no_number = told_apart(self.compiled, np.concatenate(self.events))
         _, counts, numbers, peaks = self.report()
         impacts = np.concatenate(self.impacts)
         impacts = impacts[np.argsort(impacts["t_on"], kind="stable")]
@@ -141,7 +159,7 @@ class Session:
             self.memory[: self.done, : self.compiled.n_memory], self.state[: self.done, : self.nc],
             y[:, 2 * n :].copy(), impacts, peaks,
             counts_of(counts, numbers), interrupted, stopped, seconds=self.seconds,
-            events=events[np.argsort(events["t"], kind="stable")], trace=self._trace(),
+            events=events, no_number=no_number, trace=self._trace(),
         )  # fmt: skip
 
     def _trace(self) -> trace.Trace | None:

@@ -85,3 +85,4 @@ class Trajectory:
     seconds: float | None = None  # spent in the time loop; None: not measured
     events: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE, by time
     trace: Trace | None = None  # forces and paths from the steps; None: the method keeps none
+    no_number: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE: from when on an event is no number

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.kernel_source import KernelSource
 from gudgeon.measure.cells import Cell, Status
-from gudgeon.measure.show_stress import COLOURS, FULL, SIGNS, command, partial, stress_rows
+from gudgeon.measure.show_stress import COLOURS, FULL, SIGNS, partial, stress_rows, tell_failures
 from gudgeon.measure.tables import console, new_table, print_json, write_files
 from gudgeon.measure.words import seconds, share
 from gudgeon.stress import StressBox
@@ -25,7 +25,9 @@ SEVERITY = (Status.DIVERGED, Status.INACCURATE, Status.OUTSIDE, Status.STABLE, S
 _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 
 
-def show_box(source: KernelSource, found: Sequence[StressBox], table: Path, as_json: bool = False) -> None:
+def show_box(
+    source: KernelSource, file: str, found: Sequence[StressBox], table: Path, as_json: bool = False
+) -> None:
     """Print everything (or only JSON), write the table and beside it the picture."""
     rows = [row for box in found for row in stress_rows(box)]
 
@@ -35,13 +37,13 @@ def show_box(source: KernelSource, found: Sequence[StressBox], table: Path, as_j
         return box_figure(source.title or source.mechanism, found)
 
     written, failed = write_files(table, rows, draw)
-    _show(source, found, written, as_json)
+    _show(source, file, found, written, as_json)
     if failed:
         raise failed
 
 
 def _show(
-    source: KernelSource, found: Sequence[StressBox], written: Sequence[Path], as_json: bool
+    source: KernelSource, file: str, found: Sequence[StressBox], written: Sequence[Path], as_json: bool
 ) -> None:
     """What was found, and what was written of it."""
     if as_json:
@@ -60,11 +62,7 @@ def _show(
         out.print(_verdicts(box.cells))
         if worst := worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
-            for cell in worst:
-                said = cell.reason or f"largest error {share(cell.error.largest)}"
-                out.print(f"  {SIGNS[cell.status]} {said}")
-                again = command(source.mechanism, box.scene, cell, box.full)
-                out.print(f"    {again} --t-end {box.t_long:g}", soft_wrap=True)  # to be copied
+            tell_failures(out, file, box, worst)
     for path in written:
         out.print(f"wrote {path}")
 
