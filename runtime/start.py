@@ -15,6 +15,7 @@ import numpy as np
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import AssemblyError
 from gudgeon.rank import tied
+from gudgeon.written import reason
 
 MAX_STEPS = 60
 FAR = 1.0  # rad: where a guessed angle turns further, a nearer configuration is sought
@@ -40,7 +41,8 @@ class Start:
 
 def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
     """The start of a scene. Raises AssemblyError with rows, joints and residual."""
-    if compiled.n < LARGE and (closed := compiled.close(t, p, mechanism_size(compiled, p))) is not None:
+    closed = compiled.close(t, p, mechanism_size(compiled, p)) if compiled.n < LARGE else None
+    if closed is not None and np.isfinite(closed[1]).all():
         return Start(*closed)
     return search(compiled, p, t)
 
@@ -182,6 +184,13 @@ class _Assembly:
         extra[np.arange(len(index)), index] = 1.0
         matrix = np.concatenate([self.compiled.closed_phi_q(self.t, q, self.p), extra])
         target = np.concatenate([self.compiled.closed_nu(self.t, q, self.p), self.rates])
+        if not (np.isfinite(target).all() and np.isfinite(matrix).all()):
+            source = self.compiled.source
+            rows = [row.name for row, x in zip(source.start_rows, target, strict=False) if not np.isfinite(x)]
+            raise AssemblyError(
+                f"the start has no velocities: the rate of {', '.join(rows) or 'the constraints'} is not finite at"
+                f" t = {self.t:g} s\n  a root or a power has no slope where it begins: begin with smooth_step or later"
+            )
         root = np.sqrt(self.compiled.mass(self.p))
         v = np.zeros_like(q)
         for _ in range(2):  # once more for the rounding of the first solution
@@ -219,7 +228,9 @@ class _Assembly:
         """Which rows stay open, by how much, and what to try."""
         scaled = np.abs(self.residual(q) / self.row_scale)
         if not np.isfinite(scaled).all():
-            return AssemblyError("the start cannot be assembled: the constraints are not finite at the guess")
+            why = reason(self.compiled.source, self.p, self.t, q, np.zeros_like(q))
+            told = f"{why}\n  expected a number at the start" if why else "the constraints are not finite at the guess"
+            return AssemblyError(f"the start cannot be assembled: {told}")
         worst = np.argsort(-scaled)[:6]
         worst = worst[scaled[worst] > 1e-3 * scaled.max()]
         rows = ", ".join(f"{self.names[k]} ({self.residual(q)[k]:.3g})" for k in worst)
@@ -246,7 +257,8 @@ def mechanism_sizes(compiled: CompiledModel, p: Array) -> Array:
     index += [k for k, is_length in enumerate(lengths) if is_length]
     if not index:
         return np.ones(p.shape[:-1])
-    return np.maximum(np.abs(p[..., index]).max(axis=-1, initial=0.0), 1e-9)
+    size = np.abs(p[..., index]).max(axis=-1, initial=0.0)
+    return np.where(size > 0.0, size, 1.0)
 
 
 def smallest(matrix: Array, target: Array) -> Array:

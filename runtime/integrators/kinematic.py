@@ -13,11 +13,13 @@ from time import perf_counter
 import numpy as np
 
 from gudgeon.compiled import Array
-from gudgeon.errors import SolverError
+from gudgeon.errors import NonFiniteError, SolverError
+from gudgeon.integrators.failure import NO_NUMBER
 from gudgeon.integrators.kinematic_events import find_events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
 from gudgeon.start import mechanism_size
+from gudgeon.written import rate_reason, reason_between
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
@@ -121,6 +123,14 @@ def _with_work(problem: Problem, motion: _Motion) -> Trajectory:
 
 
 def _failure(problem: Problem, status: int, t: float) -> SolverError:
+    later = problem.t[problem.t > t]
+    until = float(later[0]) if len(later) else t
+    why, when = reason_between(problem.compiled.source, problem.p, t, until + 1e-9 * max(1.0, abs(until)))
+    if not why:
+        times = np.linspace(t, until, 1001)
+        why, when = rate_reason(problem.compiled, problem.p, times, np.zeros(problem.compiled.n))
+    if why:
+        return NonFiniteError(f"{why}\n  {NO_NUMBER}", when)
     if status < 0:
         return SolverError(
             f"the linkage cannot follow its drives beyond t = {t:.9g} s: Newton's method finds no position there\n"

@@ -60,7 +60,7 @@ static double friction_event(Run *run, double h, const Parameters *p, Trial *tri
     double low = 0.0, high = 1.0, value;
     if (changed(run, &trial->aside, &value) < 0)
         return 1.0;
-    const double close = max_of(4.0 * DBL_EPSILON * fabs(run->t), 1e-14) / h;
+    const double close = max_of(4.0 * DBL_EPSILON * fabs(run->t) / h, 1e-12);
     for (int i = 0; i < 60 && high - low > close; i++) {
         const double share = 0.5 * (low + high);
         if (rk4_trial(run, share * h, p, trial))

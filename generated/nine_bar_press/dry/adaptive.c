@@ -205,6 +205,7 @@ static void floor_speeds(Run *run, double left)
 static int begin_adaptive(Run *run, double left, const Parameters *p)
 {
     int status = run->ready ? 0 : begin(run, p);
+    run->tick = min_of(1e-12, 1e-11 * left);
     for (int k = 0; k < N_SWITCHES; k++)
         run->memory.side[k] = run->aside.g[k] < 0.0 ? -1.0 : 1.0;
     run->memory.held = 1;
@@ -244,12 +245,12 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
  * Events whose zero is the end of the run: those that are zero there, or beyond it at once, as far as times are
  * located. Returns ENDED where one of them ends the run.
  */
-static int end_on_zeros(Run *run, const Step *step, const Parameters *p)
+static int end_on_zeros(Run *run, const Parameters *p)
 {
     int status = 0, zeros = 0;
     double y[N_Y], dy[N_Y];
     Aside aside;
-    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), 1e-12 * step->h);
+    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), run->tick);
     for (int i = 0; i < N_USER_EVENTS; i++)
         zeros |= run->memory.event_side[i] != 0;
     for (int k = 0; k < N_Y; k++)
@@ -310,12 +311,12 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         int event;
         const double share = first_event(run, step, p, &event);
         const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
-        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2e-12 * step->h); /* is at the event */
+        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->tick); /* is at the event */
         status = sample_step(run, step, t_new - close, n, t, p, y, latched, state, done);
         if (!status)
             status = commit(run, step, share, t_new, event, p);
         if (!status && run->t == t_end)
-            status = end_on_zeros(run, step, p);
+            status = end_on_zeros(run, p);
     }
     return status;
 }

@@ -226,14 +226,14 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 
     /* directions, arms, drives */
     const Lanes motor_value = omega*time;
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(motor_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_crank = cosine_0;
-    const Lanes sin_theta_crank = sine_0;
-    const Lanes cos_theta_rod = cosine_1;
-    const Lanes sin_theta_rod = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(motor_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank = cosines_0;
+    const Lanes sin_theta_crank = sines_0;
+    const Lanes cos_theta_rod = cosines_1;
+    const Lanes sin_theta_rod = sines_1;
     const Lanes motor_rate = omega;
     const Lanes motor_acceleration = all_of(0.0);
     const Lanes slider_omega = all_of(0.0);

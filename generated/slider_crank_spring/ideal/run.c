@@ -67,6 +67,7 @@ typedef struct {
     Impact impacts[N_IMPACTS];
     double event_t[N_IMPACTS];
     unsigned char no_number[1];  /* whether an event was told to be none */
+    double tick; /* s, to which times of events are told apart; less where the whole run is short */
     int pole; /* whether the event that ends a step is no zero but a pole */
     int event[N_IMPACTS], n_events, stop; /* user events found; whether they may end the run */
     int n_impacts, ready;
