@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+from gudgeon.simulation import Simulation
 
 from .scenes import Load, loader
 
@@ -48,41 +51,37 @@ def load(tmp_path: Path) -> Load:
     return loader(tmp_path)
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_two_zeros_within_a_twelfth_of_a_step(load: Load, method: str) -> None:
-    """8 % of a step apart, at 100 random times: main missed 61 (rodas5p 80)."""
+def test_two_zeros_within_a_twelfth_of_a_step(load: Load) -> None:
+    """8 % of a step apart, at random times: 61 of 100 were missed (rodas5p 80)."""
     scene, rng = load(PENDULUM.format(more=DIP)), np.random.default_rng(1)
-    step = 2.0 / scene.simulate(2.0, output=2, method=method).diagnostics.steps
-    w = 0.04 * step / HALF
-    for t0 in rng.uniform(0.5, 1.5, 100):
-        run = scene.simulate(2.0, output=2, method=method, parameters={"t0": t0, "w": w})
-        np.testing.assert_allclose(run.events_of("dip"), [t0 - w * HALF, t0 + w * HALF], rtol=0, atol=1e-11)
+    for method in METHODS:
+        step = 2.0 / scene.simulate(2.0, output=2, method=method).diagnostics.steps
+        w = 0.04 * step / HALF
+        for t0 in rng.uniform(0.5, 1.5, 50):
+            run = scene.simulate(2.0, output=2, method=method, parameters={"t0": t0, "w": w})
+            np.testing.assert_allclose(run.events_of("dip"), [t0 - w * HALF, t0 + w * HALF], rtol=0, atol=1e-11)
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("width", [0.5, 1e-3, 1e-7])
-def test_a_short_event_in_a_long_rest(load: Load, method: str, width: float) -> None:
-    """.5 s in 10 s: main missed 24 of 60 (rodas5p 46)."""
+def test_a_short_event_in_a_long_rest(load: Load) -> None:
+    """.5 s in 10 s: 24 of 60 were missed (rodas5p 46)."""
     scene, rng = load(BLOCK.format(force="1e-3 N", more=DIP)), np.random.default_rng(2)
-    w = 0.5 * width / HALF
-    for t0 in rng.uniform(1.0, 9.0, 20):
+    for method, width, t0 in itertools.product(METHODS, (0.5, 1e-3, 1e-7), rng.uniform(1.0, 9.0, 10)):
+        w = 0.5 * width / HALF
         run = scene.simulate(10.0, output=10, method=method, parameters={"t0": t0, "w": w})
         np.testing.assert_allclose(run.events_of("dip"), [t0 - w * HALF, t0 + w * HALF], rtol=0, atol=2e-11)
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("t_end", [10.0, 1000.0])
-def test_a_gaussian_push_is_not_stepped_over(load: Load, method: str, t_end: float) -> None:
-    """Half width .1 s: its impulse is w √π. Main missed 4 of 40 in 10 s (rodas5p 12), all in 1000 s."""
+def test_a_gaussian_push_is_not_stepped_over(load: Load) -> None:
+    """Half width .1 s: its impulse is w √π. 4 of 40 were missed in 10 s (rodas5p 12), all in 1000 s."""
     scene, rng = load(BLOCK.format(force="1 N * exp(-((t - t0)/w)**2)", more="")), np.random.default_rng(3)
     w = 0.1 / HALF
-    for t0 in rng.uniform(0.1, 0.9, 20) * t_end:
+    for method, t_end, share in itertools.product(METHODS, (10.0, 1000.0), rng.uniform(0.1, 0.9, 20)):
+        t0 = share * t_end
         run = scene.simulate(t_end, output=10, method=method, parameters={"t0": t0, "w": w})
         assert run["a.vx"][-1] == pytest.approx(w * math.sqrt(math.pi), rel=1e-7)
         assert run["a.x"][-1] == pytest.approx(w * math.sqrt(math.pi) * (t_end - t0), rel=1e-7)
 
 
-@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(
     ("force", "impulse"),
     [
@@ -92,9 +91,10 @@ def test_a_gaussian_push_is_not_stepped_over(load: Load, method: str, t_end: flo
          lambda w: 1 - math.cos(20.0) + 3 * w * math.sqrt(math.pi)),
     ],
 )  # fmt: skip
-def test_pulses_of_other_shapes(load: Load, method: str, force: str, impulse: Callable[[float], float]) -> None:
+def test_pulses_of_other_shapes(load: Load, force: str, impulse: Callable[[float], float]) -> None:
     scene, rng = load(BLOCK.format(force=force, more="")), np.random.default_rng(4)
-    for t0, w in zip(rng.uniform(2.0, 15.0, 5), 10.0 ** rng.uniform(-3, -1.5, 5), strict=True):
+    for method, t0, power in itertools.product(METHODS, rng.uniform(2.0, 15.0, 3), (-3.0, -2.2, -1.5)):
+        w = 10.0**power
         run = scene.simulate(20.0, output=4, method=method, parameters={"t0": t0, "w": w})
         assert run["a.vx"][-1] == pytest.approx(impulse(w), abs=2e-6)
 
@@ -126,13 +126,7 @@ events:
 """
 
 
-@pytest.mark.parametrize("method", [*METHODS, "rk4", "kinematic"])
-def test_poles_ends_and_what_is_no_number(load: Load, method: str) -> None:
-    """A pole changes the sign without a zero; the end of the run belongs to it, its start does not; NaN is told."""
-    scene = load(
-        DRIVEN.format(drive="0.5 m/s^2 * t**2", more=ODD) if method == "kinematic"
-        else BLOCK.format(force="1 N", more=ODD)
-    )  # fmt: skip
+def check_odd(scene: Simulation, method: str) -> None:
     run = scene.simulate(2.0, output=5, method=method, step=0.01 if method == "rk4" else None)
     found = {name: run.events_of(name) for name in ("pole", "start", "touched", "none")}
     assert not any(map(len, found.values())), found
@@ -142,10 +136,19 @@ def test_poles_ends_and_what_is_no_number(load: Load, method: str) -> None:
     assert run.events_of("end") == [2.0]
     assert run.events_of("there") == pytest.approx([2.0], abs=1e-11)
     (note,) = (note for note in run.diagnostics.notes if "no number" in note)
-    assert "event root" in note and float(note.split("t = ")[1].split(" s")[0]) == pytest.approx(1.0, abs=0.011)
+    assert "event root" in note
+    assert float(note.split("t = ")[1].split(" s")[0]) == pytest.approx(1.0, abs=0.011)
 
 
-ARGUMENTS = ["t/(1 s)", "a.theta", "a.omega/(1 rad/s)", "a.com.x/(1 m)", "a.com.vy/(1 m/s)"]
+def test_poles_ends_and_what_is_no_number(load: Load) -> None:
+    """A pole changes the sign without a zero; the end of the run belongs to it, its start does not; NaN is told."""
+    scene = load(BLOCK.format(force="1 N", more=ODD))
+    for method in (*METHODS, "rk4"):
+        check_odd(scene, method)
+    check_odd(load(DRIVEN.format(drive="0.5 m/s^2 * t**2", more=ODD)), "kinematic")
+
+
+ARGUMENTS = ["(t/(1 s))", "a.theta", "(a.omega/(1 rad/s))", "(a.com.x/(1 m))", "(a.com.vy/(1 m/s))"]
 SHAPES = [
     "sin({0}*{c})", "cos({0} + {c}*t/(1 s))", "exp(-{0}**2*{c})", "tanh({c}*{0})", "atan2({0}, 2 + {1})", "{0}*{1}",
     "{0} - {1}/{c}", "log(1.5 + {0}**2)", "hypot({0}, {1})", "max({0}, {1})", "abs({0})", "sqrt({0}**2 + .01)",
@@ -153,8 +156,7 @@ SHAPES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_random_expressions_against_a_dense_scan(load: Load, method: str) -> None:
+def test_random_expressions_against_a_dense_scan(load: Load) -> None:
     """Zeros of 20 random expressions of a pendulum's motion: as many as 20,000 samples show, or more in pairs."""
     rng = np.random.default_rng(6)
     texts = []
@@ -167,8 +169,8 @@ def test_random_expressions_against_a_dense_scan(load: Load, method: str) -> Non
     lines = "".join(f"  e{k}: {{zero: '{text}'}}\n" for k, text in enumerate(texts))
     outs = "".join(f"  o{k}: '{text}'\n" for k, text in enumerate(texts))
     scene = load(PENDULUM.format(more="events:\n" + lines + "outputs:\n" + outs))
-    run = scene.simulate(4.0, output=np.linspace(0.0, 4.0, 20_001), method=method, rtol=1e-9)
-    for k, text in enumerate(texts):
+    runs = [scene.simulate(4.0, output=np.linspace(0.0, 4.0, 20_001), method=method, rtol=1e-9) for method in METHODS]
+    for run, (k, text) in itertools.product(runs, enumerate(texts)):
         value = run[f"o{k}"]
         seen = run.t[1:][value[1:] * value[:-1] < 0]
         found = run.events_of(f"e{k}")
@@ -177,9 +179,7 @@ def test_random_expressions_against_a_dense_scan(load: Load, method: str) -> Non
         assert (len(found) - len(seen)) % 2 == 0, text
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("unit", [1e-12, 1e-9, 1e-3, 1e6])
-def test_a_machine_is_as_good_in_any_unit_of_time(load: Load, method: str, unit: float) -> None:
+def test_a_machine_is_as_good_in_any_unit_of_time(load: Load) -> None:
     """A cam once a turn: corners were located to 1e-12 s, 2e-2 rad of a machine of nanoseconds."""
     text = """
     parameters: {{T: {T} s}}
@@ -190,7 +190,9 @@ def test_a_machine_is_as_good_in_any_unit_of_time(load: Load, method: str, unit:
     forces: {{cam: {{torque: a, value: "20 N*m * (1 s/T)**2 * max(0, cos(a.theta) - 0.9)"}}}}
     events: {{top: {{zero: sin(a.theta)}}}}
     """
-    run, exact = (load(text.format(T=T)).simulate(2.0 * T, output=20, method=method) for T in (unit, 1.0))
-    assert run["a.theta"] == pytest.approx(exact["a.theta"], abs=1e-11)
-    assert run.events_of("top") / unit == pytest.approx(exact.events_of("top"), abs=1e-10)
-    assert run.diagnostics.steps == exact.diagnostics.steps
+    scenes = {T: load(text.format(T=T)) for T in (1e-12, 1e-9, 1e6, 1.0)}
+    for method, unit in itertools.product(METHODS, scenes):
+        run, exact = (scenes[T].simulate(2.0 * T, output=20, method=method) for T in (unit, 1.0))
+        assert run["a.theta"] == pytest.approx(exact["a.theta"], abs=1e-11)
+        assert run.events_of("top") / unit == pytest.approx(exact.events_of("top"), abs=1e-10)
+        assert run.diagnostics.steps == exact.diagnostics.steps
