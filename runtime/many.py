@@ -21,6 +21,7 @@ from gudgeon.parameter_sets import Mask, ParameterSets, given_sets, prepare_sets
 from gudgeon.results import Result
 from gudgeon.simulation import MAX_STEPS
 from gudgeon.single_runs import run_singly
+from gudgeon.times import output_times
 
 if TYPE_CHECKING:
     from gudgeon.simulation import Simulation
@@ -43,7 +44,7 @@ def simulate_many(
     workers = available_threads() if threads is None else threads
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
         raise BadValueError(f"threads is {threads!r}: expected a number of threads, 1 or more")
-    times = simulation._times(0.0, t_end, output)
+    times = output_times(simulation.source, 0.0, t_end, output)
     chosen = simulation._method(method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)
     if chosen in many.METHODS and not left_out(simulation.compiled):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,11 +16,13 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.diagnose import diagnose
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive, kinematic, python_driver, rk4
+from gudgeon.integrators.asking import CtrlC
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.left_out import check_start, contradiction
-from gudgeon.parameters import number, prepare, without_baumgarte
+from gudgeon.parameters import prepare, without_baumgarte
 from gudgeon.start import Start, assemble
-from gudgeon.step import scene_end, scene_step
+from gudgeon.step import scene_step
+from gudgeon.times import output_times, seconds
 
 if TYPE_CHECKING:
     from gudgeon.batch import Batch
@@ -32,7 +35,6 @@ METHODS = {
     "rk4": rk4.run, "dop853": adaptive.run, "rodas5p": adaptive.run, "adaptive": adaptive.run,
     "kinematic": kinematic.run, **dict.fromkeys(python_driver.NAMES, python_driver.run),
 }  # fmt: skip
-DEFAULT_OUTPUT = 1000
 MAX_STEPS = 10**12
 KEPT = 20_000  # samples whose reactions are kept at hand: they were computed for the energy balance
 
@@ -150,7 +152,7 @@ class Simulation:
             )  # fmt: skip
         p, given, is_given = prepare(self.compiled, parameters or {})
         t0 = 0.0 if start is None else start.t
-        times = self._times(t0, t_end, output)
+        times = output_times(self.source, t0, t_end, output)
         if self.source.degrees_of_freedom < 0:
             assemble(self.compiled, p)  # names the joints that contradict each other
         chosen = self._method(method, step is not None)
@@ -164,15 +166,18 @@ class Simulation:
             self.compiled, p, times, q, v, memory, h, progress, None if start is None else start.state,
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop,
         )  # fmt: skip
-        before = time.perf_counter()
-        trajectory = METHODS[chosen](problem)
-        seconds = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
-        result = self._result(chosen, problem, trajectory, given, is_given, seconds)
-        stopped = trajectory.stopped or contradiction(problem, trajectory)
+        with CtrlC() as ctrl_c:
+            problem = replace(problem, take=ctrl_c.take)
+            before = time.perf_counter()
+            trajectory = METHODS[chosen](problem)
+            seconds = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
+            result = self._result(chosen, problem, trajectory, given, is_given, seconds)
+            stopped = trajectory.stopped or contradiction(problem, trajectory)
+        result = _late(ctrl_c, result)
         if stopped is not None:
             stopped.partial = result
             raise stopped
-        if horizon and not trajectory.interrupted:
+        if horizon and not result.diagnostics.interrupted:
             from gudgeon.predictability import with_horizon
 
             result = with_horizon(self, result, progress)
@@ -210,24 +215,6 @@ class Simulation:
             raise BadValueError("start: this state belongs to another mechanism or scene")
         return np.asarray(start.q, dtype=float), np.asarray(start.v, dtype=float), np.asarray(start.memory, dtype=float)
 
-    def _times(self, t0: float, t_end: float | str | None, output: int | ArrayLike | None) -> Array:
-        """Output times, increasing, the first is t0."""
-        defaults = self.source.simulate
-        if output is not None and not isinstance(output, (int, np.integer)):
-            times = np.asarray(output, dtype=float)
-            if times.ndim != 1 or not len(times) or not np.isfinite(times).all() or (np.diff(times) <= 0).any():
-                raise BadValueError("output: expected increasing, finite times (s)")
-            if times[0] < t0:
-                raise BadValueError(f"output: times begin at {t0:g} s, got {times[0]:g} s")
-            return times if times[0] == t0 else np.concatenate([[t0], times])
-        end = _seconds("t_end", scene_end(self.source) if t_end is None else t_end)
-        if not end > t0:
-            raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
-        intervals = int(output if output is not None else defaults.get("output", DEFAULT_OUTPUT))
-        if not 1 <= intervals <= 10**8:
-            raise BadValueError(f"output is {intervals}: expected a number of intervals, 1 to 1e8")
-        return np.linspace(t0, end, intervals + 1)
-
     def _method(self, method: str, fixed: bool) -> str:
         dof = self.source.degrees_of_freedom
         if dof < 0:
@@ -253,7 +240,7 @@ class Simulation:
             return math.inf
         if step is None:
             return scene_step(self.compiled, p, duration)
-        h = _seconds("step", step)
+        h = seconds("step", step)
         if not h > 0:
             raise BadValueError(f"step is {h:g} s: expected a positive time")
         return h
@@ -265,9 +252,11 @@ class Simulation:
 
         x = trajectory
         try:
-            evaluation = self.compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p)
+            evaluation = self.compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p, problem.take)
         except SolverError:
             evaluation = None
+        except KeyboardInterrupt:
+            evaluation, trajectory = None, replace(trajectory, interrupted=True)
         a = x.a if x.a is not None else np.full_like(x.q, np.nan) if evaluation is None else evaluation.a
         diagnostics = diagnose(self.compiled, method, problem, trajectory, evaluation, seconds)
         result = Result(
@@ -280,7 +269,10 @@ class Simulation:
         return result
 
 
-def _seconds(name: str, value: float | str) -> float:
-    from gudgeon.kernel_source import Slot
-
-    return number(value, Slot(name, "s", 0.0, False, (0, 0, 1)))
+def _late(ctrl_c: CtrlC, result: Result) -> Result:
+    """The result; marked as interrupted where Ctrl-C came while it was put together."""
+    try:
+        ctrl_c.take()
+    except KeyboardInterrupt:
+        return replace(result, diagnostics=replace(result.diagnostics, interrupted=True))
+    return result

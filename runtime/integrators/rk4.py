@@ -1,7 +1,7 @@
 """Classical Runge–Kutta of order 4 with fixed step: the loop is in C (templates/c/rk4.c.jinja).
 
-Python is called once a chunk of steps: it moves the progress bar, fetches impacts and samples, and
-sees Ctrl-C. Constraints are stabilised by Baumgarte's terms (physics.md, section 1).
+Python is called once a chunk of steps and fetches impacts and samples; C asks it on the way whether to go on.
+Constraints are stabilised by Baumgarte's terms (physics.md, section 1).
 """
 
 from __future__ import annotations
@@ -9,35 +9,29 @@ from __future__ import annotations
 import math
 from time import perf_counter
 
-from gudgeon.errors import SolverError
-from gudgeon.integrators.session import ENDED, EVENTS_FULL, RunEnded, Session
+from gudgeon.integrators.session import Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
 
 NAME, ORDER, SOURCE = "rk4", 4, "W. Kutta, Z. Math. Phys. 46 (1901) 435-453"
 
-CHUNK = 20_000  # steps between two looks of Python: some 50 ms
+CHUNK = 20_000  # steps of one call of C
 ADVICE = "the step {:.3g} s is too long for this scene: take a smaller one"
 
 
 def run(problem: Problem) -> Trajectory:
     """Integrate over the output times; each interval is divided evenly into steps ≤ problem.step."""
     session = Session(problem)
-    interrupted, stopped = False, None
     _steps(session, float(problem.t[0]), float(problem.t[0]), 1, 0, 0)  # the first right-hand side
     session.sample(0)
-    try:
-        for i in range(1, len(problem.t)):
-            _advance(session, i)
-            session.sample(i)
-            if problem.progress:
-                problem.progress(i / (len(problem.t) - 1), "integrating")
-    except RunEnded:
-        pass
-    except KeyboardInterrupt:
-        interrupted = True
-    except SolverError as error:
-        stopped = error
-    return session.trajectory(interrupted, stopped)
+    return session.drive(lambda: _all(session))
+
+
+def _all(session: Session) -> None:
+    """From sample to sample; raises RunEnded, KeyboardInterrupt, SolverError."""
+    for i in range(1, len(session.problem.t)):
+        _advance(session, i)
+        session.sample(i)
+    session.look()
 
 
 def _advance(session: Session, i: int) -> None:
@@ -48,9 +42,6 @@ def _advance(session: Session, i: int) -> None:
     first = 0
     while first < total:
         first += _steps(session, t0, t1, total, first, min(CHUNK, total - first))
-        if total > CHUNK and problem.progress:
-            done = (i - 1 + first / total) / (len(problem.t) - 1)
-            problem.progress(done, "integrating")
 
 
 def _steps(session: Session, t0: float, t1: float, total: int, first: int, count: int) -> int:
@@ -60,12 +51,5 @@ def _steps(session: Session, t0: float, t1: float, total: int, first: int, count
     before = perf_counter()
     status = session.lib.gudgeon_run_steps(session.run, p, t0, t1, total, first, count, taken)
     session.seconds += perf_counter() - before
-    if status == EVENTS_FULL:
-        session.fetch_impacts(last=False)
-        session.fetch_events()
-    elif status == ENDED:
-        session.end()
-    elif status:
-        advice = ADVICE.format(session.problem.step)
-        session.fail(status, t0 + (first + taken[0]) * (t1 - t0) / total, advice)
+    session.back(status, t0 + (first + taken[0]) * (t1 - t0) / total, ADVICE.format(session.problem.step))
     return int(taken[0])

@@ -40,6 +40,7 @@ class Problem:
     rtol: float = 0.0  # of methods that choose their step
     p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
     stop: bool = True  # whether events may end the run; else they are recorded only
+    take: Callable[[], object] = lambda: None  # raises KeyboardInterrupt where Ctrl-C waits (asking.py)
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,8 @@ class Counts:
 class Trajectory:
     """N samples or, when `stopped` or interrupted, as many as were reached.
 
-    Where an event ended the run the last sample stands at its time, and `events` ends with it.
+    Where an event ended the run the last sample stands at its time, and `events` ends with it. Where Ctrl-C ended it,
+    or it no longer advanced, the last sample is what was reached then.
     """
 
     t: Array
