@@ -1,14 +1,14 @@
 """Functions of the state whose zeros end a step: a scene's own corners and its user events, apart from the rest.
 
 A step may be long where the motion is smooth, and an expression may change its sign many times meanwhile. So each is
-looked at along a step (templates/c/watched.c.jinja), often enough to be resolved. This is the part of the right-hand
-side that they need: mostly no more than the positions in them.
+looked at along a step (templates/c/watched.c.jinja), by bounds over its parts. This is the part of the right-hand side
+that they need: mostly no more than the positions in them.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import sympy as sp
@@ -17,18 +17,19 @@ from gudgeon.generator.kernels import Kernel, Section, Statement
 from gudgeon.generator.model import Model
 from gudgeon.generator.switches import SideOf
 
-NAME = "watched_functions"
+NAME, RANGES = "watched_functions", "watched_ranges"
 _DOC = (
     "Switching functions of the scene's own corners, in aside->g, and what the user watches, in aside->event.",
 )  # fmt: skip
+_RANGES_DOC = ("Ranges of the scene's own corners and of what the user watches over ranges of t, q and v.",)
+_WRITES_CORNERS = "double *const g = aside->g;"
 _KNOWN_LATE = "aside->"  # what a text with this in it reads is known only once forces or accelerations are
 
 
 def watched_kernel(dynamics: Kernel, model: Model) -> Kernel | None:
     """What a right-hand side's kernel computes of the scene's corners and events; None where that hangs on forces."""
     corners = {switch.index for switch in model.symbols.switches.of("")}
-    follows = not (model.degrees_of_freedom or model.clearances or model.frictions)
-    if follows or not corners and not model.events:
+    if not corners and not model.events:
         return None
     outs = {s: out for section in dynamics.sections for s in section.statements
             if isinstance(s, Statement) and (out := _out(s, corners))}  # fmt: skip
@@ -55,6 +56,29 @@ def watched_kernel(dynamics: Kernel, model: Model) -> Kernel | None:
             sections.append(Section(section.title, tuple(lines)))
     arguments = tuple(a for a in dynamics.arguments if a.name != "a")
     return replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=tuple(sections), returns="void")
+
+
+def ranges_kernel(watched: Kernel, corners: Sequence[int]) -> Kernel:
+    """The same for ranges of t, q and v: what is watched goes to `out`, corners first, in this order."""
+    place = {f"aside->g[{k}]": i for i, k in enumerate(corners)}
+    sections = []
+    for section in watched.sections:
+        kept: list[Statement | str] = []
+        for s in section.statements:
+            if isinstance(s, str) or s.local:
+                kept += [s] if s != _WRITES_CORNERS else []
+                continue
+            event = re.fullmatch(r"aside->event\[(\d+)\]", s.target)
+            index = len(corners) + int(event[1]) if event else place[s.target]
+            kept.append(replace(s, target=f"out[{index}]"))
+        sections.append(Section(section.title, tuple(kept)))
+    return replace(watched, name=RANGES, doc=_RANGES_DOC, sections=tuple(s for s in sections if s.statements))
+
+
+def reads_state(kernel: Kernel) -> bool:
+    """Whether it hangs on more than time."""
+    values = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
+    return any(isinstance(value, str) and re.search(r"\b[qv]\[", value) for value in values)
 
 
 def _out(statement: Statement, corners: Collection[int]) -> Statement | None:

@@ -24,8 +24,8 @@ from ruamel.yaml.reader import ReaderError
 
 from gudgeon.errors import InputError, InputErrors, LimitError, Location, NotYamlError, UnknownKeyError
 from gudgeon.generator.yaml_commas import Events
+from gudgeon.loading import MAX_BYTES
 
-MAX_BYTES = 1 << 20
 MAX_DEPTH = 24
 MAX_NODES = 20_000  # aliases counted as what they stand for
 # what ruamel raises on hostile text besides its own errors: "%YAML 1.13" fails an assertion

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gudgeon.errors import GudgeonError
 from gudgeon.kernel_source import KernelSource
 from gudgeon.results import Result
+from gudgeon.series import MOTION_UNITS, rates
 
 if TYPE_CHECKING:
     import xarray
@@ -38,7 +39,7 @@ class Batch:
 
     `batch[i]` is the full Result of run i, made when it is asked for (and anew each time), the same as that of
     the run alone; of a run that failed it raises the error, whose `partial` is the result up to there.
-    `batch["S9.y"]` is that series of all runs, (n, N), made from these.
+    `batch["S9.y"]` is that series of all runs, (n, N), made from these. It may be pickled, as a Result may.
     """
 
     source: KernelSource
@@ -102,28 +103,31 @@ class Batch:
         return out
 
     def to_xarray(self, names: Iterable[str] = ()) -> xarray.Dataset:
-        """A Dataset over `run` and `time`: q, v, work, peaks, diagnostics, parameters; the series `names` too."""
+        """A Dataset over `run` and `time`, every series by its name in a Result, those of `names` too.
+
+        Over `run` alone: samples, ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks.
+        `.to_dataframe()` has a row for each run and time.
+        """
         try:
             import xarray
         except ModuleNotFoundError as error:
             raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
-        where = ("run", "time", "coordinate")
         reasons = dict((failure.run, str(failure.error)) for failure in self.failures)
         found: dict[str, Any] = {
-            "q": (where, self.q), "v": (where, self.v), "work": (("run", "time", "kind"), self.work, {"units": "J"}),
             "samples": ("run", self.samples), "t_last": ("run", self.t_last, {"units": "s"}),
             "failure": ("run", np.array([reasons.get(i, "") for i in range(len(self))])),
         }  # fmt: skip
         found |= {name: ("run", values) for name, values in self.diagnostics.items()}
-        if self.source.clearances:
-            found |= {f"peak.{name}": (("run", "joint"), self.peaks[name]) for name in PEAK_DTYPE.names or ()}
+        for k, joint in enumerate(self.source.clearances):
+            found |= {f"{joint.name}.peak.{name}": ("run", self.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
+        for k, name in enumerate(self.source.coordinates):
+            for order, (column, values) in enumerate(((name, self.q), (rates(name)[0], self.v))):
+                found[column] = ("run", "time"), values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
+        for k, name in enumerate(("drives", "forces", "clearances")):
+            found[f"work.{name}"] = ("run", "time"), self.work[:, :, k], {"units": "J"}
         found |= {name: (("run", "time"), self[name]) for name in names}
-        coordinates: dict[str, Any] = {
-            "time": ("time", self.t, {"units": "s"}), "coordinate": list(self.source.coordinates),
-            "kind": ["drives", "forces", "clearances"],
-        } | {name: ("run", values) for name, values in self.parameters.items()}  # fmt: skip
-        if self.source.clearances:
-            coordinates["joint"] = [joint.name for joint in self.source.clearances]
+        coordinates: dict[str, Any] = {"time": ("time", self.t, {"units": "s"})}
+        coordinates |= {name: ("run", values) for name, values in self.parameters.items()}
         attributes = {"mechanism": self.source.mechanism, "scene": self.source.scene, "title": self.source.title}
         return xarray.Dataset(found, coordinates, attributes)
 

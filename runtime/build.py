@@ -6,6 +6,8 @@ On a hit nothing but `_cffi_backend` is imported: neither cffi's parser nor subp
 from __future__ import annotations
 
 import errno
+import os
+import signal
 from importlib.machinery import ExtensionFileLoader
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -14,7 +16,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from gudgeon import compiler
-from gudgeon.cache import Cache, default_cache, digest, private_cache
+from gudgeon.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.errors import BuildError
 from gudgeon.kernel_source import KernelSource
 
@@ -24,6 +26,10 @@ if TYPE_CHECKING:
 LIBRARY = "kernels.so"
 SCENE, WRAPPER = "scene.o", "wrapper.o"
 ASKS = 'extern "Python" int gudgeon_python_asks(void *);\n'  # what C calls to ask Python (integrators/asking.py)
+FULL = {
+    "No space left on device": errno.ENOSPC, "Disk quota exceeded": errno.EDQUOT, "File too large": errno.EFBIG,
+    "File size limit exceeded": errno.EFBIG,
+}  # fmt: skip
 _modules: dict[str, ModuleType] = {}
 _lock = Lock()
 
@@ -43,17 +49,14 @@ def compile_kernels(
     with _lock:
         if key in _modules and not rebuild:
             return _modules[key]
-    entry = cache.fetch("libraries", key, lambda folder: _build(source, key, portable, folder), renew=rebuild)
+    def build(folder: Path) -> None:
+        _build(source, key, portable, folder)
+
+    entry = cache.fetch("libraries", key, build, renew=rebuild)
     try:
         module = _open(key, entry)
-    except ImportError as error:  # whole, and yet it cannot be mapped: a folder mounted noexec
-        if entry.is_relative_to(private_cache().root):
-            raise BuildError(f"the compiled library cannot be loaded: {error}") from error
-        entry = private_cache().fetch("libraries", key, lambda folder: _build(source, key, portable, folder))
-        try:
-            module = _open(key, entry)
-        except ImportError as again:
-            raise BuildError(f"the compiled library cannot be loaded: {again}") from error
+    except ImportError as error:  # whole, and yet it cannot be mapped
+        module = _open_elsewhere(key, entry, build, error)
     with _lock:
         return _modules.setdefault(key, module)
 
@@ -79,6 +82,37 @@ def _open(key: str, entry: Path) -> ModuleType:
     module = module_from_spec(spec)
     loader.exec_module(module)
     return module
+
+
+def _open_elsewhere(key: str, entry: Path, build: Make, error: ImportError) -> ModuleType:
+    """The library from a temporary folder: a copy, or where that does not load either, built anew. Told."""
+    private = private_cache()
+    if not entry.is_relative_to(private.root):
+        root = entry.parents[1]
+        why = "is mounted noexec" if _noexec(root) else f"cannot be loaded from ({error})"
+        copied = f"what is compiled is copied to {private.root} at each start"
+        do = "Set GUDGEON_CACHE to a folder whose programs may be run"
+        tell_once(f"the cache folder {root} {why}: {copied}. {do}.", f"{root}: run")
+        for make, renew in ((lambda folder: _copy(entry, folder), False), (build, True)):
+            try:
+                return _open(key, private.fetch("libraries", key, make, renew=renew))
+            except ImportError as again:
+                error = again
+                if _noexec(private.root):
+                    break
+    hint = ""
+    if _noexec(private.root):
+        hint = f"\n  {private.root} is mounted noexec: set GUDGEON_CACHE or TMPDIR to a folder that is not"
+    raise BuildError(f"the compiled library cannot be loaded: {error}{hint}") from error
+
+
+def _noexec(folder: Path) -> bool:
+    """Whether the file system forbids to run what is in it; False where it does not say (macOS)."""
+    return bool(os.statvfs(folder).f_flag & getattr(os, "ST_NOEXEC", 0))
+
+
+def _copy(entry: Path, folder: Path) -> None:
+    (folder / LIBRARY).write_bytes((entry / LIBRARY).read_bytes())
 
 
 def _build(source: KernelSource, key: str, portable: bool, folder: Path) -> None:
@@ -121,7 +155,7 @@ def _start(line: list[str], folder: Path) -> subprocess.Popen[str]:
         return subprocess.Popen(
             line,
             cwd=folder,
-            env=compiler.plain(),
+            env={**compiler.plain(), "TMPDIR": str(folder)},  # what it writes in between belongs to the entry too
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -138,8 +172,11 @@ def _finish(process: subprocess.Popen[str], made: Path) -> Exception | None:
     if process.returncode == 0 and made.is_file():
         return None
     said = (err or out).strip()
-    if "No space left on device" in said:
-        return OSError(errno.ENOSPC, "no space left for the compiler")
+    for text, code in FULL.items():
+        if text in said:
+            return OSError(code, f"the compiler said: {text}")
+    if process.returncode == -signal.SIGXFSZ:
+        return OSError(errno.EFBIG, "the compiler was stopped by a limit on the size of files (ulimit -f)")
     first = "\n  ".join(said.splitlines()[:8]) or "it said nothing"
     hint = f"\n  {compiler.INSTALL_HEADERS}" if "Python.h" in said else ""
     line = " ".join(map(str, process.args))  # type: ignore[arg-type]

@@ -90,7 +90,7 @@ def run(
     output: Annotated[int | None, typer.Option(min=1, help="Equal output intervals. [default: the scene's]")] = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
     method: Annotated[str, typer.Option(help="auto, rk4, dop853, rodas5p, kinematic, scipy:Radau …")] = "auto",
-    rtol: Annotated[float | None, typer.Option(help="Tolerance of a step of auto, dop853, rodas5p: 1e-8.")] = None,
+    rtol: Annotated[str | None, typer.Option(help="Tolerance of a step of auto, dop853, rodas5p: 1e-8.")] = None,
     watch: Annotated[
         list[str] | None,
         typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),

@@ -1,13 +1,16 @@
 """One compiled scene: the C functions with NumPy in and out.
 
-Arrays are C-contiguous float64; anything else that is handed in is copied first. Nothing here keeps
-state, so that any number of threads may use one CompiledModel; the GIL is released in every call.
+Whatever is handed in goes through the door of arrays.py: lists, columns, arrays of any order, byte order or real
+type give the numbers of the plain array, and a wrong length is refused. Nothing here keeps state, so that any number
+of threads may use one CompiledModel; the GIL is released in every call. A CompiledModel may be pickled: its library
+is taken from the cache (or compiled) again when it is first asked for there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from time import perf_counter
 from types import ModuleType
 from typing import Any, TypeAlias
@@ -15,6 +18,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gudgeon.arrays import FLAG, pointer, taken
 from gudgeon.errors import SingularError
 from gudgeon.kernel_source import KernelSource
 
@@ -39,103 +43,119 @@ class Evaluation:
     power: Array  # (N, 3) of drives, of force elements (but what they store), of clearance forces (W)
 
 
-def contiguous(values: ArrayLike) -> Array:
-    """Float64, C order; the same array where it already is."""
-    return np.ascontiguousarray(values, dtype=np.float64)
-
-
 class CompiledModel:
     """The library of one scene. `p` is what `prepare` returns: slots, then derived numbers."""
 
     def __init__(self, source: KernelSource, module: ModuleType, portable: bool = False) -> None:
         self.source = source
         self.portable = portable  # how its library was compiled, and others beside it will be
-        self.lib: Any = module.lib
-        self.ffi: Any = module.ffi
+        self.__dict__.update(lib=module.lib, ffi=module.ffi)
         self.n = len(source.coordinates)
+        self.n_p = len(source.slots) + len(source.derived)
         self.n_memory = len(source.clearances) + len(source.frictions)
+        self._free = np.full(max(self.n_memory, 1), np.nan)
+        self._free.flags.writeable = False
         self._kept = np.array([_index(source, row.name) for row in source.rows], dtype=int)
 
-    def pointer(self, array: NDArray[Any], kind: str = "double *") -> Any:
-        """A C pointer to an array's memory; the caller keeps the array alive."""
-        return self.ffi.cast(kind, array.ctypes.data)
+    @cached_property
+    def lib(self) -> Any:
+        """The library's functions; of a pickled model when they are first asked for."""
+        return self._module.lib
+
+    @cached_property
+    def ffi(self) -> Any:
+        """cffi's view of the library."""
+        return self._module.ffi
+
+    @property
+    def _module(self) -> Any:
+        from gudgeon.build import compile_kernels
+
+        return compile_kernels(self.source, portable=self.portable)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name not in ("lib", "ffi")}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def pointer(self, array: NDArray[Any], kind: str = "double *", written: bool = False) -> Any:
+        """C's view of an array, which it keeps alive; ArrayError where C would read something else (arrays.py)."""
+        return pointer(self.ffi, array, kind, written)
 
     def prepare(self, given: ArrayLike, is_given: ArrayLike) -> Array:
         """Every number of a run, (n_slots + n_derived,), from overridden slots (n_slots,) and a mask."""
-        values, mask = contiguous(given), np.ascontiguousarray(is_given, dtype=np.uint8)
-        self._expect(values, len(self.source.slots), "given")
-        self._expect(mask, len(self.source.slots), "is_given")
-        p = np.empty(len(self.source.slots) + len(self.source.derived))
-        self.lib.gudgeon_prepare(self.pointer(values), self.pointer(mask, "unsigned char *"), self.pointer(p))
+        shape = (len(self.source.slots),)
+        values, mask = taken(given, "given", shape), taken(is_given, "is_given", shape, dtype=FLAG)
+        p = np.empty(self.n_p)
+        pointers = self.pointer(values), self.pointer(mask, "unsigned char *"), self._out(p)
+        self.lib.gudgeon_prepare(*pointers)
         return p
 
-    def mass(self, p: Array) -> Array:
+    def mass(self, p: ArrayLike) -> Array:
         """Diagonal of M, (n,)."""
         out = np.empty(self.n)
-        self.lib.gudgeon_mass(self.pointer(p), self.pointer(out))
+        self.lib.gudgeon_mass(self._numbers(p), self._out(out))
         return out
 
-    def closed_phi(self, t: float, q: ArrayLike, p: Array) -> Array:
+    def closed_phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Φ of the closed linkage (every joint without play), in the order of source.start_rows."""
         return self._rows("gudgeon_phi", t, p, q)
 
-    def closed_phi_q(self, t: float, q: ArrayLike, p: Array) -> Array:
+    def closed_phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Φ_q of the closed linkage, (rows, n)."""
         out = np.empty((len(self.source.start_rows), self.n))
-        state = self._state(q)
-        self.lib.gudgeon_phi_q(t, self.pointer(state), self.pointer(p), self.pointer(out))
+        self.lib.gudgeon_phi_q(t, self._state(q, "q"), self._numbers(p), self._out(out))
         return out
 
-    def closed_nu(self, t: float, q: ArrayLike, p: Array) -> Array:
+    def closed_nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """ν of the closed linkage."""
         return self._rows("gudgeon_nu", t, p, q)
 
-    def phi(self, t: float, q: ArrayLike, p: Array) -> Array:
+    def phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Φ(q, t), (m,), rows of source.rows."""
         return self.closed_phi(t, q, p)[self._kept]
 
-    def phi_q(self, t: float, q: ArrayLike, p: Array) -> Array:
+    def phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Φ_q, (m, n)."""
         return self.closed_phi_q(t, q, p)[self._kept]
 
-    def nu(self, t: float, q: ArrayLike, p: Array) -> Array:
+    def nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """ν = −Φ_t, (m,)."""
         return self.closed_nu(t, q, p)[self._kept]
 
-    def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: Array) -> Array:
+    def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
         """γ, (m,)."""
         return self._rows("gudgeon_gamma", t, p, q, v)[self._kept]
 
-    def start_values(self, p: Array) -> tuple[Array, Array, Array]:
+    def start_values(self, p: ArrayLike) -> tuple[Array, Array, Array]:
         """Numbers of the file's start: guess, set, rates."""
         s = self.source
         out = tuple(np.zeros(max(len(names), 1)) for names in (s.start_guess, s.start_set, s.start_rates))
-        self.lib.gudgeon_start_values(self.pointer(p), *(self.pointer(array) for array in out))
+        self.lib.gudgeon_start_values(self._numbers(p), *(self._out(array) for array in out))
         return out[0][: len(s.start_guess)], out[1][: len(s.start_set)], out[2][: len(s.start_rates)]
 
-    def close(self, t: float, p: Array, size: float) -> tuple[Array, Array, float] | None:
+    def close(self, t: float, p: ArrayLike, size: float) -> tuple[Array, Array, float] | None:
         """The start's q and q̇ (n,), with max |Φ|, by plain Newton in C; None where that is not enough.
 
         `size` of the mechanism, m, weighs lengths against angles: see start.py, which does what this leaves.
         """
         q, v, residual = np.empty(self.n), np.empty(self.n), np.empty(1)
-        status = self.lib.gudgeon_start(
-            t, self.pointer(p), size, self.pointer(q), self.pointer(v), self.pointer(residual)
-        )
+        status = self.lib.gudgeon_start(t, self._numbers(p), size, *(self._out(array) for array in (q, v, residual)))
         return None if status else (q, v, float(residual[0]))
 
-    def rhs(self, t: float, y: ArrayLike, p: Array, memory: ArrayLike | None = None) -> Array:
+    def rhs(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> Array:
         """(q̇, q̈, powers as in Evaluation), (2n + 3,), at y = (q, q̇), (2n,) or longer.
 
-        `memory` (n_clearances,) holds δ̇⁻ of closed contacts, NaN for free ones (the default).
+        `memory` (n_clearances + n_frictions,) holds δ̇⁻ of closed contacts, NaN for free ones (the default), then
+        the modes of frictions. Raises ArrayError for another length.
         """
-        state, latched = self._full_state(y), self.memory_array(memory)
         out = np.empty(2 * self.n + N_WORK)
-        status = self.lib.gudgeon_rhs(t, self.pointer(state), self.pointer(latched), self.pointer(p), self.pointer(out))
+        status = self.lib.gudgeon_rhs(t, *self._point(y, memory, p), self._out(out))
         self.check_pivot(status, t)
         return out
 
-    def jacobian(self, t: float, y: ArrayLike, p: Array, memory: ArrayLike | None = None) -> tuple[Array, Array]:
+    def jacobian(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> tuple[Array, Array]:
         """∂f/∂y, (2n + 3, 2n + 3), and ∂f/∂t, (2n + 3,), of `rhs` f at y = (q, q̇), exact; SI.
 
         Contacts, the sides of corners and the modes of friction are those of this state. Raises SingularError
@@ -143,21 +163,19 @@ class CompiledModel:
         """
         if not hasattr(self.lib, "gudgeon_jacobian"):
             raise ValueError("this scene has no Jacobian: without a degree of freedom nothing is integrated")
-        state, latched = self._full_state(y), self.memory_array(memory)
         J, f_t = np.empty((2 * self.n + N_WORK,) * 2), np.empty(2 * self.n + N_WORK)
-        arrays = (state, latched, p, J, f_t)
-        self.check_node(self.lib.gudgeon_jacobian(t, *(self.pointer(array) for array in arrays)), t)
+        status = self.lib.gudgeon_jacobian(t, *self._point(y, memory, p), self._out(J), self._out(f_t))
+        self.check_node(status, t)
         return J, f_t
 
     def newton(
-        self, t: float, y: ArrayLike, p: Array, eta: float, s: float, r: ArrayLike, memory: ArrayLike | None = None
+        self, t: float, y: ArrayLike, p: ArrayLike, eta: float, s: float, r: ArrayLike, memory: ArrayLike | None = None
     ) -> Array:
         """u, (2n + 3,), with u/η − J u = r + s f_t: a linear solve as the implicit methods do it."""
-        state, latched, given = self._full_state(y), self.memory_array(memory), contiguous(r)
         u = np.empty(2 * self.n + N_WORK)
-        self._expect(given, len(u), "r")
-        arrays = (self.pointer(array) for array in (state, latched, p))
-        self.check_node(self.lib.gudgeon_newton(t, *arrays, eta, s, self.pointer(given), self.pointer(u)), t)
+        right = self.pointer(taken(r, "r", u.shape))
+        status = self.lib.gudgeon_newton(t, *self._point(y, memory, p), eta, s, right, self._out(u))
+        self.check_node(status, t)
         return u
 
     def check_node(self, status: int, t: float) -> None:
@@ -169,16 +187,19 @@ class CompiledModel:
             self.check_pivot(-status, t, names)
 
     def evaluate(
-        self, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: Array,
+        self, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: ArrayLike,
         take: Callable[[], object] = lambda: None,
     ) -> Evaluation:  # fmt: skip
-        """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances).
+        """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions).
 
         `take` is called every few milliseconds, and what it raises is passed on.
         """
-        s, time = self.source, contiguous(t)
+        s, time = self.source, taken(t, "t", (None,))
         N = len(time)
-        inputs = [contiguous(a) for a in (q, v, memory)]
+        latched = taken(memory, "memory", (N, None))
+        if self.n_memory or latched.shape[1] > 1:  # in a scene that remembers nothing one number stands for none
+            taken(latched, "memory", (N, self.n_memory))
+        inputs = [taken(q, "q", (N, self.n)), taken(v, "v", (N, self.n)), latched]
         out = Evaluation(
             np.empty((N, self.n)), np.empty((N, len(s.rows))), np.empty((N, len(s.joints), 3)),
             np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))),
@@ -192,8 +213,8 @@ class CompiledModel:
         while first < N:
             before, count = perf_counter(), min(chunk, N - first)
             status = self.lib.gudgeon_evaluate(
-                count, *(self.pointer(a[first:]) for a in (time, *inputs)), self.pointer(p),
-                *(self.pointer(a[first:]) for a in results), failed,
+                count, *(self.pointer(a[first:]) for a in (time, *inputs)), self._numbers(p),
+                *(self._out(a[first:]) for a in results), failed,
             )  # fmt: skip
             if status:
                 self.check_pivot(status, float(time[first + failed[0]]))
@@ -212,8 +233,14 @@ class CompiledModel:
             out.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
 
     def memory_array(self, memory: ArrayLike | None) -> Array:
-        """δ̇⁻ a joint with play, mode a friction; None: all joints free, every mode still to be found."""
-        return np.full(max(self.n_memory, 1), np.nan) if memory is None else contiguous(memory)
+        """δ̇⁻ a joint with play, mode a friction; None: all joints free, every mode still to be found.
+
+        (n_memory,); in a scene that remembers nothing one number stands for none. Not to be written.
+        """
+        if memory is None:
+            return self._free
+        array = taken(memory, "memory")
+        return array if not self.n_memory and array.shape == (1,) else taken(array, "memory", (self.n_memory,))
 
     def check_pivot(self, status: int, t: float, pivots: tuple[str, ...] | None = None) -> None:
         """Raises SingularError for a status k > 0, with the row that the pivot belongs to."""
@@ -227,27 +254,30 @@ class CompiledModel:
                 row,
             )
 
-    def _rows(self, function: str, t: float, p: Array, *states: ArrayLike) -> Array:
+    def _rows(self, function: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
         out = np.empty(len(self.source.start_rows))
-        arrays = [self._state(state) for state in states]
-        getattr(self.lib, function)(t, *(self.pointer(a) for a in arrays), self.pointer(p), self.pointer(out))
+        pointers = [self._state(state, name) for name, state in zip("qv", states, strict=False)]
+        getattr(self.lib, function)(t, *pointers, self._numbers(p), self._out(out))
         return out
 
-    def _full_state(self, y: ArrayLike) -> Array:
-        state = contiguous(y)
-        if state.ndim != 1 or len(state) not in (2 * self.n, 2 * self.n + N_WORK):
-            raise ValueError(f"y has shape {state.shape}, expected ({2 * self.n},)")
-        return state
+    def _point(self, y: ArrayLike, memory: ArrayLike | None, p: ArrayLike) -> tuple[Any, Any, Any]:
+        """Pointers to the arguments that every right-hand side takes."""
+        state = taken(y, "y")
+        if state.shape not in ((2 * self.n,), (2 * self.n + N_WORK,)):
+            taken(state, "y", (2 * self.n,))  # says so
+        return self.pointer(state), self.pointer(self.memory_array(memory)), self._numbers(p)
 
-    def _state(self, values: ArrayLike) -> Array:
-        state = contiguous(values)
-        self._expect(state, self.n, "state")
-        return state
+    def _numbers(self, p: ArrayLike) -> Any:
+        """A pointer to what `prepare` returned."""
+        return self.pointer(taken(p, "p", (self.n_p,)))
 
-    @staticmethod
-    def _expect(array: NDArray[Any], length: int, name: str) -> None:
-        if array.shape != (length,):
-            raise ValueError(f"{name} has shape {array.shape}, expected ({length},)")
+    def _state(self, values: ArrayLike, name: str) -> Any:
+        """A pointer to q or v."""
+        return self.pointer(taken(values, name, (self.n,)))
+
+    def _out(self, array: Array) -> Any:
+        """A pointer to what C fills."""
+        return self.pointer(array, written=True)
 
 
 def _index(source: KernelSource, row: str) -> int:

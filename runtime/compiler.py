@@ -9,7 +9,7 @@ from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
 from gudgeon.cache import Cache, digest
-from gudgeon.errors import BuildError
+from gudgeon.errors import BadValueError, BuildError
 
 INSTALL_COMPILER = (
     "install one — Debian, Ubuntu: apt-get install gcc libc6-dev; Fedora: dnf install gcc; "
@@ -45,12 +45,15 @@ def link_flags() -> tuple[str, ...]:
 def find_compiler() -> tuple[str, ...]:
     """The command: $CC (words of it may be options or a wrapper), or the first of cc, gcc, clang on PATH.
 
-    Raises BuildError if there is none.
+    Raises BuildError if there is none, BadValueError for a $CC that is no command.
     """
     import shlex
     import shutil
 
-    named = shlex.split(os.environ.get("CC", ""))
+    try:
+        named = shlex.split(os.environ.get("CC", ""))
+    except ValueError as error:
+        raise BadValueError(f"$CC is {os.environ['CC']!r}: {error}", hint="name a compiler, or unset it") from error
     for command in [named] if named else [["cc"], ["gcc"], ["clang"]]:
         if found := shutil.which(command[0]):
             return (found, *command[1:])

@@ -9,6 +9,7 @@ import numpy as np
 from gudgeon.compiled import CompiledModel, Evaluation
 from gudgeon.dead_centre import dependent_rows
 from gudgeon.diagnostics import Diagnostics, Peak
+from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.start import mechanism_size
 
@@ -30,16 +31,16 @@ def diagnose(
         residual = energy.sum(axis=1) - energy[0].sum() - x.work.sum(axis=1)
         turned = float(np.abs(np.diff(x.work, axis=0)).sum() + np.ptp(energy[:, 0]))
         worst = float(np.abs(residual).max())
-    used = problem.step
-    if method == "rk4":
-        used = max(
-            (d / max(1, math.ceil(d / used * (1 - 1e-12))) for d in np.diff(problem.t).tolist()), default=math.nan
-        )
+    duration, used, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
+    if method == "rk4" and duration > 0.0:
+        last = last_step(duration, used)
+        used = max(last, min(used, duration))
     simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
     if method == "adaptive":
         method = "dop853+rodas5p" if 0 < counts.stiff_steps < counts.steps else ORDER_OF_CHOICE[counts.stiff_steps > 0]
     return Diagnostics(
         method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
+        last_step=last if last != used else math.nan,
         rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
         rejected=counts.rejected, stiff_steps=counts.stiff_steps, jacobians=counts.jacobians,
         right_hand_sides=counts.right_hand_sides, onsets=counts.onsets, grazes=counts.grazes,
@@ -53,7 +54,7 @@ def diagnose(
 
 def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
     """What a reader of this run should know before trusting it."""
-    p, notes, counts = problem.p, [], trajectory.counts
+    p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
     if problem.state is None and (tied := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
         notes.append(
             f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"
@@ -63,6 +64,9 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         last = compiled.source.events[trajectory.events["event"][-1]]
         if last.action == "stop":
             notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
+    for event, t in trajectory.no_number:
+        name = compiled.source.events[event].name
+        notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
     if counts.phi_max > APART * mechanism_size(compiled, p):
         notes.append(
             f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"

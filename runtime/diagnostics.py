@@ -25,7 +25,7 @@ class Diagnostics:
     """Of one run; NaN stands for what the method does not have (the step of a kinematic scene)."""
 
     method: str
-    step: float  # s, the largest that was used; NaN: the method chose it
+    step: float  # s, of a fixed step; NaN: the method chose it
     steps: int
     right_hand_sides: int
     onsets: int
@@ -46,6 +46,7 @@ class Diagnostics:
     rejected: int = 0  # steps tried and not taken
     stiff_steps: int = 0  # of the steps, those of the stiff method
     jacobians: int = 0
+    last_step: float = float("nan")  # s, of a fixed step, where the last one up to t_end is shorter; NaN: it is not
     horizon: float = float("nan")  # s, to which the trace can be trusted; inf: to the end, NaN: not asked
 
     def peak(self, joint: str) -> Peak:

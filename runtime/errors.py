@@ -6,6 +6,8 @@ command line returns for it (1 a run failed, 2 bad input, 130 interrupted).
 
 from __future__ import annotations
 
+import errno
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -27,6 +29,14 @@ class GudgeonError(Exception):
     """Root of all of gudgeon's errors."""
 
     exit_code = 1
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled as it is, whatever its constructor takes: an error comes back from another process."""
+        return _again, (type(self), self.args), dict(self.__dict__)
+
+
+def _again(kind: type[GudgeonError], arguments: tuple[Any, ...]) -> GudgeonError:
+    return kind.__new__(kind, *arguments)
 
 
 class InputError(GudgeonError):
@@ -61,6 +71,10 @@ class MissingKeyError(InputError):
 
 class BadValueError(InputError):
     """A value of the wrong kind, or outside its range (negative mass, clearance ≥ radius, …)."""
+
+
+class ArrayError(BadValueError, ValueError):
+    """An array that C cannot read as it is meant: another shape, masked entries, no real numbers, NaN for a time."""
 
 
 class UnitError(InputError):
@@ -128,3 +142,36 @@ class BuildError(GudgeonError):
 
 class CacheError(GudgeonError):
     """The cache folder cannot be used."""
+
+
+class OutputError(GudgeonError):
+    """A file that cannot be written: `path`, `reason`. What stood there is as it was.
+
+    The exit code is 2 where another name or folder mends it, 1 where it is the disk.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], reason: str | OSError) -> None:
+        code = reason.errno if isinstance(reason, OSError) else None
+        self.path = os.fspath(path)
+        self.reason = str(reason) if isinstance(reason, str) else reason.strerror or str(reason)
+        self.exit_code = 2 if isinstance(reason, str) or code in _NAMED else 1
+        hint = _HINTS.get(code or 0, "name another file or folder" if self.exit_code == 2 else "")
+        super().__init__(f"cannot write {shortened(path)}: {self.reason}" + (f"\n  {hint}" if hint else ""))
+
+
+def shortened(path: str | os.PathLike[str]) -> str:
+    """A path as it is told: of a long one both ends."""
+    text = os.fspath(path)
+    return text if len(text) < 200 else f"{text[:80]}…{text[-80:]}"
+
+
+_NAMED = {
+    errno.ENOTDIR, errno.EISDIR, errno.EEXIST, errno.ENOENT, errno.ENAMETOOLONG, errno.ELOOP, errno.EACCES,
+    errno.EPERM, errno.EROFS,
+}  # fmt: skip
+_HINTS = {
+    errno.ENOSPC: "what stood there is as it was; make room or name another folder, and do it again",
+    errno.EDQUOT: "what stood there is as it was; make room or name another folder, and do it again",
+    errno.EFBIG: "what stood there is as it was; a limit is set on the size of files (ulimit -f)",
+    errno.ENAMETOOLONG: "choose a shorter name",
+}

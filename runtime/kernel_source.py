@@ -163,6 +163,7 @@ class KernelSource:
     events: tuple[EventInfo, ...] = ()
     story: Story = Story()  # how the equations became what is integrated (check -v)
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
+    overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -171,7 +172,10 @@ class KernelSource:
 
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""
-        return json.dumps(asdict(self), indent=1, ensure_ascii=False)
+        data = asdict(self)
+        if not self.overrides:  # nothing is said of what is rare
+            del data["overrides"]
+        return json.dumps(data, indent=1, ensure_ascii=False)
 
     @staticmethod
     def from_json(text: str) -> KernelSource:
@@ -186,7 +190,7 @@ class KernelSource:
             data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))
         for key, value in data.items():
             if isinstance(value, list) and key not in kinds:
-                data[key] = tuple(value)
+                data[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)
         return KernelSource(**data | {"story": Story.from_data(data.get("story", {}))})
 
 

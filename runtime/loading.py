@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+import stat
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
 from time import perf_counter
@@ -13,9 +14,10 @@ from typing import TYPE_CHECKING
 
 from gudgeon.build import compile_kernels
 from gudgeon.cache import Cache, default_cache, digest
-from gudgeon.errors import BadValueError, InputError
+from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
 from gudgeon.kernel_source import KernelSource
 from gudgeon.shipped import PACKAGE, committed, shipped, shipped_file
+from gudgeon.writing import kind
 
 if TYPE_CHECKING:
     from gudgeon.simulation import Simulation
@@ -24,6 +26,7 @@ Overrides = Mapping[str, str | float | bool]
 DEFAULT_SCENE = "ideal"  # it exists in every file
 FORMULATIONS = ("reduced", "full")
 SOURCE = "source.json"
+MAX_BYTES = 1 << 20  # of a mechanism file
 
 
 @dataclass(frozen=True)
@@ -58,8 +61,26 @@ def load(
     """
     start = perf_counter()
     file = find_mechanism(mechanism)
-    data = read_bytes(file)
+    return load_bytes(
+        read_bytes(file), file, scene, overrides=overrides, formulation=formulation, portable=portable,
+        regenerate=regenerate, start=start,
+    )  # fmt: skip
+
+
+def load_bytes(
+    data: bytes,
+    file: Path,
+    scene: str | None = None,
+    *,
+    overrides: Overrides | None = None,
+    formulation: str = "reduced",
+    portable: bool = False,
+    regenerate: bool = False,
+    start: float | None = None,
+) -> Simulation:
+    """`load` of the bytes of a file; `start`: when reading them began (perf_counter)."""
     read = perf_counter()
+    start = read if start is None else start
     source, origin = kernel_source(
         data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate
     )
@@ -83,12 +104,29 @@ def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
 
 
 def read_bytes(file: Path) -> bytes:
-    """The file's bytes. Raises InputError if it cannot be read."""
+    """A mechanism file's bytes. InputError if it cannot be read or is no regular file, LimitError if it is too large.
+
+    A device or pipe is not opened: it may have no end, or keep us waiting; and a file is read more than once.
+    """
     try:
-        return file.read_bytes()
-    except OSError as error:
+        found = os.stat(file)
+        if stat.S_ISREG(found.st_mode):
+            handle = os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+            with open(handle, "rb") as opened:
+                found = os.fstat(handle)
+                data = opened.read(MAX_BYTES + 1) if found.st_size <= MAX_BYTES else b""
+    except (OSError, ValueError) as error:  # ValueError: a name with a zero byte
         hint = f"the mechanism that comes with gudgeon is called {file.stem}" if file.stem in shipped() else ""
-        raise InputError(f"cannot read {file}: {error.strerror or error}", hint=hint) from error
+        why = getattr(error, "strerror", "") or error
+        raise InputError(f"cannot read {shortened(file)}: {why}", hint=hint) from error
+    if not stat.S_ISREG(found.st_mode):
+        pipe = stat.S_ISFIFO(found.st_mode)
+        hint = "write what comes through the pipe to a file first" if pipe else "name a YAML file"
+        raise InputError(f"cannot read {file}: it is {kind(found)}, not a file", hint=hint)
+    size = max(found.st_size, len(data))
+    if size > MAX_BYTES:
+        raise LimitError(f"a file of {size} bytes", Location(str(file), 1, 1), f"expected at most {MAX_BYTES}")
+    return data
 
 
 def kernel_source(
@@ -118,6 +156,7 @@ def kernel_source(
             from gudgeon.generator.pipeline import generate
 
             source = generate(data, str(file), scene, overrides, formulation)
+        source = replace(source, overrides=tuple(sorted(overrides.items())))
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
     entry = cache.fetch("models", key, make, renew=regenerate)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import os
 import time
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gudgeon.arguments import output_times
 from gudgeon.batch import Batch, as_failures, given_values, peaks_of
 from gudgeon.compiled import Array
 from gudgeon.errors import BadValueError, SolverError
@@ -21,7 +22,6 @@ from gudgeon.parameter_sets import Mask, ParameterSets, given_sets, prepare_sets
 from gudgeon.results import Result
 from gudgeon.simulation import MAX_STEPS
 from gudgeon.single_runs import run_singly
-from gudgeon.times import output_times
 
 if TYPE_CHECKING:
     from gudgeon.simulation import Simulation
@@ -36,7 +36,7 @@ def available_threads() -> int:
 
 def simulate_many(
     simulation: Simulation, parameters: ParameterSets, t_end: float | str | None, output: int | ArrayLike | None,
-    method: str, rtol: float | None, step: float | str | None, threads: int | None, progress: Progress | None,
+    method: str, rtol: float | str | None, step: float | str | None, threads: int | None, progress: Progress | None,
     stop: bool, side_by_side: bool = True,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
@@ -57,43 +57,56 @@ def simulate_many(
         runs.leave_out(bad)
         before = time.perf_counter()
         runs.run(workers, progress)
-        batch = _of_runs(simulation, runs, given, is_given, tolerance, stop, chosen)
+        batch = _of_runs(_Results(simulation, runs, given, is_given, tolerance, stop, chosen))
         return replace(batch, seconds=time.perf_counter() - before, threads=workers)
     options = {"t_end": t_end, "output": output, "method": method, "rtol": rtol, "step": step, "stop": stop}
     return run_singly(simulation, given, is_given, times, options, workers, progress)
 
 
-def _of_runs(
-    simulation: Simulation, runs: many.Runs, given: Array, is_given: Mask, rtol: float, stop: bool, method: str
-) -> Batch:
-    """What C has stored, without a copy."""
-    compiled, x, n = simulation.compiled, runs.arrays, simulation.compiled.n
-    y, joints = x["y"], len(compiled.source.clearances)
+@dataclass
+class _Results:
+    """The Result of run i from what C has stored."""
 
-    def result(i: int) -> Result:
+    simulation: Simulation
+    runs: many.Runs
+    given: Array
+    is_given: Mask
+    rtol: float
+    stop: bool
+    method: str
+
+    def __call__(self, i: int) -> Result:
+        """Raises the error of a run that failed, with what it reached."""
+        runs, compiled, x, n = self.runs, self.simulation.compiled, self.runs.arrays, self.simulation.compiled.n
         error = runs.failures.get(i)
         if error is not None and not x["done"][i]:
             raise error
         problem = Problem(
             compiled, x["p"][i], runs.times, x["start"][i, :n], x["start"][i, n:], np.full(compiled.n_memory, np.nan),
-            float(x["step"][i]), method=method, rtol=rtol, p_free=None if method == "rk4" else x["p_motion"][i],
-            stop=stop,
+            float(x["step"][i]), method=self.method, rtol=self.rtol,
+            p_free=None if self.method == "rk4" else x["p_motion"][i], stop=self.stop,
         )  # fmt: skip
-        made = simulation._result(method, problem, runs.trajectory(i), given[i], is_given[i], float(x["seconds"][i]))
+        trajectory, seconds = runs.trajectory(i), float(x["seconds"][i])
+        made = self.simulation._result(self.method, problem, trajectory, self.given[i], self.is_given[i], seconds)
         if isinstance(error, SolverError):
             error.partial = made
         if error is not None:
             raise error
         return made
 
+
+def _of_runs(results: _Results) -> Batch:
+    """What C has stored, without a copy."""
+    runs, source = results.runs, results.simulation.source
+    x, n, y, joints = runs.arrays, results.simulation.compiled.n, runs.arrays["y"], len(source.clearances)
     impacts = tuple(runs.impacts_of(i) for i in range(runs.n))
     counts = [runs.counts(i) for i in range(runs.n)]
     numbers = {name: np.array([getattr(c, name) for c in counts]) for name in COUNTS} | {"seconds": x["seconds"]}
     return Batch(
-        source=simulation.source, t=runs.times, q=y[:, :, :n], v=y[:, :, n : 2 * n], work=y[:, :, 2 * n :],
+        source=source, t=runs.times, q=y[:, :, :n], v=y[:, :, n : 2 * n], work=y[:, :, 2 * n :],
         state=x["state"][:, :, :joints], samples=x["done"], t_last=x["t_last"],
-        parameters=given_values(simulation.source, x["p"], is_given), impacts=impacts,
+        parameters=given_values(source, x["p"], results.is_given), impacts=impacts,
         events=tuple(runs.events_of(i) for i in range(runs.n)),
         peaks=peaks_of(x["peaks"][:, :joints], impacts), diagnostics=numbers, failures=as_failures(runs.failures),
-        seconds=math.nan, threads=0, interrupted=runs.interrupted, result=result,
+        seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results,
     )  # fmt: skip

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gudgeon.arrays import taken
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import BadValueError
 from gudgeon.kernel_source import KernelSource
@@ -40,6 +41,8 @@ def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]]:
     if isinstance(parameters, np.ndarray) and parameters.dtype.names is not None:
         table: NDArray[Any] = np.atleast_1d(parameters)
         parameters = {name: table[name] for name in parameters.dtype.names}
+    if hasattr(parameters, "columns"):  # a table of pandas
+        parameters = {str(name): parameters[name] for name in parameters.columns}
     if not isinstance(parameters, Mapping):
         rows = list(parameters)
         if not all(isinstance(row, Mapping) for row in rows):
@@ -61,7 +64,9 @@ def _column(name: str, values: Any) -> list[Any] | None:
         return None
     if np.ndim(values) != 1:
         raise BadValueError(f"parameters: {name} has shape {np.shape(values)}, expected one value for every run")
-    return values.tolist() if isinstance(values, np.ndarray) else list(values)
+    if isinstance(values, np.ndarray):
+        return taken(values, f"parameters: {name}").tolist() if values.dtype.kind in "biuf" else values.tolist()
+    return list(values)
 
 
 def prepare_sets(

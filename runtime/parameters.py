@@ -14,34 +14,68 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.kernel_source import KernelSource, Slot
 
+# a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
+_NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+_PLAIN = re.compile(_NUMBER)
 # a number and a unit without the space that the file format wants between them: nothing else can be meant
-_GLUED = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµμ°].*)")
+_GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
-def given_slots(source: KernelSource, parameters: Mapping[str, float | str]) -> tuple[Array, Array]:
-    """Values and mask, (n_slots,) each, from {address or parameter name: float or '0.5 mm'}."""
+def given_slots(source: KernelSource, parameters: Mapping[str, float | str], what: str = "") -> tuple[Array, Array]:
+    """Values and mask, (n_slots,) each, from {address or parameter name: float or '0.5 mm'}.
+
+    `what` the mapping is called where it is wrong. Raises UnknownNameError; BadValueError for a number given twice,
+    by two spellings of its address.
+    """
+    if not isinstance(parameters, Mapping):
+        told = f"{what or 'parameters'} is a {type(parameters).__name__}: expected a mapping"
+        raise BadValueError(told, hint="{address or parameter name: a float in SI, or '0.5 mm'}")
     place = {slot.address: k for k, slot in enumerate(source.slots)}
-    values, mask = np.zeros(len(place)), np.zeros(len(place), dtype=bool)
+    values, mask, spelled = np.zeros(len(place)), np.zeros(len(place), dtype=bool), dict[int, str]()
     for name, value in parameters.items():
         address = name if name in place else f"parameters.{name}"
         if address not in place:
             raise _unknown(name, list(place))
         k = place[address]
-        values[k], mask[k] = number(value, source.slots[k]), True
+        if k in spelled:
+            raise BadValueError(f"{address} is given twice: as {spelled[k]!r} and as {name!r}", hint="give it once")
+        values[k], mask[k], spelled[k] = number(value, source.slots[k]), True, name
     return values, mask
 
 
 def number(value: float | str, slot: Slot) -> float:
-    """A float, or a text with a unit as in the YAML file; SI."""
+    """A float, or a text as in the YAML file, with a unit or without: '0.5 mm', '1e-9'; SI."""
     if isinstance(value, str):
+        found = plain_number(value)
+        if found is not None:
+            return found
         from gudgeon.generator.quantity_text import number_of_text  # no SymPy in it
 
         value = number_of_text(spaced(value), slot.address, slot.dimension)
-    result = float(value)
+    return number_of(value, slot.address)
+
+
+def number_of(value: float, name: str) -> float:
+    """A finite float, of any kind of real number but text. Raises BadValueError that names it."""
+    try:
+        if isinstance(value, (str, bytes)) or np.ndim(value):
+            raise TypeError
+        result = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise BadValueError(f"{name}: {str(value)[:60]!r} is not one real number") from None
     if not math.isfinite(result):
-        raise BadValueError(f"{slot.address}: {value!r} is not a finite number")
+        raise BadValueError(f"{name}: {value!r} is not a finite number")
     return result
+
+
+def plain_number(text: str) -> float | None:
+    """The number that a text without a unit writes; None where there is more to read, or no float has its size."""
+    if not _PLAIN.fullmatch(text := text.strip(" ")):
+        return None
+    value = float(text)
+    mantissa = re.split("[eE]", text)[0]
+    return value if math.isfinite(value) and (value or not re.search("[1-9]", mantissa)) else None
 
 
 def spaced(text: str) -> str:
@@ -53,9 +87,14 @@ def spaced(text: str) -> str:
 def prepare(compiled: CompiledModel, parameters: Mapping[str, float | str]) -> tuple[Array, Array, Array]:
     """(p, given, is_given), checked: see CompiledModel.prepare. Raises BadValueError, UnknownNameError."""
     given, is_given = given_slots(compiled.source, parameters)
+    return prepare_slots(compiled, given, is_given), given, is_given
+
+
+def prepare_slots(compiled: CompiledModel, given: Array, is_given: Array) -> Array:
+    """The p of values and mask, checked. Raises BadValueError."""
     p = compiled.prepare(given, is_given)
     check(compiled.source, p)
-    return p, given, is_given
+    return p
 
 
 def without_baumgarte(compiled: CompiledModel, given: Array, is_given: Array) -> Array:

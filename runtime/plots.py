@@ -6,20 +6,21 @@ unless the caller uses pyplot already: no display is needed and no figure is kep
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 import textwrap
-import threading
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon import trace
 from gudgeon.errors import GudgeonError
 from gudgeon.plot_units import label, scale
 from gudgeon.series import rates
+from gudgeon.writing import write_bytes
 
 try:
     import matplotlib
@@ -54,13 +55,16 @@ class Plot:
 
     def series(self, *names: str, ax: Axes | None = None) -> Axes:
         """Series of one unit over time."""
-        run = self.run
+        return self._curves({name: (self.run.t, self.run[name]) for name in names}, ax)
+
+    def _curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None) -> Axes:
+        """Times and values by the name of a series; all have one unit."""
+        run, names = self.run, list(curves)
         with matplotlib.rc_context(STYLE):
             ax = ax or _axes(8.0, 3.6)
-            unit = run.unit(names[0])
-            factor, text = scale(max(_peak(run[name]) for name in names), unit)
-            for name, colour in zip(names, _cycle(len(names)), strict=True):
-                ax.plot(run.t, run[name] * factor, color=colour, lw=1.0, label=name)
+            factor, text = scale(max(_peak(values) for _, values in curves.values()), run.unit(names[0]))
+            for (name, (t, values)), colour in zip(curves.items(), _cycle(len(names)), strict=True):
+                ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
             ax.set(xlabel="t [s]", ylabel=label(names[0] if len(names) == 1 else "", text), title=_caption(run))
             mark_horizon(ax, run, IDEAL)
             if len(names) > 1:
@@ -68,9 +72,10 @@ class Plot:
         return ax
 
     def forces(self, ax: Axes | None = None) -> Axes:
-        """Magnitudes of the forces at the joints with play; in an ideal scene at all joints."""
+        """Magnitudes of the forces at the joints with play, with the extremes of all steps; in an ideal scene at all
+        joints."""
         joints = self.run.source.clearances or self.run.source.joints
-        return self.series(*(f"{joint.name}.F" for joint in joints), ax=ax)
+        return self._curves({f"{joint.name}.F": trace.force(self.run, joint.name) for joint in joints}, ax)
 
     def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
         """Path of the journal's centre in its clearance circle, in units of the clearance."""
@@ -103,7 +108,8 @@ def _caption(run: Result) -> str:
 
 def reach(run: Result, joint: str) -> float:
     """Half the side of a square, in units of c, that holds the orbit and the circle."""
-    return 1.04 * max(1.0, _peak(run[f"{joint}.eps"]))
+    _, x, y = trace.path(run, joint)
+    return 1.04 * max(1.0, _peak(np.hypot(x, y)) / run.constants[f"{joint}.c"])
 
 
 def _trusted(run: Result) -> float | None:
@@ -120,15 +126,16 @@ def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
 
 
 def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half: float) -> None:
-    """The journal's path, e/c, and the circle e = c; samples with the surfaces in contact are dotted."""
+    """The journal's path through its steps, e/c, and the circle e = c; dots where the surfaces are in contact."""
     c = run.constants[f"{joint}.c"]
-    x, y, angle = run[f"{joint}.ex"] / c, run[f"{joint}.ey"] / c, np.linspace(0.0, 2 * np.pi, 181)
+    t, x, y = trace.path(run, joint)
+    x, y, angle = x / c, y / c, np.linspace(0.0, 2 * np.pi, 181)
     ax.fill(np.cos(angle), np.sin(angle), facecolor="#f6f6f6", edgecolor="#777777", lw=0.9, zorder=1)
     ends = _trusted(run) or float(run.t[-1])
-    touching, known = run[f"{joint}.delta"] >= 0, run.t <= ends
-    beyond = run.t >= run.t[known][-1]  # from the last trusted sample on, so that the path has no gap
+    touching, known = np.hypot(x, y) >= 1.0, t <= ends
+    beyond = t >= t[known][-1]  # from the last trusted place on, so that the path has no gap
     ax.plot(x[known], y[known], color=colour, lw=0.7, alpha=0.8, zorder=2)
-    ax.plot(x[touching & known], y[touching & known], ".", color=colour, ms=2.2, zorder=3)
+    ax.plot(x[touching & known], y[touching & known], ".", color=colour, ms=1.4, zorder=3)
     if not known.all():
         ax.plot(x[beyond], y[beyond], color=UNTRUSTED, lw=0.5, alpha=0.6, zorder=1.5)
     ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=IDEAL, mew=0.9, zorder=4)
@@ -202,17 +209,18 @@ def _draw_forces(
     axes: Sequence[Axes], joints: Sequence[str], runs: Mapping[str, Result], references: Mapping[str, Result],
     colours: Mapping[str, str],
 ) -> None:  # fmt: skip
-    """One row a joint: its force in every scene with the peak of all steps (▾), and the ideal reaction over it."""
+    """One row a joint: its force in every scene, through the extremes of all steps and with their peak (▾), and the
+    ideal reaction over it."""
     for ax, joint in zip(axes, joints, strict=True):
         name = f"{joint}.F"
-        curves = [(run.t, run[name], colours[scene], 0.8, "-") for scene, run in runs.items() if name in run]
+        curves = [(*trace.force(run, joint), colours[scene], 0.8, "-") for scene, run in runs.items() if name in run]
         ideal = max((r for r in references.values() if name in r), key=lambda r: r.t[-1], default=None)
         if ideal is not None:
             curves.append((ideal.t, ideal[name], IDEAL, 1.0, "--"))
         factor, text = scale(max((_peak(values) for _, values, *_ in curves), default=0.0), "N")
         for t, values, colour, width, dashes in curves:
             ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
-        for scene, run in runs.items():  # the largest of all steps, which samples may miss
+        for scene, run in runs.items():
             mark_horizon(ax, run, colours[scene])
             for peak in (peak for peak in run.diagnostics.peaks if peak.joint == joint):
                 ax.plot([peak.t], [peak.F * factor], "v", color=colours[scene], ms=4, clip_on=False)
@@ -276,14 +284,7 @@ def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str
 
 def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
     """Write a picture aside and move it into place; it holds neither date nor version."""
-    path = Path(path)
-    aside = path.with_name(f".{path.stem}.{os.getpid()}.{threading.get_ident()}{path.suffix}")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        picture.savefig(aside, metadata={"Software": None} if path.suffix == ".png" else None)
-        os.replace(aside, path)
-    except OSError as error:
-        raise GudgeonError(f"cannot write {path}: {error.strerror or error}") from error
-    finally:
-        with suppress(OSError):
-            aside.unlink()
+    path, drawn = Path(path), io.BytesIO()
+    suffix = path.suffix.removeprefix(".") or None
+    picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
+    write_bytes(path, drawn.getvalue())

@@ -1,11 +1,14 @@
 """How far a run can be trusted: impacts multiply small differences until two honest runs have nothing in common.
 
-`simulate(..., horizon=True)` repeats the run at narrow output times, with a tolerance a hundred times tighter (a step
-four times smaller), and from a start that is moved by 1e-12. While they agree, the trace belongs to the scene; beyond,
-it is one of many that the same numbers allow, and only its statistics mean anything. The horizon is the last of the
-compared times before the run and one of its repetitions part by a quarter: of the radial clearance, in the path of a
-journal (orbits part for the eye); in a scene without play of the
-mechanism's size, of 1 rad in an angle.
+`simulate(..., horizon=True)` repeats the run, with a tolerance a hundred times tighter (a step four times smaller), and
+from a start that is moved by 1e-12. While they agree, the trace belongs to the scene; beyond, it is one of many that
+the same numbers allow, and only its statistics mean anything. The horizon is the last of the compared times before the
+run and one of its repetitions part by a quarter: of the radial clearance, in the path of a journal (orbits part for the
+eye); in a scene without play of the mechanism's size, of 1 rad in an angle.
+
+Neither t_end nor the output of the run enter. Steps do not depend on them, and what is compared lies on a ladder of
+times that is the same for every run: 4,000 between 4^k s and 4^(k + 1) s after the start, from the bottom up, until
+the runs part. So the resolution is 2e-4 of the horizon or better, and what lies beyond it is not integrated.
 
 It is a figure of the run, not of the scene alone: each digit of tolerance buys some time, until rounding is what grows.
 """
@@ -13,8 +16,9 @@ It is a figure of the run, not of the scene alone: each digit of tolerance buys 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -33,7 +37,8 @@ APART = 0.25  # see above: of the clearance, where orbits part for the eye; dry 
 MOVED = 1e-12  # a relative tolerance (integrators/adaptive.py): as much as one step of such a run may err
 TIGHTER, SHORTER = 100.0, 4.0  # tolerance, step
 UNFINISHED = "interrupted while its horizon was sought: the run is complete, how far to trust it is not known"
-TIMES = 4000  # intervals between compared times: the horizon's resolution
+TIMES = 4000  # compared times on a rung of the ladder: the horizon's resolution
+SHORTEST = 1.0 / 256.0  # of the run's length, about: the ladder's lowest rung
 
 
 def with_horizon(simulation: Simulation, run: Result, progress: Progress | None = None) -> Result:
@@ -54,35 +59,59 @@ def horizon(simulation: Simulation, run: Result, progress: Progress | None = Non
     The runs are those of `run.diagnostics.method`, from the run's first sample to its last one. A repetition that
     ends early (an error) is compared as far as it came. Ctrl-C is passed on. `apart`: see above.
     """
-    source, t0, t1 = simulation.source, float(run.t[0]), float(run.t[-1])
-    if source.degrees_of_freedom == 0 or not t1 > t0:
+    t0, t1 = float(run.t[0]), float(run.t[-1])
+    if simulation.source.degrees_of_freedom == 0 or not t1 > t0:
         return math.inf
-    times = np.linspace(t0, t1, TIMES + 1)
     begin = _state(run)
     usual, tighter = _settings(run)
-    runs = []
-    for start, settings in ((begin, usual), (begin, tighter), (_moved(simulation, run, begin), usual)):
-        try:
-            runs.append(simulation.simulate(output=times, start=start, progress=progress, **settings))
-        except SolverError as error:
-            if error.partial is None:
-                return t0
-            runs.append(error.partial)
-        if runs[-1].diagnostics.interrupted:
-            raise KeyboardInterrupt
-    return _agreement(simulation, runs, apart)
+    variants = ((begin, usual), (begin, tighter), (_moved(simulation, run, begin), usual))
+    known = t0
+    for times in _ladder(t0, t1):
+        runs = []
+        for start, settings in variants:
+            repeated = _repeated(simulation, times, start, settings, progress)
+            if repeated is None:
+                return known
+            if repeated.diagnostics.interrupted:
+                raise KeyboardInterrupt
+            runs.append(repeated)
+        agreed, parted = _agreement(simulation, runs, apart)
+        known = max(known, agreed)
+        if parted:
+            return known
+    return math.inf
 
 
-def _agreement(simulation: Simulation, runs: list[Result], limit: float) -> float:
-    """The last compared time at which the first run is no further than `limit` from each of the others."""
+def _ladder(t0: float, t1: float) -> Iterator[Array]:
+    """Times to compare, rung by rung: each TIMES long and four times as far as the one before, or cut off at t1."""
+    top = 4.0 ** math.floor(math.log(SHORTEST * (t1 - t0), 4.0))
+    low, whole = 0.0, False
+    while not whole:
+        whole = not t0 + top < t1
+        times = t0 + np.linspace(low, top, TIMES + 1)[1:]
+        yield np.append(times[times < t1], t1) if whole else times
+        low, top = top, 4.0 * top
+
+
+def _repeated(
+    simulation: Simulation, times: Array, start: State, settings: dict[str, Any], progress: Progress | None
+) -> Result | None:
+    """A run through `times`, as far as it goes, None: not even from the start; events do not end it."""
+    try:
+        return simulation.simulate(output=times, start=start, progress=progress, stop=False, **settings)
+    except SolverError as error:
+        return cast("Result | None", error.partial)
+
+
+def _agreement(simulation: Simulation, runs: list[Result], limit: float) -> tuple[float, bool]:
+    """The last compared time (s) at which the first run is no further than `limit` from each of the others, and whether
+    that is where they part or one of them ends."""
     count = min(len(run.t) for run in runs)
     paths = [_path(simulation, run)[:count] for run in runs]
     gaps = [np.abs(path - paths[0]).max(axis=1) for path in paths[1:]]
     apart = np.flatnonzero(~(np.maximum(*gaps) <= limit))
-    t = runs[0].t
-    if len(apart):
-        return float(t[max(int(apart[0]) - 1, 0)])
-    return math.inf if all(len(run.t) == len(t) for run in runs) else float(t[count - 1])
+    last = max(int(apart[0]) - 1, 0) if len(apart) else count - 1
+    return float(runs[0].t[last]), bool(len(apart)) or any(len(run.t) > count for run in runs)
 
 
 def _path(simulation: Simulation, run: Result) -> Array:

@@ -247,6 +247,7 @@ def _cost_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     return [
         ("method", [d.method for d in every]),
         ("step", [quantity(d.step, "s") for d in every]),
+        ("last step", [quantity(d.last_step, "s") for d in every]),
         ("tolerance of a step", [f"{d.rtol:.3g}" if math.isfinite(d.rtol) else "–" for d in every]),
         ("steps", [f"{d.steps:,}" if d.steps else "–" for d in every]),
         ("right-hand sides", [f"{d.right_hand_sides:,}" if d.right_hand_sides else "–" for d in every]),

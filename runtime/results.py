@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from gudgeon.compiled import CompiledModel, Evaluation
     from gudgeon.plots import Plot
     from gudgeon.series import Series
+    from gudgeon.trace import Trace
 
 Array: TypeAlias = NDArray[Any]
 
@@ -46,12 +47,25 @@ class State:
     v: Array  # (n,)
     state: Array  # (n_clearances,) 0 free, 1 impact, 2 contact
     memory: Array  # (n_clearances,) δ̇⁻ in m/s, NaN while free
-    parameters: Mapping[str, float]  # address -> value, of what was overridden
+    parameters: Mapping[str, float]  # address -> value, of what was overridden: a further run's, unless given others
+    sha256: str = ""  # of the mechanism's file; "": made by hand
+    overrides: tuple[tuple[str, str | float | bool], ...] = ()  # (address, value) with which the file was loaded
+    formulation: str = ""  # what was integrated; either goes on from the other's
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self.__dict__ | {"parameters": dict(self.parameters)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state | {"parameters": MappingProxyType(state["parameters"])})
 
 
 @dataclass(eq=False)
 class Result:
-    """One run of N samples. `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`)."""
+    """One run of N samples. `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).
+
+    It may be pickled and copied: what is stored and computed so far goes with it; other series are computed there,
+    with the scene's library from the cache, or compiled again.
+    """
 
     compiled: CompiledModel | None  # None: read from a file, where every series is stored
     source: KernelSource
@@ -68,6 +82,7 @@ class Result:
     impacts: Array  # IMPACT_DTYPE, one an onset
     diagnostics: Diagnostics
     events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: what the file's `events` watch
+    trace: Trace | None = None  # forces and paths from the steps; None: samples are all there is
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
 
     def __getitem__(self, name: str) -> Array:
@@ -134,8 +149,21 @@ class Result:
         slots = zip(self.source.slots, self.given, self.is_given, strict=True)
         overridden = {slot.address: float(value) for slot, value, is_given in slots if is_given}
         q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
-        scene, t = self.source.scene, float(self.t[-1])
-        return State(self.source.mechanism, scene, t, q, v, state, memory, MappingProxyType(overridden))
+        source, parameters = self.source, MappingProxyType(overridden)
+        return State(
+            source.mechanism, source.scene, float(self.t[-1]), q, v, state, memory, parameters,
+            source.sha256, source.overrides, source.formulation,
+        )  # fmt: skip
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The fields, and the evaluation if it is at hand; what else is cached is made again in no time."""
+        kept = {*(each.name for each in fields(self)), "evaluation"}
+        return {name: value for name, value in self.__dict__.items() if name in kept}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        for values in self.stored.values():
+            values.flags.writeable = False
 
     @cached_property
     def evaluation(self) -> Evaluation:
@@ -159,14 +187,17 @@ class Result:
             return self.parameters[name]
         raise self.unknown(name)
 
-    def to_xarray(self) -> xarray.Dataset:
-        """All series as one Dataset over `time`, with units and long names; impacts over `impact`."""
+    def to_xarray(self, part: str = "series") -> xarray.Dataset:
+        """All series as one Dataset over `time`, with units and long names; `.to_dataframe()` has a row a sample.
+
+        part: "impacts", "events" or "parameters" for these, a row each.
+        """
         from gudgeon import netcdf
 
-        return netcdf.dataset(self)
+        return netcdf.dataset(self, part)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to a NetCDF file, aside first and then moved into place."""
+        """Write everything to a NetCDF file, aside first and then moved into place; OutputError where that fails."""
         from gudgeon import netcdf
 
         netcdf.save(self, path)
@@ -208,6 +239,6 @@ class Result:
 
 def read(path: str | os.PathLike[str]) -> Result:
     """Read a file that `Result.save` wrote. InputError if it is none."""
-    from gudgeon import netcdf
+    from gudgeon import netcdf_read
 
-    return netcdf.read(path)
+    return netcdf_read.read(path)

@@ -76,6 +76,10 @@ class _Runs:
             if i not in self.results and i not in self.errors:
                 self.errors[i] = SolverError(INTERRUPTED, t_first)
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What is over."""
+        return self.__dict__ | {"simulation": None, "options": {}}
+
     def result(self, i: int) -> Result:
         """Run i, as it went."""
         if i in self.errors:

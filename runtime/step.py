@@ -26,7 +26,8 @@ def scene_end(source: KernelSource) -> float:
 
 def scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
     """The step (s) that a plain run takes: the file's, or the default."""
-    return float(compiled.source.simulate.get("step", 0.0)) or default_step(compiled, p, duration)
+    own = float(compiled.source.simulate.get("step", 0.0))
+    return own or default_step(compiled, p, duration if duration > 0.0 else T_END)
 
 
 def default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
-import os
+from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 
-from gudgeon.errors import GudgeonError, InputError, UnknownNameError
+from gudgeon.errors import BadValueError, InputError, OutputError, UnknownNameError, shortened
 from gudgeon.loading import find_mechanism, generator_hash, read_bytes
-from gudgeon.parameters import spaced
+from gudgeon.parameters import plain_number, spaced
+from gudgeon.writing import check_target
 
 SCENES = "scenes.json"
 
@@ -57,30 +59,38 @@ def unknown(message: str, name: str, known: tuple[str, ...]) -> UnknownNameError
 
 def value(text: str) -> float | str:
     """A number as typed: a float if it is one (SI), else text with a space before its unit ("0.5mm", "0.5 mm")."""
-    try:
-        return float(text)
-    except ValueError:
-        return spaced(text)
+    number = plain_number(text)
+    return spaced(text) if number is None else number
 
 
-def write_text(path: Path, text: str) -> None:
-    """Write a file aside and move it into place."""
-    aside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        aside.write_text(text, encoding="utf-8")
-        os.replace(aside, path)
-    except OSError as error:
-        raise GudgeonError(f"cannot write {path}: {error.strerror or error}") from error
-    finally:
-        aside.unlink(missing_ok=True)
+def settings(texts: Iterable[str]) -> dict[str, float | str]:
+    """--set ADDRESS=VALUE, each number once. Raises BadValueError."""
+    found: dict[str, float | str] = {}
+    written: dict[str, str] = {}  # a parameter may be called with its section or without
+    for text in texts:
+        address, equals, told = (part.strip() for part in text.partition("="))
+        if not (equals and address and told):
+            raise BadValueError(f"--set {text}: expected ADDRESS=VALUE", hint="for example --set c=0.5mm")
+        key = address.removeprefix("parameters.")
+        if key in written:
+            told = f"--set {text}: this number is set already, by --set {written[key]}"
+            raise BadValueError(told, hint="set it once")
+        written[key], found[address] = text, value(told)
+    return found
 
 
 def check_folder(option: str, out: Path) -> None:
     """What can be known about a folder is told before anything is run, not after an hour."""
     import tempfile
 
-    there = next(path for path in (out, *out.absolute().parents) if path.exists())
+    try:
+        there = next(path for path in (out.absolute(), *out.absolute().parents) if path.exists())
+        for name in out.absolute().relative_to(there).parts:
+            with suppress(FileNotFoundError, NotADirectoryError):
+                (there / name).lstat()  # a name too long
+    except OSError as error:  # a name too long, a folder that may not be entered
+        told = f"{option} {shortened(out)}: {error.strerror or error}"
+        raise InputError(told, hint="name another folder") from error
     if not there.is_dir():
         raise InputError(f"{option} {out}: {there} is a file", hint="name a folder")
     try:
@@ -94,8 +104,15 @@ def check_folder(option: str, out: Path) -> None:
 def check_file(option: str, path: Path) -> None:
     """The same of a file that will be written, or replaced."""
     check_folder(option, path.parent)
-    if path.is_dir():
-        raise InputError(f"{option}: {path} is a folder", hint="name a file")
+    check_name(option, path)
+
+
+def check_name(option: str, path: Path) -> None:
+    """The same of a name in a folder that was looked at already."""
+    try:
+        check_target(path)
+    except OutputError as error:
+        raise InputError(f"{option}: {error}") from error
 
 
 def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:

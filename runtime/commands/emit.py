@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from gudgeon.commands.common import chosen_scenes, write_text
-from gudgeon.errors import GudgeonError, InputError
+from gudgeon.commands.common import check_folder, chosen_scenes
+from gudgeon.errors import InputError
 from gudgeon.loading import find_mechanism, kernel_source, read_bytes
 from gudgeon.shipped import REST
+from gudgeon.writing import PART, Aside, read_regular
 
 LIST = "emitted.sha256"  # what was written, as `sha256sum -c` reads it
+_LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a name is plain: it leads nowhere else
 
 
 def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
     """Write `folder/<scene>/*.c, *.h, kernel.json`; nothing is written if any folder holds something else."""
+    check_folder("--out", folder)
     scenes = chosen_scenes(mechanism, wanted)
     for scene in scenes:
         refuse_foreign(folder / scene)
@@ -24,47 +29,72 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
     for scene in scenes:
         source, _ = kernel_source(data, file, scene)
         texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
-        _write(folder / scene, texts)
+        _write(folder / scene, {name: text.encode() for name, text in texts.items()})
         print(f"wrote {folder / scene}: {', '.join(texts)}")
     return 0
 
 
-def _write(folder: Path, texts: dict[str, str]) -> None:
-    """The texts and a list of them; what an earlier version wrote and this one does not is removed."""
-    try:
-        for name in _listed(folder).keys() - texts.keys():
-            (folder / name).unlink(missing_ok=True)
-    except OSError as error:
-        raise GudgeonError(f"cannot write to {folder}: {error.strerror or error}") from error
-    sums = {name: sha256(text.encode()).hexdigest() for name, text in texts.items()}
-    for name, text in texts.items():
-        write_text(folder / name, text)
-    write_text(folder / LIST, "".join(f"{total}  {name}\n" for name, total in sums.items()))
+def _write(folder: Path, texts: dict[str, bytes]) -> None:
+    """The texts and a list of them, all or none; what an earlier version wrote and this one does not is removed.
+
+    A list of old and new goes before, so that at each moment what is there is listed, whatever ends this process.
+    """
+    old, new = _listed(folder), {name: {sha256(text).hexdigest()} for name, text in texts.items()}
+    both = {name: old.get(name, set()) | new.get(name, set()) for name in (*new, *(old.keys() - new.keys()))}
+    with Aside(folder, follow=False) as aside:
+        aside.write(LIST, _list(both))
+        for name, text in texts.items():
+            aside.write(name, text)
+        aside.write(LIST, _list(new))
+        aside.move(1 + len(texts))
+        for name in old.keys() - new.keys():
+            aside.remove(name, lambda data, sums=old[name]: sha256(data).hexdigest() in sums)  # type: ignore[misc]
+        for path in folder.iterdir():
+            if PART.fullmatch(path.name):  # what a process that was killed left; not the list, which is there aside
+                aside.remove(path.name, lambda data: any(text.startswith(data) for text in texts.values()))
+        aside.move()
 
 
-def _listed(folder: Path) -> dict[str, str]:
-    """Names and checksums of what an earlier `emit` wrote."""
-    try:
-        lines = (folder / LIST).read_text(encoding="utf-8").splitlines()
-    except (OSError, ValueError):
-        return {}
-    pairs = [line.split("  ", 1) for line in lines]
-    return {pair[1]: pair[0] for pair in pairs if len(pair) == 2}
+def _list(sums: Mapping[str, set[str]]) -> bytes:
+    return "".join(f"{total}  {name}\n" for name, totals in sums.items() for total in sorted(totals)).encode()
+
+
+def _listed(folder: Path) -> dict[str, set[str]]:
+    """Names and checksums of what an earlier `emit` wrote, plain names alone; nothing if its list is none."""
+    found: dict[str, set[str]] = {}
+    for line in (read_regular(folder / LIST) or b"").decode(errors="replace").splitlines():
+        parts = _LINE.fullmatch(line)
+        if not parts:
+            return {}
+        found.setdefault(parts[2], set()).add(parts[1])
+    return found
 
 
 def refuse_foreign(folder: Path) -> None:
     """InputError if the folder holds anything but what an earlier `emit` has written there, unchanged."""
-    if not folder.exists():
-        return
-    if not folder.is_dir():
-        raise InputError(f"{folder} is a file", hint="name another folder")
-    listed = _listed(folder)
-    foreign = sorted(
-        path.name
-        for path in folder.iterdir()
-        if path.name != LIST
-        and not (path.is_file() and listed.get(path.name) == sha256(path.read_bytes()).hexdigest())
-    )
+    try:
+        if folder.is_symlink():
+            raise InputError(f"{folder} is a link: nothing is written through it", hint="name another folder")
+        if not folder.exists():
+            return
+        if not folder.is_dir():
+            raise InputError(f"{folder} is a file", hint="name another folder")
+        listed = _listed(folder)
+        foreign = sorted(path.name for path in folder.iterdir() if not _is_own(path, listed))
+    except OSError as error:
+        raise InputError(f"{folder} cannot be read: {error.strerror or error}", hint="name another folder") from error
     if foreign:
         hint = "move them away or name another folder"
         raise InputError(f"{folder} holds files that `emit` did not write so: {', '.join(foreign[:5])}", hint=hint)
+
+
+def _is_own(path: Path, listed: Mapping[str, set[str]]) -> bool:
+    """A file with the bytes that are listed under its name, the list itself, or what a killed `emit` left aside."""
+    if path.is_symlink() or not path.is_file():
+        return False
+    if path.name == LIST:
+        return bool(listed) or path.stat().st_size == 0
+    if PART.fullmatch(path.name):
+        return True
+    data = read_regular(path) if path.name in listed else None
+    return data is not None and sha256(data).hexdigest() in listed[path.name]

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gudgeon.commands.common import chosen_scenes, need_suffix, write_text
+from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.loading import find_mechanism, read_bytes
+from gudgeon.writing import write_text
 
 
 def write_equations(mechanism: str, target: Path, scene: str) -> int:
     """Derive one scene and write its equations to x.tex, x.txt or x.html."""
     need_suffix(target, (".tex", ".txt", ".html"))
+    check_file("--out", target)
     chosen_scenes(mechanism, (scene,))
     file = find_mechanism(mechanism)
     data = read_bytes(file)

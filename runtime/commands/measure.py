@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, TypeVar
 
-from gudgeon.commands.common import check_file, chosen_scenes, need_suffix, unknown, value
+from gudgeon.commands.common import check_file, chosen_scenes, need_suffix, settings, unknown, value
 from gudgeon.commands.progress import Report, progress_bar
 from gudgeon.commands.run import addresses
 from gudgeon.errors import BadValueError
@@ -56,13 +56,7 @@ class Request:
     @property
     def parameters(self) -> dict[str, float | str]:
         """--set ADDRESS=VALUE."""
-        found = {}
-        for text in self.sets:
-            name, _, told = text.partition("=")
-            if not (name.strip() and told.strip()):
-                raise BadValueError(f"--set {text}: expected ADDRESS=VALUE")
-            found[name.strip()] = value(told)
-        return found
+        return settings(self.sets)
 
     def of(self, simulation: Simulation) -> dict[str, float | str]:
         """The settings that a scene knows: an ideal scene has no viscosity."""

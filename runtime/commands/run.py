@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_folder, chosen_scenes, unknown, value
+from gudgeon.commands.common import check_folder, check_name, chosen_scenes, settings, unknown, value
 from gudgeon.commands.progress import progress_bar
-from gudgeon.errors import AssemblyError, GudgeonError, InputError, SolverError
+from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.loading import load
 from gudgeon.results import Result
 from gudgeon.step import T_END, scene_end
@@ -39,7 +39,7 @@ class Request:
     output: int | None
     step: str | None
     method: str
-    rtol: float | None
+    rtol: str | None
     watch: tuple[str, ...]
     out: Path
     horizon: bool
@@ -55,32 +55,35 @@ class Session:
     runs: dict[str, Result] = field(default_factory=dict)
     references: dict[str, Result] = field(default_factory=dict)
     failures: dict[str, GudgeonError] = field(default_factory=dict)
-    unwritten: GudgeonError | None = None
+    unwritten: list[GudgeonError] = field(default_factory=list)
     interrupted: bool = False
 
 
 def run_scenes(request: Request) -> int:
     """Run, compare, save, show; the exit code."""
-    settings = _settings(request.settings)
+    wanted = settings(request.settings)
     check_folder("--out", request.out)
     names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
     simulations = {name: _load(request, name) for name in names}
-    _check(request, settings, simulations)
+    _check(request, wanted, simulations)
+    for name, simulation in simulations.items():
+        check_name("--out", result_path(request.out, simulation.source.mechanism, name))
+    check_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
     session = Session()
     try:
-        _simulate(request, settings, simulations, session)
+        _simulate(request, wanted, simulations, session)
     except KeyboardInterrupt:
         session.interrupted = True
     if session.runs:
         _hand_over(request, simulations[IDEAL], session)
     for scene, error in session.failures.items():
         print(f"error: scene {scene}: {error}", file=sys.stderr)
-    if session.unwritten:
-        print(f"error: {session.unwritten}", file=sys.stderr)
+    for error in session.unwritten:
+        print(f"error: {error}", file=sys.stderr)
     if session.interrupted:
         print(_interrupted(names, session), file=sys.stderr)
         return 130
-    return max((error.exit_code for error in (*session.failures.values(), session.unwritten) if error), default=0)
+    return max((error.exit_code for error in (*session.failures.values(), *session.unwritten)), default=0)
 
 
 def _load(request: Request, scene: str) -> Simulation:
@@ -93,22 +96,12 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
 
     if not session.runs:
         return "interrupted before anything was computed: nothing is shown or saved"
-    told = "interrupted: what was computed is shown and saved"
+    told = "interrupted: what was computed is shown and saved" + ", but for what could not be" * bool(session.unwritten)
     if any(UNFINISHED in run.diagnostics.notes for run in session.runs.values()):
         told += "; the search for the horizon was not finished"
     ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in session.runs.items() if run.diagnostics.interrupted]
     missing = [f"{name} was not begun" for name in names if name not in session.runs and name not in session.failures]
     return "; ".join([told, *ended, *missing])
-
-
-def _settings(texts: tuple[str, ...]) -> dict[str, float | str]:
-    found = {}
-    for text in texts:
-        address, equals, number = text.partition("=")
-        if not (equals and address.strip() and number.strip()):
-            raise InputError(f"--set {text}: expected ADDRESS=VALUE", hint="for example --set c=0.5mm")
-        found[address.strip()] = value(number)
-    return found
 
 
 def _check(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
@@ -188,11 +181,7 @@ def _hand_over(request: Request, ideal: Simulation, session: Session) -> None:
     reports = [compare(run, session.references.get(scene), watch) for scene, run in shown.items()]
     if not request.json:
         _print(first.source.title or first.source.mechanism, reports)
-    files: Files = {}
-    try:
-        _write(request.out, shown, session.references, watch, files)
-    except GudgeonError as error:  # a full disk must not take the figures with it
-        session.unwritten = error
+    files = _write(request.out, shown, session, watch)
     if request.json:
         import json
 
@@ -212,20 +201,34 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
     return ideal.simulate(output=run.t, parameters=values, stop=False)
 
 
-def _write(
-    out: Path, runs: Mapping[str, Result], references: Mapping[str, Result], watch: Sequence[str], files: Files
-) -> None:
-    """A NetCDF file a scene and one picture, each told in `files`; a note names an optional package that is missing."""
+def _write(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequence[str]) -> Files:
+    """A NetCDF file a scene and one picture; a note names an optional package that is missing.
+
+    What a full disk refuses goes to `session.unwritten`, and the rest is written: a picture is smaller than results.
+    """
+    files: Files = {}
     mechanism = next(iter(runs.values())).source.mechanism
     if _have("NetCDF files", "h5py"):
         for scene, run in runs.items():
-            run.save(out / f"{mechanism}_{scene}.nc")
-            files[scene] = str(out / f"{mechanism}_{scene}.nc")
+            try:
+                run.save(result_path(out, mechanism, scene))
+                files[scene] = str(result_path(out, mechanism, scene))
+            except GudgeonError as error:
+                session.unwritten.append(error)
     if _have("picture", "matplotlib"):
         from gudgeon.plots import figure, save_figure
 
-        save_figure(figure(runs, references, watch), out / f"{mechanism}.png")
-        files["picture"] = str(out / f"{mechanism}.png")
+        try:
+            save_figure(figure(runs, session.references, watch), out / f"{mechanism}.png")
+            files["picture"] = str(out / f"{mechanism}.png")
+        except GudgeonError as error:
+            session.unwritten.append(error)
+    return files
+
+
+def result_path(out: Path, mechanism: str, scene: str) -> Path:
+    """Where the result of a scene goes."""
+    return out / f"{mechanism}_{scene}.nc"
 
 
 def _have(what: str, *packages: str) -> bool:

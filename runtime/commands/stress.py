@@ -71,7 +71,7 @@ def stress_file(request: Request, asked: Stress) -> int:
 
     found, interrupted = each(moving, one, request.json)
     if found:
-        show_stress(moving[0].source, found, table, step, request.json)
+        show_stress(moving[0].source, request.file, found, table, step, request.json)
     return exit_code(moving, found, interrupted)
 
 
@@ -91,7 +91,7 @@ def _box(
 
     found, interrupted = each(moving, one, request.json)
     if found:
-        show_box(moving[0].source, found, table, request.json)
+        show_box(moving[0].source, request.file, found, table, request.json)
     return exit_code(moving, found, interrupted)
 
 

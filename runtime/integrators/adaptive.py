@@ -21,9 +21,11 @@ from time import perf_counter
 import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
-from gudgeon.errors import BadValueError
+from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators.session import Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.kernel_source import Slot
+from gudgeon.parameters import number
 from gudgeon.start import mechanism_sizes
 
 CHOICES = {"dop853": 0, "rodas5p": 1, "adaptive": 2}
@@ -38,10 +40,10 @@ ADVICE = "the motion may leave what the model holds for; look at the last sample
 def run(problem: Problem) -> Trajectory:
     """Integrate over the output times; samples come from the interpolant, projected."""
     session = Session(problem, problem.p_free)
-    scale, floor = tolerances(problem.compiled, problem.p, problem.rtol, float(problem.t[-1] - problem.t[0]))
+    scale, least = tolerances(problem.compiled, problem.p, problem.rtol)
     fixed = 0.0 if math.isinf(problem.step) else problem.step
     choice = choice_of(problem.compiled, problem.method)
-    session.lib.gudgeon_adaptive_setup(session.run, choice, session.pointer(scale), session.pointer(floor), fixed)
+    session.lib.gudgeon_adaptive_setup(session.run, choice, session.pointer(scale), session.pointer(least), fixed)
     return session.drive(lambda: _all(session))
 
 
@@ -72,8 +74,8 @@ def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
             hint="leave out rtol; or leave out step and take auto, dop853 or rodas5p",
         )
     try:
-        value = float(rtol)
-    except (TypeError, ValueError):
+        value = number(rtol, Slot("rtol", "", 0.0, False, (0, 0, 0)))
+    except InputError:
         value = math.nan
     if not SMALLEST <= value < 1.0:
         told = f"{value:g}" if math.isfinite(value) else repr(rtol)
@@ -98,8 +100,8 @@ def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:
     return np.where(np.isfinite(least), least, size), size
 
 
-def tolerances(compiled: CompiledModel, p: Array, rtol: float, duration: float) -> tuple[Array, Array]:
-    """Tolerances of a step, (..., 2 n_x): of coordinates, of velocities a unit of speed; what a speed counts at least.
+def tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array]:
+    """Tolerances of a step, (..., 2 n_x): of coordinates, of velocities a unit of speed; L and L/S, (..., 2).
 
     `p` (..., n_slots + n_derived) has the parameters of one run, or of several.
     """
@@ -110,7 +112,7 @@ def tolerances(compiled: CompiledModel, p: Array, rtol: float, duration: float) 
     else:
         is_angle = np.array([name.endswith(".theta") for name in source.coordinates])
     of_q = rtol * np.where(is_angle, (length / size)[..., None], length[..., None])
-    floor = np.stack([length, length / size], axis=-1) / max(duration, 1e-300)
     film = any(joint.film for joint in source.clearances)
     of_v = np.minimum(rtol, FELT_BY_FILMS * length / size if film else rtol)
-    return np.concatenate([of_q, np.broadcast_to(of_v[..., None], of_q.shape)], axis=-1), floor
+    of_speed = np.broadcast_to(of_v[..., None], of_q.shape)
+    return np.concatenate([of_q, of_speed], axis=-1), np.stack([length, length / size], axis=-1)

@@ -62,10 +62,10 @@ class Asker:
     """Whom C asks: `look` is called, and what it raises is kept until Python is back from C (`check`)."""
 
     def __init__(self, compiled: CompiledModel, look: Callable[[], object]) -> None:
-        self.look, self.raised = look, None
+        self.look = look
+        self.raised: BaseException | None = None
         self.function = _function(compiled)
         self.handle = compiled.ffi.new_handle(self)
-        self.raised: BaseException | None
 
     @property
     def arguments(self) -> tuple[Any, Any, float]:

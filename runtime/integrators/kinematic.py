@@ -18,13 +18,13 @@ from gudgeon.errors import SolverError
 from gudgeon.integrators.asking import Asker
 from gudgeon.integrators.failure import STALLED, STOPPED, Pace, too_far
 from gudgeon.integrators.kinematic_events import Events
+from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
 from gudgeon.start import mechanism_size
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
 REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
-RESOLUTION = 1e-12  # s: an output so close to the end of the run is the end
 CHUNK, TURN = 10_000, 0.02  # samples whose motion, works and events are computed together, at most; s they may take
 
 
@@ -110,8 +110,8 @@ class _Way:
     def _cut(self, first: int, end: int) -> int:
         """An event ends the run among these rows: the last sample stands at its time."""
         assert self.events is not None
-        t_end = float(self.events.found["t"][-1])
-        last = first + int(np.searchsorted(self.t[first : end + 1], t_end - RESOLUTION))
+        t_end = float(self.events.in_order()[0]["t"][-1])
+        last = first + int(np.searchsorted(self.t[first : end + 1], t_end - resolution(self.problem.t)))
         self.t = np.append(self.t[:last], t_end)
         if last > first:
             self.compiled.lib.gudgeon_course_again(self.pointer(self.course, "void *"))
@@ -141,12 +141,12 @@ class _Way:
 
         rows = slice(self.reached + 1)
         empty, t = np.zeros((self.reached + 1, 0)), self.t[rows].copy()
-        events = no_events() if self.events is None else self.events.found
+        events, lost = (no_events(), no_events()) if self.events is None else self.events.in_order()
         counts = Counts(int(self.longs[0]), 0, phi_max=float(self.maxima[0]), phi_dot_max=float(self.maxima[1]))
         return Trajectory(
             t, self.q[rows], self.v[rows], self.a[rows], empty, empty.astype(np.int8), self.work[rows],
             np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, 3)), counts, interrupted, stopped, self.seconds,
-            events[events["t"] <= t[-1]],
+            events[events["t"] <= t[-1]], no_number=lost[lost["t"] <= t[-1]],
         )  # fmt: skip
 
 

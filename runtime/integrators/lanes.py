@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.arrays import address
 from gudgeon.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
@@ -52,8 +53,7 @@ class Lanes:
 
     def together(self, runs: Runs, group: list[int], memories: NDArray[np.uint8]) -> None:
         """Moves these runs on, each in a row of `memories`, until none goes on with others."""
-        size = memories.strides[0]
-        rows = [memories.ctypes.data + k * size for k in range(self.count)]
+        rows = [address(runs.compiled.ffi, memory) for memory in memories[: self.count]]
         pointers = self.ffi.new("void *[]", [self.ffi.cast("void *", row) for row in rows])
         number = self.ffi.new("long[]", [*group, *[NONE] * (self.count - len(group))])
         batch = self.ffi.cast("void *", int(runs.compiled.ffi.cast("uintptr_t", runs.struct)))
@@ -65,7 +65,7 @@ class Lanes:
             for k, i in enumerate(group):
                 if listed and before[k] != NONE and runs.arrays["status"][i] != NOT_CLOSED:
                     over = bool(runs.arrays["phase"][i] == OVER)
-                    runs.fetch(i, runs.compiled.ffi.cast("void *", rows[k]), over)
+                    runs.fetch(i, runs.compiled.pointer(memories[k], "void *"), over)
 
 
 def wanted(compiled: CompiledModel, method: str, steps: Array) -> bool:

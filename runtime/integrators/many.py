@@ -20,7 +20,7 @@ from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.asking import CtrlC
 from gudgeon.integrators.failure import INTERRUPTED, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
-from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts
+from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, told_apart
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Progress, Trajectory
 from gudgeon.start import assemble, mechanism_sizes
 
@@ -42,13 +42,13 @@ class Runs:
         self.compiled, self.method, self.times = compiled, method, times
         n, N, size, nc = len(p), len(times), 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
         self.n = n
-        scale, floor = adaptive.tolerances(compiled, p, rtol, float(times[-1] - times[0]))
+        scale, least = adaptive.tolerances(compiled, p, rtol)
         self.arrays: dict[str, NDArray[Any]] = {
             "t": times, "p": p, "p_motion": motion, "size": mechanism_sizes(compiled, p), "step": step,
-            "scale": scale, "floor": floor, "start": np.full((n, 2 * compiled.n), np.nan),
+            "scale": scale, "least": least, "start": np.full((n, 2 * compiled.n), np.nan),
             "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((n, N, size)),
             "latched": np.empty((n, N, max(compiled.n_memory, 1))), "state": np.zeros((n, N, nc), np.int8),
-            "done": np.zeros(n, np.int_), "within": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
+            "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
             "t_last": np.full(n, times[0]), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
             "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, 4), np.nan),
             "peaks": np.full((n, nc, 3), np.nan), "ending": np.zeros(1, np.intc),
@@ -70,9 +70,12 @@ class Runs:
         struct.fixed, struct.stop = float(self.arrays["step"][0]) if fixed else 0.0, int(stop)
         kinds = {"uint8": "unsigned char *", "int8": "signed char *", "int32": "int *", "int64": "long *"}
         for name, array in self.arrays.items():
-            setattr(struct, name, self.compiled.pointer(array, kinds.get(array.dtype.name, "double *")))
+            setattr(struct, name, self.compiled.pointer(array, kinds.get(array.dtype.name, "double *"), True))
         return struct
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What is over: arrays and lists, without what C worked on."""
+        return self.__dict__ | {"struct": None, "lanes": None}
     @property
     def stopping(self) -> bool:
         """Whether all runs are to end where they are; C reads the same number."""
@@ -182,7 +185,7 @@ class Runs:
     def fetch(self, i: int, run: Any, last: bool) -> None:
         """Takes over the lists of contacts and events of run i."""
         self.impacts[i].append(fetch_impacts(self.compiled, run, last))
-        self.events[i].append(fetch_events(self.compiled, run, float(self.times[0])))
+        self.events[i].append(fetch_events(self.compiled, run, self.times))
 
     def _failure(self, i: int) -> GudgeonError:
         """What ended run i, as a single run says it."""
@@ -199,8 +202,7 @@ class Runs:
 
     def events_of(self, i: int) -> NDArray[Any]:
         """EVENT_DTYPE, the user events of run i by time."""
-        events = np.concatenate(self.events[i])
-        return events[np.argsort(events["t"], kind="stable")]
+        return told_apart(self.compiled, np.concatenate(self.events[i]))[0]
 
     def counts(self, i: int) -> Counts:
         """Sums and maxima over the steps of run i."""
@@ -221,4 +223,5 @@ class Runs:
             self.impacts_of(i), self.arrays["peaks"][i, :joints].copy(), self.counts(i),
             self.interrupted and error is not None, error if isinstance(error, SolverError) else None,
             seconds=float(self.arrays["seconds"][i]), events=self.events_of(i),
+            no_number=told_apart(compiled, np.concatenate(self.events[i]))[1],
         )  # fmt: skip

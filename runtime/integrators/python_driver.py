@@ -149,7 +149,8 @@ class _Driver:
         self.stepper: Stepper
         self.began = math.nan  # s, when the packages were there
         duration = float(problem.t[-1] - problem.t[0])
-        self.scale, self.speed_floor = tolerances(problem.compiled, problem.p, problem.rtol, duration)
+        self.scale, least = tolerances(problem.compiled, problem.p, problem.rtol)
+        self.speed_floor = least / max(duration, 1e-300)
         self.angle = np.array([name.endswith(".theta") for name in problem.compiled.source.coordinates])
         self.t, self.y = float(problem.t[0]), np.concatenate([problem.q, problem.v, np.zeros(N_WORK)])
         self.speed, self.controlled = np.zeros(2), np.zeros(2)

@@ -1,7 +1,9 @@
 """Classical Runge–Kutta of order 4 with fixed step: the loop is in C (templates/c/rk4.c.jinja).
 
-Python is called once a chunk of steps and fetches impacts and samples; C asks it on the way whether to go on.
-Constraints are stabilised by Baumgarte's terms (physics.md, section 1).
+Every step is as long as was asked for, the last one as is left; outputs do not touch them. Samples between two steps
+come from the cubic through both. Python is called once a chunk of steps and fetches impacts and events; C asks it on
+the way whether to go on. In the full formulation constraints are stabilised by Baumgarte's terms (physics.md,
+section 1), in the reduced one they are closed after every step.
 """
 
 from __future__ import annotations
@@ -14,42 +16,38 @@ from gudgeon.integrators.trajectory import Problem, Trajectory
 
 NAME, ORDER, SOURCE = "rk4", 4, "W. Kutta, Z. Math. Phys. 46 (1901) 435-453"
 
-CHUNK = 20_000  # steps of one call of C
+CHUNK = 20_000  # steps of one call of C, which asks Python on its way (asking.py)
 ADVICE = "the step {:.3g} s is too long for this scene: take a smaller one"
+SAME = 1e-9  # share of the step by which the last one may differ and counts as equal: times are sums of rounded numbers
 
 
 def run(problem: Problem) -> Trajectory:
-    """Integrate over the output times; each interval is divided evenly into steps ≤ problem.step."""
+    """Integrate over the output times by steps of problem.step."""
     session = Session(problem)
-    _steps(session, float(problem.t[0]), float(problem.t[0]), 1, 0, 0)  # the first right-hand side
-    session.sample(0)
     return session.drive(lambda: _all(session))
 
 
 def _all(session: Session) -> None:
-    """From sample to sample; raises RunEnded, KeyboardInterrupt, SolverError."""
-    for i in range(1, len(session.problem.t)):
-        _advance(session, i)
-        session.sample(i)
-    session.look()
+    """All the way; raises RunEnded, KeyboardInterrupt, SolverError."""
+    while session.done < len(session.problem.t):
+        _chunk(session)
+        session.look()
 
 
-def _advance(session: Session, i: int) -> None:
-    """From output time i − 1 to i."""
-    problem = session.problem
-    t0, t1 = (float(t) for t in problem.t[i - 1 : i + 1])
-    total = max(1, math.ceil((t1 - t0) / problem.step * (1.0 - 1e-12)))
-    first = 0
-    while first < total:
-        first += _steps(session, t0, t1, total, first, min(CHUNK, total - first))
-
-
-def _steps(session: Session, t0: float, t1: float, total: int, first: int, count: int) -> int:
-    """Up to `count` steps in C; the number that was made. Raises SolverError."""
-    taken = session.compiled.ffi.new("long *")
-    p = session.pointer(session.p)
+def _chunk(session: Session) -> None:
+    """Some steps in C."""
+    problem, done = session.problem, session.pointer(session.rows_done, "long *", True)
+    grid = (problem.step, len(problem.t), session.pointer(problem.t))
     before = perf_counter()
-    status = session.lib.gudgeon_run_steps(session.run, p, t0, t1, total, first, count, taken)
+    status = session.lib.gudgeon_rk4_run(
+        session.run, session.pointer(session.p), *grid, CHUNK, *session.rows(0), done
+    )  # fmt: skip
     session.seconds += perf_counter() - before
-    session.back(status, t0 + (first + taken[0]) * (t1 - t0) / total, ADVICE.format(session.problem.step))
-    return int(taken[0])
+    session.back(status, session.report()[0], ADVICE.format(problem.step))
+
+
+def last_step(duration: float, step: float) -> float:
+    """Length (s) of the last of the steps over `duration`: `step`, or what is left (step_end in model.h)."""
+    total = max(1, math.ceil(duration / step * (1.0 - 1e-12)))
+    rest = duration - (total - 1) * step
+    return step if abs(rest - step) < SAME * step else rest

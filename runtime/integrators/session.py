@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon import trace
 from gudgeon.compiled import N_WORK, Array, CompiledModel
 from gudgeon.errors import SolverError
 from gudgeon.integrators.asking import Asker
@@ -17,7 +18,7 @@ from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Problem, Traject
 
 EVENTS_FULL, ENDED, STOPPED = -3, -7, -10
 N_IMPACTS, N_COUNTS = 256, 9
-RESOLUTION = 1e-11  # s, to which an event and a sample are told apart
+EPSILON = float(np.finfo(np.float64).eps)
 REPORT = ("steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "switches", "rejected", "jacobians",
           "stiff_steps")  # fmt: skip
 
@@ -26,13 +27,31 @@ class RunEnded(Exception):
     """An event of the user ends the run; its sample is stored."""
 
 
-def fetch_events(compiled: CompiledModel, run: Any, t_first: float) -> NDArray[Any]:
-    """EVENT_DTYPE, the list of user events of a struct, which is emptied; those of the start do not count."""
+def resolution(t: Array) -> float:
+    """To how many seconds an event and a sample are told apart in a run with these output times (N,)."""
+    return max(32 * EPSILON * float(abs(t[[0, -1]]).max()), 4e-12 * float(t[-1] - t[0]))
+
+
+def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
+    """EVENT_DTYPE, the list of user events of a struct, which is emptied; those of the start do not count.
+
+    What is beyond the events of the scene tells of the same events that they are no number at that time.
+    """
     t, event = np.zeros(N_IMPACTS), np.zeros(N_IMPACTS, dtype=np.intc)
     count = compiled.lib.gudgeon_run_events(run, compiled.pointer(t), compiled.pointer(event, "int *"))
     fetched = np.zeros(count, dtype=EVENT_DTYPE)
     fetched["event"], fetched["t"] = event[:count], t[:count]
-    return fetched[fetched["t"] > t_first + RESOLUTION]
+    told = fetched["event"] >= len(compiled.source.events)
+    return fetched[told | (fetched["t"] > times[0] + resolution(times))]
+
+
+def told_apart(compiled: CompiledModel, found: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Events by time, and those that are no number from a time on; EVENT_DTYPE both."""
+    ordered = found[np.argsort(found["t"], kind="stable")]
+    number = ordered["event"] < len(compiled.source.events)
+    lost = ordered[~number]
+    lost["event"] -= len(compiled.source.events)
+    return ordered[number], lost
 
 
 def fetch_impacts(compiled: CompiledModel, run: Any, last: bool) -> NDArray[Any]:
@@ -80,6 +99,9 @@ class Session:
         p_run, y = self.pointer(self.p), self.pointer(start)
         self.lib.gudgeon_run_start(self.run, p_run, problem.t[0], y, self.pointer(latched))
         self.lib.gudgeon_run_stop(self.run, int(problem.stop))
+        self.trace = np.empty((trace.ROWS if nc else 0, trace.width(nc)))
+        if nc:
+            self.lib.gudgeon_run_trace(self.run, self.pointer(self.trace, written=True), len(self.trace))
         self.asker = Asker(self.compiled, self.look)
         self.lib.gudgeon_run_asks(self.run, *self.asker.arguments)
         if problem.state is not None and nc:
@@ -122,7 +144,7 @@ class Session:
             self.fetch_impacts(last=False)
             self.fetch_events()
         elif status == ENDED:
-            self.close(RESOLUTION)
+            self.close(resolution(self.problem.t))
             raise RunEnded
         elif status:
             self.fail(status, t, advice)
@@ -130,11 +152,12 @@ class Session:
     @property
     def run(self) -> Any:
         """The struct as C takes it."""
-        return self.pointer(self.struct, "void *")
+        return self.pointer(self.struct, "void *", True)
 
     def rows(self, i: int) -> tuple[Any, ...]:
         """Pointers to row i of the samples: y, memory, codes."""
-        return self.pointer(self.y[i:]), self.pointer(self.memory[i:]), self.pointer(self.state[i:], "signed char *")
+        codes = self.pointer(self.state[i:], "signed char *", True)
+        return self.pointer(self.y[i:], written=True), self.pointer(self.memory[i:], written=True), codes
 
     def sample(self, i: int) -> None:
         """Store the present state as output i."""
@@ -150,7 +173,7 @@ class Session:
 
     def fetch_events(self) -> None:
         """Take over the list of user events from C."""
-        self.events.append(fetch_events(self.compiled, self.run, float(self.problem.t[0])))
+        self.events.append(fetch_events(self.compiled, self.run, self.problem.t))
 
     def fetch_impacts(self, last: bool) -> None:
         """Take over the list of contacts from C; with `last` those that still go on too."""
@@ -169,11 +192,11 @@ class Session:
         """What was stored, at least the start, and the run's counts."""
         if not self.done:
             self.sample(0)
-        t_last = math.inf if stopped else float(self.t[self.done - 1])
+        t_last = math.inf if stopped else float(self.t[self.done - 1]) + resolution(self.problem.t)
         self.fetch_impacts(last=True)
         self.fetch_events()
-        events = np.concatenate(self.events)
-        events = events[events["t"] <= t_last + RESOLUTION]
+        events, no_number = told_apart(self.compiled, np.concatenate(self.events))
+        events, no_number = events[events["t"] <= t_last], no_number[no_number["t"] <= t_last]
         _, counts, numbers, peaks = self.report()
         impacts = np.concatenate(self.impacts)
         impacts = impacts[np.argsort(impacts["t_on"], kind="stable")]
@@ -183,8 +206,13 @@ class Session:
             self.memory[: self.done, : self.compiled.n_memory], self.state[: self.done, : self.nc],
             y[:, 2 * n :].copy(), impacts, peaks,
             counts_of(counts, numbers), interrupted, stopped, seconds=self.seconds,
-            events=events[np.argsort(events["t"], kind="stable")],
+            events=events, no_number=no_number, trace=self._trace(),
         )  # fmt: skip
+
+    def _trace(self) -> trace.Trace | None:
+        if not self.nc:
+            return None
+        return trace.Trace.of_rows(self.trace[: self.lib.gudgeon_run_traced(self.run)], self.nc)
 
     def fail(self, status: int, t: float, advice: str) -> None:
         """Raises what a status of C stands for."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import SolverError
+from gudgeon.trace import Trace
 
 Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is being done
 
@@ -40,6 +41,7 @@ class Problem:
     rtol: float = 0.0  # of methods that choose their step
     p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
     stop: bool = True  # whether events may end the run; else they are recorded only
+    remarks: tuple[str, ...] = ()  # on the start, which the run's notes say first
     take: Callable[[], object] = lambda: None  # raises KeyboardInterrupt where Ctrl-C waits (asking.py)
 
 
@@ -84,3 +86,5 @@ class Trajectory:
     stopped: SolverError | None = None
     seconds: float | None = None  # spent in the time loop; None: not measured
     events: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE, by time
+    trace: Trace | None = None  # forces and paths from the steps; None: the method keeps none
+    no_number: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE: from when on an event is no number

@@ -69,7 +69,7 @@ def typed(simulation: Simulation, text: str, parameters: Parameters | None = Non
     slot = _slot(simulation.source, name.strip())
     values = [number(_spaced(part), slot) for part in (ends.split("..") if ".." in ends else ends.split(","))]
     if ".." in ends:
-        if len(values) != 2 or not 0 < values[0] < values[1] or (count and not count.isdigit()):
+        if len(values) != 2 or not 0 < values[0] < values[1] or (count and not (count.isascii() and count.isdigit())):
             raise BadValueError(f"axis {text!r}: expected 0 < low < high, and a whole number of values after ':'")
         values = np.geomspace(values[0], values[1], max(2, int(count or COUNT))).tolist()
     return axis(simulation, name.strip(), [float(f"{x:.6g}") for x in values], parameters)

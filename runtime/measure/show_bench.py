@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.bench import TRUSTED, Row, SceneBench
 from gudgeon.integrators.python_driver import NAMES
 from gudgeon.kernel_source import KernelSource
-from gudgeon.measure.tables import console, new_table, print_json, write_csv
+from gudgeon.measure.tables import console, new_table, print_json, write_files
 from gudgeon.measure.words import seconds, share
 from gudgeon.measure.work import NAN, Setting
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.table import Table
 
 COLUMNS = ("method", "step, tol", "run time", "rhs", "Jacobians", "coordinates", "paths", "forces")
@@ -28,21 +28,29 @@ def show_bench(
 ) -> None:
     """Print everything (or only JSON), write the table and beside it the picture."""
     rows = bench_rows(found)
-    write_csv(table, rows)
-    written = [table]
-    if find_spec("matplotlib"):
-        from gudgeon.measure.figure_bench import bench_figure
-        from gudgeon.plots import save_figure
 
-        written.append(table.with_suffix(".png"))
-        save_figure(bench_figure(source.title or source.mechanism, found, mark_step), written[-1])
+    def draw() -> Figure:
+        from gudgeon.measure.figure_bench import bench_figure
+
+        return bench_figure(source.title or source.mechanism, found, mark_step)
+
+    written, failed = write_files(table, rows, draw)
+    _show(source, found, written, mark_step, as_json)
+    if failed:
+        raise failed
+
+
+def _show(
+    source: KernelSource, found: Sequence[SceneBench], written: Sequence[Path], mark_step: float | None, as_json: bool
+) -> None:
+    """What was found, and what was written of it."""
     if as_json:
         scenes = [
             {"scene": scene.scene, "t_end_s": scene.t_end, "interrupted": scene.interrupted,
              "notes": notes(scene, mark_step)} for scene in found
         ]  # fmt: skip
         files = [str(path) for path in written]
-        print_json({"mechanism": source.mechanism, "scenes": scenes, "rows": rows, "files": files})
+        print_json({"mechanism": source.mechanism, "scenes": scenes, "rows": bench_rows(found), "files": files})
         return
     out = console()
     for scene in found:

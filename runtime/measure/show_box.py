@@ -6,18 +6,18 @@ import math
 import re
 from collections import Counter
 from collections.abc import Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.kernel_source import KernelSource
 from gudgeon.measure.cells import Cell, Status
-from gudgeon.measure.show_stress import COLOURS, FULL, SIGNS, command, partial, stress_rows
-from gudgeon.measure.tables import console, new_table, print_json, write_csv
+from gudgeon.measure.show_stress import COLOURS, FULL, SIGNS, partial, stress_rows, tell_failures
+from gudgeon.measure.tables import console, new_table, print_json, write_files
 from gudgeon.measure.words import seconds, share
 from gudgeon.stress import StressBox
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.table import Table
 
 WORST = 8  # points that are told with what runs them again; the rest is in the table on disk
@@ -25,18 +25,29 @@ SEVERITY = (Status.DIVERGED, Status.INACCURATE, Status.OUTSIDE, Status.STABLE, S
 _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 
 
-def show_box(source: KernelSource, found: Sequence[StressBox], table: Path, as_json: bool = False) -> None:
+def show_box(
+    source: KernelSource, file: str, found: Sequence[StressBox], table: Path, as_json: bool = False
+) -> None:
     """Print everything (or only JSON), write the table and beside it the picture."""
     rows = [row for box in found for row in stress_rows(box)]
-    write_csv(table, rows)
-    written = [table]
-    if find_spec("matplotlib"):
-        from gudgeon.measure.figure_box import box_figure
-        from gudgeon.plots import save_figure
 
-        written.append(table.with_suffix(".png"))
-        save_figure(box_figure(source.title or source.mechanism, found), written[-1])
+    def draw() -> Figure:
+        from gudgeon.measure.figure_box import box_figure
+
+        return box_figure(source.title or source.mechanism, found)
+
+    written, failed = write_files(table, rows, draw)
+    _show(source, file, found, written, as_json)
+    if failed:
+        raise failed
+
+
+def _show(
+    source: KernelSource, file: str, found: Sequence[StressBox], written: Sequence[Path], as_json: bool
+) -> None:
+    """What was found, and what was written of it."""
     if as_json:
+        rows = [row for one in found for row in stress_rows(one)]
         print_json({"mechanism": source.mechanism, "interrupted": any(box.interrupted for box in found),
                     "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
         return
@@ -51,11 +62,7 @@ def show_box(source: KernelSource, found: Sequence[StressBox], table: Path, as_j
         out.print(_verdicts(box.cells))
         if worst := worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
-            for cell in worst:
-                said = cell.reason or f"largest error {share(cell.error.largest)}"
-                out.print(f"  {SIGNS[cell.status]} {said}", markup=False)
-                again = command(source.mechanism, box.scene, cell, box.full)
-                out.print(f"    {again} --t-end {box.t_long:g}", markup=False, soft_wrap=True)  # to be copied
+            tell_failures(out, file, box, worst)
     for path in written:
         out.print(f"wrote {path}", markup=False)
 

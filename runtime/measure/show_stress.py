@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import math
+import shlex
 from collections import Counter
 from collections.abc import Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.kernel_source import KernelSource
 from gudgeon.measure.axes import Axis
 from gudgeon.measure.cells import Cell, Status
-from gudgeon.measure.tables import console, new_table, print_json, write_csv
-from gudgeon.measure.words import clearance, seconds
+from gudgeon.measure.tables import console, new_table, print_json, write_files
+from gudgeon.measure.words import clearance, seconds, share
 from gudgeon.measure.work import Setting
 from gudgeon.plot_units import quantity
 from gudgeon.stress import StressBox, StressMap
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Console
     from rich.table import Table
 
 COLOURS = {
@@ -41,19 +43,30 @@ LABELS = {
 
 
 def show_stress(
-    source: KernelSource, found: Sequence[StressMap], table: Path, mark_step: float | None, as_json: bool = False
-) -> None:
+    source: KernelSource, file: str, found: Sequence[StressMap], table: Path, mark_step: float | None,
+    as_json: bool = False,
+) -> None:  # fmt: skip
     """Print everything (or only JSON), write the table and beside it the picture."""
     rows = [row for scene in found for row in stress_rows(scene)]
-    write_csv(table, rows)
-    written = [table]
-    if find_spec("matplotlib"):
-        from gudgeon.measure.figure_stress import stress_figure
-        from gudgeon.plots import save_figure
 
-        written.append(table.with_suffix(".png"))
-        save_figure(stress_figure(source.title or source.mechanism, found, mark_step), written[-1])
+    def draw() -> Figure:
+        from gudgeon.measure.figure_stress import stress_figure
+
+        return stress_figure(source.title or source.mechanism, found, mark_step)
+
+    written, failed = write_files(table, rows, draw)
+    _show(source, file, found, written, mark_step, as_json)
+    if failed:
+        raise failed
+
+
+def _show(
+    source: KernelSource, file: str, found: Sequence[StressMap], written: Sequence[Path], mark_step: float | None,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """What was found, and what was written of it."""
     if as_json:
+        rows = [row for one in found for row in stress_rows(one)]
         print_json({"mechanism": source.mechanism, "interrupted": any(scene.interrupted for scene in found),
                     "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
         return
@@ -70,7 +83,8 @@ def show_stress(
         if scene.rows.name == "step":
             out.print(_boundary_table(scene))
         elif failures := [cell for cell in scene.cells if cell.failed]:
-            out.print(failure_table(source.mechanism, scene, failures))
+            out.print("  what failed, and what runs it again")
+            tell_failures(out, file, scene, failures)
     out.print(legend(found))
     for line in explain(found).splitlines():
         out.print(f"  {line}", markup=False)
@@ -112,12 +126,13 @@ def _boundary_table(scene: StressMap) -> Table:
     return table
 
 
-def failure_table(mechanism: str, found: StressMap | StressBox, failures: Sequence[Cell]) -> Table:
-    """Why, and what to type to see it again."""
-    table = new_table(("status", "reason", "to see it again"), left=("reason", "to see it again"))
-    for cell in failures:
-        table.add_row(cell.status.value, cell.reason, command(mechanism, found.scene, cell, found.full))
-    return table
+def tell_failures(out: Console, file: str, found: StressMap | StressBox, cells: Sequence[Cell]) -> None:
+    """Why, and what to type to see it again; that line is as long as it is, so that it can be copied."""
+    for cell in cells:
+        said = cell.reason or f"largest error {share(cell.error.largest)}"
+        out.print(f"  {SIGNS[cell.status]} {said}", markup=False, emoji=False)
+        again = command(file, found.scene, cell, found.t_long, found.full)
+        out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
 
 
 def partial(found: StressMap | StressBox) -> str:
@@ -139,12 +154,14 @@ def explain(found: Sequence[StressMap]) -> str:
     return "\n".join(" · ".join(parts[k : k + 3]) for k in range(0, len(parts), 3))
 
 
-def command(mechanism: str, scene: str, cell: Cell, full: bool = False) -> str:
-    """The line that runs a cell again."""
-    chosen = f"--method {cell.setting.method} --{'step' if cell.setting.fixed else 'rtol'} {cell.setting.value:g}"
-    chosen += " --formulation full" if full else ""
-    sets = " ".join(f"--set {name}={value}" for name, value in cell.parameters.items())
-    return f"gudgeon run {mechanism} --scene {scene} {chosen} {sets}".rstrip()
+def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False) -> str:
+    """The line that runs a cell again, of the file as it was typed; as it stands it can be given to a shell."""
+    words = ["gudgeon", "run", f"./{file}" if file.startswith("-") else file, "--scene", scene]
+    words += ["--method", cell.setting.method, "--step" if cell.setting.fixed else "--rtol", repr(cell.setting.value)]
+    words += ["--formulation", "full"] if full else []
+    for name, told in cell.parameters.items():
+        words += ["--set", f"{name}={told}"]
+    return shlex.join([*words, "--t-end", repr(t_end)])
 
 
 def verdict(found: Sequence[StressMap], mark_step: float | None) -> list[str]:

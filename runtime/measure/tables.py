@@ -7,13 +7,16 @@ import io
 import json
 import math
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gudgeon.commands.common import write_text
+from gudgeon.errors import OutputError
+from gudgeon.writing import write_text
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
     from rich.table import Table
 
@@ -46,6 +49,32 @@ def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
     for row in rows:
         writer.writerow({key: f"{x:.6g}" if isinstance(x, float) else x for key, x in row.items()})
     write_text(path, text.getvalue())
+
+
+def write_files(
+    table: Path, rows: Sequence[dict[str, Any]], draw: Callable[[], Figure]
+) -> tuple[list[Path], OutputError | None]:
+    """The table and beside it the picture, which `draw` draws: what was written, and an error for what was not.
+
+    It is to be raised once all is shown: what took minutes to measure is not lost with a full disk.
+    """
+    written, failed = [], None
+
+    def picture(path: Path) -> None:
+        from gudgeon.plots import save_figure
+
+        save_figure(draw(), path)
+
+    steps: list[tuple[Path, Callable[[Path], None]]] = [(table, lambda path: write_csv(path, rows))]
+    if find_spec("matplotlib"):
+        steps.append((table.with_suffix(".png"), picture))
+    for path, write in steps:
+        try:
+            write(path)
+            written.append(path)
+        except OutputError as error:
+            failed = failed or error
+    return written, failed
 
 
 def print_json(document: dict[str, Any]) -> None:

@@ -31,15 +31,16 @@ INTEGRATE = r"""
 static int go(const double *p, const double *y)
 {
     void *run = calloc(1, gudgeon_run_size());
-    double latched[N_CLEARANCES + 1], now[N_S], numbers[5 * 256];
-    signed char state[N_CLEARANCES + 1];
+    const double t[2] = {0.0, 4000 * STEP};
+    double latched[2 * (N_CLEARANCES + N_FRICTIONS + 1)], now[2 * N_S], numbers[5 * 256];
+    signed char state[2 * (N_CLEARANCES + 1)];
     int joints[256], status = 0;
-    long taken = 0;
-    for (int i = 0; i <= N_CLEARANCES; i++)
+    long done = 0;
+    for (int i = 0; i <= N_CLEARANCES + N_FRICTIONS; i++)
         latched[i] = NAN;
     gudgeon_run_start(run, p, 0.0, y, latched);
-    for (long first = 0; first < 4000 && !status; first += taken) {
-        status = gudgeon_run_steps(run, p, 0.0, 4000 * STEP, 4000, first, 4000 - first, &taken);
+    while (done < 2 && !status) {
+        status = gudgeon_rk4_run(run, p, STEP, 2, t, 4000, now, latched, state, &done);
         if (status == EVENTS_FULL)
             status = gudgeon_run_impacts(run, 0, numbers, joints) < 0;
     }

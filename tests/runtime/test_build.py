@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import select
+import shutil
 import signal
 import subprocess
 import sys
@@ -18,7 +19,7 @@ import pytest
 from gudgeon import build, compiler
 from gudgeon.build import LIBRARY, compile_kernels, library_key
 from gudgeon.cache import Cache, private_cache
-from gudgeon.errors import BuildError
+from gudgeon.errors import BadValueError, BuildError
 from tests.runtime.tiny import tiny
 
 # the real compiler behind a script that logs versions (V) and compiles of a scene (C), not the wrapper's nor the link
@@ -214,6 +215,25 @@ def test_no_headers_names_what_to_install(cache: Cache, monkeypatch: pytest.Monk
         compile_kernels(tiny())
 
 
+@pytest.mark.parametrize(
+    ("command", "code"),
+    [("echo 'as: BFD: cannot write: File too large' >&2; exit 1", "File too large"),
+     ("kill -XFSZ $$", "limit on the size"), ("echo 'Disk quota exceeded'; exit 4", "quota")],
+)  # fmt: skip
+def test_a_limit_that_stops_the_compiler_is_the_folders_fault(
+    cache: Cache, fake: Callable[..., Path], command: str, code: str
+) -> None:
+    fake(f'case "$kind $PWD" in "C {cache.root}"*) {command} ;; esac')
+    with pytest.warns(RuntimeWarning, match=code):
+        assert compile_kernels(tiny(3)).lib.scale(1.0) == 3.0
+
+
+def test_a_compiler_that_is_no_command_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CC", "'gcc")
+    with pytest.raises(BadValueError, match="(?s)CC.*No closing quotation"):
+        compiler.find_compiler()
+
+
 def test_wrong_c_shows_the_first_lines_and_leaves_nothing(cache: Cache) -> None:
     wrong = tiny(files={"tiny.c": "double scale(double x) { return undeclared_name; }\n"})
     with pytest.raises(BuildError, match="undeclared_name"):
@@ -224,12 +244,16 @@ def test_wrong_c_shows_the_first_lines_and_leaves_nothing(cache: Cache) -> None:
 def test_a_disk_that_fills_up_under_the_compiler(cache: Cache, fake: Callable[..., Path]) -> None:
     full = 'echo "ld: No space left on device" >&2; exit 1'
     fake(f'case "$kind $PWD" in "C {cache.root}"*) {full} ;; esac')
-    with pytest.warns(RuntimeWarning, match="no space left"):
+    with pytest.warns(RuntimeWarning, match="No space left"):
         assert compile_kernels(tiny()).lib.scale(1.0) == 2.0
     assert list(cache.root.glob("libraries/*")) == []
 
 
-def test_a_folder_that_forbids_running_code(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_forbids_running_code(
+    cache: Cache, fake: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As a file system mounted noexec: told once, with what to do, and compiled once for all starts."""
+    log = fake()
     real = build._open
 
     def open_elsewhere(key: str, entry: Path) -> ModuleType:
@@ -238,9 +262,26 @@ def test_a_folder_that_forbids_running_code(cache: Cache, monkeypatch: pytest.Mo
         return real(key, entry)
 
     monkeypatch.setattr(build, "_open", open_elsewhere)
-    module = compile_kernels(tiny(7))
-    assert module.lib.scale(1.0) == 7.0
+    monkeypatch.setattr(build, "_noexec", lambda folder: folder == cache.root)
+    with pytest.warns(RuntimeWarning, match="(?s)noexec.*GUDGEON_CACHE") as told:
+        for _ in range(2):
+            monkeypatch.setattr(build, "_modules", {})
+            module = compile_kernels(tiny(7))
+            assert module.lib.scale(1.0) == 7.0
+            shutil.rmtree(private_cache().root / "libraries")  # as in a new process
     assert Path(str(module.__file__)).is_relative_to(private_cache().root)
+    assert len(told) == 1
+    assert log.read_text().split() == ["V", "C"]
+
+
+def test_no_folder_where_code_may_run_says_what_to_set(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(key: str, entry: Path) -> ModuleType:
+        raise ImportError("failed to map segment from shared object")
+
+    monkeypatch.setattr(build, "_open", refuse)
+    monkeypatch.setattr(build, "_noexec", lambda folder: True)
+    with pytest.warns(RuntimeWarning), pytest.raises(BuildError, match="(?s)failed to map.*TMPDIR"):
+        compile_kernels(tiny(13))
 
 
 def test_a_library_that_loads_nowhere_is_a_build_error(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -248,7 +289,7 @@ def test_a_library_that_loads_nowhere_is_a_build_error(cache: Cache, monkeypatch
         raise ImportError("wrong ELF class")
 
     monkeypatch.setattr(build, "_open", refuse)
-    with pytest.raises(BuildError, match="wrong ELF class"):
+    with pytest.warns(RuntimeWarning, match="wrong ELF class"), pytest.raises(BuildError, match="wrong ELF class"):
         compile_kernels(tiny(11))
 
 

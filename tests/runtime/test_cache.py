@@ -116,12 +116,37 @@ def test_a_file_in_place_of_an_entry_is_replaced(folder: Cache) -> None:
 def test_leftovers_of_dead_processes_are_swept_and_those_at_work_are_not(folder: Cache) -> None:
     folder.fetch("kind", "first", Writer())
     aside = folder.root / "aside"
-    for name in ("dead.x1", "dead.x2.old", "second.y", "alive.z"):
+    dead, second, alive = (digest([name]) for name in ("dead", "second", "alive"))
+    for name in (f"{dead}.abcdefg1", f"{dead}.abcdefg2.old", f"{second}.abcdefg3", f"{alive}.abcdefg4"):
         (aside / name).mkdir()
         (aside / name / "half.so").write_bytes(b"half")
-    with FileLock(folder.root / "locks" / "alive.lock"):
-        folder.fetch("kind", "second", Writer())
-        assert [path.name for path in aside.iterdir()] == ["alive.z"]
+    with FileLock(folder.root / "locks" / f"{alive}.lock"):
+        folder.fetch("kind", second, Writer())
+        assert [path.name for path in aside.iterdir()] == [f"{alive}.abcdefg4"]
+
+
+def test_the_sweep_removes_nothing_that_was_not_made_there(folder: Cache, tmp_path: Path) -> None:
+    """Neither what a link leads to, nor what somebody else put aside."""
+    precious = tmp_path / "precious"
+    own = f"{digest(['dead'])}.abcdefgh"
+    for path in (precious, precious / own):
+        path.mkdir()
+    (precious / "file").write_text("precious")
+    folder.fetch("kind", "first", Writer())
+    aside = folder.root / "aside"
+    (aside / own).symlink_to(precious)
+    (aside / "notes.backup01").mkdir()
+    (aside / "file").write_text("mine")
+    folder.fetch("kind", "second", Writer())
+    assert sorted(os.listdir(aside)) == sorted([own, "notes.backup01", "file"])
+    for path in (aside / own, aside / "file"):
+        path.unlink()
+    (aside / "notes.backup01").rmdir()
+    aside.rmdir()
+    aside.symlink_to(precious)
+    with pytest.warns(RuntimeWarning, match="cannot be used"):
+        folder.fetch("kind", "third", Writer())
+    assert sorted(os.listdir(precious)) == sorted([own, "file"])
 
 
 def test_threads_make_it_once(folder: Cache) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -110,6 +111,39 @@ def test_equations_wants_a_known_suffix(call: Gudgeon, pump: str, tmp_path: Path
     done = call("equations", pump, "-o", "x.pdf")
     assert done.exit_code == 2 and ".tex" in done.stderr
     assert written(tmp_path) == set()
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "equations PUMP -o FILE/x.tex", "equations PUMP -o LONG.tex", "equations PUMP -o LONG/x.html",
+        "emit PUMP -o FILE", "emit PUMP -o FILE/x", "emit PUMP -o LONG", "run PUMP --out FILE", "run PUMP --out LONG",
+        "run PUMP --out x/LONG/y", "run LONG.yaml", "check LONG.yaml", "bench PUMP --csv LONG.csv",
+        "stress PUMP --csv FILE/x.csv", "stress PUMP --out LONG", "run /dev/zero", "check /dev", "check pipe.yaml",
+        "emit pipe.yaml -o c", "equations pipe.yaml -o x.txt",
+    ],
+)  # fmt: skip
+def test_names_that_cannot_be_are_told(line: str, call: Gudgeon, pump: str, tmp_path: Path) -> None:
+    """A file in a folder's place, a name too long, a file that is none: a sentence, exit code 2, nothing written."""
+    (tmp_path / "FILE").write_text("mine")
+    os.mkfifo(tmp_path / "pipe.yaml")
+    done = call(*line.replace("PUMP", pump).replace("LONG", "n" * 300).split())
+    assert done.exit_code == 2 and done.stderr.startswith("error: "), done.output
+    assert isinstance(done.exception, SystemExit) and len(done.stderr) < 600
+    assert written(tmp_path) == {"FILE"} and (tmp_path / "FILE").read_text() == "mine"
+    assert sorted(os.listdir(tmp_path)) == ["FILE", "pipe.yaml", "pump.yaml"]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("CC", "'gcc"), ("GUDGEON_CACHE", "~no-such-user"), ("GUDGEON_CACHE", "~no-such-user/x")]
+)
+def test_a_variable_that_cannot_be_is_told(
+    name: str, value: str, call: Gudgeon, pump: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(name, value)
+    done = call("run", "pendulum", "--t-end", "0.01")
+    assert done.exit_code == 2 and name in done.stderr and value in done.stderr, done.output
+    assert isinstance(done.exception, SystemExit) and written(tmp_path) == set()
 
 
 def test_version_and_help(call: Gudgeon) -> None:

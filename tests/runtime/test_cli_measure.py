@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import csv
+import errno
+import os
+import shlex
 import sys
 from pathlib import Path
 
@@ -49,6 +52,40 @@ def test_options_that_say_nothing_are_refused(
     done = call("stress", pump, *arguments)
     assert done.exit_code == 2, done.output
     assert told in done.stderr and "load(" not in done.stderr
+    assert written(tmp_path) == set()
+
+
+def test_what_stress_prints_runs_as_it_stands(call: Gudgeon, pump: str, tmp_path: Path) -> None:
+    """For a file of one's own, whatever it is called, with its settings; as a shell reads the line."""
+    (tmp_path / "my dir").mkdir()
+    Path(pump).rename(tmp_path / "my dir/the pump's.yaml")
+    how = ("--box", "0", "--range", "c=.2mm..0.25mm", "--at", "1e-3", "--set", "omega=18 rad/s", "--t-end", "2ms")
+    done = call("stress", "my dir/the pump's.yaml", "--quick", *how)
+    assert done.exit_code == 0, done.output
+    lines = [line for line in done.stdout.splitlines() if line.strip().startswith("gudgeon run ")]
+    assert lines
+    words = shlex.split(lines[-1])
+    assert words[2] == "my dir/the pump's.yaml" and "omega=18 rad/s" in words
+    again = call(*words[1:])
+    assert again.exit_code == 0 and "pump_worn.nc" in again.stdout, again.output
+    assert gudgeon.Result.load(tmp_path / "out/pump_worn.nc").t[-1] == 2e-3
+
+
+@pytest.mark.parametrize("command", ["bench", "stress"])
+def test_what_was_measured_is_shown_though_the_disk_is_full(
+    command: str, call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    call("check", pump, "-v")  # into the cache, for which there is room
+    gudgeon.load(pump, "worn")
+    methods = ("--methods", "rk4") if command == "bench" else ("--axis", "rtol=1e-3,1e-4", "--axis", "c=.2mm,.25mm")
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "replace", full)
+        done = call(command, pump, "--scene", "worn", "--quick", "--t-end", "1ms", *methods)
+    assert done.exit_code == 1 and "No space left" in done.stderr, done.output
+    assert "worn" in done.stdout and "stable" in done.stdout + "stable" * (command == "bench")
     assert written(tmp_path) == set()
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import socket
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -17,9 +18,9 @@ import pytest
 import gudgeon
 from gudgeon import shipped
 from gudgeon.cache import Cache
-from gudgeon.errors import BadValueError, InputError, UnknownNameError
+from gudgeon.errors import BadValueError, InputError, LimitError, UnknownNameError
 from gudgeon.kernel_source import KernelSource
-from gudgeon.loading import find_mechanism, generator_hash, kernel_source, model_key, read_bytes
+from gudgeon.loading import MAX_BYTES, find_mechanism, generator_hash, kernel_source, model_key, read_bytes
 from gudgeon.shipped import PACKAGE, read_generated, shipped_file, write_generated
 from tests.runtime.tiny import tiny
 
@@ -82,6 +83,45 @@ def test_a_file_that_cannot_be_read_is_bad_input(tmp_path: Path) -> None:
     for path in (tmp_path / "absent.yaml", tmp_path):
         with pytest.raises(InputError, match="cannot read"):
             read_bytes(path)
+
+
+@pytest.mark.parametrize("what", ["/dev/zero", "pipe", "socket", "/proc/self/fd", "sparse", "endless", "zero byte"])
+def test_only_regular_files_within_a_limit_are_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, what: str) -> None:
+    """Nothing that has no end or keeps us waiting is opened, and a large file is refused before it is read."""
+    path = Path(what) if what.startswith("/") else tmp_path / "x.yaml"
+    if what == "pipe":
+        os.mkfifo(path)
+    elif what == "socket":
+        monkeypatch.chdir(tmp_path)  # a socket's path is short
+        socket.socket(socket.AF_UNIX).bind(path.name)
+    elif what == "sparse":
+        path.touch()
+        os.truncate(path, 1 << 40)
+    elif what == "endless":  # a regular file that says that it is empty, as those of /proc do
+        path.write_bytes(bytes(MAX_BYTES + 2))
+        real, found = os.fstat, os.stat(path)
+        empty = os.stat_result([*found[:6], 0, *found[7:10]])
+        monkeypatch.setattr(os, "fstat", lambda fd: empty if real(fd).st_ino == found.st_ino else real(fd))
+    elif what == "zero byte":
+        path = tmp_path / "x\0.yaml"
+    opened: list[str] = []
+    real_open = os.open
+    monkeypatch.setattr(os, "open", lambda p, *a, **k: opened.append(str(p)) or real_open(p, *a, **k))
+    with pytest.raises(LimitError if what in ("sparse", "endless") else InputError) as caught:
+        read_bytes(path)
+    assert caught.value.exit_code == 2
+    assert not opened or what in ("sparse", "endless", "zero byte")
+
+
+def test_a_pipe_in_place_of_a_file_is_refused(tmp_path: Path) -> None:
+    """As bash makes one: gudgeon check <(cat x.yaml). A file is read more than once."""
+    reading, writing = os.pipe()
+    try:
+        with pytest.raises(InputError, match="(?s)a pipe.*to a file first"):
+            read_bytes(Path(f"/dev/fd/{reading}"))
+    finally:
+        os.close(reading)
+        os.close(writing)
 
 
 # the key

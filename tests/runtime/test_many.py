@@ -168,10 +168,16 @@ def test_interruption_keeps_what_was_computed() -> None:
 def test_to_xarray() -> None:
     pytest.importorskip("xarray")
     _, batch = press_runs("dry", {"rtol": 1e-6})
-    data = batch.to_xarray(["S9.y"])
-    assert dict(data.sizes) == {"run": 3, "time": 13, "coordinate": 24, "kind": 3, "joint": 2}
-    np.testing.assert_array_equal(data["parameters.c"], CLEARANCES)
-    np.testing.assert_array_equal(data["S9.y"], data["q"].sel(coordinate="S9.y"))
+    data = batch.to_xarray(["L1.head.x"])
+    assert dict(data.sizes) == {"run": 3, "time": 13}
+    table = data.to_dataframe()
+    assert len(table) == 3 * 13
+    for i in range(3):
+        run, own = batch[i], table.xs(i, level="run")
+        assert (own["parameters.c"] == CLEARANCES[i]).all() and (own["samples"] == len(run.t)).all()
+        for name in ("L1.head.x", "S9.y", "S9.vy", "L2.theta", "L2.omega", "work.drives"):
+            np.testing.assert_array_equal(own[name], run[name])
+        assert (own["A.peak.F"] == run.diagnostics.peak("A").F).all()
 
 
 @pytest.mark.parametrize("name", ["nine_bar_press", "andrews_squeezer", "four_bar", "slider_crank", "belt_block"])

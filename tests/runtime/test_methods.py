@@ -66,8 +66,52 @@ def test_dop853_has_order_8_and_its_interpolant_7(inside: bool) -> None:
     assert found == pytest.approx(8.0, abs=0.4)
 
 
-def test_rk4_has_order_4() -> None:
-    assert observed_order("swing", "rk4", 1.0, (60, 4000, 12), False) == pytest.approx(4.0, abs=0.15)
+@pytest.mark.parametrize("inside", [False, True])
+def test_rk4_has_order_4(inside: bool) -> None:
+    """The cubic errs by O(h⁴) on the way, which is as good as the ends of the steps."""
+    assert observed_order("swing", "rk4", 1.0, (60, 4000, 12), inside) == pytest.approx(4.0, abs=0.15)
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_outputs_leave_the_steps_of_rk4_alone(formulation: str) -> None:
+    """Steps as long as was asked for: the same bits, contacts and costs whatever is looked at in between."""
+    press = gudgeon.load("nine_bar_press", "dry", formulation=formulation)  # type: ignore[arg-type]
+    step, t_end = 2e-5, 0.03
+    alone = press.simulate(t_end, output=1, method="rk4", step=step)
+    times = np.sort(np.random.default_rng(1).uniform(0.0, t_end, 4000))
+    run = press.simulate(output=[*times, t_end], method="rk4", step=step)
+    assert len(alone.impacts) > 0
+    assert run.diagnostics.steps == alone.diagnostics.steps == 1500
+    assert run.diagnostics.right_hand_sides == alone.diagnostics.right_hand_sides
+    assert run.diagnostics.step == step and math.isnan(run.diagnostics.last_step)
+    assert run.impacts.tobytes() == alone.impacts.tobytes()
+    assert run.diagnostics.peaks == alone.diagnostics.peaks
+    for name in ("q", "v", "work", "state"):
+        assert (getattr(run, name)[-1] == getattr(alone, name)[-1]).all()
+    ends = press.simulate(t_end, output=1500, method="rk4", step=step)
+    some = press.simulate(output=np.sort([*times[::50], *ends.t[::7], t_end]), method="rk4", step=step)
+    assert (some.q[np.isin(some.t, ends.t[::7])] == ends.q[::7]).all()  # at the end of a step the step's own
+
+
+def test_samples_of_rk4_know_their_contacts() -> None:
+    """Between two steps too: closed from onset to separation, and not outside."""
+    run = scene_of("nine_bar_press", "dry").simulate(0.03, output=7919, method="rk4", step=2e-5)
+    for k, joint in enumerate(run.source.clearances):
+        touching = np.zeros(len(run.t), dtype=bool)
+        for impact in run.impacts[run.impacts["joint"] == k]:
+            touching |= (run.t >= impact["t_on"]) & ~(run.t >= impact["t_off"])
+        assert touching.any() and not touching.all()
+        assert ((run.state[:, k] > 0) == touching).all()
+        assert (np.isfinite(run[f"{joint.name}.deltadot_minus"]) == touching).all()
+
+
+def test_a_step_that_does_not_fill_the_run_is_told() -> None:
+    run = scene_of("swing").simulate(1.0, output=10, method="rk4", step=0.03)
+    assert run.diagnostics.steps == 34
+    assert run.diagnostics.step == 0.03
+    assert run.diagnostics.last_step == pytest.approx(0.01, rel=1e-9)
+    longer = scene_of("swing").simulate(0.02, output=10, method="rk4", step=0.03)
+    assert (longer.diagnostics.steps, longer.diagnostics.step) == (1, 0.02)
 
 
 def digits(run: Result) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 h5py = pytest.importorskip("h5py")
 
-from gudgeon.errors import GudgeonError, InputError  # noqa: E402
+from gudgeon.errors import InputError, OutputError  # noqa: E402
 from gudgeon.results import Result, read  # noqa: E402
 
 
@@ -41,7 +42,9 @@ def test_reading_does_not_need_what_can_be_computed(run: Result, tmp_path: Path)
             assert file[name].attrs["units"] == (unit or "1")
             np.testing.assert_array_equal(file[name].to_numpy(), run[name])
         np.testing.assert_array_equal(file["time"].to_numpy(), run.t)
-        assert file["impact.t_on"].dims == ("impact",)
+    with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf", group="impacts") as file:
+        np.testing.assert_array_equal(file["t_on"].to_numpy(), run.impacts["t_on"])
+        assert file["joint"].to_numpy().tolist() == ["A", "A"]
 
 
 def test_the_same_run_gives_the_same_bytes(make: object, tmp_path: Path) -> None:
@@ -53,17 +56,15 @@ def test_the_same_run_gives_the_same_bytes(make: object, tmp_path: Path) -> None
 def test_a_failed_write_leaves_the_older_file_and_nothing_else(
     run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gudgeon import netcdf
-
     path = tmp_path / "run.nc"
     run.save(path)
     before = path.read_bytes()
 
-    def fail(run: Result) -> dict[str, str]:
+    def fail(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(netcdf, "attributes", fail)  # the last thing that is written
-    with pytest.raises(GudgeonError, match="No space left"):
+    monkeypatch.setattr(os, "replace", fail)  # the last thing that is done
+    with pytest.raises(OutputError, match="No space left"):
         run.save(path)
     assert path.read_bytes() == before
     assert list(tmp_path.iterdir()) == [path]
@@ -97,7 +98,15 @@ def test_an_output_may_be_called_like_a_dimension(run: Result, tmp_path: Path) -
 def test_a_dataset_is_what_the_file_holds(run: Result, ideal: Result, tmp_path: Path) -> None:
     xarray = pytest.importorskip("xarray")
     pytest.importorskip("h5netcdf")
+    groups = {"dry": ("impacts", "parameters"), "ideal": ("parameters",)}
     for result in (run, ideal):
         result.save(tmp_path / "run.nc")
         with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf") as file:
             xarray.testing.assert_identical(file.load(), result.to_xarray())
+        for part in groups[result.source.scene]:
+            with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf", group=part) as file:
+                xarray.testing.assert_identical(file.load(), result.to_xarray(part))
+        with h5py.File(tmp_path / "run.nc") as file:
+            assert {name for name in file if isinstance(file[name], h5py.Group)} == {
+                *groups[result.source.scene], "compiled"
+            }

@@ -21,6 +21,7 @@ from gudgeon.results import Result
 
 compiled = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 PRESS = "nine_bar_press"
+VALID = Path(__file__).parent.parent / "mechanisms" / "valid"
 
 
 @compiled
@@ -51,6 +52,46 @@ def test_a_fixed_step_is_compared_with_a_smaller_one() -> None:
     """RK4 at a step that leaves few of them to a contact: what it finds after the first ones is its own."""
     run = gudgeon.load(PRESS, scene="dry").simulate(0.1, output=10, method="rk4", step=2e-5, horizon=True)
     assert 0.006 < run.diagnostics.horizon < 0.08
+
+
+@compiled
+@pytest.mark.parametrize(("file", "scene", "options", "runs"), [
+    (PRESS, "dry", {"parameters": {"c": 0.5e-3}}, ((0.2, 200), (1.0, 2000), (4.0, 500))),
+    (PRESS, "dry", {"parameters": {"c": 0.5e-3}, "method": "rk4", "step": 2e-5}, ((0.2, 333), (1.5, 200))),
+    (VALID / "double_pendulum.yaml", "fast", {}, ((0.2, 200), (4.0, 2000))),
+])  # fmt: skip
+def test_neither_t_end_nor_output_move_it(
+    file: str | Path, scene: str, options: dict[str, Any], runs: tuple[tuple[float, int], ...]
+) -> None:
+    simulation = gudgeon.load(file, scene)
+    found = [simulation.simulate(t_end, output=n, horizon=True, **options).diagnostics.horizon for t_end, n in runs]
+    assert max(found) <= 1.2 * min(found) < math.inf
+
+
+@compiled
+def test_a_run_without_play_parts_where_a_longer_one_does(tmp_path: Path) -> None:
+    """Three bars in a row, let go: chaotic, and slowly so."""
+    bars = "".join(f"  L{k}: {{length: 150 mm, mass: .1 kg, inertia: 3e-4 kg*m^2}}\n" for k in (1, 2, 3))
+    pins = "".join(f"  J{k}: {{revolute: [L{k}.head, L{k + 1}.tail]}}\n" for k in (1, 2))
+    (tmp_path / "bars.yaml").write_text(
+        f"format: gudgeon/1\nname: bars\ngravity: [0, -9.81 m/s^2]\nbodies:\n{bars}ground: {{O: [0, 0]}}\n"
+        f"joints:\n  J0: {{revolute: [ground.O, L1.tail]}}\n{pins}"
+        "start: {set: {L1.theta: 120 deg, L2.theta: 60 deg, L3.theta: 10 deg}}\n", encoding="utf-8",
+    )  # fmt: skip
+    run = gudgeon.load(tmp_path / "bars.yaml").simulate
+    found = [run(t, output=n, rtol=1e-6, horizon=True).diagnostics.horizon for t, n in ((4.0, 20), (8.0, 99))]
+    assert min(found) > 1.0 and max(found) <= 1.2 * min(found) < math.inf
+    assert run(1.0, output=20, rtol=1e-6, horizon=True).diagnostics.horizon == math.inf
+
+
+@compiled
+@pytest.mark.parametrize("options", [{}, {"method": "rodas5p"}, {"method": "rk4", "step": 2e-5}])
+def test_the_steps_of_a_longer_run_are_those_of_a_shorter_one(options: dict[str, Any]) -> None:
+    """Bit for bit before a step would reach its end: t_end enters no tolerance and no first step."""
+    press = gudgeon.load(PRESS, scene="dry")
+    short, long = (press.simulate(output=[0.0, 0.01, 0.02, t_end], **options) for t_end in (0.1, 0.3))
+    assert len(short.impacts[short.impacts["t_on"] < 0.02]) > 2
+    assert short.q[:3].tobytes() == long.q[:3].tobytes() and short.v[:3].tobytes() == long.v[:3].tobytes()
 
 
 def with_horizon(run: Result, value: float) -> Result:

@@ -97,6 +97,18 @@ def test_each_run_is_bit_for_bit_that_made_alone(case: Case, monkeypatch: pytest
         assert set(seen.arrived) >= set(range(COUNT - 1))
 
 
+def test_samples_between_steps_are_those_made_alone() -> None:
+    """Some in every step, in steps with contacts and without: the cubic of each run, whoever made the step."""
+    press = gudgeon.load("nine_bar_press", "dry")
+    sets = {"omega": np.linspace(6.0, 30.0, COUNT)}
+    together, _ = both(press, sets, 0.02, step=2e-5, output=2347)
+    for i in (0, 4, COUNT - 1):
+        alone = press.simulate(0.02, output=2347, method="rk4", step=2e-5, parameters={"omega": sets["omega"][i]})
+        assert (together.q[i] == alone.q).all() and (together.v[i] == alone.v).all()
+        assert (together.work[i] == alone.work).all() and (together.state[i] == alone.state).all()
+    assert sum(map(len, together.impacts)) > COUNT
+
+
 def test_any_number_of_runs_and_threads(monkeypatch: pytest.MonkeyPatch) -> None:
     simulation = gudgeon.load("andrews_squeezer")
     masses = np.linspace(0.02, 0.06, 17)

@@ -100,6 +100,17 @@ static inline double max_of(double x, double y) { return x < y ? y : x; }
 static inline double min_of(double x, double y) { return x > y ? y : x; }
 static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
 static inline double total_force(const Clearance *joint) { return sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t); }
+/*
+ * Time at which step i (1, 2, ...) of a fixed length ends, from t0 towards t_end; `h` is its length. The last one ends
+ * at t_end and is the shorter for it.
+ */
+static inline double step_end(double t0, double t_end, double step, double i, double *h)
+{
+    const double total = max_of(ceil((t_end - t0) / step * (1.0 - 1e-12)), 1.0);
+    const double rest = t_end - t0 - (total - 1.0) * step;
+    *h = i < total || fabs(rest - step) < 1e-9 * step ? step : rest;
+    return i < total ? t0 + i * step : t_end;
+}
 /* The side of corner k: as it is held, or where g is. */
 static inline double side_of(const double *side, double *g, int k, double value)
 {

@@ -16,7 +16,7 @@ typedef struct {
     unsigned char *started, *phase;
     double *y, *latched;                  /* samples */
     signed char *state;
-    long *done, *within;                  /* samples stored; rk4's steps since the last one */
+    long *done;                           /* samples stored */
     int *status;
     double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
     long *counts;                         /* as gudgeon_run_report has them */

@@ -35,41 +35,16 @@ static void take_sample(const Batch *b, long i, long k, Run *run)
         b->latched + row * 1, b->state + row * 1);
 }
 
-/* Runge-Kutta from sample to sample, each interval divided evenly; at most `limit` steps. */
-static int advance_rk4(const Batch *b, long i, Run *run)
+/* Steps of run i, at most `limit`, with their samples. */
+static int advance(const Batch *b, long i, long limit, Run *run)
 {
     const double *p = b->p_motion + i * b->numbers;
-    long left = b->limit, taken = 0;
-    int status = 0;
-    if (!b->done[i]) {
-        status = gudgeon_run_steps(run, p, b->t[0], b->t[0], 1, 0, 0, &taken);
-        if (!status)
-            take_sample(b, i, b->done[i]++, run);
-    }
-    while (!status && b->done[i] < b->samples && left > 0) {
-        const double t0 = b->t[b->done[i] - 1], t1 = b->t[b->done[i]];
-        const long total = (long)max_of(ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)), 1.0);
-        const long rest = total - b->within[i];
-        status = gudgeon_run_steps(run, p, t0, t1, total, b->within[i], rest < left ? rest : left, &taken);
-        b->within[i] += taken;
-        b->t_last[i] = t0 + (double)b->within[i] * (t1 - t0) / (double)total;
-        left -= taken;
-        if (!status && b->within[i] == total) {
-            take_sample(b, i, b->done[i]++, run);
-            b->within[i] = 0;
-        }
-    }
-    return status;
-}
-
-static int advance(const Batch *b, long i, Run *run)
-{
-    if (b->choice < 0)
-        return advance_rk4(b, i, run);
     const long row = i * b->samples;
-    const int status = gudgeon_adaptive_run(run, b->p_motion + i * b->numbers, b->samples, b->t, b->limit,
-        b->y + row * N_S, b->latched + row * 1, b->state + row * 1,
-        b->done + i);
+    double *y = b->y + row * N_S, *latched = b->latched + row * 1;
+    signed char *state = b->state + row * 1;
+    const int status = b->choice < 0
+        ? gudgeon_rk4_run(run, p, b->step[i], b->samples, b->t, limit, y, latched, state, b->done + i)
+        : gudgeon_adaptive_run(run, p, b->samples, b->t, limit, y, latched, state, b->done + i);
     b->t_last[i] = run->t;
     return status;
 }
@@ -117,7 +92,7 @@ int gudgeon_many(const void *batch, void *memory, long *current, long end)
         if (b->phase[i] == OVER)
             continue;
         const double before = seconds_now();
-        const int status = advance(b, i, run);
+        const int status = advance(b, i, b->limit, run);
         b->seconds[i] += seconds_now() - before;
         if (status == EVENTS_FULL)
             return LISTS;

@@ -350,9 +350,9 @@ static void watch(LaneRun *x, const LaneAside *aside, double h, const Lanes *phi
 
 /*
  * One step of all lanes, as rk4_trial and accept of rk4.c. Returns the lanes in which something rare is met; where
- * there are any, `before` is x as it was.
+ * there are any, or it is to be kept, `before` is x as it was.
  */
-static LaneBits lane_step(LaneRun *x, double h, double t_new, const LaneParameters *p, LaneRun *before)
+static LaneBits lane_step(LaneRun *x, double h, double t_new, const LaneParameters *p, int keep, LaneRun *before)
 {
     static const double reach[3] = {0.5, 0.5, 1.0}, weight[3] = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
     const double t = x->t[0];
@@ -377,7 +377,7 @@ static LaneBits lane_step(LaneRun *x, double h, double t_new, const LaneParamete
     closures(all_of(t_new), next, p, phi, &rare);
     closure_rates(all_of(t_new), next, next + N_X, p, phi_dot, &rare);
     rare |= not_finite(k, next, N_Y) | happens(x, &aside, touched, p);
-    if (any_of(rare))
+    if (keep || any_of(rare))
         *before = *x;
     for (int j = 0; j < N_Y; j++) {
         x->y[j] = next[j];
@@ -444,11 +444,17 @@ static void gather(Side *side, int k)
         ((Lanes *)&side->x)[j][k] = ((const double *)&state)[j];
 }
 
-static void scatter(const Side *side, const LaneRun *x, int k)
+static Moving state_of(const LaneRun *x, int k)
 {
     Moving state;
     for (size_t j = 0; j < sizeof state / sizeof(double); j++)
         ((double *)&state)[j] = ((const Lanes *)x)[j][k];
+    return state;
+}
+
+static void scatter(const Side *side, const LaneRun *x, int k)
+{
+    const Moving state = state_of(x, k);
     side->one->take(side->run[k], &state);
 }
 
@@ -462,16 +468,12 @@ static void enter(Side *side, int k)
 {
     const Batch *b = side->b;
     const long i = side->number[k];
-    long taken;
     if (b->phase[i] == NEW) {
         b->status[i] = side->one->begin(b, i, side->run[k]);
         b->phase[i] = b->status[i] ? OVER : BEGUN;
-        const double *p = parameters_of(side, k);
-        const int status = b->status[i] ? 0 : side->one->steps(side->run[k], p, b->t[0], b->t[0], 1, 0, 0, &taken);
+        const int status = b->status[i] ? 0 : side->one->steps(b, i, 0, side->run[k]);
         if (status)
             side->one->end(b, i, status, side->run[k]);
-        else if (!b->status[i])
-            side->one->sample(b, i, b->done[i]++, side->run[k]);
         if (b->phase[i] == OVER) {
             side->number[k] = -1;
             return;
@@ -486,19 +488,16 @@ static void enter(Side *side, int k)
  * The step of the rare lanes, which began at x, by their runs themselves. One whose lists are full leaves before it,
  * one that it ends leaves after it.
  */
-static void single_steps(Side *side, LaneBits rare, const LaneRun *x, double t0, double t1, long total, long first)
+static void single_steps(Side *side, LaneBits rare, const LaneRun *x)
 {
     const Batch *b = side->b;
     for (int k = 0; k < LANES; k++) {
         const long i = side->number[k];
-        long taken;
         if (i < 0 || !rare[k])
             continue;
         scatter(side, x, k);
         side->rare++;
-        const int status = side->one->steps(side->run[k], parameters_of(side, k), t0, t1, total, first, 1, &taken);
-        b->within[i] = first + taken;
-        b->t_last[i] = t0 + (double)b->within[i] * (t1 - t0) / (double)total;
+        const int status = side->one->steps(b, i, 1, side->run[k]);
         if (!status) {
             gather(side, k);
             continue;
@@ -510,34 +509,27 @@ static void single_steps(Side *side, LaneBits rare, const LaneRun *x, double t0,
     mirror(side);
 }
 
-/* Towards the next sample by at most `left` steps; whether it was reached. */
-static int advance(Side *side, long *left)
+/* One step of all lanes, with its samples. */
+static void advance(Side *side)
 {
     const Batch *b = side->b;
-    const long i = side->number[first_of(side)], done = b->done[i];
-    const double t0 = b->t[done - 1], t1 = b->t[done];
-    const long total = (long)max_of(ceil((t1 - t0) / b->step[i] * (1.0 - 1e-12)), 1.0);
-    const double h = (t1 - t0) / (double)total;
-    long within = b->within[i];
+    const int first = first_of(side);
+    const long i = side->number[first];
+    double h;
+    const double t_new = step_end(b->t[0], b->t[b->samples - 1], b->step[i], side->x.steps[first] + 1.0, &h);
+    const int sampled = b->t[b->done[i]] < t_new + h;
     LaneRun before;
-    for (; within < total && *left > 0 && count_of(side); within++, --*left) {
-        const double t_new = within + 1 == total ? t1 : t0 + (double)(within + 1) * h;
-        const LaneBits rare = lane_step(&side->x, h, t_new, &side->p, &before);
-        side->made += LANES;
-        if (any_of(rare))
-            single_steps(side, rare, &before, t0, t1, total, within);
-    }
-    for (int k = 0; k < LANES; k++) {
-        const long own = side->number[k];
-        if (own < 0)
+    const LaneBits rare = lane_step(&side->x, h, t_new, &side->p, sampled, &before);
+    side->made += LANES;
+    for (int k = 0; sampled && k < LANES; k++) {
+        if (side->number[k] < 0 || rare[k])
             continue;
+        const Moving from = state_of(&before, k);
         scatter(side, &side->x, k);
-        b->within[own] = within < total ? within : 0;
-        b->t_last[own] = t0 + (double)within * (t1 - t0) / (double)total;
-        if (within == total)
-            side->one->sample(b, own, b->done[own]++, side->run[k]);
+        side->one->samples(b, side->number[k], &from, side->run[k]);
     }
-    return within == total;
+    if (any_of(rare))
+        single_steps(side, rare, &before);
 }
 
 static double seconds_now(void)
@@ -572,7 +564,14 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
             together = 0;
             break;
         }
-        advance(&side, &left);
+        advance(&side);
+        left--;
+    }
+    for (int k = 0; k < LANES; k++) {
+        if (side.number[k] < 0)
+            continue;
+        scatter(&side, &side.x, k);
+        side.b->t_last[side.number[k]] = side.x.t[k];
     }
     const double share = (seconds_now() - before) / entered;
     for (int k = 0; k < LANES; k++) {

@@ -16,7 +16,7 @@ typedef struct {
     unsigned char *started, *phase;
     double *y, *latched;                  /* samples */
     signed char *state;
-    long *done, *within;                  /* samples stored; rk4's steps since the last one */
+    long *done;                           /* samples stored */
     int *status;
     double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
     long *counts;                         /* as gudgeon_run_report has them */
@@ -39,8 +39,8 @@ typedef struct {
 /* What one run does by itself, for those who move several at once. */
 typedef struct {
     int (*begin)(const Batch *b, long i, void *run);
-    int (*steps)(void *run, const double *p, double t0, double t1, long total, long first, long count, long *taken);
-    void (*sample)(const Batch *b, long i, long k, void *run);
+    int (*steps)(const Batch *b, long i, long limit, void *run);
+    void (*samples)(const Batch *b, long i, const Moving *before, void *run); /* of a step that is made */
     void (*end)(const Batch *b, long i, int status, void *run);
     void (*give)(const void *run, Moving *state);
     void (*take)(void *run, const Moving *state);

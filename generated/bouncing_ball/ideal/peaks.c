@@ -3,6 +3,8 @@
  */
 static void peak(Run *run, int i, double t, double F)
 {
+    if (run->trace)
+        trace_force(run, i, t, F);
     if (F > run->F_peak[i]) {
         run->F_peak[i] = F;
         run->t_peak[i] = t;
@@ -57,6 +59,8 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
         if (top < 0.99 * run->e_max[i] || make_dense(run, p, step) || state_at(run, step, s, p, y, dy, &aside))
             return;
         const Clearance *now = &aside.clearance[i];
+        if (run->trace)
+            trace_place(run, i, step->t + s * step->h, now);
         run->e_max[i] = max_of(now->e, run->e_max[i]);
         if (fabs(now->e - top) < 1e-9 * top)
             return;

@@ -46,10 +46,80 @@ static double friction_event(Run *run, double h, const Parameters *p, const Tria
     return 1.0;
 }
 
-/* Takes a trial as the new state; latches follow from the gaps at both of its ends. */
-static int accept(Run *run, double h, double t_new, const Trial *trial, const Parameters *p)
+/* Where samples go: their times, their rows, and how many are stored. */
+typedef struct {
+    long n, *done;
+    const double *t;
+    double *y, *latched;
+    signed char *state;
+} Samples;
+
+/* How close (s) to the end t of a step of length h a sample is the end's own: both are sums of rounded numbers. */
+static double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
+
+static void begin_step(Run *run)
+{
+    Beginning *from = &run->from;
+    from->t = run->t;
+    for (int k = 0; k < N_Y; k++) {
+        from->y[k] = run->y[k];
+        from->dy[k] = run->dy[k];
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        from->closed[i] = run->memory.latch[i].closed;
+        from->compressing[i] = run->compressing[i];
+    }
+}
+
+/* Latches and codes at time t within the step that began as `from` and led to the present state. */
+static void latches_at(const Run *run, const Beginning *from, double t, double *latched, signed char *state)
+{
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Latch *latch = &run->memory.latch[i];
+        const int changed = !latch->closed != !from->closed[i];
+        const int since = latch->closed ? t >= run->open[i].t_on : !(t < run->open[i].t_off);
+        const int closed = changed && !since ? from->closed[i] : latch->closed;
+        const int compressing = changed && since ? run->compressing[i] : from->compressing[i];
+        latched[i] = closed ? latch->deltadot_minus : NAN;
+        state[i] = (signed char)(closed ? 2 - compressing : 0);
+    }
+}
+
+/*
+ * Samples inside the step that began as `from` and led to the present state: the cubic through both ends with their
+ * rates (C. Hermite, J. reine angew. Math. 84, 1878), which errs by O(h^4), on the constraints as ends of steps are.
+ */
+static void sample_inside(Run *run, const Beginning *from, const Parameters *p, const Samples *out)
+{
+    enum { MEMORY = 1, JOINTS = 1 };
+    const double h = run->t - from->t, close = rounded(run->t, h);
+    for (; *out->done < out->n && out->t[*out->done] < run->t - close; ++*out->done) {
+        const double t = out->t[*out->done], s = (t - from->t) / h, u = 1.0 - s;
+        double now[N_Y];
+        for (int k = 0; k < N_Y; k++)
+            now[k] = u * u * ((1.0 + 2.0 * s) * from->y[k] + s * h * from->dy[k])
+                + s * s * ((3.0 - 2.0 * s) * run->y[k] - u * h * run->dy[k]);
+        project_state(run, t, now, p);
+        store_sample(run, t, now, p, *out->done, out->y, out->latched, out->state);
+        latches_at(run, from, t, out->latched + *out->done * MEMORY, out->state + *out->done * JOINTS);
+    }
+}
+
+/* Samples at the present state. */
+static void sample_here(const Run *run, double h, const Parameters *p, const Samples *out)
+{
+    for (; *out->done < out->n && out->t[*out->done] <= run->t + rounded(run->t, h); ++*out->done)
+        store_sample(run, run->t, run->y, p, *out->done, out->y, out->latched, out->state);
+}
+
+/* Takes a trial as the new state; latches follow from the gaps at both of its ends. Samples on the way are stored. */
+static int accept(Run *run, double h, double t_new, const Trial *trial, const Parameters *p,
+    const Samples *out)
 {
     const double t = run->t;
+    const int sampled = *out->done < out->n && out->t[*out->done] < t_new;
+    if (sampled)
+        begin_step(run);
     const Aside before = run->aside;
     run->t = t_new;
     for (int j = 0; j < N_Y; j++) {
@@ -67,7 +137,11 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
     }
     if (update_latches(run, t, h, before.clearance, run->aside.clearance, trial->touched, p))
         status = rates(run, t_new, run->y, p, run->dy, &run->aside);
-    return status ? status : watch(run, p);
+    if (!status)
+        status = watch(run, p);
+    if (!status && sampled)
+        sample_inside(run, &run->from, p, out);
+    return status;
 }
 
 /* Share of h at which watched expression i first lies beyond zero, by halving: the step is tried again up to there. */
@@ -87,7 +161,7 @@ static double rk4_crossing(Run *run, int i, double h, const Parameters *p)
 }
 
 /* User events on the way of a step; one that ends the run takes the step up to there. */
-static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *p)
+static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *p, const Samples *out)
 {
     double share[1], end = INFINITY;
     for (int i = 0; i < N_USER_EVENTS; i++) {
@@ -105,12 +179,12 @@ static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *
         return 0;
     Trial last;
     const int status = rk4_trial(run, end * h, p, &last);
-    const int failed = status ? status : accept(run, end * h, run->t + end * h, &last, p);
+    const int failed = status ? status : accept(run, end * h, run->t + end * h, &last, p, out);
     return failed ? failed : ENDED;
 }
 
 /* One step to t_new; where friction changes on the way, in parts that end there. */
-static int rk4_step(Run *run, double h, double t_new, const Parameters *p)
+static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const Samples *out)
 {
     Trial trial;
     run->steps++;
@@ -120,10 +194,10 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p)
             return status;
         const double share = friction_event(run, h, p, &trial);
         if (share >= 1.0) {
-            const int ended = rk4_events(run, h, &trial, p);
-            return ended ? ended : accept(run, h, t_new, &trial, p);
+            const int ended = rk4_events(run, h, &trial, p, out);
+            return ended ? ended : accept(run, h, t_new, &trial, p, out);
         }
-        int failed = share < 0.0 ? NOT_FINITE : accept(run, share * h, run->t + share * h, &trial, p);
+        int failed = share < 0.0 ? NOT_FINITE : accept(run, share * h, run->t + share * h, &trial, p, out);
         if (!failed)
             failed = switch_friction(run, p);
         if (failed)
@@ -136,24 +210,26 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p)
 }
 
 /*
- * `count` steps from t0 + first h towards t0 + total h = t1, or fewer when the list of impacts is full.
- * Returns 0, EVENTS_FULL, NOT_FINITE or the pivot that vanished; `taken` steps were made.
+ * Steps of length `step` from t[0] towards the last of n output times, at most `limit`; samples go to row `done` and
+ * on, and no step is made shorter for them. Returns 0 (at the end, or to be called again), EVENTS_FULL, or what went
+ * wrong.
  */
-int gudgeon_run_steps(void *memory, const double *parameters, double t0, double t1, long total, long first, long count,
-    long *taken)
+int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n, const double *t, long limit,
+    double *y, double *latched, signed char *state, long *done)
 {
     Run *run = memory;
     const Parameters *p = (const Parameters *)parameters;
-    const double h = (t1 - t0) / (double)total;
+    const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
     int status = run->ready ? 0 : begin(run, p);
-    *taken = 0;
-    while (!status && *taken < count) {
+    for (long i = 0; !status; i++) {
+        double h;
+        const double t_new = step_end(t[0], t[n - 1], step, (double)run->steps + 1.0, &h);
+        sample_here(run, h, p, &out);
+        if (*done == n || i == limit)
+            return 0;
         if (lists_full(run))
             return EVENTS_FULL;
-        const long i = first + *taken + 1;
-        status = rk4_step(run, h, i == total ? t1 : t0 + (double)i * h, p);
-        ++*taken;
+        status = rk4_step(run, h, t_new, p, &out);
     }
     return status;
 }
-

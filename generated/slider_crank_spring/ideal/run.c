@@ -12,6 +12,20 @@ typedef struct {
     int joint;
 } Impact;
 
+/*
+ * What a picture needs of every step, in bounded room: a row tells of `stride` steps in a row; where the room is used
+ * up, two rows become one. Of each joint with play the least and the largest force and when, where the journal was
+ * furthest out and when, and where it was at the end of the row.
+ */
+typedef struct {
+    double F_low, t_low, F_high, t_high, x_out, y_out, t_out, x, y; /* N, s, m: in this order for Python's Trace */
+} Trail;
+
+typedef struct {
+    double t; /* end of the row's last step */
+    Trail joint[1];
+} TraceRow;
+
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
 enum {
     N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
@@ -33,6 +47,12 @@ typedef struct {
     double rate[1][2];   /* smallest and largest d delta/dt of the stages */
 } Step;
 
+/* What a step began with. */
+typedef struct {
+    double t, y[N_Y], dy[N_Y];
+    int closed[1], compressing[1];
+} Beginning;
+
 static const unsigned char is_angle[] = {1, 1};
 
 typedef struct {
@@ -46,6 +66,9 @@ typedef struct {
     double event_t[N_IMPACTS];
     int event[N_IMPACTS], n_events, stop; /* user events found; whether they may end the run */
     int n_impacts, ready;
+    TraceRow *trace; /* nobody wants one: NULL; the row that is being filled, of `trace_rows`, and steps in it */
+    long trace_row, trace_rows, trace_steps, trace_stride;
+    Beginning from; /* of rk4's step, where samples lie within it */
     long steps, evaluations, onsets, grazes, ratio_outside, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max;
     /* of methods that choose their step (adaptive.c) */
@@ -147,6 +170,86 @@ static int outside_model(const Run *run, const Parameters *p)
     return 0;
 }
 
+/* A force of joint i, at an end of a step or within it. */
+static void trace_force(Run *run, int i, double t, double F)
+{
+    Trail *trail = &run->trace[run->trace_row].joint[i];
+    if (F < trail->F_low) {
+        trail->F_low = F;
+        trail->t_low = t;
+    }
+    if (F > trail->F_high) {
+        trail->F_high = F;
+        trail->t_high = t;
+    }
+}
+
+/* The same of a place, if it is the row's outermost. */
+static void trace_place(Run *run, int i, double t, const Clearance *joint)
+{
+    Trail *trail = &run->trace[run->trace_row].joint[i];
+    if (!(joint->e * joint->e > trail->x_out * trail->x_out + trail->y_out * trail->y_out))
+        return;
+    trail->x_out = joint->ex;
+    trail->y_out = joint->ey;
+    trail->t_out = t;
+}
+
+static void begin_trace_row(Run *run)
+{
+    run->trace_steps = 0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        run->trace[run->trace_row].joint[i] = (Trail){.F_low = INFINITY, .F_high = -INFINITY, .t_out = run->t};
+}
+
+/* Row b, which follows a, becomes part of it. */
+static void join_rows(TraceRow *to, const TraceRow *a, const TraceRow *b)
+{
+    TraceRow both = *b;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Trail *first = &a->joint[i];
+        Trail *trail = &both.joint[i];
+        if (first->F_low <= trail->F_low) {
+            trail->F_low = first->F_low;
+            trail->t_low = first->t_low;
+        }
+        if (first->F_high >= trail->F_high) {
+            trail->F_high = first->F_high;
+            trail->t_high = first->t_high;
+        }
+        if (hypot(first->x_out, first->y_out) >= hypot(trail->x_out, trail->y_out)) {
+            trail->x_out = first->x_out;
+            trail->y_out = first->y_out;
+            trail->t_out = first->t_out;
+        }
+    }
+    *to = both;
+}
+
+/* The present state as the end of a step. */
+static void trace_step(Run *run)
+{
+    TraceRow *row = &run->trace[run->trace_row];
+    row->t = run->t;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *joint = &run->aside.clearance[i];
+        Trail *trail = &row->joint[i];
+        trace_force(run, i, run->t, total_force(joint));
+        trace_place(run, i, run->t, joint);
+        trail->x = joint->ex;
+        trail->y = joint->ey;
+    }
+    if (++run->trace_steps < run->trace_stride)
+        return;
+    if (++run->trace_row == run->trace_rows) {
+        run->trace_row /= 2;
+        run->trace_stride *= 2;
+        for (long i = 0; i < run->trace_row; i++)
+            join_rows(run->trace + i, run->trace + 2 * i, run->trace + 2 * i + 1);
+    }
+    begin_trace_row(run);
+}
+
 /* Peaks, residuals and the ratio deltadot/deltadot_minus at an accepted state. */
 static int watch(Run *run, const Parameters *p)
 {
@@ -181,6 +284,8 @@ static int watch(Run *run, const Parameters *p)
             }
         }
     }
+    if (run->trace)
+        trace_step(run);
     return !isfinite(sum) ? NOT_FINITE : outside_model(run, p) ? OUTSIDE : 0;
 }
 
@@ -245,6 +350,23 @@ void gudgeon_run_start(void *memory, const double *p, double t, const double *y,
     read_memory(latched, &run->memory);
     for (int i = 0; i < N_CLEARANCES; i++)
         run->open[i] = (Impact){t, NAN, latched[i], 0.0, t, i};
+}
+
+/* Room for the trace of a run that is about to begin: an even number of rows. */
+void gudgeon_run_trace(void *memory, double *trace, long rows)
+{
+    Run *run = memory;
+    run->trace = (TraceRow *)trace;
+    run->trace_rows = rows;
+    run->trace_stride = 1;
+    begin_trace_row(run);
+}
+
+/* Rows of the trace so far; the last one may tell of fewer steps than the others. */
+long gudgeon_run_traced(const void *memory)
+{
+    const Run *run = memory;
+    return run->trace_row + (run->trace_steps > 0);
 }
 
 /* The codes with which an earlier run ended: whether a contact that goes on is still being compressed. */

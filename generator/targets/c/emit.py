@@ -24,6 +24,7 @@ from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.loops import Integrated, LoopCode, integrator_loops, kinematic_code
 from gudgeon.generator.targets.c.newton_code import jacobian_code, newton_code, tangent_code
 from gudgeon.generator.targets.c.reduced_code import ReducedCode, reduced_code
+from gudgeon.generator.time_terms import time_terms_kernel
 from gudgeon.generator.watched import watched_kernel
 from gudgeon.kernel_source import KernelSource
 
@@ -67,27 +68,29 @@ int gudgeon_kinematic_works(void *memory, long n, const double *t, const double 
 METHOD_CDEF = """\
 size_t gudgeon_run_size(void);
 void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched);
+void gudgeon_run_trace(void *memory, double *trace, long rows);
+long gudgeon_run_traced(const void *memory);
 void gudgeon_run_codes(void *memory, const signed char *state);
-int gudgeon_run_steps(void *memory, const double *parameters, double t0, double t1, long total, long first, long count,
-    long *taken);
+int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n, const double *t, long limit,
+    double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state);
 void gudgeon_run_stop(void *memory, int stop);
 void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every);
 void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended);
 int gudgeon_run_events(void *memory, double *t, int *event);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
-void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double fixed);
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *least, double fixed);
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
 typedef struct {
     long samples, numbers, limit;
     int choice, stop;
-    double fixed, *t, *p, *p_motion, *size, *step, *scale, *floor, *start;
+    double fixed, *t, *p, *p_motion, *size, *step, *scale, *least, *start;
     unsigned char *started, *phase;
     double *y, *latched;
     signed char *state;
-    long *done, *within;
+    long *done;
     int *status;
     double *t_last, *last, *seconds;
     long *counts;
@@ -117,16 +120,16 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
     reduced = reduced_code(model, kkt.pivots, render, _kernels) if formulation == "reduced" else None
-    watched = watched_kernel(dynamics, model) if formulation == "full" else None
-    right_hand_side = [dynamics, *([watched] if watched else [])]
-    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched is not None,
+    watched = watched_kernel(dynamics, model)
+    right_hand_side = [dynamics, *([watched] if watched and formulation == "full" and integrates else [])]
+    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched,
                        render("motion_full.c.jinja"), kkt.pivots)  # fmt: skip
     integrated = reduced.integrated if reduced else plain
-    counts = _counts(model, integrated)
+    counts, terms = _counts(model, integrated), time_terms_kernel(dynamics)
     if integrates:
-        loops, beside = _loops(model, integrated, reduced, counts)
+        loops, beside = _loops(model, integrated, reduced, terms, counts)
     else:
-        loops, beside = kinematic_code(model, kkt, integrated, counts, render), {}
+        loops, beside = kinematic_code(model, kkt, integrated, terms, watched, counts, render), {}
     prepare = interface.prepare_kernel(model, printer.expression)
     kernels = [*right_hand_side, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
     files = {
@@ -165,13 +168,13 @@ def _angles(model: Model) -> tuple[int, ...]:
 
 
 def _loops(
-    model: Model, integrated: Integrated, reduced: ReducedCode | None, counts: Mapping[str, int]
+    model: Model, integrated: Integrated, reduced: ReducedCode | None, terms: Kernel | None, counts: Mapping[str, int]
 ) -> tuple[LoopCode, dict[str, str]]:
     """The methods, and the files of a library beside: runs side by side."""
     linearized, kernels = _newton(model, integrated)
     closing = closing_kernel(integrated.system)
     lanes = reduced is not None and reduced.system.chain is None and lanes_code.has_lanes(model)
-    files = integrator_loops(model, integrated, linearized, closing, counts, render, lanes)
+    files = integrator_loops(model, integrated, linearized, closing, terms, counts, render, lanes)
     beside = {}
     if reduced is not None and lanes:
         beside = lanes_code.lanes_code(model, (*reduced.plain, without_unused(closing)), counts, render)

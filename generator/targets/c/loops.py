@@ -18,12 +18,17 @@ from gudgeon.generator.model import Model
 from gudgeon.generator.projection import projection_kernel
 from gudgeon.generator.square_rows import Block, SquareRows
 from gudgeon.generator.system import System
-from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.c import printer, ranges_printer
+from gudgeon.generator.time_terms import count_terms
+from gudgeon.generator.watched import ranges_kernel, reads_state
 
 Render = Callable[..., str]
 
-_PROJECTED = ("Constraints are closed after every step.", "    project_state(run, run->t + h, trial->y, p);")
-_STABILISED = ("Constraints are stabilised by Baumgarte's terms.", "")
+_PROJECTED = (
+    "Constraints are closed after every step.", "    project_state(run, run->t + h, trial->y, p);",
+    "        project_state(run, t, now, p);",
+)  # fmt: skip
+_STABILISED = ("Constraints are stabilised by Baumgarte's terms.", "", "")
 _FROM_DYNAMICS = """\
     for (int r = 0; r < N_ROWS; r++) {
         run->phi_max = max_of(fabs(aside->phi[r]), run->phi_max);
@@ -60,7 +65,7 @@ class Integrated:
     angles: tuple[int, ...]
     reduced: bool
     finish: Callable[[Kernel], Kernel]  # a last pass over kernels
-    cheap: bool  # whether generator/watched.py has a kernel of what is watched
+    watched: Kernel | None  # of what is watched, where it is known without forces (generator/watched.py)
     motion: str  # the text of motion.c
     pivots: tuple[str, ...]  # rows that a status of motion() counts through
     chain: Chain | None = None
@@ -90,9 +95,13 @@ class LoopCode:
 
 
 def kinematic_code(
-    model: Model, kkt: KKT, integrated: Integrated, counts: Mapping[str, int], render: Render
-) -> LoopCode:
-    """Positions by Newton: in tree coordinates, unless the closures' pattern leaves one of them open."""
+    model: Model, kkt: KKT, integrated: Integrated, terms: Kernel | None, watched: Kernel | None,
+    counts: Mapping[str, int], render: Render,
+) -> LoopCode:  # fmt: skip
+    """Positions by Newton: in tree coordinates, unless the closures' pattern leaves one of them open.
+
+    `watched`: what is watched, in absolute coordinates.
+    """
     rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
     tree = integrated.reduced and rows.fits
     if tree:
@@ -106,17 +115,21 @@ def kinematic_code(
         projection, of_projection = projection_kernel(kkt.system, model.rows, "project")
         kernels, pivots, solved = (projection,), (*of_projection.pivots, *kkt.pivots), of_projection
         closing = printer.kernel(projection) + "\n" + render("kinematic_full.c.jinja", **counts)
-    files = {"kinematic.c": render("kinematic.c.jinja", closing=closing, tree=tree)}
+    looked = watched if model.events else None
+    files = _range_code(terms, looked, render)
+    files["kinematic.c"] = render("kinematic.c.jinja", closing=closing, tree=tree, n_terms=count_terms(terms))
     if model.events:
-        files["kinematic_events.c"] = render("kinematic_events.c.jinja")
+        corners = sorted(switch.index for switch in model.symbols.switches.of(""))
+        text = ranges_printer.kernel(ranges_kernel(watched, corners)) if watched else ""
+        files["kinematic_events.c"] = render("kinematic_events.c.jinja", kernel=text, first=len(corners))
     return LoopCode(files, kernels, solved, pivots, rows.blocks or () if tree else ())
 
 
 def integrator_loops(
-    model: Model, integrated: Integrated, linearized: str, closing: Kernel, counts: Mapping[str, int], render: Render,
-    lanes: bool,
+    model: Model, integrated: Integrated, linearized: str, closing: Kernel, terms: Kernel | None,
+    counts: Mapping[str, int], render: Render, lanes: bool,
 ) -> dict[str, str]:  # fmt: skip
-    """All methods, in the order in which they call each other."""
+    """All methods, in the order in which they call each other. `terms`: of time alone (generator/time_terms.py)."""
     pivots = _friction_pivots(integrated.kkt)
     kind = "friction" if pivots else "no_friction"
     modes, events = (render(f"{name}.c.jinja", pivots=pivots).strip() for name in (kind, f"{kind}_events"))
@@ -124,12 +137,13 @@ def integrator_loops(
     common["deepest"] = _lengths(model, [deepest(c) for c in model.clearances])
     common["n_watched"] = len(integrated.corners) + counts["n_events"]
     common["meeting"] = _meeting(model, counts["n_switches"])
-    constraints, projection = _PROJECTED if integrated.reduced else _STABILISED
+    constraints, projection, inside = _PROJECTED if integrated.reduced else _STABILISED
     residuals = _FROM_CLOSURES if integrated.reduced else _FROM_DYNAMICS
     residuals = _FROM_TREE if integrated.system.known else residuals
     chain = {"n_chain": counts["n_chain"]}
     return {
         "motion.c": integrated.motion,
+        **_range_code(terms, integrated.watched, render),
         "projection.c": printer.kernel(integrated.finish(closing)),
         "newton.c": linearized,
         "run.c": render(
@@ -137,12 +151,14 @@ def integrator_loops(
         ),
         "step.c": render("step.c.jinja", state=integrated.state("y"), **counts),
         "rk4.c": render(
-            "rk4.c.jinja", **common, friction_events=events, constraints=constraints, projection=projection
+            "rk4.c.jinja", **common, friction_events=events, constraints=constraints, projection=projection,
+            inside=inside,
         ),
         "dop853.c": render("dop853.c.jinja", **_dop853()),
         "rodas5p.c": render("rodas5p.c.jinja", state=integrated.state("run"), **chain, **_rodas5p()),
         "roots.c": render("roots.c.jinja", **counts),
-        "watched.c": render("watched.c.jinja", cheap=integrated.cheap, **_watched(integrated, counts)),
+        "pulses.c": render("pulses.c.jinja", n_terms=count_terms(terms), **_places()),
+        "watched.c": _watched_code(integrated, counts, render),
         "events.c": render("events.c.jinja", **common),
         "peaks.c": render("peaks.c.jinja", **counts),
         "changes.c": render("changes.c.jinja", **common),
@@ -194,6 +210,32 @@ def _meeting(model: Model, count: int) -> list[int]:
     printed = {c.name for c in model.clearances if c.film is not None and c.film.options.get("as_printed")}
     owners = {switch.index: switch.owner for switch in model.symbols.switches.found.values()}
     return [int(bool(owners.get(k)) and owners[k] not in printed) for k in range(max(count, 1))]
+
+
+def _watched_code(integrated: Integrated, counts: Mapping[str, int], render: Render) -> str:
+    """How corners and events are looked for along a step: by bounds where these are known."""
+    margins = _watched(integrated, counts)
+    if integrated.watched is None or not margins["watched"]:
+        return render("looks.c.jinja" if margins["watched"] else "no_watched.c.jinja", **margins)
+    kernel = ranges_kernel(integrated.watched, integrated.corners)
+    text = ranges_printer.kernel(kernel)
+    return render("watched.c.jinja", kernel=text, reads_state=reads_state(kernel), **margins)
+
+
+def _range_code(terms: Kernel | None, watched: Kernel | None, render: Render) -> dict[str, str]:
+    """Arithmetic of ranges, where anything needs it, and what is known of time alone."""
+    files = {"ranges.c": render("ranges.c.jinja")} if terms or watched else {}
+    if terms:
+        most = max(5, *map(len, _places().values()))  # 5: of a kinematic motion
+        values = {"kernel": ranges_printer.kernel(terms), "n_terms": count_terms(terms), "n_places": most}
+        files["time_terms.c"] = render("time_terms.c.jinja", **values)
+    return files
+
+
+def _places() -> dict[str, list[float]]:
+    """Shares of a step at which a method looks, in their order: where its estimate of the error hears of it."""
+    heard = {dop853.C[stage] for row in dop853.E for stage in row}
+    return {"dop853": sorted({*heard, 0.0, 1.0}), "rodas5p": sorted({*rodas5p.NODES, 1.0})}
 
 
 def _watched(integrated: Integrated, counts: Mapping[str, int]) -> dict[str, list[int]]:

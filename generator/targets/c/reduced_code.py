@@ -74,7 +74,7 @@ def reduced_code(
         pivots = (*pivots, *(row.name for row in system.chain.rows))
     integrated = Integrated(
         system, kkt, angles, True, lambda kernel: side_by_side(without_unused(kernel)),
-        any(kernel.name == WATCHED for kernel in kernels), motion, pivots, system.chain,
+        next((kernel for kernel in plain if kernel.name == WATCHED), None), motion, pivots, system.chain,
     )  # fmt: skip
     every = (*around, *kernels, *own)
     return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, every, integrated, tuple(plain))

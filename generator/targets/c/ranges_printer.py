@@ -1,0 +1,99 @@
+"""Kernels a second time, for ranges: the same statements, with bounds and slopes for numbers (ranges.c)."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import sympy as sp
+
+from gudgeon.generator.kernels import Argument, Kernel, Statement
+from gudgeon.generator.targets.c import printer
+
+_TYPES = {"const double": "const Range", "const double *": "const Range *", "Aside *": "Range *"}
+_NAMES = {"aside": "out"}
+_READ = re.compile(r"[qv]\[\d+\]|t")  # what a range is handed over for; everything else is a number
+
+
+class RangesPrinter(printer.CPrinter):
+    """Every operation is a call; what no symbol is in stays a number."""
+
+    def _range(self, expr: sp.Expr) -> str:
+        text: str = self._print(expr)
+        return text if expr.free_symbols else f"only({text})"
+
+    def _call(self, function: str, *arguments: sp.Expr) -> str:
+        if not any(argument.free_symbols for argument in arguments):
+            return super()._call(function, *arguments)
+        return f"range_{function}({', '.join(map(self._range, arguments))})"
+
+    def _chained(self, function: str, arguments: tuple[sp.Expr, ...]) -> str:
+        text = self._range(arguments[0])
+        for argument in arguments[1:]:
+            text = f"range_{function}({text}, {self._range(argument)})"
+        return text
+
+    def _print_Add(self, expr: sp.Expr, order: object = None) -> str:
+        if not expr.free_symbols:
+            return str(super()._print_Add(expr))
+        return self._chained("add", expr.as_ordered_terms())
+
+    def _print_Mul(self, expr: sp.Expr) -> str:
+        if not expr.free_symbols:
+            return str(super()._print_Mul(expr))
+        number, rest = expr.as_coeff_Mul()
+        factors = rest.as_ordered_factors()
+        return self._chained("times", (number, *factors) if number != 1 else tuple(factors))
+
+    def _print_Pow(self, expr: sp.Pow) -> str:
+        if not expr.free_symbols:
+            return super()._print_Pow(expr)
+        base, exponent = expr.as_base_exp()
+        named = {-1: "inverse", 2: "square", sp.Rational(1, 2): "sqrt"}
+        if exponent in named:
+            return self._call(named[exponent], base)
+        if exponent == sp.Rational(-1, 2):
+            return f"range_inverse({self._call('sqrt', base)})"
+        return self._call("pow", base, exponent)
+
+    def _function(self, expr: sp.Expr) -> str:
+        return self._call(type(expr).__name__, *expr.args)
+
+    _print_sin = _print_cos = _print_tan = _print_asin = _print_acos = _print_atan = _function
+    _print_sinh = _print_cosh = _print_tanh = _print_exp = _print_log = _print_atan2 = _function
+
+    def _nested(self, function: str, expr: sp.Expr) -> str:
+        if not expr.free_symbols:
+            return super()._nested(function, expr)
+        return self._chained(function, sorted(expr.args, key=lambda a: (a.is_Number, str(a))))
+
+    def _print_Heaviside(self, expr: sp.Expr) -> str:
+        return self._call("heaviside", expr.args[0])
+
+    def _print_SideOf(self, expr: sp.Expr) -> str:
+        return f"range_side(side, {int(expr.args[0])}, {self._range(expr.args[1])})"
+
+    def _print_Magnitude(self, expr: sp.Expr) -> str:
+        return self._call("magnitude", expr.args[0])
+
+    def _print_Pick(self, expr: sp.Expr) -> str:
+        return self._call("pick", *expr.args)
+
+
+_printer = RangesPrinter({"math_macros": {}})
+
+
+def kernel(item: Kernel) -> str:
+    """The function with ranges for its time, coordinates and velocities, and numbers for its parameters."""
+    sections = tuple(replace(section, statements=tuple(map(_ranged, section.statements))) for section in item.sections)
+    arguments = tuple(Argument(_TYPES.get(a.type, a.type), _NAMES.get(a.name, a.name)) for a in item.arguments)
+    return printer.kernel(replace(item, sections=sections, arguments=arguments), "Range")
+
+
+def _ranged(item: Statement | str) -> Statement | str:
+    if isinstance(item, str):
+        return item
+    if isinstance(item.value, str):
+        return item if _READ.fullmatch(item.value) else replace(item, value=f"only({item.value})")
+    return replace(item, value=_printer._range(item.value))
+
