@@ -125,7 +125,7 @@ def told(act: Callable[[], object]) -> None:
     """As the command line does: an error of ours is a sentence and an exit code."""
     from gudgeon.cli import _told
 
-    _told(act)()  # type: ignore[arg-type]
+    _told(act)()
 
 
 def child(act: Callable[[], object]) -> tuple[int, str]:

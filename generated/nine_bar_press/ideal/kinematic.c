@@ -2,10 +2,11 @@
  * No degree of freedom is left: at every time the drives say where everything is. Nothing is integrated; the motion
  * is followed from sample to sample so that it stays on its branch.
  */
-enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30, NEWTON_FAILED = -1 };
+enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30, NEWTON_FAILED = -1, LEAST_DOUBLED = 1 << 18 };
 
 /* A place on the way: the motion of all bodies at a time, the largest |Phi| and |Phi_dot| there. */
 typedef struct {
+    Asked *asked;
     double t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot;
     double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
 } Place;
@@ -15,6 +16,47 @@ typedef struct {
     double reach, extent, h;
     int halvings;
 } Stride;
+
+/* What doubling the number of steps gained: the number at which it is looked at next, s, how often in a row no more. */
+typedef struct {
+    double t, gain, next;
+    int falling;
+} Doubling;
+
+/* A run of many calls: where it is to end, where its motion and its works are, whom it asks, its pace. */
+typedef struct {
+    double reach, extent, t_end;
+    Asked asked;
+    Pace pace;
+    Doubling doubling;
+    Place motion, work;
+    int motion_begun, work_begun;
+} Course;
+
+size_t gudgeon_course_size(void) { return sizeof(Course); }
+
+/* `reach` and `extent` as in Stride; `ask` is called with `whom` each `every` seconds (0: at each step). */
+void gudgeon_course_begin(void *memory, double reach, double extent, double t_end, int (*ask)(void *), void *whom,
+    double every)
+{
+    Course *course = memory;
+    *course = (Course){.reach = reach, .extent = extent, .t_end = t_end, .doubling.next = 1024.0};
+    set_asked(&course->asked, ask, whom, every);
+}
+
+/* The motion is begun anew at the next call, from a row that is given there. */
+void gudgeon_course_again(void *memory) { ((Course *)memory)->motion_begun = 0; }
+
+/* How far motion and works got, s; s that its last steps gained, how many they are, whether they are far shorter. */
+void gudgeon_course_pace(const void *memory, double *t, double *gained, long *steps)
+{
+    const Course *course = memory;
+    t[0] = course->motion.t;
+    t[1] = course->work_begun ? course->work.t : NAN;
+    *gained = course->pace.gain;
+    steps[0] = PACE_STEPS;
+    steps[1] = course->pace.crawls;
+}
 
 /* The larger one; NaN stays. */
 static double larger(double most, double x) { return x > most || isnan(x) ? x : most; }
@@ -477,8 +519,8 @@ static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
 /* Powers, and accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
 static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
 {
-    const int status = reduced_dynamics(here->t, here->s, here->s_rate, &(Memory){0}, p, a, aside);
-    return status ? N_LOOPS + status : 0;
+    const int status = reduced_dynamics(here->t, here->s, here->s_rate, &(Memory){.asked = here->asked}, p, a, aside);
+    return status > 0 ? N_LOOPS + status : status;
 }
 
 /*
@@ -512,6 +554,7 @@ static int place_at(double t, const Parameters *p, double extent, const Place *f
 {
     const double h = t - from->t;
     *moved = 0.0;
+    to->asked = from->asked;
     to->t = t;
     for (int k = 0; k < N_X; k++)
         to->s[k] = from->s[k] + h * (from->s_rate[k] + 0.5 * h * from->s_second[k]);
@@ -544,8 +587,8 @@ static int begin(double t, const double *q, const double *v, const Parameters *p
     for (int k = 0; k < N_X; k++)
         here->s_second[k] = 0.0;
     here->phi = here->phi_dot = 0.0;
-    const int status = dynamics(t, q, v, &(Memory){0}, p, here->a, &aside);
-    return status ? N_LOOPS + status : 0;
+    const int status = dynamics(t, q, v, &(Memory){.asked = here->asked}, p, here->a, &aside);
+    return status > 0 ? N_LOOPS + status : status;
 }
 
 /* What the trapezoidal rule leaves over between two places: the angle that it is worth (rad), lengths by the size. */
@@ -578,8 +621,12 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
     for (;;) {
         Place there;
         double moved = 0.0, bent = 0.0;
+        if (given_up(here->asked))
+            return STOPPED;
         const double next = here->t + stride->h < t1 ? here->t + stride->h : t1;
         const int status = next > here->t ? place_at(next, p, stride->extent, here, &there, &moved) : NEWTON_FAILED;
+        if (status == STOPPED)
+            return status;
         const int near = !status && moved <= stride->reach;
         if (near)
             bent = bend_between(here, &there, stride->extent);
@@ -610,31 +657,67 @@ static int follow(double t1, const Parameters *p, double reach, double extent, P
     return 0;
 }
 
-/* n samples at the given times; q, v and a have n + 1 rows, the first of q and v holds the start at t[0]. */
-int gudgeon_kinematic(long n, const double *t, const double *parameters, double reach, double extent, double *q,
-    double *v, double *a, double *phi_max, double *phi_dot_max, long *steps, long *done)
+/*
+ * Whether a drive outruns all steps: where it grows at least exponentially, twice as many of them gain no more time
+ * than the last doubling did, so that so many doublings are left.
+ */
+static int is_outrun(Doubling *x, double steps, double t, double t_end)
 {
-    const Parameters *p = (const Parameters *)parameters;
-    Place here;
-    *done = 0;
-    int status = begin(t[0], q, v, p, &here);
-    for (long i = 0; i <= n; i++) {
-        if (!status && i > 0) {
-            status = follow(t[i], p, reach, extent, &here, steps);
-            if (!status)
-                status = settle(p, &here);
-        }
+    if (steps < x->next)
+        return 0;
+    const double gain = t - x->t;
+    x->falling = gain <= x->gain ? x->falling + 1 : 0;
+    x->t = t;
+    x->gain = gain;
+    x->next = 2.0 * steps;
+    return steps >= LEAST_DOUBLED && x->falling > 3 && steps * exp2((t_end - t) / gain) > HOPELESS;
+}
+
+/* The same, of a run whose pace is watched. */
+static int advance(Course *course, double t1, const Parameters *p, Place *here, long *steps)
+{
+    Stride stride = {course->reach, course->extent, t1 - here->t, 0};
+    while (here->t < t1) {
+        const int status = step_on(&stride, t1, p, here);
         if (status)
             return status;
+        ++*steps;
+        if (creeps(&course->pace, here->t, course->t_end))
+            return STALLED;
+        if (is_outrun(&course->doubling, (double)course->pace.steps, here->t, course->t_end)) {
+            course->pace.crawls = 1;
+            return STALLED;
+        }
+    }
+    return settle(p, here);
+}
+
+/*
+ * n samples at the given times; q, v and a have n + 1 rows, the first of q and v holds what is known at t[0]: the
+ * start, or where the last call came to. `done` is the last row that is complete, whatever is returned.
+ */
+int gudgeon_kinematic(void *memory, long n, const double *t, const double *parameters, double *q, double *v, double *a,
+    double *phi_max, double *phi_dot_max, long *steps, long *done)
+{
+    Course *course = memory;
+    const Parameters *p = (const Parameters *)parameters;
+    Place *here = &course->motion;
+    *done = 0;
+    for (long i = course->motion_begun; i <= n; i++) {
+        here->asked = &course->asked;
+        const int status = i > 0 ? advance(course, t[i], p, here, steps) : begin(t[0], q, v, p, here);
+        if (status)
+            return status;
+        course->motion_begun = 1;
         for (int k = 0; k < N_Q; k++) {
             if (i > 0) {
-                q[i * N_Q + k] = here.q[k];
-                v[i * N_Q + k] = here.v[k];
+                q[i * N_Q + k] = here->q[k];
+                v[i * N_Q + k] = here->v[k];
             }
-            a[i * N_Q + k] = here.a[k];
+            a[i * N_Q + k] = here->a[k];
         }
-        *phi_max = max_of(here.phi, *phi_max);
-        *phi_dot_max = max_of(here.phi_dot, *phi_dot_max);
+        *phi_max = max_of(here->phi, *phi_max);
+        *phi_dot_max = max_of(here->phi_dot, *phi_dot_max);
         *done = i;
     }
     return 0;
@@ -738,15 +821,18 @@ static int work_of_step(const Parameters *p, double extent, const Place *a, cons
 }
 
 /* Works from the first of n + 1 samples on, (n + 1) x N_WORK, of which the first row is given. */
-int gudgeon_kinematic_works(long n, const double *t, const double *parameters, double reach, double extent,
-    const double *q, const double *v, double *work, long *done)
+int gudgeon_kinematic_works(void *memory, long n, const double *t, const double *parameters, const double *q,
+    const double *v, double *work, long *done)
 {
+    Course *course = memory;
+    const double extent = course->extent;
     const Parameters *p = (const Parameters *)parameters;
-    Place here;
+    Place here = course->work;
+    here.asked = &course->asked;
     *done = 0;
-    int status = begin(t[0], q, v, p, &here);
+    int status = course->work_begun ? 0 : begin(t[0], q, v, p, &here);
     for (long i = 0; i < n && !status; i++) {
-        Stride stride = {reach, extent, t[i + 1] - t[i], 0};
+        Stride stride = {course->reach, extent, t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;
         for (int k = 0; k < N_WORK; k++)
             sum[k] = work[i * N_WORK + k];
@@ -758,5 +844,7 @@ int gudgeon_kinematic_works(long n, const double *t, const double *parameters, d
         }
         *done = i + !status;
     }
+    course->work = here;
+    course->work_begun = 1;
     return status;
 }

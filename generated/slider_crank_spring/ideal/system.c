@@ -23,6 +23,7 @@ static void read_memory(const double *sample, Memory *memory)
     for (int i = 0; i < N_USER_EVENTS; i++)
         memory->event_side[i] = 0;
     memory->held = 0;
+    memory->asked = NULL;
 }
 
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
