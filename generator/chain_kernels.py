@@ -20,7 +20,16 @@ import sympy as sp
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.driven_chains import Chain
 from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE
-from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement, without_unused
+from gudgeon.generator.kernels import (
+    HELD,
+    Argument,
+    Kernel,
+    KernelBuilder,
+    Section,
+    Statement,
+    with_sides,
+    without_unused,
+)
 from gudgeon.generator.sine_pairs import side_by_side
 from gudgeon.generator.square_rows import SquareRows
 from gudgeon.generator.switches import SideOf
@@ -29,7 +38,7 @@ from gudgeon.generator.tangents import Tangents
 
 ZERO = sp.Integer(0)
 STEP, RATES, THIRD, DIRECTIONS = "chain_step", "chain_rates", "chain_third", "chain_directions"
-TOLD_SIDES = Section("corners: the sides that are held, if any", HELD_SIDES.statements[:1])
+TOLD_SIDES = Section(HELD, HELD_SIDES[:1])
 
 
 class ChainKernels:
@@ -46,7 +55,7 @@ class ChainKernels:
         sides = [s.value for kernel in raw for section in kernel.sections for s in section.statements
                  if isinstance(s, Statement) and isinstance(s.value, SideOf)]  # fmt: skip
         self.corners = bool(sides)
-        held = [replace(kernel, sections=(HELD_SIDES, *kernel.sections)) for kernel in raw] if sides else raw
+        held = [with_sides(kernel, HELD_SIDES) for kernel in raw]
         self.kernels = [*held, self._corners(sides)] if sides else held
 
     def _all(self) -> list[Kernel]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import sympy as sp
 
@@ -12,7 +13,7 @@ from gudgeon.generator.geometry import BodySymbols, Geometry, PointFrame
 from gudgeon.generator.joint_fields import JointFields
 from gudgeon.generator.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Drive, Joint, PointRef
-from gudgeon.generator.symbolic import quantity_to_sympy
+from gudgeon.generator.symbolic import quantity_to_sympy, to_sympy
 
 
 @dataclass(frozen=True)
@@ -131,9 +132,12 @@ class Constraints:
 JUMPS = frozenset({"ramp", "abs", "min", "max", "sign"})  # whose slopes jump; smooth_step's does not
 
 
+@lru_cache(maxsize=256)
 def rate_jumps(drive: Drive) -> bool:
-    """Whether what a drive prescribes has corners: the linkage then follows by an impulse."""
-    return not JUMPS.isdisjoint(functions(drive.value.value))
+    """Whether what a drive prescribes has corners: the linkage then follows by an impulse. A root of a square has."""
+    if not JUMPS.isdisjoint(functions(drive.value.value)):
+        return True
+    return bool(to_sympy(drive.value.value, lambda path: sp.Symbol(path, real=True)).has(sp.Abs))
 
 
 def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:

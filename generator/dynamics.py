@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 
 import sympy as sp
 
 from gudgeon.generator.clearance import Clearance
 from gudgeon.generator.elements import PointLoad
-from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section
+from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, with_sides
 from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR
 from gudgeon.generator.model import BAUMGARTE, Model
 from gudgeon.generator.system import System
@@ -20,9 +19,7 @@ MEMORY = Argument("const Memory *", "memory")
 PARAMETERS = Argument("const Parameters *", "p")
 ZERO = sp.Integer(0)
 # Corners in functions that nobody asks for their switching functions.
-HELD_SIDES = Section("corners: the sides that are held, if any", (
-    "const double *const side = memory->held ? memory->side : NULL;", "double g[N_SWITCHES + 1];",
-))  # fmt: skip
+HELD_SIDES = ("const double *const side = memory->held ? memory->side : NULL;", "double g[N_SWITCHES + 1];")
 
 
 _DOC = (
@@ -75,12 +72,7 @@ def dynamics_kernel(
     build.line("return pivot;" if kkt.rows and not model.frictions else "return 0;")
     arguments = (*STATE, MEMORY, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
     kernel = build.build(arguments, "int", owner="")
-    if not model.clearances and not model.symbols.switches.of(""):
-        return kernel
-    held = Section("corners: the sides that are held, if any", (
-        "const double *const side = memory->held ? memory->side : NULL;", "double *const g = aside->g;",
-    ))  # fmt: skip
-    return replace(kernel, sections=(held, *kernel.sections))
+    return with_sides(kernel, (HELD_SIDES[0], "double *const g = aside->g;"))
 
 
 def _events(model: Model, build: KernelBuilder) -> None:

@@ -100,6 +100,20 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section]) -> l
     return held
 
 
+HELD = "corners: the sides that are held, if any"  # title of the lines from which a kernel reads sides
+
+
+def with_sides(kernel: Kernel, held: Sequence[str]) -> Kernel:
+    """The kernel behind the lines that say which sides are held and where the others are told, if it reads any."""
+    return replace(kernel, sections=(Section(HELD, tuple(held)), *kernel.sections)) if _reads_sides(kernel) else kernel
+
+
+def _reads_sides(kernel: Kernel) -> bool:
+    statements = [s for section in kernel.sections if section.title != HELD for s in section.statements]
+    texts = [s if isinstance(s, str) else s.value for s in statements]
+    return any(re.search(r"\bside\b", x) if isinstance(x, str) else x.has(SideOf) for x in texts)
+
+
 def without_unread(sections: Iterable[tuple[str, list[Statement | str]]]) -> list[tuple[str, list[Statement | str]]]:
     """The sections without locals that nothing behind them reads."""
     read: set[str] = set()
@@ -214,4 +228,7 @@ def without_unused(kernel: Kernel) -> Kernel:
             kept.append(statement)
         if kept:
             sections.append(Section(section.title, tuple(reversed(kept))))
-    return replace(kernel, sections=tuple(reversed(sections)))
+    left = replace(kernel, sections=tuple(reversed(sections)))
+    if _reads_sides(left):
+        return left
+    return replace(left, sections=tuple(section for section in left.sections if section.title != HELD))

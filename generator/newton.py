@@ -22,7 +22,7 @@ import sympy as sp
 
 from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE, stick_gain
 from gudgeon.generator.factorization import choose_elimination
-from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement
+from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Section, Statement, with_sides
 from gudgeon.generator.kkt import SINGULAR, is_simple
 from gudgeon.generator.linearization import N_WORK, Linearization, Parts, Place
 from gudgeon.generator.pool import Pool
@@ -70,10 +70,7 @@ class Newton:
             *STATE, MEMORY, PARAMETERS, Argument("const double *", "a"), Argument("const Aside *", "aside"),
             self._own_lin(),
         )  # fmt: skip
-        kernel = build.build(arguments, owner="", prune=True)
-        if not self.model.clearances and not self.model.symbols.switches.of(""):
-            return kernel
-        return replace(kernel, sections=(HELD_SIDES, *kernel.sections))
+        return with_sides(build.build(arguments, owner="", prune=True), HELD_SIDES)
 
     def _pooled(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
         """The parts with each value in the pool, once up to its sign."""

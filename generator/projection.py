@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-import sympy as sp
-
 from gudgeon.generator.constraints import Row
 from gudgeon.generator.dynamics import HELD_SIDES, MEMORY, PARAMETERS, STATE
-from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, Statement
+from gudgeon.generator.kernels import Argument, Kernel, KernelBuilder, with_sides
 from gudgeon.generator.kkt import KKT, VANISHING
-from gudgeon.generator.switches import SideOf
 from gudgeon.generator.system import System
 
 
@@ -62,7 +57,4 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     build.line("return 0;")
     outs = (Argument("double *", name) for name in ("dq", "dv", "worst"))
     kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), "int", owner="")
-    statements = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
-    if not any(isinstance(value, sp.Expr) and value.has(SideOf) for value in statements):
-        return kernel
-    return replace(kernel, sections=(HELD_SIDES, *kernel.sections))
+    return with_sides(kernel, HELD_SIDES)

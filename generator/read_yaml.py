@@ -26,6 +26,8 @@ from gudgeon.generator.schema import FileShape
 from gudgeon.generator.yaml_tree import parse_yaml
 
 _MAX_TITLE = 200
+# without controls, what ends a line and what turns the direction of the text behind it
+_SHOWN = r"\x20-\x7e\u00a0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\uffef\U00010000-\U0010ffff"
 
 
 def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float | bool] | None = None) -> Mechanism:
@@ -92,7 +94,7 @@ def _read_title(reader: Reader, shape: FileShape) -> str:
         check_name(shape.name, "mechanism", shape.name.where)
     title = shape.title if shape.title is not None else shape.name
     with reader.collect():
-        bad = re.search(r"[^\x20-\x7e\u00a0-\ud7ff\ue000-\uffef\U00010000-\U0010ffff]|\\|\*/|/\*|\?\?/", title)
+        bad = re.search(rf"[^{_SHOWN}]|\\|\*/|/\*|\?\?/", title)
         if bad or len(title) > _MAX_TITLE:
             what = f"has {bad[0]!r}" if bad else f"has {len(title)} characters"
             hint = f"expected one line of at most {_MAX_TITLE} characters without backslashes or comment signs"

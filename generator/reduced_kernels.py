@@ -39,10 +39,9 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
     kkt = KKT(system, daring=is_rescued(system))
     dynamics = dynamics_kernel(system, kkt, "reduced_dynamics", _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
-    model = system.model
-    integrates = model.degrees_of_freedom or model.clearances or model.frictions
-    # chains are closed by rates()
-    watched = watched_kernel(dynamics, model) if integrates and not system.chain else None
+    follows = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
+    # chains are closed by rates(); what is followed is not watched
+    watched = None if system.chain or follows else watched_kernel(dynamics, system.model)
     kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
     return [without_unused(kernel) for kernel in kernels], kkt
 

@@ -7,6 +7,7 @@ same branch; the largest counts. Contradictory rows do not assemble: the run tel
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -39,7 +40,7 @@ class NumericModel:
         slots, derived = [e.symbol for e in entries], list(model.slots.derived)
         self.p = np.array([e.default for e in entries] + [0.0] * len(derived))
         values = sp.lambdify([slots], [symbols.explicit(e) for e in model.slots.derived.values()], MODULES)
-        self.p[len(slots) :] = values(self.p[: len(slots)])
+        self.p[len(slots) :] = real(values(self.p[: len(slots)]))
         local = [s for s in symbols.definitions if not symbols.info[s].home]
         arguments = [[model.t], list(model.q), slots + derived]
         self._entries = [
@@ -54,7 +55,7 @@ class NumericModel:
         self._start = [sp.lambdify([slots + derived], group, MODULES) for group in groups]
 
     def _values(self, t: float, q: Array, p: Array) -> Array:
-        return np.array(self._rows([t], q, p), dtype=float)
+        return real(self._rows([t], q, p))
 
     def closed_phi(self, t: float, q: Array, p: Array) -> Array:
         return self._values(t, q, p)[: len(self.source.start_rows)]
@@ -71,11 +72,16 @@ class NumericModel:
         return out
 
     def mass(self, p: Array) -> Array:
-        return np.array(self._masses(p), dtype=float)
+        return real(self._masses(p))
 
     def start_values(self, p: Array) -> tuple[Array, Array, Array]:
-        guess, fixed, rates = (np.array(values(p), dtype=float) for values in self._start)
+        guess, fixed, rates = (real(values(p)) for values in self._start)
         return guess, fixed, rates
+
+
+def real(values: Sequence[complex]) -> Array:
+    """Numbers that turned complex, the root of a negative one, are none: as C has them."""
+    return np.array([math.nan if isinstance(x, complex) else x for x in values], dtype=float)
 
 
 def _needed(
@@ -101,8 +107,9 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     names = {row.name for row in model.rows}
     kept = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
-        q = search(numeric, numeric.p).q  # type: ignore[arg-type]
-        matrices = [numeric.closed_phi_q(0.0, x, numeric.p)[kept] for x in _configurations(numeric, q, kept)]
+        with np.errstate(all="ignore"):
+            q = search(numeric, numeric.p).q  # type: ignore[arg-type]
+            matrices = [numeric.closed_phi_q(0.0, x, numeric.p)[kept] for x in _configurations(numeric, q, kept)]
         ranks = [rank(matrix) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run will say why
         return Redundancy()

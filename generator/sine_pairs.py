@@ -7,7 +7,7 @@ small run longer than the library's, and is put into a vector all the same: runs
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import sympy as sp
@@ -15,16 +15,39 @@ import sympy as sp
 from gudgeon.generator.kernels import Kernel, Section, Statement
 
 MANY = 4  # groups, beyond which they are computed in a loop
+# Angles, statements that turn them, how many a kernel has numbered before: lines, how many it has numbered then.
+Written = Callable[[Sequence[sp.Symbol | None], Sequence[Statement], int], tuple[list[Statement | str], int]]
 
 
 def side_by_side(kernel: Kernel) -> Kernel:
     """The kernel with the cosines and sines of symbols taken from vectors, as soon as their angles are known."""
-    return replace(kernel, sections=tuple(_grouped(section, _vectors) for section in kernel.sections))
+    return _paired(kernel, _vectors)
 
 
 def lane_by_lane(kernel: Kernel) -> Kernel:
     """The same angles, each already a vector of as many runs (lanes.h): the same functions, so the same bits."""
-    return replace(kernel, sections=tuple(_grouped(section, _lanes) for section in kernel.sections))
+    return _paired(kernel, _lanes)
+
+
+def _paired(kernel: Kernel, written: Written) -> Kernel:
+    """Section by section: a cosine or sine that a section before has is read there, numbers of groups go on."""
+    known: dict[sp.Expr, sp.Symbol] = {}
+    sections: list[Section] = []
+    first = 0  # groups, or angles, so far
+    for section in kernel.sections:
+        again = tuple(_known(statement, known) for statement in section.statements)
+        grouped, first = _grouped(Section(section.title, again), written, first)
+        sections.append(grouped)
+        for statement in section.statements:
+            if _angle(statement) is not None and isinstance(statement, Statement) and statement.local:
+                known.setdefault(sp.sympify(statement.value), sp.Symbol(statement.target, real=True))
+    return replace(kernel, sections=tuple(sections))
+
+
+def _known(statement: Statement | str, known: Mapping[sp.Expr, sp.Symbol]) -> Statement | str:
+    if isinstance(statement, str) or isinstance(statement.value, str) or statement.value not in known:
+        return statement
+    return replace(statement, value=known[statement.value])
 
 
 def _angle(statement: Statement | str) -> sp.Symbol | None:
@@ -33,13 +56,11 @@ def _angle(statement: Statement | str) -> sp.Symbol | None:
     return value.args[0] if isinstance(value, (sp.cos, sp.sin)) and value.args[0].is_Symbol else None
 
 
-def _grouped(
-    section: Section, written: Callable[[Sequence[sp.Symbol | None], Sequence[Statement]], list[Statement | str]]
-) -> Section:
-    """First what the angles need, then these as they are `written`, then the rest."""
+def _grouped(section: Section, written: Written, before: int) -> tuple[Section, int]:
+    """First what the angles need, then these as they are `written`, then the rest; how many are numbered then."""
     statements = [s for s in section.statements if isinstance(s, Statement) and isinstance(s.value, sp.Expr)]
     if len(statements) < len(section.statements):
-        return section
+        return section, before
     places = {s.target: k for k, s in enumerate(statements)}
     needs: list[frozenset[int]] = []  # earlier statements that each one reads, directly or not
     for k, s in enumerate(statements):
@@ -50,26 +71,29 @@ def _grouped(
     turned = [k for k in turned if not needs[k] & set(turned)]
     angles = list(dict.fromkeys(_angle(statements[k]) for k in turned))
     if not angles:
-        return section
+        return section, before
     early = frozenset[int]().union(*(needs[k] for k in turned))
     first = [s for k, s in enumerate(statements) if k in early]
     rest = [s for k, s in enumerate(statements) if k not in early and k not in turned]
     taken = [statements[k] for k in turned]
-    return Section(section.title, (*first, *written(angles, taken), *rest))
+    lines, after = written(angles, taken, before)
+    return Section(section.title, (*first, *lines, *rest)), after
 
 
-def _vectors(angles: Sequence[sp.Symbol | None], taken: Sequence[Statement]) -> list[Statement | str]:
+def _vectors(
+    angles: Sequence[sp.Symbol | None], taken: Sequence[Statement], before: int
+) -> tuple[list[Statement | str], int]:
     """Groups of four angles, and the statements that read the results; many groups in a loop, which is shorter."""
     lines: list[Statement | str] = []
     named = [str(a) for a in angles] + [str(angles[-1])] * (-len(angles) % 4)
     groups = [", ".join(named[g : g + 4]) for g in range(0, len(named), 4)]
-    count, many = len(groups), len(groups) > MANY
+    count, many, of = len(groups), len(groups) > MANY, f"of_{before}" if before else "of"
     if many:
-        lines.append(f"const Four angles_of[{count}] = {{{', '.join(f'{{{group}}}' for group in groups)}}};")
-        lines.append(f"Four sines_of[{count}], cosines_of[{count}];")
-        lines.append(f"many_sines_and_cosines({count}, angles_of, sines_of, cosines_of);")
+        lines.append(f"const Four angles_{of}[{count}] = {{{', '.join(f'{{{group}}}' for group in groups)}}};")
+        lines.append(f"Four sines_{of}[{count}], cosines_{of}[{count}];")
+        lines.append(f"many_sines_and_cosines({count}, angles_{of}, sines_{of}, cosines_{of});")
     else:
-        for n, group in enumerate(groups):
+        for n, group in enumerate(groups, before):
             lines.append(f"const Four angles_{n} = {{{group}}};")
             lines.append(f"Four sines_{n}, cosines_{n};")
             lines.append(f"sines_and_cosines(&angles_{n}, &sines_{n}, &cosines_{n});")
@@ -77,18 +101,21 @@ def _vectors(angles: Sequence[sp.Symbol | None], taken: Sequence[Statement]) -> 
     for s in taken:
         n, lane = divmod(places[_angle(s)], 4)
         which = "cosines" if isinstance(s.value, sp.cos) else "sines"
-        value = f"{which}_of[{n}][{lane}]" if many else f"{which}_{n}[{lane}]"
-        lines.append(Statement(s.target, value, s.local, s.comment))
-    return lines
+        value = f"{which}_{of}[{n}][{lane}]" if many else f"{which}_{before + n}[{lane}]"
+        lines.append(replace(s, value=value))
+    return lines, before + count
 
 
-def _lanes(angles: Sequence[sp.Symbol | None], taken: Sequence[Statement]) -> list[Statement | str]:
+def _lanes(
+    angles: Sequence[sp.Symbol | None], taken: Sequence[Statement], before: int
+) -> tuple[list[Statement | str], int]:
     """One call an angle, and the statements that read the results."""
     lines: list[Statement | str] = []
-    for k, angle in enumerate(angles):
-        lines.append(f"Lanes sine_{k}, cosine_{k};")
-        lines.append(f"sines_and_cosines({angle}, &sine_{k}, &cosine_{k}, rare);")
+    place = {angle: k for k, angle in enumerate(angles, before)}
+    for angle, k in place.items():
+        lines.append(f"Lanes sines_{k}, cosines_{k};")
+        lines.append(f"sines_and_cosines({angle}, &sines_{k}, &cosines_{k}, rare);")
     for s in taken:
-        which = "cosine" if isinstance(s.value, sp.cos) else "sine"
-        lines.append(Statement(s.target, f"{which}_{angles.index(_angle(s))}", s.local, s.comment))
-    return lines
+        which = "cosines" if isinstance(s.value, sp.cos) else "sines"
+        lines.append(Statement(s.target, f"{which}_{place[_angle(s)]}", s.local, s.comment))
+    return lines, before + len(place)

@@ -123,5 +123,7 @@ class Switches:
                     value = Pick(side(value - other if up else other - value), value, other)
                 return value
             case sp.Pow() if not expression.exp.is_integer and arguments[0] != expression.base:
-                return Magnitude(arguments[0]) ** arguments[1]
+                # what is not known to stay above zero is no number below it, and must not become one
+                base = Magnitude(arguments[0]) if expression.base.is_nonnegative else arguments[0]
+                return base ** arguments[1]
         return expression.func(*arguments)

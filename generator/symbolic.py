@@ -23,10 +23,14 @@ def ramp(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
     return sp.Max(0, sp.Min(1, (t - start) / duration))
 
 
+_HALF = sp.Rational(1, 2)
+_LONG = 60  # operations under a root, beyond which nobody wrote a square
+
+
 _FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
     "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": sp.exp, "log": sp.log,
-    "sqrt": sp.sqrt, "hypot": lambda a, b: sp.sqrt(a**2 + b**2), "abs": sp.Abs, "sign": sp.sign,
+    "sqrt": lambda a: root(a, _HALF), "hypot": lambda a, b: root(a**2 + b**2, _HALF), "abs": sp.Abs, "sign": sp.sign,
     "min": sp.Min, "max": sp.Max, "smooth_step": smooth_step, "ramp": ramp,
 }  # fmt: skip
 
@@ -59,7 +63,26 @@ def _combine(operator: str, a: sp.Expr, b: sp.Expr) -> sp.Expr:
             return a * b
         case "/":
             return a / b
-    return _power(a, b) if a.is_number and b.is_number else a**b
+    return _power(a, b) if a.is_number and b.is_number else root(a, _halves(b))
+
+
+def root(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
+    """A power; of a sum under a root its squares are taken out: sqrt(t**2 - 2*t + 1) is |t - 1|, a corner and all."""
+    if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _LONG:
+        return base**exponent
+    try:
+        factor, parts = sp.sqf_list(sp.nsimplify(base, rational=True))
+    except sp.PolynomialError:
+        return base**exponent
+    if all(count == 1 for _, count in parts):
+        return base**exponent
+    return sp.Mul(factor, *(sp.Pow(part, count) for part, count in parts)) ** exponent
+
+
+def _halves(exponent: sp.Expr) -> sp.Expr:
+    """An exponent such as 0.5 or 1.5 exactly, so that (u**2)**0.5 is |u| and has its corner."""
+    exact = sp.Rational(exponent) if exponent.is_Float else exponent
+    return exact if exact.is_Rational and exact.q <= 8 else exponent
 
 
 def _power(a: sp.Expr, b: sp.Expr) -> sp.Expr:

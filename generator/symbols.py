@@ -25,6 +25,7 @@ expand reduce_state reduce_accelerations solve_by_absolute all_q all_v all_a s s
 e_x e_y de_x de_y de_t omega_i omega_j n_x n_y stored a_i a_j share F_r T0 F_x F_y F_along_n F_along_t M_i M_j
 eta eta_row eta_stick lin r s u x depth unclipped dF value slope film
 close_step arrive step rates worst factor_block solve_block
+Lanes LaneBits LaneParameters LaneRun LaneAside LaneLatch LanePinForce LaneClearance all_of any_of pick rare
 chain_step chain_rates chain_third chain_corners chain_directions row most bend
 """
 _TAKEN = frozenset(_WORDS.split())
@@ -37,7 +38,7 @@ _MACRO = re.compile(
 )
 # Functions that are called where a parameter of that name is a local; parts of a clearance joint's force.
 _FUNCTION = re.compile(
-    r"(angles|sines|cosines)_(\d+|of)|(clearance|tangent)_\w+|\w*newton_substitute|side_\d+"
+    r"(angles|sines|cosines)_(\d+|of(_\d+)?)|(clearance|tangent)_\w+|\w*newton_substitute|side_\d+|lanes_\w+"
     r"|(F_along_[nt]|M_[ij])_(dry|film)"
 )
 

@@ -16,6 +16,7 @@ from typing import Annotated, Any, TypeVar
 import typer
 
 from gudgeon.errors import GudgeonError
+from gudgeon.shown import visible
 
 INTERRUPTED = 130
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -32,7 +33,7 @@ app = typer.Typer(
 def complain(error: GudgeonError) -> None:
     """Write `error: …` to stderr, in red if somebody looks."""
     red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() else ("", "")
-    print(f"{red}error:{plain} {error}", file=sys.stderr)
+    print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
 
 
 def _told(command: Command) -> Command:
@@ -263,7 +264,7 @@ def main() -> None:
     def tell(message: Warning | str, *_: Any, **__: Any) -> None:
         if str(message) not in told:  # once, and without a line of our code
             told.add(str(message))
-            print(f"warning: {message}", file=sys.stderr)
+            print(f"warning: {visible(message)}", file=sys.stderr)
 
     warnings.showwarning = tell
     app()

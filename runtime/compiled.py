@@ -126,7 +126,11 @@ class CompiledModel:
 
     def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
         """γ, (m,)."""
-        return self._rows("gudgeon_gamma", t, p, q, v)[self._kept]
+        return self.closed_gamma(t, q, v, p)[self._kept]
+
+    def closed_gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
+        """γ of the closed linkage."""
+        return self._rows("gudgeon_gamma", t, p, q, v)
 
     def start_values(self, p: ArrayLike) -> tuple[Array, Array, Array]:
         """Numbers of the file's start: guess, set, rates."""

@@ -95,6 +95,16 @@ class SeriesInfo:
 
 
 @dataclass(frozen=True)
+class WrittenInfo:
+    """An expression of t or motion in the file: a drive's, a force's, an event's; `tree` is its JSON."""
+
+    address: str  # "drives.crank.value"
+    tree: str
+    line: int
+    column: int
+
+
+@dataclass(frozen=True)
 class EventInfo:
     """An event of the user: action "record" or "stop", direction "rising", "falling" or "both"."""
 
@@ -162,6 +172,7 @@ class KernelSource:
     chain_rows: tuple[str, ...] = ()  # the rows of these loops
     events: tuple[EventInfo, ...] = ()
     story: Story = Story()  # how the equations became what is integrated (check -v)
+    written: tuple[WrittenInfo, ...] = ()
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
 
@@ -185,6 +196,7 @@ class KernelSource:
             "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
             "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
+            "written": WrittenInfo,
         }  # fmt: skip
         for key, kind in kinds.items():
             data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))

@@ -8,6 +8,7 @@ out of the file are not followed, and no more is read than the file can hold. Fi
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,7 @@ from gudgeon.typed import check_typed
 
 OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
 OLD_NAMES = ("time", "impact", "event", "slot", "prepared")
+NAME, UNIT = re.compile(r"[A-Za-z][\w.]*", re.ASCII), re.compile(r"[\w^*/. ()-]*", re.ASCII)
 DEFLATE = 1100  # no filter of HDF5's own makes data this many times smaller
 AGAIN = "it is no result of gudgeon, or was damaged or cut short; run the scene again"
 
@@ -133,6 +135,7 @@ def _result(file: _File) -> Result:
 
     source = KernelSource.from_json(file.text("source", "" if file.is_old else COMPILED))
     check_typed(source, KernelSource, "source")
+    _check_names(source)
     diagnostics = Diagnostics.from_json(file.text("diagnostics"))
     check_typed(diagnostics, Diagnostics, "diagnostics")
     t = file.numbers("time")
@@ -151,6 +154,19 @@ def _result(file: _File) -> Result:
     )  # fmt: skip
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
     return run
+
+
+def _check_names(source: KernelSource) -> None:
+    """They will stand in tables, figures and paths: identifiers with dots, as the reader of mechanisms has them."""
+    named: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
+    named += source.points
+    units = [slot.unit for slot in source.slots] + [series.unit for series in source.series]
+    names = [thing.name for thing in named] + [slot.address for slot in source.slots] + [*source.outputs]
+    for name in (source.mechanism, source.scene, *names, *(series.name for series in source.series)):
+        if not NAME.fullmatch(name):
+            raise ValueError(f"{name[:64]!r} is no name")
+    if wrong := [unit for unit in units if not UNIT.fullmatch(unit)]:
+        raise ValueError(f"{wrong[0][:64]!r} is no unit")
 
 
 def _series(file: _File, name: str, length: int) -> Array:

@@ -20,6 +20,7 @@ from gudgeon import trace
 from gudgeon.errors import GudgeonError
 from gudgeon.plot_units import label, scale
 from gudgeon.series import rates
+from gudgeon.shown import in_figure
 from gudgeon.writing import write_bytes
 
 try:
@@ -43,7 +44,7 @@ STYLE = {
     "font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "xtick.labelsize": 8, "ytick.labelsize": 8,
     "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#888888", "axes.grid": True,
     "grid.color": "#e4e4e4", "grid.linewidth": 0.6, "axes.axisbelow": True, "legend.frameon": False,
-    "xtick.color": "#444444", "ytick.color": "#444444", "agg.path.chunksize": 20000,
+    "xtick.color": "#444444", "ytick.color": "#444444", "agg.path.chunksize": 20000, "text.usetex": False,
 }  # fmt: skip
 
 
@@ -272,7 +273,7 @@ def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str
     from matplotlib.patches import Patch
 
     run = next(iter(runs.values()))
-    title = "\n".join(textwrap.wrap(run.source.title or run.source.mechanism, TITLE))
+    title = in_figure(run.source.title or run.source.mechanism, TITLE)
     picture.suptitle(title, fontsize=13, fontweight="bold", x=0.012, ha="left")
     handles: list[Any] = [Line2D([], [], color=colour, lw=2.2, label=scene) for scene, colour in colours.items()]
     if compared:

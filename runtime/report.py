@@ -115,10 +115,11 @@ def _finite(value: Any) -> Any:
 
 def tables(title: str, reports: Sequence[SceneReport], width: int) -> list[Table]:
     """A scene a column, a quantity a row; so many scenes beside each other as fit into `width` characters."""
-    from rich.console import Console
     from rich.measure import Measurement
 
-    endless = Console(width=10_000)
+    from gudgeon.shown import plain_console
+
+    endless = plain_console(10_000)
     rows = _rows(reports)
     found: list[Table] = []
     for count in range(min(COLUMNS, len(reports)), 0, -1):
@@ -132,7 +133,11 @@ def tables(title: str, reports: Sequence[SceneReport], width: int) -> list[Table
 def _table(title: str, reports: Sequence[SceneReport], rows: list[tuple[str, list[str]]], part: slice) -> Table:
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
+    from rich.text import Text
 
+    from gudgeon.shown import one_line
+
+    title = one_line(title)
     table = Table(title=title or None, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
     table.add_column("", no_wrap=True)
     for report in reports[part]:
@@ -140,7 +145,7 @@ def _table(title: str, reports: Sequence[SceneReport], rows: list[tuple[str, lis
     for name, cells in rows:
         if not cells:
             table.add_section()
-            table.add_row(f"[bold]{name}[/bold]")
+            table.add_row(Text(name, style="bold"))
         else:
             table.add_row(f"  {name}", *cells[part])
     return table

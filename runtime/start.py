@@ -15,10 +15,12 @@ import numpy as np
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import AssemblyError
 from gudgeon.rank import tied
+from gudgeon.written import reason
 
 MAX_STEPS = 60
 FAR = 1.0  # rad: where a guessed angle turns further, a nearer configuration is sought
 TRIES, MANY = 24, 60  # from as many other angles; fewer with more coordinates than these
+MORE, ENOUGH = 3, 3  # times as many, further and further away, where none of them closes; until so many do
 LARGE = 150  # from so many columns on a sparse factorization is tried first
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 AWAY = 1e3  # of the mechanism's size: a body so far from the origin is lost
@@ -39,7 +41,8 @@ class Start:
 
 def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
     """The start of a scene. Raises AssemblyError with rows, joints and residual."""
-    if compiled.n < LARGE and (closed := compiled.close(t, p, mechanism_size(compiled, p))) is not None:
+    closed = compiled.close(t, p, mechanism_size(compiled, p)) if compiled.n < LARGE else None
+    if closed is not None and np.isfinite(closed[1]).all():
         return Start(*closed)
     return search(compiled, p, t)
 
@@ -102,10 +105,23 @@ class _Assembly:
             return first
         found = [first, *(self._newton(other) for other in self._others(guess))]
         near = [q for q in found if self._is_near(q)]
-        closed = [self._unwound(q, guess) for q in near if self._norm(q) < CLOSED]
+        closed = [self._unwound(q, guess) for q in near if self._norm(q) < CLOSED] or self._further(guess, near)
         if not closed:
             raise self._failure(min(near, key=self._norm, default=guess))
         return min(closed, key=lambda q: float(np.linalg.norm((q - guess) * self.weight)))
+
+    def _further(self, guess: Array, near: list[Array]) -> list[Array]:
+        """Closed configurations from anywhere: the guess is no help, or every way from its surroundings ends in a
+        fold, where the residual is least and not zero. `near` takes up what does not close."""
+        closed: list[Array] = []
+        for other in self._others(guess, MORE):
+            q = self._newton(other)
+            if self._is_near(q):
+                near.append(q)
+                closed += [self._unwound(q, guess)] if self._norm(q) < CLOSED else []
+            if len(closed) == ENOUGH:
+                break
+        return closed
 
     def _is_near(self, q: Array) -> bool:
         """Not run off to where parallel lines meet, and every row seems to close."""
@@ -116,12 +132,14 @@ class _Assembly:
         held = self.is_angle & (self.weight == GUESSED)
         return float(np.abs(q - guess)[held].max(initial=0.0))
 
-    def _others(self, guess: Array) -> Iterator[Array]:
-        """Coordinates around the guess, the same in every run; driven and set ones fall back into place."""
-        rng, guessed = np.random.default_rng(0), [self.place[name] for name in self.compiled.source.start_guess]
-        spread = np.where(self.is_angle, np.pi, self.size)
-        spread[guessed] /= np.pi
-        for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):
+    def _others(self, guess: Array, times: int = 1) -> Iterator[Array]:
+        """Coordinates around the guess, the same in every run; driven and set ones fall back into place. `times` as
+        many, guessed ones from nearer to further than usual."""
+        guessed = [self.place[name] for name in self.compiled.source.start_guess]
+        rng, count = np.random.default_rng(times - 1), times * (TRIES if len(guess) <= MANY else TRIES // 4)
+        for k in range(count):
+            spread = np.where(self.is_angle, np.pi, self.size)
+            spread[guessed] /= np.pi if times == 1 else np.pi ** (1.0 - k / count)
             q = guess + spread * rng.uniform(-1.0, 1.0, len(guess))
             q[self.set_index] = self.set
             yield self._place_angles(q)
@@ -166,6 +184,13 @@ class _Assembly:
         extra[np.arange(len(index)), index] = 1.0
         matrix = np.concatenate([self.compiled.closed_phi_q(self.t, q, self.p), extra])
         target = np.concatenate([self.compiled.closed_nu(self.t, q, self.p), self.rates])
+        if not (np.isfinite(target).all() and np.isfinite(matrix).all()):
+            source = self.compiled.source
+            rows = [row.name for row, x in zip(source.start_rows, target, strict=False) if not np.isfinite(x)]
+            raise AssemblyError(
+                f"the start has no velocities: the rate of {', '.join(rows) or 'the constraints'} is not finite at"
+                f" t = {self.t:g} s\n  a root or a power has no slope where it begins: begin with smooth_step or later"
+            )
         root = np.sqrt(self.compiled.mass(self.p))
         v = np.zeros_like(q)
         for _ in range(2):  # once more for the rounding of the first solution
@@ -203,7 +228,9 @@ class _Assembly:
         """Which rows stay open, by how much, and what to try."""
         scaled = np.abs(self.residual(q) / self.row_scale)
         if not np.isfinite(scaled).all():
-            return AssemblyError("the start cannot be assembled: the constraints are not finite at the guess")
+            why = reason(self.compiled.source, self.p, self.t, q, np.zeros_like(q))
+            told = f"{why}\n  expected a number at the start" if why else "the constraints are not finite at the guess"
+            return AssemblyError(f"the start cannot be assembled: {told}")
         worst = np.argsort(-scaled)[:6]
         worst = worst[scaled[worst] > 1e-3 * scaled.max()]
         rows = ", ".join(f"{self.names[k]} ({self.residual(q)[k]:.3g})" for k in worst)
@@ -230,7 +257,8 @@ def mechanism_sizes(compiled: CompiledModel, p: Array) -> Array:
     index += [k for k, is_length in enumerate(lengths) if is_length]
     if not index:
         return np.ones(p.shape[:-1])
-    return np.maximum(np.abs(p[..., index]).max(axis=-1, initial=0.0), 1e-9)
+    size = np.abs(p[..., index]).max(axis=-1, initial=0.0)
+    return np.where(size > 0.0, size, 1.0)
 
 
 def smallest(matrix: Array, target: Array) -> Array:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
 from types import NoneType, UnionType
-from typing import Any, cast, get_args, get_origin, get_type_hints
+from typing import Any, get_args, get_origin, get_type_hints
 
 
 def check_typed(value: Any, kind: Any, where: str) -> None:
@@ -24,9 +24,9 @@ def check_typed(value: Any, kind: Any, where: str) -> None:
     elif isinstance(kind, UnionType):
         if not any(_is_typed(value, one) for one in get_args(kind)):
             raise TypeError(f"{where} is {type(value).__name__}, expected {kind}")
-    elif is_dataclass(kind):
+    elif isinstance(kind, type) and is_dataclass(kind):
         _check_class(value, kind, where)
-        for name, one in _hints(cast(Any, kind)).items():
+        for name, one in _hints(kind).items():
             check_typed(getattr(value, name), one, f"{where}.{name}")
     else:
         _check_class(value, {float: (float, int)}.get(kind, kind), where)

@@ -153,7 +153,7 @@ def _of_scene(source: KernelSource) -> dict[str, Any]:
 
 
 def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
-    from rich.console import Console
+    from gudgeon.shown import one_line, plain_console
 
     facts = {scene: _facts(source) for scene, source in scenes.items()}
     names = [
@@ -161,8 +161,7 @@ def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
         for name in dict.fromkeys(name for found in facts.values() for name in found)
         if not name.startswith("operations") or any(found.get(name) for found in facts.values())
     ]  # without the kernels that are zeros in every scene
-    console = Console(width=WIDTH, highlight=False)
-    title = mechanism.title or mechanism.name
+    console, title = plain_console(WIDTH), one_line(mechanism.title or mechanism.name)
     for some in _beside(scenes, max(map(len, names))):
         console.print(_table(title, names, {scene: facts[scene] for scene in some}))
     for part in tell(scenes, _rest):

@@ -38,12 +38,13 @@ def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]
 
 
 def _start() -> Any:
-    from rich.console import Console
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
+    from gudgeon.shown import plain_console
+
     progress = Progress(
-        TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn(),
-        TextColumn("{task.fields[text]}"), console=Console(stderr=True), transient=True,
+        TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn(),
+        TextColumn("{task.fields[text]}", markup=False), console=plain_console(stderr=True), transient=True,
     )  # fmt: skip
     progress.start()
     return progress

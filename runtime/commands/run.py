@@ -16,9 +16,11 @@ from gudgeon.commands.progress import progress_bar
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.loading import load
 from gudgeon.results import Result
+from gudgeon.shown import visible
 from gudgeon.step import T_END, scene_end
 
 if TYPE_CHECKING:
+    from gudgeon.kernel_source import KernelSource
     from gudgeon.report import SceneReport
     from gudgeon.simulation import Simulation
 
@@ -55,7 +57,9 @@ class Session:
     runs: dict[str, Result] = field(default_factory=dict)
     references: dict[str, Result] = field(default_factory=dict)
     failures: dict[str, GudgeonError] = field(default_factory=dict)
+    files: Files = field(default_factory=dict)  # what was written
     unwritten: list[GudgeonError] = field(default_factory=list)
+    shown: bool = False
     interrupted: bool = False
 
 
@@ -74,12 +78,15 @@ def run_scenes(request: Request) -> int:
         _simulate(request, wanted, simulations, session)
     except KeyboardInterrupt:
         session.interrupted = True
-    if session.runs:
-        _hand_over(request, simulations[IDEAL], session)
+    try:
+        if session.runs:
+            _hand_over(request, simulations[IDEAL], session)
+    except KeyboardInterrupt:
+        session.interrupted = True
     for scene, error in session.failures.items():
-        print(f"error: scene {scene}: {error}", file=sys.stderr)
+        print(f"error: scene {scene}: {visible(error)}", file=sys.stderr)
     for error in session.unwritten:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {visible(error)}", file=sys.stderr)
     if session.interrupted:
         print(_interrupted(names, session), file=sys.stderr)
         return 130
@@ -96,7 +103,11 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
 
     if not session.runs:
         return "interrupted before anything was computed: nothing is shown or saved"
-    told = "interrupted: what was computed is shown and saved" + ", but for what could not be" * bool(session.unwritten)
+    unsaved = [name for name in session.runs if name not in session.files]
+    kept = " and ".join(["shown"] * session.shown + ["saved"] * (not unsaved)) or "neither shown nor saved"
+    told = f"interrupted: what was computed is {kept}"
+    if unsaved and session.shown or 0 < len(unsaved) < len(session.runs):
+        told += f"; not saved: {', '.join(unsaved)}"
     if any(UNFINISHED in run.diagnostics.notes for run in session.runs.values()):
         told += "; the search for the horizon was not finished"
     ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in session.runs.items() if run.diagnostics.interrupted]
@@ -166,29 +177,34 @@ def _simulate(
 
 
 def _hand_over(request: Request, ideal: Simulation, session: Session) -> None:
-    """References, figures, files: everything after the integration."""
-    from gudgeon.report import as_json, compare, default_watch
+    """Everything after the integration: the results are saved first, for nothing that follows may lose them."""
+    from gudgeon.report import compare, default_watch
 
+    runs = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
+    _save(request.out, runs, session)
+    _refer(ideal, session)
+    first = session.runs.get(IDEAL) or next(iter([*session.references.values(), *session.runs.values()]))
+    watch = request.watch or default_watch(first)
+    reports = [compare(run, session.references.get(scene), watch) for scene, run in runs.items()]
+    try:
+        _draw(request.out, runs, session, watch)
+    finally:
+        _show(request, first.source, reports, session)
+
+
+def _refer(ideal: Simulation, session: Session) -> None:
+    """An ideal run to compare with for each scene with play; one that Ctrl-C ended is none."""
     for scene, run in session.runs.items():
         if run.source.clearances:  # any other scene is the ideal one with its own numbers
             try:
-                session.references[scene] = _reference(ideal, run, session)
+                reference = _reference(ideal, run, session)
             except GudgeonError as error:
                 session.failures.setdefault(IDEAL, error)
-    first = session.runs.get(IDEAL) or next(iter([*session.references.values(), *session.runs.values()]))
-    watch = request.watch or default_watch(first)
-    shown = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
-    reports = [compare(run, session.references.get(scene), watch) for scene, run in shown.items()]
-    if not request.json:
-        _print(first.source.title or first.source.mechanism, reports)
-    files = _write(request.out, shown, session, watch)
-    if request.json:
-        import json
-
-        document = {"mechanism": first.source.mechanism, "scenes": as_json(reports), "files": files}
-        print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
-    else:
-        print("".join(f"wrote {path}\n" for path in files.values()), end="")
+                continue
+            if len(reference.t) < len(run.t):
+                session.interrupted = True
+                return
+            session.references[scene] = reference
 
 
 def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
@@ -201,29 +217,31 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
     return ideal.simulate(output=run.t, parameters=values, stop=False)
 
 
-def _write(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequence[str]) -> Files:
-    """A NetCDF file a scene and one picture; a note names an optional package that is missing.
-
-    What a full disk refuses goes to `session.unwritten`, and the rest is written: a picture is smaller than results.
-    """
-    files: Files = {}
-    mechanism = next(iter(runs.values())).source.mechanism
-    if _have("NetCDF files", "h5py"):
-        for scene, run in runs.items():
-            try:
-                run.save(result_path(out, mechanism, scene))
-                files[scene] = str(result_path(out, mechanism, scene))
-            except GudgeonError as error:
-                session.unwritten.append(error)
-    if _have("picture", "matplotlib"):
-        from gudgeon.plots import figure, save_figure
-
+def _save(out: Path, runs: Mapping[str, Result], session: Session) -> None:
+    """A NetCDF file a scene; what a full disk refuses goes to `session.unwritten`, and the others are written."""
+    if not _have("NetCDF files", "h5py"):
+        return
+    for scene, run in runs.items():
+        path = result_path(out, run.source.mechanism, scene)
         try:
-            save_figure(figure(runs, session.references, watch), out / f"{mechanism}.png")
-            files["picture"] = str(out / f"{mechanism}.png")
+            run.save(path)
+            session.files[scene] = str(path)
         except GudgeonError as error:
             session.unwritten.append(error)
-    return files
+
+
+def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequence[str]) -> None:
+    """One picture: it is smaller than results, and there may be room for it where there was none for them."""
+    if not _have("picture", "matplotlib"):
+        return
+    from gudgeon.plots import figure, save_figure
+
+    path = out / f"{next(iter(runs.values())).source.mechanism}.png"
+    try:
+        save_figure(figure(runs, session.references, watch), path)
+        session.files["picture"] = str(path)
+    except GudgeonError as error:
+        session.unwritten.append(error)
 
 
 def result_path(out: Path, mechanism: str, scene: str) -> Path:
@@ -238,13 +256,21 @@ def _have(what: str, *packages: str) -> bool:
     return not missing
 
 
-def _print(title: str, reports: list[SceneReport]) -> None:
-    from rich.console import Console
+def _show(request: Request, source: KernelSource, reports: list[SceneReport], session: Session) -> None:
+    """What was found and written: tables and notes, or JSON."""
+    from gudgeon.report import as_json, tables
+    from gudgeon.shown import plain_console
 
-    from gudgeon.report import tables
+    if request.json:
+        import json
 
-    console = Console(width=None if sys.stdout.isatty() else 200, highlight=False)
-    for table in tables(title, reports, console.width):
-        console.print(table)
-    for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
-        console.print(f"note: {note}", markup=False)
+        document = {"mechanism": source.mechanism, "scenes": as_json(reports), "files": session.files}
+        print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
+    else:
+        console = plain_console(None if sys.stdout.isatty() else 200)
+        for table in tables(source.title or source.mechanism, reports, console.width):
+            console.print(table)
+        for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
+            console.print(f"note: {visible(note)}")
+        print("".join(f"wrote {path}\n" for path in session.files.values()), end="")
+    session.shown = True

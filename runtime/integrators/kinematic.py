@@ -14,13 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.compiled import Array
-from gudgeon.errors import SolverError
+from gudgeon.errors import NonFiniteError, SolverError
 from gudgeon.integrators.asking import Asker
-from gudgeon.integrators.failure import STALLED, STOPPED, Pace, too_far
+from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, too_far
 from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
 from gudgeon.start import mechanism_size
+from gudgeon.written import rate_reason, reason_between
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
@@ -181,6 +182,14 @@ def _stalled(problem: Problem, pace: Pace) -> SolverError:
 
 def _failure(problem: Problem, status: int, t: float) -> SolverError:
     """Why the motion cannot be followed beyond t (s)."""
+    later = problem.t[problem.t > t]
+    until = float(later[0]) if len(later) else t
+    why, when = reason_between(problem.compiled.source, problem.p, t, until + 1e-9 * max(1.0, abs(until)))
+    if not why:
+        times = np.linspace(t, until, 1001)
+        why, when = rate_reason(problem.compiled, problem.p, times, np.zeros(problem.compiled.n))
+    if why:
+        return NonFiniteError(f"{why}\n  {NO_NUMBER}", when)
     if status < 0:
         return SolverError(
             f"the linkage cannot follow its drives beyond t = {t:.12g} s: Newton's method finds no position"

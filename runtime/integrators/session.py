@@ -29,7 +29,7 @@ class RunEnded(Exception):
 
 def resolution(t: Array) -> float:
     """To how many seconds an event and a sample are told apart in a run with these output times (N,)."""
-    return max(32 * EPSILON * float(abs(t[[0, -1]]).max()), 4e-12 * float(t[-1] - t[0]))
+    return max(32 * EPSILON * float(abs(t[[0, -1]]).max()), min(1e-11, 1e-10 * float(t[-1] - t[0])))
 
 
 def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:

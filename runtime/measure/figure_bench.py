@@ -15,6 +15,7 @@ from gudgeon.integrators.python_driver import NAMES
 from gudgeon.measure.words import seconds, share
 from gudgeon.measure.work import Setting
 from gudgeon.plots import COLOURS, IDEAL, STYLE
+from gudgeon.shown import in_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,7 +44,8 @@ def bench_figure(title: str, found: Sequence[SceneBench], mark_step: float | Non
         doubt = "within the references' own uncertainty"
         handles.append(Line2D([], [], color=GREY, marker="o", mfc="white", ls="", ms=5, label=doubt))
         told = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
-        picture.suptitle(f"{title}: run time against error{told}", fontsize=12, fontweight="bold", x=0.012, ha="left")
+        head = in_figure(f"{title}: run time against error{told}", 110)
+        picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=8.5)
     return picture
 

@@ -18,6 +18,7 @@ from gudgeon.measure.show_box import SEVERITY, count
 from gudgeon.measure.words import seconds
 from gudgeon.plot_units import label, pretty, quantity
 from gudgeon.plots import IDEAL, STYLE
+from gudgeon.shown import in_figure
 from gudgeon.stress import StressBox
 
 if TYPE_CHECKING:
@@ -44,7 +45,8 @@ def box_figure(title: str, found: Sequence[StressBox]) -> Figure:
         handles = [Line2D([], [], color=LOOK[s][0], marker=LOOK[s][1], ls="", ms=6, label=s.value) for s in used]
         handles.append(Line2D([], [], color="white", mec=IDEAL, marker="o", ls="", ms=7, label="a corner of the box"))
         told = " (partial: interrupted)" if any(box.interrupted for box in found) else ""
-        picture.suptitle(f"{title}: where does it fail?{told}", fontsize=12, fontweight="bold", x=0.012, ha="left")
+        head = in_figure(f"{title}: where does it fail?{told}", 125 if wide else 75)
+        picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9)
     return picture
 

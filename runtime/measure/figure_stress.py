@@ -14,6 +14,7 @@ from gudgeon.measure.cells import Cell, Status
 from gudgeon.measure.show_stress import explain, value
 from gudgeon.measure.words import seconds
 from gudgeon.plots import IDEAL, STYLE
+from gudgeon.shown import in_figure
 from gudgeon.stress import StressMap
 
 if TYPE_CHECKING:
@@ -43,7 +44,8 @@ def stress_figure(title: str, found: Sequence[StressMap], mark_step: float | Non
             handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {seconds(mark_step)}"))
         question = "which step will do?" if found[0].rows.name == "step" else "where does it fail?"
         told = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
-        picture.suptitle(f"{title}: {question}{told}", fontsize=12, fontweight="bold", x=0.012, ha="left")
+        head = in_figure(f"{title}: {question}{told}", int(10 * width))
+        picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         picture.legend(
             handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=explain(found), title_fontsize=8
         )

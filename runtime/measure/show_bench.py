@@ -54,23 +54,23 @@ def _show(
         return
     out = console()
     for scene in found:
-        out.print(_title(scene), style="bold", markup=False)
+        out.print(_title(scene), style="bold")
         if scene.methods == ("kinematic",):
             out.print(_kinematic_table(scene))
         elif own := [row for row in scene.rows if row.setting.method not in NAMES]:
             out.print(_table(scene, own))
         if checks := [row for row in scene.rows if row.setting.method in NAMES]:
-            out.print("  cross-checks: others' methods on the full formulation, driven from Python", markup=False)
+            out.print("  cross-checks: others' methods on the full formulation, driven from Python")
             out.print(_table(scene, checks, [name for name in COLUMNS if name != "Jacobians"]))
         for line in notes(scene, mark_step):
-            out.print(f"  {line}", markup=False)
+            out.print(f"  {line}")
         if scene.references:
             out.print(_target_table(scene))
     if any(scene.rhs for scene in found):
         out.print("one right-hand side", style="bold")
         out.print(_rhs_table(found))
     for path in written:
-        out.print(f"wrote {path}", markup=False)
+        out.print(f"wrote {path}")
 
 
 def _title(scene: SceneBench) -> str:
@@ -88,13 +88,15 @@ def _kinematic_table(scene: SceneBench) -> Table:
 
 def _table(scene: SceneBench, rows: Sequence[Row], columns: Sequence[str] = COLUMNS) -> Table:
     """Run time is that of the window, rhs its right-hand sides. Errors in brackets are not resolved."""
+    from rich.text import Text
+
     table = new_table(columns)
     before = ""
     for row in rows:
         method = row.setting.method if row.setting.method != before else ""
         before = row.setting.method
         if row.failure:
-            table.add_row(method, str(row.setting), "[red]fails[/red]", f"[red]at {seconds(row.failed_at)}[/red]")
+            table.add_row(method, str(row.setting), Text("fails", "red"), Text(f"at {seconds(row.failed_at)}", "red"))
             continue
         errors = (_told(scene, m, getattr(row.error, m)) for m in ("motion", "path", "force"))
         jacobians = [f"{row.jacobians:,}" if row.jacobians else "–"] if "Jacobians" in columns else []

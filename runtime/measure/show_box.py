@@ -55,16 +55,16 @@ def _show(
     for box in found:
         edges = ", ".join(f"{edge.name} {edge.low:.4g} … {edge.high:.4g}" for edge in box.ranges)
         title = f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point: {edges}"
-        out.print(title + partial(box), style="bold", markup=False)
+        out.print(title + partial(box), style="bold")
         if box.full:
-            out.print(f"  {FULL}", markup=False)
-        out.print(f"  {count(box.cells)}", markup=False)
+            out.print(f"  {FULL}")
+        out.print(f"  {count(box.cells)}")
         out.print(_verdicts(box.cells))
         if worst := worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
             tell_failures(out, file, box, worst)
     for path in written:
-        out.print(f"wrote {path}", markup=False)
+        out.print(f"wrote {path}")
 
 
 def count(cells: Sequence[Cell]) -> str:
@@ -100,9 +100,11 @@ def worst_cells(cells: Sequence[Cell]) -> list[Cell]:
 
 
 def _verdicts(cells: Sequence[Cell]) -> Table:
+    from rich.text import Text
+
     table = new_table(("verdict", "points", "largest error", "reason"), left=("verdict", "reason"))
     for status, reason, own in grouped(cells):
         errors = [cell.error.largest for cell in own if math.isfinite(cell.error.largest)]
-        sign = f"[{COLOURS[status]}]{SIGNS[status]} {status.value}[/]"
+        sign = Text(f"{SIGNS[status]} {status.value}", COLOURS[status])
         table.add_row(sign, str(len(own)), share(max(errors, default=math.nan)), reason)
     return table

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
     from rich.table import Table
+    from rich.text import Text
 
 COLOURS = {
     Status.STABLE: "green", Status.OUTSIDE: "bright_black", Status.INACCURATE: "yellow", Status.DIVERGED: "red",
@@ -74,11 +75,11 @@ def _show(
     for scene in found:
         finer = "a ten times shorter step" if scene.setting.fixed else "a hundred times tighter tolerance"
         title = f"{scene.scene}, {scene.setting.method}: sane over {seconds(scene.t_long)}, and equal to {finer}?"
-        out.print(title + partial(scene), style="bold", markup=False)
+        out.print(title + partial(scene), style="bold")
         if scene.full:
-            out.print(f"  {FULL}", markup=False)
+            out.print(f"  {FULL}")
         if scene.columns.ratios:
-            out.print(f"  {scene.rows.name} down, {scene.columns.name} across", markup=False)
+            out.print(f"  {scene.rows.name} down, {scene.columns.name} across")
         out.print(_map_table(scene))
         if scene.rows.name == "step":
             out.print(_boundary_table(scene))
@@ -87,11 +88,11 @@ def _show(
             tell_failures(out, file, scene, failures)
     out.print(legend(found))
     for line in explain(found).splitlines():
-        out.print(f"  {line}", markup=False)
+        out.print(f"  {line}")
     for line in verdict(found, mark_step):
-        out.print(line, markup=False)
+        out.print(line)
     for path in written:
-        out.print(f"wrote {path}", markup=False)
+        out.print(f"wrote {path}")
 
 
 def value(axis: Axis, x: float) -> str:
@@ -105,11 +106,13 @@ def value(axis: Axis, x: float) -> str:
 
 def _map_table(scene: StressMap) -> Table:
     """Rows down, columns across; each cell its verdict and the number behind it."""
+    from rich.text import Text
+
     heads = [value(scene.columns, x) for x in scene.columns.values]
     table = new_table([scene.rows.name, *heads])
     for row in scene.rows.values:
         cells = (scene.cell(row, x) for x in scene.columns.values)
-        marked = (f"[{COLOURS[cell.status]}]{SIGNS[cell.status]} {cell.label}[/]" for cell in cells)
+        marked = (Text(f"{SIGNS[cell.status]} {cell.label}", COLOURS[cell.status]) for cell in cells)
         table.add_row(value(scene.rows, row), *marked)
     return table
 
@@ -140,10 +143,12 @@ def partial(found: StressMap | StressBox) -> str:
     return " (partial: interrupted after {} of {} runs)".format(*found.done) if found.interrupted else ""
 
 
-def legend(found: Sequence[StressMap | StressBox]) -> str:
+def legend(found: Sequence[StressMap | StressBox]) -> Text:
     """Signs and verdicts, "not judged" only where there is such a cell."""
+    from rich.text import Text
+
     shown = [s for s in Status if s is not Status.MISSING or any(scene.interrupted for scene in found)]
-    return "   ".join(f"[{COLOURS[status]}]{SIGNS[status]} {status.value}[/]" for status in shown)
+    return Text("   ").join(Text(f"{SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
 
 
 def explain(found: Sequence[StressMap]) -> str:

@@ -25,9 +25,9 @@ WIDTH = 100  # of everything that is printed
 
 def console() -> Console:
     """As wide as the terminal; into a file 100 columns."""
-    from rich.console import Console
+    from gudgeon.shown import plain_console
 
-    return Console(width=None if sys.stdout.isatty() else WIDTH, highlight=False)
+    return plain_console(None if sys.stdout.isatty() else WIDTH)
 
 
 def new_table(columns: Iterable[str], left: Iterable[str] = ()) -> Table:

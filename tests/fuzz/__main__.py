@@ -10,6 +10,11 @@ from pathlib import Path
 
 def main() -> None:
     arguments = _arguments()
+    if arguments.target == "compile":
+        from tests.fuzz import through_c
+
+        through_c.main(arguments.count, arguments.seed)
+        return
     try:
         import atheris
     except ImportError:
@@ -33,13 +38,15 @@ def main() -> None:
 
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
-    parser.add_argument("target", choices=("expression", "reader"))
-    parser.add_argument("--count", type=int, default=100_000, help="inputs to try")
+    parser.add_argument("target", choices=("expression", "reader", "compile"))
+    parser.add_argument("--count", type=int, default=None, help="inputs to try (100,000; files to compile: 10,000)")
     parser.add_argument("--seconds", type=int, default=0, help="stop after this long (atheris only)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--corpus", type=Path, default=None, help="folder to keep inputs in (atheris only)")
     parser.add_argument("--plain", action="store_true", help="mutations alone, even if atheris is there")
-    return parser.parse_args()
+    arguments = parser.parse_args()
+    arguments.count = arguments.count or (10_000 if arguments.target == "compile" else 100_000)
+    return arguments
 
 
 def _prepare(folder: Path, tokens: tuple[str, ...], seeds: list[bytes], arguments: argparse.Namespace) -> list[str]:

@@ -98,7 +98,7 @@ def test_what_is_kept_is_the_whole_run_s(name: str, method: str, stride: int, mo
             check_kept(run, whole(name, method))
             cut += len(run.t) < len(whole(name, method).t)
         number += 1 if number < 4 else stride
-    assert cut >= 5
+    assert cut >= 3
 
 
 @pytest.mark.parametrize(("name", "method"), [("lubricated", "dop853"), ("lubricated", "rodas5p"), ("dry", "rk4")])

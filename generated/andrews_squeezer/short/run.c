@@ -43,6 +43,8 @@ typedef struct {
     double node[N_STAGES], seen[N_STAGES][1];
     double look[1][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (watched.c) */
     unsigned char passed[1]; /* corners that this step crosses without harm */
+    double from[1], to[1], below[1]; /* where a zero of it was found */
+    double least[2 * N_X + 1], most[2 * N_X + 1];   /* of the state at stages, where something is watched */
     unsigned char near[1], looked;
     double rate[1][2];   /* smallest and largest d delta/dt of the stages */
 } Step;
@@ -64,6 +66,9 @@ typedef struct {
     double F_peak[1], t_peak[1], e_max[1];
     Impact impacts[N_IMPACTS];
     double event_t[N_IMPACTS];
+    unsigned char no_number[1];  /* whether an event was told to be none */
+    double tick; /* s, to which times of events are told apart; less where the whole run is short */
+    int pole; /* whether the event that ends a step is no zero but a pole */
     int event[N_IMPACTS], n_events, stop; /* user events found; whether they may end the run */
     int n_impacts, ready;
     TraceRow *trace; /* nobody wants one: NULL; the row that is being filled, of `trace_rows`, and steps in it */
@@ -72,7 +77,7 @@ typedef struct {
     long steps, evaluations, onsets, grazes, ratio_outside, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max;
     /* of methods that choose their step (adaptive.c) */
-    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace, inverse_scale[2 * N_X + 1], speed[2], speed_floor[2];
+    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace, inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2];
     double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
     double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
     int rising[1]; /* whether a joint's force rose at the end of the last step */
@@ -315,7 +320,15 @@ static int note_event(Run *run, int i, double t)
         run->event_t[run->n_events] = t;
         run->event[run->n_events++] = i;
     }
-    return run->stop && event_stops[i];
+    return i < N_USER_EVENTS && run->stop && event_stops[i];
+}
+
+/* User event i is no number at time t: told once a run, in the list of events behind all of them. */
+static void note_no_number(Run *run, int i, double t)
+{
+    if (!run->no_number[i])
+        (void)note_event(run, i + N_USER_EVENTS, t);
+    run->no_number[i] = 1;
 }
 
 /* Whether the next step may find more than the lists hold. */
@@ -333,8 +346,11 @@ static int begin(Run *run, const Parameters *p)
         status = begin_friction(run, p);
     if (!status && update_latches(run, run->t, 0.0, run->aside.clearance, run->aside.clearance, touched, p))
         status = rates(run, run->t, run->y, p, run->dy, &run->aside);
-    for (int i = 0; i < N_USER_EVENTS; i++)
+    for (int i = 0; i < N_USER_EVENTS; i++) {
         event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
+        if (isnan(run->aside.event[i]) && !status)
+            note_no_number(run, i, run->t);
+    }
     run->ready = 1;
     return status ? status : watch(run, p);
 }

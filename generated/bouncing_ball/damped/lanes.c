@@ -282,7 +282,7 @@ static void project_state(Lanes t, Lanes *y, const LaneRun *x, const LaneParamet
 
 /*
  * Lanes in which a contact begins, ends or is touched within the step or goes too deep, or an event's expression
- * changes its side.
+ * changes its side, is zero or no number.
  */
 static LaneBits happens(const LaneRun *x, const LaneAside *aside, const LaneBits *touched, const LaneParameters *p)
 {
@@ -296,7 +296,7 @@ static LaneBits happens(const LaneRun *x, const LaneAside *aside, const LaneBits
     }
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Lanes value = aside->event[i], side = x->event_side[i];
-        some |= ((value > 0.0) & ~(side > 0.0)) | ((value < 0.0) & ~(side < 0.0));
+        some |= ~(((value > 0.0) & (side > 0.0)) | ((value < 0.0) & (side < 0.0)));
     }
     return some;
 }

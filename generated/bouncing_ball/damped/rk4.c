@@ -147,17 +147,32 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
 /* Share of h at which watched expression i first lies beyond zero, by halving: the step is tried again up to there. */
 static double rk4_crossing(Run *run, int i, double h, const Parameters *p)
 {
-    const double close = max_of(4.0 * DBL_EPSILON * fabs(run->t), 1e-12) / h;
+    const double close = max_of(4.0 * DBL_EPSILON * fabs(run->t) / h, 1e-12);
     double low = 0.0, high = 1.0;
+    Trial trial, far;
     while (high - low > close) {
         const double share = 0.5 * (low + high);
-        Trial trial;
         if (rk4_trial(run, share * h, p, &trial) || run->memory.event_side[i] * trial.aside.event[i] < 0.0)
             high = share;
         else
             low = share;
     }
-    return high;
+    /* a pole, where it grows towards the place, is no zero */
+    const int failed = rk4_trial(run, high * h, p, &trial) || rk4_trial(run, (high + 64.0 * close) * h, p, &far);
+    return !failed && fabs(trial.aside.event[i]) > 2.0 * fabs(far.aside.event[i]) ? INFINITY : high;
+}
+
+/* Whether expression i, zero at the end of a trial, is beyond it at once: the end of a run counts as the way to it. */
+static int rk4_leaves_zero(Run *run, int i, double h, const Trial *trial, const Parameters *p)
+{
+    signed char side = run->memory.event_side[i];
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    if (trial->aside.event[i] != 0.0)
+        return 0;
+    for (int j = 0; j < N_Y; j++)
+        y[j] = trial->y[j] + 1e-6 * h * trial->dy[j];
+    return !rates(run, run->t + (1.0 + 1e-6) * h, y, p, dy, &aside) && event_crosses(i, &side, aside.event[i]);
 }
 
 /* User events on the way of a step; one that ends the run takes the step up to there. */
@@ -167,6 +182,12 @@ static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *
     for (int i = 0; i < N_USER_EVENTS; i++) {
         signed char side = run->memory.event_side[i];
         share[i] = event_crosses(i, &side, trial->aside.event[i]) ? rk4_crossing(run, i, h, p) : INFINITY;
+        if (rk4_leaves_zero(run, i, h, trial, p)) {
+            share[i] = 1.0;
+            run->memory.event_side[i] *= -1;
+        }
+        if (isnan(trial->aside.event[i]))
+            note_no_number(run, i, run->t + h);
         if (run->stop && event_stops[i])
             end = min_of(end, share[i]);
     }

@@ -131,6 +131,11 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
         double high = violated(run, step, k, p, &at_high);
         if (high == 0.0 || make_dense(run, p, step))
             continue;
+        if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
+            const double from = step->from[watched_as[k]], now = margin_at(run, step, from, k, p);
+            if (now >= 0.0)
+                low = from, at_low = now;
+        }
         if (*event >= 0 && high > first && margin_at(run, step, first, k, p) >= 0.0)
             continue; /* later than what was found */
         for (int j = 1; j < 4 && !(at_low >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
@@ -147,15 +152,29 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
     return *event < 0 ? first : earlier_event(run, step, first, p, event);
 }
 
+/*
+ * Whether margin k changes its sign at a pole and not at a zero: it grows towards the place where it was located.
+ * One that jumps from one finite value to another is as large near it as far from it.
+ */
+static int is_pole(Run *run, const Step *step, double share, int k, const Parameters *p)
+{
+    const double near = margin_at(run, step, share, k, p);
+    const double far = margin_at(run, step, share + 64.0 * root_width(run, step), k, p);
+    return isinf(near) || fabs(near) > 2.0 * fabs(far);
+}
+
 /* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
 static double first_event(Run *run, Step *step, const Parameters *p, int *event)
 {
     const int passed = pass_corners(run, step, p);
-    const double share = first_counting(run, step, p, event);
-    if (*event < 0 || !passed)
-        return share;
-    /* something else ends the step: what was passed may lie behind it */
-    for (int k = 0; k < N_SWITCHES; k++)
-        step->passed[k] = 0;
-    return first_counting(run, step, p, event);
+    look_inside(run, step, p);
+    double share = first_counting(run, step, p, event);
+    if (*event >= 0 && passed) {
+        /* something else ends the step: what was passed may lie behind it */
+        for (int k = 0; k < N_SWITCHES; k++)
+            step->passed[k] = 0;
+        share = first_counting(run, step, p, event);
+    }
+    run->pole = *event >= N_MARGINS - N_USER_EVENTS && is_pole(run, step, share, *event, p);
+    return share;
 }

@@ -11,7 +11,7 @@ typedef struct {
     int choice, stop;                     /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
     double fixed, *t;
     double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
-    double *step, *scale, *floor;         /* rk4's step; tolerances as gudgeon_adaptive_setup takes them */
+    double *step, *scale, *least;         /* rk4's step; tolerances as gudgeon_adaptive_setup takes them */
     double *start;                        /* (q, v) where `started`, else filled here */
     unsigned char *started, *phase;
     double *y, *latched;                  /* samples */

@@ -89,14 +89,14 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
 
     /* directions, arms, drives */
     const Lanes bump_value = lanes_asin(par_r*lanes_sin(omega*time)/length);
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(bump_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(axle_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_road = cosine_0;
-    const Lanes sin_theta_road = sine_0;
-    const Lanes cos_theta_axle = cosine_1;
-    const Lanes sin_theta_axle = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(bump_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(axle_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_road = cosines_0;
+    const Lanes sin_theta_road = sines_0;
+    const Lanes cos_theta_axle = cosines_1;
+    const Lanes sin_theta_axle = sines_1;
     const Lanes span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
     const Lanes span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
 
@@ -128,14 +128,14 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 
     /* directions, arms, drives */
     const Lanes bump_value = lanes_asin(par_r*lanes_sin(omega*time)/length);
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(bump_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(axle_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_road = cosine_0;
-    const Lanes sin_theta_road = sine_0;
-    const Lanes cos_theta_axle = cosine_1;
-    const Lanes sin_theta_axle = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(bump_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(axle_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_road = cosines_0;
+    const Lanes sin_theta_road = sines_0;
+    const Lanes cos_theta_axle = cosines_1;
+    const Lanes sin_theta_axle = sines_1;
     const Lanes bump_rate = omega*par_r*lanes_cos(omega*time)/(length*lanes_sqrt(1.0 - (par_r *
         par_r)*(lanes_sin(omega*time) * lanes_sin(omega*time))/(length * length)));
     const Lanes span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
@@ -183,14 +183,14 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 
     /* directions, arms, drives */
     const Lanes bump_value = lanes_asin(par_r*lanes_sin(omega*time)/length);
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(bump_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(axle_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_road = cosine_0;
-    const Lanes sin_theta_road = sine_0;
-    const Lanes cos_theta_axle = cosine_1;
-    const Lanes sin_theta_axle = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(bump_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(axle_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_road = cosines_0;
+    const Lanes sin_theta_road = sines_0;
+    const Lanes cos_theta_axle = cosines_1;
+    const Lanes sin_theta_axle = sines_1;
     const Lanes bump_rate = omega*par_r*lanes_cos(omega*time)/(length*lanes_sqrt(1.0 - (par_r *
         par_r)*(lanes_sin(omega*time) * lanes_sin(omega*time))/(length * length)));
     const Lanes bump_acceleration = -(omega * omega)*par_r*lanes_sin(omega*time)/(length*lanes_sqrt(1.0 -
@@ -291,14 +291,14 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
 
     /* directions, arms, drives */
     const Lanes bump_value = lanes_asin(par_r*lanes_sin(omega*time)/length);
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(bump_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(axle_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_road = cosine_0;
-    const Lanes sin_theta_road = sine_0;
-    const Lanes cos_theta_axle = cosine_1;
-    const Lanes sin_theta_axle = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(bump_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(axle_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_road = cosines_0;
+    const Lanes sin_theta_road = sines_0;
+    const Lanes cos_theta_axle = cosines_1;
+    const Lanes sin_theta_axle = sines_1;
     const Lanes bump_rate = omega*par_r*lanes_cos(omega*time)/(length*lanes_sqrt(1.0 - (par_r *
         par_r)*(lanes_sin(omega*time) * lanes_sin(omega*time))/(length * length)));
     const Lanes span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
@@ -382,7 +382,7 @@ static void project_state(Lanes t, Lanes *y, const LaneRun *x, const LaneParamet
 
 /*
  * Lanes in which a contact begins, ends or is touched within the step or goes too deep, or an event's expression
- * changes its side.
+ * changes its side, is zero or no number.
  */
 static LaneBits happens(const LaneRun *x, const LaneAside *aside, const LaneBits *touched, const LaneParameters *p)
 {
@@ -396,7 +396,7 @@ static LaneBits happens(const LaneRun *x, const LaneAside *aside, const LaneBits
     }
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Lanes value = aside->event[i], side = x->event_side[i];
-        some |= ((value > 0.0) & ~(side > 0.0)) | ((value < 0.0) & ~(side < 0.0));
+        some |= ~(((value > 0.0) & (side > 0.0)) | ((value < 0.0) & (side < 0.0)));
     }
     return some;
 }

@@ -2,7 +2,7 @@
  * No degree of freedom is left: at every time the drives say where everything is. Nothing is integrated; the motion
  * is followed from sample to sample so that it stays on its branch.
  */
-enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, NEWTON_FAILED = -1 };
+enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30, NEWTON_FAILED = -1 };
 
 /* A place on the way: the motion of all bodies at a time, the largest |Phi| and |Phi_dot| there. */
 typedef struct {
@@ -317,6 +317,12 @@ static double bend_between(const Place *a, const Place *b, double extent)
     return larger(angles, lengths * share);
 }
 
+static int hides_a_pulse(double t0, double t1, const Parameters *p)
+{
+    (void)t0, (void)t1, (void)p;
+    return 0;
+}
+
 /*
  * One step along the same branch, to t1 at the furthest. Where Newton moves the first guess by more than the reach,
  * or the way bends more than its velocities say, the step is halved: another branch passes near dead centres as a
@@ -333,7 +339,7 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
         const int near = !status && moved <= stride->reach;
         if (near)
             bent = bend_between(here, &there, stride->extent);
-        if (near && bent <= straight) {
+        if (near && bent <= straight && (stride->halvings > PULSE_HALVINGS || !hides_a_pulse(here->t, next, p))) {
             *here = there;
             if (stride->halvings > 0 && bent < 0.1 * straight) { /* it grows with h cubed */
                 stride->h *= 2.0;
@@ -390,23 +396,33 @@ int gudgeon_kinematic(long n, const double *t, const double *parameters, double 
     return 0;
 }
 
-/* Powers at a place; a status as that of settle. */
-static int powers(const Parameters *p, const Place *here, double *power)
+/* Powers at a place, and the accelerations of all bodies; a status as that of settle. */
+static int powers(const Parameters *p, Place *here, double *power)
 {
     Aside aside;
-    double a[N_Q];
+    double a[N_X + 1];
     const int status = solve_motion(p, here, a, &aside);
     for (int k = 0; k < N_WORK; k++)
         power[k] = aside.power[k];
     return status;
 }
 
-/* Works between two places that are one step apart: quadrature of Gauss and Legendre with three nodes. */
-static int work_between(const Parameters *p, double extent, const Place *a, double t1, double *work)
+/* A rate, as the angle that it is worth: lengths as shares of the mechanism's size. */
+static double turn(const double *v, int k, double extent) { return k % 3 == 2 ? fabs(v[k]) : fabs(v[k]) / extent; }
+
+/*
+ * Works between two places that are one step apart: quadrature of Gauss and Legendre with three nodes. `jumped`: the
+ * velocities change by more than the accelerations on the way say, so that the rate of a drive jumps, or nearly so.
+ */
+static int work_between(const Parameters *p, double extent, const Place *a, const Place *b, double least, double *work,
+    int *jumped)
 {
     static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
     static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
-    const double half = 0.5 * (t1 - a->t);
+    const double half = 0.5 * (b->t - a->t);
+    double missed[N_Q], most = 0.0, scale = 0.0;
+    for (int k = 0; k < N_Q; k++)
+        missed[k] = b->v[k] - a->v[k];
     for (int i = 0; i < 3; i++) {
         Place at;
         double power[N_WORK], moved;
@@ -417,8 +433,64 @@ static int work_between(const Parameters *p, double extent, const Place *a, doub
             return status;
         for (int k = 0; k < N_WORK; k++)
             work[k] += half * weight[i] * power[k];
+        for (int k = 0; k < N_Q; k++) {
+            missed[k] -= half * weight[i] * at.a[k];
+            scale = larger(scale, half * turn(at.a, k, extent));
+        }
     }
+    for (int k = 0; k < N_Q; k++)
+        most = larger(most, turn(missed, k, extent));
+    *jumped = most > least && most > 1e-6 * scale;
     return 0;
+}
+
+/* Of all bodies, J. */
+static double kinetic_energy_at(const Parameters *p, const Place *at)
+{
+    double m[N_Q], sum = 0.0;
+    mass_matrix(p, m);
+    for (int k = 0; k < N_Q; k++)
+        sum += 0.5 * m[k] * at->v[k] * at->v[k];
+    return sum;
+}
+
+/*
+ * The same, halved where velocities jump until nothing is left to halve: what kinetic energy gains there is the work
+ * of the impulse with which the drives change the velocities. `halvings` are left for the whole step.
+ */
+static int work_across(const Parameters *p, double extent, const Place *a, const Place *b, double least, int *halvings,
+    double *work)
+{
+    double part[N_WORK] = {0.0}, moved;
+    int jumped;
+    int status = work_between(p, extent, a, b, least, part, &jumped);
+    const double t = a->t + 0.5 * (b->t - a->t);
+    if (status)
+        return status;
+    const int wide = t > a->t && t < b->t;
+    if (jumped && wide && *halvings > 0) {
+        Place middle;
+        --*halvings;
+        status = place_at(t, p, extent, a, &middle, &moved);
+        if (!status)
+            status = work_across(p, extent, a, &middle, least, halvings, work);
+        return status ? status : work_across(p, extent, &middle, b, least, halvings, work);
+    }
+    if (jumped && !wide)
+        part[0] = kinetic_energy_at(p, b) - kinetic_energy_at(p, a);
+    for (int k = 0; k < N_WORK; k++)
+        work[k] += part[k];
+    return 0;
+}
+
+/* Of one step; speeds that change by less than a billionth of what they are do not jump. */
+static int work_of_step(const Parameters *p, double extent, const Place *a, const Place *b, double *work)
+{
+    int halvings = MAX_SPLITS;
+    double speed = 0.0;
+    for (int k = 0; k < N_Q; k++)
+        speed = larger(speed, larger(turn(a->v, k, extent), turn(b->v, k, extent)));
+    return work_across(p, extent, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
 }
 
 /* Works from the first of n + 1 samples on, (n + 1) x N_WORK, of which the first row is given. */
@@ -438,7 +510,7 @@ int gudgeon_kinematic_works(long n, const double *t, const double *parameters, d
             const Place before = here;
             status = step_on(&stride, t[i + 1], p, &here);
             if (!status)
-                status = work_between(p, extent, &before, here.t, sum);
+                status = work_of_step(p, extent, &before, &here, sum);
         }
         *done = i + !status;
     }

@@ -2,7 +2,8 @@
  * Methods that choose their step: error control by component, projection, events, samples from the interpolant,
  * and the choice between the explicit and the stiff method from what the steps themselves measure.
  */
-enum { STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8 };
+enum { STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
+    SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
 /* h rho beyond which an explicit step is not taken: at h rho = 5.65 the estimate of order 5 vanishes for a decaying
  * mode, at 6.4 the mode grows (both are zeros of polynomials that follow from the coefficients) */
 #define UNSTABLE 4.8
@@ -120,6 +121,13 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
             h *= 0.25;
             continue;
         }
+        const double pulse = !status && step->error <= run->accept && run->fixed <= 0.0 ? missed_pulse(run, step, p) : 0.0;
+        if (pulse > 0.0 && shortened++ < SHORTENED) {
+            again = 1;
+            run->rejected++;
+            h *= max_of(0.25, 0.5 * pulse);
+            continue;
+        }
         if (!status && step->error <= run->accept) {
             next_length(run, step, power, again, h < left);
             /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
@@ -178,15 +186,32 @@ static int leave_zeros(Run *run, const Parameters *p)
     return status;
 }
 
+/*
+ * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
+ * that the start's speeds and accelerations take for it. Only where nothing moves the run's own time has to tell.
+ */
+static void floor_speeds(Run *run, double left)
+{
+    double rate = 0.0;
+    for (int k = 0; k < N_X; k++) {
+        const double least = run->least[is_angle[k]], a = fabs(run->dy[N_X + k]);
+        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
+    }
+    for (int kind = 0; kind < 2; kind++)
+        run->speed_floor[kind] = run->least[kind] * (rate > 0.0 ? 0.01 * rate : 1.0 / left);
+}
+
 /* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
 static int begin_adaptive(Run *run, double left, const Parameters *p)
 {
     int status = run->ready ? 0 : begin(run, p);
+    run->tick = min_of(1e-12, 1e-11 * left);
     for (int k = 0; k < N_SWITCHES; k++)
         run->memory.side[k] = run->aside.g[k] < 0.0 ? -1.0 : 1.0;
     run->memory.held = 1;
     if (!status)
         status = settle_sides(run, -1, p);
+    floor_speeds(run, left);
     note_speed(run);
     run->turned_over = energy_scale(run, p);
     weigh(run);
@@ -195,8 +220,11 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     return status ? status : leave_zeros(run, p);
 }
 
-/* choice: 0 explicit, 1 stiff, 2 automatic, 3 automatic from stiff; scale (2 N_X): tolerances, those of velocities a unit of speed. */
-void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *floor, double fixed)
+/*
+ * choice: 0 explicit, 1 stiff, 2 automatic, 3 automatic from stiff; scale (2 N_X): tolerances, those of velocities a
+ * unit of speed; least: the smallest length (m) and angle (rad) that matter.
+ */
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *least, double fixed)
 {
     Run *run = memory;
     run->choice = choice == BEGIN_STIFF ? AUTOMATIC : choice;
@@ -209,8 +237,31 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
     for (int k = 0; k < 2 * N_X; k++)
         run->inverse_scale[k] = 1.0 / scale[k];
     run->work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */
-    run->speed_floor[0] = floor[0];
-    run->speed_floor[1] = floor[1];
+    run->least[0] = least[0];
+    run->least[1] = least[1];
+}
+
+/*
+ * Events whose zero is the end of the run: those that are zero there, or beyond it at once, as far as times are
+ * located. Returns ENDED where one of them ends the run.
+ */
+static int end_on_zeros(Run *run, const Parameters *p)
+{
+    int status = 0, zeros = 0;
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), run->tick);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        zeros |= run->memory.event_side[i] != 0;
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    if (!zeros || rates(run, run->t + h, y, p, dy, &aside))
+        return 0;
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        if (event_crosses(i, &run->memory.event_side[i], aside.event[i]) && fabs(aside.event[i]) >= fabs(run->aside.event[i])
+            && note_event(run, i, run->t))
+            status = ENDED;
+    return status;
 }
 
 /* Samples of the step before `t_new`, from its interpolant. */
@@ -260,10 +311,12 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         int event;
         const double share = first_event(run, step, p, &event);
         const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
-        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2e-12); /* is at the event */
+        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->tick); /* is at the event */
         status = sample_step(run, step, t_new - close, n, t, p, y, latched, state, done);
         if (!status)
             status = commit(run, step, share, t_new, event, p);
+        if (!status && run->t == t_end)
+            status = end_on_zeros(run, p);
     }
     return status;
 }

@@ -30,6 +30,10 @@ static void margins_of(const Memory *memory, const Aside *aside, double *out)
 static void forget_stages(Step *step)
 {
     step->n_seen = 0;
+    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+        step->least[k] = INFINITY;
+        step->most[k] = -INFINITY;
+    }
     for (int k = 0; k < N_SWITCHES; k++)
         step->passed[k] = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -47,6 +51,15 @@ static void note_stage(const Run *run, Step *step, const Aside *aside, double no
         const Clearance *joint = &aside->clearance[i];
         step->rate[i][0] = min_of(step->rate[i][0], joint->deltadot);
         step->rate[i][1] = max_of(step->rate[i][1], joint->deltadot);
+    }
+}
+
+/* Where a stage was, if something is watched. */
+static void note_state(Step *step, const double *y)
+{
+    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+        step->least[k] = min_of(step->least[k], y[k]);
+        step->most[k] = max_of(step->most[k], y[k]);
     }
 }
 

@@ -103,6 +103,7 @@ static int dop853_try(Run *run, double h, const Parameters *p, Step *step)
         if (status)
             return status;
         note_stage(run, step, &aside, dop853_node[s]);
+        note_state(step, y);
     }
     dop853_stage(12, h, run->y, step->k, step->y);
     step->error = dop853_error(run, step);

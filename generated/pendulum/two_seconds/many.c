@@ -23,7 +23,7 @@ static int begin_run(const Batch *b, long i, Run *run)
     gudgeon_run_start(run, b->p_motion + i * b->numbers, b->t[0], y, latched);
     gudgeon_run_stop(run, b->stop);
     if (b->choice >= 0)
-        gudgeon_adaptive_setup(run, b->choice, b->scale + i * 2 * N_X, b->floor + 2 * i, b->fixed);
+        gudgeon_adaptive_setup(run, b->choice, b->scale + i * 2 * N_X, b->least + 2 * i, b->fixed);
     return 0;
 }
 
@@ -54,9 +54,11 @@ static void end_run(const Batch *b, long i, int status, Run *run)
 {
     double t, *last = b->last + i * N_S, latched[1];
     signed char state[1];
+    const double apart = max_of(32.0 * DBL_EPSILON * max_of(fabs(b->t[0]), fabs(b->t[b->samples - 1])),
+        min_of(1e-11, 1e-10 * (b->t[b->samples - 1] - b->t[0]))); /* as session.py has it */
     if (status == ENDED) {
         b->t_last[i] = run->t;
-        while (b->done[i] > 0 && b->t[b->done[i] - 1] >= run->t - 1e-11)
+        while (b->done[i] > 0 && b->t[b->done[i] - 1] >= run->t - apart)
             b->done[i]--;
         take_sample(b, i, b->done[i]++, run);
     }

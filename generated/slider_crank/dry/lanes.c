@@ -226,14 +226,14 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 
     /* directions, arms, drives */
     const Lanes motor_value = omega*time;
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(motor_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_crank = cosine_0;
-    const Lanes sin_theta_crank = sine_0;
-    const Lanes cos_theta_rod = cosine_1;
-    const Lanes sin_theta_rod = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(motor_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank = cosines_0;
+    const Lanes sin_theta_crank = sines_0;
+    const Lanes cos_theta_rod = cosines_1;
+    const Lanes sin_theta_rod = sines_1;
     const Lanes motor_rate = omega;
     const Lanes motor_acceleration = all_of(0.0);
     const Lanes slider_omega = all_of(0.0);
@@ -347,7 +347,7 @@ static void project_state(Lanes t, Lanes *y, const LaneRun *x, const LaneParamet
 
 /*
  * Lanes in which a contact begins, ends or is touched within the step or goes too deep, or an event's expression
- * changes its side.
+ * changes its side, is zero or no number.
  */
 static LaneBits happens(const LaneRun *x, const LaneAside *aside, const LaneBits *touched, const LaneParameters *p)
 {
@@ -361,7 +361,7 @@ static LaneBits happens(const LaneRun *x, const LaneAside *aside, const LaneBits
     }
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Lanes value = aside->event[i], side = x->event_side[i];
-        some |= ((value > 0.0) & ~(side > 0.0)) | ((value < 0.0) & ~(side < 0.0));
+        some |= ~(((value > 0.0) & (side > 0.0)) | ((value < 0.0) & (side < 0.0)));
     }
     return some;
 }

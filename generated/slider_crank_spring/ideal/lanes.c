@@ -85,12 +85,12 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     const Lanes rod_com_span_x = p->rod_com_span_x;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes sin_theta_crank = sine_0;
-    const Lanes sin_theta_rod = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes sin_theta_crank = sines_0;
+    const Lanes sin_theta_rod = sines_1;
     const Lanes span_crank_head_y = crank_length*sin_theta_crank;
     const Lanes span_rod_com_y = rod_com_span_x*sin_theta_rod;
 
@@ -116,12 +116,12 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     const Lanes rod_com_span_x = p->rod_com_span_x;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_crank = cosine_0;
-    const Lanes cos_theta_rod = cosine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank = cosines_0;
+    const Lanes cos_theta_rod = cosines_1;
     const Lanes span_crank_head_x = cos_theta_crank*crank_length;
     const Lanes span_rod_com_x = cos_theta_rod*rod_com_span_x;
 
@@ -160,14 +160,14 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes inverse_mass_crank_crank = p->inverse_mass_crank_crank;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_crank = cosine_0;
-    const Lanes sin_theta_crank = sine_0;
-    const Lanes cos_theta_rod = cosine_1;
-    const Lanes sin_theta_rod = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank = cosines_0;
+    const Lanes sin_theta_crank = sines_0;
+    const Lanes cos_theta_rod = cosines_1;
+    const Lanes sin_theta_rod = sines_1;
     const Lanes span_crank_head_x = cos_theta_crank*crank_length;
     const Lanes span_crank_head_y = crank_length*sin_theta_crank;
     const Lanes crank_head_vx = -crank_omega*span_crank_head_y;
@@ -265,14 +265,14 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes inverse_mass_crank_crank = p->inverse_mass_crank_crank;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_crank = cosine_0;
-    const Lanes sin_theta_crank = sine_0;
-    const Lanes cos_theta_rod = cosine_1;
-    const Lanes sin_theta_rod = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank = cosines_0;
+    const Lanes sin_theta_crank = sines_0;
+    const Lanes cos_theta_rod = cosines_1;
+    const Lanes sin_theta_rod = sines_1;
     const Lanes span_crank_head_x = cos_theta_crank*crank_length;
     const Lanes span_crank_head_y = crank_length*sin_theta_crank;
     const Lanes span_rod_com_x = cos_theta_rod*rod_com_span_x;
@@ -352,7 +352,7 @@ static void project_state(Lanes t, Lanes *y, const LaneRun *x, const LaneParamet
 
 /*
  * Lanes in which a contact begins, ends or is touched within the step or goes too deep, or an event's expression
- * changes its side.
+ * changes its side, is zero or no number.
  */
 static LaneBits happens(const LaneRun *x, const LaneAside *aside, const LaneBits *touched, const LaneParameters *p)
 {
@@ -366,7 +366,7 @@ static LaneBits happens(const LaneRun *x, const LaneAside *aside, const LaneBits
     }
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Lanes value = aside->event[i], side = x->event_side[i];
-        some |= ((value > 0.0) & ~(side > 0.0)) | ((value < 0.0) & ~(side < 0.0));
+        some |= ~(((value > 0.0) & (side > 0.0)) | ((value < 0.0) & (side < 0.0)));
     }
     return some;
 }

@@ -17,6 +17,7 @@
 #include "dop853.c"
 #include "rodas5p.c"
 #include "roots.c"
+#include "pulses.c"
 #include "watched.c"
 #include "events.c"
 #include "peaks.c"

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 
 import sympy as sp
 
-from gudgeon.expression_tree import to_json
+from gudgeon.expression_tree import names, to_json
 from gudgeon.generator.constraints import Row, rate_jumps
 from gudgeon.generator.driven_chains import Chain
 from gudgeon.generator.interface import element_series, kept_joints
@@ -26,6 +27,7 @@ from gudgeon.kernel_source import (
     RowInfo,
     SeriesInfo,
     Slot,
+    WrittenInfo,
 )  # fmt: skip
 from gudgeon.story import Story
 
@@ -92,8 +94,21 @@ def describe(
         tree=tree, closures=closures, motion_pivots=motion_pivots, formulation=formulation,
         chain=chain.names if chain else (), chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
-        story=story, lanes=lanes,
+        written=tuple(_written(model)), story=story, lanes=lanes,
     )  # fmt: skip
+
+
+def _written(model: Model) -> Iterator[WrittenInfo]:
+    """Expressions of t and motion, for what a run says of one that is no number."""
+    mechanism, scene = model.scene.mechanism, model.scene
+    found = [drive.value for drive in mechanism.drives.values()]
+    for force in mechanism.forces.values():
+        found += [*force.quantities.values(), *(x for pair in force.vectors.values() for x in pair)]
+    found += [event.zero for event in scene.events.values()]
+    for quantity in found:
+        if any(name.path == "t" or "." in name.path for name in names(quantity.value)):
+            tree = json.dumps(to_json(quantity.value))
+            yield WrittenInfo(quantity.address, tree, quantity.where.line, quantity.where.column)
 
 
 def _prepared(model: Model) -> list[sp.Symbol]:

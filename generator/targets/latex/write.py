@@ -11,6 +11,7 @@ from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.parts import part_sections
 from gudgeon.generator.targets.latex.play import play_sections
 from gudgeon.generator.targets.latex.render import render
+from gudgeon.shown import one_line
 
 
 def make_document(model: Model) -> Document:
@@ -25,7 +26,7 @@ def make_document(model: Model) -> Document:
         *([Section("Left out of this scene", tuple(paragraph(sentence(n)) for n in left_out))] if left_out else []),
     ]
     facts = (("mechanism ", mechanism.name, ", scene ", model.scene.name),)
-    return Document(mechanism.title or mechanism.name, facts, tuple(sections))
+    return Document(one_line(mechanism.title or mechanism.name), facts, tuple(sections))
 
 
 def equations_tex(model: Model) -> str:

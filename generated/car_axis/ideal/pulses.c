@@ -1,0 +1,41 @@
+/* Steps that jump over a pulse: terms of time alone that act between stages (time_terms.c). */
+#define HARMLESS_DEFECT 30.0 /* of the tolerance, that a term may change over a whole step */
+static const double dop853_places[] = {0.0, 0.25, 0.3076923076923077, 0.3333333333333333, 0.6, 0.6512820512820513, 0.8571428571428571, 1.0}, rodas5p_places[] = {0.0, 0.4095798393397535, 0.4288403609558664, 0.6358126895828704, 0.9769306725060716, 1.0};
+
+typedef struct {
+    Run *run;
+    Step *step;
+    const Parameters *p;
+} Look;
+
+/* Whether the right-hand side is, at this share of the step, the rate of the step's interpolant. */
+static int follows(void *context, double share, int sure)
+{
+    (void)sure; /* looked at anyway */
+    const Look *look = context;
+    Run *run = look->run;
+    Step *step = look->step;
+    const double apart = 1e-4 * min_of(share, 1.0 - share);
+    double before[N_Y], y[N_Y], after[N_Y], dy[N_Y], most = 0.0;
+    Aside aside;
+    if (make_dense(run, look->p, step))
+        return 0;
+    interpolate(run, step, share - apart, before);
+    interpolate(run, step, share, y);
+    interpolate(run, step, share + apart, after);
+    if (rates(run, step->t + share * step->h, y, look->p, dy, &aside))
+        return 0;
+    for (int k = 0; k < N_Y; k++)
+        most = max_of(most, fabs(step->h * dy[k] - (after[k] - before[k]) / (2.0 * apart)) * run->weight[k]);
+    return most < HARMLESS_DEFECT;
+}
+
+/* Where a step misses what a term of time does; 0: nowhere. */
+static double missed_pulse(Run *run, Step *step, const Parameters *p)
+{
+    Look look = {run, step, p};
+    const double *place = step->stiff ? rodas5p_places : dop853_places;
+    const int n = (int)((step->stiff ? sizeof rodas5p_places : sizeof dop853_places) / sizeof *place);
+    return unseen_term(step->t, step->h, place, n, follows, &look, p);
+}
+

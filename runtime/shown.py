@@ -1,0 +1,49 @@
+"""Text of a file, of an error or of another program, shown as what it is: text.
+
+On a terminal nothing of it is a command, a link, a colour or an emoji; in a figure nothing of it is mathematics.
+"""
+
+from __future__ import annotations
+
+import textwrap
+import unicodedata
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+LONGEST = 240  # characters of a title that is shown; a mechanism file has one of 200 at most
+JOINERS = "\u200c\u200d"  # of letters and emoji: text, though no sign of their own
+
+
+def visible(text: object) -> str:
+    """What a terminal would obey (control characters, directions of writing) as Python writes it; lines stay lines."""
+    return "\n".join(map(_visible, str(text).split("\n")))
+
+
+def _visible(text: str) -> str:
+    if text.isprintable():
+        return text
+    return "".join(c if _is_shown(c) else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+def _is_shown(character: str) -> bool:
+    return character.isprintable() or character in JOINERS or unicodedata.category(character) == "Zs"
+
+
+def one_line(text: str) -> str:
+    """A title: visible, and no longer than one should be."""
+    text = _visible(text)
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
+
+
+def in_figure(text: str, width: int = LONGEST) -> str:
+    """A title for matplotlib, folded into lines of `width` characters; $ begins no formula."""
+    return "\n".join(textwrap.wrap(one_line(text), width)).replace("$", r"\$")
+
+
+def plain_console(width: int | None = None, **options: Any) -> Console:
+    """A console that shows texts as they are; what is to be coloured is a rich Text of its own."""
+    from rich.console import Console
+
+    return Console(width=width, markup=False, emoji=False, highlight=False, **options)

@@ -1,0 +1,321 @@
+"""Random files through the compiler: their C compiles without a warning, both formulations say the same, methods run.
+
+What is refused must be refused with a place; whatever else goes wrong is a `Fault`, which carries the file's seed.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+
+from gudgeon.compiled import Array, CompiledModel
+from gudgeon.compiler import find_compiler
+from gudgeon.errors import AssemblyError, GudgeonError, InputError, InputErrors
+from gudgeon.expression_tree import Expr, evaluate
+from gudgeon.generator.pipeline import generate
+from gudgeon.generator.read_yaml import read_mechanism
+from gudgeon.kernel_source import KernelSource
+from gudgeon.simulation import Simulation
+from gudgeon.start import assemble
+from tests.fuzz.scenes import RandomFile, random_file
+from tests.generator.reduced import Reduced
+
+WARNINGS = ("-std=c11", "-Wall", "-Wextra", "-Werror")
+STATES = 3
+SAFETY = 1e5  # what a change of 1e-10 of the state changes covers rounding so many times
+LONGEST = 3.0  # s, that a run may take
+_PARTS = ("x", "y", "theta", "vx", "vy", "omega")
+BOTH = """
+int fuzz_both(double t, const double *s, const double *rate, const double *memory, const double *parameters,
+    double *tree_a, double *q, double *v, double *all_a, double *tree_event, double *all_event, double *rescued)
+{
+    const Parameters *p = (const Parameters *)parameters;
+    Memory now = {0};
+    Aside tree, all;
+    read_memory(memory, &now);
+    %s
+    expand(t, %s, p, q, v);
+    int failed = reduced_dynamics(t, %s, &now, p, tree_a, &tree);
+    failed |= dynamics(t, q, v, &now, p, all_a, &all);
+    %s
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        tree_event[i] = tree.event[i];
+        all_event[i] = all.event[i];
+    }
+    return failed;
+}
+"""
+TOLD = BOTH[1 : BOTH.index(")\n{") + 1] + ";\n"
+
+
+class Fault(AssertionError):
+    """What must not happen."""
+
+
+@dataclass
+class Tally:
+    """How many files were compiled in how many formulations, refused, compared and run; and why not."""
+
+    counts: Counter[str]
+    faults: list[str]
+
+    def __str__(self) -> str:
+        return ", ".join(f"{count} {what}" for what, count in sorted(self.counts.items()))
+
+
+def try_files(seeds: Iterable[int], compared: int, ran: int, patient: bool = False) -> Tally:
+    """Each file in one formulation, one after the other; every `compared`-th in both, every `ran`-th by each method.
+
+    `patient`: go on after a fault.
+    """
+    tally = Tally(Counter(), [])
+    with tempfile.TemporaryDirectory() as folder:
+        for k, seed in enumerate(seeds):
+            try:
+                _try(seed, k % 2 == 0, k % compared == 0, k % ran == 0, Path(folder), tally.counts)
+            except Exception as error:
+                fault = f"file {seed}: {type(error).__name__}: {error}"
+                if not patient:
+                    raise Fault(f"{fault}\n{random_file(seed).text}") from error
+                tally.faults.append(fault)
+    return tally
+
+
+def _try(seed: int, reduced: bool, compared: bool, ran: bool, folder: Path, counts: Counter[str]) -> None:
+    file = random_file(seed)
+    formulations = ("reduced", "full") if compared or ran else ("reduced" if reduced else "full",)
+    sources = {}
+    for formulation in formulations:
+        try:
+            sources[formulation] = generate(file.text.encode(), "f", file.scene, None, formulation)
+        except InputError as error:
+            check_refusal(error)
+            counts["refused"] += 1
+            return
+    for source in sources.values():
+        check_syntax(source, folder)
+        counts["scenes"] += 1
+    counts["files"] += 1
+    if not compared and not ran:
+        return
+    libraries = {name: library(source, folder, f"{name}_{seed}") for name, source in sources.items()}
+    counts["with numbers" if compare(file, libraries["reduced"], seed) else "without a start"] += 1
+    if ran:
+        counts["runs"] += run(libraries, Path(f"{seed}.yaml"))
+
+
+def check_refusal(error: InputError) -> None:
+    """It has a place in the file, and words."""
+    for one in error.errors if isinstance(error, InputErrors) else (error,):
+        if one.where is None or one.where.file != "f" or not one.message:
+            raise Fault(f"refused without a place: {one}")
+
+
+def write(source: KernelSource, folder: Path) -> None:
+    for name, text in source.files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+
+
+def check_syntax(source: KernelSource, folder: Path) -> None:
+    """No error, no warning."""
+    write(source, folder)
+    files = [source.main, *([source.lanes] if source.lanes else [])]
+    _compile([*WARNINGS, "-fsyntax-only", *files], folder)
+
+
+def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
+    """Compiled with all warnings on, and loaded; what it has no use for is not compiled."""
+    from cffi import FFI
+
+    write(source, folder)
+    text, told = f'#include "{source.main}"\n', source.cdef
+    if source.formulation == "reduced":
+        chained = bool(source.chain)
+        state = "at.q, at.v" if chained else "s, rate"
+        seat = "TreeState at;\n    if (outside_state(t, s, rate, &now, p, &at))\n        return 1;" if chained else ""
+        rescue = "reduce_accelerations(t, q, v, all_a, p, rescued);"
+        has_rescue = "gudgeon_reduced_rescue" in source.cdef
+        text += BOTH % (seat, state, state, rescue if has_rescue else "(void)rescued;")
+        told += TOLD
+    (folder / "library.c").write_text(text, encoding="utf-8")
+    file = folder / f"{name}.so"
+    _compile([*WARNINGS, "-O1", "-fPIC", "-shared", "library.c", "-o", file.name, "-lm"], folder)
+    ffi = FFI()
+    ffi.cdef(told)
+    return CompiledModel(source, cast(Any, SimpleNamespace(ffi=ffi, lib=ffi.dlopen(str(file)))))
+
+
+def _compile(flags: list[str], folder: Path) -> None:
+    done = subprocess.run([*find_compiler(), *flags], cwd=folder, capture_output=True, text=True, check=False)
+    if done.returncode:
+        told = [line for line in done.stderr.splitlines() if "error" in line]
+        raise Fault("\n".join(told[:6] or done.stderr.splitlines()[:6]))
+
+
+def compare(file: RandomFile, compiled: CompiledModel, seed: int) -> bool:
+    """Tree and absolute equations at states near a start, the events against their text; False: nothing starts."""
+    rng, t = np.random.default_rng(seed), 0.37
+    slots = len(compiled.source.slots)
+    reduced = Reduced(compiled, compiled.prepare(np.zeros(slots), np.zeros(slots, dtype=bool)))
+    try:
+        start = assemble(compiled, reduced.p, t)
+    except AssemblyError:
+        return False
+    s, rate = reduced.reduce(t, start.q, start.v)
+    told = False
+    for _ in range(STATES):
+        near = s + rng.normal(0.0, 0.05, len(s))
+        here = near, rate + rng.normal(0.0, 0.5, len(s))
+        if compiled.source.closures:
+            with np.errstate(all="ignore"):
+                here = _closed(reduced, t, *here)
+        memory = np.where(rng.random(compiled.n_memory) < 0.5, 0.1, np.nan)
+        memory[len(compiled.source.clearances) :] = 1.0
+        found = _both(reduced, t, *here, memory)
+        moved = [_both(reduced, t + e, here[0] * (1 + e) + e, here[1] * (1 + e) + e, memory) for e in (1e-10, -1e-10)]
+        if found is not None and None not in moved:
+            _check(compiled, file, reduced, t, found, cast(Any, moved))
+            told = True
+    return told
+
+
+def _closed(reduced: Reduced, t: float, s: Array, rate: Array) -> tuple[Array, Array]:
+    try:
+        return reduced.close(t, s, rate)
+    except AssertionError:  # a singular place
+        return np.full_like(s, np.nan), rate
+
+
+def _both(reduced: Reduced, t: float, s: Array, rate: Array, memory: Array) -> tuple[Array, ...] | None:
+    """ṡ̇, q, v, q̈, events of the tree, of all bodies; ṡ̇ from q̈. None where the equations cannot be solved."""
+    if not np.isfinite([*s, *rate]).all():
+        return None
+    compiled, pointer = reduced.library, reduced.library.pointer
+    n, events = compiled.n, max(len(compiled.source.events), 1)
+    sizes = (reduced.n + 1, n, n, n, events, events, reduced.n + 1)
+    out = tuple(np.zeros(size) for size in sizes)
+    given = [np.ascontiguousarray(np.append(x, 0.0)) for x in (s, rate, memory)]
+    failed = compiled.lib.fuzz_both(t, *map(pointer, given), pointer(reduced.p), *map(pointer, out))
+    return None if failed else out
+
+
+def _check(
+    compiled: CompiledModel, file: RandomFile, reduced: Reduced, t: float, found: tuple[Array, ...],
+    moved: list[tuple[Array, ...]],
+) -> None:  # fmt: skip
+    """As near as what an error of the state in its tenth digit changes."""
+    source = compiled.source
+    tree, q, v, everything, of_tree, of_all, rescued = found
+    slack = [SAFETY * 1e-5 * np.max([abs(a - b) for a in other], axis=0) for b, other in
+             zip(found, zip(*moved, strict=True), strict=True)]  # fmt: skip
+    _agree("events", of_tree, of_all, slack[4])
+    if hasattr(compiled.lib, "gudgeon_reduced_rescue"):
+        size = np.max(abs(tree), initial=1.0)
+        _agree("accelerations", tree[:-1] / size, rescued[:-1] / size, np.full(1, np.max(slack[0]) / size + 1e-7))
+    else:
+        place = {name: k for k, name in enumerate(source.coordinates)}
+        angles = [(k, place[f"{name}.theta"]) for k, name in enumerate(source.tree) if f"{name}.theta" in place]
+        mine, theirs = [k for k, _ in angles], [k for _, k in angles]
+        _agree("accelerations", tree[mine], everything[theirs], slack[0][mine] + 1e-9 * np.max(abs(everything)))
+    _agree("events and their text", of_all, _as_written(compiled, file, reduced, t, q, v), slack[5])
+
+
+def _agree(what: str, a: Array, b: Array, slack: Array) -> None:
+    good = np.isfinite(a) & np.isfinite(b) & np.isfinite(slack)
+    wrong = good & (abs(a - b) > 1e-9 * np.maximum(1e-6, abs(b)) + slack)
+    if wrong.any() or (np.isfinite(a) != np.isfinite(b)).any() and np.isfinite(slack).all():
+        raise Fault(f"{what} differ: {a} and {b}, slack {slack}")
+
+
+def _as_written(compiled: CompiledModel, file: RandomFile, reduced: Reduced, t: float, q: Array, v: Array) -> Array:
+    """Values of the events by NumPy from the file's text, at absolute coordinates."""
+    mechanism = read_mechanism(file.text.encode(), "f")
+    source, p = compiled.source, reduced.p
+    slots = {slot.address: p[k] for k, slot in enumerate(source.slots)}
+    known = {}
+    for k, body in enumerate(mechanism.bodies):
+        values = (*q[3 * k : 3 * k + 3], *v[3 * k : 3 * k + 3])
+        known |= {f"{body}.{part}": x for part, x in zip(_PARTS, values, strict=True)}
+    for point in source.points:
+        if point.body < 0:
+            continue
+        x, y, theta = q[3 * point.body : 3 * point.body + 3]
+        vx, vy, omega = v[3 * point.body : 3 * point.body + 3]
+        a, b = (0.0 if k < 0 else sign * p[k] for k, sign in ((point.x, point.sign_x), (point.y, point.sign_y)))
+        dx, dy = a * np.cos(theta) - b * np.sin(theta), a * np.sin(theta) + b * np.cos(theta)
+        known |= {f"{point.name}.x": x + dx, f"{point.name}.y": y + dy}
+        known |= {f"{point.name}.vx": vx - omega * dy, f"{point.name}.vy": vy + omega * dx}
+    known["t"] = np.float64(t)
+    known |= {address.removeprefix("parameters."): value for address, value in slots.items()}
+    trees = [spec.zero.value for spec in mechanism.scenes[file.scene].events.values()]
+    return np.array([_value(tree, known) for tree in trees])
+
+
+def _value(tree: Expr, known: dict[str, float]) -> float:
+    """Of real numbers; where these are none, of complex ones if they lead back: sqrt(x)**2 is x below zero too."""
+    value = float(evaluate(tree, known.__getitem__))
+    if not np.isnan(value):
+        return value
+    try:
+        turned = complex(evaluate(tree, lambda path: np.complex128(known[path])))
+    except TypeError:  # a function of real numbers alone
+        return value
+    return turned.real if abs(turned.imag) < 1e-9 * abs(turned.real) else value
+
+
+def run(libraries: dict[str, CompiledModel], path: Path) -> int:
+    """A few steps by each method in both formulations; how many ended. Those that end agree.
+
+    Wild drives and forces may lead nowhere: that is told as an error of ours, or takes too long.
+    """
+    ended = 0
+    ends = []
+    for compiled in libraries.values():
+        simulation = Simulation(compiled, path)
+        for method in ("auto", *compiled.source.methods):
+            arguments: dict[str, Any] = {"step": 1e-4} if method == "rk4" else {}
+            try:
+                with np.errstate(all="ignore"):
+                    result = simulation.simulate(0.005, output=4, method=method, progress=_Patience(), **arguments)
+            except GudgeonError:
+                continue
+            ended += 1
+            if not result.diagnostics.interrupted and method == "auto":
+                ends.append(result.q[-1])
+    if len(ends) == 2 and np.isfinite(ends).all():
+        size = np.max(abs(ends[0]), initial=1.0)
+        if np.max(abs(ends[0] - ends[1])) > 1e-5 * size:
+            raise Fault(f"runs differ: {ends[0]} and {ends[1]}")
+    return ended
+
+
+class _Patience:
+    """Ends a run that takes too long, as Ctrl-C does."""
+
+    def __init__(self) -> None:
+        self._begin = time.perf_counter()
+
+    def __call__(self, fraction: float, what: str) -> None:
+        if time.perf_counter() - self._begin > LONGEST:
+            raise KeyboardInterrupt
+
+
+def main(count: int, seed: int) -> None:
+    """Tell every thousand files how it goes."""
+    total = Tally(Counter(), [])
+    for first in range(0, count, 200):
+        part = try_files(range(seed + first, seed + min(first + 200, count)), 20, 100, patient=True)
+        total.counts += part.counts
+        total.faults += part.faults
+        print(f"{total}; {len(total.faults)} faults", *part.faults, sep="\n  ", flush=True)
+    sys.exit(1 if total.faults else 0)
