@@ -87,7 +87,8 @@ def measure(activity: Activity, moments: int, rng: np.random.Generator) -> bool:
             wrong.append(f"{moment:.3f} s: {str(error).strip().splitlines()[0] if str(error) else 'assertion'}")
     late = sum(wait > BAR for wait in waits)
     print(f"{activity.name:>12}{len(waits):>6} answered, longest {max(waits, default=0.0):6.3f} s, median"
-          f" {np.median(waits) if waits else 0.0:6.3f} s, {late} later than {BAR} s, {len(wrong)} wrong", flush=True)  # fmt: skip
+          f" {np.median(waits) if waits else 0.0:6.3f} s, {late} later than {BAR} s, {len(wrong)} wrong",
+          flush=True)  # fmt: skip
     for told in wrong[:5]:
         print(f"{'':>14}{told}", flush=True)
     return not late and not wrong
@@ -168,6 +169,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--only", nargs="+", default=[])
     options = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background process ignores it
     rng, well = np.random.default_rng(options.seed), True
     with tempfile.TemporaryDirectory() as folder:
         for activity in activities(Path(folder)):

@@ -81,7 +81,7 @@ def case(name: str, method: str) -> tuple[Simulation, dict[str, Any]]:
 @pytest.mark.parametrize(
     ("name", "method", "stride"),
     [("dry", "auto", 331), ("dry", "dop853", 509), ("dry", "rk4", 397), ("lubricated", "auto", 41),
-     ("lubricated", "rodas5p", 29), ("lubricated", "scipy:DOP853", 67), ("four_bar", "auto", 211)],
+     ("lubricated", "rodas5p", 29), ("lubricated", "scipy:DOP853", 23), ("four_bar", "auto", 211)],
 )  # fmt: skip
 def test_what_is_kept_is_the_whole_run_s(name: str, method: str, stride: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(asking, "EVERY", 0.0)
@@ -98,7 +98,7 @@ def test_what_is_kept_is_the_whole_run_s(name: str, method: str, stride: int, mo
             check_kept(run, whole(name, method))
             cut += len(run.t) < len(whole(name, method).t)
         number += 1 if number < 4 else stride
-    assert cut >= 5
+    assert cut >= 3
 
 
 @pytest.mark.parametrize(("name", "method"), [("lubricated", "dop853"), ("lubricated", "rodas5p"), ("dry", "rk4")])
