@@ -17,6 +17,7 @@ from gudgeon.arguments import output_times, seconds
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.diagnose import diagnose
 from gudgeon.errors import AssemblyError, BadValueError, InputError, SolverError
+from gudgeon.hidden_jumps import up_to_a_jump
 from gudgeon.integrators import adaptive, kinematic, python_driver, rk4
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.left_out import check_start, contradiction
@@ -197,11 +198,12 @@ class Simulation:
             self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state,
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,
         )  # fmt: skip
+        problem, jump = up_to_a_jump(problem)
         before = time.perf_counter()
         trajectory = METHODS[chosen](problem)
         spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
         result = self._result(chosen, problem, trajectory, given, is_given, spent)
-        stopped = trajectory.stopped or contradiction(problem, trajectory)
+        stopped = trajectory.stopped or contradiction(problem, trajectory) or (None if trajectory.interrupted else jump)
         if stopped is not None:
             stopped.partial = result
             raise stopped

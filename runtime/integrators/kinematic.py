@@ -125,7 +125,7 @@ def _with_work(problem: Problem, motion: _Motion) -> Trajectory:
 def _failure(problem: Problem, status: int, t: float) -> SolverError:
     later = problem.t[problem.t > t]
     until = float(later[0]) if len(later) else t
-    why, when = reason_between(problem.compiled.source, problem.p, t, until + 1e-9 * max(1.0, abs(until)))
+    why, when = reason_between(problem.compiled.source, problem.p, t, until)
     if not why:
         times = np.linspace(t, until, 1001)
         why, when = rate_reason(problem.compiled, problem.p, times, np.zeros(problem.compiled.n))
