@@ -126,7 +126,7 @@ class CompiledModel:
         """γ, (m,)."""
         return self.closed_gamma(t, q, v, p)[self._kept]
 
-    def closed_gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: Array) -> Array:
+    def closed_gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
         """γ of the closed linkage."""
         return self._rows("gudgeon_gamma", t, p, q, v)
 

@@ -90,7 +90,8 @@ def _jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1
     around = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(bent, 8, mode="edge"), 17), axis=1)
     share = bent / (around + 1e-14 * np.abs(f).max(initial=0.0) + 1e-300)
     outstanding = [k for k in np.argsort(-share, kind="stable")[: 4 * MOST].tolist() if share[k] > 3.0]
-    h, found = (t1 - t0) / GRID, []
+    found: list[Jump] = []
+    h = (t1 - t0) / GRID
     for k in outstanding:
         at = t0 + (k + 1) * h
         if len(found) < MOST and all(abs(at - jump.t) > 2.5 * h for jump in found):
