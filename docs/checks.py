@@ -92,6 +92,7 @@ def order() -> Iterable[Row]:
     rodas, dop = "test_rodas5p_has_order_5_and_its_interpolant_4", "test_dop853_has_order_8_and_its_interpolant_7"
     for method, scene, steps, inside, asked, test in (
         ("rk4", "swing", (60, 4000, 12), False, "4 ± .15", "test_rk4_has_order_4"),
+        ("rk4", "swing", (60, 4000, 12), True, "4 ± .15", "test_rk4_has_order_4"),
         ("rodas5p", "swing", (12, 1600, 14), False, "5 ± .15", rodas),
         ("rodas5p", "swing", (12, 1600, 14), True, "5 ± .15", rodas),
         ("dop853", "car_axis", (40, 400, 14), False, "8 ± .4", dop),

@@ -176,7 +176,7 @@ def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) ->
         build.out(f"    force[{k}]", b.get(k, ZERO))
     for r in range(len(kkt.rows)):
         build.out(f"    rhs[{r}]", b.get(kkt.n + r, ZERO))
-    build.line("    pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);")
+    build.line("    pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);")
     build.line("}")
     build.line("powers:")
 

@@ -15,7 +15,7 @@ from gudgeon.generator.model import Model
 from gudgeon.generator.projection import projection_kernel
 from gudgeon.generator.reduction import TreeSystem
 from gudgeon.generator.tree import Link
-from gudgeon.generator.watched import watched_kernel
+from gudgeon.generator.watched import reads_beyond, watched_kernel
 
 _DOC = (
     "Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:",
@@ -40,8 +40,9 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
     dynamics = dynamics_kernel(system, kkt, "reduced_dynamics", _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
     follows = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
-    # chains are closed by rates(); what is followed is not watched
-    watched = None if system.chain or follows else watched_kernel(dynamics, system.model)
+    watched = None if follows else watched_kernel(dynamics, system.model)  # what is followed is not watched
+    if watched and system.chain and reads_beyond(watched, len(system.q)):
+        watched = None  # chains are closed by rates()
     kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
     return [without_unused(kernel) for kernel in kernels], kkt
 

@@ -77,8 +77,14 @@ def ranges_kernel(watched: Kernel, corners: Sequence[int]) -> Kernel:
 
 def reads_state(kernel: Kernel) -> bool:
     """Whether it hangs on more than time."""
+    return reads_beyond(kernel, 0)
+
+
+def reads_beyond(kernel: Kernel, count: int) -> bool:
+    """Whether it reads a coordinate, or the rate of one, behind the first `count`."""
     values = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
-    return any(isinstance(value, str) and re.search(r"\b[qv]\[", value) for value in values)
+    read = [int(k) for value in values if isinstance(value, str) for k in re.findall(r"\b[qv]\[(\d+)\]", value)]
+    return max(read, default=-1) >= count
 
 
 def _out(statement: Statement, corners: Collection[int]) -> Statement | None:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         GudgeonError,
         InputError,
         NonFiniteError,
+        OutputError,
         SingularError,
         SolverError,
     )
@@ -41,6 +42,7 @@ _HOME = {
     "NonFiniteError": "errors",
     "BuildError": "errors",
     "CacheError": "errors",
+    "OutputError": "errors",
 }  # public name -> module of its owner
 
 __all__ = [
@@ -50,6 +52,7 @@ __all__ = [
     "GudgeonError",
     "InputError",
     "NonFiniteError",
+    "OutputError",
     "Result",
     "Simulation",
     "SingularError",

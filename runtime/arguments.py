@@ -13,6 +13,7 @@ from gudgeon.parameters import number
 from gudgeon.step import scene_end
 
 DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8
+NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18  # roundings between start and end; s, of a run
 
 
 def seconds(name: str, value: float | str) -> float:
@@ -30,6 +31,7 @@ def output_times(source: KernelSource, t0: float, t_end: float | str | None, out
     intervals = source.simulate.get("output", DEFAULT_OUTPUT) if output is None else output
     if isinstance(intervals, bool) or not 1 <= intervals <= MOST_OUTPUT:
         raise BadValueError(f"output is {intervals}: expected a number of intervals, 1 to {MOST_OUTPUT:.0e}")
+    _check_end("t_end is", t0, end, 4 * int(intervals))
     return np.linspace(t0, end, int(intervals) + 1)
 
 
@@ -43,4 +45,18 @@ def _given_times(t0: float, output: ArrayLike) -> Array:
         raise BadValueError(f"output: expected increasing times (s), got {times[k + 1]!s} s after {times[k]!s} s")
     if times[0] < t0:
         raise BadValueError(f"output: times begin at {t0!s} s, got {times[0]!s} s")
+    _check_end("output ends", t0, float(times[-1]), 1)
     return times if times[0] == t0 else np.concatenate([[t0], times])
+
+
+def _check_end(what: str, t0: float, end: float, roundings: int) -> None:
+    """BadValueError for an end so near to the start that no times lie between, or beyond all times."""
+    if end > FURTHEST:
+        raise BadValueError(f"{what} {end:g} s: expected {FURTHEST:g} s at most", hint="times are in s")
+    least = max(max(roundings, NEAREST) * float(np.spacing(max(abs(t0), abs(end)))), SHORTEST)
+    if 0.0 < end - t0 < least:
+        raise BadValueError(
+            f"{what} {end:.17g} s, {end - t0:.3g} s after the start at {t0:.9g} s: expected {least:.3g} s at least, or"
+            " numbers have no room for the times between",
+            hint="times are in s",
+        )

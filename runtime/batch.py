@@ -48,7 +48,7 @@ class Batch:
     v: Array
     work: Array  # (n, N, 3) J: drives, applied forces, clearance forces
     state: Array  # (n, N, n_clearances) int8: 0 free, 1 impact, 2 contact
-    samples: Array  # (n,) output times that were reached; where an event ended a run, its last sample is the end's
+    samples: Array  # (n,) output times that were reached; where an event or Ctrl-C ended a run, the last is its end's
     t_last: Array  # (n,) s, where each run ended
     parameters: Mapping[str, Array]  # address -> (n,) values, of what was given to any run
     impacts: tuple[Array, ...]  # IMPACT_DTYPE, one an onset, of each run

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 LIBRARY = "kernels.so"
 SCENE, WRAPPER = "scene.o", "wrapper.o"
+ASKS = 'extern "Python" int gudgeon_python_asks(void *);\n'  # what C calls to ask Python (integrators/asking.py)
 FULL = {
     "No space left on device": errno.ENOSPC, "Disk quota exceeded": errno.EDQUOT, "File too large": errno.EFBIG,
     "File size limit exceeded": errno.EFBIG,
@@ -66,7 +67,7 @@ def library_key(
     """Everything that decides the library's bytes or whether this machine can run them."""
     texts = [part for name in sorted(source.files) for part in (name, source.files[name])]
     cpu = "" if portable else compiler.cpu()
-    return digest(["library/2", source.main, source.cdef, *command, *flags, identity, cpu, *texts])
+    return digest(["library/3", source.main, source.cdef, ASKS, *command, *flags, identity, cpu, *texts])
 
 
 def _name(key: str) -> str:
@@ -129,7 +130,7 @@ def _build(source: KernelSource, key: str, portable: bool, folder: Path) -> None
         from cffi import FFI
 
         ffi = FFI()
-        ffi.cdef(source.cdef)
+        ffi.cdef(source.cdef + ASKS)
         ffi.set_source(_name(key), f"#include <stddef.h>\n{source.cdef}", compiler_verbose=0)
         ffi.emit_c_code(str(folder / "wrapper.c"))
         paths = (f"-I{path}" for path in includes)

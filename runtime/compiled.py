@@ -8,8 +8,10 @@ is taken from the cache (or compiled) again when it is first asked for there.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from time import perf_counter
 from types import ModuleType
 from typing import Any, TypeAlias
 
@@ -188,8 +190,14 @@ class CompiledModel:
             names = (*s.coordinates, *(row.name for row in s.rows), *s.frictions)
             self.check_pivot(-status, t, names)
 
-    def evaluate(self, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: ArrayLike) -> Evaluation:
-        """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions)."""
+    def evaluate(
+        self, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: ArrayLike,
+        take: Callable[[], object] = lambda: None,
+    ) -> Evaluation:  # fmt: skip
+        """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions).
+
+        `take` is called every few milliseconds, and what it raises is passed on.
+        """
         s, time = self.source, taken(t, "t", (None,))
         N = len(time)
         latched = taken(memory, "memory", (N, None))
@@ -201,17 +209,22 @@ class CompiledModel:
             np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))),
             np.empty((N, len(s.series))), np.empty((N, len(s.frictions), 2)), np.empty((N, 2)), np.empty((N, 3)),
         )  # fmt: skip
-        failed = self.ffi.new("long *")
+        failed, first, chunk = self.ffi.new("long *"), 0, 1
         results = (
             out.a, out.multipliers, out.reactions, out.torques, out.clearance, out.series, out.friction, out.energy,
             out.power,
         )  # fmt: skip
-        status = self.lib.gudgeon_evaluate(
-            N, self.pointer(time), *(self.pointer(a) for a in inputs), self._numbers(p),
-            *(self._out(a) for a in results), failed,
-        )  # fmt: skip
-        if status:
-            self.check_pivot(status, float(time[failed[0]]))
+        while first < N:
+            before, count = perf_counter(), min(chunk, N - first)
+            status = self.lib.gudgeon_evaluate(
+                count, *(self.pointer(a[first:]) for a in (time, *inputs)), self._numbers(p),
+                *(self._out(a[first:]) for a in results), failed,
+            )  # fmt: skip
+            if status:
+                self.check_pivot(status, float(time[first + failed[0]]))
+            first += count
+            chunk = 4 * count if perf_counter() - before < 5e-3 else max(1, count // 4)
+            take()
         self._mark_indeterminate(out)
         return out
 

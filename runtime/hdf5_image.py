@@ -14,7 +14,7 @@ from __future__ import annotations
 import io
 import threading
 import zlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -134,26 +134,30 @@ class _Image(io.RawIOBase):
         return b"".join(pages)[begin - first * PAGE : end - first * PAGE]
 
 
-def _apart(work: Any) -> Any:
-    """What `work` returns or raises, called in another thread; Ctrl-C is raised here once it has ended."""
-    result: list[Any] = []
-    raised: list[BaseException] = []
+def _apart(work: Callable[[], Any]) -> Any:
+    """What `work` returns or raises, called in another thread.
+
+    Ctrl-C is raised here at once and the thread ends on its own, for it has nothing but memory. Not by Thread.join:
+    one that a signal interrupts may leave its lock taken, and the next never returns.
+    """
+    ended: list[tuple[Any, BaseException | None]] = []
+    gate = threading.Lock()
+    gate.acquire()
 
     def call() -> None:
         try:
-            result.append(work())
+            ended.append((work(), None))
         except BaseException as error:
-            raised.append(error)
+            ended.append((None, error))
+        gate.release()
 
-    thread = threading.Thread(target=call)
-    thread.start()
-    try:
-        thread.join()
-    finally:
-        thread.join()
-    if raised:
-        raise raised[0]
-    return result[0]
+    threading.Thread(target=call).start()
+    while not ended:
+        gate.acquire(timeout=0.05)
+    result, error = ended[0]
+    if error is not None:
+        raise error
+    return result
 
 
 def _lay_out(tables: Sequence[Table]) -> tuple[_Image, list[tuple[int, Array]]]:

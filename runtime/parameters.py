@@ -16,7 +16,9 @@ from gudgeon.kernel_source import KernelSource, Slot
 
 # a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
 _NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
-_PLAIN = re.compile(_NUMBER)
+# such a number where a file is sure to take it: whole parts begin with one zero at most, exponents are below 400
+_MANTISSA, _EXPONENT = r"[0-9]{1,400}\.?[0-9]{0,400}|\.[0-9]{1,400}", r"[eE][-+]?[0-3]?[0-9]{1,2}"
+_PLAIN = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?")
 # a number and a unit without the space that the file format wants between them: nothing else can be meant
 _GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
@@ -71,11 +73,11 @@ def number_of(value: float, name: str) -> float:
 
 def plain_number(text: str) -> float | None:
     """The number that a text without a unit writes; None where there is more to read, or no float has its size."""
-    if not _PLAIN.fullmatch(text := text.strip(" ")):
+    found = _PLAIN.fullmatch(text.strip(" "))
+    if found is None:
         return None
-    value = float(text)
-    mantissa = re.split("[eE]", text)[0]
-    return value if math.isfinite(value) and (value or not re.search("[1-9]", mantissa)) else None
+    value = float(found[0])
+    return value if math.isfinite(value) and (value or not re.search("[1-9]", found["mantissa"])) else None
 
 
 def spaced(text: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
@@ -19,6 +20,7 @@ from gudgeon.diagnose import diagnose
 from gudgeon.errors import AssemblyError, BadValueError, InputError, SolverError
 from gudgeon.hidden_jumps import up_to_a_jump
 from gudgeon.integrators import adaptive, kinematic, python_driver, rk4
+from gudgeon.integrators.asking import CtrlC
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.left_out import check_start, contradiction
 from gudgeon.parameters import prepare, prepare_slots, without_baumgarte
@@ -199,15 +201,19 @@ class Simulation:
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,
         )  # fmt: skip
         problem, jump = up_to_a_jump(problem)
-        before = time.perf_counter()
-        trajectory = METHODS[chosen](problem)
-        spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
-        result = self._result(chosen, problem, trajectory, given, is_given, spent)
-        stopped = trajectory.stopped or contradiction(problem, trajectory) or (None if trajectory.interrupted else jump)
+        with CtrlC() as ctrl_c:
+            problem = replace(problem, take=ctrl_c.take)
+            before = time.perf_counter()
+            trajectory = METHODS[chosen](problem)
+            spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
+            result = self._result(chosen, problem, trajectory, given, is_given, spent)
+            stopped = trajectory.stopped or contradiction(problem, trajectory)
+            stopped = stopped or (None if trajectory.interrupted else jump)
+        result = _late(ctrl_c, result)
         if stopped is not None:
             stopped.partial = result
             raise stopped
-        if horizon and not trajectory.interrupted:
+        if horizon and not result.diagnostics.interrupted:
             from gudgeon.predictability import with_horizon
 
             result = with_horizon(self, result, progress)
@@ -278,9 +284,11 @@ class Simulation:
 
         x = trajectory
         try:
-            evaluation = self.compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p)
+            evaluation = self.compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p, problem.take)
         except SolverError:
             evaluation = None
+        except KeyboardInterrupt:
+            evaluation, trajectory = None, replace(trajectory, interrupted=True)
         a = x.a if x.a is not None else np.full_like(x.q, np.nan) if evaluation is None else evaluation.a
         diagnostics = diagnose(self.compiled, method, problem, trajectory, evaluation, seconds)
         result = Result(
@@ -293,3 +301,11 @@ class Simulation:
             result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
         return result
 
+
+def _late(ctrl_c: CtrlC, result: Result) -> Result:
+    """The result; marked as interrupted where Ctrl-C came while it was put together."""
+    try:
+        ctrl_c.take()
+    except KeyboardInterrupt:
+        return replace(result, diagnostics=replace(result.diagnostics, interrupted=True))
+    return result

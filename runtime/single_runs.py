@@ -15,6 +15,8 @@ import numpy as np
 from gudgeon.batch import Batch, as_failures, given_values, peaks_of
 from gudgeon.compiled import Array
 from gudgeon.errors import GudgeonError, SolverError
+from gudgeon.integrators.asking import CtrlC
+from gudgeon.integrators.failure import INTERRUPTED
 from gudgeon.integrators.many import GLANCE
 from gudgeon.integrators.trajectory import Counts, Progress, no_events
 from gudgeon.parameter_sets import Mask
@@ -29,7 +31,7 @@ class _Runs:
 
     def __init__(self, simulation: Simulation, given: Array, is_given: Mask, options: dict[str, Any]) -> None:
         self.simulation, self.given, self.is_given, self.options = simulation, given, is_given, options
-        self.n, self.interrupted = len(given), False
+        self.n, self.interrupted, self.ending = len(given), False, False
         self.results: dict[int, Result] = {}
         self.errors: dict[int, GudgeonError] = {}
 
@@ -37,29 +39,42 @@ class _Runs:
         slots = self.simulation.source.slots
         parameters = {slots[k].address: float(self.given[i, k]) for k in np.flatnonzero(self.is_given[i]).tolist()}
         try:
-            self.results[i] = self.simulation.simulate(parameters=parameters, **self.options)
+            run = self.simulation.simulate(parameters=parameters, progress=self._tick, **self.options)
+            self.results[i] = run
+            if run.diagnostics.interrupted:
+                self.errors[i] = SolverError(INTERRUPTED, float(run.t[-1]))
+                self.errors[i].partial = run  # type: ignore[attr-defined]
+        except KeyboardInterrupt:  # before it had anything
+            pass
         except GudgeonError as error:
             self.errors[i], partial = error, getattr(error, "partial", None)
             if isinstance(partial, Result):
                 self.results[i] = partial
 
+    def _tick(self, fraction: float, text: str) -> None:
+        if self.ending:
+            raise KeyboardInterrupt
+
     def run(self, threads: int, progress: Progress | None, t_first: float) -> None:
-        """All of them; after Ctrl-C those that have begun."""
-        with ThreadPoolExecutor(threads, thread_name_prefix="gudgeon") as pool:
-            waiting: set[Future[None]] = {pool.submit(self._one, i) for i in range(self.n)}
+        """All of them. Ctrl-C ends them where they are."""
+        with CtrlC() as ctrl_c, ThreadPoolExecutor(threads, thread_name_prefix="gudgeon") as pool:
             try:
+                waiting: set[Future[None]] = {pool.submit(self._one, i) for i in range(self.n)}
                 while waiting:
                     ended, waiting = wait(waiting, GLANCE)
+                    ctrl_c.take()
                     for future in ended:
                         future.result()
                     if progress:
                         progress(1.0 - len(waiting) / self.n, "integrating")
             except KeyboardInterrupt:
                 self.interrupted = True
+            finally:
+                self.ending = True
                 pool.shutdown(cancel_futures=True)
         for i in range(self.n):
             if i not in self.results and i not in self.errors:
-                self.errors[i] = SolverError("interrupted before its end", t_first)
+                self.errors[i] = SolverError(INTERRUPTED, t_first)
 
     def __getstate__(self) -> dict[str, Any]:
         """What is over."""

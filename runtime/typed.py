@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
 from types import NoneType, UnionType
-from typing import Any, cast, get_args, get_origin, get_type_hints
+from typing import Any, get_args, get_origin, get_type_hints
 
 
 def check_typed(value: Any, kind: Any, where: str) -> None:
@@ -26,7 +26,7 @@ def check_typed(value: Any, kind: Any, where: str) -> None:
             raise TypeError(f"{where} is {type(value).__name__}, expected {kind}")
     elif isinstance(kind, type) and is_dataclass(kind):
         _check_class(value, kind, where)
-        for name, one in _hints(cast(Any, kind)).items():
+        for name, one in _hints(kind).items():
             check_typed(getattr(value, name), one, f"{where}.{name}")
     else:
         _check_class(value, {float: (float, int)}.get(kind, kind), where)

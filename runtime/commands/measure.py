@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, TypeVar
 
-from gudgeon.commands.common import check_file, chosen_scenes, need_suffix, settings, unknown, value
+from gudgeon.commands.common import check_file, check_name, chosen_scenes, need_suffix, settings, unknown, value
 from gudgeon.commands.progress import Report, progress_bar
 from gudgeon.commands.run import addresses
 from gudgeon.errors import BadValueError
@@ -74,12 +74,13 @@ class Request:
 
     def table(self, mechanism: str, what: str) -> Path:
         """Where the CSV goes; pictures go beside it. Told before anything is run if it cannot be written."""
+        table = self.csv or self.out / f"{mechanism}_{what}.csv"
         if self.csv is not None:
             need_suffix(self.csv, (".csv",))
-            check_file("--csv", self.csv)
-            return self.csv
-        check_file("--out", self.out / f"{mechanism}_{what}.csv")
-        return self.out / f"{mechanism}_{what}.csv"
+        option = "--out" if self.csv is None else "--csv"
+        check_file(option, table)
+        check_name(option, table.with_suffix(".png"))
+        return table
 
 
 def each(

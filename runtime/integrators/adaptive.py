@@ -21,8 +21,8 @@ from time import perf_counter
 import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
-from gudgeon.errors import BadValueError, InputError, SolverError
-from gudgeon.integrators.session import ENDED, EVENTS_FULL, RunEnded, Session
+from gudgeon.errors import BadValueError, InputError
+from gudgeon.integrators.session import Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.kernel_source import Slot
 from gudgeon.parameters import number
@@ -33,7 +33,7 @@ BEGIN_STIFF = 3  # adaptive in a scene with a film: stiff from rest on (physics.
 RTOL = 1e-8  # of a plain run
 FELT_BY_FILMS = 0.015  # share of the speeds within a film that an error of velocities may be
 SMALLEST = 1e-14  # rounding would be controlled below it
-CHUNK = 4_000  # steps between two looks of Python: some 20 ms
+CHUNK = 4_000  # steps of one call of C, which asks Python on its way (asking.py)
 ADVICE = "the motion may leave what the model holds for; look at the last samples"
 
 
@@ -44,38 +44,24 @@ def run(problem: Problem) -> Trajectory:
     fixed = 0.0 if math.isinf(problem.step) else problem.step
     choice = choice_of(problem.compiled, problem.method)
     session.lib.gudgeon_adaptive_setup(session.run, choice, session.pointer(scale), session.pointer(least), fixed)
-    interrupted, stopped = False, None
-    try:
-        while session.done < len(problem.t):
-            _chunk(session)
-    except RunEnded:
-        pass
-    except KeyboardInterrupt:
-        interrupted = True
-    except SolverError as error:
-        stopped = error
-    return session.trajectory(interrupted, stopped)
+    return session.drive(lambda: _all(session))
+
+
+def _all(session: Session) -> None:
+    """All the way; raises RunEnded, KeyboardInterrupt, SolverError."""
+    while session.done < len(session.problem.t):
+        _chunk(session)
+        session.look()
 
 
 def _chunk(session: Session) -> None:
-    """Some steps in C; raises SolverError."""
-    problem, done = session.problem, session.compiled.ffi.new("long *")
-    done[0] = session.done
+    """Some steps in C."""
+    problem, done = session.problem, session.pointer(session.rows_done, "long *")
     arguments = (session.pointer(session.p), len(problem.t), session.pointer(problem.t), CHUNK, *session.rows(0), done)
     before = perf_counter()
     status = session.lib.gudgeon_adaptive_run(session.run, *arguments)
     session.seconds += perf_counter() - before
-    session.done = int(done[0])
-    t = session.report()[0]
-    if status == EVENTS_FULL:
-        session.fetch_impacts(last=False)
-        session.fetch_events()
-    elif status == ENDED:
-        session.end()
-    elif status:
-        session.fail(status, t, ADVICE)
-    if problem.progress:
-        problem.progress((t - problem.t[0]) / max(problem.t[-1] - problem.t[0], 1e-300), "integrating")
+    session.back(status, session.report()[0], ADVICE)
 
 
 def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:

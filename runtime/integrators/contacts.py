@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from gudgeon.compiled import Array, CompiledModel
 
 NODES = np.linspace(0.0, 1.0, 9)  # shares of a step at which it is looked at
-CLOSE = 0.5e-12  # s, of an event's time; 2 ulp where these are more
+CLOSE = 0.5e-12  # of the part of a step in which an event is sought; 2 ulp of its time where these are more
 KEPT = 0.9  # share of the known peak above which a step's own one is sought
 LOST = 1e-3  # of c: a free journal further outside its bearing was lost
+ROUNDED = 1e-7  # of the bearing's radius, beside it
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,7 @@ class Contacts:
         joints = compiled.source.clearances
         self.count = len(joints)
         self.c = p[[joint.clearance for joint in joints]]
+        self.R = p[[joint.constants["R_i"] for joint in joints]]
         self.floor = _floor(compiled, p)
         self.memory = np.array(memory[: self.count], dtype=np.float64)
         self.compressing = np.zeros(self.count, dtype=bool) if state is None else np.asarray(state) == 1
@@ -133,7 +135,7 @@ class Contacts:
             self.ratio = min(self.ratio[0], float(ratio)), max(self.ratio[1], float(ratio))
             self.ratio_outside += abs(ratio) > 1.0
         self.compressing &= closed & (now.deltadot[0] > 0.0)
-        lost = np.flatnonzero(~closed & (now.delta[0] > 1e-9 + LOST * self.c))
+        lost = np.flatnonzero(~closed & (now.delta[0] > LOST * self.c + ROUNDED * self.R))
         return int(lost[0]) if len(lost) else None
 
     def inner_peaks(self, piece: Piece, t: Array, view: View) -> None:
@@ -193,7 +195,8 @@ class Contacts:
             return None
         if not rate and at_low < 0.0:  # by less than what projection moves
             return low
-        return float(brentq(value, low, high, xtol=max(CLOSE, 2.0 * np.spacing(abs(high))), rtol=1e-15))
+        close = max(CLOSE * (high - low), 2.0 * np.spacing(abs(high)))
+        return float(brentq(value, low, high, xtol=close, rtol=1e-15))
 
 
 def _floor(compiled: CompiledModel, p: Array) -> float:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.dead_centre import nearly_dependent_rows
@@ -10,7 +13,8 @@ from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.start import mechanism_size
 from gudgeon.written import rate_reason, reason
 
-NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE = -2, -4, -5, -6, -8
+NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED = -2, -4, -5, -6, -8, -10, -11
+INTERRUPTED = "interrupted before its end"
 NO_NUMBER = "end the run before that, or write it so that it is a number at every time"
 NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
 
@@ -38,6 +42,10 @@ def failure(
         return SolverError(f"a contact was lost at t = {t:.9g} s: a free journal lies outside its bearing", t)
     if status == OUTSIDE:
         return _too_deep(compiled, e_max, p, t)
+    if status == STOPPED:
+        return SolverError(INTERRUPTED, t)
+    if status == STALLED:
+        return SolverError(f"the run no longer advances at t = {t:.9g} s\n  {advice}", t)
     row = compiled.source.motion_pivots[status - 1]
     if row in compiled.source.chain_rows:
         return SingularError(
@@ -58,6 +66,63 @@ def failure(
         where = f"t = {t:.9g} s (constraint row {error.pivot})"
         return NonFiniteError(f"the motion diverged before {where}\n  {advice}", t, error.pivot)
     raise AssertionError(f"status {status} stands for no failure")
+
+
+@dataclass(frozen=True)
+class Pace:
+    """Of a run that no longer advances: the time, what is left, and what its last steps gained (s)."""
+
+    t: float
+    left: float
+    gained: float
+    steps: int
+    crawls: bool  # far slower than it was; else its end is too far away
+
+    @property
+    def needed(self) -> float:
+        """Steps to the end, at this pace."""
+        return self.left / max(self.gained, 1e-300) * self.steps
+
+
+def too_far(pace: Pace) -> SolverError:
+    """A run to an end that no computer reaches."""
+    return SolverError(
+        f"the run has come to t = {pace.t:.9g} s, and at the pace of its last {pace.steps} steps the {pace.left:.3g} s"
+        f" that are left take {pace.needed:.1e} more\n"
+        "  take a nearer t_end, or go on from the final state of what was computed, which is kept", pace.t
+    )  # fmt: skip
+
+
+def stalled(pace: Pace, ended: NDArray[np.int_], film: str) -> SolverError:
+    """A run that no longer advances: how many steps ended at contacts, corners of forces, frictions, events; `film`:
+    which one is all but closed, "": none."""
+    if not pace.crawls:
+        return too_far(pace)
+    whose = int(ended.argmax())
+    kinds = ("a contact begins or ends", "a force changes its form (a corner of min, max, abs, sign or of its law)",
+             "friction changes between stick and slip", "an event's expression is zero")  # fmt: skip
+    count = "all" if ended[whose] == pace.steps else str(ended[whose])
+    if film:
+        why = film
+    elif ended[whose] > 0.01 * pace.steps:
+        why = f"{count} of them ended where {kinds[whose]}: the motion does not get away from there"
+    else:
+        why = "their errors allow no longer ones: what acts there changes fast, or speeds grow"
+    return SolverError(
+        f"the run no longer advances at t = {pace.t:.9g} s: its last {pace.steps} steps gained {pace.gained:.3g} s;"
+        f" {pace.left:.3g} s are left, {pace.needed:.1e} steps at this pace\n  {why}\n"
+        "  what was computed is kept: look at its last samples; end the run before, or change what acts there; rk4 with"
+        " a step of its own goes over a jump of a force, with an error", pace.t
+    )  # fmt: skip
+
+
+def film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
+    """The film that is all but closed, in words; "" where there is none."""
+    for joint, e in zip(compiled.source.clearances, e_max, strict=True):
+        ratio = float(e) / float(p[joint.clearance])
+        if joint.film and ratio > NEARLY_CLOSED:
+            return f"the film in joint {joint.name} is squeezed out, e/c = {ratio:.7g}"
+    return ""
 
 
 def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError:

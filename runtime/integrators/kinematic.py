@@ -7,15 +7,17 @@ of the motion, works and events not counted.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from time import perf_counter
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.compiled import Array
 from gudgeon.errors import NonFiniteError, SolverError
-from gudgeon.integrators.failure import NO_NUMBER
-from gudgeon.integrators.kinematic_events import find_events
+from gudgeon.integrators.asking import Asker
+from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, too_far
+from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
 from gudgeon.start import mechanism_size
@@ -24,105 +26,162 @@ from gudgeon.written import rate_reason, reason_between
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
 REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
-CHUNK = 20_000  # samples between two looks of Python: some 20 ms
+CHUNK, TURN = 10_000, 0.02  # samples whose motion, works and events are computed together, at most; s they may take
 
 
-@dataclass(frozen=True)
-class _Motion:
-    """Positions, velocities and accelerations, (k, n), as far as they could be reached."""
+class _Way:
+    """The run as far as it is complete: rows `reached` of positions, velocities, accelerations and works; events."""
 
-    q: Array
-    v: Array
-    a: Array
-    counts: Counts
-    seconds: float
-    interrupted: bool = False
-    stopped: SolverError | None = None
+    def __init__(self, problem: Problem) -> None:
+        self.problem, self.compiled, self.t = problem, problem.compiled, problem.t
+        self.q, self.v, self.a = (np.zeros((len(self.t), self.compiled.n)) for _ in range(3))
+        self.work = np.zeros((len(self.t), 3))
+        self.q[0], self.v[0], self.a[0] = problem.q, problem.v, np.nan
+        self.maxima, self.longs = np.zeros(2), np.zeros(2, dtype=np.int_)  # |Φ|, |Φ̇|; steps, rows of a call
+        self.reached, self.seconds = 0, 0.0
+        self.events = Events(problem) if self.compiled.source.events else None
+        self.asker = Asker(self.compiled, self.look)
+        self.course = np.zeros(self.compiled.lib.gudgeon_course_size(), dtype=np.uint8)
+        size = mechanism_size(self.compiled, problem.p)
+        self.compiled.lib.gudgeon_course_begin(
+            self.pointer(self.course, "void *"), REACH, size, float(self.t[-1]), *self.asker.arguments
+        )
+
+    def pointer(self, array: NDArray[Any], kind: str = "double *") -> Any:
+        return self.compiled.pointer(array, kind)
+
+    def look(self) -> None:
+        """Between chunks or, asked by C, within one: takes Ctrl-C, moves the progress bar."""
+        self.problem.take()
+        if self.problem.progress:
+            t = self.problem.t
+            come = float(np.nanmean(self._pace()[0])) if self.begun else t[0]  # of motion and works
+            self.problem.progress(float(come - t[0]) / max(float(t[-1] - t[0]), 1e-300), "following the constraints")
+
+    def go(self) -> None:
+        """All the way, chunk by chunk: motion, then events and works of the same samples. Raises SolverError."""
+        first, last, chunk = 0, len(self.t) - 1, 1
+        while first < last or not self.begun:
+            before = perf_counter()
+            end, failed = self._motion(first, min(first + chunk, last))
+            stops = self.events is not None and end > first and self.events.find(self, first, end)
+            if stops:
+                end = last = self._cut(first, end)
+            self.reached = self._works(first, end)
+            if failed and not stops:
+                raise self._failure(failed)
+            first = end
+            chunk = max(1, min(2 * chunk, CHUNK) if perf_counter() - before < TURN else chunk // 2)
+            self.look()
+
+    @property
+    def begun(self) -> bool:
+        """Whether the first row is complete."""
+        return not np.isnan(self.a[0]).all()
+
+    def _motion(self, first: int, last: int) -> tuple[int, int]:
+        """Rows up to `last`, the last one that could be reached, and why no further (0: there was no need)."""
+        rows, longs = slice(first, None), self.pointer(self.longs, "long *")
+        before = perf_counter()
+        status = self.compiled.lib.gudgeon_kinematic(
+            self.pointer(self.course, "void *"), last - first, self.pointer(self.t[rows]),
+            self.pointer(self.problem.p), *(self.pointer(x[rows]) for x in (self.q, self.v, self.a)),
+            self.pointer(self.maxima), self.pointer(self.maxima[1:]), longs, longs + 1,
+        )  # fmt: skip
+        self.seconds += perf_counter() - before
+        self.asker.check(status == STOPPED)
+        return first + int(self.longs[1]), int(status)
+
+    def _works(self, first: int, last: int) -> int:
+        """Works of rows up to `last`; raises SolverError where they cannot be computed all the way."""
+        if last == first:
+            return last
+        rows, done = slice(first, None), np.zeros(1, dtype=np.int_)
+        status = self.compiled.lib.gudgeon_kinematic_works(
+            self.pointer(self.course, "void *"), last - first, self.pointer(self.t[rows]),
+            self.pointer(self.problem.p), *(self.pointer(x[rows]) for x in (self.q, self.v, self.work)),
+            self.pointer(done, "long *"),
+        )  # fmt: skip
+        self.asker.check(status == STOPPED)
+        if status:
+            self.reached = first + int(done[0])
+            raise self._failure(status)
+        return last
+
+    def _cut(self, first: int, end: int) -> int:
+        """An event ends the run among these rows: the last sample stands at its time."""
+        assert self.events is not None
+        t_end = float(self.events.in_order()[0]["t"][-1])
+        last = first + int(np.searchsorted(self.t[first : end + 1], t_end - resolution(self.problem.t)))
+        self.t = np.append(self.t[:last], t_end)
+        if last > first:
+            self.compiled.lib.gudgeon_course_again(self.pointer(self.course, "void *"))
+            _, failed = self._motion(last - 1, last)
+            if failed:
+                raise self._failure(failed)
+        return last
+
+    def _failure(self, status: int) -> SolverError:
+        at, gained, steps, crawls = self._pace()
+        t, t_end = float(at[0]), float(self.problem.t[-1])
+        if status == STALLED:
+            return _stalled(self.problem, Pace(t, t_end - t, gained, steps, crawls))
+        return _failure(self.problem, status, t)
+
+    def _pace(self) -> tuple[Array, float, int, bool]:
+        """Where motion and works are (s); what the last steps gained (s), how many they are, whether they crawl."""
+        t, gained, steps = np.zeros(2), np.zeros(1), np.zeros(2, dtype=np.int_)
+        self.compiled.lib.gudgeon_course_pace(
+            self.pointer(self.course, "void *"), self.pointer(t), self.pointer(gained), self.pointer(steps, "long *")
+        )
+        return t, float(gained[0]), int(steps[0]), bool(steps[1])
+
+    def trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
+        """What is complete."""
+        from gudgeon.results import IMPACT_DTYPE
+
+        rows = slice(self.reached + 1)
+        empty, t = np.zeros((self.reached + 1, 0)), self.t[rows].copy()
+        events, lost = (no_events(), no_events()) if self.events is None else self.events.in_order()
+        counts = Counts(int(self.longs[0]), 0, phi_max=float(self.maxima[0]), phi_dot_max=float(self.maxima[1]))
+        return Trajectory(
+            t, self.q[rows], self.v[rows], self.a[rows], empty, empty.astype(np.int8), self.work[rows],
+            np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, 3)), counts, interrupted, stopped, self.seconds,
+            events[events["t"] <= t[-1]], no_number=lost[lost["t"] <= t[-1]],
+        )  # fmt: skip
 
 
 def run(problem: Problem) -> Trajectory:
-    """Samples at the output times, and at the event that ends the run, if any does."""
-    motion = _follow(problem)
-    if not problem.compiled.source.events:
-        return _with_work(problem, motion)
-    events, lost, unfinished, interrupted, ended = no_events(), no_events(), None, motion.interrupted, False
+    """Samples at the output times, and at the event that ends the run, if any does. KeyboardInterrupt before the first.
+
+    A chunk (TURN) that Ctrl-C cuts short is not kept: motion, works and events belong together.
+    """
+    way = _Way(problem)
+    interrupted, stopped = False, None
     try:
-        size = mechanism_size(problem.compiled, problem.p)
-        events, lost, ended = find_events(problem, problem.t[: len(motion.q)], motion.q, motion.v, REACH, size)
+        way.go()
     except KeyboardInterrupt:
+        if not way.begun:
+            raise
         interrupted = True
     except SolverError as error:
-        unfinished = error
-    if ended:
-        last = events["t"][-1]
-        problem = replace(problem, t=np.append(problem.t[problem.t < last - resolution(problem.t)], last))
-        motion = _follow(problem)
-    trajectory = _with_work(problem, motion)
-    return replace(
-        trajectory, events=events[events["t"] <= trajectory.t[-1]], interrupted=interrupted or trajectory.interrupted,
-        stopped=trajectory.stopped or unfinished, no_number=lost[lost["t"] <= trajectory.t[-1]],
-    )  # fmt: skip
+        stopped = error
+    return way.trajectory(interrupted, stopped)
 
 
-def _follow(problem: Problem) -> _Motion:
-    """The motion at the output times, as far as they can be reached."""
-    compiled, pointer, t = problem.compiled, problem.compiled.pointer, problem.t
-    q, v, a = (np.zeros((len(t), compiled.n)) for _ in range(3))
-    q[0], v[0], a[0] = problem.q, problem.v, np.nan
-    size, maxima, longs = mechanism_size(compiled, problem.p), np.zeros(2), np.zeros(2, dtype=np.int_)
-    first, seconds, interrupted, stopped = 0, 0.0, False, None
-    try:
-        while stopped is None and (first < len(t) - 1 or not first):
-            arguments = (
-                min(CHUNK, len(t) - 1 - first), pointer(t[first:]), pointer(problem.p), REACH, size,
-                *(pointer(x[first:]) for x in (q, v, a)), pointer(maxima), pointer(maxima[1:]),
-                pointer(longs, "long *"), pointer(longs[1:], "long *"),
-            )  # fmt: skip
-            before = perf_counter()
-            status = compiled.lib.gudgeon_kinematic(*arguments)
-            seconds += perf_counter() - before
-            first += int(longs[1])
-            if status:
-                stopped = _failure(problem, status, float(t[first]))
-            if problem.progress:
-                problem.progress(first / max(len(t) - 1, 1), "following the constraints")
-            if len(t) == 1:
-                break
-    except KeyboardInterrupt:
-        interrupted = True
-    counts = Counts(int(longs[0]), 0, phi_max=float(maxima[0]), phi_dot_max=float(maxima[1]))
-    reached = slice(first + 1)
-    return _Motion(q[reached], v[reached], a[reached], counts, seconds, interrupted, stopped)
-
-
-def _with_work(problem: Problem, motion: _Motion) -> Trajectory:
-    """The motion with the works of drives and force elements, as far as both are known."""
-    compiled, pointer, t = problem.compiled, problem.compiled.pointer, problem.t
-    count, work, done = len(motion.q), np.zeros((len(motion.q), 3)), np.zeros(1, dtype=np.int_)
-    first, interrupted, stopped = 0, motion.interrupted, motion.stopped
-    size, status = mechanism_size(compiled, problem.p), 0
-    try:
-        while first < count - 1 and not status:
-            status = compiled.lib.gudgeon_kinematic_works(
-                min(CHUNK, count - 1 - first), pointer(t[first:]), pointer(problem.p), REACH, size,
-                pointer(motion.q[first:]), pointer(motion.v[first:]), pointer(work[first:]), pointer(done, "long *"),
-            )  # fmt: skip
-            first += int(done[0])
-    except KeyboardInterrupt:
-        interrupted = True
-    if status:
-        stopped = _failure(problem, status, float(t[first]))
-    empty, reached = np.zeros((first + 1, 0)), slice(first + 1)
-    from gudgeon.results import IMPACT_DTYPE
-
-    return Trajectory(
-        t[reached].copy(), motion.q[reached], motion.v[reached], motion.a[reached], empty, empty.astype(np.int8),
-        work[reached], np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, 3)), motion.counts, interrupted, stopped,
-        motion.seconds,
+def _stalled(problem: Problem, pace: Pace) -> SolverError:
+    """A motion that no longer advances."""
+    if not pace.crawls:
+        return too_far(pace)
+    return SolverError(
+        f"the motion no longer advances at t = {pace.t:.12g} s: its last {pace.steps} steps gained {pace.gained:.3g} s"
+        f" and less and less, {pace.left:.3g} s are left{_drives(problem, pace.t)}\n"
+        "  a drive that grows beyond all bounds cannot be followed: end the run before it, or change the drive", pace.t
     )  # fmt: skip
 
 
 def _failure(problem: Problem, status: int, t: float) -> SolverError:
+    """Why the motion cannot be followed beyond t (s)."""
     later = problem.t[problem.t > t]
     until = float(later[0]) if len(later) else t
     why, when = reason_between(problem.compiled.source, problem.p, t, until)
@@ -133,7 +192,8 @@ def _failure(problem: Problem, status: int, t: float) -> SolverError:
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", when)
     if status < 0:
         return SolverError(
-            f"the linkage cannot follow its drives beyond t = {t:.9g} s: Newton's method finds no position there\n"
+            f"the linkage cannot follow its drives beyond t = {t:.12g} s: Newton's method finds no position"
+            f" there{_drives(problem, t)}\n"
             "  the lengths do not let the drives turn on, or the linkage passes a dead centre",
             t,
         )
@@ -142,3 +202,15 @@ def _failure(problem: Problem, status: int, t: float) -> SolverError:
     except SolverError as error:
         return error
     raise AssertionError("a positive status raises")
+
+
+def _drives(problem: Problem, t: float) -> str:
+    """The value and rate of each drive, ", drive motor is at 12.3 rad (rate 45.6 rad/s)"."""
+    compiled, zero = problem.compiled, np.zeros(problem.compiled.n)
+    rates, values = compiled.closed_nu(t, zero, problem.p), compiled.closed_phi(t, zero, problem.p)
+    told = [
+        f"drive {row.owner} is at {-value:.9g} {row.unit}, its rate {rate:.9g} {row.unit}/s"
+        for row, value, rate in zip(compiled.source.start_rows, values, rates, strict=True)
+        if row.kind == "drive"
+    ]
+    return "".join(f"; {text}" for text in told)

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from gudgeon.compiled import N_WORK, Array, CompiledModel
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
-from gudgeon.integrators.failure import failure
+from gudgeon.integrators.asking import CtrlC
+from gudgeon.integrators.failure import INTERRUPTED, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, told_apart
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Progress, Trajectory
@@ -50,14 +51,14 @@ class Runs:
             "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
             "t_last": np.full(n, times[0]), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
             "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, 4), np.nan),
-            "peaks": np.full((n, nc, 3), np.nan),
+            "peaks": np.full((n, nc, 3), np.nan), "ending": np.zeros(1, np.intc),
         }  # fmt: skip
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
         self.struct = self._struct(math.isfinite(step[0]), stop)
         self.impacts = [[np.zeros(0, IMPACT_DTYPE)] for _ in range(n)]
         self.events = [[np.zeros(0, EVENT_DTYPE)] for _ in range(n)]
         self.failures: dict[int, GudgeonError] = {}
-        self.stopping = self.interrupted = False
+        self.interrupted = False
         self.lanes = Lanes(compiled) if side_by_side and lanes.wanted(compiled, method, step) else None
 
     def _struct(self, fixed: bool, stop: bool) -> Any:
@@ -75,6 +76,10 @@ class Runs:
     def __getstate__(self) -> dict[str, Any]:
         """What is over: arrays and lists, without what C worked on."""
         return self.__dict__ | {"struct": None, "lanes": None}
+    @property
+    def stopping(self) -> bool:
+        """Whether all runs are to end where they are; C reads the same number."""
+        return bool(self.arrays["ending"][0])
 
     def leave_out(self, failures: dict[int, Any]) -> None:
         """These runs are over before they begin."""
@@ -83,15 +88,23 @@ class Runs:
 
     def run(self, threads: int, progress: Progress | None) -> None:
         """All of them. Ctrl-C ends them where they are."""
-        try:
-            self._in_threads(threads, progress, range(self.n))
-            left = np.flatnonzero(self.arrays["status"] == NOT_CLOSED).tolist()
-            if left and not self.stopping:
-                self._in_threads(threads, progress, [i for i in left if self._assemble(i)])
-        except KeyboardInterrupt:
-            self.interrupted = True
+        with CtrlC() as ctrl_c:
+            try:
+                self._in_threads(threads, progress, range(self.n), ctrl_c)
+                left = self._not_closed()
+                if left:
+                    again = [i for i in left if self._assemble(i, ctrl_c)]
+                    self._in_threads(threads, progress, again, ctrl_c)
+                ctrl_c.take()
+            except KeyboardInterrupt:
+                self.interrupted = True
+            self._judge()
+
+    def _judge(self) -> None:
+        """Lists the runs that did not come to their ends, and marks what was not reached."""
+        self._not_closed()
         for i in np.flatnonzero(self.arrays["phase"] != OVER).tolist():
-            self.failures[i] = SolverError("interrupted before its end", float(self.arrays["t_last"][i]))
+            self.failures[i] = SolverError(INTERRUPTED, float(self.arrays["t_last"][i]))
         for i in np.flatnonzero(~np.isin(self.arrays["status"], (0, ENDED))).tolist():
             if i not in self.failures:
                 self.failures[i] = self._failure(i)
@@ -99,33 +112,43 @@ class Runs:
             if done < len(self.times):
                 self.arrays["y"][i, done:], self.arrays["latched"][i, done:] = np.nan, np.nan
 
-    def _assemble(self, i: int) -> bool:
+    def _not_closed(self) -> list[int]:
+        """Runs whose start C could not close: they are yet to begin."""
+        left: list[int] = np.flatnonzero(self.arrays["status"] == NOT_CLOSED).tolist()
+        self.arrays["phase"][left], self.arrays["status"][left] = NEW, 0
+        return left
+
+    def _assemble(self, i: int, ctrl_c: CtrlC) -> bool:
         """The start of a run that C could not close, by the search in Python."""
+        ctrl_c.take()
         try:
             start = assemble(self.compiled, self.arrays["p"][i])
         except GudgeonError as error:
-            self.failures[i] = error
+            self.leave_out({i: error})
             return False
         self.arrays["start"][i] = np.concatenate([start.q, start.v])
-        self.arrays["started"][i], self.arrays["phase"][i], self.arrays["status"][i] = 1, 0, 0
+        self.arrays["started"][i] = 1
         return True
 
-    def _in_threads(self, threads: int, progress: Progress | None, wanted: range | list[int]) -> None:
+    def _in_threads(
+        self, threads: int, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC
+    ) -> None:
         portion = max(1, min(PORTION, len(wanted) // (8 * threads)))
         if self.lanes:
             portion = math.ceil(portion / self.lanes.count) * self.lanes.count
         portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
         with ThreadPoolExecutor(threads, thread_name_prefix="gudgeon") as pool:
-            waiting: set[Future[None]] = {pool.submit(self._work, portions) for _ in range(threads)}
             try:
+                waiting: set[Future[None]] = {pool.submit(self._work, portions) for _ in range(threads)}
                 while waiting:
                     ended, waiting = wait(waiting, GLANCE)
+                    ctrl_c.take()
                     for future in ended:
                         future.result()
                     if progress:
                         progress(float(np.mean(self.arrays["phase"] == OVER)), "integrating")
             except BaseException:
-                self.stopping = True
+                self.arrays["ending"][0] = 1
                 raise
 
     def _work(self, portions: deque[range | list[int]]) -> None:
@@ -151,7 +174,7 @@ class Runs:
         """Runs one after the other, from where they are to their ends."""
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
         run = compiled.pointer(memory, "void *")
-        while not self.stopping:
+        while True:  # what has begun is handed over even where the batch is ending
             status = compiled.lib.gudgeon_many(self.struct, run, current, end)
             if status == ALL_OVER:
                 break
@@ -190,7 +213,7 @@ class Runs:
         compiled, n, done = self.compiled, self.compiled.n, int(self.arrays["done"][i])
         y, memory, state = (self.arrays[name][i, :done] for name in ("y", "latched", "state"))
         t = self.times[:done].copy()
-        if self.arrays["status"][i] == ENDED:
+        if done and self.arrays["status"][i] in (ENDED, STOPPED):
             t[-1] = self.arrays["t_last"][i]
         error = self.failures.get(i)
         joints = len(compiled.source.clearances)

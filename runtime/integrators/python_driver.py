@@ -45,12 +45,15 @@ class Equations:
         self.size = 2 * self.compiled.n + N_WORK
         self.calls = self.jacobians = 0
         self.failure: SolverError | None = None  # of a call inside the integrator, which may swallow it
+        self.take = problem.take if problem.method in SCIPY else None  # Ctrl-C: through C of others no exception goes
         exact = hasattr(self.compiled.lib, "gudgeon_jacobian")
         self.jacobian: Callable[[float, Array], Array] | None = self._jacobian if exact else None  # None: differences
 
     def rates(self, t: float, y: Array) -> Array:
         """(2n + 3,); NaN where the equations cannot be solved, so that a smaller step is tried."""
         self.calls += 1
+        if self.take:
+            self.take()
         try:
             return self.compiled.rhs(t, y, self.p, self.contacts.memory)
         except SolverError as error:
@@ -153,6 +156,7 @@ class _Driver:
         self.speed, self.controlled = np.zeros(2), np.zeros(2)
         self.steps = self.stuck = 0
         self.worst = np.zeros(2)  # |Φ|, |Φ̇|
+        self.times: list[float] = []
         self.samples: list[tuple[NDArray[Any], ...]] = []  # y, a, memory, codes
 
     def run(self) -> Trajectory:
@@ -165,11 +169,20 @@ class _Driver:
             self._restart()
             while len(self.samples) < len(self.problem.t):
                 self._step()
+                self.problem.take()
         except KeyboardInterrupt:
             interrupted = True
+            self._close()
         except SolverError as error:
             stopped = error
         return self._trajectory(interrupted, stopped)
+
+    def _close(self) -> None:
+        """The present state as the last sample, in place of those that are as late."""
+        while self.times and self.times[-1] >= self.t:
+            self.times.pop()
+            self.samples.pop()
+        self._sample(self.t, self.y)
 
     def _begin(self) -> None:
         self.contacts.begin(self.t, self.y)
@@ -259,6 +272,7 @@ class _Driver:
     def _sample(self, t: float, y: Array) -> None:
         """A sample is output, not integration: its right-hand side is not counted."""
         dy = self.problem.compiled.rhs(t, y, self.equations.p, self.contacts.memory)
+        self.times.append(t)
         self.samples.append((y, dy[self.n : 2 * self.n], self.contacts.memory.copy(), self.contacts.codes))
 
     def _trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
@@ -266,6 +280,7 @@ class _Driver:
 
         contacts, equations, n = self.contacts, self.equations, self.n
         if not self.samples:  # the start at least
+            self.times.append(self.t)
             self.samples.append((self.y, np.full(n, np.nan), contacts.memory.copy(), contacts.codes))
         count = len(self.samples)
         going_on = [(k, contacts.open[k][0], math.nan, float(contacts.memory[k]), *contacts.open[k][1:])
@@ -278,7 +293,7 @@ class _Driver:
             ratio_min=ratio[0], ratio_max=ratio[1], ratio_outside=contacts.ratio_outside, jacobians=equations.jacobians,
         )  # fmt: skip
         return Trajectory(
-            self.problem.t[:count].copy(), y[:, :n].copy(), y[:, n : 2 * n].copy(), a, memory, state.astype(np.int8),
+            np.array(self.times), y[:, :n].copy(), y[:, n : 2 * n].copy(), a, memory, state.astype(np.int8),
             y[:, 2 * n :].copy(), impacts[np.argsort(impacts["t_on"], kind="stable")], contacts.peaks, counts,
             interrupted, stopped, seconds=perf_counter() - self.began if self.began == self.began else 0.0,
         )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,10 +12,11 @@ from numpy.typing import NDArray
 from gudgeon import trace
 from gudgeon.compiled import N_WORK, Array, CompiledModel
 from gudgeon.errors import SolverError
-from gudgeon.integrators.failure import failure
+from gudgeon.integrators.asking import Asker
+from gudgeon.integrators.failure import STALLED, Pace, failure, film, stalled
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Problem, Trajectory, no_events
 
-EVENTS_FULL, ENDED = -3, -7
+EVENTS_FULL, ENDED, STOPPED = -3, -7, -10
 N_IMPACTS, N_COUNTS = 256, 9
 EPSILON = float(np.finfo(np.float64).eps)
 REPORT = ("steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "switches", "rejected", "jacobians",
@@ -27,7 +29,7 @@ class RunEnded(Exception):
 
 def resolution(t: Array) -> float:
     """To how many seconds an event and a sample are told apart in a run with these output times (N,)."""
-    return max(32 * EPSILON * float(abs(t[[0, -1]]).max()), 4e-12 * float(t[-1] - t[0]))
+    return max(32 * EPSILON * float(abs(t[[0, -1]]).max()), min(1e-11, 1e-10 * float(t[-1] - t[0])))
 
 
 def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
@@ -82,7 +84,8 @@ class Session:
         self.problem, self.compiled = problem, problem.compiled
         self.lib, self.pointer = self.compiled.lib, self.compiled.pointer
         n, nc, N = self.compiled.n, len(self.compiled.source.clearances), len(problem.t) + 1  # one for an early end
-        self.n, self.nc, self.done = n, nc, 0
+        self.n, self.nc = n, nc
+        self.rows_done = np.zeros(1, dtype=np.int_)  # what C has filled, whatever happens in Python
         self.seconds = 0.0  # spent in C
         self.t, self.events = problem.t, [no_events()]
         self.p = problem.p if p is None else p
@@ -99,9 +102,52 @@ class Session:
         self.trace = np.empty((trace.ROWS if nc else 0, trace.width(nc)))
         if nc:
             self.lib.gudgeon_run_trace(self.run, self.pointer(self.trace, written=True), len(self.trace))
+        self.asker = Asker(self.compiled, self.look)
+        self.lib.gudgeon_run_asks(self.run, *self.asker.arguments)
         if problem.state is not None and nc:
             codes = np.ascontiguousarray(problem.state, dtype=np.int8)
             self.lib.gudgeon_run_codes(self.run, self.pointer(codes, "signed char *"))
+
+    @property
+    def done(self) -> int:
+        """Rows that are filled."""
+        return int(self.rows_done[0])
+
+    def look(self) -> None:
+        """Between steps or, asked by C, within one: takes Ctrl-C, moves the progress bar."""
+        self.problem.take()
+        if self.problem.progress:
+            t = self.problem.t
+            share = (self.report()[0] - t[0]) / max(t[-1] - t[0], 1e-300)
+            self.problem.progress(float(min(max(share, 0.0), 1.0)), "integrating")
+
+    def drive(self, advance: Callable[[], object]) -> Trajectory:
+        """What was reached when `advance` is over, however that ends. KeyboardInterrupt where nothing was."""
+        interrupted, stopped = False, None
+        try:
+            advance()
+        except RunEnded:
+            pass
+        except KeyboardInterrupt:
+            if not self.done:
+                raise
+            interrupted = True
+            self.close()
+        except SolverError as error:
+            stopped = error
+        return self.trajectory(interrupted, stopped)
+
+    def back(self, status: int, t: float, advice: str) -> None:
+        """What a call of a time loop returned: lists to be fetched, RunEnded, KeyboardInterrupt, SolverError."""
+        self.asker.check(status == STOPPED)
+        if status == EVENTS_FULL:
+            self.fetch_impacts(last=False)
+            self.fetch_events()
+        elif status == ENDED:
+            self.close(resolution(self.problem.t))
+            raise RunEnded
+        elif status:
+            self.fail(status, t, advice)
 
     @property
     def run(self) -> Any:
@@ -116,15 +162,14 @@ class Session:
     def sample(self, i: int) -> None:
         """Store the present state as output i."""
         self.lib.gudgeon_run_sample(self.run, self.pointer(self.p), *self.rows(i))
-        self.done = i + 1
+        self.rows_done[0] = i + 1
 
-    def end(self) -> None:
-        """Stores the present state as the last sample, in place of those that are as late. Raises RunEnded."""
+    def close(self, near: float = 0.0) -> None:
+        """Stores the present state as the last sample, in place of those that are as late, but for `near` (s)."""
         t = self.report()[0]
-        self.done = int(np.searchsorted(self.problem.t[: self.done], t - resolution(self.problem.t)))
-        self.t = np.append(self.problem.t[: self.done], t)
-        self.sample(self.done)
-        raise RunEnded
+        done = int(np.searchsorted(self.problem.t[: self.done], t - near))
+        self.t = np.append(self.problem.t[:done], t)
+        self.sample(done)
 
     def fetch_events(self) -> None:
         """Take over the list of user events from C."""
@@ -147,9 +192,11 @@ class Session:
         """What was stored, at least the start, and the run's counts."""
         if not self.done:
             self.sample(0)
+        t_last = math.inf if stopped else float(self.t[self.done - 1]) + resolution(self.problem.t)
         self.fetch_impacts(last=True)
         self.fetch_events()
         events, no_number = told_apart(self.compiled, np.concatenate(self.events))
+        events, no_number = events[events["t"] <= t_last], no_number[no_number["t"] <= t_last]
         _, counts, numbers, peaks = self.report()
         impacts = np.concatenate(self.impacts)
         impacts = impacts[np.argsort(impacts["t_on"], kind="stable")]
@@ -173,4 +220,11 @@ class Session:
         out = (self.pointer(y), self.pointer(memory), self.pointer(state, "signed char *"))
         self.lib.gudgeon_run_sample(self.run, self.pointer(self.p), *out)
         _, _, _, peaks = self.report()
+        if status == STALLED:
+            self.close()
+            gained, steps, ended = np.zeros(1), np.zeros(2, dtype=np.int_), np.zeros(4, dtype=np.int_)
+            arrays = (self.pointer(gained), self.pointer(steps, "long *"), self.pointer(ended, "long *"))
+            self.lib.gudgeon_run_pace(self.run, *arrays)
+            pace = Pace(t, float(self.problem.t[-1]) - t, float(gained[0]), int(steps[0]), bool(steps[1]))
+            raise stalled(pace, ended, film(self.compiled, peaks[:, 2], self.p))
         raise failure(self.compiled, status, t, advice, y, peaks[:, 2], self.p)

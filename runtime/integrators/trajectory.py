@@ -42,6 +42,7 @@ class Problem:
     p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
     stop: bool = True  # whether events may end the run; else they are recorded only
     remarks: tuple[str, ...] = ()  # on the start, which the run's notes say first
+    take: Callable[[], object] = lambda: None  # raises KeyboardInterrupt where Ctrl-C waits (asking.py)
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,8 @@ class Counts:
 class Trajectory:
     """N samples or, when `stopped` or interrupted, as many as were reached.
 
-    Where an event ended the run the last sample stands at its time, and `events` ends with it.
+    Where an event ended the run the last sample stands at its time, and `events` ends with it. Where Ctrl-C ended it,
+    or it no longer advanced, the last sample is what was reached then.
     """
 
     t: Array

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -40,4 +41,6 @@ def save_old(run: Result, path: Path) -> None:
         file.attrs["joints_with_play"] = " ".join(joint.name for joint in run.source.clearances)
         file.attrs["events"] = " ".join(event.name for event in run.source.events)
         file.attrs["diagnostics"] = run.diagnostics.to_json()
-        file.attrs["source"] = run.source.to_json()
+        later = ("overrides",)  # no key of the source then
+        source = {key: value for key, value in json.loads(run.source.to_json()).items() if key not in later}
+        file.attrs["source"] = json.dumps(source, ensure_ascii=False, indent=1)

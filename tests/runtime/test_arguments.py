@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import warnings
+from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
+import numpy as np
 import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.generator.quantity_text import number_of_text
+from gudgeon.kernel_source import Slot
 from gudgeon.measure.work import Setting
-from gudgeon.parameters import spaced
-from tests.runtime.pump import needs_compiler
+from gudgeon.parameters import number, plain_number, spaced
+from tests.runtime.pump import Gudgeon, needs_compiler
 
 pytestmark = needs_compiler
 
@@ -65,3 +71,82 @@ def test_a_value_outside_its_range_is_told_the_range() -> None:
 def test_finer_settings_stop_where_rounding_begins() -> None:
     assert Setting("auto", 1e-13).finer(100.0).value == 1e-14
     assert Setting("rk4", 1e-13).finer(100.0).value == pytest.approx(1e-15)
+
+
+def test_numbers_are_texts_too() -> None:
+    pendulum = gudgeon.load("pendulum")
+    plain = pendulum.simulate(1e-3, output=4, rtol=1e-9, parameters={"g": 1e-9})
+    text = pendulum.simulate("1e-3", output=4, rtol="1e-9", parameters={"g": "1e-9"})
+    assert text.q.tobytes() == plain.q.tobytes() and text.parameters["g"] == 1e-9
+    stepped = pendulum.simulate("1e-3", output=4, step="1e-6")
+    assert stepped.q.tobytes() == pendulum.simulate(1e-3, output=4, step=1e-6).q.tobytes()
+    batch = pendulum.simulate_many({"g": ["1e-9", "9.81 m/s^2"]}, "1e-3", output=4, rtol="1e-9")
+    assert batch[0].q.tobytes() == plain.q.tobytes()
+
+
+NO_NUMBERS = ("1_0", "\uff11", "1e-400", "1e400", "nan", "inf", "", "  ", "1e", "0x10", "1,5", "1 0", "1e5e5", "٣",
+              "1e-9 x")  # fmt: skip
+
+
+@pytest.mark.parametrize("text", NO_NUMBERS)
+def test_text_that_is_no_number_in_a_file_is_none_anywhere(text: str, call: Gudgeon) -> None:
+    pendulum = gudgeon.load("pendulum")
+    for options in ({"parameters": {"g": text}}, {"t_end": text}, {"step": text}, {"rtol": text}):
+        with pytest.raises(gudgeon.InputError):
+            pendulum.simulate(**options)
+    with pytest.raises(gudgeon.InputError):
+        gudgeon.load("pendulum", overrides={"parameters.g": text})
+    lines = [["--set", f"g={text}"], ["--t-end", text], ["--step", text], ["--rtol", text]]
+    for line in lines if text == NO_NUMBERS[0] else lines[:1]:
+        assert call("run", "pendulum", "--output", "2", *line).exit_code == 2, line
+
+
+def test_a_number_is_what_the_file_makes_of_it() -> None:
+    """The quick way of a bare number and the file's parser have one opinion."""
+    rng, slot = np.random.default_rng(5), Slot("x", "", 0.0, False, (0, 0, 0))
+    pieces = ["0", "1", "9", "00", ".", "e", "E", "-", "+", "400", "308", "1e-324", "5e-324", "_", " ", "1.5", "٣"]
+    count = 0
+    for _ in range(1500):
+        text = "".join(rng.choice(pieces, rng.integers(1, 6)))
+        quick = plain_number(text)
+        try:
+            slow: float | None = number_of_text(spaced(text), slot.address, slot.dimension)
+        except gudgeon.InputError:
+            slow = None
+        if quick is not None:
+            count += 1
+            assert slow is not None and quick.hex() == slow.hex(), text
+        if slow is None:
+            with pytest.raises(gudgeon.InputError):
+                number(text, slot)
+    assert count > 200
+
+
+def test_a_number_that_is_set_twice_is_told(call: Gudgeon) -> None:
+    pendulum = gudgeon.load("pendulum")
+    twice: dict[str, float | str] = {"g": 1.0, "parameters.g": 2.0}
+    with pytest.raises(BadValueError, match="parameters.g is given twice: as 'g' and as 'parameters.g'"):
+        pendulum.simulate(0.01, parameters=twice)
+    with pytest.raises(BadValueError, match="given twice"):
+        pendulum.simulate_many({name: [value] for name, value in twice.items()}, 0.01)
+    for settings in (("g=1", "g=2"), ("g=1", "parameters.g=2"), ("g=1", "g=1")):
+        for command in ("run", "bench", "stress"):
+            line = [part for setting in settings for part in ("--set", setting)]
+            done = call(command, "pendulum", *line)
+            assert done.exit_code == 2 and f"this number is set already, by --set {settings[0]}" in done.output
+
+
+@pytest.mark.parametrize("value", [None, [1.0, 2.0], 1j, float("nan"), 10**400, b"1", object(), np.ma.masked, {}])
+def test_what_is_no_number(value: Any) -> None:
+    pendulum = gudgeon.load("pendulum")
+    with pytest.raises(BadValueError, match="parameters.g"), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        pendulum.simulate(0.01, parameters={"g": value})
+    with pytest.raises(BadValueError, match="expected a mapping"):
+        pendulum.simulate(0.01, parameters=[("g", 1.0)])  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("value", [np.float32(1.5), np.int64(3), Fraction(1, 4), Decimal("0.5"), np.array(2.0), True])
+def test_what_is_one(value: Any) -> None:
+    run = gudgeon.load("pendulum").simulate(0.01, output=1, parameters={"g": value})
+    assert run.parameters["g"] == float(value)

@@ -149,6 +149,8 @@ def test_figures_are_shown_even_if_they_cannot_be_written(
     done = call("run", pump, "--t-end", "0.001")
     assert done.exit_code == 1 and "No space left" in done.stderr
     assert "Peak error against ideal" in done.stdout
+    assert "pump_worn.nc" in done.stderr and "pump_ideal.nc" in done.stderr, "each is tried, each is told"
+    assert written(Path("out")) == {"pump.png"}
 
 
 def test_a_folder_that_is_a_file_is_told_before_anything_is_run(call: Gudgeon, pump: str, tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import errno
 import os
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -115,7 +116,7 @@ def test_a_failure_at_any_file_is_no_obstacle_to_the_next_emit(
                 fail()
             return real_open(path, flags, *args, **kwargs)
 
-        def replacing(*args: str, **kwargs: int) -> None:
+        def replacing(*args: Any, **kwargs: Any) -> None:
             fail()
             real_replace(*args, **kwargs)
 

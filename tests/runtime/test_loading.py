@@ -12,6 +12,7 @@ from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -106,7 +107,12 @@ def test_only_regular_files_within_a_limit_are_read(tmp_path: Path, monkeypatch:
         path = tmp_path / "x\0.yaml"
     opened: list[str] = []
     real_open = os.open
-    monkeypatch.setattr(os, "open", lambda p, *a, **k: opened.append(str(p)) or real_open(p, *a, **k))
+
+    def watched(path: str, *args: Any, **kwargs: Any) -> int:
+        opened.append(str(path))
+        return real_open(path, *args, **kwargs)
+
+    monkeypatch.setattr(os, "open", watched)
     with pytest.raises(LimitError if what in ("sparse", "endless") else InputError) as caught:
         read_bytes(path)
     assert caught.value.exit_code == 2

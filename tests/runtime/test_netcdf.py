@@ -110,3 +110,20 @@ def test_a_dataset_is_what_the_file_holds(run: Result, ideal: Result, tmp_path: 
             assert {name for name in file if isinstance(file[name], h5py.Group)} == {
                 *groups[result.source.scene], "compiled"
             }
+
+
+def test_a_table_has_a_row_a_sample_and_a_column_a_series(run: Result, ideal: Result) -> None:
+    """Impacts, events and parameters are tables of their own; what is not there has no row."""
+    pytest.importorskip("xarray")
+    for result in (run, ideal):
+        data = result.to_xarray()
+        table = data.to_dataframe()
+        assert dict(data.sizes) == {"time": len(result.t)}
+        assert list(table.columns) == list(result.names) and (table.index == result.t).all()
+        assert len(result.to_xarray("impacts").to_dataframe()) == len(result.impacts)
+        assert len(result.to_xarray("events").to_dataframe()) == 0
+        parameters = result.to_xarray("parameters").to_dataframe()
+        assert parameters["value"].to_dict() == {slot.address: result.parameters[slot.address]
+                                                 for slot in result.source.slots}  # fmt: skip
+    with pytest.raises(InputError, match="impacts"):
+        run.to_xarray("impact")

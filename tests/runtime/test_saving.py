@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -103,20 +102,19 @@ def test_memory_that_ends_while_a_file_is_laid_out_is_an_error(
 
 
 def interrupt_after(seconds: float, work: Callable[[], None]) -> bool:
-    """Whether a Ctrl-C that comes so long after the beginning was raised; it may come too late."""
-    late = threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT))
-    raised = False
+    """Whether a signal that comes so long after the beginning, and is answered as Ctrl-C is, was raised."""
+    before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    begin = time.perf_counter()
     try:
-        late.start()
-        try:
-            work()
-        except KeyboardInterrupt:
-            raised = True
-        late.join()
-        time.sleep(0.001)  # where a signal that came last is noticed
+        signal.setitimer(signal.ITIMER_REAL, max(seconds, 1e-5))
+        work()
+        while time.perf_counter() < begin + seconds + 0.01:  # a signal that comes behind its end
+            pass
     except KeyboardInterrupt:
         return True
-    return raised
+    finally:
+        signal.signal(signal.SIGALRM, before)
+    return False
 
 
 def test_an_interrupt_is_never_swallowed(run: Result, tmp_path: Path) -> None:

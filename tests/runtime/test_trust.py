@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
 import stat
+import tempfile
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -193,3 +195,39 @@ def test_a_temporary_folder_that_is_anothers_is_an_error(tmp_path: Path, give: C
     give(tmp_path / "private")
     with pytest.raises(CacheError, match=f"uid {OTHER}"):
         Cache(tmp_path / "private", private=True).fetch("kind", "key", Writer())
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can be another user")
+def test_what_another_user_put_into_a_shared_folder_is_not_loaded() -> None:
+    """As in a cache that a group shares: an entry is replaced, checksums and all, by a process of that user."""
+    above = Path(tempfile.mkdtemp())
+    try:
+        above.chmod(0o755)
+        shared = above / "cache"
+        Cache(shared).fetch("models", "shared", text("honest"))
+        for path in (shared, *shared.rglob("*")):
+            path.chmod(0o777 if path.is_dir() else 0o666)
+        entry = shared / "models" / "shared"
+        child = os.fork()
+        if child == 0:
+            try:
+                os.setgroups([])
+                os.setgid(OTHER)
+                os.setuid(OTHER)
+                end = (entry / LIST).read_text().splitlines()[-1]
+                for path in (entry / "text", entry / LIST):
+                    path.unlink()
+                (entry / "text").write_text("evil")
+                (entry / LIST).write_text(f"{hashlib.sha256(b'evil').hexdigest()} text\n{end}\n")
+            finally:
+                os._exit(0)
+        os.waitpid(child, 0)
+        assert (entry / "text").read_text() == "evil"
+        with pytest.warns(RuntimeWarning, match="not used"):
+            assert (Cache(shared).fetch("models", "shared", text("honest")) / "text").read_text() == "honest"
+        shared.chmod(0o700)  # made the user's own again, and the entry in it was not looked at
+        (shared / "models").chmod(0o700)
+        with pytest.warns(RuntimeWarning, match="made anew"):
+            assert (Cache(shared).fetch("models", "shared", text("honest")) / "text").read_text() == "honest"
+    finally:
+        shutil.rmtree(above)

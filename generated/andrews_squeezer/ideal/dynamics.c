@@ -6,7 +6,6 @@
 static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
-    (void)memory;
     /* coordinates, velocities, time */
     const double OF_x = q[0];
     const double OF_y = q[1];
@@ -751,7 +750,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         rhs[17] = rhs_G_y;
         rhs[18] = rhs_H_x;
         rhs[19] = rhs_H_y;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = 0.0;

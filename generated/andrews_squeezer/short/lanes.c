@@ -183,34 +183,34 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     const Lanes AH_H_span_y = p->AH_H_span_y;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(OF_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(BDE_theta, &sine_1, &cosine_1, rare);
-    Lanes sine_2, cosine_2;
-    sines_and_cosines(AG_theta, &sine_2, &cosine_2, rare);
-    Lanes sine_3, cosine_3;
-    sines_and_cosines(AH_theta, &sine_3, &cosine_3, rare);
-    Lanes sine_4, cosine_4;
-    sines_and_cosines(FE_theta, &sine_4, &cosine_4, rare);
-    Lanes sine_5, cosine_5;
-    sines_and_cosines(HE_theta, &sine_5, &cosine_5, rare);
-    Lanes sine_6, cosine_6;
-    sines_and_cosines(EG_theta, &sine_6, &cosine_6, rare);
-    const Lanes cos_theta_OF = cosine_0;
-    const Lanes sin_theta_OF = sine_0;
-    const Lanes cos_theta_BDE = cosine_1;
-    const Lanes sin_theta_BDE = sine_1;
-    const Lanes cos_theta_AG = cosine_2;
-    const Lanes sin_theta_AG = sine_2;
-    const Lanes cos_theta_AH = cosine_3;
-    const Lanes sin_theta_AH = sine_3;
-    const Lanes cos_theta_FE = cosine_4;
-    const Lanes sin_theta_FE = sine_4;
-    const Lanes cos_theta_HE = cosine_5;
-    const Lanes sin_theta_HE = sine_5;
-    const Lanes cos_theta_EG = cosine_6;
-    const Lanes sin_theta_EG = sine_6;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(OF_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(BDE_theta, &sines_1, &cosines_1, rare);
+    Lanes sines_2, cosines_2;
+    sines_and_cosines(AG_theta, &sines_2, &cosines_2, rare);
+    Lanes sines_3, cosines_3;
+    sines_and_cosines(AH_theta, &sines_3, &cosines_3, rare);
+    Lanes sines_4, cosines_4;
+    sines_and_cosines(FE_theta, &sines_4, &cosines_4, rare);
+    Lanes sines_5, cosines_5;
+    sines_and_cosines(HE_theta, &sines_5, &cosines_5, rare);
+    Lanes sines_6, cosines_6;
+    sines_and_cosines(EG_theta, &sines_6, &cosines_6, rare);
+    const Lanes cos_theta_OF = cosines_0;
+    const Lanes sin_theta_OF = sines_0;
+    const Lanes cos_theta_BDE = cosines_1;
+    const Lanes sin_theta_BDE = sines_1;
+    const Lanes cos_theta_AG = cosines_2;
+    const Lanes sin_theta_AG = sines_2;
+    const Lanes cos_theta_AH = cosines_3;
+    const Lanes sin_theta_AH = sines_3;
+    const Lanes cos_theta_FE = cosines_4;
+    const Lanes sin_theta_FE = sines_4;
+    const Lanes cos_theta_HE = cosines_5;
+    const Lanes sin_theta_HE = sines_5;
+    const Lanes cos_theta_EG = cosines_6;
+    const Lanes sin_theta_EG = sines_6;
     const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
     const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
     const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
@@ -271,34 +271,34 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     const Lanes AH_H_span_y = p->AH_H_span_y;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(OF_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(BDE_theta, &sine_1, &cosine_1, rare);
-    Lanes sine_2, cosine_2;
-    sines_and_cosines(AG_theta, &sine_2, &cosine_2, rare);
-    Lanes sine_3, cosine_3;
-    sines_and_cosines(AH_theta, &sine_3, &cosine_3, rare);
-    Lanes sine_4, cosine_4;
-    sines_and_cosines(FE_theta, &sine_4, &cosine_4, rare);
-    Lanes sine_5, cosine_5;
-    sines_and_cosines(HE_theta, &sine_5, &cosine_5, rare);
-    Lanes sine_6, cosine_6;
-    sines_and_cosines(EG_theta, &sine_6, &cosine_6, rare);
-    const Lanes cos_theta_OF = cosine_0;
-    const Lanes sin_theta_OF = sine_0;
-    const Lanes cos_theta_BDE = cosine_1;
-    const Lanes sin_theta_BDE = sine_1;
-    const Lanes cos_theta_AG = cosine_2;
-    const Lanes sin_theta_AG = sine_2;
-    const Lanes cos_theta_AH = cosine_3;
-    const Lanes sin_theta_AH = sine_3;
-    const Lanes cos_theta_FE = cosine_4;
-    const Lanes sin_theta_FE = sine_4;
-    const Lanes cos_theta_HE = cosine_5;
-    const Lanes sin_theta_HE = sine_5;
-    const Lanes cos_theta_EG = cosine_6;
-    const Lanes sin_theta_EG = sine_6;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(OF_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(BDE_theta, &sines_1, &cosines_1, rare);
+    Lanes sines_2, cosines_2;
+    sines_and_cosines(AG_theta, &sines_2, &cosines_2, rare);
+    Lanes sines_3, cosines_3;
+    sines_and_cosines(AH_theta, &sines_3, &cosines_3, rare);
+    Lanes sines_4, cosines_4;
+    sines_and_cosines(FE_theta, &sines_4, &cosines_4, rare);
+    Lanes sines_5, cosines_5;
+    sines_and_cosines(HE_theta, &sines_5, &cosines_5, rare);
+    Lanes sines_6, cosines_6;
+    sines_and_cosines(EG_theta, &sines_6, &cosines_6, rare);
+    const Lanes cos_theta_OF = cosines_0;
+    const Lanes sin_theta_OF = sines_0;
+    const Lanes cos_theta_BDE = cosines_1;
+    const Lanes sin_theta_BDE = sines_1;
+    const Lanes cos_theta_AG = cosines_2;
+    const Lanes sin_theta_AG = sines_2;
+    const Lanes cos_theta_AH = cosines_3;
+    const Lanes sin_theta_AH = sines_3;
+    const Lanes cos_theta_FE = cosines_4;
+    const Lanes sin_theta_FE = sines_4;
+    const Lanes cos_theta_HE = cosines_5;
+    const Lanes sin_theta_HE = sines_5;
+    const Lanes cos_theta_EG = cosines_6;
+    const Lanes sin_theta_EG = sines_6;
     const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
     const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
     const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
@@ -383,34 +383,34 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes inverse_mass_EG_EG = p->inverse_mass_EG_EG;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(OF_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(BDE_theta, &sine_1, &cosine_1, rare);
-    Lanes sine_2, cosine_2;
-    sines_and_cosines(AG_theta, &sine_2, &cosine_2, rare);
-    Lanes sine_3, cosine_3;
-    sines_and_cosines(AH_theta, &sine_3, &cosine_3, rare);
-    Lanes sine_4, cosine_4;
-    sines_and_cosines(FE_theta, &sine_4, &cosine_4, rare);
-    Lanes sine_5, cosine_5;
-    sines_and_cosines(HE_theta, &sine_5, &cosine_5, rare);
-    Lanes sine_6, cosine_6;
-    sines_and_cosines(EG_theta, &sine_6, &cosine_6, rare);
-    const Lanes cos_theta_OF = cosine_0;
-    const Lanes sin_theta_OF = sine_0;
-    const Lanes cos_theta_BDE = cosine_1;
-    const Lanes sin_theta_BDE = sine_1;
-    const Lanes cos_theta_AG = cosine_2;
-    const Lanes sin_theta_AG = sine_2;
-    const Lanes cos_theta_AH = cosine_3;
-    const Lanes sin_theta_AH = sine_3;
-    const Lanes cos_theta_FE = cosine_4;
-    const Lanes sin_theta_FE = sine_4;
-    const Lanes cos_theta_HE = cosine_5;
-    const Lanes sin_theta_HE = sine_5;
-    const Lanes cos_theta_EG = cosine_6;
-    const Lanes sin_theta_EG = sine_6;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(OF_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(BDE_theta, &sines_1, &cosines_1, rare);
+    Lanes sines_2, cosines_2;
+    sines_and_cosines(AG_theta, &sines_2, &cosines_2, rare);
+    Lanes sines_3, cosines_3;
+    sines_and_cosines(AH_theta, &sines_3, &cosines_3, rare);
+    Lanes sines_4, cosines_4;
+    sines_and_cosines(FE_theta, &sines_4, &cosines_4, rare);
+    Lanes sines_5, cosines_5;
+    sines_and_cosines(HE_theta, &sines_5, &cosines_5, rare);
+    Lanes sines_6, cosines_6;
+    sines_and_cosines(EG_theta, &sines_6, &cosines_6, rare);
+    const Lanes cos_theta_OF = cosines_0;
+    const Lanes sin_theta_OF = sines_0;
+    const Lanes cos_theta_BDE = cosines_1;
+    const Lanes sin_theta_BDE = sines_1;
+    const Lanes cos_theta_AG = cosines_2;
+    const Lanes sin_theta_AG = sines_2;
+    const Lanes cos_theta_AH = cosines_3;
+    const Lanes sin_theta_AH = sines_3;
+    const Lanes cos_theta_FE = cosines_4;
+    const Lanes sin_theta_FE = sines_4;
+    const Lanes cos_theta_HE = cosines_5;
+    const Lanes sin_theta_HE = sines_5;
+    const Lanes cos_theta_EG = cosines_6;
+    const Lanes sin_theta_EG = sines_6;
     const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
     const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
     const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
@@ -677,34 +677,34 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes inverse_mass_EG_EG = p->inverse_mass_EG_EG;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(OF_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(BDE_theta, &sine_1, &cosine_1, rare);
-    Lanes sine_2, cosine_2;
-    sines_and_cosines(AG_theta, &sine_2, &cosine_2, rare);
-    Lanes sine_3, cosine_3;
-    sines_and_cosines(AH_theta, &sine_3, &cosine_3, rare);
-    Lanes sine_4, cosine_4;
-    sines_and_cosines(FE_theta, &sine_4, &cosine_4, rare);
-    Lanes sine_5, cosine_5;
-    sines_and_cosines(HE_theta, &sine_5, &cosine_5, rare);
-    Lanes sine_6, cosine_6;
-    sines_and_cosines(EG_theta, &sine_6, &cosine_6, rare);
-    const Lanes cos_theta_OF = cosine_0;
-    const Lanes sin_theta_OF = sine_0;
-    const Lanes cos_theta_BDE = cosine_1;
-    const Lanes sin_theta_BDE = sine_1;
-    const Lanes cos_theta_AG = cosine_2;
-    const Lanes sin_theta_AG = sine_2;
-    const Lanes cos_theta_AH = cosine_3;
-    const Lanes sin_theta_AH = sine_3;
-    const Lanes cos_theta_FE = cosine_4;
-    const Lanes sin_theta_FE = sine_4;
-    const Lanes cos_theta_HE = cosine_5;
-    const Lanes sin_theta_HE = sine_5;
-    const Lanes cos_theta_EG = cosine_6;
-    const Lanes sin_theta_EG = sine_6;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(OF_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(BDE_theta, &sines_1, &cosines_1, rare);
+    Lanes sines_2, cosines_2;
+    sines_and_cosines(AG_theta, &sines_2, &cosines_2, rare);
+    Lanes sines_3, cosines_3;
+    sines_and_cosines(AH_theta, &sines_3, &cosines_3, rare);
+    Lanes sines_4, cosines_4;
+    sines_and_cosines(FE_theta, &sines_4, &cosines_4, rare);
+    Lanes sines_5, cosines_5;
+    sines_and_cosines(HE_theta, &sines_5, &cosines_5, rare);
+    Lanes sines_6, cosines_6;
+    sines_and_cosines(EG_theta, &sines_6, &cosines_6, rare);
+    const Lanes cos_theta_OF = cosines_0;
+    const Lanes sin_theta_OF = sines_0;
+    const Lanes cos_theta_BDE = cosines_1;
+    const Lanes sin_theta_BDE = sines_1;
+    const Lanes cos_theta_AG = cosines_2;
+    const Lanes sin_theta_AG = sines_2;
+    const Lanes cos_theta_AH = cosines_3;
+    const Lanes sin_theta_AH = sines_3;
+    const Lanes cos_theta_FE = cosines_4;
+    const Lanes sin_theta_FE = sines_4;
+    const Lanes cos_theta_HE = cosines_5;
+    const Lanes sin_theta_HE = sines_5;
+    const Lanes cos_theta_EG = cosines_6;
+    const Lanes sin_theta_EG = sines_6;
     const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
     const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
     const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
@@ -1253,7 +1253,8 @@ int gudgeon_lane_count(void) { return LANES; }
 /*
  * Runs number[k] (LANES of them, -1: none), which have the same step and have come equally far, each in a memory of
  * its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes on alone
- * from where it is (gudgeon_many), because it has come to its end, is the last, or most steps are rare.
+ * from where it is (gudgeon_many), because it has come to its end, is the last, most steps are rare, or the batch is
+ * ending.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
@@ -1269,7 +1270,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     }
     mirror(&side);
     while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
-        if (side.b->done[side.number[first_of(&side)]] == side.b->samples) {
+        if (side.b->done[side.number[first_of(&side)]] == side.b->samples || *side.b->ending) {
             together = 0;
             break;
         }

@@ -1,4 +1,5 @@
 #include "model.h"
+#include "asked.c"
 #include "trigonometry.c"
 #include "parameters.c"
 #include "constraints.c"

@@ -178,7 +178,7 @@ static void look_inside(Run *run, Step *step, const Parameters *p)
 {
     Course course = {.t = step->t, .h = step->h};
     Part parts[DEEPEST + 2];
-    const double close = root_width(step);
+    const double close = root_width(run, step);
     int n = 1, seen = 0;
     for (int i = 0; i < N_WATCHED; i++)
         step->from[i] = step->to[i] = 0.0;

@@ -2,26 +2,22 @@
  * Many runs, one after the other: start, time loop and report of each without Python. Several threads may work on
  * one Batch, each on runs of its own and with a Run of its own; a run is the same as if it were alone.
  */
-#include <time.h>
-
-static double seconds_now(void)
-{
-    struct timespec now;
-    timespec_get(&now, TIME_UTC);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+static int is_ending(void *batch) { return *((const Batch *)batch)->ending; }
 
 static int begin_run(const Batch *b, long i, Run *run)
 {
     double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0}, latched[1], residual;
-    if (!b->started[i] && gudgeon_start(b->t[0], b->p + i * b->numbers, b->size[i], start, start + N_Q, &residual))
-        return NOT_CLOSED;
+    Asked asked;
+    set_asked(&asked, is_ending, (void *)b, GLANCE);
+    if (!b->started[i] && close_start(b->t[0], b->p + i * b->numbers, b->size[i], start, start + N_Q, &residual, &asked))
+        return asked.stop ? STOPPED : NOT_CLOSED;
     for (int k = 0; k < 2 * N_Q; k++)
         y[k] = start[k];
     for (int k = 0; k < 1; k++)
         latched[k] = NAN;
     gudgeon_run_start(run, b->p_motion + i * b->numbers, b->t[0], y, latched);
     gudgeon_run_stop(run, b->stop);
+    gudgeon_run_asks(run, is_ending, (void *)b, GLANCE);
     if (b->choice >= 0)
         gudgeon_adaptive_setup(run, b->choice, b->scale + i * 2 * N_X, b->least + 2 * i, b->fixed);
     return 0;
@@ -49,14 +45,14 @@ static int advance(const Batch *b, long i, long limit, Run *run)
     return status;
 }
 
-/* Run i is over: its report; where an event ended it, a last sample in place of those that are as late. */
+/* Run i is over: its report; where an event or Ctrl-C ended it, a last sample in place of those that are as late. */
 static void end_run(const Batch *b, long i, int status, Run *run)
 {
     double t, *last = b->last + i * N_S, latched[1];
     signed char state[1];
-    const double apart = max_of(32.0 * DBL_EPSILON * max_of(fabs(b->t[0]), fabs(b->t[b->samples - 1])),
-        4e-12 * (b->t[b->samples - 1] - b->t[0])); /* as session.py has it */
-    if (status == ENDED) {
+    const double apart = status == STOPPED ? 0.0 : max_of(32.0 * DBL_EPSILON * max_of(fabs(b->t[0]), fabs(b->t[b->samples - 1])),
+        min_of(1e-11, 1e-10 * (b->t[b->samples - 1] - b->t[0]))); /* as session.py has it */
+    if (status == ENDED || (status == STOPPED && b->done[i] > 0)) {
         b->t_last[i] = run->t;
         while (b->done[i] > 0 && b->t[b->done[i] - 1] >= run->t - apart)
             b->done[i]--;
@@ -79,7 +75,7 @@ static int has_lists(const Run *run)
 /*
  * Runs *current to end - 1. Returns ALL_OVER; LISTS or RUN_OVER: contacts or events of run *current wait to be
  * fetched, and it goes on or is over; GOES_ON: `limit` steps were made. To be called again, after RUN_OVER with
- * the next run.
+ * the next run. Once the batch is ending, runs that have begun are over where they are, and none begins.
  */
 int gudgeon_many(const void *batch, void *memory, long *current, long end)
 {
@@ -87,14 +83,14 @@ int gudgeon_many(const void *batch, void *memory, long *current, long end)
     Run *run = memory;
     for (; *current < end; ++*current) {
         const long i = *current;
-        if (b->phase[i] == NEW) {
+        if (b->phase[i] == NEW && !*b->ending) {
             b->status[i] = begin_run(b, i, run);
             b->phase[i] = b->status[i] ? OVER : BEGUN;
         }
-        if (b->phase[i] == OVER)
+        if (b->phase[i] != BEGUN)
             continue;
         const double before = seconds_now();
-        const int status = advance(b, i, b->limit, run);
+        const int status = *b->ending && b->done[i] < b->samples ? STOPPED : advance(b, i, b->limit, run);
         b->seconds[i] += seconds_now() - before;
         if (status == EVENTS_FULL)
             return LISTS;

@@ -112,7 +112,7 @@ static void sample_here(const Run *run, double h, const Parameters *p, const Sam
         store_sample(run, run->t, run->y, p, *out->done, out->y, out->latched, out->state);
 }
 
-/* Takes a trial as the new state; latches follow from the gaps at both of its ends. Samples on the way are stored. */
+/* Takes a trial as the new state, whole; latches follow from the gaps at both of its ends. Samples on the way are stored. */
 static int accept(Run *run, double h, double t_new, const Trial *trial, const Parameters *p,
     const Samples *out)
 {
@@ -128,6 +128,7 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
     }
     run->aside = trial->aside;
     int status = 0;
+    run->asked.hold = 1;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *a = &before.clearance[i], *b = &run->aside.clearance[i];
         double top = 0.0;
@@ -141,6 +142,7 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
         status = watch(run, p);
     if (!status && sampled)
         sample_inside(run, &run->from, p, out);
+    run->asked.hold = 0;
     return status;
 }
 
@@ -191,6 +193,8 @@ static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *
         if (run->stop && event_stops[i])
             end = min_of(end, share[i]);
     }
+    if (run->asked.stop)
+        return STOPPED; /* what was found meanwhile means nothing */
     for (int i = 0; i < N_USER_EVENTS; i++) {
         event_crosses(i, &run->memory.event_side[i], trial->aside.event[i]);
         if (share[i] <= end && isfinite(share[i]))
@@ -214,13 +218,17 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
         if (status)
             return status;
         const double share = friction_event(run, h, p, &trial);
+        if (run->asked.stop)
+            return STOPPED;
         if (share >= 1.0) {
             const int ended = rk4_events(run, h, &trial, p, out);
             return ended ? ended : accept(run, h, t_new, &trial, p, out);
         }
         int failed = share < 0.0 ? NOT_FINITE : accept(run, share * h, run->t + share * h, &trial, p, out);
+        run->asked.hold = 1;
         if (!failed)
             failed = switch_friction(run, p);
+        run->asked.hold = 0;
         if (failed)
             return failed;
         h = t_new - run->t;
@@ -248,6 +256,8 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
         sample_here(run, h, p, &out);
         if (*done == n || i == limit)
             return 0;
+        if (run->asked.stop)
+            return STOPPED;
         if (lists_full(run))
             return EVENTS_FULL;
         status = rk4_step(run, h, t_new, p, &out);

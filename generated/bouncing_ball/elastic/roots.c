@@ -2,7 +2,15 @@
  * Where along a step a margin crosses zero: the step's interpolant, its roots, and dips that touch zero in between.
  */
 enum { ROOT_STEPS = 100, LOOKS = 16 };
-#define SHALLOW 1e-13 /* m: a graze that gives no force worth the name */
+#define SHALLOW 1e-13 /* m, or as a share of the depth that ends the model 1e-10: a graze without a force worth the name */
+
+/* How far below zero margin k lies without a meaning: m of a joint with play. */
+static double shallow(const Parameters *p, int k)
+{
+    const double deepest[] = {(1.0/10.0)*p->floor_radius};
+    (void)p;
+    return k < N_CLEARANCES ? -min_of(SHALLOW, 1e-10 * deepest[k]) : 0.0;
+}
 
 static int make_dense(Run *run, const Parameters *p, Step *step)
 {
@@ -49,10 +57,10 @@ static double inverse_zero(const double *x, const double *f, int n)
     return x[0] * b * c / ((a - b) * (a - c)) + x[1] * a * c / ((b - a) * (b - c)) + x[2] * a * b / ((c - a) * (c - b));
 }
 
-/* The share to which a zero is located: 4 ulp of the time, or 1e-12 of the step. */
-static double root_width(const Step *step)
+/* The share to which a zero is located: 4 ulp of the time, or a tick. */
+static double root_width(const Run *run, const Step *step)
 {
-    return max_of(4.0 * DBL_EPSILON * fabs(step->t) / step->h, 1e-12);
+    return max_of(4.0 * DBL_EPSILON * fabs(step->t), run->tick) / step->h;
 }
 
 /*
@@ -62,7 +70,7 @@ static double root_width(const Step *step)
 static double root(Run *run, const Step *step, int k, double low, double at_low, double high, double at_high,
     const Parameters *p)
 {
-    const double close = root_width(step);
+    const double close = root_width(run, step);
     double x[3] = {low, high, 0.0}, f[3] = {at_low, at_high, 0.0};
     for (int i = 0; i < ROOT_STEPS && high - low > close; i++) {
         double s = inverse_zero(x, f, i + 2);
@@ -101,7 +109,7 @@ static int may_graze(const Run *run, const Step *step, int i, double least)
 /* The least margin k around s, where it is `best`, within `width` to both sides; stops as soon as it is below zero. */
 static double dip(Run *run, const Step *step, int k, double *s, double width, double best, const Parameters *p)
 {
-    for (; width > 1e-6 && best >= -SHALLOW && *s - width >= 0.0 && *s + width <= 1.0; width *= 0.5) {
+    for (; width > 1e-6 && best >= shallow(p, k) && *s - width >= 0.0 && *s + width <= 1.0; width *= 0.5) {
         const double left = margin_at(run, step, *s - width, k, p), right = margin_at(run, step, *s + width, k, p);
         const double bend = left - 2.0 * best + right;
         double at[3] = {*s - width, *s + width, *s}, value[3] = {left, right, best};
@@ -130,10 +138,10 @@ static double look_along(Run *run, const Step *step, int k, const Parameters *p,
         if (i > 1 && last < before && last <= now) {
             double s = (i - 1) * width;
             *value = dip(run, step, k, &s, width, last, p);
-            if (*value < -SHALLOW)
+            if (*value < shallow(p, k))
                 return s;
         }
-        if (now < (i < LOOKS ? -SHALLOW : 0.0)) {
+        if (now < (i < LOOKS ? shallow(p, k) : 0.0)) {
             *value = now;
             return i * width;
         }

@@ -6,7 +6,6 @@
 static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
-    (void)memory;
     /* coordinates, velocities, time */
     const double ball_x = q[0];
     const double ball_y = q[1];
@@ -68,7 +67,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         force[2] = 0.0;
         rhs[0] = rhs_fall_x;
         rhs[1] = rhs_fall_y;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = 0.0;

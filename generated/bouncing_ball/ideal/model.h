@@ -30,6 +30,20 @@ enum {
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {    double height;  /* parameters.height */    double ball_mass;  /* bodies.ball.mass */    double ball_inertia;  /* bodies.ball.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double par_y;  /* gravity.y */    double weight_ball_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_ball_inertia;  /* 1/M */    double inverse_ball_mass;  /* 1/M */} Parameters;
 
+enum { STOPPED = -10, STALLED = -11 }; /* statuses: no longer wanted; no longer advances */
+
+/*
+ * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
+ * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
+ */
+typedef struct {
+    int (*ask)(void *whom); /* nonzero: stop */
+    void *whom;
+    double every, last, next; /* s; when the clock was read, when the next question is due */
+    long count, look;
+    int stop, hold; /* not wanted any more; what is under way comes to its end first */
+} Asked;
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;
@@ -47,6 +61,7 @@ typedef struct {
     double side[1];
     signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
+    Asked *asked; /* NULL: nobody */
 } Memory;
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */

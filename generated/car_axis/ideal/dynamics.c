@@ -6,7 +6,6 @@
 static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
-    (void)memory;
     /* coordinates, velocities, time */
     const double axle_x = q[0];
     const double axle_y = q[1];
@@ -228,7 +227,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         rhs[1] = rhs_foot_y;
         rhs[2] = rhs_slot_offset;
         rhs[3] = rhs_bump;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = -aside->lambda[3]*bump_rate;

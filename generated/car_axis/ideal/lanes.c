@@ -89,14 +89,14 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
 
     /* directions, arms, drives */
     const Lanes bump_value = lanes_asin(par_r*lanes_sin(omega*time)/length);
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(bump_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(axle_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_road = cosine_0;
-    const Lanes sin_theta_road = sine_0;
-    const Lanes cos_theta_axle = cosine_1;
-    const Lanes sin_theta_axle = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(bump_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(axle_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_road = cosines_0;
+    const Lanes sin_theta_road = sines_0;
+    const Lanes cos_theta_axle = cosines_1;
+    const Lanes sin_theta_axle = sines_1;
     const Lanes span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
     const Lanes span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
 
@@ -128,14 +128,14 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 
     /* directions, arms, drives */
     const Lanes bump_value = lanes_asin(par_r*lanes_sin(omega*time)/length);
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(bump_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(axle_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_road = cosine_0;
-    const Lanes sin_theta_road = sine_0;
-    const Lanes cos_theta_axle = cosine_1;
-    const Lanes sin_theta_axle = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(bump_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(axle_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_road = cosines_0;
+    const Lanes sin_theta_road = sines_0;
+    const Lanes cos_theta_axle = cosines_1;
+    const Lanes sin_theta_axle = sines_1;
     const Lanes bump_rate = omega*par_r*lanes_cos(omega*time)/(length*lanes_sqrt(1.0 - (par_r *
         par_r)*(lanes_sin(omega*time) * lanes_sin(omega*time))/(length * length)));
     const Lanes span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
@@ -183,14 +183,14 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 
     /* directions, arms, drives */
     const Lanes bump_value = lanes_asin(par_r*lanes_sin(omega*time)/length);
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(bump_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(axle_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_road = cosine_0;
-    const Lanes sin_theta_road = sine_0;
-    const Lanes cos_theta_axle = cosine_1;
-    const Lanes sin_theta_axle = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(bump_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(axle_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_road = cosines_0;
+    const Lanes sin_theta_road = sines_0;
+    const Lanes cos_theta_axle = cosines_1;
+    const Lanes sin_theta_axle = sines_1;
     const Lanes bump_rate = omega*par_r*lanes_cos(omega*time)/(length*lanes_sqrt(1.0 - (par_r *
         par_r)*(lanes_sin(omega*time) * lanes_sin(omega*time))/(length * length)));
     const Lanes bump_acceleration = -(omega * omega)*par_r*lanes_sin(omega*time)/(length*lanes_sqrt(1.0 -
@@ -291,14 +291,14 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
 
     /* directions, arms, drives */
     const Lanes bump_value = lanes_asin(par_r*lanes_sin(omega*time)/length);
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(bump_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(axle_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_road = cosine_0;
-    const Lanes sin_theta_road = sine_0;
-    const Lanes cos_theta_axle = cosine_1;
-    const Lanes sin_theta_axle = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(bump_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(axle_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_road = cosines_0;
+    const Lanes sin_theta_road = sines_0;
+    const Lanes cos_theta_axle = cosines_1;
+    const Lanes sin_theta_axle = sines_1;
     const Lanes bump_rate = omega*par_r*lanes_cos(omega*time)/(length*lanes_sqrt(1.0 - (par_r *
         par_r)*(lanes_sin(omega*time) * lanes_sin(omega*time))/(length * length)));
     const Lanes span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
@@ -647,7 +647,8 @@ int gudgeon_lane_count(void) { return LANES; }
 /*
  * Runs number[k] (LANES of them, -1: none), which have the same step and have come equally far, each in a memory of
  * its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes on alone
- * from where it is (gudgeon_many), because it has come to its end, is the last, or most steps are rare.
+ * from where it is (gudgeon_many), because it has come to its end, is the last, most steps are rare, or the batch is
+ * ending.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
@@ -663,7 +664,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     }
     mirror(&side);
     while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
-        if (side.b->done[side.number[first_of(&side)]] == side.b->samples) {
+        if (side.b->done[side.number[first_of(&side)]] == side.b->samples || *side.b->ending) {
             together = 0;
             break;
         }

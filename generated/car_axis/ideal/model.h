@@ -30,6 +30,20 @@ enum {
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {    double length;  /* parameters.length */    double half_mass;  /* parameters.half_mass */    double par_r;  /* parameters.r */    double omega;  /* parameters.omega */    double axle_mass;  /* bodies.axle.mass */    double axle_inertia;  /* bodies.axle.inertia */    double road_mass;  /* bodies.road.mass */    double road_inertia;  /* bodies.road.inertia */    double axle_length;  /* bodies.axle.length */    double road_length;  /* bodies.road.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slot_direction_y;  /* joints.slot.direction.y */    double par_y;  /* gravity.y */    double left_stiffness;  /* forces.left.stiffness */    double left_free_length;  /* forces.left.free_length */    double right_stiffness;  /* forces.right.stiffness */    double right_free_length;  /* forces.right.free_length */    double set_axle_y;  /* start.set.axle.y */    double axle_head_x;  /* point from the centre of mass */    double road_head_x;  /* point from the centre of mass */    double weight_axle_y;  /* weight */    double weight_road_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_axle_mass;  /* 1/M */    double inverse_axle_inertia;  /* 1/M */    double inverse_road_mass;  /* 1/M */    double inverse_road_inertia;  /* 1/M */    double axle_tail_span_x;  /* vector in its frame */    double road_head_span_x;  /* vector in its frame */    double inertia_road_road;  /* sum of m w.w */    double mass_bump_bump;  /* constant of M */    double weight_road__across;  /* weight */} Parameters;
 
+enum { STOPPED = -10, STALLED = -11 }; /* statuses: no longer wanted; no longer advances */
+
+/*
+ * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
+ * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
+ */
+typedef struct {
+    int (*ask)(void *whom); /* nonzero: stop */
+    void *whom;
+    double every, last, next; /* s; when the clock was read, when the next question is due */
+    long count, look;
+    int stop, hold; /* not wanted any more; what is under way comes to its end first */
+} Asked;
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;
@@ -47,6 +61,7 @@ typedef struct {
     double side[1];
     signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
+    Asked *asked; /* NULL: nobody */
 } Memory;
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */

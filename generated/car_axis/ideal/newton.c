@@ -532,7 +532,7 @@ static void jacobian_column(const Linear *lin, int column, const double *x, doub
 /* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
 static int linearized(double t, const double *y, const double *memory, const Parameters *p, double eta, Linear *lin)
 {
-    Memory now;
+    Memory now = {0};
     Aside aside;
     double dy[N_Y];
     read_memory(memory, &now);

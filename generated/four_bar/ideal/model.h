@@ -30,6 +30,20 @@ enum {
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {    double omega;  /* parameters.omega */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double coupler_mass;  /* bodies.coupler.mass */    double coupler_inertia;  /* bodies.coupler.inertia */    double rocker_mass;  /* bodies.rocker.mass */    double rocker_inertia;  /* bodies.rocker.inertia */    double crank_length;  /* bodies.crank.length */    double coupler_length;  /* bodies.coupler.length */    double coupler_points_tracer_x;  /* bodies.coupler.points.tracer.x */    double coupler_points_tracer_y;  /* bodies.coupler.points.tracer.y */    double rocker_length;  /* bodies.rocker.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double B0_x;  /* ground.B0.x */    double par_y;  /* gravity.y */    double guess_coupler_theta;  /* start.guess.coupler.theta */    double guess_rocker_theta;  /* start.guess.rocker.theta */    double crank_head_x;  /* point from the centre of mass */    double coupler_head_x;  /* point from the centre of mass */    double coupler_tracer_x;  /* point from the centre of mass */    double rocker_head_x;  /* point from the centre of mass */    double weight_crank_y;  /* weight */    double weight_coupler_y;  /* weight */    double weight_rocker_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_crank_mass;  /* 1/M */    double inverse_coupler_mass;  /* 1/M */    double inverse_rocker_mass;  /* 1/M */    double inverse_coupler_inertia;  /* 1/M */    double inverse_rocker_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double crank_head_span_x;  /* vector in its frame */    double coupler_head_span_x;  /* vector in its frame */    double rocker_head_span_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_coupler;  /* sum of m w.w */    double inertia_coupler_coupler;  /* sum of m w.w */    double inertia_rocker_rocker;  /* sum of m w.w */    double mass_motor_motor;  /* constant of M */    double mass_coupler_coupler;  /* constant of M */    double mass_rocker_rocker;  /* constant of M */    double weight_crank__across;  /* weight */    double weight_coupler__across;  /* weight */    double weight_rocker__across;  /* weight */    double inverse_mass_rocker_rocker;  /* 1/M */    double inverse_mass_coupler_coupler;  /* 1/M */} Parameters;
 
+enum { STOPPED = -10, STALLED = -11 }; /* statuses: no longer wanted; no longer advances */
+
+/*
+ * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
+ * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
+ */
+typedef struct {
+    int (*ask)(void *whom); /* nonzero: stop */
+    void *whom;
+    double every, last, next; /* s; when the clock was read, when the next question is due */
+    long count, look;
+    int stop, hold; /* not wanted any more; what is under way comes to its end first */
+} Asked;
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;
@@ -47,6 +61,7 @@ typedef struct {
     double side[1];
     signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
+    Asked *asked; /* NULL: nobody */
 } Memory;
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */

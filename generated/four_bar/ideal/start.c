@@ -20,13 +20,16 @@ typedef struct {
     double guess[N_GUESS + 1], set[N_SET + 1], rates[N_RATES + 1];
     double row[N_START_ROWS + 1][N_Q], rest[N_START_ROWS + 1];
     double normal[N_NORMAL + 1][N_NORMAL + 1], right[N_NORMAL + 1];
+    Asked *asked;
 } Closing;
 
-/* normal x = right by Cholesky's method, x in `right`; 1 where a pivot has (nearly) vanished. */
+/* normal x = right by Cholesky's method, x in `right`; 1 where a pivot has (nearly) vanished, or nobody wants it. */
 static int solve_normal(Closing *w, int n)
 {
     for (int k = 0; k < n; k++) {
         const double whole = w->normal[k][k];
+        if (given_up(w->asked))
+            return 1;
         for (int i = k; i < n; i++) {
             double sum = w->normal[i][k];
             for (int j = 0; j < k; j++)
@@ -229,13 +232,15 @@ static int first_velocities(Closing *w, double t, const Parameters *p, const dou
 }
 
 /* `size` of the mechanism (m) scales lengths. 0: q and v are the start, |Phi| at most `residual`; 1: see above. */
-int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual)
+static int close_start(double t, const double *parameters, double size, double *q, double *v, double *residual,
+    Asked *asked)
 {
     const Parameters *p = (const Parameters *)parameters;
     Closing *w = calloc(1, sizeof(Closing));
     if (!w)
         return 1;
     w->size = size;
+    w->asked = asked;
     int status = first_guess(w, t, p, q) || close_rows(w, t, p, q);
     for (int i = 0; i < N_GUESS; i++) /* far from the guess: another branch may be nearer */
         if (guess_place[i] % 3 == 2 && !(fabs(q[guess_place[i]] - w->placed[guess_place[i]]) < 1.0))
@@ -252,4 +257,10 @@ int gudgeon_start(double t, const double *parameters, double size, double *q, do
     }
     free(w);
     return status;
+}
+
+int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual)
+{
+    Asked nobody = {0};
+    return close_start(t, parameters, size, q, v, residual, &nobody);
 }

@@ -6,7 +6,6 @@
 static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
-    (void)memory;
     /* coordinates, velocities, time */
     const double crank0_x = q[0];
     const double crank0_y = q[1];
@@ -514,7 +513,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         rhs[11] = rhs_A1_y;
         rhs[12] = rhs_B2_x;
         rhs[13] = rhs_B2_y;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = 0.0;

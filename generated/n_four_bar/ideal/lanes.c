@@ -133,26 +133,26 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     const Lanes coupler1_head_span_x = p->coupler1_head_span_x;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank0_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(crank1_theta, &sine_1, &cosine_1, rare);
-    Lanes sine_2, cosine_2;
-    sines_and_cosines(crank2_theta, &sine_2, &cosine_2, rare);
-    Lanes sine_3, cosine_3;
-    sines_and_cosines(coupler1_theta, &sine_3, &cosine_3, rare);
-    Lanes sine_4, cosine_4;
-    sines_and_cosines(coupler2_theta, &sine_4, &cosine_4, rare);
-    const Lanes cos_theta_crank0 = cosine_0;
-    const Lanes sin_theta_crank0 = sine_0;
-    const Lanes cos_theta_crank1 = cosine_1;
-    const Lanes sin_theta_crank1 = sine_1;
-    const Lanes cos_theta_crank2 = cosine_2;
-    const Lanes sin_theta_crank2 = sine_2;
-    const Lanes cos_theta_coupler1 = cosine_3;
-    const Lanes sin_theta_coupler1 = sine_3;
-    const Lanes cos_theta_coupler2 = cosine_4;
-    const Lanes sin_theta_coupler2 = sine_4;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank0_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(crank1_theta, &sines_1, &cosines_1, rare);
+    Lanes sines_2, cosines_2;
+    sines_and_cosines(crank2_theta, &sines_2, &cosines_2, rare);
+    Lanes sines_3, cosines_3;
+    sines_and_cosines(coupler1_theta, &sines_3, &cosines_3, rare);
+    Lanes sines_4, cosines_4;
+    sines_and_cosines(coupler2_theta, &sines_4, &cosines_4, rare);
+    const Lanes cos_theta_crank0 = cosines_0;
+    const Lanes sin_theta_crank0 = sines_0;
+    const Lanes cos_theta_crank1 = cosines_1;
+    const Lanes sin_theta_crank1 = sines_1;
+    const Lanes cos_theta_crank2 = cosines_2;
+    const Lanes sin_theta_crank2 = sines_2;
+    const Lanes cos_theta_coupler1 = cosines_3;
+    const Lanes sin_theta_coupler1 = sines_3;
+    const Lanes cos_theta_coupler2 = cosines_4;
+    const Lanes sin_theta_coupler2 = sines_4;
     const Lanes span_crank0_head_x = cos_theta_crank0*crank0_head_span_x;
     const Lanes span_crank0_head_y = crank0_head_span_x*sin_theta_crank0;
     const Lanes span_crank1_head_x = cos_theta_crank1*crank1_head_span_x;
@@ -198,26 +198,26 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     const Lanes coupler1_head_span_x = p->coupler1_head_span_x;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank0_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(crank1_theta, &sine_1, &cosine_1, rare);
-    Lanes sine_2, cosine_2;
-    sines_and_cosines(crank2_theta, &sine_2, &cosine_2, rare);
-    Lanes sine_3, cosine_3;
-    sines_and_cosines(coupler1_theta, &sine_3, &cosine_3, rare);
-    Lanes sine_4, cosine_4;
-    sines_and_cosines(coupler2_theta, &sine_4, &cosine_4, rare);
-    const Lanes cos_theta_crank0 = cosine_0;
-    const Lanes sin_theta_crank0 = sine_0;
-    const Lanes cos_theta_crank1 = cosine_1;
-    const Lanes sin_theta_crank1 = sine_1;
-    const Lanes cos_theta_crank2 = cosine_2;
-    const Lanes sin_theta_crank2 = sine_2;
-    const Lanes cos_theta_coupler1 = cosine_3;
-    const Lanes sin_theta_coupler1 = sine_3;
-    const Lanes cos_theta_coupler2 = cosine_4;
-    const Lanes sin_theta_coupler2 = sine_4;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank0_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(crank1_theta, &sines_1, &cosines_1, rare);
+    Lanes sines_2, cosines_2;
+    sines_and_cosines(crank2_theta, &sines_2, &cosines_2, rare);
+    Lanes sines_3, cosines_3;
+    sines_and_cosines(coupler1_theta, &sines_3, &cosines_3, rare);
+    Lanes sines_4, cosines_4;
+    sines_and_cosines(coupler2_theta, &sines_4, &cosines_4, rare);
+    const Lanes cos_theta_crank0 = cosines_0;
+    const Lanes sin_theta_crank0 = sines_0;
+    const Lanes cos_theta_crank1 = cosines_1;
+    const Lanes sin_theta_crank1 = sines_1;
+    const Lanes cos_theta_crank2 = cosines_2;
+    const Lanes sin_theta_crank2 = sines_2;
+    const Lanes cos_theta_coupler1 = cosines_3;
+    const Lanes sin_theta_coupler1 = sines_3;
+    const Lanes cos_theta_coupler2 = cosines_4;
+    const Lanes sin_theta_coupler2 = sines_4;
     const Lanes span_crank0_head_x = cos_theta_crank0*crank0_head_span_x;
     const Lanes span_crank0_head_y = crank0_head_span_x*sin_theta_crank0;
     const Lanes span_crank1_head_x = cos_theta_crank1*crank1_head_span_x;
@@ -282,26 +282,26 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes inverse_mass_crank0_crank0 = p->inverse_mass_crank0_crank0;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank0_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(crank1_theta, &sine_1, &cosine_1, rare);
-    Lanes sine_2, cosine_2;
-    sines_and_cosines(crank2_theta, &sine_2, &cosine_2, rare);
-    Lanes sine_3, cosine_3;
-    sines_and_cosines(coupler1_theta, &sine_3, &cosine_3, rare);
-    Lanes sine_4, cosine_4;
-    sines_and_cosines(coupler2_theta, &sine_4, &cosine_4, rare);
-    const Lanes cos_theta_crank0 = cosine_0;
-    const Lanes sin_theta_crank0 = sine_0;
-    const Lanes cos_theta_crank1 = cosine_1;
-    const Lanes sin_theta_crank1 = sine_1;
-    const Lanes cos_theta_crank2 = cosine_2;
-    const Lanes sin_theta_crank2 = sine_2;
-    const Lanes cos_theta_coupler1 = cosine_3;
-    const Lanes sin_theta_coupler1 = sine_3;
-    const Lanes cos_theta_coupler2 = cosine_4;
-    const Lanes sin_theta_coupler2 = sine_4;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank0_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(crank1_theta, &sines_1, &cosines_1, rare);
+    Lanes sines_2, cosines_2;
+    sines_and_cosines(crank2_theta, &sines_2, &cosines_2, rare);
+    Lanes sines_3, cosines_3;
+    sines_and_cosines(coupler1_theta, &sines_3, &cosines_3, rare);
+    Lanes sines_4, cosines_4;
+    sines_and_cosines(coupler2_theta, &sines_4, &cosines_4, rare);
+    const Lanes cos_theta_crank0 = cosines_0;
+    const Lanes sin_theta_crank0 = sines_0;
+    const Lanes cos_theta_crank1 = cosines_1;
+    const Lanes sin_theta_crank1 = sines_1;
+    const Lanes cos_theta_crank2 = cosines_2;
+    const Lanes sin_theta_crank2 = sines_2;
+    const Lanes cos_theta_coupler1 = cosines_3;
+    const Lanes sin_theta_coupler1 = sines_3;
+    const Lanes cos_theta_coupler2 = cosines_4;
+    const Lanes sin_theta_coupler2 = sines_4;
     const Lanes span_crank0_head_x = cos_theta_crank0*crank0_head_span_x;
     const Lanes span_crank0_head_y = crank0_head_span_x*sin_theta_crank0;
     const Lanes span_crank1_head_x = cos_theta_crank1*crank1_head_span_x;
@@ -491,26 +491,26 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes inverse_mass_crank0_crank0 = p->inverse_mass_crank0_crank0;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank0_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(crank1_theta, &sine_1, &cosine_1, rare);
-    Lanes sine_2, cosine_2;
-    sines_and_cosines(crank2_theta, &sine_2, &cosine_2, rare);
-    Lanes sine_3, cosine_3;
-    sines_and_cosines(coupler1_theta, &sine_3, &cosine_3, rare);
-    Lanes sine_4, cosine_4;
-    sines_and_cosines(coupler2_theta, &sine_4, &cosine_4, rare);
-    const Lanes cos_theta_crank0 = cosine_0;
-    const Lanes sin_theta_crank0 = sine_0;
-    const Lanes cos_theta_crank1 = cosine_1;
-    const Lanes sin_theta_crank1 = sine_1;
-    const Lanes cos_theta_crank2 = cosine_2;
-    const Lanes sin_theta_crank2 = sine_2;
-    const Lanes cos_theta_coupler1 = cosine_3;
-    const Lanes sin_theta_coupler1 = sine_3;
-    const Lanes cos_theta_coupler2 = cosine_4;
-    const Lanes sin_theta_coupler2 = sine_4;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank0_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(crank1_theta, &sines_1, &cosines_1, rare);
+    Lanes sines_2, cosines_2;
+    sines_and_cosines(crank2_theta, &sines_2, &cosines_2, rare);
+    Lanes sines_3, cosines_3;
+    sines_and_cosines(coupler1_theta, &sines_3, &cosines_3, rare);
+    Lanes sines_4, cosines_4;
+    sines_and_cosines(coupler2_theta, &sines_4, &cosines_4, rare);
+    const Lanes cos_theta_crank0 = cosines_0;
+    const Lanes sin_theta_crank0 = sines_0;
+    const Lanes cos_theta_crank1 = cosines_1;
+    const Lanes sin_theta_crank1 = sines_1;
+    const Lanes cos_theta_crank2 = cosines_2;
+    const Lanes sin_theta_crank2 = sines_2;
+    const Lanes cos_theta_coupler1 = cosines_3;
+    const Lanes sin_theta_coupler1 = sines_3;
+    const Lanes cos_theta_coupler2 = cosines_4;
+    const Lanes sin_theta_coupler2 = sines_4;
     const Lanes span_crank0_head_x = cos_theta_crank0*crank0_head_span_x;
     const Lanes span_crank0_head_y = crank0_head_span_x*sin_theta_crank0;
     const Lanes span_crank1_head_x = cos_theta_crank1*crank1_head_span_x;
@@ -984,7 +984,8 @@ int gudgeon_lane_count(void) { return LANES; }
 /*
  * Runs number[k] (LANES of them, -1: none), which have the same step and have come equally far, each in a memory of
  * its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes on alone
- * from where it is (gudgeon_many), because it has come to its end, is the last, or most steps are rare.
+ * from where it is (gudgeon_many), because it has come to its end, is the last, most steps are rare, or the batch is
+ * ending.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
@@ -1000,7 +1001,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     }
     mirror(&side);
     while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
-        if (side.b->done[side.number[first_of(&side)]] == side.b->samples) {
+        if (side.b->done[side.number[first_of(&side)]] == side.b->samples || *side.b->ending) {
             together = 0;
             break;
         }

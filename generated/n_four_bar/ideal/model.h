@@ -30,6 +30,20 @@ enum {
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {    double length;  /* parameters.length */    double mass;  /* parameters.mass */    double inertia;  /* parameters.inertia */    double crank0_mass;  /* bodies.crank0.mass */    double crank0_inertia;  /* bodies.crank0.inertia */    double crank1_mass;  /* bodies.crank1.mass */    double crank1_inertia;  /* bodies.crank1.inertia */    double crank2_mass;  /* bodies.crank2.mass */    double crank2_inertia;  /* bodies.crank2.inertia */    double coupler1_mass;  /* bodies.coupler1.mass */    double coupler1_inertia;  /* bodies.coupler1.inertia */    double coupler2_mass;  /* bodies.coupler2.mass */    double coupler2_inertia;  /* bodies.coupler2.inertia */    double crank0_length;  /* bodies.crank0.length */    double crank1_length;  /* bodies.crank1.length */    double crank2_length;  /* bodies.crank2.length */    double coupler1_length;  /* bodies.coupler1.length */    double coupler2_length;  /* bodies.coupler2.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O1_x;  /* ground.O1.x */    double O2_x;  /* ground.O2.x */    double par_y;  /* gravity.y */    double guess_crank1_theta;  /* start.guess.crank1.theta */    double guess_crank2_theta;  /* start.guess.crank2.theta */    double set_crank0_theta;  /* start.set.crank0.theta */    double rates_crank0_omega;  /* start.rates.crank0.omega */    double crank0_head_x;  /* point from the centre of mass */    double crank1_head_x;  /* point from the centre of mass */    double crank2_head_x;  /* point from the centre of mass */    double coupler1_head_x;  /* point from the centre of mass */    double coupler2_head_x;  /* point from the centre of mass */    double weight_crank0_y;  /* weight */    double weight_crank1_y;  /* weight */    double weight_crank2_y;  /* weight */    double weight_coupler1_y;  /* weight */    double weight_coupler2_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_crank0_mass;  /* 1/M */    double inverse_crank2_mass;  /* 1/M */    double inverse_coupler1_mass;  /* 1/M */    double inverse_coupler2_mass;  /* 1/M */    double inverse_crank1_mass;  /* 1/M */    double inverse_crank0_inertia;  /* 1/M */    double inverse_crank2_inertia;  /* 1/M */    double inverse_coupler1_inertia;  /* 1/M */    double inverse_coupler2_inertia;  /* 1/M */    double inverse_crank1_inertia;  /* 1/M */    double crank0_head_span_x;  /* vector in its frame */    double crank1_head_span_x;  /* vector in its frame */    double coupler2_head_span_x;  /* vector in its frame */    double crank2_head_span_x;  /* vector in its frame */    double coupler1_head_span_x;  /* vector in its frame */    double inertia_crank0_crank0;  /* sum of m w.w */    double inertia_crank1_crank1;  /* sum of m w.w */    double inertia_crank2_crank2;  /* sum of m w.w */    double inertia_crank0_coupler1;  /* sum of m w.w */    double inertia_coupler1_coupler1;  /* sum of m w.w */    double inertia_crank1_coupler2;  /* sum of m w.w */    double inertia_coupler2_coupler2;  /* sum of m w.w */    double mass_crank0_crank0;  /* constant of M */    double mass_crank1_crank1;  /* constant of M */    double mass_crank2_crank2;  /* constant of M */    double mass_coupler1_coupler1;  /* constant of M */    double mass_coupler2_coupler2;  /* constant of M */    double weight_crank0__across;  /* weight */    double weight_crank1__across;  /* weight */    double weight_crank2__across;  /* weight */    double weight_coupler1__across;  /* weight */    double weight_coupler2__across;  /* weight */    double inverse_mass_crank2_crank2;  /* 1/M */    double inverse_mass_coupler2_coupler2;  /* 1/M */    double inverse_mass_crank0_crank0;  /* 1/M */} Parameters;
 
+enum { STOPPED = -10, STALLED = -11 }; /* statuses: no longer wanted; no longer advances */
+
+/*
+ * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
+ * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
+ */
+typedef struct {
+    int (*ask)(void *whom); /* nonzero: stop */
+    void *whom;
+    double every, last, next; /* s; when the clock was read, when the next question is due */
+    long count, look;
+    int stop, hold; /* not wanted any more; what is under way comes to its end first */
+} Asked;
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;
@@ -47,6 +61,7 @@ typedef struct {
     double side[1];
     signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
+    Asked *asked; /* NULL: nobody */
 } Memory;
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */

@@ -706,7 +706,7 @@ void gudgeon_reduce(double t, const double *all_q, const double *all_v, const do
 int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
     double *lambda, double *power)
 {
-    Memory now;
+    Memory now = {0};
     Aside aside;
     read_memory(memory, &now);
     const int status = reduced_dynamics(t, q, v, &now, (const Parameters *)p, a, &aside);
@@ -731,7 +731,7 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 /* What is done where a pivot vanishes, at any state: for tests. */
 int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *memory, const double *p, double *a)
 {
-    Memory now;
+    Memory now = {0};
     Aside aside;
     read_memory(memory, &now);
     return solve_by_absolute(t, q, v, &now, (const Parameters *)p, a, &aside);
@@ -740,8 +740,8 @@ int gudgeon_reduced_rescue(double t, const double *q, const double *v, const dou
 /* The reduced right-hand side many times over, for benchmarks; each call waits for the one before. */
 double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory, const double *p)
 {
-    double a[N_X + 1], moved[N_X + 1], sum = 0.0;
-    Memory now;
+    double a[N_X + 1] = {0.0}, moved[N_X + 1], sum = 0.0;
+    Memory now = {0};
     Aside aside;
     read_memory(memory, &now);
     for (int k = 0; k < N_X; k++)

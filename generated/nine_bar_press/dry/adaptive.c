@@ -7,6 +7,7 @@ enum { STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, MAX_CRAWL = 2
 /* h rho beyond which an explicit step is not taken: at h rho = 5.65 the estimate of order 5 vanishes for a decaying
  * mode, at 6.4 the mode grows (both are zeros of polynomials that follow from the coefficients) */
 #define UNSTABLE 4.8
+#define LONG_RUN 1e4  /* s: an end further away than this says nothing about the shortest step that makes sense */
 #define BOUNDED 4.0   /* h rho at which stability bounds its steps */
 #define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
 #define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
@@ -32,6 +33,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     run->t = t_new;
     run->steps++;
     run->stiff_steps += step->stiff;
+    run->ended[event < 0 ? N_MARGINS : event]++;
     run->linear_ready = 0;
     note_speed(run);
     weigh(run);
@@ -93,7 +95,7 @@ static void next_length(Run *run, const Step *step, double power, int again, int
 /* One accepted step towards t_end; the next step's length in run->h. Events are not looked for here. */
 static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step)
 {
-    const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * max_of(fabs(t_end), fabs(run->t));
+    const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
     double h = run->fixed > 0.0 ? run->fixed : run->h;
     int again = 0, shortened = 0, given_up = 0;
     if (run->skip >= 0 && run->fixed <= 0.0)
@@ -104,7 +106,7 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
     for (;;) {
         const double power = run->stiff ? 0.2 : 0.125;
         const int status = run->stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
-        if (status && run->fixed > 0.0)
+        if (status == STOPPED || (status && run->fixed > 0.0))
             return status;
         if (!status && step->error <= run->accept && !run->stiff && run->fixed <= 0.0 && run->stability > UNSTABLE) {
             run->rejected++;
@@ -188,7 +190,8 @@ static int leave_zeros(Run *run, const Parameters *p)
 
 /*
  * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
- * that the start's speeds and accelerations take for it. Only where nothing moves the run's own time has to tell.
+ * that the start's speeds and accelerations take for it. Only where these lead nowhere (a pulse is yet to come) the
+ * run's own time has to tell.
  */
 static void floor_speeds(Run *run, double left)
 {
@@ -198,13 +201,14 @@ static void floor_speeds(Run *run, double left)
         rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
     }
     for (int kind = 0; kind < 2; kind++)
-        run->speed_floor[kind] = run->least[kind] * (rate > 0.0 ? 0.01 * rate : 1.0 / left);
+        run->speed_floor[kind] = run->least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
 }
 
 /* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
 static int begin_adaptive(Run *run, double left, const Parameters *p)
 {
     int status = run->ready ? 0 : begin(run, p);
+    run->tick = min_of(1e-12, 1e-11 * left);
     for (int k = 0; k < N_SWITCHES; k++)
         run->memory.side[k] = run->aside.g[k] < 0.0 ? -1.0 : 1.0;
     run->memory.held = 1;
@@ -244,12 +248,12 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
  * Events whose zero is the end of the run: those that are zero there, or beyond it at once, as far as times are
  * located. Returns ENDED where one of them ends the run.
  */
-static int end_on_zeros(Run *run, const Step *step, const Parameters *p)
+static int end_on_zeros(Run *run, const Parameters *p)
 {
     int status = 0, zeros = 0;
     double y[N_Y], dy[N_Y];
     Aside aside;
-    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), 1e-12 * step->h);
+    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), run->tick);
     for (int i = 0; i < N_USER_EVENTS; i++)
         zeros |= run->memory.event_side[i] != 0;
     for (int k = 0; k < N_Y; k++)
@@ -282,9 +286,19 @@ static int sample_step(Run *run, Step *step, double t_new, long n, const double 
     return 0;
 }
 
+/* Whether the run no longer advances; what ends its steps is counted anew with each look at its pace. */
+static int stalls(Run *run, double t_end)
+{
+    const int stalled = creeps(&run->advance, run->t, t_end);
+    for (int k = 0; k < N_MARGINS && !stalled && run->advance.steps % PACE_STEPS == 1; k++)
+        run->ended[k] = 0;
+    return stalled;
+}
+
 /*
  * Towards the last of n output times, at most `limit` steps: samples go to row `done` and on. Returns 0 (at the end,
- * or to be called again), EVENTS_FULL, or what went wrong.
+ * or to be called again), EVENTS_FULL, STOPPED, or what went wrong. Whatever it returns, the run is at the end of a
+ * whole step, with what changes there.
  */
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done)
@@ -300,8 +314,12 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         }
         if (*done == n || i == limit)
             return 0;
+        if (run->asked.stop)
+            return STOPPED;
         if (lists_full(run))
             return EVENTS_FULL;
+        if (run->fixed <= 0.0 && stalls(run, t_end))
+            return STALLED;
         Step *step = &run->step;
         status = accepted_step(run, t_end, p, step);
         if (status)
@@ -309,13 +327,17 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         choose(run);
         int event;
         const double share = first_event(run, step, p, &event);
+        if (run->asked.stop)
+            return STOPPED; /* what was found meanwhile means nothing */
         const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
-        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2e-12 * step->h); /* is at the event */
+        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->tick); /* is at the event */
         status = sample_step(run, step, t_new - close, n, t, p, y, latched, state, done);
+        run->asked.hold = 1;
         if (!status)
             status = commit(run, step, share, t_new, event, p);
         if (!status && run->t == t_end)
-            status = end_on_zeros(run, step, p);
+            status = end_on_zeros(run, p);
+        run->asked.hold = 0;
     }
     return status;
 }

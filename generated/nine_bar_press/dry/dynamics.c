@@ -732,7 +732,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         rhs[17] = rhs_guide_angle;
         rhs[18] = rhs_crank1;
         rhs[19] = rhs_crank4;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = -aside->lambda[18]*crank1_rate - aside->lambda[19]*crank4_rate;

@@ -348,12 +348,12 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     const Lanes L8_head_span_x = p->L8_head_span_x;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(L6_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(L8_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_L6 = cosine_0;
-    const Lanes cos_theta_L8 = cosine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(L6_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(L8_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_L6 = cosines_0;
+    const Lanes cos_theta_L8 = cosines_1;
     const Lanes span_L6_head_x = L6_head_span_x*cos_theta_L6;
     const Lanes span_L8_head_x = L8_head_span_x*cos_theta_L8;
 
@@ -379,12 +379,12 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     const Lanes L8_head_span_x = p->L8_head_span_x;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(L6_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(L8_theta, &sine_1, &cosine_1, rare);
-    const Lanes sin_theta_L6 = sine_0;
-    const Lanes sin_theta_L8 = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(L6_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(L8_theta, &sines_1, &cosines_1, rare);
+    const Lanes sin_theta_L6 = sines_0;
+    const Lanes sin_theta_L8 = sines_1;
     const Lanes span_L6_head_y = L6_head_span_x*sin_theta_L6;
     const Lanes span_L8_head_y = L8_head_span_x*sin_theta_L8;
 
@@ -449,34 +449,34 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     /* directions, arms, drives */
     const Lanes crank1_value = omega*time - 0.689754120388159;
     const Lanes crank4_value = omega4*time + 3.4814082589530893;
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank1_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(crank4_value, &sine_1, &cosine_1, rare);
-    Lanes sine_2, cosine_2;
-    sines_and_cosines(L6_theta, &sine_2, &cosine_2, rare);
-    Lanes sine_3, cosine_3;
-    sines_and_cosines(L7_theta, &sine_3, &cosine_3, rare);
-    Lanes sine_4, cosine_4;
-    sines_and_cosines(L8_theta, &sine_4, &cosine_4, rare);
-    Lanes sine_5, cosine_5;
-    sines_and_cosines(L2_theta, &sine_5, &cosine_5, rare);
-    Lanes sine_6, cosine_6;
-    sines_and_cosines(L3_theta, &sine_6, &cosine_6, rare);
-    const Lanes cos_theta_L1 = cosine_0;
-    const Lanes sin_theta_L1 = sine_0;
-    const Lanes cos_theta_L4 = cosine_1;
-    const Lanes sin_theta_L4 = sine_1;
-    const Lanes cos_theta_L6 = cosine_2;
-    const Lanes sin_theta_L6 = sine_2;
-    const Lanes cos_theta_L7 = cosine_3;
-    const Lanes sin_theta_L7 = sine_3;
-    const Lanes cos_theta_L8 = cosine_4;
-    const Lanes sin_theta_L8 = sine_4;
-    const Lanes cos_theta_L2 = cosine_5;
-    const Lanes sin_theta_L2 = sine_5;
-    const Lanes cos_theta_L3 = cosine_6;
-    const Lanes sin_theta_L3 = sine_6;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank1_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(crank4_value, &sines_1, &cosines_1, rare);
+    Lanes sines_2, cosines_2;
+    sines_and_cosines(L6_theta, &sines_2, &cosines_2, rare);
+    Lanes sines_3, cosines_3;
+    sines_and_cosines(L7_theta, &sines_3, &cosines_3, rare);
+    Lanes sines_4, cosines_4;
+    sines_and_cosines(L8_theta, &sines_4, &cosines_4, rare);
+    Lanes sines_5, cosines_5;
+    sines_and_cosines(L2_theta, &sines_5, &cosines_5, rare);
+    Lanes sines_6, cosines_6;
+    sines_and_cosines(L3_theta, &sines_6, &cosines_6, rare);
+    const Lanes cos_theta_L1 = cosines_0;
+    const Lanes sin_theta_L1 = sines_0;
+    const Lanes cos_theta_L4 = cosines_1;
+    const Lanes sin_theta_L4 = sines_1;
+    const Lanes cos_theta_L6 = cosines_2;
+    const Lanes sin_theta_L6 = sines_2;
+    const Lanes cos_theta_L7 = cosines_3;
+    const Lanes sin_theta_L7 = sines_3;
+    const Lanes cos_theta_L8 = cosines_4;
+    const Lanes sin_theta_L8 = sines_4;
+    const Lanes cos_theta_L2 = cosines_5;
+    const Lanes sin_theta_L2 = sines_5;
+    const Lanes cos_theta_L3 = cosines_6;
+    const Lanes sin_theta_L3 = sines_6;
     const Lanes crank1_rate = omega;
     const Lanes crank1_acceleration = all_of(0.0);
     const Lanes crank4_rate = omega4;
@@ -673,26 +673,26 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes inverse_mass_L2_L2 = p->inverse_mass_L2_L2;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(L6_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(L7_theta, &sine_1, &cosine_1, rare);
-    Lanes sine_2, cosine_2;
-    sines_and_cosines(L8_theta, &sine_2, &cosine_2, rare);
-    Lanes sine_3, cosine_3;
-    sines_and_cosines(L2_theta, &sine_3, &cosine_3, rare);
-    Lanes sine_4, cosine_4;
-    sines_and_cosines(L3_theta, &sine_4, &cosine_4, rare);
-    const Lanes cos_theta_L6 = cosine_0;
-    const Lanes sin_theta_L6 = sine_0;
-    const Lanes cos_theta_L7 = cosine_1;
-    const Lanes sin_theta_L7 = sine_1;
-    const Lanes cos_theta_L8 = cosine_2;
-    const Lanes sin_theta_L8 = sine_2;
-    const Lanes cos_theta_L2 = cosine_3;
-    const Lanes sin_theta_L2 = sine_3;
-    const Lanes cos_theta_L3 = cosine_4;
-    const Lanes sin_theta_L3 = sine_4;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(L6_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(L7_theta, &sines_1, &cosines_1, rare);
+    Lanes sines_2, cosines_2;
+    sines_and_cosines(L8_theta, &sines_2, &cosines_2, rare);
+    Lanes sines_3, cosines_3;
+    sines_and_cosines(L2_theta, &sines_3, &cosines_3, rare);
+    Lanes sines_4, cosines_4;
+    sines_and_cosines(L3_theta, &sines_4, &cosines_4, rare);
+    const Lanes cos_theta_L6 = cosines_0;
+    const Lanes sin_theta_L6 = sines_0;
+    const Lanes cos_theta_L7 = cosines_1;
+    const Lanes sin_theta_L7 = sines_1;
+    const Lanes cos_theta_L8 = cosines_2;
+    const Lanes sin_theta_L8 = sines_2;
+    const Lanes cos_theta_L2 = cosines_3;
+    const Lanes sin_theta_L2 = sines_3;
+    const Lanes cos_theta_L3 = cosines_4;
+    const Lanes sin_theta_L3 = sines_4;
     const Lanes span_L6_head_x = L6_head_span_x*cos_theta_L6;
     const Lanes span_L6_head_y = L6_head_span_x*sin_theta_L6;
     const Lanes span_L8_head_x = L8_head_span_x*cos_theta_L8;
@@ -1076,7 +1076,8 @@ int gudgeon_lane_count(void) { return LANES; }
 /*
  * Runs number[k] (LANES of them, -1: none), which have the same step and have come equally far, each in a memory of
  * its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes on alone
- * from where it is (gudgeon_many), because it has come to its end, is the last, or most steps are rare.
+ * from where it is (gudgeon_many), because it has come to its end, is the last, most steps are rare, or the batch is
+ * ending.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
@@ -1092,7 +1093,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     }
     mirror(&side);
     while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
-        if (side.b->done[side.number[first_of(&side)]] == side.b->samples) {
+        if (side.b->done[side.number[first_of(&side)]] == side.b->samples || *side.b->ending) {
             together = 0;
             break;
         }

@@ -6,7 +6,6 @@
 static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
-    (void)memory;
     /* coordinates, velocities, time */
     const double L1_x = q[0];
     const double L1_y = q[1];
@@ -830,7 +829,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         rhs[21] = rhs_guide_angle;
         rhs[22] = rhs_crank1;
         rhs[23] = rhs_crank4;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = -aside->lambda[22]*crank1_rate - aside->lambda[23]*crank4_rate;

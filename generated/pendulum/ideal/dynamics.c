@@ -6,7 +6,6 @@
 static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
-    (void)memory;
     /* coordinates, velocities, time */
     const double bob_x = q[0];
     const double bob_y = q[1];
@@ -67,7 +66,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         force[1] = weight_bob_y;
         force[2] = 0.0;
         rhs[0] = rhs_rod_length;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = 0.0;

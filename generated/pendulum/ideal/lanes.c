@@ -508,7 +508,8 @@ int gudgeon_lane_count(void) { return LANES; }
 /*
  * Runs number[k] (LANES of them, -1: none), which have the same step and have come equally far, each in a memory of
  * its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes on alone
- * from where it is (gudgeon_many), because it has come to its end, is the last, or most steps are rare.
+ * from where it is (gudgeon_many), because it has come to its end, is the last, most steps are rare, or the batch is
+ * ending.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
@@ -524,7 +525,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     }
     mirror(&side);
     while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
-        if (side.b->done[side.number[first_of(&side)]] == side.b->samples) {
+        if (side.b->done[side.number[first_of(&side)]] == side.b->samples || *side.b->ending) {
             together = 0;
             break;
         }

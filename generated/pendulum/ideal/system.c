@@ -23,6 +23,7 @@ static void read_memory(const double *sample, Memory *memory)
     for (int i = 0; i < N_USER_EVENTS; i++)
         memory->event_side[i] = 0;
     memory->held = 0;
+    memory->asked = NULL;
 }
 
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
@@ -39,7 +40,7 @@ void gudgeon_phi(double t, const double *q, const double *p, double *phi)
 
 void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q)
 {
-    for (size_t k = 0; k < (size_t)N_ALL_ROWS * N_Q; k++)
+    for (long k = 0; k < (long)N_ALL_ROWS * N_Q; k++)
         phi_q[k] = 0.0;
     jacobian(t, q, (const Parameters *)p, phi_q);
 }
@@ -61,7 +62,7 @@ void gudgeon_start_values(const double *p, double *guess, double *set, double *r
 
 int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy)
 {
-    Memory now;
+    Memory now = {0};
     Aside aside;
     read_memory(memory, &now);
     return state_equation(t, y, &now, (const Parameters *)p, dy, &aside);
@@ -88,7 +89,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
 {
     const Parameters *p = (const Parameters *)parameters;
     for (long i = 0; i < n; i++) {
-        Memory now;
+        Memory now = {0};
         Aside aside;
         double y[N_S] = {0.0}, dy[N_S];
         for (int k = 0; k < N_Q; k++) {

@@ -61,12 +61,14 @@ typedef struct {
     double t, y[N_Y], dy[N_Y];
     Aside aside;
     Memory memory;
+    Asked asked;
     Impact open[1];      /* the contact going on in each joint */
     int compressing[1];  /* from onset until the penetration first stops growing */
     double F_peak[1], t_peak[1], e_max[1];
     Impact impacts[N_IMPACTS];
     double event_t[N_IMPACTS];
     unsigned char no_number[1];  /* whether an event was told to be none */
+    double tick; /* s, to which times of events are told apart; less where the whole run is short */
     int pole; /* whether the event that ends a step is no zero but a pole */
     int event[N_IMPACTS], n_events, stop; /* user events found; whether they may end the run */
     int n_impacts, ready;
@@ -80,6 +82,8 @@ typedef struct {
     double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
     double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
     int rising[1]; /* whether a joint's force rose at the end of the last step */
+    Pace advance;
+    long ended[N_MARGINS + 1]; /* steps that each margin ended, since the pace was taken */
     int crossed, skip, choice, stiff, votes, patience, since, stuck, crawl, linear_ready;
     Linear linear;
     Step step;
@@ -88,6 +92,8 @@ typedef struct {
 static int rates(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
 {
     run->evaluations++;
+    if (given_up(&run->asked))
+        return STOPPED;
     return motion(t, y, &run->memory, p, dy, aside);
 }
 
@@ -363,6 +369,7 @@ void gudgeon_run_start(void *memory, const double *p, double t, const double *y,
     *run = (Run){.t = t, .ratio_min = INFINITY, .ratio_max = -INFINITY};
     from_absolute(t, y, &run->memory, (const Parameters *)p, run->y);
     read_memory(latched, &run->memory);
+    run->memory.asked = &run->asked;
     for (int i = 0; i < N_CLEARANCES; i++)
         run->open[i] = (Impact){t, NAN, latched[i], 0.0, t, i};
 }
@@ -413,6 +420,29 @@ void gudgeon_run_sample(const void *memory, const double *p, double *y, double *
 }
 
 void gudgeon_run_stop(void *memory, int stop) { ((Run *)memory)->stop = stop; }
+
+/* `ask` is called with `whom` each `every` seconds (0: at each right-hand side); the run stops where it says so. */
+void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every)
+{
+    set_asked(&((Run *)memory)->asked, ask, whom, every);
+}
+
+/*
+ * Of a run that no longer advances: s that its last PACE_STEPS steps gained, how many these are, whether they are far
+ * shorter than those before; how many of them ended at contacts, corners of forces, frictions, events of the user.
+ */
+void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended)
+{
+    const Run *run = memory;
+    *gained = run->advance.gain;
+    steps[0] = PACE_STEPS;
+    steps[1] = run->advance.crawls;
+    for (int k = 0; k < 4; k++)
+        ended[k] = 0;
+    for (int k = 0; k < N_MARGINS; k++)
+        ended[(k >= N_CLEARANCES) + (k >= N_CLEARANCES + N_SWITCHES) + (k >= N_CLEARANCES + N_SWITCHES + N_FRICTIONS)] +=
+            run->ended[k];
+}
 
 /* Fetches and empties the list of user events. */
 int gudgeon_run_events(void *memory, double *t, int *event)

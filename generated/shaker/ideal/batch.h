@@ -5,6 +5,8 @@ enum {
     ALL_OVER = 0, LISTS = 1, RUN_OVER = 2, GOES_ON = 3
 };
 
+#define GLANCE 0.02 /* s between two looks at whether the batch is ending */
+
 /* Arrays with a row for each run; `numbers` are the doubles of Parameters, `samples` the times of t. */
 typedef struct {
     long samples, numbers, limit;         /* steps after which a call returns */
@@ -21,6 +23,7 @@ typedef struct {
     double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
     long *counts;                         /* as gudgeon_run_report has them */
     double *residuals, *peaks;
+    const volatile int *ending;           /* not 0: all runs end where they are */
 } Batch;
 
 

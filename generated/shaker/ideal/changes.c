@@ -76,7 +76,7 @@ static void pace_corner(Run *run, int corner)
     const double way = run->t - run->t_crossed;
     const int again = meets[corner] && run->crossed == corner && way < 1e-3 * run->h;
     run->skip = again ? corner : -1;
-    run->pace = again ? 20.0 * max_of(1e-10, max_of(run->pace, way)) : 0.0;
+    run->pace = again ? 20.0 * max_of(100.0 * run->tick, max_of(run->pace, way)) : 0.0;
     run->crossed = corner;
     run->t_crossed = run->t;
 }
@@ -85,7 +85,7 @@ static void pace_corner(Run *run, int corner)
 static int change(Run *run, int event, const Parameters *p)
 {
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
-        if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < -SHALLOW))
+        if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < shallow(p, k)))
             cross(run, k, p);
     const int corner = event - N_CLEARANCES;
     const int is_corner = corner >= 0 && corner < N_SWITCHES;
@@ -109,10 +109,10 @@ static int change(Run *run, int event, const Parameters *p)
 /* A free journal never lies outside its bearing, whatever the method thought of its contact. */
 static int check_contacts(const Run *run, const Parameters *p)
 {
-    const double clearance[] = {0.0};
+    const double clearance[] = {0.0}, deepest[] = {0.0};
     (void)p;
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (!run->memory.latch[i].closed && run->aside.clearance[i].delta > 1e-9 + 1e-3 * clearance[i])
+        if (!run->memory.latch[i].closed && run->aside.clearance[i].delta > min_of(1e-9, 1e-6 * deepest[i]) + 1e-3 * clearance[i])
             return LOST;
     return 0;
 }

@@ -6,7 +6,6 @@
 static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
-    (void)memory;
     /* coordinates, velocities, time */
     const double crank_x = q[0];
     const double crank_y = q[1];
@@ -405,7 +404,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         rhs[8] = rhs_pivot_x;
         rhs[9] = rhs_pivot_y;
         rhs[10] = rhs_motor;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = -aside->lambda[10]*motor_rate;

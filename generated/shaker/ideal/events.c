@@ -159,7 +159,7 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
 static int is_pole(Run *run, const Step *step, double share, int k, const Parameters *p)
 {
     const double near = margin_at(run, step, share, k, p);
-    const double far = margin_at(run, step, share + 64.0 * root_width(step), k, p);
+    const double far = margin_at(run, step, share + 64.0 * root_width(run, step), k, p);
     return isinf(near) || fabs(near) > 2.0 * fabs(far);
 }
 

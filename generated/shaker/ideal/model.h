@@ -32,6 +32,20 @@ enum {
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {    double omega;  /* parameters.omega */    double tilt;  /* parameters.tilt */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double table_mass;  /* bodies.table.mass */    double table_inertia;  /* bodies.table.inertia */    double arm_mass;  /* bodies.arm.mass */    double arm_inertia;  /* bodies.arm.inertia */    double crank_length;  /* bodies.crank.length */    double rod_length;  /* bodies.rod.length */    double table_points_top_y;  /* bodies.table.points.top.y */    double arm_length;  /* bodies.arm.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double guide_axis_y;  /* joints.guide.axis.y */    double par_y;  /* gravity.y */    double guess_rod_theta;  /* start.guess.rod.theta */    double set_arm_theta;  /* start.set.arm.theta */    double crank_head_x;  /* point from the centre of mass */    double rod_head_x;  /* point from the centre of mass */    double arm_head_x;  /* point from the centre of mass */    double weight_crank_y;  /* weight */    double weight_rod_y;  /* weight */    double weight_table_y;  /* weight */    double weight_arm_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_arm_mass;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_table_mass;  /* 1/M */    double inverse_arm_inertia;  /* 1/M */    double inverse_table_inertia;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double crank_head_span_x;  /* vector in its frame */    double rod_head_span_x;  /* vector in its frame */    double table_top_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_rod;  /* sum of m w.w */    double inertia_rod_rod;  /* sum of m w.w */    double inertia_crank_arm;  /* sum of m w.w */    double inertia_rod_arm;  /* sum of m w.w */    double inertia_arm_arm;  /* sum of m w.w */    double mass_motor_motor;  /* constant of M */    double mass_rod_rod;  /* constant of M */    double mass_arm_arm;  /* constant of M */    double weight_crank__across;  /* weight */    double weight_rod__across;  /* weight */    double weight_arm__across;  /* weight */    double inverse_mass_arm_arm;  /* 1/M */} Parameters;
 
+enum { STOPPED = -10, STALLED = -11 }; /* statuses: no longer wanted; no longer advances */
+
+/*
+ * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
+ * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
+ */
+typedef struct {
+    int (*ask)(void *whom); /* nonzero: stop */
+    void *whom;
+    double every, last, next; /* s; when the clock was read, when the next question is due */
+    long count, look;
+    int stop, hold; /* not wanted any more; what is under way comes to its end first */
+} Asked;
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;
@@ -55,6 +69,7 @@ typedef struct {
     double side[1];
     signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
+    Asked *asked; /* NULL: nobody */
     Chain chain, recent; /* at the last state that was accepted; where they were found last */
 } Memory;
 

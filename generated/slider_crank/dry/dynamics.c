@@ -265,7 +265,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         rhs[4] = rhs_cylinder_offset;
         rhs[5] = rhs_cylinder_angle;
         rhs[6] = rhs_motor;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = -aside->lambda[6]*motor_rate;

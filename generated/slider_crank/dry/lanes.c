@@ -226,14 +226,14 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 
     /* directions, arms, drives */
     const Lanes motor_value = omega*time;
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(motor_value, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_crank = cosine_0;
-    const Lanes sin_theta_crank = sine_0;
-    const Lanes cos_theta_rod = cosine_1;
-    const Lanes sin_theta_rod = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(motor_value, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank = cosines_0;
+    const Lanes sin_theta_crank = sines_0;
+    const Lanes cos_theta_rod = cosines_1;
+    const Lanes sin_theta_rod = sines_1;
     const Lanes motor_rate = omega;
     const Lanes motor_acceleration = all_of(0.0);
     const Lanes slider_omega = all_of(0.0);
@@ -612,7 +612,8 @@ int gudgeon_lane_count(void) { return LANES; }
 /*
  * Runs number[k] (LANES of them, -1: none), which have the same step and have come equally far, each in a memory of
  * its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes on alone
- * from where it is (gudgeon_many), because it has come to its end, is the last, or most steps are rare.
+ * from where it is (gudgeon_many), because it has come to its end, is the last, most steps are rare, or the batch is
+ * ending.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
@@ -628,7 +629,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     }
     mirror(&side);
     while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
-        if (side.b->done[side.number[first_of(&side)]] == side.b->samples) {
+        if (side.b->done[side.number[first_of(&side)]] == side.b->samples || *side.b->ending) {
             together = 0;
             break;
         }

@@ -13,6 +13,7 @@ typedef struct {
     double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[7], rest[7];
     double norm[7];
     int order[7];
+    Asked *asked;
 } Workspace;
 
 static double dot(const double *a, const double *b)
@@ -37,11 +38,13 @@ static void remove_component(Workspace *w, int rank, int first)
     }
 }
 
-/* Orders the rows, the largest remainder first; returns how many are independent. */
+/* Orders the rows, the largest remainder first; returns how many are independent, -1: it is no longer wanted. */
 static int independent_rows(Workspace *w, double least)
 {
     int rank = 0;
     for (; rank < N_ROWS; rank++) {
+        if (w->asked && ask_now(w->asked))
+            return -1;
         int best = rank;
         double most = 0.0;
         for (int i = rank; i < N_ROWS; i++) {
@@ -86,10 +89,12 @@ static void fill_workspace(Workspace *w, double t, const double *q, const Parame
     }
 }
 
-/* y and lambda by the rows that are independent to `least`; 1 if the others agree to `tolerance`. */
+/* y and lambda by the rows that are independent to `least`; 1 if the others agree to `tolerance`, else 0 or STOPPED. */
 static int solve_independent(Workspace *w, double least, double tolerance, double *lambda)
 {
     const int rank = independent_rows(w, least);
+    if (rank < 0)
+        return STOPPED;
     for (int k = 0; k < rank; k++) { /* forward: coordinates along the basis */
         const int row = w->order[k];
         const double along = w->rest[row] / w->lower[row][k];
@@ -117,15 +122,21 @@ static int solve_independent(Workspace *w, double least, double tolerance, doubl
 
 /* a and lambda; `rhs` holds gamma - 2 alpha Phi_dot - beta^2 Phi, `force` is g. */
 static int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
-    double *a, double *lambda, int pivot)
+    double *a, double *lambda, int pivot, const Memory *memory)
 {
     static const double least[] = {1e-08, 1e-13}, tolerance[] = {1e-3, 1e-6};
     Workspace *w = malloc(sizeof(Workspace));
     int status = pivot;
     for (int pass = 0; w && status && pass < 2; pass++) {
         fill_workspace(w, t, q, p, force, rhs);
-        if (!solve_independent(w, least[pass], tolerance[pass], lambda))
+        w->asked = memory->asked;
+        status = solve_independent(w, least[pass], tolerance[pass], lambda);
+        if (status == STOPPED)
+            break;
+        if (!status) {
+            status = pivot;
             continue;
+        }
         status = 0;
         for (int k = 0; k < N_Q; k++) {
             a[k] = w->y[k] / w->root[k];

@@ -6,7 +6,6 @@
 static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
-    (void)memory;
     /* coordinates, velocities, time */
     const double crank_x = q[0];
     const double crank_y = q[1];
@@ -303,7 +302,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         rhs[6] = rhs_cylinder_offset;
         rhs[7] = rhs_cylinder_angle;
         rhs[8] = rhs_motor;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = -aside->lambda[8]*motor_rate;

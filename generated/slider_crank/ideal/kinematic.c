@@ -2,10 +2,11 @@
  * No degree of freedom is left: at every time the drives say where everything is. Nothing is integrated; the motion
  * is followed from sample to sample so that it stays on its branch.
  */
-enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, PULSE_HALVINGS = 30, NEWTON_FAILED = -1 };
+enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30, NEWTON_FAILED = -1, LEAST_DOUBLED = 1 << 18 };
 
 /* A place on the way: the motion of all bodies at a time, the largest |Phi| and |Phi_dot| there. */
 typedef struct {
+    Asked *asked;
     double t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot;
     double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
 } Place;
@@ -15,6 +16,47 @@ typedef struct {
     double reach, extent, h;
     int halvings;
 } Stride;
+
+/* What doubling the number of steps gained: the number at which it is looked at next, s, how often in a row no more. */
+typedef struct {
+    double t, gain, next;
+    int falling;
+} Doubling;
+
+/* A run of many calls: where it is to end, where its motion and its works are, whom it asks, its pace. */
+typedef struct {
+    double reach, extent, t_end;
+    Asked asked;
+    Pace pace;
+    Doubling doubling;
+    Place motion, work;
+    int motion_begun, work_begun;
+} Course;
+
+size_t gudgeon_course_size(void) { return sizeof(Course); }
+
+/* `reach` and `extent` as in Stride; `ask` is called with `whom` each `every` seconds (0: at each step). */
+void gudgeon_course_begin(void *memory, double reach, double extent, double t_end, int (*ask)(void *), void *whom,
+    double every)
+{
+    Course *course = memory;
+    *course = (Course){.reach = reach, .extent = extent, .t_end = t_end, .doubling.next = 1024.0};
+    set_asked(&course->asked, ask, whom, every);
+}
+
+/* The motion is begun anew at the next call, from a row that is given there. */
+void gudgeon_course_again(void *memory) { ((Course *)memory)->motion_begun = 0; }
+
+/* How far motion and works got, s; s that its last steps gained, how many they are, whether they are far shorter. */
+void gudgeon_course_pace(const void *memory, double *t, double *gained, long *steps)
+{
+    const Course *course = memory;
+    t[0] = course->motion.t;
+    t[1] = course->work_begun ? course->work.t : NAN;
+    *gained = course->pace.gain;
+    steps[0] = PACE_STEPS;
+    steps[1] = course->pace.crawls;
+}
 
 /* The larger one; NaN stays. */
 static double larger(double most, double x) { return x > most || isnan(x) ? x : most; }
@@ -183,8 +225,8 @@ static const unsigned char is_angle[] = {1};
 /* Powers, and accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
 static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
 {
-    const int status = reduced_dynamics(here->t, here->s, here->s_rate, &(Memory){0}, p, a, aside);
-    return status ? N_LOOPS + status : 0;
+    const int status = reduced_dynamics(here->t, here->s, here->s_rate, &(Memory){.asked = here->asked}, p, a, aside);
+    return status > 0 ? N_LOOPS + status : status;
 }
 
 /*
@@ -218,6 +260,7 @@ static int place_at(double t, const Parameters *p, double extent, const Place *f
 {
     const double h = t - from->t;
     *moved = 0.0;
+    to->asked = from->asked;
     to->t = t;
     for (int k = 0; k < N_X; k++)
         to->s[k] = from->s[k] + h * (from->s_rate[k] + 0.5 * h * from->s_second[k]);
@@ -250,8 +293,8 @@ static int begin(double t, const double *q, const double *v, const Parameters *p
     for (int k = 0; k < N_X; k++)
         here->s_second[k] = 0.0;
     here->phi = here->phi_dot = 0.0;
-    const int status = dynamics(t, q, v, &(Memory){0}, p, here->a, &aside);
-    return status ? N_LOOPS + status : 0;
+    const int status = dynamics(t, q, v, &(Memory){.asked = here->asked}, p, here->a, &aside);
+    return status > 0 ? N_LOOPS + status : status;
 }
 
 /* What the trapezoidal rule leaves over between two places: the angle that it is worth (rad), lengths by the size. */
@@ -284,8 +327,12 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
     for (;;) {
         Place there;
         double moved = 0.0, bent = 0.0;
+        if (given_up(here->asked))
+            return STOPPED;
         const double next = here->t + stride->h < t1 ? here->t + stride->h : t1;
         const int status = next > here->t ? place_at(next, p, stride->extent, here, &there, &moved) : NEWTON_FAILED;
+        if (status == STOPPED)
+            return status;
         const int near = !status && moved <= stride->reach;
         if (near)
             bent = bend_between(here, &there, stride->extent);
@@ -316,53 +363,99 @@ static int follow(double t1, const Parameters *p, double reach, double extent, P
     return 0;
 }
 
-/* n samples at the given times; q, v and a have n + 1 rows, the first of q and v holds the start at t[0]. */
-int gudgeon_kinematic(long n, const double *t, const double *parameters, double reach, double extent, double *q,
-    double *v, double *a, double *phi_max, double *phi_dot_max, long *steps, long *done)
+/*
+ * Whether a drive outruns all steps: where it grows at least exponentially, twice as many of them gain no more time
+ * than the last doubling did, so that so many doublings are left.
+ */
+static int is_outrun(Doubling *x, double steps, double t, double t_end)
 {
-    const Parameters *p = (const Parameters *)parameters;
-    Place here;
-    *done = 0;
-    int status = begin(t[0], q, v, p, &here);
-    for (long i = 0; i <= n; i++) {
-        if (!status && i > 0) {
-            status = follow(t[i], p, reach, extent, &here, steps);
-            if (!status)
-                status = settle(p, &here);
-        }
+    if (steps < x->next)
+        return 0;
+    const double gain = t - x->t;
+    x->falling = gain <= x->gain ? x->falling + 1 : 0;
+    x->t = t;
+    x->gain = gain;
+    x->next = 2.0 * steps;
+    return steps >= LEAST_DOUBLED && x->falling > 3 && steps * exp2((t_end - t) / gain) > HOPELESS;
+}
+
+/* The same, of a run whose pace is watched. */
+static int advance(Course *course, double t1, const Parameters *p, Place *here, long *steps)
+{
+    Stride stride = {course->reach, course->extent, t1 - here->t, 0};
+    while (here->t < t1) {
+        const int status = step_on(&stride, t1, p, here);
         if (status)
             return status;
+        ++*steps;
+        if (creeps(&course->pace, here->t, course->t_end))
+            return STALLED;
+        if (is_outrun(&course->doubling, (double)course->pace.steps, here->t, course->t_end)) {
+            course->pace.crawls = 1;
+            return STALLED;
+        }
+    }
+    return settle(p, here);
+}
+
+/*
+ * n samples at the given times; q, v and a have n + 1 rows, the first of q and v holds what is known at t[0]: the
+ * start, or where the last call came to. `done` is the last row that is complete, whatever is returned.
+ */
+int gudgeon_kinematic(void *memory, long n, const double *t, const double *parameters, double *q, double *v, double *a,
+    double *phi_max, double *phi_dot_max, long *steps, long *done)
+{
+    Course *course = memory;
+    const Parameters *p = (const Parameters *)parameters;
+    Place *here = &course->motion;
+    *done = 0;
+    for (long i = course->motion_begun; i <= n; i++) {
+        here->asked = &course->asked;
+        const int status = i > 0 ? advance(course, t[i], p, here, steps) : begin(t[0], q, v, p, here);
+        if (status)
+            return status;
+        course->motion_begun = 1;
         for (int k = 0; k < N_Q; k++) {
             if (i > 0) {
-                q[i * N_Q + k] = here.q[k];
-                v[i * N_Q + k] = here.v[k];
+                q[i * N_Q + k] = here->q[k];
+                v[i * N_Q + k] = here->v[k];
             }
-            a[i * N_Q + k] = here.a[k];
+            a[i * N_Q + k] = here->a[k];
         }
-        *phi_max = max_of(here.phi, *phi_max);
-        *phi_dot_max = max_of(here.phi_dot, *phi_dot_max);
+        *phi_max = max_of(here->phi, *phi_max);
+        *phi_dot_max = max_of(here->phi_dot, *phi_dot_max);
         *done = i;
     }
     return 0;
 }
 
-/* Powers at a place; a status as that of settle. */
-static int powers(const Parameters *p, const Place *here, double *power)
+/* Powers at a place, and the accelerations of all bodies; a status as that of settle. */
+static int powers(const Parameters *p, Place *here, double *power)
 {
     Aside aside;
-    double a[N_Q];
+    double a[N_X + 1];
     const int status = solve_motion(p, here, a, &aside);
     for (int k = 0; k < N_WORK; k++)
         power[k] = aside.power[k];
     return status;
 }
 
-/* Works between two places that are one step apart: quadrature of Gauss and Legendre with three nodes. */
-static int work_between(const Parameters *p, double extent, const Place *a, double t1, double *work)
+/* A rate, as the angle that it is worth: lengths as shares of the mechanism's size. */
+static double turn(const double *v, int k, double extent) { return k % 3 == 2 ? fabs(v[k]) : fabs(v[k]) / extent; }
+
+/*
+ * Works between two places that are one step apart: quadrature of Gauss and Legendre with three nodes. `jumped`: the
+ * velocities change by more than the accelerations on the way say, so that the rate of a drive jumps, or nearly so.
+ */
+static int work_between(const Parameters *p, double extent, const Place *a, const Place *b, double least, double *work,
+    int *jumped)
 {
     static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
     static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
-    const double half = 0.5 * (t1 - a->t);
+    const double half = 0.5 * (b->t - a->t);
+    double missed[N_Q], most = 0.0, scale = 0.0;
+    for (int k = 0; k < N_Q; k++)
+        missed[k] = b->v[k] - a->v[k];
     for (int i = 0; i < 3; i++) {
         Place at;
         double power[N_WORK], moved;
@@ -373,20 +466,79 @@ static int work_between(const Parameters *p, double extent, const Place *a, doub
             return status;
         for (int k = 0; k < N_WORK; k++)
             work[k] += half * weight[i] * power[k];
+        for (int k = 0; k < N_Q; k++) {
+            missed[k] -= half * weight[i] * at.a[k];
+            scale = larger(scale, half * turn(at.a, k, extent));
+        }
     }
+    for (int k = 0; k < N_Q; k++)
+        most = larger(most, turn(missed, k, extent));
+    *jumped = most > least && most > 1e-6 * scale;
     return 0;
 }
 
-/* Works from the first of n + 1 samples on, (n + 1) x N_WORK, of which the first row is given. */
-int gudgeon_kinematic_works(long n, const double *t, const double *parameters, double reach, double extent,
-    const double *q, const double *v, double *work, long *done)
+/* Of all bodies, J. */
+static double kinetic_energy_at(const Parameters *p, const Place *at)
 {
+    double m[N_Q], sum = 0.0;
+    mass_matrix(p, m);
+    for (int k = 0; k < N_Q; k++)
+        sum += 0.5 * m[k] * at->v[k] * at->v[k];
+    return sum;
+}
+
+/*
+ * The same, halved where velocities jump until nothing is left to halve: what kinetic energy gains there is the work
+ * of the impulse with which the drives change the velocities. `halvings` are left for the whole step.
+ */
+static int work_across(const Parameters *p, double extent, const Place *a, const Place *b, double least, int *halvings,
+    double *work)
+{
+    double part[N_WORK] = {0.0}, moved;
+    int jumped;
+    int status = work_between(p, extent, a, b, least, part, &jumped);
+    const double t = a->t + 0.5 * (b->t - a->t);
+    if (status)
+        return status;
+    const int wide = t > a->t && t < b->t;
+    if (jumped && wide && *halvings > 0) {
+        Place middle;
+        --*halvings;
+        status = place_at(t, p, extent, a, &middle, &moved);
+        if (!status)
+            status = work_across(p, extent, a, &middle, least, halvings, work);
+        return status ? status : work_across(p, extent, &middle, b, least, halvings, work);
+    }
+    if (jumped && !wide)
+        part[0] = kinetic_energy_at(p, b) - kinetic_energy_at(p, a);
+    for (int k = 0; k < N_WORK; k++)
+        work[k] += part[k];
+    return 0;
+}
+
+/* Of one step; speeds that change by less than a billionth of what they are do not jump. */
+static int work_of_step(const Parameters *p, double extent, const Place *a, const Place *b, double *work)
+{
+    int halvings = MAX_SPLITS;
+    double speed = 0.0;
+    for (int k = 0; k < N_Q; k++)
+        speed = larger(speed, larger(turn(a->v, k, extent), turn(b->v, k, extent)));
+    return work_across(p, extent, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
+}
+
+/* Works from the first of n + 1 samples on, (n + 1) x N_WORK, of which the first row is given. */
+int gudgeon_kinematic_works(void *memory, long n, const double *t, const double *parameters, const double *q,
+    const double *v, double *work, long *done)
+{
+    Course *course = memory;
+    const double extent = course->extent;
     const Parameters *p = (const Parameters *)parameters;
-    Place here;
+    Place here = course->work;
+    here.asked = &course->asked;
     *done = 0;
-    int status = begin(t[0], q, v, p, &here);
+    int status = course->work_begun ? 0 : begin(t[0], q, v, p, &here);
     for (long i = 0; i < n && !status; i++) {
-        Stride stride = {reach, extent, t[i + 1] - t[i], 0};
+        Stride stride = {course->reach, extent, t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;
         for (int k = 0; k < N_WORK; k++)
             sum[k] = work[i * N_WORK + k];
@@ -394,9 +546,11 @@ int gudgeon_kinematic_works(long n, const double *t, const double *parameters, d
             const Place before = here;
             status = step_on(&stride, t[i + 1], p, &here);
             if (!status)
-                status = work_between(p, extent, &before, here.t, sum);
+                status = work_of_step(p, extent, &before, &here, sum);
         }
         *done = i + !status;
     }
+    course->work = here;
+    course->work_begun = 1;
     return status;
 }

@@ -30,6 +30,20 @@ enum {
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {    double omega;  /* parameters.omega */    double c;  /* parameters.c */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double slider_mass;  /* bodies.slider.mass */    double slider_inertia;  /* bodies.slider.inertia */    double crank_length;  /* bodies.crank.length */    double rod_length;  /* bodies.rod.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double cylinder_axis_x;  /* joints.cylinder.axis.x */    double guess_slider_x;  /* start.guess.slider.x */    double crank_head_x;  /* point from the centre of mass */    double rod_head_x;  /* point from the centre of mass */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_slider_mass;  /* 1/M */    double inverse_slider_inertia;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double crank_head_span_x;  /* vector in its frame */    double rod_head_span_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_rod;  /* sum of m w.w */    double inertia_rod_rod;  /* sum of m w.w */    double mass_motor_motor;  /* constant of M */    double mass_rod_rod;  /* constant of M */    double inverse_mass_rod_rod;  /* 1/M */} Parameters;
 
+enum { STOPPED = -10, STALLED = -11 }; /* statuses: no longer wanted; no longer advances */
+
+/*
+ * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
+ * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
+ */
+typedef struct {
+    int (*ask)(void *whom); /* nonzero: stop */
+    void *whom;
+    double every, last, next; /* s; when the clock was read, when the next question is due */
+    long count, look;
+    int stop, hold; /* not wanted any more; what is under way comes to its end first */
+} Asked;
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;
@@ -47,6 +61,7 @@ typedef struct {
     double side[1];
     signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
+    Asked *asked; /* NULL: nobody */
 } Memory;
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */

@@ -6,7 +6,6 @@
 static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
-    (void)memory;
     /* coordinates, velocities, time */
     const double crank_x = q[0];
     const double crank_y = q[1];
@@ -199,7 +198,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
         rhs[2] = rhs_pin_x;
         rhs[3] = rhs_pin_y;
         rhs[4] = rhs_slider_offset;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot);
+        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
     aside->power[0] = 0.0;

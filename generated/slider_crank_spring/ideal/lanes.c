@@ -85,12 +85,12 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     const Lanes rod_com_span_x = p->rod_com_span_x;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes sin_theta_crank = sine_0;
-    const Lanes sin_theta_rod = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes sin_theta_crank = sines_0;
+    const Lanes sin_theta_rod = sines_1;
     const Lanes span_crank_head_y = crank_length*sin_theta_crank;
     const Lanes span_rod_com_y = rod_com_span_x*sin_theta_rod;
 
@@ -116,12 +116,12 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     const Lanes rod_com_span_x = p->rod_com_span_x;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_crank = cosine_0;
-    const Lanes cos_theta_rod = cosine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank = cosines_0;
+    const Lanes cos_theta_rod = cosines_1;
     const Lanes span_crank_head_x = cos_theta_crank*crank_length;
     const Lanes span_rod_com_x = cos_theta_rod*rod_com_span_x;
 
@@ -160,14 +160,14 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes inverse_mass_crank_crank = p->inverse_mass_crank_crank;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_crank = cosine_0;
-    const Lanes sin_theta_crank = sine_0;
-    const Lanes cos_theta_rod = cosine_1;
-    const Lanes sin_theta_rod = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank = cosines_0;
+    const Lanes sin_theta_crank = sines_0;
+    const Lanes cos_theta_rod = cosines_1;
+    const Lanes sin_theta_rod = sines_1;
     const Lanes span_crank_head_x = cos_theta_crank*crank_length;
     const Lanes span_crank_head_y = crank_length*sin_theta_crank;
     const Lanes crank_head_vx = -crank_omega*span_crank_head_y;
@@ -265,14 +265,14 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes inverse_mass_crank_crank = p->inverse_mass_crank_crank;
 
     /* directions, arms, drives */
-    Lanes sine_0, cosine_0;
-    sines_and_cosines(crank_theta, &sine_0, &cosine_0, rare);
-    Lanes sine_1, cosine_1;
-    sines_and_cosines(rod_theta, &sine_1, &cosine_1, rare);
-    const Lanes cos_theta_crank = cosine_0;
-    const Lanes sin_theta_crank = sine_0;
-    const Lanes cos_theta_rod = cosine_1;
-    const Lanes sin_theta_rod = sine_1;
+    Lanes sines_0, cosines_0;
+    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    Lanes sines_1, cosines_1;
+    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank = cosines_0;
+    const Lanes sin_theta_crank = sines_0;
+    const Lanes cos_theta_rod = cosines_1;
+    const Lanes sin_theta_rod = sines_1;
     const Lanes span_crank_head_x = cos_theta_crank*crank_length;
     const Lanes span_crank_head_y = crank_length*sin_theta_crank;
     const Lanes span_rod_com_x = cos_theta_rod*rod_com_span_x;
@@ -617,7 +617,8 @@ int gudgeon_lane_count(void) { return LANES; }
 /*
  * Runs number[k] (LANES of them, -1: none), which have the same step and have come equally far, each in a memory of
  * its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes on alone
- * from where it is (gudgeon_many), because it has come to its end, is the last, or most steps are rare.
+ * from where it is (gudgeon_many), because it has come to its end, is the last, most steps are rare, or the batch is
+ * ending.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
@@ -633,7 +634,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     }
     mirror(&side);
     while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
-        if (side.b->done[side.number[first_of(&side)]] == side.b->samples) {
+        if (side.b->done[side.number[first_of(&side)]] == side.b->samples || *side.b->ending) {
             together = 0;
             break;
         }

@@ -30,6 +30,20 @@ enum {
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double crank_length;  /* bodies.crank.length */    double crank_points_middle_x;  /* bodies.crank.points.middle.x */    double rod_points_crankpin_x;  /* bodies.rod.points.crankpin.x */    double rod_points_middle_x;  /* bodies.rod.points.middle.x */    double rod_points_tip_x;  /* bodies.rod.points.tip.x */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slider_direction_x;  /* joints.slider.direction.x */    double coil_stiffness;  /* forces.coil.stiffness */    double coil_free_length;  /* forces.coil.free_length */    double coil_damping;  /* forces.coil.damping */    double push_value_x;  /* forces.push.value.x */    double guess_rod_theta;  /* start.guess.rod.theta */    double guess_rod_x;  /* start.guess.rod.x */    double set_crank_theta;  /* start.set.crank.theta */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_rod_mass;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double rod_com_span_x;  /* vector in its frame */    double rod_middle_span_x;  /* vector in its frame */    double rod_tip_span_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_rod;  /* sum of m w.w */    double inertia_rod_rod;  /* sum of m w.w */    double mass_crank_crank;  /* constant of M */    double mass_rod_rod;  /* constant of M */    double inverse_mass_crank_crank;  /* 1/M */} Parameters;
 
+enum { STOPPED = -10, STALLED = -11 }; /* statuses: no longer wanted; no longer advances */
+
+/*
+ * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
+ * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
+ */
+typedef struct {
+    int (*ask)(void *whom); /* nonzero: stop */
+    void *whom;
+    double every, last, next; /* s; when the clock was read, when the next question is due */
+    long count, look;
+    int stop, hold; /* not wanted any more; what is under way comes to its end first */
+} Asked;
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;
@@ -47,6 +61,7 @@ typedef struct {
     double side[1];
     signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
     int held;
+    Asked *asked; /* NULL: nobody */
 } Memory;
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */

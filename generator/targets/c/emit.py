@@ -51,15 +51,20 @@ int gudgeon_newton(double t, const double *y, const double *memory, const double
 """
 TREE_NEWTON_CDEF = NEWTON_CDEF.replace("gudgeon_jacobian", "gudgeon_tree_jacobian")
 EVENTS_CDEF = """\
-int gudgeon_kinematic_events(long n, const double *t, const double *parameters, double reach, double extent,
-    const double *q, const double *v, double start, int stop, signed char *side, long capacity, double *at,
-    int *event, long *found, long *done);
+int gudgeon_kinematic_events(void *memory, long n, const double *t, const double *parameters, const double *q,
+    const double *v, double start, int stop, signed char *side, long capacity, double *at, int *event, long *found,
+    long *done);
 """
 KINEMATIC_CDEF = """\
-int gudgeon_kinematic(long n, const double *t, const double *p, double reach, double extent, double *q, double *v,
-    double *a, double *phi_max, double *phi_dot_max, long *steps, long *done);
-int gudgeon_kinematic_works(long n, const double *t, const double *p, double reach, double extent, const double *q,
-    const double *v, double *work, long *done);
+size_t gudgeon_course_size(void);
+void gudgeon_course_begin(void *memory, double reach, double extent, double t_end, int (*ask)(void *), void *whom,
+    double every);
+void gudgeon_course_again(void *memory);
+void gudgeon_course_pace(const void *memory, double *t, double *gained, long *steps);
+int gudgeon_kinematic(void *memory, long n, const double *t, const double *p, double *q, double *v, double *a,
+    double *phi_max, double *phi_dot_max, long *steps, long *done);
+int gudgeon_kinematic_works(void *memory, long n, const double *t, const double *p, const double *q, const double *v,
+    double *work, long *done);
 """
 METHOD_CDEF = """\
 size_t gudgeon_run_size(void);
@@ -71,6 +76,8 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
     double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state);
 void gudgeon_run_stop(void *memory, int stop);
+void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every);
+void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended);
 int gudgeon_run_events(void *memory, double *t, int *event);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
 void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *least, double fixed);
@@ -89,6 +96,7 @@ typedef struct {
     double *t_last, *last, *seconds;
     long *counts;
     double *residuals, *peaks;
+    const int *ending;
 } Batch;
 int gudgeon_many(const void *batch, void *memory, long *current, long end);
 """
@@ -127,6 +135,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     kernels = [*right_hand_side, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
     files = {
         "model.h": render("model.h.jinja", **_header(model), **counts),
+        "asked.c": render("asked.c.jinja"),
         "trigonometry.c": render("trigonometry.c.jinja", vector="Four", bits="FourBits", given="*angle"),
         "parameters.c": _kernels(prepare),
         "constraints.c": _kernels(*around),

@@ -156,7 +156,7 @@ def integrator_loops(
         ),
         "dop853.c": render("dop853.c.jinja", **_dop853()),
         "rodas5p.c": render("rodas5p.c.jinja", state=integrated.state("run"), **chain, **_rodas5p()),
-        "roots.c": render("roots.c.jinja", **counts),
+        "roots.c": render("roots.c.jinja", **common),
         "pulses.c": render("pulses.c.jinja", n_terms=count_terms(terms), **_places()),
         "watched.c": _watched_code(integrated, counts, render),
         "events.c": render("events.c.jinja", **common),

@@ -36,7 +36,7 @@ class RangesPrinter(printer.CPrinter):
     def _print_Add(self, expr: sp.Expr, order: object = None) -> str:
         if not expr.free_symbols:
             return str(super()._print_Add(expr))
-        return self._chained("add", expr.as_ordered_terms())
+        return self._chained("add", tuple(expr.as_ordered_terms()))
 
     def _print_Mul(self, expr: sp.Expr) -> str:
         if not expr.free_symbols:
@@ -65,7 +65,7 @@ class RangesPrinter(printer.CPrinter):
     def _nested(self, function: str, expr: sp.Expr) -> str:
         if not expr.free_symbols:
             return super()._nested(function, expr)
-        return self._chained(function, sorted(expr.args, key=lambda a: (a.is_Number, str(a))))
+        return self._chained(function, tuple(sorted(expr.args, key=lambda a: (a.is_Number, str(a)))))
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         return self._call("heaviside", expr.args[0])
