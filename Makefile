@@ -39,6 +39,7 @@ types: setup-test
 fuzz: setup-test  ## mutated expressions and files; ARGS="--count 1000000"; guided by coverage where atheris is installed
 	@.venv/bin/python -m tests.fuzz expression $(ARGS)
 	@.venv/bin/python -m tests.fuzz reader $(ARGS)
+	@.venv/bin/python -m tests.fuzz compile $(if $(ARGS),$(ARGS),--count 300)
 
 bench: setup  ## run time against error; one right-hand side beside the hand-written C
 	@$(GUDGEON) bench nine_bar_press --mark-step 0.1ms $(ARGS)

@@ -47,8 +47,19 @@ def check_dimension(
     if isinstance(found, _Flexible):
         return expected
     if expected is not None and found != expected:
-        raise UnitError(f"expected {describe(expected)}, got {describe(found)}", where)
+        raise UnitError(f"expected {describe(expected)}, got {describe(found)}", where, _of_a_divisor(expr, expected))
     return found
+
+
+def _of_a_divisor(expr: Expr, expected: Dimension) -> str:
+    """What to write for `1/12 kg*m^2`, which is 1/(12 kg*m^2)."""
+    if not (isinstance(expr, Binary) and expr.operator == "/" and isinstance(expr.right, Number)):
+        return ""
+    number, _, word = expr.right.text.partition(" ")
+    known = unit(word) if expr.right.has_unit else None
+    if known is None or known.dimension != expected:
+        return ""
+    return f"a unit belongs to the number before it: write 1 {word} * …, or (…)/{number} * 1 {word}"
 
 
 def _is_of_time_alone(expr: Expr) -> bool:

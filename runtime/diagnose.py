@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 
-from gudgeon import hidden_jumps
 from gudgeon.compiled import CompiledModel, Evaluation
 from gudgeon.dead_centre import dependent_rows
 from gudgeon.diagnostics import Diagnostics, Peak
@@ -73,8 +72,6 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
             f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
             " anything; a step too long does this, or a drive that pushes the links through a dead centre"
         )
-    if len(trajectory.t):
-        notes += hidden_jumps.notes(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
     if compiled.source.events and ":" in problem.method:
         notes.append(f"events are not watched by method {problem.method}")
     for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):

@@ -1,19 +1,21 @@
 """Corners and jumps of drives that their form does not show: `acos(cos(t))`, `atan2`, a root that touches zero.
 
 What is written with abs, min, max or ramp, or is the root of a square, has its corners found by the generator, and a
-step ends there. What is left is looked for by values, of those drives that have a function which may hide it:
-where the second differences of f on an even grid stand out they are followed to ever shorter distances h. They go with
-h² where f is smooth, with h where its rate jumps, more slowly where the rate is infinite, and stay where f itself jumps.
+step ends there. What is left is looked for by values, of drives that have a function which may hide it.
+Where the second differences of f on an even grid stand out they are followed to ever shorter distances h. They go
+with h² where f is smooth, with h where its rate jumps, more slowly where that is infinite, and stay where f jumps.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from gudgeon.compiled import Array
+from gudgeon.errors import SolverError
 from gudgeon.expression_tree import Binary, Call, Expr, Number, Unary, functions
+from gudgeon.integrators.trajectory import Problem
 from gudgeon.kernel_source import KernelSource
 from gudgeon.written import of_time, trees
 
@@ -37,27 +39,35 @@ def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[J
     """Of all drives between two times (s), in time's order; at most MOST a drive."""
     found = []
     for info, tree in trees(source, ("drives",)):
-        if t1 > t0 and _hides(tree) and VISIBLE.isdisjoint(functions(tree)):
+        drive = info.address.split(".")[1]
+        if t1 > t0 and _hides(tree) and drive not in source.rate_jumps and VISIBLE.isdisjoint(functions(tree)):
             with np.errstate(all="ignore"):
-                found += _jumps(source, p, tree, info.address.split(".")[1], t0, t1)
+                found += _jumps(source, p, tree, drive, t0, t1)
     return sorted(found, key=lambda jump: jump.t)
 
 
-def notes(source: KernelSource, p: Array, t0: float, t1: float) -> list[str]:
-    """What a run says of them, a line a drive."""
-    jumps: dict[str, list[Jump]] = {}
-    for jump in hidden_jumps(source, p, t0, t1):
-        jumps.setdefault(jump.drive, []).append(jump)
-    return [_told(drive, of_drive) for drive, of_drive in jumps.items()]
+def up_to_a_jump(problem: Problem) -> tuple[Problem, SolverError | None]:
+    """A run that is to end where the first of them is, and the error that it then ends with.
+
+    Nothing is found where nothing is free: what a drive's rate does there the linkage follows, its work is counted.
+    """
+    source = problem.compiled.source
+    if not source.drives or source.methods == ("kinematic",):
+        return problem, None
+    t0 = float(problem.t[0])
+    first = next((jump for jump in hidden_jumps(source, problem.p, t0, float(problem.t[-1])) if jump.t > t0), None)
+    if first is None:
+        return problem, None
+    return replace(problem, t=problem.t[problem.t < first.t]), SolverError(_told(first), first.t)
 
 
-def _told(drive: str, jumps: list[Jump]) -> str:
-    first, more = jumps[0], f" and {len(jumps) - 1} times more" if len(jumps) > 1 else ""
-    how = {"rate": f"its rate jumps by {first.size:.4g}", "infinite rate": "its rate is infinite"}
-    what = how.get(first.kind, f"it jumps by {first.size:.4g}")
+def _told(jump: Jump) -> str:
+    how = {"rate": f"its rate jumps by about {jump.size:.3g}", "infinite rate": "its rate is infinite"}
+    what = how.get(jump.kind, f"it jumps by {jump.size:.4g}")
     return (
-        f"drive {drive}: {what} at t = {first.t:.6g} s{more}, which its form does not show: no impulse moves the"
-        " linkage there; write it with abs, min, max or ramp, whose corners are found"
+        f"drive {jump.drive}: {what} at t = {jump.t:.6g} s, which its form does not show: the"
+        " impulse there would be left out\n"
+        "  write it with abs, min, max or ramp, whose corners are found, or end the run before"
     )
 
 
@@ -80,7 +90,8 @@ def _jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1
     around = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(bent, 8, mode="edge"), 17), axis=1)
     share = bent / (around + 1e-14 * np.abs(f).max(initial=0.0) + 1e-300)
     outstanding = [k for k in np.argsort(-share, kind="stable")[: 4 * MOST].tolist() if share[k] > 3.0]
-    h, found = (t1 - t0) / GRID, []
+    found: list[Jump] = []
+    h = (t1 - t0) / GRID
     for k in outstanding:
         at = t0 + (k + 1) * h
         if len(found) < MOST and all(abs(at - jump.t) > 2.5 * h for jump in found):
@@ -113,4 +124,4 @@ def _follow(source: KernelSource, p: Array, tree: Expr, drive: str, a: float, b:
         return None
     power = float(np.median(powers[: len(powers) // 2 + 1]))
     kind = "rate" if power > 0.8 else "infinite rate" if power > 0.2 else "value"
-    return Jump(drive, 0.5 * (a + b), kind, sizes[len(sizes) // 2] if kind == "rate" else value)
+    return Jump(drive, 0.5 * (a + b), kind, sizes[min(3, len(sizes) - 1)] if kind == "rate" else value)

@@ -18,6 +18,7 @@ from gudgeon.arguments import output_times, seconds
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.diagnose import diagnose
 from gudgeon.errors import AssemblyError, BadValueError, InputError, SolverError
+from gudgeon.hidden_jumps import up_to_a_jump
 from gudgeon.integrators import adaptive, kinematic, python_driver, rk4
 from gudgeon.integrators.asking import CtrlC
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
@@ -199,6 +200,7 @@ class Simulation:
             self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state,
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,
         )  # fmt: skip
+        problem, jump = up_to_a_jump(problem)
         with CtrlC() as ctrl_c:
             problem = replace(problem, take=ctrl_c.take)
             before = time.perf_counter()
@@ -206,6 +208,7 @@ class Simulation:
             spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
             result = self._result(chosen, problem, trajectory, given, is_given, spent)
             stopped = trajectory.stopped or contradiction(problem, trajectory)
+            stopped = stopped or (None if trajectory.interrupted else jump)
         result = _late(ctrl_c, result)
         if stopped is not None:
             stopped.partial = result

@@ -207,6 +207,15 @@ class _Assembly:
         moving = {row.name for row in source.start_rows if row.kind == "drive"} | set(source.start_rates)
         stuck = [name for name, share in zip(rows, tied(matrix), strict=True) if share > 1e-6]
         movers = [name for name in stuck if name in moving]
+        rates = [name for name in stuck if name in source.start_rates]
+        play = {joint.name for joint in source.clearances}
+        closed = dict.fromkeys(row.owner for row in source.start_rows if row.name in stuck and row.owner in play)
+        if rates and closed:
+            return AssemblyError(
+                f"start.rates {', '.join(rates)} cannot be met: a start closes the joints with play"
+                f" ({', '.join(closed)}), and then the linkage moves as its drives say\n"
+                "  leave the rate out, or begin from a State of your own: simulate(start=...)"
+            )
         if len(movers) > 1:
             owners = dict(zip(rows, [row.owner for row in source.start_rows], strict=False))
             joints = dict.fromkeys(owners[name] for name in stuck if name not in moving)

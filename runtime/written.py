@@ -77,7 +77,7 @@ def reason_between(source: KernelSource, p: Array, t0: float, t1: float) -> tupl
     """Which drive ceases to be a number on the way from t0 to t1 (s), and when; ("", t1) where none does."""
     none, first, told = np.zeros(0), t1, ""
     for info, tree in trees(source, ("drives",)):
-        times = np.linspace(t0, t1, 4001)
+        times = np.append(np.linspace(t0, t1, 4001), t1 + 1e-9 * max(1.0, abs(t1)))  # and just behind the end
         wrong = np.flatnonzero(~np.isfinite(of_time(source, p, tree, times)))
         if not len(wrong):
             continue

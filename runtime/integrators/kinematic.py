@@ -184,7 +184,7 @@ def _failure(problem: Problem, status: int, t: float) -> SolverError:
     """Why the motion cannot be followed beyond t (s)."""
     later = problem.t[problem.t > t]
     until = float(later[0]) if len(later) else t
-    why, when = reason_between(problem.compiled.source, problem.p, t, until + 1e-9 * max(1.0, abs(until)))
+    why, when = reason_between(problem.compiled.source, problem.p, t, until)
     if not why:
         times = np.linspace(t, until, 1001)
         why, when = rate_reason(problem.compiled, problem.p, times, np.zeros(problem.compiled.n))

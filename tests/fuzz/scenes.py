@@ -178,7 +178,8 @@ def random_file(seed: int) -> RandomFile:
 def _forces(rng: random.Random, writer: Writer, bodies: list[str], points: list[str]) -> list[str]:
     lines = []
     if rng.random() < 0.8:
-        lines.append(f"  f0: {{torque: {rng.choice(bodies)}, value: {_quoted(writer.write(TORQUE, rng.choice((1, 1, 2))))}}}")
+        torque = _quoted(writer.write(TORQUE, rng.choice((1, 1, 2))))
+        lines.append(f"  f0: {{torque: {rng.choice(bodies)}, value: {torque}}}")
     if rng.random() < 0.6 or not lines:
         x, y = (_quoted(writer.write(FORCE, rng.choice((1, 1, 2)))) for _ in range(2))
         axes = rng.choice(("ground", "body"))

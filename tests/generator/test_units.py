@@ -116,3 +116,14 @@ def test_words() -> None:
     assert describe(LENGTH) == "a length (m)"
     assert describe(VISCOSITY) == "a viscosity (Pa*s)"
     assert describe(dimension(1, 1, 1)) == "a quantity (kg*m*s)"
+
+
+def test_a_divisor_with_the_wanted_unit_is_told_how_to_write_it() -> None:
+    from gudgeon.errors import Location, UnitError
+    from gudgeon.generator.dimensions import check_dimension
+    from gudgeon.generator.expressions import parse
+    from gudgeon.generator.units import INERTIA
+
+    where = Location("f", 1, 1)
+    with pytest.raises(UnitError, match=r"write 1 kg\*m\^2 \* …, or \(…\)/12 \* 1 kg\*m\^2"):
+        check_dimension(parse("1/12 kg*m^2", where), INERTIA, {}.get, where)
