@@ -242,7 +242,7 @@ def _as_written(compiled: CompiledModel, file: RandomFile, reduced: Reduced, t: 
     mechanism = read_mechanism(file.text.encode(), "f")
     source, p = compiled.source, reduced.p
     slots = {slot.address: p[k] for k, slot in enumerate(source.slots)}
-    known = {}
+    known: dict[str, float] = {}
     for k, body in enumerate(mechanism.bodies):
         values = (*q[3 * k : 3 * k + 3], *v[3 * k : 3 * k + 3])
         known |= {f"{body}.{part}": x for part, x in zip(_PARTS, values, strict=True)}

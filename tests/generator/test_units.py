@@ -126,4 +126,4 @@ def test_a_divisor_with_the_wanted_unit_is_told_how_to_write_it() -> None:
 
     where = Location("f", 1, 1)
     with pytest.raises(UnitError, match=r"write 1 kg\*m\^2 \* …, or \(…\)/12 \* 1 kg\*m\^2"):
-        check_dimension(parse("1/12 kg*m^2", where), INERTIA, {}.get, where)
+        check_dimension(parse("1/12 kg*m^2", where), INERTIA, lambda _: None, where)

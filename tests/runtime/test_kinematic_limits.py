@@ -51,7 +51,7 @@ LIMITS = {  # the rod stands across the guide: a sin = b; coupler and rocker in 
 def test_a_limit_is_named_by_its_own_time(text: str, formulation: str, tmp_path: Path) -> None:
     """Not by the last sample before it, however far apart they are."""
     (tmp_path / "limit.yaml").write_text(text, encoding="utf-8")
-    linkage = gudgeon.load(tmp_path / "limit.yaml", formulation=formulation)  # type: ignore[arg-type]
+    linkage = gudgeon.load(tmp_path / "limit.yaml", formulation=formulation)
     for output in (7, 100):
         with pytest.raises(SolverError) as caught:
             linkage.simulate(2.0, output=output)

@@ -75,7 +75,7 @@ def test_rk4_has_order_4(inside: bool) -> None:
 @pytest.mark.parametrize("formulation", ["reduced", "full"])
 def test_outputs_leave_the_steps_of_rk4_alone(formulation: str) -> None:
     """Steps as long as was asked for: the same bits, contacts and costs whatever is looked at in between."""
-    press = gudgeon.load("nine_bar_press", "dry", formulation=formulation)  # type: ignore[arg-type]
+    press = gudgeon.load("nine_bar_press", "dry", formulation=formulation)
     step, t_end = 2e-5, 0.03
     alone = press.simulate(t_end, output=1, method="rk4", step=step)
     times = np.sort(np.random.default_rng(1).uniform(0.0, t_end, 4000))

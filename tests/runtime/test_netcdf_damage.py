@@ -6,7 +6,7 @@ import json
 import random
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ from gudgeon.errors import InputError  # noqa: E402
 from gudgeon.results import Result, read  # noqa: E402
 from tests.runtime.old_results import save_old  # noqa: E402
 
-Change = Callable[[Any], None]
+Change: TypeAlias = Callable[[Any], object]
 
 
 @pytest.fixture
