@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -25,6 +26,10 @@ from gudgeon.kernel_source import (
 )
 from gudgeon.results import IMPACT_DTYPE, Result
 from tests.runtime.pump import TEXT, Gudgeon
+
+# A shell's background jobs ignore Ctrl-C, and so would tests of it and the programs that they start.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 OMEGA, RADIUS, CLEARANCE = 2 * np.pi, 0.08, 0.3e-3
 FREE, IMPACT, CONTACT = 0, 1, 2

@@ -647,19 +647,6 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
     }
 }
 
-/* All the way to t1. */
-static int follow(double t1, const Parameters *p, double reach, double extent, Place *here, long *steps)
-{
-    Stride stride = {reach, extent, t1 - here->t, 0};
-    while (here->t < t1) {
-        const int status = step_on(&stride, t1, p, here);
-        if (status)
-            return status;
-        ++*steps;
-    }
-    return 0;
-}
-
 /*
  * Whether a drive outruns all steps: where it grows at least exponentially, twice as many of them gain no more time
  * than the last doubling did, so that so many doublings are left.

@@ -247,13 +247,15 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
     Run *run = memory;
     const Parameters *p = (const Parameters *)parameters;
     const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
+    double h;
+    if (!run->ready)
+        run->t = step_end(t[0], t[n - 1], step, 0.0, &h);
     int status = run->ready ? 0 : begin(run, p);
     for (long i = 0; !status; i++) {
-        double h;
         sample_here(run, step, p, &out);
         if (*done == n || i == limit)
             return 0;
-        const double t_new = step_end(t, n, *done, step, (double)run->steps + 1.0, &h);
+        const double t_new = step_end(t[0], t[n - 1], step, (double)run->steps + 1.0, &h);
         if (run->asked.stop)
             return STOPPED;
         if (lists_full(run))
