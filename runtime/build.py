@@ -19,6 +19,7 @@ from gudgeon import compiler
 from gudgeon.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.errors import BuildError
 from gudgeon.kernel_source import KernelSource
+from gudgeon.programs import Programs
 
 if TYPE_CHECKING:
     import subprocess
@@ -125,8 +126,8 @@ def _build(source: KernelSource, key: str, portable: bool, folder: Path) -> None
     flags = [*command, *compiler.flags(portable)]
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
-    scene = _start([*flags, "-c", source.main, "-o", SCENE], folder)
-    try:
+    with Programs() as programs:
+        scene = _begin(programs, [*flags, "-c", source.main, "-o", SCENE], folder)
         from cffi import FFI
 
         ffi = FFI()
@@ -134,41 +135,30 @@ def _build(source: KernelSource, key: str, portable: bool, folder: Path) -> None
         ffi.set_source(_name(key), f"#include <stddef.h>\n{source.cdef}", compiler_verbose=0)
         ffi.emit_c_code(str(folder / "wrapper.c"))
         paths = (f"-I{path}" for path in includes)
-        wrapper = _start([*flags, "-O0", *paths, "-c", "wrapper.c", "-o", WRAPPER], folder)
-    except BaseException:
-        scene.kill()
-        scene.communicate()
-        raise
-    failed = [finished for finished in (_finish(scene, folder / SCENE), _finish(wrapper, folder / WRAPPER)) if finished]
-    link = [*command, *compiler.link_flags(), SCENE, WRAPPER, "-o", LIBRARY, "-lm"]
-    if failed or (failed := list(filter(None, [_finish(_start(link, folder), folder / LIBRARY)]))):
-        raise failed[0]
+        wrapper = _begin(programs, [*flags, "-O0", *paths, "-c", "wrapper.c", "-o", WRAPPER], folder)
+        made = ((scene, SCENE), (wrapper, WRAPPER))
+        failed = [finished for process, name in made if (finished := _finish(programs, process, folder / name))]
+        link = [*command, *compiler.link_flags(), SCENE, WRAPPER, "-o", LIBRARY, "-lm"]
+        if not failed and (finished := _finish(programs, _begin(programs, link, folder), folder / LIBRARY)):
+            failed = [finished]
+        if failed:
+            raise failed[0]
     (folder / SCENE).unlink()
     (folder / WRAPPER).unlink()
 
 
-def _start(line: list[str], folder: Path) -> subprocess.Popen[str]:
+def _begin(programs: Programs, line: list[str], folder: Path) -> subprocess.Popen[str]:
     """A compiler under way in the folder."""
-    import subprocess
-
+    environment = {**compiler.plain(), "TMPDIR": str(folder)}  # what it writes in between belongs to the entry too
     try:
-        return subprocess.Popen(
-            line,
-            cwd=folder,
-            env={**compiler.plain(), "TMPDIR": str(folder)},  # what it writes in between belongs to the entry too
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            errors="replace",
-        )
+        return programs.begin(line, folder, environment)
     except OSError as error:
         raise BuildError(f"the compiler {line[0]} cannot be run: {error}\n  {compiler.INSTALL_COMPILER}") from error
 
 
-def _finish(process: subprocess.Popen[str], made: Path) -> Exception | None:
+def _finish(programs: Programs, process: subprocess.Popen[str], made: Path) -> Exception | None:
     """Wait; what to raise where it failed: OSError for a full disk (another folder is tried then), else BuildError."""
-    out, err = process.communicate()
+    out, err = programs.wait(process)
     if process.returncode == 0 and made.is_file():
         return None
     said = (err or out).strip()

@@ -200,10 +200,10 @@ class CompiledModel:
         """
         s, time = self.source, taken(t, "t", (None,))
         N = len(time)
-        latched = taken(memory, "memory", (N, None))
+        latched = _table(memory, "memory", N, None)
         if self.n_memory or latched.shape[1] > 1:  # in a scene that remembers nothing one number stands for none
-            taken(latched, "memory", (N, self.n_memory))
-        inputs = [taken(q, "q", (N, self.n)), taken(v, "v", (N, self.n)), latched]
+            _table(latched, "memory", N, self.n_memory)
+        inputs = (("q", _table(q, "q", N, self.n)), ("v", _table(v, "v", N, self.n)), ("memory", latched))
         out = Evaluation(
             np.empty((N, self.n)), np.empty((N, len(s.rows))), np.empty((N, len(s.joints), 3)),
             np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))),
@@ -216,8 +216,10 @@ class CompiledModel:
         )  # fmt: skip
         while first < N:
             before, count = perf_counter(), min(chunk, N - first)
+            rows = slice(first, first + count)
+            given = [taken(values[rows], name, (count, None)) for name, values in inputs]
             status = self.lib.gudgeon_evaluate(
-                count, *(self.pointer(a[first:]) for a in (time, *inputs)), self._numbers(p),
+                count, self.pointer(time[rows]), *map(self.pointer, given), self._numbers(p),
                 *(self._out(a[first:]) for a in results), failed,
             )  # fmt: skip
             if status:
@@ -282,6 +284,14 @@ class CompiledModel:
     def _out(self, array: Array) -> Any:
         """A pointer to what C fills."""
         return self.pointer(array, written=True)
+
+
+def _table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Array:
+    """Checked as `taken` does; of an array of doubles, however it lies, no copy: its rows are taken piece by piece."""
+    if type(values) is not np.ndarray or values.dtype != np.float64:
+        return taken(values, name, (rows, columns))
+    taken(values[:0], name, (0, columns))
+    return values if len(values) == rows else taken(values, name, (rows, columns))
 
 
 def _index(source: KernelSource, row: str) -> int:

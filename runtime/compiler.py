@@ -10,6 +10,7 @@ from pathlib import Path
 
 from gudgeon.cache import Cache, digest
 from gudgeon.errors import BadValueError, BuildError
+from gudgeon.programs import Programs
 
 INSTALL_COMPILER = (
     "install one — Debian, Ubuntu: apt-get install gcc libc6-dev; Fedora: dnf install gcc; "
@@ -88,13 +89,12 @@ def identity(command: tuple[str, ...], cache: Cache) -> str:
 
 
 def _ask_version(command: tuple[str, ...], folder: Path) -> None:
-    import subprocess
-
     try:
-        answer = subprocess.run([*command, "--version"], capture_output=True, text=True, errors="replace", env=plain())
+        with Programs() as programs:
+            answer, _ = programs.wait(programs.begin([*command, "--version"], None, plain()))
     except OSError as error:
         raise BuildError(f"the compiler {' '.join(command)} cannot be run: {error}\n  {INSTALL_COMPILER}") from error
-    (folder / "version").write_text(answer.stdout or "unknown")
+    (folder / "version").write_text(answer or "unknown")
 
 
 def _binary_interface() -> tuple[str, ...]:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
-from gudgeon.compiled import CompiledModel, Evaluation
+from gudgeon.compiled import Array, CompiledModel
 from gudgeon.dead_centre import dependent_rows
 from gudgeon.diagnostics import Diagnostics, Peak
 from gudgeon.integrators.rk4 import last_step
@@ -14,23 +15,19 @@ from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.start import mechanism_size
 
 ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
+BLOCK = 1 << 16  # samples balanced between two looks
 APART = 0.01  # of the mechanism's size: violated constraints that no stabilisation explains
 THIN = 0.9999  # e/c at which a film's law is capped (generator/contact.py)
 DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
 
 
 def diagnose(
-    compiled: CompiledModel, method: str, problem: Problem, trajectory: Trajectory, evaluation: Evaluation | None,
+    compiled: CompiledModel, method: str, problem: Problem, trajectory: Trajectory, balance: tuple[float, float],
     seconds: float,
 ) -> Diagnostics:  # fmt: skip
-    """What a run says about itself, from its trajectory and what follows from its samples (None: nothing does)."""
+    """What a run says about itself, from its trajectory and the `balance` of its energy."""
     x, counts = trajectory, trajectory.counts
-    worst = turned = math.nan
-    if evaluation is not None and len(x.t):  # none where not even the start has accelerations
-        energy = evaluation.energy
-        residual = energy.sum(axis=1) - energy[0].sum() - x.work.sum(axis=1)
-        turned = float(np.abs(np.diff(x.work, axis=0)).sum() + np.ptp(energy[:, 0]))
-        worst = float(np.abs(residual).max())
+    worst, turned = balance
     duration, used, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
     if method == "rk4" and duration > 0.0:
         last = last_step(duration, used)
@@ -50,6 +47,23 @@ def diagnose(
         seconds_per_simulated_second=seconds / simulated if simulated > 0 else math.nan,
         interrupted=x.interrupted, notes=_notes(compiled, problem, trajectory),
     )  # fmt: skip
+
+
+def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tuple[float, float]:
+    """The largest residual of kinetic and potential energy (N, 2) and works (N, 3), and how much was turned over; J.
+
+    NaN where there is no sample. `look` is called now and then, and what it raises is passed on.
+    """
+    if not len(energy):  # not even the start has accelerations
+        return math.nan, math.nan
+    worst = turned = 0.0
+    for first in range(0, len(energy), BLOCK):
+        rows = slice(first, first + BLOCK)
+        residual = energy[rows].sum(axis=1) - energy[0].sum() - work[rows].sum(axis=1)
+        worst = float(np.maximum(worst, np.abs(residual).max()))  # NaN stays NaN
+        turned += float(np.abs(np.diff(work[first : first + BLOCK + 1], axis=0)).sum())
+        look()
+    return worst, turned + float(np.ptp(energy[:, 0]))
 
 
 def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:

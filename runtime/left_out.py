@@ -5,6 +5,8 @@ They did so with the file's numbers; other lengths, or drives that part later, m
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
@@ -13,6 +15,7 @@ from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.rank import rank
 from gudgeon.start import mechanism_size
 
+MOST = 2_000  # samples of an interrupted run at which that is looked at: Ctrl-C is to be answered
 OPEN = 1e-3  # rad, or share of the mechanism's size: a row left out that opens further contradicts the others
 
 
@@ -38,17 +41,24 @@ def check_start(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
 
 
 def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
-    """The error for the first sample at which a row that was left out is open."""
+    """The error for the first sample at which a row that was left out is open.
+
+    Of a run that was interrupted, for the first of MOST samples, the last one among them. KeyboardInterrupt.
+    """
     compiled, p = problem.compiled, problem.p
     extra = left_out(compiled)
     if not extra:
         return None
     size = mechanism_size(compiled, p)
     scale = np.array([size if compiled.source.start_rows[k].unit == "m" else 1.0 for k in extra])
-    for t, q in zip(trajectory.t.tolist(), trajectory.q, strict=True):
-        far = np.abs(compiled.closed_phi(t, q, p)[extra]) > OPEN * scale
+    stride = math.ceil(len(trajectory.t) / MOST) if trajectory.interrupted else 1
+    for k in range((len(trajectory.t) - 1) % stride, len(trajectory.t), stride):
+        if k % 256 == 0:
+            problem.take()
+        t = float(trajectory.t[k])
+        far = np.abs(compiled.closed_phi(t, trajectory.q[k], p)[extra]) > OPEN * scale
         if far.any():
-            names = _named(compiled, [k for k, is_far in zip(extra, far, strict=True) if is_far])
+            names = _named(compiled, [row for row, is_far in zip(extra, far, strict=True) if is_far])
             return SolverError(
                 f"the constraints contradict each other by t = {t:.9g} s: {names} depended on the others and is open"
                 " now\n  check the values of the drives and the lengths of links that run side by side",

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from gudgeon.arguments import output_times
 from gudgeon.batch import Batch, as_failures, given_values, peaks_of
 from gudgeon.compiled import Array
+from gudgeon.conclusion import conclude
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators import adaptive, many
 from gudgeon.integrators.trajectory import Counts, Problem, Progress
@@ -87,7 +88,8 @@ class _Results:
             p_free=None if self.method == "rk4" else x["p_motion"][i], stop=self.stop,
         )  # fmt: skip
         trajectory, seconds = runs.trajectory(i), float(x["seconds"][i])
-        made = self.simulation._result(self.method, problem, trajectory, self.given[i], self.is_given[i], seconds)
+        numbers = (self.given[i], self.is_given[i], seconds)
+        made = conclude(compiled, self.method, problem, trajectory, *numbers, soon=False)
         if isinstance(error, SolverError):
             error.partial = made
         if error is not None:

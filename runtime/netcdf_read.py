@@ -145,7 +145,7 @@ def _result(file: _File) -> Result:
     q, v, a = (_motion(source, stored, len(t), order) for order in range(3))
     p, given, is_given = _numbers(file, source)
     run = Result(
-        compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, q=q, v=v, a=a,
+        compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, q=q, v=v, accelerations=a,
         state=_columns(stored, [f"{joint.name}.state" for joint in source.clearances], len(t), np.int8),
         memory=_columns(stored, _memory_names(source), len(t)),
         work=_columns(stored, ["work.drives", "work.forces", "work.clearances"], len(t)),

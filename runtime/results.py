@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.diagnostics import Diagnostics
-from gudgeon.errors import GudgeonError, UnknownNameError
+from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators.trajectory import no_events
 from gudgeon.kernel_source import KernelSource
 
@@ -75,7 +75,7 @@ class Result:
     t: Array  # (N,) s
     q: Array  # (N, n)
     v: Array
-    a: Array
+    accelerations: Array | None  # (N, n), None: `a` computes them when they are first asked for
     state: Array  # (N, n_clearances) int8
     memory: Array  # (N, n_clearances)
     work: Array  # (N, 3) J: drives, applied forces, clearance forces
@@ -157,13 +157,23 @@ class Result:
 
     def __getstate__(self) -> dict[str, Any]:
         """The fields, and the evaluation if it is at hand; what else is cached is made again in no time."""
-        kept = {*(each.name for each in fields(self)), "evaluation"}
+        kept = {*(each.name for each in fields(self)), "evaluation", "a"}
         return {name: value for name, value in self.__dict__.items() if name in kept}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         for values in self.stored.values():
             values.flags.writeable = False
+
+    @cached_property
+    def a(self) -> Array:
+        """q̈, (N, n); NaN where a sample has none."""
+        if self.accelerations is not None:
+            return self.accelerations
+        try:
+            return self.evaluation.a
+        except SolverError:
+            return np.full_like(self.q, np.nan)
 
     @cached_property
     def evaluation(self) -> Evaluation:

@@ -16,13 +16,13 @@ from numpy.typing import ArrayLike
 
 from gudgeon.arguments import output_times, seconds
 from gudgeon.compiled import Array, CompiledModel
-from gudgeon.diagnose import diagnose
-from gudgeon.errors import AssemblyError, BadValueError, InputError, SolverError
+from gudgeon.conclusion import conclude, contradicted, late
+from gudgeon.errors import AssemblyError, BadValueError, InputError
 from gudgeon.hidden_jumps import up_to_a_jump
 from gudgeon.integrators import adaptive, kinematic, python_driver, rk4
 from gudgeon.integrators.asking import CtrlC
-from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
-from gudgeon.left_out import check_start, contradiction
+from gudgeon.integrators.trajectory import Problem, Progress
+from gudgeon.left_out import check_start
 from gudgeon.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.restart import numbers, own
 from gudgeon.start import Start, assemble
@@ -40,7 +40,6 @@ METHODS = {
     "kinematic": kinematic.run, **dict.fromkeys(python_driver.NAMES, python_driver.run),
 }  # fmt: skip
 MAX_STEPS = 10**12
-KEPT = 20_000  # samples whose reactions are kept at hand: they were computed for the energy balance
 
 
 class Simulation:
@@ -206,10 +205,10 @@ class Simulation:
             before = time.perf_counter()
             trajectory = METHODS[chosen](problem)
             spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
-            result = self._result(chosen, problem, trajectory, given, is_given, spent)
-            stopped = trajectory.stopped or contradiction(problem, trajectory)
-            stopped = stopped or (None if trajectory.interrupted else jump)
-        result = _late(ctrl_c, result)
+            result = conclude(self.compiled, chosen, problem, trajectory, given, is_given, spent)
+            result, contradicts = contradicted(problem, trajectory, result)
+            stopped = trajectory.stopped or contradicts or (None if trajectory.interrupted else jump)
+        result = late(ctrl_c, result)
         if stopped is not None:
             stopped.partial = result
             raise stopped
@@ -276,36 +275,3 @@ class Simulation:
         if not h > 0:
             raise BadValueError(f"step is {h:g} s: expected a positive time")
         return h
-
-    def _result(
-        self, method: str, problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, seconds: float
-    ) -> Result:
-        from gudgeon.results import Result
-
-        x = trajectory
-        try:
-            evaluation = self.compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p, problem.take)
-        except SolverError:
-            evaluation = None
-        except KeyboardInterrupt:
-            evaluation, trajectory = None, replace(trajectory, interrupted=True)
-        a = x.a if x.a is not None else np.full_like(x.q, np.nan) if evaluation is None else evaluation.a
-        diagnostics = diagnose(self.compiled, method, problem, trajectory, evaluation, seconds)
-        result = Result(
-            compiled=self.compiled, source=self.source, p=problem.p, given=given, is_given=is_given, t=trajectory.t,
-            q=trajectory.q, v=trajectory.v, a=a, state=trajectory.state, memory=trajectory.memory,
-            work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics, events=trajectory.events,
-            trace=trajectory.trace,
-        )  # fmt: skip
-        if evaluation is not None and len(x.t) <= KEPT:
-            result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
-        return result
-
-
-def _late(ctrl_c: CtrlC, result: Result) -> Result:
-    """The result; marked as interrupted where Ctrl-C came while it was put together."""
-    try:
-        ctrl_c.take()
-    except KeyboardInterrupt:
-        return replace(result, diagnostics=replace(result.diagnostics, interrupted=True))
-    return result

@@ -201,10 +201,9 @@ class Session:
         impacts = np.concatenate(self.impacts)
         impacts = impacts[np.argsort(impacts["t_on"], kind="stable")]
         n, y = self.n, self.y[: self.done]
-        return Trajectory(
-            self.t[: self.done].copy(), y[:, :n].copy(), y[:, n : 2 * n].copy(), None,
-            self.memory[: self.done, : self.compiled.n_memory], self.state[: self.done, : self.nc],
-            y[:, 2 * n :].copy(), impacts, peaks,
+        return Trajectory(  # no copies: those of a gigabyte take seconds, and Ctrl-C waits
+            self.t[: self.done], y[:, :n], y[:, n : 2 * n], None, self.memory[: self.done, : self.compiled.n_memory],
+            self.state[: self.done, : self.nc], y[:, 2 * n :], impacts, peaks,
             counts_of(counts, numbers), interrupted, stopped, seconds=self.seconds,
             events=events, no_number=no_number, trace=self._trace(),
         )  # fmt: skip

@@ -132,7 +132,7 @@ def make_run(scene: str = "dry", samples: int = 201, t_end: float = 1.0) -> Resu
     return Result(
         compiled=FakeCompiled(source),  # type: ignore[arg-type]
         source=source, p=p, given=np.array([0.0, 0.0, CLEARANCE]), is_given=np.array([False, False, True]),
-        t=t, q=q, v=v, a=a, state=state, memory=np.where(state > 0, 0.25, np.nan),
+        t=t, q=q, v=v, accelerations=a, state=state, memory=np.where(state > 0, 0.25, np.nan),
         work=np.stack([t, 0 * t, -0.5 * t], 1), impacts=impacts, diagnostics=diagnostics,
     )  # fmt: skip
 

@@ -182,11 +182,12 @@ def gate(tmp_path: Path) -> Iterator[Path]:
 
 def test_killed_in_the_middle_of_a_compile(cache: Cache, fake: Callable[..., Path], gate: Path) -> None:
     folder = gate.parent
-    fake(f'[ $kind = C ] && [ -e "{gate}" ] && {{ echo >"{folder}/running"; read x <"{folder}/never"; }}')
-    running = os.open(folder / "running", os.O_RDONLY | os.O_NONBLOCK)
+    fake(f'[ $kind = C ] && [ -e "{gate}" ] && {{ echo $$ >"{folder}/running"; read x <"{folder}/never"; }}')
+    running, orphan = os.open(folder / "running", os.O_RDONLY | os.O_NONBLOCK), 0
     killed = child()
     try:
         assert select.select([running], [], [], 120)[0], "the compiler was never started"
+        orphan = int(os.read(running, 100))
         assert len(list((cache.root / "aside").iterdir())) == 1
         killed.kill()
         killed.wait()
@@ -197,7 +198,36 @@ def test_killed_in_the_middle_of_a_compile(cache: Cache, fake: Callable[..., Pat
         assert list((cache.root / "aside").iterdir()) == []
         assert only_library(cache).is_file()
     finally:
-        os.killpg(killed.pid, signal.SIGKILL)
+        killed.kill()
+        if orphan:
+            os.killpg(orphan, signal.SIGKILL)
+        os.close(running)
+
+
+@pytest.mark.parametrize("kind", ["C", "W", "V", "*.so"])
+def test_ctrl_c_ends_the_compilers_and_what_they_started(
+    cache: Cache, fake: Callable[..., Path], gate: Path, kind: str
+) -> None:
+    """Of each program under way: scene, wrapper, version, link. Their ends of the pipe are all closed at once."""
+    folder = gate.parent
+    waits = f'{{ exec 9>"{folder}/running"; echo $$ >&9; sleep 1000; }}'  # the sleep holds the pipe too
+    is_it = f'case "$*" in *" {LIBRARY} "*) true ;; *) false ;; esac' if kind == "*.so" else f"[ $kind = {kind} ]"
+    fake(f"if {is_it}; then {waits}; fi")
+    running = os.open(folder / "running", os.O_RDONLY | os.O_NONBLOCK)
+    process = child()
+    try:
+        assert select.select([running], [], [], 120)[0], "the compiler was never started"
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=120)[1]
+        assert said.rstrip().endswith("KeyboardInterrupt"), said
+        while select.select([running], [], [], 60)[0]:
+            if not os.read(running, 100):
+                break  # the end, which comes when nobody is left who might write
+        else:
+            pytest.fail("something of the compiler is left")
+        assert [*cache.root.glob("aside/*"), *cache.root.glob("libraries/*")] == []
+    finally:
+        process.kill()
         os.close(running)
 
 

@@ -19,9 +19,11 @@ import numpy as np
 import pytest
 
 import gudgeon
+from gudgeon import conclusion
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators import asking
 from gudgeon.integrators.many import GLANCE
+from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
 from gudgeon.results import Result
 from gudgeon.simulation import Simulation
@@ -117,6 +119,58 @@ def test_the_last_sample_is_a_state_to_go_on_from(name: str, method: str, monkey
     rest = simulation.simulate(t_end, start=run.final, **options)
     np.testing.assert_allclose(rest.v[-1], there.v[-1], rtol=0.0, atol=1e-4 * scale)
     np.testing.assert_allclose(rest.q[-1], there.q[-1], rtol=0.0, atol=1e-7)
+
+
+@pytest.mark.parametrize(("name", "number"), [("dry", 700), ("four_bar", 250)])
+def test_what_follows_from_the_samples_can_wait(name: str, number: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After Ctrl-C nothing is evaluated that takes long; asked for later it is the whole run's."""
+    monkeypatch.setattr(asking, "EVERY", 0.0)
+    monkeypatch.setattr(conclusion, "AFTER_CTRL_C", 0.0)
+    simulation, options = case(name, "auto")
+    run, complete = simulation.simulate(progress=signal_at(number), **options), whole(name, "auto")
+    assert run.diagnostics.interrupted and math.isnan(run.diagnostics.energy_residual)
+    assert not math.isnan(complete.diagnostics.energy_residual)
+    check_kept(run, complete)
+    kept = len(run.t) - 1
+    assert kept >= 3 and "evaluation" not in run.__dict__
+    np.testing.assert_array_equal(run.a[:kept], complete.a[:kept])
+    series = "A.F" if name == "dry" else "crank.alpha"
+    np.testing.assert_array_equal(run[series][:kept], complete[series][:kept])
+
+
+@pytest.mark.parametrize("look", [1, 2, 4])
+def test_ctrl_c_while_the_energy_is_balanced(look: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """All samples are there, and their accelerations are found when they are asked for."""
+    monkeypatch.setattr(conclusion, "EVERY", -1.0)
+    simulation, options = case("dry", "auto")
+    looks = 0
+
+    def progress(fraction: float, text: str) -> None:
+        nonlocal looks
+        looks += text == "balancing energy"
+        if looks == look and text == "balancing energy":
+            signal.raise_signal(signal.SIGINT)
+
+    run, complete = simulation.simulate(progress=progress, **options), whole("dry", "auto")
+    assert looks >= look and run.diagnostics.interrupted and len(run.t) == len(complete.t)
+    check_kept(run, complete)
+    np.testing.assert_array_equal(run.a, complete.a)
+
+
+def test_ctrl_c_while_rows_left_out_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A contradiction is told of an interrupted run too."""
+    real, calls = conclusion.contradiction, []
+
+    def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
+        if not calls:
+            signal.raise_signal(signal.SIGINT)
+        calls.append(trajectory.interrupted)
+        problem.take()
+        return real(problem, trajectory)
+
+    monkeypatch.setattr(conclusion, "contradiction", contradiction)
+    run = press("dry").simulate(0.01, output=5)
+    assert calls == [False, True] and run.diagnostics.interrupted and len(run.t) == 6
 
 
 def test_a_signal_that_waits_is_raised_only_where_it_is_asked_for() -> None:

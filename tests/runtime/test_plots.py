@@ -72,7 +72,7 @@ def test_scenes_of_different_length_share_one_axis(make: Callable[..., Result]) 
 
 
 def test_a_series_of_nan_and_a_run_of_one_sample_can_be_drawn(run: Result, make: Callable[..., Result]) -> None:
-    lost = replace(run, a=np.full_like(run.a, np.nan), stored={})
+    lost = replace(run, accelerations=np.full_like(run.a, np.nan), stored={})
     plots.figure({"dry": lost}, make("ideal"), ["S9.y"])
     one = make("dry", samples=1)
     plots.figure({"dry": one}, make("ideal", samples=1), ["S9.y"])
