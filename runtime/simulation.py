@@ -27,6 +27,7 @@ from gudgeon.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.restart import numbers, own
 from gudgeon.start import Start, assemble
 from gudgeon.step import scene_step
+from gudgeon.written import with_odd_outputs
 
 if TYPE_CHECKING:
     from gudgeon.batch import Batch
@@ -157,8 +158,8 @@ class Simulation:
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
-        `output`: so many equal intervals, both ends included, or times (s): an array of any layout and real type, a
-        list, a column of a table; it is copied. Numbers may be texts: '5 ms', '1e-3'. `method`:
+        `output`: so many equal intervals, both ends included, or times (s), of which the last is t_end: an array of any
+        layout and real type, a list, a column of a table; it is copied. Numbers may be texts: '5 ms', '1e-3'. `method`:
         - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else
           "adaptive", which is "dop853" while steps are bounded by accuracy and "rodas5p" while stability
           would bound them (integrators/adaptive.py);
@@ -297,8 +298,10 @@ class Simulation:
             work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics, events=trajectory.events,
             trace=trajectory.trace,
         )  # fmt: skip
-        if evaluation is not None and len(x.t) <= KEPT:
-            result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
+        if evaluation is not None:
+            result = with_odd_outputs(result, evaluation)
+            if len(x.t) <= KEPT:
+                result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
         return result
 
 
