@@ -18,7 +18,7 @@ from gudgeon.compiled import CompiledModel
 EVERY = 0.05  # s between two questions
 PATIENCE = 1.0  # s after a first Ctrl-C, from which on another one is raised wherever Python is
 NAME = "gudgeon_python_asks"
-_registered: set[int] = set()
+_registered: dict[int, Any] = {}  # libraries by id; kept, so that no other one gets the same
 
 
 class CtrlC:
@@ -95,5 +95,5 @@ def _function(compiled: CompiledModel) -> Any:
     lib, ffi = compiled.lib, compiled.ffi
     if id(lib) not in _registered:
         ffi.def_extern(name=NAME, error=1, onerror=lambda *_: None)(lambda whom: ffi.from_handle(whom).answer())
-        _registered.add(id(lib))
+        _registered[id(lib)] = lib
     return getattr(lib, NAME)

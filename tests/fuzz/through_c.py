@@ -24,6 +24,7 @@ from gudgeon.errors import AssemblyError, GudgeonError, InputError, InputErrors
 from gudgeon.expression_tree import Expr, evaluate
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.read_yaml import read_mechanism
+from gudgeon.integrators.asking import NAME
 from gudgeon.kernel_source import KernelSource
 from gudgeon.simulation import Simulation
 from gudgeon.start import assemble
@@ -152,7 +153,29 @@ def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
     _compile([*WARNINGS, "-O1", "-fPIC", "-shared", "library.c", "-o", file.name, "-lm"], folder)
     ffi = FFI()
     ffi.cdef(told)
-    return CompiledModel(source, cast(Any, SimpleNamespace(ffi=ffi, lib=ffi.dlopen(str(file)))))
+    return CompiledModel(source, cast(Any, SimpleNamespace(ffi=_Ffi(ffi), lib=_Library(ffi, ffi.dlopen(str(file))))))
+
+
+class _Ffi:
+    """Of a library that is opened as it is: what C calls back is made by `_Library`."""
+
+    def __init__(self, ffi: Any) -> None:
+        self._ffi = ffi
+
+    def def_extern(self, **_: Any) -> Any:
+        return lambda function: function
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._ffi, name)
+
+
+class _Library:
+    def __init__(self, ffi: Any, lib: Any) -> None:
+        self._lib = lib
+        setattr(self, NAME, ffi.callback("int(void *)", lambda whom: ffi.from_handle(whom).answer(), error=1))
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._lib, name)
 
 
 def _compile(flags: list[str], folder: Path) -> None:
