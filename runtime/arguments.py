@@ -24,7 +24,9 @@ def seconds(name: str, value: float | str) -> float:
 def output_times(source: KernelSource, t0: float, t_end: float | str | None, output: int | ArrayLike | None) -> Array:
     """Output times (s), increasing, the first is t0; a copy of those that were given. Raises BadValueError."""
     if output is not None and not isinstance(output, (int, np.integer)):
-        return _given_times(t0, output)
+        times = _given_times(t0, output)
+        _check_both(None if t_end is None else seconds("t_end", t_end), float(times[-1]))
+        return times
     end = seconds("t_end", scene_end(source) if t_end is None else t_end)
     if not end > t0:
         raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
@@ -47,6 +49,13 @@ def _given_times(t0: float, output: ArrayLike) -> Array:
         raise BadValueError(f"output: times begin at {t0!s} s, got {times[0]!s} s")
     _check_end("output ends", t0, float(times[-1]), 1)
     return times if times[0] == t0 else np.concatenate([[t0], times])
+
+
+def _check_both(t_end: float | None, last: float) -> None:
+    """BadValueError for a t_end that is not the last of the times that were given, but for rounding."""
+    if t_end is not None and not abs(t_end - last) <= 1e-9 * max(abs(t_end), abs(last)):
+        hint = "leave out t_end, for the times say when the run ends, or let them end there"
+        raise BadValueError(f"t_end is {t_end:.12g} s, and the times of output end at {last:.12g} s", hint=hint)
 
 
 def _check_end(what: str, t0: float, end: float, roundings: int) -> None:

@@ -19,7 +19,11 @@ from gudgeon import compiler
 from gudgeon.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.errors import BuildError
 from gudgeon.kernel_source import KernelSource
+<<<<<<< HEAD
 from gudgeon.programs import Programs
+=======
+from gudgeon.working import working
+>>>>>>> e-looks
 
 if TYPE_CHECKING:
     import subprocess
@@ -50,8 +54,10 @@ def compile_kernels(
     with _lock:
         if key in _modules and not rebuild:
             return _modules[key]
+
     def build(folder: Path) -> None:
-        _build(source, key, portable, folder)
+        with working(f"compiling {source.mechanism}, scene {source.scene}"):
+            _build(source, key, portable, folder)
 
     entry = cache.fetch("libraries", key, build, renew=rebuild)
     try:

@@ -55,6 +55,18 @@ def _told(command: Command) -> Command:
     return wrapper  # type: ignore[return-value]
 
 
+def _whole(least: int) -> Callable[[str], int]:
+    """Reads a whole number as a file has it: Python alone would take 1_0, and the digits of other scripts."""
+
+    def read(text: str) -> int:
+        told = str(text).strip()
+        if not (told.isascii() and told.removeprefix("-").isdigit()) or len(told) > 18 or int(told) < least:
+            raise typer.BadParameter(f"{visible(text)!r}: expected a whole number, {least} or more")
+        return int(told)
+
+    return read
+
+
 def _version(wanted: bool) -> None:
     if wanted:
         from gudgeon import __version__
@@ -88,7 +100,10 @@ def run(
     t_end: Annotated[
         str | None, typer.Option("--t-end", help="Until when, in s or with a unit. [default: the scene's, or 1 s]")
     ] = None,
-    output: Annotated[int | None, typer.Option(min=1, help="Equal output intervals. [default: the scene's]")] = None,
+    output: Annotated[
+        int | None,
+        typer.Option(parser=_whole(1), metavar="COUNT", help="Equal output intervals. [default: the scene's]"),
+    ] = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
     method: Annotated[str, typer.Option(help="auto, rk4, dop853, rodas5p, kinematic, scipy:Radau …")] = "auto",
     rtol: Annotated[str | None, typer.Option(help="Tolerance of a step of auto, dop853, rodas5p: 1e-8.")] = None,
@@ -233,7 +248,9 @@ def stress(
                      " clearance, stiffness, viscosity, gains or any address; also NAME=A,B,C."),
     ] = None,
     box: Annotated[
-        int | None, typer.Option("--box", min=0, help="All corners of the box of --range and so many Sobol points.")
+        int | None,
+        typer.Option("--box", parser=_whole(0), metavar="COUNT",
+                     help="All corners of the box of --range and so many Sobol points."),
     ] = None,
     range_: Annotated[
         list[str] | None, typer.Option("--range", metavar="NAME=LOW..HIGH", help="An edge of the box.")

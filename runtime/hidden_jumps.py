@@ -14,7 +14,7 @@ import numpy as np
 
 from gudgeon.compiled import Array
 from gudgeon.errors import SolverError
-from gudgeon.expression_tree import Binary, Call, Expr, Number, Unary, functions
+from gudgeon.expression_tree import Binary, Call, Expr, Number, Unary, functions, names
 from gudgeon.integrators.trajectory import Problem
 from gudgeon.kernel_source import KernelSource
 from gudgeon.written import of_time, trees
@@ -38,21 +38,47 @@ class Jump:
 def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
     """Of all drives between two times (s), in time's order; at most MOST a drive."""
     found = []
-    for info, tree in trees(source, ("drives",)):
-        drive = info.address.split(".")[1]
-        if t1 > t0 and _hides(tree) and drive not in source.rate_jumps and VISIBLE.isdisjoint(functions(tree)):
-            with np.errstate(all="ignore"):
-                found += _jumps(source, p, tree, drive, t0, t1)
+    for drive, tree in _that_may_hide(source) if t1 > t0 else ():
+        with np.errstate(all="ignore"):
+            found += _jumps(source, p, tree, drive, t0, t1)
     return sorted(found, key=lambda jump: jump.t)
 
 
-def up_to_a_jump(problem: Problem) -> tuple[Problem, SolverError | None]:
-    """A run that is to end where the first of them is, and the error that it then ends with.
+def any_in_batch(source: KernelSource, p: Array, t0: float, t1: float) -> bool:
+    """Whether a run of a batch meets one, p (runs, numbers); drives with the same numbers are looked at once."""
+    seen = set()
+    for drive, tree in _that_may_hide(source) if t1 > t0 and _integrates(source) else ():
+        used = {f"parameters.{name.path}" for name in names(tree)}
+        columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
+        for row in p:
+            key = (drive, row[columns].tobytes())
+            if key in seen:
+                continue
+            seen.add(key)
+            with np.errstate(all="ignore"):
+                if any(jump.t > t0 for jump in _jumps(source, row, tree, drive, t0, t1)):
+                    return True
+    return False
 
-    Nothing is found where nothing is free: what a drive's rate does there the linkage follows, its work is counted.
-    """
+
+def _integrates(source: KernelSource) -> bool:
+    """Where nothing is free nothing is left out: what a drive's rate does the linkage follows, its work is counted."""
+    return bool(source.drives) and source.methods != ("kinematic",)
+
+
+def _that_may_hide(source: KernelSource) -> list[tuple[str, Expr]]:
+    """Drives whose corners the generator may not have found."""
+    found = [(info.address.split(".")[1], tree) for info, tree in trees(source, ("drives",))]
+    return [
+        (drive, tree) for drive, tree in found
+        if _hides(tree) and drive not in source.rate_jumps and VISIBLE.isdisjoint(functions(tree))
+    ]  # fmt: skip
+
+
+def up_to_a_jump(problem: Problem) -> tuple[Problem, SolverError | None]:
+    """A run that is to end where the first of them is, and the error that it then ends with."""
     source = problem.compiled.source
-    if not source.drives or source.methods == ("kinematic",):
+    if not _integrates(source):
         return problem, None
     t0 = float(problem.t[0])
     first = next((jump for jump in hidden_jumps(source, problem.p, t0, float(problem.t[-1])) if jump.t > t0), None)

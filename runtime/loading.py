@@ -17,6 +17,7 @@ from gudgeon.cache import Cache, default_cache, digest
 from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
 from gudgeon.kernel_source import KernelSource
 from gudgeon.shipped import PACKAGE, committed, shipped, shipped_file
+from gudgeon.working import working
 from gudgeon.writing import kind
 
 if TYPE_CHECKING:
@@ -153,9 +154,10 @@ def kernel_source(
             source = committed(file.stem, scene, sha256(data).hexdigest())
         origin = "generated" if source else "derived"
         if source is None:
-            from gudgeon.generator.pipeline import generate
+            with working(f"deriving {file.stem}, scene {scene}"):
+                from gudgeon.generator.pipeline import generate
 
-            source = generate(data, str(file), scene, overrides, formulation)
+                source = generate(data, str(file), scene, overrides, formulation)
         source = replace(source, overrides=tuple(sorted(overrides.items())))
         (folder / SOURCE).write_bytes(source.to_json().encode())
 

@@ -16,6 +16,7 @@ from gudgeon.batch import Batch, as_failures, given_values, peaks_of
 from gudgeon.compiled import Array
 from gudgeon.conclusion import conclude
 from gudgeon.errors import BadValueError, SolverError
+from gudgeon.hidden_jumps import any_in_batch
 from gudgeon.integrators import adaptive, many
 from gudgeon.integrators.trajectory import Counts, Problem, Progress
 from gudgeon.left_out import left_out
@@ -48,9 +49,12 @@ def simulate_many(
     times = output_times(simulation.source, 0.0, t_end, output)
     chosen = simulation._method(method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)
-    if chosen in many.METHODS and not left_out(simulation.compiled):
-        free = chosen != "rk4"
-        p, motion, bad = prepare_sets(simulation.compiled, given, is_given, free)
+    in_c = chosen in many.METHODS and not left_out(simulation.compiled)
+    if in_c:
+        p, motion, bad = prepare_sets(simulation.compiled, given, is_given, chosen != "rk4")
+        fine = np.delete(p, list(bad), axis=0)
+        in_c = not any_in_batch(simulation.source, fine, 0.0, float(times[-1]))  # else each run looks for its own
+    if in_c:
         steps = np.array([simulation._step(step, chosen, row, float(times[-1])) for row in p])
         if (times[-1] / steps).max() > MAX_STEPS:
             raise BadValueError(f"step {steps.min():.3g} s means more than {MAX_STEPS:.0e} steps")

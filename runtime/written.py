@@ -8,12 +8,17 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.compiled import Array, CompiledModel
+from gudgeon.compiled import Array, CompiledModel, Evaluation
 from gudgeon.expression_tree import Binary, Call, Expr, Number, Unary, evaluate, from_json, names
 from gudgeon.kernel_source import KernelSource, WrittenInfo
+
+if TYPE_CHECKING:
+    from gudgeon.results import Result
 
 _REACH = tuple(10.0**k for k in range(-13, -8))  # s, or share of the time: how far ahead of a state a reason may lie
 Values = Callable[[str], float]
@@ -67,7 +72,8 @@ def reason(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
         found = [(info, tree) for info, tree in found if all("." not in name.path for name in names(tree))]
     for h in (0.0, *(reach * max(1.0, abs(t)) for reach in _REACH)):
-        told = _told(source, found, p, t + h, q + h * v, v)
+        with np.errstate(invalid="ignore"):  # a velocity may be infinite
+            told = _told(source, found, p, t + h, q + h * v, v)
         if told:
             return told
     return ""
@@ -105,6 +111,33 @@ def rate_reason(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tu
                 name = compiled.source.start_rows[wrong[0]].name
                 return f"the {of} of drive {name} is {-rows[wrong[0]]:g} at t = {t:.9g} s", t
     return "", float(times[-1])
+
+
+def with_odd_outputs(run: Result, evaluation: Evaluation) -> Result:
+    """The run, its notes with outputs that are no number at a sample at which all that they are made of is one."""
+    if not run.source.outputs:
+        return run
+    probe = replace(run, stored={})  # of many samples nothing is kept that nobody asked for
+    probe.__dict__["evaluation"] = evaluation
+    odd = [told for name in run.source.outputs if name in probe and (told := _odd(probe, name))]
+    notes = (*run.diagnostics.notes, *odd)
+    return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if odd else run
+
+
+def _odd(run: Result, name: str) -> str:
+    """When an output of a run is no number first, and why; "" where it is one, or only what it is made of is none."""
+    tree, shape = from_json(run.source.outputs[name]), run.t.shape
+    parts = {used.path: np.broadcast_to(run.value_of(used.path), shape) for used in names(tree)}
+    values = np.broadcast_to(evaluate(tree, parts.__getitem__), shape)
+    wrong = ~np.isfinite(values)
+    for part in parts.values() if wrong.any() else ():
+        wrong &= np.isfinite(part)
+    if not wrong.any():
+        return ""
+    k, count = int(wrong.argmax()), int(wrong.sum())
+    why = culprit(tree, lambda path: float(parts[path][k]))
+    others = f"; it is none at {count} of {len(wrong)} samples" if count > 1 else ""
+    return f"output {name} is no number ({values[k]}) at t = {run.t[k]:.9g} s: {why}{others}"
 
 
 def _told(

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tests.oracles import dry, film, golden, ideal_press, numpy_linkage, press_dense, random_linkage
+from tests.oracles import dry, film, finite_bearing, golden, ideal_press, numpy_linkage, press_dense, random_linkage
 from tests.oracles.journal import Journal
 from tests.oracles.numpy_linkage import Body, Drive, End, Linkage, Revolute, Translational, Wave
 
@@ -128,6 +128,13 @@ def test_film_limits(eps: float, omega_s: float) -> None:
             film.pure_squeeze(eps, eps_rate), rel=1e-12
         )
     assert film.gumbel_film(eps, 0.0, omega_s) == pytest.approx(steady, rel=1e-7)
+
+
+def test_the_long_film_overstates_a_finite_bearing() -> None:
+    """Figures of docs/physics.md; a very long bearing carries what the long one does."""
+    assert finite_bearing.overstated(0.9, False) == pytest.approx(1.44, abs=0.01)
+    assert finite_bearing.overstated(0.9, True) == pytest.approx(1.19, abs=0.01)
+    assert finite_bearing.overstated(0.5, False, 200.0) == pytest.approx(1.0, abs=0.01)
 
 
 def test_film_as_printed_jumps_and_works_the_wrong_way() -> None:

@@ -11,6 +11,7 @@ import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from gudgeon.commands.progress import status_line
 from gudgeon.commands.story import story_data, tell
 from gudgeon.errors import InputError, InputErrors
 from gudgeon.kernel_source import KernelSource
@@ -39,7 +40,8 @@ def check_file(name: str, verbose: bool, as_json: bool) -> int:
             raise
         print(json.dumps({"valid": False, "errors": _errors(error)}, ensure_ascii=False, indent=1))
         return error.exit_code
-    scenes = {scene: kernel_source(data, file, scene)[0] for scene in mechanism.scenes} if verbose else {}
+    with status_line(quiet=as_json):
+        scenes = {scene: kernel_source(data, file, scene)[0] for scene in mechanism.scenes} if verbose else {}
     if as_json:
         print(json.dumps(_document(mechanism, scenes), ensure_ascii=False, indent=1))
         return 0

@@ -9,6 +9,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from gudgeon.commands.common import check_folder, chosen_scenes
+from gudgeon.commands.progress import status_line
 from gudgeon.errors import InputError
 from gudgeon.loading import find_mechanism, kernel_source, read_bytes
 from gudgeon.shipped import REST
@@ -27,7 +28,8 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
     file = find_mechanism(mechanism)
     data = read_bytes(file)
     for scene in scenes:
-        source, _ = kernel_source(data, file, scene)
+        with status_line():
+            source, _ = kernel_source(data, file, scene)
         texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
         _write(folder / scene, {name: text.encode() for name, text in texts.items()})
         print(f"wrote {folder / scene}: {', '.join(texts)}")

@@ -5,7 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
+from gudgeon.commands.progress import status_line
 from gudgeon.loading import find_mechanism, read_bytes
+from gudgeon.working import working
 from gudgeon.writing import write_text
 
 
@@ -17,11 +19,12 @@ def write_equations(mechanism: str, target: Path, scene: str) -> int:
     file = find_mechanism(mechanism)
     data = read_bytes(file)
 
-    from gudgeon.generator.pipeline import derive
-    from gudgeon.generator.targets import latex
+    with status_line(), working(f"deriving {file.stem}, scene {scene}"):
+        from gudgeon.generator.pipeline import derive
+        from gudgeon.generator.targets import latex
 
-    model = derive(data, str(file), scene)
-    write = {".tex": latex.equations_tex, ".txt": latex.equations_text, ".html": latex.equations_html}
-    write_text(target, write[target.suffix](model))
+        write = {".tex": latex.equations_tex, ".txt": latex.equations_text, ".html": latex.equations_html}
+        text = write[target.suffix](derive(data, str(file), scene))
+    write_text(target, text)
     print(f"wrote {target}")
     return 0

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Protocol, TypeVar
 
 from gudgeon.commands.common import check_file, check_name, chosen_scenes, need_suffix, settings, unknown, value
-from gudgeon.commands.progress import Report, progress_bar
+from gudgeon.commands.progress import Report, progress_bar, status_line
 from gudgeon.commands.run import addresses
 from gudgeon.errors import BadValueError
 from gudgeon.kernel_source import Slot
@@ -115,7 +115,8 @@ def exit_code(loaded: Sequence[Simulation], found: Sequence[Measured], interrupt
 
 def load_scenes(request: Request) -> list[Simulation]:
     """All scenes, and their parameters checked once before anything runs."""
-    loaded = [load(request.file, scene) for scene in chosen_scenes(request.file, request.scenes)]
+    with status_line(quiet=request.json):
+        loaded = [load(request.file, scene) for scene in chosen_scenes(request.file, request.scenes)]
     known = tuple(dict.fromkeys(address for simulation in loaded for address in addresses(simulation)))
     for name in request.parameters:
         if name not in known:

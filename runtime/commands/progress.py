@@ -7,6 +7,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from gudgeon import working
+from gudgeon.shown import visible
+
 Report = Callable[[float, str], None]  # fraction done, a few words
 
 
@@ -35,6 +38,28 @@ def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]
     finally:
         for progress in shown:
             progress.stop()
+
+
+@contextmanager
+def status_line(quiet: bool = False) -> Iterator[None]:
+    """A line on stderr, while somebody looks, about the derivations and compilations that the block waits for."""
+    if quiet or not sys.stderr.isatty():
+        yield
+        return
+    with working.told_to(_status):
+        yield
+
+
+@contextmanager
+def _status(text: str) -> Iterator[None]:
+    from rich.live import Live
+    from rich.text import Text
+
+    from gudgeon.shown import plain_console
+
+    line = Text(f"{visible(text)} …", no_wrap=True, overflow="ellipsis")
+    with Live(line, console=plain_console(stderr=True), auto_refresh=False, transient=True):
+        yield
 
 
 def _start() -> Any:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from gudgeon.commands.common import check_folder, check_name, chosen_scenes, settings, unknown, value
-from gudgeon.commands.progress import progress_bar
+from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.loading import load
 from gudgeon.results import Result
@@ -68,7 +68,8 @@ def run_scenes(request: Request) -> int:
     wanted = settings(request.settings)
     check_folder("--out", request.out)
     names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
-    simulations = {name: _load(request, name) for name in names}
+    with status_line(quiet=request.json):
+        simulations = {name: _load(request, name) for name in names}
     _check(request, wanted, simulations)
     for name, simulation in simulations.items():
         check_name("--out", result_path(request.out, simulation.source.mechanism, name))

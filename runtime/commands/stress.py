@@ -100,6 +100,8 @@ def _check(asked: Stress, step: float | None) -> None:
     if asked.method not in METHODS:
         raise BadValueError(f"--method {asked.method!r}: expected {', '.join(METHODS)}")
     own = [name for name in map(_name, asked.axes) if name in SETTINGS]
+    _check_once("--axis", asked.axes)
+    _check_once("--range", asked.ranges)
     if asked.box is None and asked.ranges:
         hint = "add --box COUNT (0: its corners alone), or vary the number along an --axis"
         raise BadValueError(f"--range {asked.ranges[0]}: an edge of a box, and there is no --box", hint=hint)
@@ -119,6 +121,17 @@ def _check(asked: Stress, step: float | None) -> None:
     rows = asked.box is None and asked.fixed and ("step" in own or len(asked.axes) < 2)
     if step is not None and not rows:
         raise BadValueError("--mark-step: no row is a step", hint="with --method rk4 the rows of the map are steps")
+
+
+def _check_once(option: str, texts: Sequence[str]) -> None:
+    """A number that is varied twice is told; a parameter may be called with its section or without."""
+    varied: dict[str, str] = {}
+    for text in texts:
+        name = _name(text).removeprefix("parameters.")
+        if name in varied:
+            told = f"{option} {text}: this number is varied already, by {option} {varied[name]}"
+            raise BadValueError(told, hint=f"give each {option} a number of its own")
+        varied[name] = text
 
 
 def _check_names(asked: Stress, loaded: Sequence[Simulation]) -> None:

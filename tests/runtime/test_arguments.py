@@ -101,6 +101,25 @@ def test_text_that_is_no_number_in_a_file_is_none_anywhere(text: str, call: Gudg
         assert call("run", "pendulum", "--output", "2", *line).exit_code == 2, line
 
 
+@pytest.mark.parametrize("text", ["1_0", "\uff11", "٣", "1e1", "-1", "1.5"])
+def test_a_count_is_what_a_file_takes(text: str, call: Gudgeon) -> None:
+    """--output 1_0 was ten."""
+    for line in (["run", "pendulum", "--output"], ["stress", "pendulum", "--range", "g=1..2", "--box"]):
+        done = call(*line, text)
+        assert done.exit_code == 2 and "whole number" in done.stderr, done.output
+
+
+def test_an_end_and_times_that_end_elsewhere_are_refused() -> None:
+    """t_end was ignored beside times of output."""
+    pendulum, times = gudgeon.load("pendulum"), np.linspace(0.0, 0.3, 4)
+    for simulate in (pendulum.simulate, lambda *end, **options: pendulum.simulate_many({}, *end, **options)):
+        with pytest.raises(BadValueError, match=r"t_end is 0\.5 s, and the times of output end at 0\.3 s"):
+            simulate("500 ms", output=times)
+    whole = pendulum.simulate(output=times)
+    for end in (0.3, "300 ms", 0.1 + 0.2):
+        assert pendulum.simulate(end, output=times).q.tobytes() == whole.q.tobytes()
+
+
 def test_a_number_is_what_the_file_makes_of_it() -> None:
     """The quick way of a bare number and the file's parser have one opinion."""
     rng, slot = np.random.default_rng(5), Slot("x", "", 0.0, False, (0, 0, 0))

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
+import re
+import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 import gudgeon
+from gudgeon.commands.check import check_file
+from gudgeon.commands.emit import emit_c
+from gudgeon.commands.equations import write_equations
+from gudgeon.commands.measure import Request, load_scenes
 from tests.runtime.pump import TEXT, Gudgeon, needs_compiler, written
 
 
@@ -158,3 +167,41 @@ def test_schema_is_json_schema(call: Gudgeon) -> None:
     document = json.loads(done.stdout)
     assert document["$schema"].endswith("2020-12/schema")
     assert {"bodies", "joints", "forces", "scenes"} <= set(document["properties"])
+
+
+class Screen(io.StringIO):
+    """A terminal that keeps what is written to it."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+@needs_compiler
+def test_a_terminal_is_told_what_is_derived_and_compiled(
+    pump: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """64 bars showed nothing for 9 s. The line is gone at the end; a warm start and a pipe have none."""
+    monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "cold"))
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("NO_COLOR", "1")
+
+    def shown(task: Callable[[], object], screen: io.StringIO) -> str:
+        with monkeypatch.context() as context:
+            context.setattr(sys, "stderr", screen)
+            task()
+        return screen.getvalue()
+
+    tasks: list[tuple[Callable[[], object], list[str]]] = [
+        (lambda: emit_c(pump, tmp_path / "c", ("worn",)), ["deriving pump, scene worn"]),
+        (lambda: check_file(pump, True, False), ["deriving pump, scene ideal"]),
+        (lambda: load_scenes(Request(pump, ("ideal",))), ["compiling pump, scene ideal"]),
+    ]
+    for task, told in tasks:
+        cold = shown(task, Screen())
+        plain = re.sub(r"\x1b\[[?0-9;]*[A-Za-z]", "\n", cold)
+        assert list(dict.fromkeys(re.findall(r"\w+ \w+, scene \w+", plain)))[: len(told)] == told
+        assert "\x1b[2K" in cold and not re.search(r"\x1b\[[0-9;]*m", cold)
+        assert shown(task, Screen()) == ""
+    equations = partial(write_equations, pump, tmp_path / "x.txt", "worn")
+    assert "deriving pump, scene worn" in shown(equations, Screen())
+    assert shown(equations, io.StringIO()) == ""

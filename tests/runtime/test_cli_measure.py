@@ -44,6 +44,8 @@ PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pend
         (("--axis", "omegaa=1,10"), "nearest: omega"),
         (("--axis", "foo=1,10"), "there are: step, rtol, clearance"),
         (("--method", "scipy:Radau"), "rodas5p"),
+        (("--axis", "c=1mm,2mm", "--axis", "parameters.c=3mm,4mm"), "varied already, by --axis c=1mm,2mm"),
+        (("--box", "0", "--range", "c=1mm..2mm", "--range", "c=3mm..4mm"), "varied already"),
     ],
 )
 def test_options_that_say_nothing_are_refused(

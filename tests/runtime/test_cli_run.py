@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 import gudgeon
+from gudgeon.errors import AssemblyError
 from gudgeon.simulation import Simulation
 from tests.runtime.pump import TEXT, Gudgeon, needs_compiler, written
 
@@ -216,3 +217,11 @@ def test_a_warm_run_imports_little_before_it_integrates_and_the_generator_never(
     assert not {"sympy", "jinja2", "pydantic", "ruamel", "pint", "mpmath"} & set(after)
     assert not {"xarray", "pandas", "matplotlib", "h5py", "rich", "scipy", "cffi"} & set(before)
     assert generator == []
+
+
+def test_a_rate_that_a_joint_with_play_forbids_at_the_start_is_told(tmp_path: Path) -> None:
+    """It was called a dead centre against rows that the scene does not have."""
+    file = tmp_path / "pump.yaml"
+    file.write_text(TEXT.replace("piston.x: 0.14}", "piston.x: 0.14}\n  rates: {piston.vx: 3 m/s}"), encoding="utf-8")
+    with pytest.raises(AssemblyError, match=r"start\.rates piston\.vx cannot be met: a start closes .* play \(.*B"):
+        gudgeon.load(file, "worn").start()
