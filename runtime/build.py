@@ -19,11 +19,8 @@ from gudgeon import compiler
 from gudgeon.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.errors import BuildError
 from gudgeon.kernel_source import KernelSource
-<<<<<<< HEAD
 from gudgeon.programs import Programs
-=======
 from gudgeon.working import working
->>>>>>> e-looks
 
 if TYPE_CHECKING:
     import subprocess

@@ -16,6 +16,7 @@ from gudgeon.integrators.asking import EVERY, CtrlC
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.left_out import contradiction
 from gudgeon.results import Result
+from gudgeon.written import with_odd_outputs
 
 KEPT = 20_000  # samples whose reactions are kept at hand: they were computed for the energy balance
 AFTER_CTRL_C = 0.1  # s that the energy balance of an interrupted run may take; without it its residual is NaN
@@ -52,8 +53,10 @@ def conclude(
         accelerations=a, state=x.state, memory=x.memory, work=x.work, impacts=x.impacts,
         diagnostics=diagnose(compiled, method, problem, x, balance, seconds), events=x.events, trace=x.trace,
     )  # fmt: skip
-    if evaluation is not None and len(x.t) <= KEPT:
-        result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
+    if evaluation is not None:
+        result = with_odd_outputs(result, evaluation)
+        if len(x.t) <= KEPT:
+            result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
     return result
 
 

@@ -27,7 +27,6 @@ from gudgeon.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.restart import numbers, own
 from gudgeon.start import Start, assemble
 from gudgeon.step import scene_step
-from gudgeon.written import with_odd_outputs
 
 if TYPE_CHECKING:
     from gudgeon.batch import Batch
@@ -276,41 +275,3 @@ class Simulation:
         if not h > 0:
             raise BadValueError(f"step is {h:g} s: expected a positive time")
         return h
-<<<<<<< HEAD
-=======
-
-    def _result(
-        self, method: str, problem: Problem, trajectory: Trajectory, given: Array, is_given: Array, seconds: float
-    ) -> Result:
-        from gudgeon.results import Result
-
-        x = trajectory
-        try:
-            evaluation = self.compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p, problem.take)
-        except SolverError:
-            evaluation = None
-        except KeyboardInterrupt:
-            evaluation, trajectory = None, replace(trajectory, interrupted=True)
-        a = x.a if x.a is not None else np.full_like(x.q, np.nan) if evaluation is None else evaluation.a
-        diagnostics = diagnose(self.compiled, method, problem, trajectory, evaluation, seconds)
-        result = Result(
-            compiled=self.compiled, source=self.source, p=problem.p, given=given, is_given=is_given, t=trajectory.t,
-            q=trajectory.q, v=trajectory.v, a=a, state=trajectory.state, memory=trajectory.memory,
-            work=trajectory.work, impacts=trajectory.impacts, diagnostics=diagnostics, events=trajectory.events,
-            trace=trajectory.trace,
-        )  # fmt: skip
-        if evaluation is not None:
-            result = with_odd_outputs(result, evaluation)
-            if len(x.t) <= KEPT:
-                result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
-        return result
-
-
-def _late(ctrl_c: CtrlC, result: Result) -> Result:
-    """The result; marked as interrupted where Ctrl-C came while it was put together."""
-    try:
-        ctrl_c.take()
-    except KeyboardInterrupt:
-        return replace(result, diagnostics=replace(result.diagnostics, interrupted=True))
-    return result
->>>>>>> e-looks
