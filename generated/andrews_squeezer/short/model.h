@@ -115,16 +115,25 @@ static inline double max_of(double x, double y) { return x < y ? y : x; }
 static inline double min_of(double x, double y) { return x > y ? y : x; }
 static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
 static inline double total_force(const Clearance *joint) { return sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t); }
+/* How close (s) to the end t of a step of length h a sample is the end's own: both are sums of rounded numbers. */
+static inline double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
 /*
- * Time at which step i (1, 2, ...) of a fixed length ends, from t0 towards t_end; `h` is its length. The last one ends
- * at t_end and is the shorter for it.
+ * Time at which step i (1, 2, ...) of a fixed length ends, from the first of n output times, of which `done` are
+ * stored, towards the last; `h` is its length. The last one ends at the last time and is the shorter for it. A step
+ * that ends at an output but for rounding ends at it, and the next ones count from there, so that a run that goes on
+ * from this output takes the same ones.
  */
-static inline double step_end(double t0, double t_end, double step, double i, double *h)
+static inline double step_end(const double *t, long n, long done, double step, double i, double *h)
 {
-    const double total = max_of(ceil((t_end - t0) / step * (1.0 - 1e-12)), 1.0);
-    const double rest = t_end - t0 - (total - 1.0) * step;
+    const double total = max_of(ceil((t[n - 1] - t[0]) / step * (1.0 - 1e-12)), 1.0);
+    const double rest = t[n - 1] - t[0] - (total - 1.0) * step;
     *h = i < total || fabs(rest - step) < 1e-9 * step ? step : rest;
-    return i < total ? t0 + i * step : t_end;
+    if (!(i < total))
+        return t[n - 1];
+    const double last = t[done > 0 ? done - 1 : 0], count = rint((last - t[0]) / step);
+    const int is_end = fabs(t[0] + count * step - last) <= rounded(last, step);
+    const double end = is_end ? last + (i - count) * step : t[0] + i * step;
+    return done < n && fabs(t[done] - end) <= rounded(end, step) ? t[done] : end;
 }
 /* The side of corner k: as it is held, or where g is. */
 static inline double side_of(const double *side, double *g, int k, double value)

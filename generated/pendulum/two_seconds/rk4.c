@@ -54,8 +54,6 @@ typedef struct {
     signed char *state;
 } Samples;
 
-/* How close (s) to the end t of a step of length h a sample is the end's own: both are sums of rounded numbers. */
-static double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
 
 static void begin_step(Run *run)
 {
@@ -252,10 +250,10 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
     int status = run->ready ? 0 : begin(run, p);
     for (long i = 0; !status; i++) {
         double h;
-        const double t_new = step_end(t[0], t[n - 1], step, (double)run->steps + 1.0, &h);
-        sample_here(run, h, p, &out);
+        sample_here(run, step, p, &out);
         if (*done == n || i == limit)
             return 0;
+        const double t_new = step_end(t, n, *done, step, (double)run->steps + 1.0, &h);
         if (run->asked.stop)
             return STOPPED;
         if (lists_full(run))

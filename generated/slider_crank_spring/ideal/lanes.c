@@ -589,7 +589,7 @@ static void advance(Side *side)
     const int first = first_of(side);
     const long i = side->number[first];
     double h;
-    const double t_new = step_end(b->t[0], b->t[b->samples - 1], b->step[i], side->x.steps[first] + 1.0, &h);
+    const double t_new = step_end(b->t, b->samples, b->done[i], b->step[i], side->x.steps[first] + 1.0, &h);
     const int sampled = b->t[b->done[i]] < t_new + h;
     LaneRun before;
     const LaneBits rare = lane_step(&side->x, h, t_new, &side->p, sampled, &before);
