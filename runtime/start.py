@@ -20,7 +20,6 @@ from gudgeon.written import reason
 MAX_STEPS = 60
 FAR = 1.0  # rad: where a guessed angle turns further, a nearer configuration is sought
 TRIES, MANY = 24, 60  # from as many other angles; fewer with more coordinates than these
-MORE, ENOUGH = 3, 3  # times as many, further and further away, where none of them closes; until so many do
 LARGE = 150  # from so many columns on a sparse factorization is tried first
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 AWAY = 1e3  # of the mechanism's size: a body so far from the origin is lost
@@ -105,23 +104,10 @@ class _Assembly:
             return first
         found = [first, *(self._newton(other) for other in self._others(guess))]
         near = [q for q in found if self._is_near(q)]
-        closed = [self._unwound(q, guess) for q in near if self._norm(q) < CLOSED] or self._further(guess, near)
+        closed = [self._unwound(q, guess) for q in near if self._norm(q) < CLOSED]
         if not closed:
             raise self._failure(min(near, key=self._norm, default=guess))
         return min(closed, key=lambda q: float(np.linalg.norm((q - guess) * self.weight)))
-
-    def _further(self, guess: Array, near: list[Array]) -> list[Array]:
-        """Closed configurations from anywhere: the guess is no help, or every way from its surroundings ends in a
-        fold, where the residual is least and not zero. `near` takes up what does not close."""
-        closed: list[Array] = []
-        for other in self._others(guess, MORE):
-            q = self._newton(other)
-            if self._is_near(q):
-                near.append(q)
-                closed += [self._unwound(q, guess)] if self._norm(q) < CLOSED else []
-            if len(closed) == ENOUGH:
-                break
-        return closed
 
     def _is_near(self, q: Array) -> bool:
         """Not run off to where parallel lines meet, and every row seems to close."""
@@ -132,14 +118,12 @@ class _Assembly:
         held = self.is_angle & (self.weight == GUESSED)
         return float(np.abs(q - guess)[held].max(initial=0.0))
 
-    def _others(self, guess: Array, times: int = 1) -> Iterator[Array]:
-        """Coordinates around the guess, the same in every run; driven and set ones fall back into place. `times` as
-        many, guessed ones from nearer to further than usual."""
-        guessed = [self.place[name] for name in self.compiled.source.start_guess]
-        rng, count = np.random.default_rng(times - 1), times * (TRIES if len(guess) <= MANY else TRIES // 4)
-        for k in range(count):
-            spread = np.where(self.is_angle, np.pi, self.size)
-            spread[guessed] /= np.pi if times == 1 else np.pi ** (1.0 - k / count)
+    def _others(self, guess: Array) -> Iterator[Array]:
+        """Coordinates around the guess, the same in every run; driven and set ones fall back into place."""
+        rng, guessed = np.random.default_rng(0), [self.place[name] for name in self.compiled.source.start_guess]
+        spread = np.where(self.is_angle, np.pi, self.size)
+        spread[guessed] /= np.pi
+        for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):
             q = guess + spread * rng.uniform(-1.0, 1.0, len(guess))
             q[self.set_index] = self.set
             yield self._place_angles(q)

@@ -96,6 +96,19 @@ def figure(room: Path) -> Act:
 
 
 @task
+def save(room: Path) -> Act:
+    """A result over an older one, as NetCDF; all that is computed at saving is computed before."""
+    import gudgeon
+
+    pendulum, folder = gudgeon.load("pendulum"), room / "computed"
+    folder.mkdir()
+    runs = [pendulum.simulate(1.0 + k, output=200 * (k + 1)) for k in range(2)]
+    for k, run in enumerate(runs):
+        run.save(folder / f"{k}.nc")
+    return lambda folder, k: told(lambda: runs[k].save(folder / "run.nc"))
+
+
+@task
 def compile(room: Path) -> Act:
     """A cache without room: the library is had all the same, from a temporary folder, and that is told."""
     return lambda folder, k: told(lambda: compiled(folder, k))

@@ -82,8 +82,8 @@ def case(name: str, method: str) -> tuple[Simulation, dict[str, Any]]:
 
 @pytest.mark.parametrize(
     ("name", "method", "stride"),
-    [("dry", "auto", 331), ("dry", "dop853", 509), ("dry", "rk4", 397), ("lubricated", "auto", 41),
-     ("lubricated", "rodas5p", 29), ("lubricated", "scipy:DOP853", 23), ("four_bar", "auto", 211)],
+    [("dry", "auto", 661), ("dry", "dop853", 509), ("dry", "rk4", 397), ("lubricated", "auto", 83),
+     ("lubricated", "rodas5p", 29), ("lubricated", "scipy:DOP853", 47), ("four_bar", "auto", 211)],
 )  # fmt: skip
 def test_what_is_kept_is_the_whole_run_s(name: str, method: str, stride: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(asking, "EVERY", 0.0)
