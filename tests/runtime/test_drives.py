@@ -55,7 +55,7 @@ def test_the_work_of_a_jump_is_counted_where_nothing_is_free(value: str, tmp_pat
     ("(0.5 - t/(1 s))**(1/3)", "the power 0.333"), ("log(0.5 - t/(1 s))", "log of 0"), ("asin(2*t/(1 s))", "asin of 1"),
 ])  # fmt: skip
 def test_a_drive_that_is_no_number_is_named_with_its_time(value: str, why: str, tmp_path: Path) -> None:
-    with pytest.raises(NonFiniteError, match=rf"drives\.d\.value \(line 6, column \d+\) is .* at t = 0\.5 s, .*: {why}"):
+    with pytest.raises(NonFiniteError, match=rf"drives\.d\.value \(line 6, column \d+\) is .* t = 0\.5 s, .*: {why}"):
         driven(ONE, value, tmp_path).simulate(1.0, output=10)
 
 
