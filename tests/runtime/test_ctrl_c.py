@@ -159,7 +159,8 @@ def test_ctrl_c_while_the_energy_is_balanced(look: int, monkeypatch: pytest.Monk
 
 def test_ctrl_c_while_rows_left_out_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     """A contradiction is told of an interrupted run too."""
-    real, calls = conclusion.contradiction, []
+    real = conclusion.contradiction
+    calls: list[int] = []
 
     def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
         if not calls:
