@@ -282,4 +282,5 @@ class _Factors:
         return newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", value))
 
     def _kept(self, name: str, value: sp.Expr) -> sp.Expr:
-        return self.newton.factors.adopt(self.build, value if is_simple(value) else self.build.local(name, value))
+        own = is_simple(value) and not value.free_symbols & {ETA, ETA_ROW, ETA_STICK}  # not what every call is given
+        return self.newton.factors.adopt(self.build, value if own else self.build.local(name, value))

@@ -39,6 +39,19 @@ events: {e: {zero: "abs(s.x) - Lanes"}}
     "no rows at all, a force with a corner": MASS + """forces: {f: {torque: s, value: "-abs(s.x * 150 N)"}}
 events: {e: {zero: cos(s.theta)}}
 """,
+    "a factor of Newton's matrix that is eta": HEAD + """bodies:
+  a: {length: 0.1 m, mass: 0.3 kg, inertia: 2e-3 kg*m^2}
+  b: {length: 0.3 m, mass: 0.3 kg, inertia: 2e-3 kg*m^2}
+  s: {mass: 1 kg, inertia: 1e-3 kg*m^2}
+ground: {O: [0, 0]}
+joints:
+  O: {revolute: [ground.O, a.tail]}
+  A: {revolute: [a.head, b.tail]}
+  W: {revolute: [b.head, s.origin]}
+  G: {translational: [ground.O, s.origin], axis: [1, 0]}
+forces: {f: {torque: s, value: a.vy * 1 kg*m/s}}
+start: {guess: {a.theta: 40 deg, s.x: 0.35 m}}
+""",
 }
 
 

@@ -56,14 +56,16 @@ static int go(const double *p, const double *y)
 {
     double t[101], q[101 * N_Q], v[101 * N_Q], a[101 * N_Q], work[101 * N_WORK] = {0.0}, phi = 0.0, phi_dot = 0.0;
     long steps = 0, done = 0;
+    static Course course;
     for (int i = 0; i <= 100; i++)
         t[i] = 0.01 * i;
     for (int k = 0; k < N_Q; k++) {
         q[k] = y[k];
         v[k] = y[N_Q + k];
     }
-    const int status = gudgeon_kinematic(100, t, p, 0.05, 0.1, q, v, a, &phi, &phi_dot, &steps, &done);
-    return status ? status : gudgeon_kinematic_works(100, t, p, 0.05, 0.1, q, v, work, &done);
+    gudgeon_course_begin(&course, 0.05, 0.1, t[100], NULL, NULL, 0.0);
+    const int status = gudgeon_kinematic(&course, 100, t, p, q, v, a, &phi, &phi_dot, &steps, &done);
+    return status ? status : gudgeon_kinematic_works(&course, 100, t, p, q, v, work, &done);
 }
 """
 MAIN = r"""
