@@ -7,7 +7,7 @@ first access, exactly, from these (one pass of the compiled model over the sampl
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from types import MappingProxyType
@@ -94,6 +94,10 @@ class Result:
             values.flags.writeable = False
             self.stored[name] = values
         return self.stored[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of all series, as of a mapping."""
+        return iter(self.names)
 
     def __contains__(self, name: str) -> bool:
         return name == "t" or name in self._catalogue
@@ -242,7 +246,7 @@ class Result:
             hint = "a joint's play, contact and reaction have results only in the scenes that have them"
             scene = self.source.scene
             return UnknownNameError(f"output {name!r} needs {lacking}, which scene {scene!r} lacks", hint=hint)
-        nearest = difflib.get_close_matches(name, self._catalogue, n=3, cutoff=0.5)
+        nearest = difflib.get_close_matches(str(name), self._catalogue, n=3, cutoff=0.5)
         hint = f"nearest: {', '.join(nearest)}" if nearest else "run.names lists all names"
         return UnknownNameError(f"the scene {self.source.scene!r} has nothing named {name!r}", hint=hint)
 

@@ -82,6 +82,15 @@ def test_an_unknown_name_names_the_nearest(run: Result) -> None:
         run["S9.yy"]
     with pytest.raises(UnknownNameError, match=r"parameters\[\"omega\"\]"):
         run["omega"]
+    with pytest.raises(UnknownNameError, match="named 0"):
+        run[0]  # type: ignore[index]
+
+
+def test_names_are_listed_like_those_of_a_mapping(run: Result) -> None:
+    """Python asked for run[0] instead: a TypeError from within."""
+    assert list(run) == list(run.names)
+    assert "S9.y" in run
+    assert "S9.yy" not in run
 
 
 def test_every_listed_name_can_be_read_and_has_one_number_a_sample(run: Result, ideal: Result) -> None:
