@@ -39,12 +39,15 @@ class Programs:
         """Its output and errors, when it is over. KeyboardInterrupt within EVERY seconds of Ctrl-C."""
         import subprocess
 
+        told: tuple[str, str] | None = None
         with CtrlC() as ctrl_c:
-            while True:
+            while told is None:
                 try:
-                    return process.communicate(timeout=EVERY)
+                    told = process.communicate(timeout=EVERY)
                 except subprocess.TimeoutExpired:
                     ctrl_c.take()
+        ctrl_c.take()  # one that came as the program ended
+        return told
 
     def __exit__(self, *_: object) -> None:
         left = [process for process in self._begun if process.returncode is None]
