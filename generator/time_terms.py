@@ -53,6 +53,8 @@ class _Terms:
         self.timed: dict[str, sp.Expr] = {}  # those of them that hang on time, written out
         self.terms: dict[sp.Expr, None] = {}
         self.time = "t"
+        self._tame: dict[sp.Expr, bool] = {}  # parts recur in the derivatives of what is nested
+        self._names: dict[sp.Expr, frozenset[str]] = {}
 
     def read(self, statement: Statement) -> None:
         value = statement.value
@@ -78,12 +80,21 @@ class _Terms:
 
     def written_out(self, value: sp.Expr) -> sp.Expr:
         """With the locals that hang on time as what they are."""
+        if self.names_in(value).isdisjoint(self.timed):
+            return value
         inner = {s: self.timed[s.name] for s in value.free_symbols if s.name in self.timed}
         return value.xreplace(inner) if inner else value
 
+    def names_in(self, value: sp.Expr) -> frozenset[str]:
+        """Of its symbols; each part is looked at once."""
+        if value not in self._names:
+            parts = (self.names_in(part) for part in value.args)
+            self._names[value] = frozenset({value.name}) if value.is_Symbol else frozenset().union(*parts)
+        return self._names[value]
+
     def is_timed(self, value: sp.Expr) -> bool:
         """Whether it hangs on time, and on nothing but time and parameters."""
-        names = {symbol.name for symbol in value.free_symbols}
+        names = self.names_in(value)
         return names <= self.known.keys() and (self.time in names or not names.isdisjoint(self.timed))
 
     def collect(self, value: sp.Expr) -> None:
@@ -104,9 +115,12 @@ class _Terms:
 
     def is_tame(self, value: sp.Expr) -> bool:
         """Whether it shows at the stages what it does between them. Corners end steps: their branches count."""
-        value = self.written_out(value)
-        time = [s for s in value.free_symbols if s.name == self.time]
-        if not time:
+        if value not in self._tame:
+            self._tame[value] = self._is_tame(self.written_out(value))
+        return self._tame[value]
+
+    def _is_tame(self, value: sp.Expr) -> bool:
+        if self.time not in self.names_in(value):
             return True
         match value:
             case sp.Symbol():
@@ -118,8 +132,15 @@ class _Terms:
             case sp.Pow() if value.exp.is_Integer and int(value.exp) in _POWERS:
                 return self.is_tame(value.base)
         if isinstance(value, _LINEAR):
-            return not sp.diff(value.args[0], time[0]).has(time[0])
+            return self.is_linear(value.args[0])
         return False
+
+    def is_linear(self, value: sp.Expr) -> bool:
+        """Whether its form says that it is linear in time."""
+        timed = [part for part in value.args if self.time in self.names_in(part)]
+        if isinstance(value, (sp.Add, sp.Mul)):
+            return (len(timed) < 2 or isinstance(value, sp.Add)) and all(map(self.is_linear, timed))
+        return value.is_Symbol or not timed
 
     def needed(self, terms: list[sp.Expr]) -> list[Statement]:
         """The locals that the terms read, in their order."""

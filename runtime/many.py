@@ -44,8 +44,9 @@ def simulate_many(
     """See Simulation.simulate_many."""
     given, is_given = given_sets(simulation.source, parameters)
     workers = available_threads() if threads is None else threads
-    if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
+    if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
         raise BadValueError(f"threads is {threads!r}: expected a number of threads, 1 or more")
+    workers = int(min(workers, max(len(given), 1)))  # no more than there is to do
     times = output_times(simulation.source, 0.0, t_end, output)
     chosen = simulation._method(method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)

@@ -52,7 +52,7 @@ static void end_run(const Batch *b, long i, int status, Run *run)
     signed char state[2];
     const double apart = status == STOPPED ? 0.0
         : max_of(32.0 * DBL_EPSILON * max_of(fabs(b->t[0]), fabs(b->t[b->samples - 1])),
-            min_of(1e-11, 1e-10 * (b->t[b->samples - 1] - b->t[0]))); /* as session.py has it */
+            min_of(1e-11, 1e-10 * (b->t[b->samples - 1] - b->t[0]))); /* as Python's Session has it */
     if (status == ENDED || (status == STOPPED && b->done[i] > 0)) {
         b->t_last[i] = run->t;
         while (b->done[i] > 0 && b->t[b->done[i] - 1] >= run->t - apart)
