@@ -61,7 +61,7 @@ def test_runs_are_bit_for_bit_those_made_alone(scene: str, options: dict[str, An
 
 def test_no_more_threads_than_runs() -> None:
     pendulum = gudgeon.load("pendulum")
-    assert pendulum.simulate_many({"g": [9.0, 10.0]}, 0.1, output=2, threads=np.int64(3)).threads == 2
+    assert pendulum.simulate_many({"g": [9.0, 10.0]}, 0.1, output=2, threads=3).threads == 2
 
 
 def test_any_number_of_threads_gives_identical_bytes() -> None:
