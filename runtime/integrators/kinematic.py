@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.compiled import Array
-from gudgeon.errors import NonFiniteError, SolverError
+from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.integrators.asking import Asker
 from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, too_far
 from gudgeon.integrators.kinematic_events import Events
@@ -197,11 +197,15 @@ def _failure(problem: Problem, status: int, t: float) -> SolverError:
             "  the lengths do not let the drives turn on, or the linkage passes a dead centre",
             t,
         )
-    try:
-        problem.compiled.check_pivot(status, t, problem.compiled.source.start_pivots)
-    except SolverError as error:
-        return error
-    raise AssertionError("a positive status raises")
+    row = problem.compiled.source.start_pivots[status - 1]
+    return SingularError(
+        f"the linkage cannot be followed beyond t = {t:.12g} s: it is singular there, the pivot of constraint row {row}"
+        f" vanished{_drives(problem, t)}\n"
+        "  links lie in one line (a dead centre) or do not reach further, or constraints are redundant: end the run"
+        " before it, or change lengths or drives",
+        t,
+        row,
+    )
 
 
 def _drives(problem: Problem, t: float) -> str:
