@@ -43,18 +43,33 @@ class Aside:
 
     def __enter__(self) -> Aside:
         with telling(self.folder):
-            missing = [path for path in (self.folder, *self.folder.parents) if not os.path.lexists(path)]
+            self._made = [path for path in (self.folder, *self.folder.parents) if not os.path.lexists(path)]
             self.folder.mkdir(parents=True, exist_ok=True)
-            self._made = missing
             self._fd = os.open(self.folder, _FOLDER | (0 if self.follow else os.O_NOFOLLOW))
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        for part in self._parts:
+        try:
+            self._clear(kind is not None)
+        except KeyboardInterrupt:
+            self._clear(True)
+            raise
+
+    def __del__(self) -> None:
+        """Ctrl-C may come before __exit__ has begun, or in __enter__."""
+        self._clear(True)
+
+    def _clear(self, failed: bool) -> None:
+        """What was not moved goes; a second call goes on where the first was left."""
+        while self._parts:
             with suppress(OSError):
-                os.unlink(part, dir_fd=self._fd)
-        os.close(self._fd)
-        for folder in self._made if kind else ():
+                os.unlink(self._parts[-1], dir_fd=self._fd)
+            self._parts.pop()
+        if self._fd >= 0:
+            handle, self._fd = self._fd, -1
+            os.close(handle)
+        made, self._made = self._made, []
+        for folder in made if failed else ():
             with suppress(OSError):  # it holds something else by now
                 folder.rmdir()
 
@@ -64,8 +79,8 @@ class Aside:
         with telling(self.folder / name):
             old = _replaceable(self.folder, name, self._fd)
             part = f".gudgeon-{os.urandom(8).hex()}.part"
+            self._parts.append(part)  # first: Ctrl-C may come as it has been opened
             handle = os.open(part, _OPEN, 0o600 if old else 0o666, dir_fd=self._fd)
-            self._parts.append(part)
             with open(handle, "w+b") as file:
                 yield file
                 file.flush()
