@@ -263,7 +263,9 @@ def mechanism_sizes(compiled: CompiledModel, p: Array) -> Array:
 
 
 def smallest(matrix: Array, target: Array) -> Array:
-    """The shortest x with matrix x = target, or the nearest to it that there is."""
+    """The shortest x with matrix x = target, or the nearest to it that there is; 0 where they are not finite."""
+    if not (np.isfinite(matrix).all() and np.isfinite(target).all()):
+        return np.zeros(matrix.shape[1])
     if matrix.shape[1] >= LARGE:
         x = _sparse_smallest(matrix, target)
         if x is not None:

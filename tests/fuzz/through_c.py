@@ -239,8 +239,9 @@ def _check(
     """As near as what an error of the state in its tenth digit changes."""
     source = compiled.source
     tree, q, v, everything, of_tree, of_all, rescued = found
-    slack = [SAFETY * 1e-5 * np.max([abs(a - b) for a in other], axis=0) for b, other in
-             zip(found, zip(*moved, strict=True), strict=True)]  # fmt: skip
+    with np.errstate(invalid="ignore"):
+        slack = [SAFETY * 1e-5 * np.max([abs(a - b) for a in other], axis=0) for b, other in
+                 zip(found, zip(*moved, strict=True), strict=True)]  # fmt: skip
     _agree("events", of_tree, of_all, slack[4])
     if hasattr(compiled.lib, "gudgeon_reduced_rescue"):
         size = np.max(abs(tree), initial=1.0)
@@ -255,7 +256,8 @@ def _check(
 
 def _agree(what: str, a: Array, b: Array, slack: Array) -> None:
     good = np.isfinite(a) & np.isfinite(b) & np.isfinite(slack)
-    wrong = good & (abs(a - b) > 1e-9 * np.maximum(1e-6, abs(b)) + slack)
+    with np.errstate(invalid="ignore"):
+        wrong = good & (abs(a - b) > 1e-9 * np.maximum(1e-6, abs(b)) + slack)
     if wrong.any() or (np.isfinite(a) != np.isfinite(b)).any() and np.isfinite(slack).all():
         raise Fault(f"{what} differ: {a} and {b}, slack {slack}")
 
