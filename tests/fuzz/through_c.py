@@ -37,7 +37,7 @@ WARNINGS = ("-std=c11", "-Wall", "-Wextra", "-Werror")
 STATES = 3
 SAFETY = 1e5  # what a change of 1e-10 of the state changes covers rounding so many times
 LONGEST = 3.0  # s, that a run may take
-MOST_TIME, MOST_MEMORY = 120, 4 << 30  # s, bytes: beyond these a file of a few lines is a fault
+MOST_TIME, MOST_MEMORY = 120, 4 << 30  # s of the processor, bytes: beyond these a file of a few lines is a fault
 _PARTS = ("x", "y", "theta", "vx", "vy", "omega")
 BOTH = """
 int fuzz_both(double t, const double *s, const double *rate, const double *memory, const double *parameters,
@@ -86,9 +86,9 @@ def try_files(seeds: Iterable[int], compared: int, ran: int, patient: bool = Fal
     with tempfile.TemporaryDirectory() as folder:
         for k, seed in enumerate(seeds):
             try:
-                signal.alarm(MOST_TIME if patient else 0)
+                signal.setitimer(signal.ITIMER_PROF, MOST_TIME if patient else 0)
                 _try(seed, k % 2 == 0, k % compared == 0, k % ran == 0, Path(folder), tally.counts)
-                signal.alarm(0)
+                signal.setitimer(signal.ITIMER_PROF, 0)
             except Exception as error:
                 fault = f"file {seed}: {type(error).__name__}: {error}"
                 if not patient:
@@ -348,7 +348,7 @@ def main(count: int, seed: int) -> None:
     """Tell every 200 files how it goes."""
     total = Tally(Counter(), [])
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, resource.getrlimit(resource.RLIMIT_AS)[1]))
-    signal.signal(signal.SIGALRM, _too_long)
+    signal.signal(signal.SIGPROF, _too_long)
     for first in range(0, count, 200):
         part = try_files(range(seed + first, seed + min(first + 200, count)), 20, 100, patient=True)
         total.counts += part.counts
