@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import sympy as sp
+from sympy.polys.polyutils import dict_from_expr
 
 from gudgeon.errors import BadValueError
 from gudgeon.expression_tree import Binary, Call, Expr, Name, Number, Unary
@@ -25,11 +26,23 @@ def ramp(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
 
 _HALF = sp.Rational(1, 2)
 _LONG = 60  # operations under a root, beyond which nobody wrote a square
+_HIGH = 60  # likewise a power
+
+
+def exponential(exponent: sp.Expr) -> sp.Expr:
+    """e^x with the numbers of a sum exact: SymPy would take e^5000.0 out of e^(5000.0 − u), and that overflows."""
+    if not exponent.is_Add:
+        return sp.exp(exponent)
+    return sp.exp(sp.Add(*(_exact(x) for x in exponent.args)))
+
+
+def _exact(number: sp.Expr) -> sp.Expr:
+    return sp.Rational(number) if number.is_Float else number
 
 
 _FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
-    "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": sp.exp, "log": sp.log,
+    "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": exponential, "log": sp.log,
     "sqrt": lambda a: root(a, _HALF), "hypot": lambda a, b: root(a**2 + b**2, _HALF), "abs": sp.Abs, "sign": sp.sign,
     "min": sp.Min, "max": sp.Max, "smooth_step": smooth_step, "ramp": ramp,
 }  # fmt: skip
@@ -63,7 +76,9 @@ def _combine(operator: str, a: sp.Expr, b: sp.Expr) -> sp.Expr:
             return a * b
         case "/":
             return a / b
-    return _power(a, b) if a.is_number and b.is_number else root(a, _halves(b))
+    if a.is_number and b.is_number:
+        return _power(a, b)
+    return root(a, _exact(b) if a.has(sp.exp) else _halves(b))  # (e^(5000 − u))^0.3 as e^(1500 − 0.3 u)
 
 
 def root(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
@@ -71,8 +86,12 @@ def root(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
     if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _LONG:
         return base**exponent
     try:
-        factor, parts = sp.sqf_list(sp.nsimplify(base, rational=True))
-    except sp.PolynomialError:
+        exact = sp.nsimplify(base, rational=True)
+        terms, _ = dict_from_expr(exact)  # e^(50 − 1000 u) is e^50 (e^−u)^1000: such a polynomial fills all memory
+        if max((power for term in terms for power in term), default=0) > _HIGH:
+            return base**exponent
+        factor, parts = sp.sqf_list(exact)
+    except (sp.PolynomialError, ValueError):  # ValueError: a number of thousands of digits
         return base**exponent
     if all(count == 1 for _, count in parts):
         return base**exponent
@@ -81,7 +100,7 @@ def root(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
 
 def _halves(exponent: sp.Expr) -> sp.Expr:
     """An exponent such as 0.5 or 1.5 exactly, so that (u**2)**0.5 is |u| and has its corner."""
-    exact = sp.Rational(exponent) if exponent.is_Float else exponent
+    exact = _exact(exponent)
     return exact if exact.is_Rational and exact.q <= 8 else exponent
 
 
