@@ -40,10 +40,12 @@ class JustBehind(sp.Function):
 
 def overflowing(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:
     """The outermost terms of an expression that may be finite where their derivative by a symbol is not."""
-    if by not in expression.free_symbols:
+    if not any(map(_saturates, expression.atoms(sp.Pow, *_SATURATING))) or by not in expression.free_symbols:
         return []
-    if _saturates(expression) and any(_grows(part, by) for arg in expression.args for part in sp.preorder_traversal(arg)):
-        return [expression]
+    if _saturates(expression):
+        within = (part for argument in expression.args for part in sp.preorder_traversal(argument))
+        if any(_grows(part, by) for part in within):
+            return [expression]
     return [term for argument in expression.args for term in overflowing(argument, by)]
 
 
