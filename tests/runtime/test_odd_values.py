@@ -11,10 +11,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon import bench, stress
-from gudgeon.errors import GudgeonError
+from gudgeon.cli import app
+from gudgeon.errors import GudgeonError, InputError
 from gudgeon.measure import axes, box
 from gudgeon.measure.work import Error
 from gudgeon.plots import Plot
@@ -239,3 +241,74 @@ def test_axes(pendulum: Simulation) -> None:
     refused_or_used(lambda value: axes.axis(pendulum, address, [1.0], value))
     refused_or_used(lambda value: axes.typed(pendulum, value))
     refused_or_used(lambda value: box.Range(address, value, 1.0))
+
+
+def test_what_is_told(pendulum: Simulation) -> None:
+    """Each by its name, with what was given and what was expected."""
+    vast = np.broadcast_to(0.0, (10**12,))
+    y = np.zeros(2 * pendulum.compiled.n)
+    refused: list[tuple[Callable[[], object], str]] = [
+        (lambda: pendulum.simulate(0.01, output=vast), "output has 1000000000000 entries: expected 100000000 at most"),
+        (lambda: pendulum.rhs(None, y), "t: 'None' is not one real number"),  # type: ignore[arg-type]
+        (lambda: pendulum.rhs(10**400, y), "t: "),
+        (lambda: pendulum.simulate(0.01, stop="no"), "stop is 'no': expected True or False"),  # type: ignore[arg-type]
+        (lambda: pendulum.simulate(0.01, parameters=np.zeros(0)), "parameters is a ndarray: expected a mapping"),  # type: ignore[arg-type]
+        (lambda: pendulum.simulate(0.01, parameters={1: 2.0}), "parameters: its key 1 is no text"),  # type: ignore[dict-item]
+        (lambda: pendulum.simulate_many(None), "parameters: expected a mapping for every run"),  # type: ignore[arg-type]
+        (lambda: pendulum.simulate_many({"g": [[1], [2, 3]]}), "parameters: g is list [[1], [2, 3]]: expected one"),  # type: ignore[dict-item]
+        (lambda: pendulum.simulate_many([{}], threads="two"), "threads is 'two': expected a number"),  # type: ignore[arg-type]
+    ]  # fmt: skip
+    for call, told in refused:
+        with pytest.raises(InputError) as caught:
+            call()
+        assert told in str(caught.value)
+
+
+def test_a_series_of_pandas_is_a_mapping(pendulum: Simulation) -> None:
+    address = pendulum.source.slots[0].address
+    value = float(pendulum.p[0]) * 1.25
+    series, plain = (pendulum.simulate(0.1, output=2, parameters=p) for p in (pandas.Series({address: value}),
+                                                                            {address: value}))  # fmt: skip
+    assert series.parameters[address] == value
+    assert (series.q == plain.q).all()
+    with pytest.raises(InputError, match="a name twice"):
+        pendulum.simulate(0.1, parameters=pandas.Series([1.0, 2.0], index=[address, address]))
+
+
+@pytest.mark.parametrize(
+    ("code", "rate", "told"),
+    [
+        (2, np.nan, r"start.memory\[0\] of joint \w+ is nan while start.state\[0\] is 2: expected the rate"),
+        (1, np.nan, "is nan while"), (0, 1.0, r"remembers 1 m/s while start.state\[0\] is 0 \(free\)"),
+        (2, np.inf, "is inf while"), (0, -np.inf, "remembers -inf"),
+    ],
+)  # fmt: skip
+def test_a_state_that_contradicts_itself(code: int, rate: float, told: str) -> None:
+    crank = gudgeon.load("slider_crank", "dry")
+    final = crank.simulate(1e-3, output=1).final
+    codes, memory = final.state.copy(), final.memory.copy()
+    codes[0], memory[0] = code, rate
+    with pytest.raises(InputError, match=told):
+        crank.simulate(2e-3, output=1, start=replace(final, state=codes, memory=memory))
+    codes[0], memory[0] = 0, np.nan
+    crank.simulate(2e-3, output=1, start=replace(final, state=codes, memory=memory))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["stress", "slider_crank", "--scene", "dry", "--axis", "c=1..2:0"], "a whole number of values after ':'"),
+        (["stress", "slider_crank", "--scene", "dry", "--axis", "c=1..2:"], "a whole number of values after ':'"),
+        (["stress", "slider_crank", "--scene", "dry", "--axis", "c=1,2:3"], "only a range"),
+        (["bench", "pendulum", "--methods", ""], "--methods '': expected names of methods"),
+        (["bench", "pendulum", "--methods", " , "], "expected names of methods"),
+        *[([command, "pendulum", "--out", ""], "'': expected a name")
+          for command in ("run", "emit", "equations", "bench", "stress")],
+        (["bench", "pendulum", "--csv", ""], "'': expected a name"),
+    ],
+)  # fmt: skip
+def test_odd_options(arguments: list[str], told: str) -> None:
+    shown = CliRunner().invoke(app, arguments)
+    assert shown.exit_code == 2
+    assert told in " ".join(shown.output.split())
+    assert not list(Path().iterdir())
