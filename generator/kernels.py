@@ -78,8 +78,10 @@ def count_operations(expression: sp.Expr) -> int:
     return sum(int(count) for kind, count in counts.items() if kind.is_Symbol and kind.name != "NEG")
 
 
-def hold_sides(switches: Switches, owner: str, sections: Iterable[Section]) -> list[Section]:
-    """The sections with every corner as the side of its switch; a side is told before it is first read."""
+def hold_sides(
+    switches: Switches, owner: str, sections: Iterable[Section], only_known: bool = False
+) -> list[Section]:
+    """The sections with every corner (or only_known) as the side of its switch; told before it is first read."""
     known: dict[sp.Symbol, sp.Expr] = {}
     held = []
     for section in sections:
@@ -92,7 +94,7 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section]) -> l
                         statements.append(statement)
                     continue
                 before = len(known)
-                value = switches.hold(statement.value, owner, known)
+                value = switches.hold(statement.value, owner, known, only_known)
                 statements += [Statement(s.name, side) for s, side in list(known.items())[before:]]
                 statement = replace(statement, value=value)
             statements.append(statement)
@@ -162,12 +164,12 @@ class KernelBuilder:
 
     def build(
         self, arguments: Sequence[Argument], returns: str = "void", inline: bool = False, owner: str | None = None,
-        prune: bool = False,
+        prune: bool = False, only_known: bool = False,
     ) -> Kernel:  # fmt: skip
         """The kernel, with its inputs and definitions in front.
 
-        With an `owner` ("": the scene) corners are sides of switches: the function then reads `side` and
-        writes `g` (switches.py). `prune`: locals that nothing reads are left out.
+        With an `owner` ("": the scene) corners are sides of switches, or only_known ones: the function then reads
+        `side` and writes `g` (switches.py). `prune`: locals that nothing reads are left out.
         """
         if prune:
             self._sections = without_unread(self._sections)
@@ -190,7 +192,7 @@ class KernelBuilder:
         ]
         sections = front + [Section(title, tuple(group)) for title, group in self._sections]
         if owner is not None:
-            sections = hold_sides(self._symbols.switches, owner, sections)
+            sections = hold_sides(self._symbols.switches, owner, sections, only_known)
         kept = tuple(section for section in sections if section.statements)
         return Kernel(self._name, self._doc, tuple(arguments), kept, returns, inline)
 

@@ -56,5 +56,6 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
         build.line(f"*worst = max_of(*worst, fabs({value}));")
     build.line("return 0;")
     outs = (Argument("double *", name) for name in ("dq", "dv", "worst"))
-    kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), "int", owner="")
+    # a corner that no acceleration knows (in lengths and parameters alone) is watched by nobody, so not held
+    kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), "int", owner="", only_known=True)
     return with_sides(kernel, HELD_SIDES)

@@ -84,11 +84,17 @@ class Switches:
         """How many numbers are taken."""
         return 1 + max([*(switch.index for switch in self.found.values()), *self.spare], default=-1)
 
-    def side(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
-        """The switch of g, and −1 where it is known by −g."""
+    def known(self, owner: str, g: sp.Expr) -> tuple[Switch, int] | None:
+        """The switch of g, and −1 where it is known by −g; None: there is none yet."""
         for sign in (1, -1):
             if (known := self.found.get((owner, sp.expand(sign * g)))) is not None:
                 return known, sign
+        return None
+
+    def side(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
+        """The same; what is not known becomes one."""
+        if (known := self.known(owner, g)) is not None:
+            return known
         switch = Switch(self.spare.pop(0) if self.spare and not owner else self.count, owner, g)
         self.found[owner, sp.expand(g)] = switch
         return switch, 1
@@ -97,13 +103,20 @@ class Switches:
         """The switches of one joint with play, in their order."""
         return [switch for switch in self.found.values() if switch.owner == owner]
 
-    def hold(self, expression: sp.Expr, owner: str, sides: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
-        """`expression` with its corners as sides; the symbols that it then reads are added to `sides`."""
+    def hold(
+        self, expression: sp.Expr, owner: str, sides: dict[sp.Symbol, sp.Expr], only_known: bool = False
+    ) -> sp.Expr:
+        """`expression` with its corners as sides; the symbols that it then reads are added to `sides`.
+
+        only_known: other corners stay what they are, in a function beside the one that tells them all.
+        """
         if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside):
             return expression
-        arguments = [self.hold(a, owner, sides) for a in expression.args]
+        arguments = [self.hold(a, owner, sides, only_known) for a in expression.args]
 
         def side(g: sp.Expr) -> sp.Expr:
+            if only_known and self.known(owner, g) is None:
+                return sp.sign(g)
             switch, sign = self.side(owner, g)
             symbol = sp.Symbol(f"side_{switch.index}", real=True)
             sides.setdefault(symbol, SideOf(sp.Integer(switch.index), switch.g))

@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 import numpy as np
 import sympy as sp
-from sympy.polys.polyutils import dict_from_expr
 
 from gudgeon.errors import BadValueError
 from gudgeon.expression_tree import Binary, Call, Expr, Name, Number, Unary
@@ -25,8 +24,7 @@ def ramp(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
 
 
 _HALF = sp.Rational(1, 2)
-_LONG = 60  # operations under a root, beyond which nobody wrote a square
-_HIGH = 60  # likewise a power
+_LONG, _DEGREE = 60, 8  # operations under a root, and a power there, beyond which nobody wrote a square
 
 
 def exponential(exponent: sp.Expr) -> sp.Expr:
@@ -85,17 +83,36 @@ def root(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
     """A power; of a sum under a root its squares are taken out: sqrt(t**2 - 2*t + 1) is |t - 1|, a corner and all."""
     if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _LONG:
         return base**exponent
+    atoms: dict[sp.Expr, sp.Dummy] = {}
     try:
-        exact = sp.nsimplify(base, rational=True)
-        terms, _ = dict_from_expr(exact)  # e^(50 − 1000 u) is e^50 (e^−u)^1000: such a polynomial fills all memory
-        if max((power for term in terms for power in term), default=0) > _HIGH:
-            return base**exponent
-        factor, parts = sp.sqf_list(exact)
-    except (sp.PolynomialError, ValueError):  # ValueError: a number of thousands of digits
+        factor, parts = sp.sqf_list(_polynomial(base, atoms))
+    except sp.PolynomialError:
         return base**exponent
     if all(count == 1 for _, count in parts):
         return base**exponent
-    return sp.Mul(factor, *(sp.Pow(part, count) for part, count in parts)) ** exponent
+    meant = {dummy: atom for atom, dummy in atoms.items()}
+    return sp.Mul(factor, *(sp.Pow(part.xreplace(meant), count) for part, count in parts)) ** exponent
+
+
+def _polynomial(e: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
+    """`e` with a name for all in it that is no sum, product or small power, so that its degree is the one written.
+
+    Left to itself SymPy takes x^0.1 and x^0.0001 for powers of one generator, with as many terms as memory holds.
+    """
+    if e.is_Number:
+        return sp.nsimplify(e, rational=True)
+    if e.is_Add or e.is_Mul:
+        return e.func(*(_polynomial(a, atoms) for a in e.args))
+    base, exponent = e.as_base_exp() if e.is_Pow else (e, sp.Integer(1))
+    if exponent.is_Integer and 1 < exponent <= _DEGREE:
+        return _polynomial(base, atoms) ** exponent
+    if exponent.is_Rational and 1 < abs(exponent.p) <= _DEGREE:
+        return _polynomial(base ** (exponent / abs(exponent.p)), atoms) ** abs(exponent.p)
+    if isinstance(e, sp.exp):
+        count, rest = e.exp.as_coeff_Mul()
+        if count.is_Rational and 1 < abs(count.p) <= _DEGREE:
+            return _polynomial(sp.exp(rest * count / abs(count.p)), atoms) ** abs(count.p)
+    return atoms.setdefault(e, sp.Dummy(real=True))
 
 
 def _halves(exponent: sp.Expr) -> sp.Expr:

@@ -20,7 +20,7 @@ from gudgeon.diagnostics import Diagnostics
 from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators.trajectory import no_events
 from gudgeon.kernel_source import KernelSource
-from gudgeon.wanted import text
+from gudgeon.wanted import text, told
 
 if TYPE_CHECKING:
     import xarray
@@ -88,7 +88,9 @@ class Result:
 
     def __getitem__(self, name: str) -> Array:
         """The series of that name, (N,), in SI, read-only. UnknownNameError names the nearest."""
-        if text(name, "the name of a series") == "t":
+        if not isinstance(name, str):
+            raise self.unknown(name)
+        if name == "t":
             return self.t
         if name not in self.stored:
             values = self._series(name).compute(self)[:]
@@ -238,6 +240,8 @@ class Result:
         """The error for a name that this result does not have; it names the nearest."""
         import difflib
 
+        if not isinstance(name, str):
+            return UnknownNameError(f"nothing is named {told(name)}", hint="a name is a text: run.names lists all")
         if name in self.parameters:
             return UnknownNameError(f"{name!r} is a parameter, no series", hint=f'see run.parameters["{name}"]')
         if name in self.source.outputs:

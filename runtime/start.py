@@ -102,10 +102,14 @@ class _Assembly:
         first = self._newton(guess)
         if self._norm(first) < CLOSED and self._turned(first, guess) < FAR and self._is_near(first):
             return first
-        found = [first, *(self._newton(other) for other in self._others(guess))]
-        near = [q for q in found if self._is_near(q)]
-        closed = [self._unwound(q, guess) for q in near if self._norm(q) < CLOSED]
-        if not closed:
+        found = [first]
+        for spread in (1.0, np.pi) if self.compiled.source.start_guess else (np.pi,):
+            found += [self._newton(other) for other in self._others(guess, spread)]
+            near = [q for q in found if self._is_near(q)]
+            closed = [self._unwound(q, guess) for q in near if self._norm(q) < CLOSED]
+            if closed:
+                break
+        else:
             raise self._failure(min(near, key=self._norm, default=guess))
         return min(closed, key=lambda q: float(np.linalg.norm((q - guess) * self.weight)))
 
@@ -118,11 +122,15 @@ class _Assembly:
         held = self.is_angle & (self.weight == GUESSED)
         return float(np.abs(q - guess)[held].max(initial=0.0))
 
-    def _others(self, guess: Array) -> Iterator[Array]:
-        """Coordinates around the guess, the same in every run; driven and set ones fall back into place."""
+    def _others(self, guess: Array, of_guessed: float) -> Iterator[Array]:
+        """Coordinates around the guess, the same in every run; driven and set ones fall back into place.
+
+        of_guessed: rad, how far guessed angles are turned, for a guess may lie where every way ends in a fold (the
+        residual is least there and not zero).
+        """
         rng, guessed = np.random.default_rng(0), [self.place[name] for name in self.compiled.source.start_guess]
         spread = np.where(self.is_angle, np.pi, self.size)
-        spread[guessed] /= np.pi
+        spread[guessed] *= of_guessed / np.pi
         for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):
             q = guess + spread * rng.uniform(-1.0, 1.0, len(guess))
             q[self.set_index] = self.set
@@ -255,7 +263,9 @@ def mechanism_sizes(compiled: CompiledModel, p: Array) -> Array:
 
 
 def smallest(matrix: Array, target: Array) -> Array:
-    """The shortest x with matrix x = target, or the nearest to it that there is."""
+    """The shortest x with matrix x = target, or the nearest to it that there is; 0 where they are not finite."""
+    if not (np.isfinite(matrix).all() and np.isfinite(target).all()):
+        return np.zeros(matrix.shape[1])
     if matrix.shape[1] >= LARGE:
         x = _sparse_smallest(matrix, target)
         if x is not None:

@@ -80,7 +80,11 @@ class Aside:
             old = _replaceable(self.folder, name, self._fd)
             part = f".gudgeon-{os.urandom(8).hex()}.part"
             self._parts.append(part)  # first: Ctrl-C may come as it has been opened
-            handle = os.open(part, _OPEN, 0o600 if old else 0o666, dir_fd=self._fd)
+            try:
+                handle = os.open(part, _OPEN, 0o600 if old else 0o666, dir_fd=self._fd)
+            except FileExistsError:  # another's: it stays
+                self._parts.remove(part)
+                raise
             with open(handle, "w+b") as file:
                 yield file
                 file.flush()

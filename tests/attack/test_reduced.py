@@ -144,6 +144,35 @@ def arm_beside(t_end: float, omega: float) -> float:
     return float(y[0])
 
 
+# A drive whose corners lie in parameters alone; no acceleration hangs on them.
+STILL_CORNERS = """
+gravity: [0, -9.81 m/s^2]
+parameters: {w: 2.1 rad/s}
+bodies:
+  arm: {length: 0.4 m, mass: 0.2 kg, inertia: 3e-3 kg*m^2}
+  table: {mass: 0.8 kg, inertia: 1e-3 kg*m^2}
+ground: {O: [0, 0]}
+joints:
+  G: {translational: [ground.O, table.origin], axis: [1, 0]}
+  T: {revolute: [table.origin, arm.tail]}
+drives: {motor: {coordinate: table.x, value: VALUE}}
+forces: {drag: {torque: arm, value: 'abs(arm.theta)*1e-3 N*m'}}
+"""
+
+
+@pytest.mark.parametrize("guided", [True, False])  # a coordinate of the tree, or a closure of its own
+@pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p", "rk4"])
+def test_corners_of_a_drive_in_parameters_alone(load: Load, method: str, guided: bool) -> None:
+    text, value = STILL_CORNERS, "'max(((w*0.1 m*s)**2)**0.5, 1e-3 m/(1.5 + abs(w)*1 s)) + t*0.5 m/s'"
+    if not guided:
+        text = text.replace("  G: {translational: [ground.O, table.origin], axis: [1, 0]}\n", "")
+    options: dict[str, Any] = {"step": 1e-3} if method == "rk4" else {}
+    run = load(text.replace("VALUE", value)).simulate(0.5, output=6, method=method, **options)
+    np.testing.assert_allclose(
+        run.q[:, run.source.coordinates.index("table.x")], 0.21 + 0.5 * run.t, rtol=0.0, atol=1e-12
+    )
+
+
 @pytest.mark.parametrize("method", ["dop853", "rodas5p"])
 def test_arm_on_a_driven_table_whose_acceleration_jumps(load: Load, method: str) -> None:
     """Against the arm's own equation in one coordinate; the drive's corner lies within a chain."""

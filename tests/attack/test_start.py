@@ -51,6 +51,40 @@ def away(angle: np.ndarray) -> np.ndarray:
     return np.abs((angle + np.pi) % (2 * np.pi) - np.pi)
 
 
+NEAR_A_FOLD = """
+parameters: {a: 1 m, b: 1 m, c: 1 m, x: 1 m, y: 0 m, phi: 0 rad, guess_b: 0 rad, guess_c: 0 rad}
+bodies:
+  a: {length: a, mass: 1 kg, inertia: 0.01 kg*m^2}
+  b: {length: b, mass: 1 kg, inertia: 0.01 kg*m^2}
+  c: {length: c, mass: 1 kg, inertia: 0.01 kg*m^2}
+ground: {o: [0, 0], p: [x, y]}
+joints:
+  O: {revolute: [ground.o, a.tail]}
+  A: {revolute: [a.head, b.tail]}
+  B: {revolute: [b.head, c.head]}
+  P: {revolute: [ground.p, c.tail]}
+drives: {turn: {angle: a, value: phi + 1 rad/s * t}}
+start: {guess: {b.theta: guess_b, c.theta: guess_c}}
+"""
+
+
+def test_start_near_a_fold_from_a_guess_anywhere(load: Load) -> None:
+    """b + D = c but for 10⁻²…10⁻⁹ of it, and guesses all round: closed every time, as the lengths say."""
+    scene, rng = load(NEAR_A_FOLD), np.random.default_rng(11)
+    for _ in range(300):
+        a, c, phi, x, y = rng.uniform([0.05, 0.2, -np.pi, 0.05, -0.3], [0.5, 1.0, np.pi, 1.0, 0.3])
+        tip = a * np.array([np.cos(phi), np.sin(phi)])
+        span = np.hypot(*([x, y] - tip))
+        if span >= c:
+            continue
+        b = (c - span) * (1 + 10.0 ** rng.uniform(-9, -2))
+        guess = rng.uniform(-3, 3, 2)
+        given = {"a": a, "b": b, "c": c, "x": x, "y": y, "phi": phi, "guess_b": guess[0], "guess_c": guess[1]}
+        q = scene.start(given).q
+        heads = [tip + b * np.array([np.cos(q[5]), np.sin(q[5])]), [x, y] + c * np.array([np.cos(q[8]), np.sin(q[8])])]
+        np.testing.assert_allclose(heads[0], heads[1], rtol=0.0, atol=1e-9)
+
+
 @pytest.mark.parametrize("unit", ["um", "mm", "m", "km"])
 def test_branch_nearest_the_guess_from_anywhere(load: Load, unit: str) -> None:
     """Two hundred guesses all round: assembled every time, on the nearer branch, within half a turn of the guess."""

@@ -126,20 +126,3 @@ def test_only_what_may_overflow_is_guarded(form: str, guarded: bool) -> None:
     x = sp.Symbol("x", real=True)
     value = to_sympy(parse(form, Location("f", 1, 1)), lambda _: x)
     assert partial(value, x).has(Slope) == guarded
-
-
-def test_under_a_root_powers_stay_small(monkeypatch: pytest.MonkeyPatch) -> None:
-    """e^(5000 − 1000 t) is (e^−t)^1000 e^5000 to SymPy: as a polynomial it filled the memory."""
-    asked: list[sp.Expr] = []
-
-    def factors(base: sp.Expr) -> tuple[sp.Expr, list[tuple[sp.Expr, int]]]:
-        asked.append(base)
-        return sp.Integer(1), [(base, 1)]
-
-    monkeypatch.setattr(sp, "sqf_list", factors)
-    x = sp.Symbol("x", real=True)
-    for form in ("sqrt(1 + exp(5000 - 1000*x))", "hypot(1, exp((5 - x)/1e-3))"):
-        to_sympy(parse(form, Location("f", 1, 1)), lambda _: x)
-    assert not asked
-    to_sympy(parse("sqrt(1 + exp(2 - x))", Location("f", 1, 1)), lambda _: x)
-    assert asked

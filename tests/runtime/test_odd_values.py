@@ -34,7 +34,7 @@ def odd_values() -> dict[str, Any]:
         "inf": float("inf"), "-1": -1, "True": True, "object": object(), "0-d": np.array(3), "empty": np.zeros(0),
         "complex": 1j, "path": Path("x"), "function": lambda *_: None, "texts": np.array(["a", "b"]),
         "objects": np.array([None, 1], dtype=object), "days": np.datetime64("2020-01-01"), "set": {1}, "type": int,
-        "generator": (x for x in ()), "vast": np.broadcast_to(0.0, (10**12,)), "zero": "\0", "lone": "\ud800",
+        "generator": (one for one in range(0)), "vast": np.broadcast_to(0.0, (10**12,)), "zero": "\0", "lone": "\ud800",
         "long": "x" * 10**5, "iterator": iter([{}]), "thing": SimpleNamespace(columns=3, final=None),
     }  # fmt: skip
     return values | {"series": pandas.Series({"x": 1.0}), "table": pandas.DataFrame({"x": [1.0, 2.0]})}
@@ -68,9 +68,11 @@ def refused_or_used(call: Callable[[Any], object], documented: tuple[type[Except
             continue
         try:
             call(value)
-        except (GudgeonError, *documented):
+        except GudgeonError:
             pass
         except Exception as error:
+            if isinstance(error, documented):
+                continue
             raw.append(f"{name}: {type(error).__name__}: {str(error)[:200]}")
     assert not raw, "\n".join(raw)
 
@@ -255,7 +257,7 @@ def test_what_is_told(pendulum: Simulation) -> None:
         (lambda: pendulum.simulate(0.01, parameters=np.zeros(0)), "parameters is a ndarray: expected a mapping"),  # type: ignore[arg-type]
         (lambda: pendulum.simulate(0.01, parameters={1: 2.0}), "parameters: its key 1 is no text"),  # type: ignore[dict-item]
         (lambda: pendulum.simulate_many(None), "parameters: expected a mapping for every run"),  # type: ignore[arg-type]
-        (lambda: pendulum.simulate_many({"g": [[1], [2, 3]]}), "parameters: g is list [[1], [2, 3]]: expected one"),  # type: ignore[dict-item]
+        (lambda: pendulum.simulate_many({"g": [[1], [2, 3]]}), "parameters: g is list [[1], [2, 3]]: expected one"),
         (lambda: pendulum.simulate_many([{}], threads="two"), "threads is 'two': expected a number"),  # type: ignore[arg-type]
     ]  # fmt: skip
     for call, told in refused:
