@@ -27,9 +27,20 @@ _HALF = sp.Rational(1, 2)
 _LONG, _DEGREE = 60, 8  # operations under a root, and a power there, beyond which nobody wrote a square
 
 
+def exponential(exponent: sp.Expr) -> sp.Expr:
+    """e^x with the numbers of a sum exact: SymPy would take e^5000.0 out of e^(5000.0 − u), and that overflows."""
+    if not exponent.is_Add:
+        return sp.exp(exponent)
+    return sp.exp(sp.Add(*(_exact(x) for x in exponent.args)))
+
+
+def _exact(number: sp.Expr) -> sp.Expr:
+    return sp.Rational(number) if number.is_Float else number
+
+
 _FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
-    "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": sp.exp, "log": sp.log,
+    "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": exponential, "log": sp.log,
     "sqrt": lambda a: root(a, _HALF), "hypot": lambda a, b: root(a**2 + b**2, _HALF), "abs": sp.Abs, "sign": sp.sign,
     "min": sp.Min, "max": sp.Max, "smooth_step": smooth_step, "ramp": ramp,
 }  # fmt: skip
@@ -63,7 +74,9 @@ def _combine(operator: str, a: sp.Expr, b: sp.Expr) -> sp.Expr:
             return a * b
         case "/":
             return a / b
-    return _power(a, b) if a.is_number and b.is_number else root(a, _halves(b))
+    if a.is_number and b.is_number:
+        return _power(a, b)
+    return root(a, _exact(b) if a.has(sp.exp) else _halves(b))  # (e^(5000 − u))^0.3 as e^(1500 − 0.3 u)
 
 
 def root(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
@@ -104,7 +117,7 @@ def _polynomial(e: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
 
 def _halves(exponent: sp.Expr) -> sp.Expr:
     """An exponent such as 0.5 or 1.5 exactly, so that (u**2)**0.5 is |u| and has its corner."""
-    exact = sp.Rational(exponent) if exponent.is_Float else exponent
+    exact = _exact(exponent)
     return exact if exact.is_Rational and exact.q <= 8 else exponent
 
 

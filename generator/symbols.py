@@ -27,6 +27,7 @@ eta eta_row eta_stick lin r s u x depth unclipped dF value slope film
 close_step arrive step rates worst factor_block solve_block
 Lanes LaneBits LaneParameters LaneRun LaneAside LaneLatch LanePinForce LaneClearance all_of any_of pick rare
 chain_step chain_rates chain_third chain_corners chain_directions row most bend
+finite_slope just_ahead just_behind
 """
 _TAKEN = frozenset(_WORDS.split())
 

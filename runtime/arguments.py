@@ -11,6 +11,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.kernel_source import KernelSource, Slot
 from gudgeon.parameters import number
 from gudgeon.step import scene_end
+from gudgeon.wanted import told
 
 DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8
 NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18  # roundings between start and end; s, of a run
@@ -32,13 +33,13 @@ def output_times(source: KernelSource, t0: float, t_end: float | str | None, out
         raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
     intervals = source.simulate.get("output", DEFAULT_OUTPUT) if output is None else output
     if isinstance(intervals, bool) or not 1 <= intervals <= MOST_OUTPUT:
-        raise BadValueError(f"output is {intervals}: expected a number of intervals, 1 to {MOST_OUTPUT:.0e}")
+        raise BadValueError(f"output is {told(intervals)}: expected a number of intervals, 1 to {MOST_OUTPUT:.0e}")
     _check_end("t_end is", t0, end, 4 * int(intervals))
     return np.linspace(t0, end, int(intervals) + 1)
 
 
 def _given_times(t0: float, output: ArrayLike) -> Array:
-    times = taken(output, "output", (None,), finite=True, own=True)
+    times = taken(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
     if not len(times):
         raise BadValueError("output: expected at least one time (s), got none")
     back = np.flatnonzero(~(np.diff(times) > 0.0))

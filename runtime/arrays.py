@@ -25,6 +25,7 @@ _KINDS = {
     "void *": ("unsigned char[]", FLAG),
 }  # fmt: skip
 Shape = tuple[int | None, ...]
+MOST = 2**32  # entries that are copied
 
 
 def pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written: bool = False) -> Any:
@@ -47,18 +48,19 @@ def pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written: bool
 
 def taken(
     values: ArrayLike, name: str, shape: Shape | None = None, *, dtype: np.dtype[Any] = FLOAT, finite: bool = False,
-    own: bool = False,
+    own: bool = False, most: int = MOST,
 ) -> NDArray[Any]:  # fmt: skip
     """`values` as C reads them: aligned, C-contiguous, native byte order, of `dtype`; the array itself if it is so.
 
-    shape: what it must be, None for any length. finite: NaN and infinities are refused. own: always a copy, which no
-    later change of `values` reaches. Numbers stay what they are; an array of masked entries, of text, of complex
-    numbers, of other objects, of another shape raises ArrayError, which names it and the entry.
+    shape: what it must be, None for any length. most: entries that are copied. finite: NaN and infinities are
+    refused. own: always a copy, which no later change of `values` reaches. Numbers stay what they are; an array of
+    masked entries, of text, of complex numbers, of other objects, of another shape raises ArrayError, which names it
+    and the entry.
     """
     if type(values) is np.ndarray and values.dtype is dtype and values.flags.carray and not own:
         array: NDArray[Any] = values
     else:
-        array = _converted(values, name, dtype, own)
+        array = _converted(values, name, shape, dtype, own, most)
     if shape is not None and array.shape != shape:
         _check_shape(array, name, shape)
     if finite and not np.isfinite(array).all():
@@ -80,16 +82,22 @@ def _check_shape(array: NDArray[Any], name: str, shape: Shape) -> None:
         raise ArrayError(f"{name} has shape {array.shape}, expected ({told}{',' * (len(shape) == 1)})")
 
 
-def _converted(values: ArrayLike, name: str, dtype: np.dtype[Any], own: bool) -> NDArray[Any]:
+def _converted(
+    values: ArrayLike, name: str, shape: Shape | None, dtype: np.dtype[Any], own: bool, most: int
+) -> NDArray[Any]:
     _refuse_masked(values, name)
     try:
         given: NDArray[Any] = np.asarray(values)
-    except (TypeError, ValueError, OverflowError) as error:
+    except (TypeError, ValueError, OverflowError, MemoryError) as error:
         raise ArrayError(f"{name}: no array of numbers: {error}") from None
+    if given.size > most:  # before anything of its size is made: a view may stand for any number of entries
+        raise ArrayError(f"{name} has {given.size} entries: expected {most} at most")
     if given.dtype.kind == "O":
         given = _of_objects(given, name)
     if given.dtype.kind not in "biuf":
         _refuse(name, f"holds {given.dtype.name if given.ndim else repr(values)[:60]}")
+    if shape is not None:
+        _check_shape(given, name, shape)
     array: NDArray[Any] = np.array(given, dtype, order="C") if own else np.asarray(given, dtype, order="C")
     if dtype.kind != "f" and not (array == given).all():
         at = tuple(np.argwhere(array != given)[0].tolist())

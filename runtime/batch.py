@@ -13,6 +13,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.kernel_source import KernelSource
 from gudgeon.results import Result
 from gudgeon.series import MOTION_UNITS, rates
+from gudgeon.wanted import listed, refuse, told
 
 if TYPE_CHECKING:
     import xarray
@@ -75,8 +76,10 @@ class Batch:
     def __getitem__(self, key: int | str) -> Result | Array:
         if isinstance(key, str):
             return self._series(key)
+        if not isinstance(key, (int, np.integer)) or isinstance(key, bool):
+            refuse("a run of a batch", key, "its number, or the name of a series")
         if not -len(self) <= key < len(self):
-            raise IndexError(f"run {key}: there are {len(self)}")
+            raise IndexError(f"run {told(key)}: there are {len(self)}")
         return self.result(int(key) % len(self))
 
     @property
@@ -125,6 +128,7 @@ class Batch:
                 found[column] = ("run", "time"), values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
         for k, name in enumerate(("drives", "forces", "clearances")):
             found[f"work.{name}"] = ("run", "time"), self.work[:, :, k], {"units": "J"}
+        names = listed(names, "names", str, "a list of names of series")
         found |= {name: (("run", "time"), self[name]) for name in names}
         coordinates: dict[str, Any] = {"time": ("time", self.t, {"units": "s"})}
         coordinates |= {name: ("run", values) for name, values in self.parameters.items()}

@@ -21,6 +21,7 @@ from gudgeon.measure.rhs import RhsTime, time_rhs
 from gudgeon.measure.work import NAN, Attempt, Error, Parameters, Setting, Work, difference, natural_step, size
 from gudgeon.simulation import Simulation
 from gudgeon.step import scene_end
+from gudgeon.wanted import flag, function, mapping, numbers, positive
 
 FINEST, COARSEST = 1 / 5, 200  # steps that are tested, of the step that a plain run takes
 REFERENCE_STEPS = 200_000  # of the finest step: what bounds a smooth scene's window
@@ -129,12 +130,14 @@ def bench(
     `quick` takes fewer of both, a tenth of the window, shorter measurements and no cross-checks. After Ctrl-C the
     rows until then.
     """
-    parameters = dict(parameters or {})
+    parameters, progress = dict(mapping(parameters, "parameters")), function(progress, "progress")
+    t_end, quick = None if t_end is None else positive(t_end, "t_end"), flag(quick, "quick")
     if simulation.source.degrees_of_freedom == 0:
         return _kinematic(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
     chosen, left_out = choice(simulation, methods, quick)
-    steps = sorted(steps or usual_steps(simulation, parameters, quick), reverse=True)
-    tolerances = sorted(tolerances or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True)
+    usual = usual_steps(simulation, parameters, quick)
+    steps = sorted(numbers(steps, "steps") or usual, reverse=True)
+    tolerances = sorted(numbers(tolerances, "tolerances") or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True)
     if not steps[-1] > 0 or not 0 < tolerances[-1] <= tolerances[0] < 1:
         raise BadValueError("expected positive steps (s) and tolerances between 0 and 1")
     longest = max(REFERENCE_STEPS * steps[-1] / (10 if quick else 1), 2 * steps[0])

@@ -67,6 +67,13 @@ def _whole(least: int) -> Callable[[str], int]:
     return read
 
 
+def _path(text: str) -> Path:
+    """A name of a file or folder; of no text Path makes the folder in which one stands."""
+    if not str(text).strip():
+        raise typer.BadParameter(f"{visible(str(text))!r}: expected a name")
+    return Path(text)
+
+
 def _version(wanted: bool) -> None:
     if wanted:
         from gudgeon import __version__
@@ -85,7 +92,7 @@ def _root(
 File = Annotated[str, typer.Argument(metavar="FILE", help="A YAML file, or the name of a shipped mechanism.")]
 Scenes = Annotated[list[str] | None, typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
-Out = Annotated[Path, typer.Option("--out", help="Folder for what is written.")]
+Out = Annotated[Path, typer.Option("--out", parser=_path, metavar="PATH", help="Folder for what is written.")]
 
 
 @app.command()
@@ -160,7 +167,10 @@ def check(
 @_told
 def emit(
     file: File,
-    folder: Annotated[Path, typer.Option("--out", "-o", help="Folder for the C files, one below it a scene.")],
+    folder: Annotated[
+        Path,
+        typer.Option("--out", "-o", parser=_path, metavar="PATH", help="Folder for the C files, one below it a scene."),
+    ],
     scene: Scenes = None,
 ) -> int:
     """Write the generated C, to be read or to be built into something else.
@@ -176,7 +186,7 @@ def emit(
 @_told
 def equations(
     file: File,
-    target: Annotated[Path, typer.Option("--out", "-o", help="x.tex, x.txt or x.html.")],
+    target: Annotated[Path, typer.Option("--out", "-o", parser=_path, metavar="PATH", help="x.tex, x.txt or x.html.")],
     scene: Annotated[str, typer.Option("--scene", "-s", help="Which scene.")] = "ideal",
 ) -> int:
     """Write the equations of a scene as LaTeX, text or HTML.
@@ -206,7 +216,10 @@ Mark = Annotated[
 ]
 Set = Annotated[list[str] | None, typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a number: c=0.5mm.")]
 End = Annotated[str | None, typer.Option("--t-end", help="Length of the measured runs, in s or with a unit.")]
-Csv = Annotated[Path | None, typer.Option("--csv", help="Where the table goes, the picture beside it.")]
+Csv = Annotated[
+    Path | None,
+    typer.Option("--csv", parser=_path, metavar="PATH", help="Where the table goes, the picture beside it."),
+]
 
 
 @app.command()

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from gudgeon.arrays import FLAG, pointer, taken
 from gudgeon.errors import SingularError
 from gudgeon.kernel_source import KernelSource
+from gudgeon.wanted import number_of, time
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -105,7 +106,7 @@ class CompiledModel:
     def closed_phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
         """Φ_q of the closed linkage, (rows, n)."""
         out = np.empty((len(self.source.start_rows), self.n))
-        self.lib.gudgeon_phi_q(t, self._state(q, "q"), self._numbers(p), self._out(out))
+        self.lib.gudgeon_phi_q(time(t), self._state(q, "q"), self._numbers(p), self._out(out))
         return out
 
     def closed_nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
@@ -145,7 +146,8 @@ class CompiledModel:
         `size` of the mechanism, m, weighs lengths against angles: see start.py, which does what this leaves.
         """
         q, v, residual = np.empty(self.n), np.empty(self.n), np.empty(1)
-        status = self.lib.gudgeon_start(t, self._numbers(p), size, *(self._out(array) for array in (q, v, residual)))
+        given = time(t), self._numbers(p), number_of(size, "size")
+        status = self.lib.gudgeon_start(*given, *(self._out(array) for array in (q, v, residual)))
         return None if status else (q, v, float(residual[0]))
 
     def rhs(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> Array:
@@ -155,7 +157,7 @@ class CompiledModel:
         the modes of frictions. Raises ArrayError for another length.
         """
         out = np.empty(2 * self.n + N_WORK)
-        status = self.lib.gudgeon_rhs(t, *self._point(y, memory, p), self._out(out))
+        status = self.lib.gudgeon_rhs(time(t), *self._point(y, memory, p), self._out(out))
         self.check_pivot(status, t)
         return out
 
@@ -168,7 +170,7 @@ class CompiledModel:
         if not hasattr(self.lib, "gudgeon_jacobian"):
             raise ValueError("this scene has no Jacobian: without a degree of freedom nothing is integrated")
         J, f_t = np.empty((2 * self.n + N_WORK,) * 2), np.empty(2 * self.n + N_WORK)
-        status = self.lib.gudgeon_jacobian(t, *self._point(y, memory, p), self._out(J), self._out(f_t))
+        status = self.lib.gudgeon_jacobian(time(t), *self._point(y, memory, p), self._out(J), self._out(f_t))
         self.check_node(status, t)
         return J, f_t
 
@@ -177,8 +179,8 @@ class CompiledModel:
     ) -> Array:
         """u, (2n + 3,), with u/η − J u = r + s f_t: a linear solve as the implicit methods do it."""
         u = np.empty(2 * self.n + N_WORK)
-        right = self.pointer(taken(r, "r", u.shape))
-        status = self.lib.gudgeon_newton(t, *self._point(y, memory, p), eta, s, right, self._out(u))
+        right, eta, s = self.pointer(taken(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
+        status = self.lib.gudgeon_newton(time(t), *self._point(y, memory, p), eta, s, right, self._out(u))
         self.check_node(status, t)
         return u
 
@@ -263,7 +265,7 @@ class CompiledModel:
     def _rows(self, function: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
         out = np.empty(len(self.source.start_rows))
         pointers = [self._state(state, name) for name, state in zip("qv", states, strict=False)]
-        getattr(self.lib, function)(t, *pointers, self._numbers(p), self._out(out))
+        getattr(self.lib, function)(time(t), *pointers, self._numbers(p), self._out(out))
         return out
 
     def _point(self, y: ArrayLike, memory: ArrayLike | None, p: ArrayLike) -> tuple[Any, Any, Any]:
@@ -290,7 +292,7 @@ def _table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Arra
     """Checked as `taken` does; of an array of doubles, however it lies, no copy: its rows are taken piece by piece."""
     if type(values) is not np.ndarray or values.dtype != np.float64:
         return taken(values, name, (rows, columns))
-    taken(values[:0], name, (0, columns))
+    taken(values[:0] if values.ndim else values, name, (0, columns))
     return values if len(values) == rows else taken(values, name, (rows, columns))
 
 

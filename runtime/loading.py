@@ -17,6 +17,7 @@ from gudgeon.cache import Cache, default_cache, digest
 from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
 from gudgeon.kernel_source import KernelSource
 from gudgeon.shipped import PACKAGE, committed, shipped, shipped_file
+from gudgeon.wanted import flag, mapping, number_of, path, text
 from gudgeon.working import working
 from gudgeon.writing import kind
 
@@ -61,7 +62,10 @@ def load(
     Raises InputError if the file is wrong, BuildError if its C cannot be compiled.
     """
     start = perf_counter()
-    file = find_mechanism(mechanism)
+    file, overrides = find_mechanism(mechanism), override_values(overrides)
+    scene = None if scene is None else text(scene, "scene", "the name of a scene")
+    formulation = text(formulation, "formulation")
+    portable, regenerate = flag(portable, "portable"), flag(regenerate, "regenerate")
     return load_bytes(
         read_bytes(file), file, scene, overrides=overrides, formulation=formulation, portable=portable,
         regenerate=regenerate, start=start,
@@ -97,8 +101,22 @@ def load_bytes(
     return Simulation(compiled, file=file, overrides=dict(overrides or {}), loading=loading)
 
 
+def override_values(overrides: Overrides | None) -> dict[str, str | float | bool]:
+    """Overrides as texts, numbers and flags. Raises BadValueError for anything else."""
+    found = mapping(overrides, "overrides", "{address: a value as the file would have it}")
+    return {text(name, "an address of overrides"): _override(name, value) for name, value in found.items()}
+
+
+def _override(name: str, value: object) -> str | float | bool:
+    if isinstance(value, (str, bool)):
+        return text(value, f"overrides: {name}") if isinstance(value, str) else value
+    number = number_of(value, f"overrides: {name}")
+    return value if isinstance(value, int) else number
+
+
 def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
     """The YAML file that a name or path stands for. Raises UnknownNameError for an unknown name."""
+    mechanism = path(mechanism, "mechanism")
     if isinstance(mechanism, os.PathLike) or "/" in mechanism or mechanism.endswith((".yaml", ".yml")):
         return Path(mechanism)
     return shipped_file(mechanism)

@@ -24,6 +24,7 @@ from gudgeon.parameter_sets import Mask, ParameterSets, given_sets, prepare_sets
 from gudgeon.results import Result
 from gudgeon.simulation import MAX_STEPS
 from gudgeon.single_runs import run_singly
+from gudgeon.wanted import flag, function, text, told
 
 if TYPE_CHECKING:
     from gudgeon.simulation import Simulation
@@ -43,9 +44,11 @@ def simulate_many(
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
     given, is_given = given_sets(simulation.source, parameters)
+    method, progress = text(method, "method"), function(progress, "progress")
+    stop, side_by_side = flag(stop, "stop"), flag(side_by_side, "side_by_side")
     workers = available_threads() if threads is None else threads
     if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
-        raise BadValueError(f"threads is {threads!r}: expected a number of threads, 1 or more")
+        raise BadValueError(f"threads is {told(threads)}: expected a number of threads, 1 or more")
     workers = int(min(workers, max(len(given), 1)))  # no more than there is to do
     times = output_times(simulation.source, 0.0, t_end, output)
     chosen = simulation._method(method, step is not None)

@@ -18,6 +18,8 @@ from gudgeon import trace
 from gudgeon.errors import GudgeonError
 from gudgeon.hdf5_image import Table, Variable, pieces
 from gudgeon.results import Array, Result
+from gudgeon.wanted import path as named
+from gudgeon.wanted import text
 from gudgeon.writing import written
 
 if TYPE_CHECKING:
@@ -98,6 +100,7 @@ def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
         import xarray
     except ModuleNotFoundError as error:
         raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
+    part = text(part, "part", "the name of a table")
     group = "" if part == SERIES else part
     if part not in (SERIES, *PARTS):
         from gudgeon.errors import UnknownNameError
@@ -114,7 +117,7 @@ def save(run: Result, path: str | os.PathLike[str]) -> None:
         import h5py  # noqa: F401
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
-    found = list(tables(run))
+    path, found = named(path, "path"), list(tables(run))
     with written(path) as file:
         for piece in pieces(found):
             file.write(piece)

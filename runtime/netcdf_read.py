@@ -25,6 +25,7 @@ from gudgeon.results import IMPACT_DTYPE, Array, Result
 from gudgeon.series import MOTION
 from gudgeon.trace import COLUMNS, Trace
 from gudgeon.typed import check_typed
+from gudgeon.wanted import path as named
 
 OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
 OLD_NAMES = ("time", "impact", "event", "slot", "prepared")
@@ -39,8 +40,12 @@ def read(path: str | os.PathLike[str]) -> Result:
         import h5py
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
-    path, shown = Path(path), os.fspath(path)
-    if not path.is_file():
+    path, shown = Path(named(path, "path")), os.fspath(path)
+    try:
+        known = path.is_file()
+    except OSError:  # a name that is too long
+        known = False
+    if not known:
         raise InputError(f"there is no file {shown}")
     try:
         if is_damaged(path):

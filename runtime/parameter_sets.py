@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -13,6 +13,7 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import BadValueError
 from gudgeon.kernel_source import KernelSource
 from gudgeon.parameters import RELATIONS, check, given_slots, without_baumgarte
+from gudgeon.wanted import mapping, told
 
 Values: TypeAlias = float | str
 ParameterSets: TypeAlias = Sequence[Mapping[str, Values]] | Mapping[str, Values | Sequence[Values] | ArrayLike] | Array
@@ -41,13 +42,15 @@ def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]]:
     if isinstance(parameters, np.ndarray) and parameters.dtype.names is not None:
         table: NDArray[Any] = np.atleast_1d(parameters)
         parameters = {name: table[name] for name in parameters.dtype.names}
-    if hasattr(parameters, "columns"):  # a table of pandas
+    if getattr(parameters, "ndim", 0) == 2 and hasattr(parameters, "columns"):  # a table of pandas
         parameters = {str(name): parameters[name] for name in parameters.columns}
-    if not isinstance(parameters, Mapping):
-        rows = list(parameters)
+    if not isinstance(parameters, Mapping) and not hasattr(parameters, "items"):
+        iterable = isinstance(parameters, Iterable) and not isinstance(parameters, (str, bytes, np.ndarray))
+        rows: list[Any] = list(parameters) if iterable else [None]
         if not all(isinstance(row, Mapping) for row in rows):
             raise BadValueError("parameters: expected a mapping for every run, or one of columns: {address: values}")
         return rows
+    parameters = mapping(parameters, "parameters", "a mapping for every run, or {address: values}")
     columns = {name: _column(name, values) for name, values in parameters.items()}
     lengths = {name: len(column) for name, column in columns.items() if column is not None}
     if len(set(lengths.values())) > 1:
@@ -60,10 +63,14 @@ def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]]:
 
 def _column(name: str, values: Any) -> list[Any] | None:
     """The values of every run; None where one stands for all."""
-    if isinstance(values, str) or np.ndim(values) == 0:
+    try:
+        shape = () if isinstance(values, (str, bytes, Mapping)) else np.shape(values)
+    except ValueError:  # rows of different lengths
+        raise BadValueError(f"parameters: {name} is {told(values)}: expected one value for every run") from None
+    if not shape:
         return None
-    if np.ndim(values) != 1:
-        raise BadValueError(f"parameters: {name} has shape {np.shape(values)}, expected one value for every run")
+    if len(shape) != 1:
+        raise BadValueError(f"parameters: {name} has shape {shape}, expected one value for every run")
     if isinstance(values, np.ndarray):
         return taken(values, f"parameters: {name}").tolist() if values.dtype.kind in "biuf" else values.tolist()
     return list(values)

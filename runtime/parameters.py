@@ -13,6 +13,7 @@ import numpy as np
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.kernel_source import KernelSource, Slot
+from gudgeon.wanted import mapping, number_of
 
 # a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
 _NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
@@ -24,15 +25,15 @@ _GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
-def given_slots(source: KernelSource, parameters: Mapping[str, float | str], what: str = "") -> tuple[Array, Array]:
+def given_slots(
+    source: KernelSource, parameters: Mapping[str, float | str] | None, what: str = "parameters"
+) -> tuple[Array, Array]:
     """Values and mask, (n_slots,) each, from {address or parameter name: float or '0.5 mm'}.
 
-    `what` the mapping is called where it is wrong. Raises UnknownNameError; BadValueError for a number given twice,
-    by two spellings of its address.
+    None is an empty one, and a Series of pandas counts. `what` the mapping is called where it is wrong. Raises
+    UnknownNameError; BadValueError for a number given twice, by two spellings of its address.
     """
-    if not isinstance(parameters, Mapping):
-        told = f"{what or 'parameters'} is a {type(parameters).__name__}: expected a mapping"
-        raise BadValueError(told, hint="{address or parameter name: a float in SI, or '0.5 mm'}")
+    parameters = mapping(parameters, what, "{address or parameter name: a float in SI, or '0.5 mm'}")
     place = {slot.address: k for k, slot in enumerate(source.slots)}
     values, mask, spelled = np.zeros(len(place)), np.zeros(len(place), dtype=bool), dict[int, str]()
     for name, value in parameters.items():
@@ -58,19 +59,6 @@ def number(value: float | str, slot: Slot) -> float:
     return number_of(value, slot.address)
 
 
-def number_of(value: float, name: str) -> float:
-    """A finite float, of any kind of real number but text. Raises BadValueError that names it."""
-    try:
-        if isinstance(value, (str, bytes)) or np.ndim(value):
-            raise TypeError
-        result = float(value)
-    except (TypeError, ValueError, OverflowError):
-        raise BadValueError(f"{name}: {str(value)[:60]!r} is not one real number") from None
-    if not math.isfinite(result):
-        raise BadValueError(f"{name}: {value!r} is not a finite number")
-    return result
-
-
 def plain_number(text: str) -> float | None:
     """The number that a text without a unit writes; None where there is more to read, or no float has its size."""
     found = _PLAIN.fullmatch(text.strip(" "))
@@ -86,7 +74,7 @@ def spaced(text: str) -> str:
     return f"{glued[1]} {glued[2]}" if glued else text.strip()
 
 
-def prepare(compiled: CompiledModel, parameters: Mapping[str, float | str]) -> tuple[Array, Array, Array]:
+def prepare(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> tuple[Array, Array, Array]:
     """(p, given, is_given), checked: see CompiledModel.prepare. Raises BadValueError, UnknownNameError."""
     given, is_given = given_slots(compiled.source, parameters)
     return prepare_slots(compiled, given, is_given), given, is_given

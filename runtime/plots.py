@@ -17,10 +17,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon import trace
-from gudgeon.errors import GudgeonError
+from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.plot_units import label, scale
 from gudgeon.series import rates
 from gudgeon.shown import in_figure
+from gudgeon.wanted import told
 from gudgeon.writing import write_bytes
 
 try:
@@ -61,6 +62,8 @@ class Plot:
     def _curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None) -> Axes:
         """Times and values by the name of a series; all have one unit."""
         run, names = self.run, list(curves)
+        if not names:
+            raise BadValueError("plot.series: expected the name of a series at least")
         with matplotlib.rc_context(STYLE):
             ax = ax or _axes(8.0, 3.6)
             factor, text = scale(max(_peak(values) for _, values in curves.values()), run.unit(names[0]))
@@ -80,6 +83,10 @@ class Plot:
 
     def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
         """Path of the journal's centre in its clearance circle, in units of the clearance."""
+        joints = [each.name for each in self.run.source.clearances]
+        if joint not in joints:
+            hint = f"its joints with play: {', '.join(joints) or 'none'}"
+            raise UnknownNameError(f"no orbit of {told(joint)}: expected a joint with play", hint=hint)
         with matplotlib.rc_context(STYLE):
             ax = ax or _axes(4.2, 4.4)
             draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))

@@ -7,6 +7,7 @@ given others, and then the run says so. The formulation does not matter: a state
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -17,9 +18,11 @@ from gudgeon.arrays import CODE, taken
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import BadValueError
 from gudgeon.kernel_source import KernelSource
-from gudgeon.parameters import given_slots, number_of
+from gudgeon.parameters import given_slots
 from gudgeon.results import State
+from gudgeon.wanted import mapping, number_of, refuse, text
 
+FREE, AS_IT_WAS = 0, "the `final` of a run has both as they belong together"
 MOST_TOLD = 6  # numbers that a note names
 
 
@@ -33,18 +36,41 @@ def own(source: KernelSource, start: Any) -> State:
     state = taken(start.state, "start.state", (clearances,), dtype=CODE, own=True)
     if state.size and (state.min() < 0 or state.max() > 2):
         raise BadValueError("start.state: expected 0 (free), 1 (impact) or 2 (contact) for each joint with play")
+    memory = taken(start.memory, "start.memory", (clearances + len(source.frictions),), own=True)
+    _check_memory(source, state, memory)
     return replace(
         start,
         t=number_of(start.t, "start.t"),
         q=taken(start.q, "start.q", (n,), finite=True, own=True),
         v=taken(start.v, "start.v", (n,), finite=True, own=True),
         state=state,
-        memory=taken(start.memory, "start.memory", (clearances + len(source.frictions),), own=True),
+        memory=memory,
     )
+
+
+def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:
+    """BadValueError for a contact that is both open and closed: what remembers a rate is closed, what has none open."""
+    for k, (joint, code, rate) in enumerate(zip(source.clearances, state.tolist(), memory.tolist(), strict=False)):
+        if code == FREE and not math.isnan(rate):
+            told, expected = f"remembers {rate:g} m/s while start.state[{k}] is 0 (free)", "NaN, or state 1 or 2"
+        elif code != FREE and not math.isfinite(rate):
+            told, expected = f"is {rate:g} while start.state[{k}] is {code}", "the rate (m/s) with which it closed"
+        else:
+            continue
+        raise BadValueError(f"start.memory[{k}] of joint {joint.name} {told}: expected {expected}", hint=AS_IT_WAS)
+    if np.isinf(memory).any():
+        k = int(np.isinf(memory).argmax())
+        told = f"start.memory[{k}] is {memory[k]:g}: expected the mode of a friction, or NaN"
+        raise BadValueError(told, hint=AS_IT_WAS)
 
 
 def _check_origin(source: KernelSource, start: State) -> None:
     """What is empty in a state made by hand is not compared."""
+    for name in ("mechanism", "scene", "sha256", "formulation"):
+        text(getattr(start, name), f"start.{name}")
+    overrides = start.overrides
+    if not isinstance(overrides, tuple) or not all(isinstance(x, tuple) and len(x) == 2 for x in overrides):
+        refuse("start.overrides", overrides, "a tuple of pairs (address, value)")
     if start.mechanism not in ("", source.mechanism) or start.scene not in ("", source.scene):
         raise BadValueError(
             f"start: this state belongs to another mechanism or scene, {start.mechanism} / {start.scene};"
@@ -65,11 +91,11 @@ def _check_origin(source: KernelSource, start: State) -> None:
 
 
 def numbers(
-    compiled: CompiledModel, start: State | None, parameters: Mapping[str, Any]
+    compiled: CompiledModel, start: State | None, parameters: Mapping[str, Any] | None
 ) -> tuple[Array, Array, tuple[str, ...]]:
     """Values and mask of the slots, (n_slots,) each: the state's, and over them those given; what to say of it."""
     given, is_given = given_slots(compiled.source, parameters)
-    if start is None or not start.parameters:
+    if start is None or not mapping(start.parameters, "start.parameters"):
         before, was_given = np.zeros_like(given), np.zeros_like(is_given)
     else:
         before, was_given = given_slots(compiled.source, start.parameters, "start.parameters")

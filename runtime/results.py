@@ -20,6 +20,7 @@ from gudgeon.diagnostics import Diagnostics
 from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators.trajectory import no_events
 from gudgeon.kernel_source import KernelSource
+from gudgeon.wanted import text, told
 
 if TYPE_CHECKING:
     import xarray
@@ -87,6 +88,8 @@ class Result:
 
     def __getitem__(self, name: str) -> Array:
         """The series of that name, (N,), in SI, read-only. UnknownNameError names the nearest."""
+        if not isinstance(name, str):
+            raise self.unknown(name)
         if name == "t":
             return self.t
         if name not in self.stored:
@@ -100,7 +103,7 @@ class Result:
         return iter(self.names)
 
     def __contains__(self, name: str) -> bool:
-        return name == "t" or name in self._catalogue
+        return isinstance(name, str) and (name == "t" or name in self._catalogue)
 
     def __repr__(self) -> str:
         span = f"{self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "empty"
@@ -113,11 +116,11 @@ class Result:
 
     def unit(self, name: str) -> str:
         """SI unit of a series, "" for a pure number."""
-        return "s" if name == "t" else self._series(name).unit
+        return "s" if text(name, "the name of a series") == "t" else self._series(name).unit
 
     def meaning(self, name: str) -> str:
         """One line on what a series is."""
-        return "time" if name == "t" else self._series(name).meaning
+        return "time" if text(name, "the name of a series") == "t" else self._series(name).meaning
 
     @cached_property
     def parameters(self) -> Mapping[str, float]:
@@ -138,7 +141,7 @@ class Result:
     def events_of(self, name: str) -> Array:
         """Times at which an event of the file happened, (k,), s. UnknownNameError names the nearest event."""
         names = [event.name for event in self.source.events]
-        if name not in names:
+        if text(name, "the name of an event") not in names:
             import difflib
 
             nearest = difflib.get_close_matches(name, names, n=1)
@@ -195,7 +198,7 @@ class Result:
 
     def value_of(self, name: str) -> Any:
         """What a name in an output's expression stands for: a series, t, or a parameter."""
-        if name in self:
+        if text(name, "a name of a result") in self:
             return self[name]
         if name in self.parameters:
             return self.parameters[name]
@@ -237,6 +240,8 @@ class Result:
         """The error for a name that this result does not have; it names the nearest."""
         import difflib
 
+        if not isinstance(name, str):
+            return UnknownNameError(f"nothing is named {told(name)}", hint="a name is a text: run.names lists all")
         if name in self.parameters:
             return UnknownNameError(f"{name!r} is a parameter, no series", hint=f'see run.parameters["{name}"]')
         if name in self.source.outputs:

@@ -27,6 +27,7 @@ from gudgeon.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.restart import numbers, own
 from gudgeon.start import Start, assemble
 from gudgeon.step import scene_step
+from gudgeon.wanted import flag, function, text
 
 if TYPE_CHECKING:
     from gudgeon.batch import Batch
@@ -146,7 +147,7 @@ class Simulation:
 
     def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
         """The assembled start at t = 0. Raises AssemblyError."""
-        return assemble(self.compiled, prepare(self.compiled, parameters or {})[0])
+        return assemble(self.compiled, prepare(self.compiled, parameters)[0])
 
     def simulate(
         self, t_end: float | str | None = None, *, output: int | ArrayLike | None = None, method: str = "auto",
@@ -175,6 +176,8 @@ class Simulation:
         Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
         SolverError when the equations cannot be solved; its `partial` is the result up to there.
         """
+        method, progress = text(method, "method"), function(progress, "progress")
+        horizon, stop = flag(horizon, "horizon"), flag(stop, "stop")
         if method in python_driver.NAMES and self.source.formulation != "full":
             if progress and self._full is None:
                 progress(0.0, "deriving the full formulation")
@@ -183,7 +186,7 @@ class Simulation:
                 progress=progress, horizon=horizon, stop=stop,
             )  # fmt: skip
         begin = None if start is None else own(self.source, start)
-        given, is_given, remarks = numbers(self.compiled, begin, parameters or {})
+        given, is_given, remarks = numbers(self.compiled, begin, parameters)
         p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
         times = output_times(self.source, t0, t_end, output)
         if self.source.degrees_of_freedom < 0:

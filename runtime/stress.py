@@ -20,6 +20,7 @@ from gudgeon.measure.work import FIXED, NAN, Attempt, Parameters, Setting, Work,
 from gudgeon.parameters import prepare
 from gudgeon.simulation import Simulation
 from gudgeon.step import scene_end
+from gudgeon.wanted import flag, function, instance, listed, mapping, optional, optional_positive, text, whole
 
 LONG, SHORT = 300_000, 1_000_000  # steps of the two windows with the shortest step (of the reference)
 COARSEST = 200  # the longest step, of the shortest scene's
@@ -27,6 +28,7 @@ CLEARANCES = (1 / 6, 10 / 3)  # the axis, of the file's clearance
 TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
 USUAL = 1e-8  # tolerance where neither axis is one
 FINER = 10
+MOST_POINTS = 10**6
 LIMIT = 120.0  # s of processor time of a run
 
 
@@ -101,7 +103,11 @@ def stress(
     Status.MISSING. Raises BadValueError for a scene in which nothing is integrated, and for axes that do not fit.
     """
     _check(simulation)
-    given, full = dict(parameters or {}), needs_full(axes, method)
+    axes, method = listed(axes, "axes", Axis, "a list of Axis"), text(method, "method")
+    limits, quick = optional(limits, "limits", Limits), flag(quick, "quick")
+    t_long, t_short = optional_positive(t_long, "t_long"), optional_positive(t_short, "t_short")
+    value, progress = optional_positive(value, "value"), function(progress, "progress")
+    given, full = dict(mapping(parameters, "parameters")), needs_full(axes, method)
     simulation = simulation.full if full else simulation
     rows, columns = arrange(simulation, axes, method, given, quick)
     usual = Setting(method, value or (natural_step(simulation, given) if method in FIXED else USUAL))
@@ -146,15 +152,19 @@ def stress_box(
     `quick`: over a tenth of the time. After Ctrl-C what was judged until then, the rest Status.MISSING.
     """
     _check(simulation)
+    ranges, count = listed(ranges, "ranges", Range, "a list of Range"), whole(count, "count", 0, MOST_POINTS)
+    limits, quick = optional(limits, "limits", Limits), flag(quick, "quick")
+    t_long, progress = optional_positive(t_long, "t_long"), function(progress, "progress")
+    setting, parameters = optional(setting, "setting", Setting), mapping(parameters, "parameters")
     if not ranges:
         raise BadValueError("a box wants ranges: --range name=low..high")
     setting, t_long = setting or Setting("auto", USUAL), t_long or scene_end(simulation.source) / (10 if quick else 1)
-    known = addresses or {}
+    known = {name: instance(edge, f"addresses: {name}", Axis) for name, edge in mapping(addresses, "addresses").items()}
     full = needs_full([known.get(edge.name) or axis(simulation, edge.name, ()) for edge in ranges], setting.method)
     simulation = simulation.full if full else simulation
 
     def moved(point: Mapping[str, float]) -> dict[str, float | str]:
-        found: dict[str, float | str] = dict(parameters or {})
+        found: dict[str, float | str] = dict(parameters)
         for name, value in point.items():
             found |= known[name].parameters(value) if name in known else {name: value}
         return found

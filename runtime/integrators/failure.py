@@ -11,16 +11,18 @@ from gudgeon.compiled import Array, CompiledModel
 from gudgeon.dead_centre import nearly_dependent_rows
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.start import mechanism_size
+from gudgeon.steep import NEED_SLOPES, steep_force
 from gudgeon.written import rate_reason, reason
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED = -2, -4, -5, -6, -8, -10, -11
 INTERRUPTED = "interrupted before its end"
 NO_NUMBER = "end the run before that, or write it so that it is a number at every time"
+NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
 NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
 
 
 def failure(
-    compiled: CompiledModel, status: int, t: float, advice: str, last: Array, e_max: Array, p: Array
+    compiled: CompiledModel, method: str, status: int, t: float, advice: str, last: Array, e_max: Array, p: Array
 ) -> SolverError:
     """The error for a status at time t (s): `last` state, largest eccentricities (n_clearances,), parameters."""
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
@@ -28,6 +30,8 @@ def failure(
         why = reason(compiled.source, p, t, q, v)
         if why or (why := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]):
             return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
+        if method in NEED_SLOPES and (why := steep_force(compiled.source, p, t, q, v)):
+            return NonFiniteError(f"{why}\n  {NO_SLOPE}", t)
     if status == NOT_FINITE:
         return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s\n  {advice}", t)
     if status == CHATTERING:

@@ -226,4 +226,4 @@ class Session:
             self.lib.gudgeon_run_pace(self.run, *arrays)
             pace = Pace(t, float(self.problem.t[-1]) - t, float(gained[0]), int(steps[0]), bool(steps[1]))
             raise stalled(pace, ended, film(self.compiled, peaks[:, 2], self.p))
-        raise failure(self.compiled, status, t, advice, y, peaks[:, 2], self.p)
+        raise failure(self.compiled, self.problem.method, status, t, advice, y, peaks[:, 2], self.p)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -13,10 +14,12 @@ from gudgeon.kernel_source import KernelSource, Slot
 from gudgeon.measure.work import Parameters
 from gudgeon.parameters import given_slots, number, prepare
 from gudgeon.simulation import Simulation
+from gudgeon.wanted import numbers, text
 
 SETTINGS = {"step": "s", "rtol": ""}  # axes of the method, not of the mechanism
 GAINS = ("baumgarte.alpha", "baumgarte.beta")  # of rk4 in the full formulation, nobody else's
-COUNT = 5  # values of a range that does not say
+COUNT, MOST = 5, 1000  # values of a range that does not say; of any
+_COUNT = re.compile(r"[0-9]{1,6}")
 # Axes that move every such number of the scene, each by its ratio to the first.
 GROUPS: dict[str, Callable[[str], bool]] = {
     "stiffness": lambda address: address.startswith("materials.") and address.endswith(".E"),
@@ -49,9 +52,10 @@ def axis(simulation: Simulation, name: str, values: Sequence[float], parameters:
 
     Raises UnknownNameError for a name that is none, BadValueError for one that the scene has no number for.
     """
+    name, values = text(name, "axis"), numbers(values, f"axis {name}")
     if name in SETTINGS:
         return Axis(name, tuple(sorted(values)), SETTINGS[name])
-    source, p = simulation.source, prepare(simulation.compiled, parameters or {})[0]
+    source, p = simulation.source, prepare(simulation.compiled, parameters)[0]
     slots = _slots(source, name)
     first = float(p[slots[0]])
     if len(slots) > 1 and first == 0.0:
@@ -60,18 +64,23 @@ def axis(simulation: Simulation, name: str, values: Sequence[float], parameters:
     return Axis(name, tuple(sorted(values)), source.slots[slots[0]].unit, ratios)
 
 
-def typed(simulation: Simulation, text: str, parameters: Parameters | None = None) -> Axis:
+def typed(simulation: Simulation, written: str, parameters: Parameters | None = None) -> Axis:
     """From the command line: "c=.05mm..1mm:5" (logarithmic), "omega=3,6,9", "rtol=1e-4..1e-10:4"."""
-    name, _, told = text.partition("=")
+    name, _, told = text(written, "axis").partition("=")
     if not told:
-        raise BadValueError(f"axis {text!r}: expected name=low..high:count or name=a,b,c")
-    ends, _, count = told.partition(":")
+        raise BadValueError(f"axis {written!r}: expected name=low..high:count or name=a,b,c")
+    ends, colon, count = told.partition(":")
     slot = _slot(simulation.source, name.strip())
     values = [number(_spaced(part), slot) for part in (ends.split("..") if ".." in ends else ends.split(","))]
     if ".." in ends:
-        if len(values) != 2 or not 0 < values[0] < values[1] or (count and not (count.isascii() and count.isdigit())):
-            raise BadValueError(f"axis {text!r}: expected 0 < low < high, and a whole number of values after ':'")
-        values = np.geomspace(values[0], values[1], max(2, int(count or COUNT))).tolist()
+        if len(values) != 2 or not 0 < values[0] < values[1]:
+            raise BadValueError(f"axis {written!r}: expected 0 < low < high")
+        wanted = COUNT if not colon else int(count) if _COUNT.fullmatch(count) else 0
+        if not 2 <= wanted <= MOST:
+            raise BadValueError(f"axis {written!r}: expected a whole number of values after ':', from 2 to {MOST}")
+        values = np.geomspace(values[0], values[1], wanted).tolist()
+    elif colon:
+        raise BadValueError(f"axis {written!r}: only a range low..high takes a number of values after ':'")
     return axis(simulation, name.strip(), [float(f"{x:.6g}") for x in values], parameters)
 
 

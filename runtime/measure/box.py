@@ -21,6 +21,7 @@ from gudgeon.measure.cells import Cell, Limits, Pair, judge, limits_of
 from gudgeon.measure.work import ONSETS, Attempt, Parameters, Setting, Work, apart
 from gudgeon.results import Result
 from gudgeon.simulation import Simulation
+from gudgeon.wanted import number_of
 
 FINER = 100.0
 SEED = 20  # of Sobol's scrambling
@@ -41,7 +42,7 @@ class Range:
     unit: str = ""
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.low <= self.high < math.inf:
+        if not 0.0 < number_of(self.low, f"range {self.name}") <= number_of(self.high, f"range {self.name}"):
             raise BadValueError(f"range {self.name}={self.low:g}..{self.high:g}: expected 0 < low ≤ high")
 
     def at(self, share: float) -> float:

@@ -10,6 +10,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.integrators import python_driver
 from gudgeon.integrators.sundials_backend import INSTALL
 from gudgeon.simulation import Simulation
+from gudgeon.wanted import listed
 
 ADAPTIVE = ("dop853", "rodas5p", "auto")
 
@@ -26,8 +27,9 @@ def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) ->
     """
     every = ("rk4", *ADAPTIVE, *python_driver.NAMES)
     usual = every[: 1 + len(ADAPTIVE)] if quick else every
-    named = usual if wanted is None else [m for m in every if any(fnmatchcase(m, text) for text in wanted)]
-    for text in wanted or ():
+    wanted = usual if wanted is None else listed(wanted, "methods", str, "a list of names of methods")
+    named = [m for m in every if any(fnmatchcase(m, text) for text in wanted)]
+    for text in wanted:
         if not any(fnmatchcase(method, text) for method in every):
             raise BadValueError(f"method {text!r}: expected some of {', '.join(every)}, or a pattern such as 'scipy:*'")
     reason = python_driver.unfit(simulation.source)

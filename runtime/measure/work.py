@@ -173,7 +173,7 @@ def round_numbers(low: float, high: float) -> tuple[float, ...]:
 
 def natural_step(simulation: Simulation, parameters: Parameters | None = None) -> float:
     """The step (s) that a plain run would take: the scene's, or the default."""
-    p = prepare(simulation.compiled, parameters or {})[0]
+    p = prepare(simulation.compiled, parameters)[0]
     return scene_step(simulation.compiled, p, scene_end(simulation.source))
 
 

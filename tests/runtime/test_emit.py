@@ -159,3 +159,22 @@ def test_a_folder_that_cannot_be_is_told(source: list[KernelSource], tmp_path: P
         run(tmp_path / name)
     assert caught.value.exit_code == 2 and len(str(caught.value)) < 600
     assert contents(tmp_path) == {"file": b"mine"}
+
+
+def test_a_list_that_was_altered_is_what_is_told(tmp_path: Path) -> None:
+    """Not the files that it no longer lists."""
+    emit_c("pendulum", tmp_path, ("ideal",))
+    file = tmp_path / "ideal" / LIST
+    good = file.read_text()
+    file.write_text(good.replace("  model.h", "  ../model.h"))
+    with pytest.raises(InputError) as caught:
+        refuse_foreign(tmp_path / "ideal")
+    assert str(caught.value).startswith(f"{file} is no list")
+    assert "asked.c" not in str(caught.value)
+    line = next(each for each in good.splitlines() if each.endswith("  model.h"))
+    file.write_text(good.replace(line, "0" * 64 + "  model.h"))
+    with pytest.raises(InputError, match=rf": model.h and the checksums in {LIST} differ: files or list were changed"):
+        refuse_foreign(tmp_path / "ideal")
+    (tmp_path / "ideal" / "mine.txt").write_text("x")
+    with pytest.raises(InputError, match=r"did not write so: mine\.txt\n"):
+        refuse_foreign(tmp_path / "ideal")

@@ -94,6 +94,16 @@ class CPrinter(C99CodePrinter):
         side, a, b = (self._print(argument) for argument in expr.args)
         return f"({side} < 0.0 ? {b} : {a})"
 
+    def _print_Slope(self, expr: sp.Expr) -> str:
+        """From finite_slopes.py."""
+        return self._call("finite_slope", *expr.args)
+
+    def _print_JustAhead(self, expr: sp.Expr) -> str:
+        return self._call("just_ahead", expr.args[0])
+
+    def _print_JustBehind(self, expr: sp.Expr) -> str:
+        return self._call("just_behind", expr.args[0])
+
 
 def _double(number: sp.Expr) -> str:
     """A number as binary64; one that is too large is what the arithmetic of C would make of it."""
