@@ -142,5 +142,19 @@ def rate_jumps(drive: Drive) -> bool:
 
 def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
     """d/dt with the corners of min, max and abs taken from one side, at the corner from behind it: no impulse there."""
-    rate = sp.diff(value, t).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
-    return rate.replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
+    rate = sp.diff(value.replace(sp.Abs, _plain), t).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
+    return rate.replace(_Upon, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
+
+
+class _Upon(sp.Function):
+    """The sign of x as a factor that has no derivative."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        return sp.Integer(0)
+
+
+def _plain(x: sp.Expr) -> sp.Expr:
+    """|x|; SymPy differentiates that of what may be complex, acos(t) beyond 1, by its real and imaginary parts."""
+    return sp.Abs(x) if x.is_real else x * _Upon(x)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +50,20 @@ def test_the_work_of_a_jump_is_counted_where_nothing_is_free(value: str, tmp_pat
     run = driven(ONE, value, tmp_path).simulate(1.0, output=100)
     assert run.diagnostics.method == "kinematic"
     assert run.diagnostics.energy_residual < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("value", "rate"),
+    [
+        ("abs(acos(t / (1 s)))", lambda t: -1 / np.sqrt(1 - t**2)),
+        ("abs((t / (1 s) + 1)**0.3)", lambda t: 0.3 * (t + 1) ** -0.7),
+        ("abs(log(t / (1 s) + 0.5))", lambda t: np.sign(np.log(t + 0.5)) / (t + 0.5)),
+        ("atan2(1, abs(asin(t / (1 s))))", lambda t: -1 / (1 + np.arcsin(t) ** 2) / np.sqrt(1 - t**2)),
+    ],
+)
+def test_abs_of_what_may_be_complex(value: str, rate: Callable[[np.ndarray], np.ndarray], tmp_path: Path) -> None:
+    run = driven(ONE, value, tmp_path).simulate(0.9, output=np.array([0.0, 0.1, 0.3, 0.4, 0.6, 0.9]))
+    np.testing.assert_allclose(run["a.omega"][1:], rate(run.t[1:]), rtol=1e-12)
 
 
 @pytest.mark.parametrize(("value", "why"), [
