@@ -126,3 +126,36 @@ def test_an_output_of_what_is_none_is_not_blamed(tmp_path: Path) -> None:
     run = gudgeon.load(file, "worn").simulate(1e-3, output=10)
     assert np.isnan(run["latched"]).any()
     assert not any("latched" in note for note in run.diagnostics.notes)
+
+
+OUTRUN = "exp(exp(exp(t/(0.3 s))))*1 rad"
+
+
+@pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p"])
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_a_drive_that_outruns_the_steps_ends_the_run(method: str, formulation: str, tmp_path: Path) -> None:
+    """A driven crank with a pendulum on it; 10 million steps in 25 s had not ended such a run."""
+    driven(PAIR, OUTRUN, tmp_path)
+    scene = gudgeon.load(tmp_path / "driven.yaml", formulation=formulation)
+    told = r"no longer advances at t = 0\.2\d+ s: .*; drive d is at \d+.* rad, its rate \d+.* rad/s\n.*cannot be followed"
+    with pytest.raises(SolverError, match=told) as caught:
+        scene.simulate(1.0, output=100, method=method)
+    run = caught.value.partial
+    assert run.diagnostics.steps < 2**18
+    assert run.t[-1] == pytest.approx(caught.value.time)
+    assert scene.simulate(0.2, output=2, method=method).t[-1] == 0.2
+
+
+@pytest.mark.parametrize("method", ["auto", "rk4"])
+def test_a_drive_that_is_too_fast_for_any_step_is_named(method: str, tmp_path: Path) -> None:
+    """Beside a bar that hangs freely: the crank itself is nowhere integrated. It was "leave what the model holds for"."""
+    beside = PAIR.replace("A: {revolute: [a.head, b.tail]}", "A: {revolute: [ground.O, b.tail]}")
+    with pytest.raises(NonFiniteError, match=r"drive d is at .*e\+149 rad, its rate .*\n  a drive that grows beyond all"):
+        driven(beside, OUTRUN, tmp_path).simulate(1.0, method=method, step=1e-4 if method == "rk4" else None)
+
+
+def test_a_chirp_is_followed(tmp_path: Path) -> None:
+    """Its steps become ever shorter too, but twice as many of them gain more time each time: some 290 000 of them."""
+    run = driven(PAIR, "1 rad * sin(40 * (t/(1 s))**3)", tmp_path).simulate(15.5, output=1, rtol=1e-6)
+    assert run.diagnostics.steps > 2**18
+    assert run.t[-1] == 15.5
