@@ -13,9 +13,10 @@ from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.start import mechanism_size
 from gudgeon.written import of_time, rate_reason, reason, trees
 
-NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED = -2, -4, -5, -6, -8, -10, -11
+NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
 INTERRUPTED = "interrupted before its end"
 NO_NUMBER = "end the run before that, or write it so that it is a number at every time"
+BOUNDED = "end the run before that, or write the drive so that its second rate is bounded: with powers of 2 and more"
 GROWN = "a drive that grows beyond all bounds cannot be followed: end the run before it, or change the drive"
 FELT, TOO_FAST = 1e-3, 1e9  # rad or m in a step of a run that stands still; rad/s or m/s that nothing can follow
 NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
@@ -25,6 +26,10 @@ def failure(
     compiled: CompiledModel, status: int, t: float, advice: str, last: Array, e_max: Array, p: Array
 ) -> SolverError:
     """The error for a status at time t (s): `last` state, largest eccentricities (n_clearances,), parameters."""
+    if status in (UNBOUNDED, TOO_SMALL) and (drive := unbounded_drive(compiled, p, t)):
+        told = f"the second rate of drive {drive} grows beyond all bounds there"
+        return SolverError(f"no step leads beyond t = {t:.9g} s: {told}\n  {BOUNDED}", t)
+    status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
         q, v = np.ravel(last)[: compiled.n], np.ravel(last)[compiled.n : 2 * compiled.n]
         why = reason(compiled.source, p, t, q, v)
@@ -86,6 +91,19 @@ class Pace:
     def needed(self) -> float:
         """Steps to the end, at this pace."""
         return self.left / max(self.gained, 1e-300) * self.steps
+
+
+def unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
+    """The drive whose second rate is far larger at a time than beside it; "": none."""
+    zero = np.zeros(compiled.n)
+    beside = 1e-4 * max(abs(t), 1e-9)
+    near = (t - 8 * np.spacing(t), np.nextafter(t, -np.inf), t, np.nextafter(t, np.inf), t + 8 * np.spacing(t))
+    at, apart = (
+        np.nan_to_num(np.abs([compiled.closed_gamma(float(s), zero, zero, p) for s in times]), nan=none).max(axis=0)
+        for times, none in ((near, np.inf), ((t - beside, t + beside), 0.0))
+    )
+    rows = [k for k, row in enumerate(compiled.source.start_rows) if row.kind == "drive" and at[k] > 100.0 * apart[k]]
+    return compiled.source.start_rows[max(rows, key=lambda k: at[k])].owner if rows else ""
 
 
 def drives_at(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) -> str:
