@@ -17,7 +17,7 @@ from gudgeon.generator.model import Model
 from gudgeon.generator.switches import SideOf
 
 _DOC = ("Switching functions that hang on time alone.",)
-_SIDES = ("const double *const side = NULL; /* corners within corners: as they are at t */", "double g[N_SWITCHES + 1];")
+_SIDES = ("const double *const side = NULL; /* of corners within corners: as they are */", "double g[N_SWITCHES + 1];")
 
 
 @dataclass(frozen=True)
@@ -56,14 +56,11 @@ def jumps_of(dynamics: Kernel, model: Model) -> Jumps | None:
     time, p = Argument("const double", "t"), next(a for a in dynamics.arguments if a.name == "p")
     front = ((_SIDES[:1] if nested else ()), (_SIDES if nested else ()))
     ranges, values = (Section("parameters and time", (*lines, *needed)) for lines in front)
+    own, bounds = (time, p, Argument("double *", "out")), (time, p, Argument("Aside *", "aside"))
     kernel = replace(dynamics, doc=_DOC, returns="void", inline=False)
     return Jumps(
-        len(corners),
-        replace(kernel, name="drive_corners", arguments=(time, p, Argument("double *", "out")), sections=(values, outs)),
-        replace(
-            kernel, name="drive_corner_ranges", arguments=(time, p, Argument("Aside *", "aside")),
-            sections=(ranges, outs),
-        ),
+        len(corners), replace(kernel, name="drive_corners", arguments=own, sections=(values, outs)),
+        replace(kernel, name="drive_corner_ranges", arguments=bounds, sections=(ranges, outs)),
     )  # fmt: skip
 
 

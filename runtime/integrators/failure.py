@@ -55,12 +55,20 @@ def failure(
         return SolverError(INTERRUPTED, t)
     if status == STALLED:
         return SolverError(f"the run no longer advances at t = {t:.9g} s{drives_at(compiled, p, t)}\n  {advice}", t)
+    return _singular(compiled, status, t, advice, last, p, fast)
+
+
+def _singular(
+    compiled: CompiledModel, status: int, t: float, advice: str, last: Array, p: Array, fast: str
+) -> SolverError:
+    """The error for a pivot that vanished, or that only seems to have."""
     row = compiled.source.motion_pivots[status - 1]
     if row in compiled.source.chain_rows:
         return SingularError(
             f"the linkage reaches a dead centre at t = {t:.9g} s: where its drives want it, nothing closes constraint"
-            f" row {row}{drives_at(compiled, p, t)}\n  the lengths do not let the drives move on from there; end the run"
-            " before it, or change the drive; in rk4 a shorter step follows a faster one", t, row
+            f" row {row}{drives_at(compiled, p, t)}\n"
+            "  the lengths do not let the drives move on from there; end the run before it, or change the drive; in rk4"
+            " a shorter step follows a faster one", t, row
         )  # fmt: skip
     try:
         compiled.check_pivot(status, t, compiled.source.motion_pivots)
@@ -107,7 +115,7 @@ def unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
 
 
 def drives_at(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) -> str:
-    """The value and rate of each drive whose rate is `fast` at least, "; drive motor is at 12.3 rad, its rate 4 rad/s"."""
+    """The value and rate of each drive that is so fast: "; drive motor is at 12.3 rad, its rate 4 rad/s"."""
     source, rates = compiled.source, compiled.closed_nu(t, np.zeros(compiled.n), p)
     written = {info.address.split(".")[1]: tree for info, tree in trees(source, ("drives",))}
     with np.errstate(all="ignore"):

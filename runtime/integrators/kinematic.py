@@ -21,10 +21,11 @@ from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
 from gudgeon.start import mechanism_size
-from gudgeon.written import rate_reason, reason_between
+from gudgeon.written import rate_reason, reason, reason_between
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
+NO_NUMBER_THERE = -2  # status
 REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
 CHUNK, TURN = 10_000, 0.02  # samples whose motion, works and events are computed together, at most; s they may take
 
@@ -127,7 +128,17 @@ class _Way:
         if status == STALLED:
             pace = Pace(t, t_end - t, gained, steps, bool(crawls))
             return outgrown(pace, drives_at(self.compiled, self.problem.p, t)) if crawls else too_far(pace)
+        if status == NO_NUMBER_THERE:
+            return self._no_number(float(at[1]))
         return _failure(self.problem, status, t)
+
+    def _no_number(self, t: float) -> SolverError:
+        """A drive, a force or a rate of theirs is none at t (s), where a work was asked for."""
+        compiled, p = self.compiled, self.problem.p
+        why = reason(compiled.source, p, t, self.q[self.reached], self.v[self.reached])
+        why = why or rate_reason(compiled, p, np.array([t]), np.zeros(compiled.n))[0]
+        why = why or f"what the drives and forces do is no number at t = {t:.9g} s{drives_at(compiled, p, t)}"
+        return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
 
     def _pace(self) -> tuple[Array, float, int, int]:
         """Where motion and works are (s); what the last steps gained (s), how many they are, whether they crawl."""

@@ -29,7 +29,8 @@ joints:
   T: {revolute: [crank.head, arm.tail]}
 start: {set: {arm.theta: -60 deg}}
 """
-ON_SLIDER, ON_CRANK = "drives: {{d: {{coordinate: slider.x, value: {}}}}}\n", "drives: {{d: {{angle: crank, value: {}}}}}\n"
+ON_SLIDER = "drives: {{d: {{coordinate: slider.x, value: {}}}}}\n"
+ON_CRANK = "drives: {{d: {{angle: crank, value: {}}}}}\n"
 JUMPING = {
     "max": SLIDER + ON_SLIDER.format("max(0 s, t - 0.5137 s) * 1 m/s"),
     "abs": SLIDER + ON_SLIDER.format("abs(t/(1 s) - 0.5) * 1 m"),  # at an end of a step, or the number next to it

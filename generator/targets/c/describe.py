@@ -9,7 +9,7 @@ from types import MappingProxyType
 import sympy as sp
 
 from gudgeon.expression_tree import names, to_json
-from gudgeon.generator.constraints import Row
+from gudgeon.generator.constraints import Row, rate_jumps
 from gudgeon.generator.drive_jumps import jumping_drives
 from gudgeon.generator.driven_chains import Chain
 from gudgeon.generator.interface import element_series, kept_joints
@@ -74,7 +74,7 @@ def describe(
         start_guess=tuple(start.guess), start_set=tuple(start.set), start_rates=tuple(start.rates),
         frictions=tuple(friction.name for friction in model.frictions), methods=methods, pivots=pivots,
         start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
-        rate_jumps=jumping_drives(model),
+        rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
         slots=tuple(
             Slot(e.address, _unit(e.dimension), e.default, e.follows, _exponents(e.dimension))
             for e in model.slots.entries.values()
