@@ -17,6 +17,7 @@ from gudgeon.generator.reduction import TreeSystem
 from gudgeon.generator.tree import Link
 from gudgeon.generator.watched import reads_beyond, watched_kernel
 
+DYNAMICS = "reduced_dynamics"  # the right-hand side's name
 _DOC = (
     "Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:",
     "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.",
@@ -37,7 +38,7 @@ def motion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
 def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
     """Closures, right-hand side and projection in tree coordinates, sines one by one; the order of the pivots."""
     kkt = KKT(system, daring=is_rescued(system))
-    dynamics = dynamics_kernel(system, kkt, "reduced_dynamics", _DOC, stabilised=False, rescue=_rescue)
+    dynamics = dynamics_kernel(system, kkt, DYNAMICS, _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
     follows = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
     watched = None if follows else watched_kernel(dynamics, system.model)  # what is followed is not watched

@@ -4,6 +4,7 @@ What is written with abs, min, max or ramp, or is the root of a square, has its 
 step ends there. What is left is looked for by values, of drives that have a function which may hide it.
 Where the second differences of f on an even grid stand out they are followed to ever shorter distances h. They go
 with h² where f is smooth, with h where its rate jumps, more slowly where that is infinite, and stay where f jumps.
+Where nothing is free there is no impulse to be left out, but near such a place rates are 0/0 in binary64.
 """
 
 from __future__ import annotations
@@ -44,6 +45,19 @@ def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[J
     return sorted(found, key=lambda jump: jump.t)
 
 
+def _looked_at(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
+    """What no run goes over; without freedom infinite rates too, of drives whose corners are found otherwise."""
+    found = hidden_jumps(source, p, t0, t1)
+    if _integrates(source):
+        return found
+    hiding = {drive for drive, _ in _that_may_hide(source)}
+    for drive, tree in _with_drives(source) if t1 > t0 else ():
+        if drive not in hiding and _hides(tree):
+            with np.errstate(all="ignore"):
+                found += [jump for jump in _jumps(source, p, tree, drive, t0, t1) if jump.kind != "rate"]
+    return sorted(found, key=lambda jump: jump.t)
+
+
 def any_in_batch(source: KernelSource, p: Array, t0: float, t1: float) -> bool:
     """Whether a run of a batch meets one, p (runs, numbers); drives with the same numbers are looked at once."""
     seen = set()
@@ -62,15 +76,19 @@ def any_in_batch(source: KernelSource, p: Array, t0: float, t1: float) -> bool:
 
 
 def _integrates(source: KernelSource) -> bool:
-    """Where nothing is free nothing is left out: what a drive's rate does the linkage follows, its work is counted."""
+    """Whether a jump is an impulse on what is free; else the linkage follows it, as far as rates are numbers there."""
     return bool(source.drives) and source.methods != ("kinematic",)
+
+
+def _with_drives(source: KernelSource) -> list[tuple[str, Expr]]:
+    """All drives with their expressions."""
+    return [(info.address.split(".")[1], tree) for info, tree in trees(source, ("drives",))]
 
 
 def _that_may_hide(source: KernelSource) -> list[tuple[str, Expr]]:
     """Drives whose corners the generator may not have found."""
-    found = [(info.address.split(".")[1], tree) for info, tree in trees(source, ("drives",))]
     return [
-        (drive, tree) for drive, tree in found
+        (drive, tree) for drive, tree in _with_drives(source)
         if _hides(tree) and drive not in source.rate_jumps and VISIBLE.isdisjoint(functions(tree))
     ]  # fmt: skip
 
@@ -78,21 +96,24 @@ def _that_may_hide(source: KernelSource) -> list[tuple[str, Expr]]:
 def up_to_a_jump(problem: Problem) -> tuple[Problem, SolverError | None]:
     """A run that is to end where the first of them is, and the error that it then ends with."""
     source = problem.compiled.source
-    if not _integrates(source):
-        return problem, None
     t0 = float(problem.t[0])
-    first = next((jump for jump in hidden_jumps(source, problem.p, t0, float(problem.t[-1])) if jump.t > t0), None)
+    first = next((jump for jump in _looked_at(source, problem.p, t0, float(problem.t[-1])) if jump.t > t0), None)
     if first is None:
         return problem, None
-    return replace(problem, t=problem.t[problem.t < first.t]), SolverError(_told(first), first.t)
+    why = "its rate is no number there" if first.kind == "rate" else "no linkage follows it"
+    told = _told(first, "the impulse there would be left out" if _integrates(source) else why)
+    return replace(problem, t=problem.t[problem.t < first.t]), SolverError(told, first.t)
 
 
-def _told(jump: Jump) -> str:
-    how = {"rate": f"its rate jumps by about {jump.size:.3g}", "infinite rate": "its rate is infinite"}
-    what = how.get(jump.kind, f"it jumps by {jump.size:.4g}")
+def _told(jump: Jump, why: str) -> str:
+    if jump.kind == "infinite rate":
+        return (
+            f"drive {jump.drive}: its rate is infinite at t = {jump.t:.6g} s: no velocity is a number there\n"
+            "  write it so that its rate is bounded, or end the run before"
+        )
+    what = f"its rate jumps by about {jump.size:.3g}" if jump.kind == "rate" else f"it jumps by {jump.size:.4g}"
     return (
-        f"drive {jump.drive}: {what} at t = {jump.t:.6g} s, which its form does not show: the"
-        " impulse there would be left out\n"
+        f"drive {jump.drive}: {what} at t = {jump.t:.6g} s, which its form does not show: {why}\n"
         "  write it with abs, min, max or ramp, whose corners are found, or end the run before"
     )
 

@@ -210,7 +210,8 @@ class Simulation:
             spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
             result = conclude(self.compiled, chosen, problem, trajectory, given, is_given, spent)
             result, contradicts = contradicted(problem, trajectory, result)
-            stopped = trajectory.stopped or contradicts or (None if trajectory.interrupted else jump)
+            ended = trajectory.interrupted or trajectory.t[-1] < problem.t[-1]  # before the jump
+            stopped = trajectory.stopped or contradicts or (None if ended else jump)
         result = late(ctrl_c, result)
         if stopped is not None:
             stopped.partial = result

@@ -13,7 +13,7 @@ from gudgeon import trace
 from gudgeon.compiled import N_WORK, Array, CompiledModel
 from gudgeon.errors import SolverError
 from gudgeon.integrators.asking import Asker
-from gudgeon.integrators.failure import STALLED, Pace, failure, film, stalled
+from gudgeon.integrators.failure import FELT, STALLED, Pace, drives_at, failure, film, stalled
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Problem, Trajectory, no_events
 
 EVENTS_FULL, ENDED, STOPPED = -3, -7, -10
@@ -225,5 +225,7 @@ class Session:
             arrays = (self.pointer(gained), self.pointer(steps, "long *"), self.pointer(ended, "long *"))
             self.lib.gudgeon_run_pace(self.run, *arrays)
             pace = Pace(t, float(self.problem.t[-1]) - t, float(gained[0]), int(steps[0]), bool(steps[1]))
-            raise stalled(pace, ended, film(self.compiled, peaks[:, 2], self.p))
+            # a drive that still turns on in steps so short is what they are short for
+            fast = drives_at(self.compiled, self.p, t, FELT * pace.steps / max(pace.gained, 1e-300))
+            raise stalled(pace, ended, film(self.compiled, peaks[:, 2], self.p), fast)
         raise failure(self.compiled, self.problem.method, status, t, advice, y, peaks[:, 2], self.p)

@@ -141,3 +141,93 @@ def test_an_output_of_what_is_none_is_not_blamed(tmp_path: Path) -> None:
     run = gudgeon.load(file, "worn").simulate(1e-3, output=10)
     assert np.isnan(run["latched"]).any()
     assert not any("latched" in note for note in run.diagnostics.notes)
+
+
+OUTRUN = "exp(exp(exp(t/(0.3 s))))*1 rad"
+
+
+@pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p"])
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_a_drive_that_outruns_the_steps_ends_the_run(method: str, formulation: str, tmp_path: Path) -> None:
+    """A driven crank with a pendulum on it; 10 million steps in 25 s had not ended such a run."""
+    driven(PAIR, OUTRUN, tmp_path)
+    scene = gudgeon.load(tmp_path / "driven.yaml", formulation=formulation)
+    told = r"no longer advances at t = 0\.2\d+ s: .*; drive d is at \d+.* rad, its rate \d+.* rad/s\n.*cannot be"
+    with pytest.raises(SolverError, match=told) as caught:
+        scene.simulate(1.0, output=100, method=method)
+    run = caught.value.partial
+    assert run.diagnostics.steps < 2**18
+    assert run.t[-1] == pytest.approx(caught.value.time)
+    assert scene.simulate(0.2, output=2, method=method).t[-1] == 0.2
+
+
+@pytest.mark.parametrize("method", ["auto", "rk4"])
+def test_a_drive_that_is_too_fast_for_any_step_is_named(method: str, tmp_path: Path) -> None:
+    """Beside a bar that hangs freely: the crank itself is not integrated. Nothing was said of the drive."""
+    beside = PAIR.replace("A: {revolute: [a.head, b.tail]}", "A: {revolute: [ground.O, b.tail]}")
+    step = 1e-4 if method == "rk4" else None
+    with pytest.raises(NonFiniteError, match=r"drive d is at .*e\+149 rad, its rate .*\n  a drive that grows beyond"):
+        driven(beside, OUTRUN, tmp_path).simulate(1.0, method=method, step=step)
+
+
+def test_a_chirp_is_followed(tmp_path: Path) -> None:
+    """Its steps become ever shorter too, but twice as many of them gain more time each time: some 290 000 of them."""
+    run = driven(PAIR, "1 rad * sin(40 * (t/(1 s))**3)", tmp_path).simulate(15.5, output=1, rtol=1e-6)
+    assert run.diagnostics.steps > 2**18
+    assert run.t[-1] == 15.5
+
+
+@pytest.mark.parametrize("output", [10, 77])  # with a sample at 0.5 s, and with none
+@pytest.mark.parametrize(("value", "told", "time"), [
+    ("acos(cos(t/(1 s) - 0.5))", "its rate jumps by about 2", 0.5),
+    ("hypot(sin(t/(1 s) - 0.5), 1 - cos(t/(1 s) - 0.5))", "its rate jumps by about 2", 0.5),
+    ("asin(sin(t*3/(1 s) - 0.5))", "its rate jumps by about 6", 0.690265),
+    ("atan2(sin(t*5/(1 s)), cos(t*5/(1 s)))", "it jumps by 6.283", 0.628319),
+    ("sqrt(abs(t/(1 s) - 0.5))", "its rate is infinite", 0.5),
+    ("((t/(1 s) - 0.5)**2)**(1/3)", "its rate is infinite", 0.5),
+])  # fmt: skip
+def test_without_freedom_too_a_rate_that_is_none_ends_the_run(
+    value: str, told: str, time: float, output: int, tmp_path: Path
+) -> None:
+    """Works were NaN, or 1e296 J, without a word, or the linkage was said to pass a dead centre."""
+    with pytest.raises(SolverError, match=rf"drive d: {told} at t = {time} s") as caught:
+        driven(ONE, value, tmp_path).simulate(1.0, output=output)
+    run = caught.value.partial
+    assert run.t[-1] >= time - 1.0 / output - 1e-9
+    assert run.diagnostics.energy_residual < 1e-6 * max(1.0, run.diagnostics.energy_turned_over)
+
+
+@pytest.mark.parametrize("output", [10, 77])
+def test_a_drive_that_is_no_number_at_one_time_is_named(output: int, tmp_path: Path) -> None:
+    with pytest.raises(NonFiniteError, match=r"drives\.d\.value .* at t = 0\.5 s, nan: 0 divided by 0"):
+        driven(ONE, "sin(t/(1 s) - 0.5)/(t/(1 s) - 0.5)", tmp_path).simulate(1.0, output=output)
+
+
+@pytest.mark.parametrize("value", ["((t/(1 s) - 0.5)**2)**0.75", "max(0, 0.5 - t/(1 s))**1.5"])
+def test_without_freedom_an_unbounded_second_rate_is_passed(value: str, tmp_path: Path) -> None:
+    """With a node of the quadrature at 0.5 s the balance was 0.4 % off."""
+    run = driven(ONE, value, tmp_path).simulate(1.0, output=77)
+    assert run.diagnostics.energy_residual < 1e-9
+
+
+@pytest.mark.parametrize("step", [1e-3, 1.1e-3])
+@pytest.mark.parametrize("value", [
+    "((t/(1 s) - 0.5)**2)**0.75", "max(0, t/(1 s) - 0.5)**1.5 * 1e-3", "max(0, 0.5 - t/(1 s))**1.5",
+    "abs(t/(1 s) - 0.5)**0.5",
+])  # fmt: skip
+def test_rk4_steps_over_no_unbounded_second_rate(value: str, step: float, tmp_path: Path) -> None:
+    """It was told to take smaller steps."""
+    with pytest.raises(SolverError, match=r"beyond t = 0\.5 s: the second rate of drive d grows beyond all bounds"):
+        driven(PAIR, value, tmp_path).simulate(1.0, output=10, method="rk4", step=step)
+
+
+@pytest.mark.parametrize("value", ["max(0, t/(1 s) - 0.5)**2.5", "max(0, t/(1 s) - 0.5)**2", "abs(sin(t * 50 rad/s))"])
+def test_rk4_steps_over_a_bounded_one(value: str, tmp_path: Path) -> None:
+    runs = [driven(PAIR, value, tmp_path).simulate(1.0, output=1, method="rk4", step=h) for h in (0.1, 1e-4)]
+    assert [run.t[-1] for run in runs] == [1.0, 1.0]
+    assert runs[1].diagnostics.energy_residual < 1e-7 * runs[1].diagnostics.energy_turned_over
+
+
+def test_a_run_that_an_event_ends_comes_to_no_jump(tmp_path: Path) -> None:
+    text = PAIR + 'events: {early: {zero: "t - 0.3 s", action: stop}}\n'
+    assert driven(text, "acos(cos(t/(1 s) - 0.5))", tmp_path).simulate(0.8, output=80).t[-1] == pytest.approx(0.3)

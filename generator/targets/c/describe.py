@@ -10,6 +10,7 @@ import sympy as sp
 
 from gudgeon.expression_tree import names, to_json
 from gudgeon.generator.constraints import Row, rate_jumps
+from gudgeon.generator.drive_jumps import jumping_drives
 from gudgeon.generator.driven_chains import Chain
 from gudgeon.generator.interface import element_series, kept_joints
 from gudgeon.generator.mechanism import GROUND
@@ -73,7 +74,7 @@ def describe(
         start_guess=tuple(start.guess), start_set=tuple(start.set), start_rates=tuple(start.rates),
         frictions=tuple(friction.name for friction in model.frictions), methods=methods, pivots=pivots,
         start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
-        rate_jumps=_rate_jumps(model),
+        rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
         slots=tuple(
             Slot(e.address, _unit(e.dimension), e.default, e.follows, _exponents(e.dimension))
             for e in model.slots.entries.values()
@@ -182,19 +183,12 @@ def scene_notes(model: Model) -> tuple[str, ...]:
         notes.append("no film: dry contact only")
     if all(component == 0 for component in model.gravity):
         notes.append("no gravity: no weight terms")
-    jumps = _rate_jumps(model)
+    jumps = jumping_drives(model)
     if jumps:
         notes.append(
-            f"the rate of {', '.join(jumps)} may jump: the linkage follows by an impulse, in rk4 with formulation"
-            " \"full\" only afterwards; smooth_step has no jump"
+            f"the rate of {', '.join(jumps)} may jump: the linkage follows by an impulse; smooth_step has no jump"
         )
     return tuple(notes)
-
-
-def _rate_jumps(model: Model) -> tuple[str, ...]:
-    """Drives whose rate may jump before something that is free to move."""
-    drives = model.scene.mechanism.drives.values() if model.degrees_of_freedom else ()
-    return tuple(drive.name for drive in drives if rate_jumps(drive))
 
 
 def _exponents(dimension: Dimension) -> tuple[int, int, int]:

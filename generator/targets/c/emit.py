@@ -10,6 +10,7 @@ from typing import Any
 import jinja2
 
 from gudgeon.generator import interface
+from gudgeon.generator.drive_jumps import jumps_of
 from gudgeon.generator.dynamics import dynamics_kernel
 from gudgeon.generator.events import SIGNS
 from gudgeon.generator.kernels import Kernel, without_unused
@@ -123,7 +124,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     reduced = reduced_code(model, kkt.pivots, render, _kernels) if formulation == "reduced" else None
     watched = watched_kernel(dynamics, model)
     right_hand_side = [dynamics, *([watched] if watched and formulation == "full" and integrates else [])]
-    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched,
+    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched, jumps_of(dynamics, model),
                        render("motion_full.c.jinja"), kkt.pivots)  # fmt: skip
     integrated = reduced.integrated if reduced else plain
     counts, terms = _counts(model, integrated), time_terms_kernel(dynamics)
@@ -178,7 +179,10 @@ def _loops(
     files = integrator_loops(model, integrated, linearized, closing, terms, counts, render, lanes)
     beside = {}
     if reduced is not None and lanes:
-        beside = lanes_code.lanes_code(model, (*reduced.plain, without_unused(closing)), counts, render)
+        beside = lanes_code.lanes_code(
+            model, (*reduced.plain, without_unused(closing)),
+            {**counts, "n_corners": integrated.jumps.count if integrated.jumps else 0}, render,
+        )  # fmt: skip
     return LoopCode(files, tuple(kernels), integrated.kkt), beside
 
 

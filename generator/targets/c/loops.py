@@ -9,6 +9,7 @@ from typing import Any
 import sympy as sp
 
 from gudgeon.generator.clearance import Clearance
+from gudgeon.generator.drive_jumps import Jumps
 from gudgeon.generator.driven_chains import Chain
 from gudgeon.generator.kernels import Kernel
 from gudgeon.generator.kinematic_kernels import kinematic_kernels
@@ -66,6 +67,7 @@ class Integrated:
     reduced: bool
     finish: Callable[[Kernel], Kernel]  # a last pass over kernels
     watched: Kernel | None  # of what is watched, where it is known without forces (generator/watched.py)
+    jumps: Jumps | None  # where a drive's rate may jump
     motion: str  # the text of motion.c
     pivots: tuple[str, ...]  # rows that a status of motion() counts through
     chain: Chain | None = None
@@ -141,15 +143,18 @@ def integrator_loops(
     residuals = _FROM_CLOSURES if integrated.reduced else _FROM_DYNAMICS
     residuals = _FROM_TREE if integrated.system.known else residuals
     chain = {"n_chain": counts["n_chain"]}
+    jumps = integrated.jumps
+    common["n_corners"] = jumps.count if jumps else 0
     return {
         "motion.c": integrated.motion,
-        **_range_code(terms, integrated.watched, render),
+        **_range_code(terms, integrated.watched or jumps, render),
         "projection.c": printer.kernel(integrated.finish(closing)),
         "newton.c": linearized,
         "run.c": render(
             "run.c.jinja", **common, friction_modes=modes, angles=integrated.angles or (0,), residuals=residuals
         ),
         "step.c": render("step.c.jinja", state=integrated.state("y"), **counts),
+        **({"jumps.c": _jumps_code(jumps, render)} if jumps else {}),
         "rk4.c": render(
             "rk4.c.jinja", **common, friction_events=events, constraints=constraints, projection=projection,
             inside=inside,
@@ -163,8 +168,8 @@ def integrator_loops(
         "peaks.c": render("peaks.c.jinja", **counts),
         "changes.c": render("changes.c.jinja", **common),
         "adaptive.c": render("adaptive.c.jinja", **common),
-        "batch.h": render("batch.h.jinja", **counts, lanes=lanes),
-        "many.c": render("many.c.jinja", **counts, lanes=lanes),
+        "batch.h": render("batch.h.jinja", **common, lanes=lanes),
+        "many.c": render("many.c.jinja", **common, lanes=lanes),
     }
 
 
@@ -222,7 +227,12 @@ def _watched_code(integrated: Integrated, counts: Mapping[str, int], render: Ren
     return render("watched.c.jinja", kernel=text, reads_state=reads_state(kernel), **margins)
 
 
-def _range_code(terms: Kernel | None, watched: Kernel | None, render: Render) -> dict[str, str]:
+def _jumps_code(jumps: Jumps, render: Render) -> str:
+    kernels = printer.kernel(jumps.values) + "\n" + ranges_printer.kernel(jumps.ranges)
+    return render("jumps.c.jinja", kernels=kernels, n_corners=jumps.count)
+
+
+def _range_code(terms: Kernel | None, watched: Kernel | Jumps | None, render: Render) -> dict[str, str]:
     """Arithmetic of ranges, where anything needs it, and what is known of time alone."""
     files = {"ranges.c": render("ranges.c.jinja")} if terms or watched else {}
     if terms:

@@ -6,9 +6,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from gudgeon.generator.chain_kernels import ChainKernels
+from gudgeon.generator.drive_jumps import jumps_of
 from gudgeon.generator.kernels import Kernel, without_unused
 from gudgeon.generator.model import Model
-from gudgeon.generator.reduced_kernels import is_rescued, motion_kernels, reduced_kernels
+from gudgeon.generator.reduced_kernels import DYNAMICS, is_rescued, motion_kernels, reduced_kernels
 from gudgeon.generator.reduction import TreeSystem, reduce
 from gudgeon.generator.sine_pairs import side_by_side
 from gudgeon.generator.targets.c.loops import Integrated
@@ -74,7 +75,9 @@ def reduced_code(
         pivots = (*pivots, *(row.name for row in system.chain.rows))
     integrated = Integrated(
         system, kkt, angles, True, lambda kernel: side_by_side(without_unused(kernel)),
-        next((kernel for kernel in plain if kernel.name == WATCHED), None), motion, pivots, system.chain,
+        next((kernel for kernel in plain if kernel.name == WATCHED), None),
+        next((jumps_of(kernel, model) for kernel in plain if kernel.name == DYNAMICS), None), motion, pivots,
+        system.chain,
     )  # fmt: skip
     every = (*around, *kernels, *own)
     return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, every, integrated, tuple(plain))
