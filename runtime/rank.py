@@ -5,18 +5,34 @@ from __future__ import annotations
 import numpy as np
 
 from gudgeon.compiled import Array
+from gudgeon.large import LARGE, answering, is_independent, tied_shares
 
 RANK = 1e-9  # singular values below this share of the largest count as zero
+DAMPED = 1e-7  # from which limit on a damped factorization tells the same
 
 
 def rank(matrix: Array, least: float = RANK) -> int:
     """How many rows are independent."""
-    values = np.linalg.svd(matrix, compute_uv=False)
-    return int((values > least * values[0]).sum())
+    if matrix.shape[1] >= LARGE:
+        return len(matrix) if is_independent(matrix, least) else answering(lambda: _rank(matrix, least))
+    return _rank(matrix, least)
 
 
 def tied(matrix: Array, least: float = RANK) -> Array:
     """Of each row its largest share in a combination of rows that vanishes; 0 for rows that depend on nothing."""
+    if matrix.shape[1] >= LARGE:
+        if least >= DAMPED:
+            return tied_shares(matrix, least)
+        return np.zeros(len(matrix)) if is_independent(matrix, least) else answering(lambda: _tied(matrix, least))
+    return _tied(matrix, least)
+
+
+def _rank(matrix: Array, least: float) -> int:
+    values = np.linalg.svd(matrix, compute_uv=False)
+    return int((values > least * values[0]).sum())
+
+
+def _tied(matrix: Array, least: float) -> Array:
     left, values, _ = np.linalg.svd(matrix)
     vanishing = left[:, int((values > least * values[0]).sum()) :]
     return np.asarray(np.abs(vanishing).max(axis=1, initial=0.0), dtype=np.float64)
