@@ -42,7 +42,7 @@ def conclude(
         balance = energy_balance(evaluation.energy, x.work, look)
     except SolverError:
         failed = True
-    except _TooLong:
+    except (_TooLong, MemoryError):  # the samples are there; what follows from them is evaluated when asked for
         pass
     except KeyboardInterrupt:
         x = replace(x, interrupted=True)

@@ -1,14 +1,12 @@
-"""Linear algebra of large mechanisms: sparse, for a joint ties two bodies, and what is dense answers Ctrl-C.
+"""Linear algebra of large mechanisms: sparse, for a joint ties two bodies, and in steps between which Ctrl-C is heard.
 
 LAPACK takes seconds for a thousand coordinates (or for a few hundred where other threads keep the cores), and while
-it does Python hears of no signal.
+it does Python hears of no signal. A thread of its own is no way out: OpenBLAS does not let a process end meanwhile.
 """
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
-from typing import TypeVar
 
 import numpy as np
 
@@ -18,7 +16,7 @@ from gudgeon.imports import SPARSE, whole
 LARGE = 150  # coordinates from which on this is used
 DAMPING = 1e-10  # of the sum of squares: C's first step has the same (templates/c/start.c.jinja)
 COLUMNS, SHARPER = 6, 6  # random columns that are filtered, how often
-Found = TypeVar("Found")
+VANISHES = 1e-6  # of the largest singular value: what is below is left alone where rows depend on each other
 
 
 def smallest_step(matrix: Array, target: Array) -> Array | None:
@@ -30,6 +28,15 @@ def smallest_step(matrix: Array, target: Array) -> Array | None:
         return None
     fits = np.linalg.norm(matrix @ x - target) <= 1e-9 * (np.linalg.norm(target) + 1e-300)
     return np.asarray(x, dtype=np.float64) if fits else None
+
+
+def dependent_step(matrix: Array, target: Array) -> Array:
+    """The same where rows depend on each other: what target asks of them beyond what they can give is left."""
+    columns, x = matrix.shape[1], np.zeros(matrix.shape[1])
+    solve = _solver(matrix, (VANISHES * _norm(matrix)) ** 2)
+    for _ in range(4):  # damping takes a share of a step, less each time
+        x = x + solve(np.concatenate([np.zeros(columns), target - matrix @ x]))[:columns]
+    return x
 
 
 def nearest_step(matrix: Array, target: Array) -> Array:
@@ -75,25 +82,21 @@ def tied_shares(matrix: Array, least: float) -> Array:
     return np.asarray(np.abs(x).max(axis=1, initial=0.0), dtype=np.float64)
 
 
-def answering(work: Callable[[], Found]) -> Found:
-    """What `work` returns or raises. It is done in a thread; Ctrl-C is answered meanwhile, and nobody waits for it."""
-    if threading.current_thread() is not threading.main_thread():
-        return work()
-    found: list[Found] = []
-    raised: list[BaseException] = []
-
-    def run() -> None:
-        try:
-            found.append(work())
-        except BaseException as error:
-            raised.append(error)
-
-    thread = threading.Thread(target=run, daemon=True)
-    thread.start()
-    thread.join()
-    if raised:
-        raise raised[0]
-    return found[0]
+def rank_by_rows(matrix: Array, least: float) -> int:
+    """How many rows are independent, by Gram-Schmidt with pivoting; `least`: of the first, what still counts."""
+    left, limit = np.array(matrix), 0.0
+    for k in range(min(matrix.shape)):
+        size = np.einsum("ij,ij->i", left, left)
+        pivot = int(size.argmax())
+        length = float(np.sqrt(size[pivot]))
+        limit = limit or least * length
+        if not length > limit:
+            return k
+        direction = left[pivot] / length
+        left[pivot] = left[-1]
+        left = left[:-1]
+        left -= np.outer(left @ direction, direction)
+    return min(matrix.shape)
 
 
 def _solver(matrix: Array, damping: float) -> Callable[[Array], Array]:

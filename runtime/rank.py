@@ -5,25 +5,23 @@ from __future__ import annotations
 import numpy as np
 
 from gudgeon.compiled import Array
-from gudgeon.large import LARGE, answering, is_independent, tied_shares
+from gudgeon.large import LARGE, is_independent, rank_by_rows, tied_shares
 
 RANK = 1e-9  # singular values below this share of the largest count as zero
-DAMPED = 1e-7  # from which limit on a damped factorization tells the same
+DAMPED = 1e-7  # the least limit that a damped factorization can tell
 
 
 def rank(matrix: Array, least: float = RANK) -> int:
     """How many rows are independent."""
     if matrix.shape[1] >= LARGE:
-        return len(matrix) if is_independent(matrix, least) else answering(lambda: _rank(matrix, least))
+        return len(matrix) if is_independent(matrix, least) else rank_by_rows(matrix, least)
     return _rank(matrix, least)
 
 
 def tied(matrix: Array, least: float = RANK) -> Array:
     """Of each row its largest share in a combination of rows that vanishes; 0 for rows that depend on nothing."""
     if matrix.shape[1] >= LARGE:
-        if least >= DAMPED:
-            return tied_shares(matrix, least)
-        return np.zeros(len(matrix)) if is_independent(matrix, least) else answering(lambda: _tied(matrix, least))
+        return tied_shares(matrix, max(least, DAMPED))
     return _tied(matrix, least)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import AssemblyError
-from gudgeon.large import LARGE, answering, nearest_step, smallest_step
+from gudgeon.large import LARGE, dependent_step, nearest_step, smallest_step
 from gudgeon.rank import tied
 from gudgeon.written import reason
 
@@ -259,9 +259,5 @@ def smallest(matrix: Array, target: Array) -> Array:
     """The shortest x with matrix x = target, or the nearest to it that there is."""
     if matrix.shape[1] >= LARGE:
         x = smallest_step(matrix, target)
-        return x if x is not None else answering(lambda: _dense(matrix, target))
-    return _dense(matrix, target)
-
-
-def _dense(matrix: Array, target: Array) -> Array:
+        return x if x is not None else dependent_step(matrix, target)
     return np.asarray(np.linalg.lstsq(matrix, target, rcond=1e-12)[0], dtype=np.float64)

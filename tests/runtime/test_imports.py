@@ -62,3 +62,23 @@ def test_ctrl_c_is_raised_between_two_packages(monkeypatch: pytest.MonkeyPatch) 
     with pytest.raises(KeyboardInterrupt):
         imports.whole("a", "b", "c")
     assert imported == ["a", "b", "whole"]
+
+
+COMMAND = """
+import signal, sys
+
+def look(frame, event, _):
+    if event == "call" and frame.f_code.co_filename.endswith("typer/__init__.py"):
+        sys.setprofile(None)
+        signal.raise_signal(signal.SIGINT)
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from gudgeon.entry import main
+sys.setprofile(look)
+main()
+"""
+
+
+def test_ctrl_c_while_the_command_line_is_imported_is_told_in_a_word() -> None:
+    done = subprocess.run([sys.executable, "-c", COMMAND], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
