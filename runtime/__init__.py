@@ -65,7 +65,11 @@ __all__ = [
 def __getattr__(name: str) -> object:
     if name not in _HOME:
         raise AttributeError(f"module 'gudgeon' has no attribute {name!r}")
-    value = getattr(import_module(f"gudgeon.{_HOME[name]}"), name)
+    from gudgeon.ctrl_c import CtrlC
+
+    with CtrlC() as ctrl_c:  # NumPy half imported could not be imported again
+        value = getattr(import_module(f"gudgeon.{_HOME[name]}"), name)
+    ctrl_c.take()
     globals()[name] = value
     return value
 

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from gudgeon import compiler
 from gudgeon.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.errors import BuildError
+from gudgeon.imports import CFFI, whole
 from gudgeon.kernel_source import KernelSource
 from gudgeon.programs import Programs
 from gudgeon.working import working
@@ -131,6 +132,7 @@ def _build(source: KernelSource, key: str, portable: bool, folder: Path) -> None
         (folder / name).write_text(text, encoding="utf-8")
     with Programs() as programs:
         scene = _begin(programs, [*flags, "-c", source.main, "-o", SCENE], folder)
+        whole(*CFFI)
         from cffi import FFI
 
         ffi = FFI()

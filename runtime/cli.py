@@ -15,7 +15,7 @@ from typing import Annotated, Any, TypeVar
 
 import typer
 
-from gudgeon.errors import GudgeonError
+from gudgeon.errors import GudgeonError, MemoryShortage
 from gudgeon.shown import visible
 
 INTERRUPTED = 130
@@ -46,6 +46,9 @@ def _told(command: Command) -> Command:
         except GudgeonError as error:
             complain(error)
             code = error.exit_code
+        except MemoryError as error:
+            complain(MemoryShortage(error))
+            code = MemoryShortage.exit_code
         except KeyboardInterrupt:
             print("interrupted", file=sys.stderr)
             code = INTERRUPTED
@@ -288,7 +291,7 @@ def stress(
 
 
 def main() -> None:
-    """The entry point of the command `gudgeon`."""
+    """The command line."""
     told: set[str] = set()
 
     def tell(message: Warning | str, *_: Any, **__: Any) -> None:

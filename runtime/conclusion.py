@@ -10,9 +10,10 @@ from time import monotonic
 import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
+from gudgeon.ctrl_c import CtrlC
 from gudgeon.diagnose import diagnose, energy_balance
 from gudgeon.errors import SolverError
-from gudgeon.integrators.asking import EVERY, CtrlC
+from gudgeon.integrators.asking import EVERY
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.left_out import contradiction
 from gudgeon.results import Result
@@ -41,7 +42,7 @@ def conclude(
         balance = energy_balance(evaluation.energy, x.work, look)
     except SolverError:
         failed = True
-    except _TooLong:
+    except (_TooLong, MemoryError):  # the samples are there; what follows from them is evaluated when asked for
         pass
     except KeyboardInterrupt:
         x = replace(x, interrupted=True)

@@ -11,7 +11,6 @@ from gudgeon.rank import tied
 DEAD = 1e-6  # singular values below this share count as zero: a double root is found to 1e-8 only
 NEAR = 1e-4  # the same where a motion ended on its way to a dead centre
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}
-MOST = 600  # coordinates beyond which the dense rank costs more than it tells
 
 
 def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
@@ -22,7 +21,7 @@ def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tup
     source = compiled.source
     redundant = set(left_out(compiled))
     index = [k for k in range(len(source.start_rows)) if k not in redundant]
-    if not index or len(q) > MOST:
+    if not index:
         return ()
     names = [source.start_rows[k].name for k in index] + list(source.start_rates)
     rates = np.zeros((len(source.start_rates), len(q)))
@@ -36,7 +35,7 @@ def dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tup
 def nearly_dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
     """Names of the motion's rows (joints with play left out) that all but tie each other at q."""
     rows = compiled.source.rows
-    if not rows or len(q) > MOST or not np.isfinite(q).all():
+    if not rows or not np.isfinite(q).all():
         return ()
     return _tied_rows(compiled, p, compiled.phi_q(t, q, p), [row.name for row in rows], NEAR)
 

@@ -140,6 +140,17 @@ class BuildError(GudgeonError):
     """The C code could not be compiled or loaded (compiler or Python.h missing, …)."""
 
 
+class MemoryShortage(GudgeonError):
+    """There is no memory for what the command line was asked; in Python it is a MemoryError."""
+
+    def __init__(self, error: MemoryError) -> None:
+        what = f": {error}" if str(error) else ""
+        super().__init__(
+            f"not enough memory{what}\n"
+            "  ask for fewer samples (--output), scenes or runs at once, or raise the limit (ulimit -v)"
+        )
+
+
 class CacheError(GudgeonError):
     """The cache folder cannot be used."""
 

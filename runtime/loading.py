@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from gudgeon.build import compile_kernels
 from gudgeon.cache import Cache, default_cache, digest
 from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
+from gudgeon.imports import GENERATOR, RUNTIME, whole
 from gudgeon.kernel_source import KernelSource
 from gudgeon.shipped import PACKAGE, committed, shipped, shipped_file
 from gudgeon.wanted import flag, mapping, number_of, path, text
@@ -93,6 +94,7 @@ def load_bytes(
     module = compile_kernels(source, portable=portable, rebuild=regenerate)
     have_module = perf_counter()
 
+    whole(*RUNTIME)
     from gudgeon.compiled import CompiledModel
     from gudgeon.simulation import Simulation
 
@@ -173,6 +175,7 @@ def kernel_source(
         origin = "generated" if source else "derived"
         if source is None:
             with working(f"deriving {file.stem}, scene {scene}"):
+                whole(*GENERATOR)
                 from gudgeon.generator.pipeline import generate
 
                 source = generate(data, str(file), scene, overrides, formulation)

@@ -294,5 +294,8 @@ def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
     """Write a picture aside and move it into place; it holds neither date nor version."""
     path, drawn = Path(path), io.BytesIO()
     suffix = path.suffix.removeprefix(".") or None
-    picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
+    try:
+        picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
+    except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest one
+        raise GudgeonError(f"no picture {path}: its numbers cannot be drawn ({error})\n  watch others") from error
     write_bytes(path, drawn.getvalue())

@@ -7,7 +7,8 @@ import signal
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gudgeon.integrators.asking import EVERY, CtrlC
+from gudgeon.ctrl_c import CtrlC
+from gudgeon.integrators.asking import EVERY
 
 if TYPE_CHECKING:
     import subprocess

@@ -17,10 +17,11 @@ from numpy.typing import ArrayLike
 from gudgeon.arguments import output_times, seconds
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.conclusion import conclude, contradicted, late
+from gudgeon.ctrl_c import CtrlC
 from gudgeon.errors import AssemblyError, BadValueError, InputError
 from gudgeon.hidden_jumps import up_to_a_jump
+from gudgeon.imports import GENERATOR, whole
 from gudgeon.integrators import adaptive, kinematic, python_driver, rk4
-from gudgeon.integrators.asking import CtrlC
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.left_out import check_start
 from gudgeon.parameters import prepare, prepare_slots, without_baumgarte
@@ -63,6 +64,7 @@ class Simulation:
     def model(self) -> Model:
         """The scene's equations in SymPy, derived when first asked for. InputError if the file was edited since."""
         if self._model is None:
+            whole(*GENERATOR)
             from gudgeon.generator.pipeline import derive
 
             self._model = derive(self._loaded_bytes(), str(self.file), self.source.scene, self._overrides)
@@ -241,9 +243,7 @@ class Simulation:
         """
         from gudgeon.many import simulate_many
 
-        return simulate_many(
-            self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side
-        )
+        return simulate_many(self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side)
 
     def _closed(self, p: Array) -> tuple[Array, Array, Array]:
         """The start that the file describes: q, q̇, and nothing in contact."""

@@ -14,8 +14,8 @@ import numpy as np
 
 from gudgeon.batch import Batch, as_failures, given_values, peaks_of
 from gudgeon.compiled import Array
+from gudgeon.ctrl_c import CtrlC
 from gudgeon.errors import GudgeonError, SolverError
-from gudgeon.integrators.asking import CtrlC
 from gudgeon.integrators.failure import INTERRUPTED
 from gudgeon.integrators.many import GLANCE
 from gudgeon.integrators.trajectory import Counts, Progress, no_events

@@ -14,13 +14,13 @@ import numpy as np
 
 from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import AssemblyError
+from gudgeon.large import LARGE, dependent_step, nearest_step, smallest_step
 from gudgeon.rank import tied
 from gudgeon.written import reason
 
 MAX_STEPS = 60
 FAR = 1.0  # rad: where a guessed angle turns further, a nearer configuration is sought
 TRIES, MANY = 24, 60  # from as many other angles; fewer with more coordinates than these
-LARGE = 150  # from so many columns on a sparse factorization is tried first
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 AWAY = 1e3  # of the mechanism's size: a body so far from the origin is lost
 CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly
@@ -90,7 +90,8 @@ class _Assembly:
         matrix = self.jacobian(q)[:, columns] / self.row_scale[:, None] / weight
         target, step = -self.residual(q) / self.row_scale, np.zeros_like(q)
         if np.isfinite(matrix).all() and np.isfinite(target).all():  # a driven distance has no direction at zero
-            step[columns] = smallest(matrix, target) / weight
+            few = len(self.place) >= LARGE and len(matrix) > matrix.shape[1]
+            step[columns] = (nearest_step if few else smallest)(matrix, target) / weight
         return step
 
     def positions(self) -> Array:
@@ -267,23 +268,6 @@ def smallest(matrix: Array, target: Array) -> Array:
     if not (np.isfinite(matrix).all() and np.isfinite(target).all()):
         return np.zeros(matrix.shape[1])
     if matrix.shape[1] >= LARGE:
-        x = _sparse_smallest(matrix, target)
-        if x is not None:
-            return x
+        x = smallest_step(matrix, target)
+        return x if x is not None else dependent_step(matrix, target)
     return np.asarray(np.linalg.lstsq(matrix, target, rcond=1e-12)[0], dtype=np.float64)
-
-
-def _sparse_smallest(matrix: Array, target: Array) -> Array | None:
-    """The same by a sparse factorization of [I Aᵀ; A 0], linear in the joints; None where A is rank-deficient."""
-    from scipy import sparse
-    from scipy.sparse.linalg import splu
-
-    rows, columns = matrix.shape
-    A = sparse.csc_matrix(matrix)
-    system = sparse.bmat([[sparse.identity(columns), A.T], [A, None]], format="csc")
-    try:
-        x = splu(system).solve(np.concatenate([np.zeros(columns), target]))[:columns]
-    except RuntimeError:  # exactly singular
-        return None
-    fits = np.linalg.norm(matrix @ x - target) <= 1e-9 * (np.linalg.norm(target) + 1e-300)
-    return np.asarray(x, dtype=np.float64) if fits else None

@@ -152,7 +152,7 @@ def read_regular(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> 
         if not stat.S_ISREG(found.st_mode) or found.st_size > LARGEST:
             return None
         with open(handle, "rb", closefd=False) as file:
-            return file.read(LARGEST)
+            return file.read(min(found.st_size + 1, LARGEST))  # no more memory than the file needs
     finally:
         os.close(handle)
 

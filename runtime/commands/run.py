@@ -13,7 +13,7 @@ import numpy as np
 
 from gudgeon.commands.common import check_folder, check_name, chosen_scenes, settings, unknown, value
 from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.errors import AssemblyError, GudgeonError, SolverError
+from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
 from gudgeon.loading import load
 from gudgeon.results import Result
 from gudgeon.shown import visible
@@ -171,6 +171,9 @@ def _simulate(
                 if partial is not None and len(partial.t) > 1:
                     session.runs[name] = partial  # up to where it failed: that is where one looks
                 continue
+            except MemoryError as error:
+                session.failures[name] = MemoryShortage(error)
+                continue
             session.runs[name] = run
             if run.diagnostics.interrupted:
                 session.interrupted = True
@@ -199,8 +202,9 @@ def _refer(ideal: Simulation, session: Session) -> None:
         if run.source.clearances:  # any other scene is the ideal one with its own numbers
             try:
                 reference = _reference(ideal, run, session)
-            except GudgeonError as error:
-                session.failures.setdefault(IDEAL, error)
+            except (GudgeonError, MemoryError) as error:
+                told = MemoryShortage(error) if isinstance(error, MemoryError) else error
+                session.failures.setdefault(IDEAL, told)
                 continue
             if len(reference.t) < len(run.t):
                 session.interrupted = True
@@ -229,6 +233,8 @@ def _save(out: Path, runs: Mapping[str, Result], session: Session) -> None:
             session.files[scene] = str(path)
         except GudgeonError as error:
             session.unwritten.append(error)
+        except MemoryError as error:
+            session.unwritten.append(MemoryShortage(error))
 
 
 def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequence[str]) -> None:
@@ -243,6 +249,8 @@ def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequen
         session.files["picture"] = str(path)
     except GudgeonError as error:
         session.unwritten.append(error)
+    except MemoryError as error:
+        session.unwritten.append(MemoryShortage(error))
 
 
 def result_path(out: Path, mechanism: str, scene: str) -> Path:

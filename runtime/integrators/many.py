@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.compiled import N_WORK, Array, CompiledModel
+from gudgeon.ctrl_c import CtrlC
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
-from gudgeon.integrators.asking import CtrlC
 from gudgeon.integrators.failure import INTERRUPTED, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, told_apart

@@ -20,6 +20,7 @@ import pytest
 
 import gudgeon
 from gudgeon import conclusion
+from gudgeon.ctrl_c import CtrlC
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators import asking
 from gudgeon.integrators.many import GLANCE
@@ -178,7 +179,7 @@ def test_a_signal_that_waits_is_raised_only_where_it_is_asked_for() -> None:
     """Not between the call of C and the note of what it did."""
     heard = []
     before = signal.getsignal(signal.SIGINT)
-    with asking.CtrlC() as ctrl_c:
+    with CtrlC() as ctrl_c:
         signal.raise_signal(signal.SIGINT)
         heard.append("computed")
         with pytest.raises(KeyboardInterrupt):

@@ -150,3 +150,14 @@ def test_what_lies_beyond_the_horizon_is_marked_and_told(run: Result, ideal: Res
     known = int((run.t <= 0.4).sum())
     assert len(part[0].get_xdata()) == known < len(trusted)
     assert len(part[2].get_xdata()) == len(run.t) - known + 1  # from the last trusted sample on
+
+
+def test_numbers_that_cannot_be_drawn_are_told(tmp_path: Path) -> None:
+    """matplotlib finds no ticks near the largest number."""
+    from matplotlib.figure import Figure
+
+    picture = Figure()
+    picture.subplots().plot([0.0, 1.0], [1e308, 1e308])
+    with pytest.raises(GudgeonError, match="its numbers cannot be drawn"):
+        plots.save_figure(picture, tmp_path / "x.png")
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,49 @@
+"""Ctrl-C is raised only where it is asked for: none falls between what was computed and the note of it."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Callable
+from time import monotonic
+from types import FrameType
+from typing import Any
+
+PATIENCE = 1.0  # s after a first Ctrl-C, from which on another one is raised wherever Python is
+
+
+class CtrlC:
+    """While this context is open SIGINT only waits for `take`, which hands it to the handler that was there before.
+
+    In another thread than the first one there is nothing to do: Python raises there no signal's exception. A handler
+    that is not a function of Python (SIG_DFL, SIG_IGN) stays as it is.
+    """
+
+    def __init__(self) -> None:
+        self.since, self.frame = 0.0, None  # s, when it came; 0: none waits
+        self._handler: Callable[[int, FrameType | None], Any] | None = None
+
+    def __enter__(self) -> CtrlC:
+        if threading.current_thread() is threading.main_thread():
+            handler = signal.getsignal(signal.SIGINT)
+            if callable(handler):
+                self._handler = handler
+                signal.signal(signal.SIGINT, self._note)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._handler is not None:
+            signal.signal(signal.SIGINT, self._handler)
+
+    def _note(self, number: int, frame: FrameType | None) -> None:
+        now = monotonic()
+        if not self.since:
+            self.since = now
+        elif now - self.since > PATIENCE and self._handler is not None:
+            self._handler(number, frame)
+
+    def take(self) -> None:
+        """Raises what the handler raises, KeyboardInterrupt as a rule, if a signal waits."""
+        if self.since and self._handler is not None:
+            self.since = 0.0
+            self._handler(signal.SIGINT, None)
