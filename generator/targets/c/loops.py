@@ -135,16 +135,11 @@ def integrator_loops(
     pivots = _friction_pivots(integrated.kkt)
     kind = "friction" if pivots else "no_friction"
     modes, events = (render(f"{name}.c.jinja", pivots=pivots).strip() for name in (kind, f"{kind}_events"))
-    common = {**counts, "floors": _floors(model), "clearances": _lengths(model, [c.pair.c for c in model.clearances])}
-    common["deepest"] = _lengths(model, [deepest(c) for c in model.clearances])
-    common["n_watched"] = len(integrated.corners) + counts["n_events"]
-    common["meeting"] = _meeting(model, counts["n_switches"])
+    common, jumps = _common(model, integrated, counts), integrated.jumps
     constraints, projection, inside = _PROJECTED if integrated.reduced else _STABILISED
     residuals = _FROM_CLOSURES if integrated.reduced else _FROM_DYNAMICS
     residuals = _FROM_TREE if integrated.system.known else residuals
     chain = {"n_chain": counts["n_chain"]}
-    jumps = integrated.jumps
-    common["n_corners"] = jumps.count if jumps else 0
     return {
         "motion.c": integrated.motion,
         **_range_code(terms, integrated.watched or jumps, render),
@@ -171,6 +166,17 @@ def integrator_loops(
         "batch.h": render("batch.h.jinja", **common, lanes=lanes),
         "many.c": render("many.c.jinja", **common, lanes=lanes),
     }
+
+
+def _common(model: Model, integrated: Integrated, counts: Mapping[str, int]) -> dict[str, Any]:
+    """What most of their templates read."""
+    return {
+        **counts, "floors": _floors(model), "clearances": _lengths(model, [c.pair.c for c in model.clearances]),
+        "deepest": _lengths(model, [deepest(c) for c in model.clearances]),
+        "n_watched": len(integrated.corners) + counts["n_events"],
+        "n_corners": integrated.jumps.count if integrated.jumps else 0,
+        "meeting": _meeting(model, counts["n_switches"]),
+    }  # fmt: skip
 
 
 def _terms(row: Mapping[int, float]) -> str:
