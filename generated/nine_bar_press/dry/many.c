@@ -191,8 +191,7 @@ static void samples_single(const Batch *b, long i, const Moving *before, void *m
 
 const void *gudgeon_single(void)
 {
-    static const Single single = {begin_single, steps_single, samples_single, end_single, give_state,
-        take_state};
+    static const Single single = {begin_single, steps_single, samples_single, end_single, give_state, take_state};
     return &single;
 }
 
