@@ -756,7 +756,7 @@ static int work_across(const Parameters *p, double extent, const Place *a, const
     double *work)
 {
     double part[N_WORK] = {0.0}, moved;
-    int jumped;
+    int jumped = 0;
     int status = work_between(p, extent, a, b, least, part, &jumped);
     const double t = a->t + 0.5 * (b->t - a->t);
     if (status == NO_NUMBER)
