@@ -59,13 +59,17 @@ class Slots:
         return all(s in info and info[s].home.startswith("p->") for s in expression.free_symbols)
 
     def _parameter(self, name: str) -> sp.Symbol:
-        address = f"parameters.{name}"
-        if address not in self.entries:
-            quantity = self._parameters[name]
-            for used in names(quantity.value):
-                self._parameter(used.path)
-            self._add(address, name, quantity)
-        return self.entries[address].symbol
+        waiting = [name]  # not by recursion: thousands may be defined through each other
+        while waiting:
+            quantity = self._parameters[waiting[-1]]
+            used = (used.path for used in names(quantity.value) if f"parameters.{used.path}" not in self.entries)
+            if (first := next(used, None)) is not None:
+                waiting.append(first)
+                continue
+            last = waiting.pop()
+            if f"parameters.{last}" not in self.entries:
+                self._add(f"parameters.{last}", last, quantity)
+        return self.entries[f"parameters.{name}"].symbol
 
     def _add(self, address: str, wanted: str, quantity: Quantity) -> sp.Symbol:
         value = to_sympy(quantity.value, self._parameter)

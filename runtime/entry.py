@@ -1,16 +1,71 @@
-"""Where the command `gudgeon` begins: Ctrl-C is told in a word, also while its command line is imported."""
+"""Where the command `gudgeon` begins: Ctrl-C, SIGTERM and a standard output that takes nothing are told in a word.
+
+SIGTERM, with which batch systems and `timeout` end a program, is answered as Ctrl-C is: what was computed is saved.
+"""
 
 from __future__ import annotations
 
+import codecs
+import errno
+import os
+import signal
 import sys
+
+INTERRUPTED, TERMINATED = 130, 143
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
 def main() -> None:
     """The entry point of the command `gudgeon`."""
+    _streams()
+    ended: list[int] = []
+
+    def terminate(number: int, _: object) -> None:
+        ended.append(number)
+        signal.raise_signal(signal.SIGINT)
+
+    if signal.getsignal(signal.SIGTERM) is signal.SIG_DFL and callable(signal.getsignal(signal.SIGINT)):
+        signal.signal(signal.SIGTERM, terminate)
+    try:
+        _run()
+    except SystemExit as end:
+        sys.exit(TERMINATED if ended and end.code == INTERRUPTED else end.code)
+
+
+def _run() -> None:
     try:
         from gudgeon.cli import main
 
-        main()
+        try:
+            main()
+        finally:
+            sys.stdout.flush()
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
-        sys.exit(130)
+        sys.exit(INTERRUPTED)
+    except OSError as error:
+        if error.filename is not None or error.errno not in (*FULL, errno.EPIPE):
+            raise
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is still to be written goes nowhere
+        if error.errno != errno.EPIPE:  # a reader that has enough needs no word
+            print(f"error: cannot write standard output: {error.strerror}", file=sys.stderr)
+        sys.exit(1)
+
+
+def _streams() -> None:
+    """One that is closed leads nowhere, lest a file take its number; what its encoding lacks is escaped."""
+    codecs.register_error("gudgeon", _escaped)
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, open(os.devnull, "w" if number else "r"))  # noqa: SIM115
+        elif number and hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="gudgeon")
+
+
+def _escaped(error: UnicodeError) -> tuple[str, int]:
+    """Characters as JSON has them, so that a document stays one."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    units = error.object[error.start : error.end].encode("utf-16-be", "surrogatepass")
+    return "".join(f"\\u{units[k]:02x}{units[k + 1]:02x}" for k in range(0, len(units), 2)), error.end

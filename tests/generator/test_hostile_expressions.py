@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
+import gudgeon
 from gudgeon.compiler import find_compiler
 from gudgeon.errors import BadValueError, InputError, LimitError
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import derive, generate
 
 FILE = """format: gudgeon/1
 name: n
@@ -104,3 +105,13 @@ def test_compiled(tmp_path: Path) -> None:
         [*command, *map(str, sorted(tmp_path.glob("*.c")))], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr[:2000]
+
+
+def test_thousands_of_parameters_may_be_defined_through_each_other() -> None:
+    """None of them is read by recursion."""
+    text = (Path(gudgeon.__file__).resolve().parents[1] / "mechanisms" / "pendulum.yaml").read_text(encoding="utf-8")
+    chain = "".join(f"  p{k}: 1 * p{k + 1}\n" for k in range(1500)) + "  p1500: 1 m\n"
+    text = text.replace("  length: 1 m\n", f"  length: p0\n{chain}")
+    slots = derive(text.encode(), "x.yaml", "ideal").slots
+    assert slots.entries["parameters.length"].default == 1.0
+    assert list(slots.entries)[:3] == ["parameters.g", "parameters.p1500", "parameters.p1499"]
