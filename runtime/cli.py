@@ -16,7 +16,7 @@ from typing import Annotated, Any, TypeVar
 import typer
 
 from gudgeon.errors import GudgeonError, MemoryShortage
-from gudgeon.shown import visible
+from gudgeon.language.shown import visible
 
 INTERRUPTED = 130
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -244,7 +244,7 @@ def bench(
     Example: gudgeon bench engine.yaml --scene dry --mark-step 0.1ms
     """
     from gudgeon.commands.bench import bench_file
-    from gudgeon.commands.measure import Request
+    from gudgeon.commands.studies import Request
 
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
     return bench_file(request, tuple(methods or ()))
@@ -283,8 +283,8 @@ def stress(
 
     Example: gudgeon stress engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
     """
-    from gudgeon.commands.measure import Request
     from gudgeon.commands.stress import Stress, stress_file
+    from gudgeon.commands.studies import Request
 
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
     return stress_file(request, Stress(method, at, tuple(axis or ()), box, tuple(range_ or ())))

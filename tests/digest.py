@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 import gudgeon
 from gudgeon.errors import GudgeonError
-from gudgeon.generator.read_yaml import read_mechanism
+from gudgeon.generator.reader.read import read_mechanism
 
 MECHANISMS = Path(gudgeon.__file__).resolve().parents[1] / "mechanisms"
 FORMULATIONS = ("reduced", "full")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from gudgeon.bench import SceneBench, bench, usual_steps
-from gudgeon.commands.measure import Request, each, exit_code, load_scenes
 from gudgeon.commands.progress import Report
+from gudgeon.commands.studies import Request, each, exit_code, load_scenes
 from gudgeon.errors import BadValueError
-from gudgeon.measure.choice import choice
-from gudgeon.measure.show_bench import show_bench
-from gudgeon.simulation import Simulation
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.bench import SceneBench, bench, usual_steps
+from gudgeon.studies.methods import choice
+from gudgeon.studies.show.bench import show_bench
 
 EVERY = "leave it out for all that fit; or auto,dop853,rodas5p,rk4"
 

@@ -11,9 +11,9 @@ from pathlib import Path
 from gudgeon.commands.common import check_folder, chosen_scenes
 from gudgeon.commands.progress import status_line
 from gudgeon.errors import InputError
-from gudgeon.loading import find_mechanism, kernel_source, read_bytes
-from gudgeon.shipped import REST
-from gudgeon.writing import PART, Aside, read_regular
+from gudgeon.files.writing import PART, Aside, read_regular
+from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
+from gudgeon.loading.shipped import REST
 
 LIST = "emitted.sha256"  # what was written, as `sha256sum -c` reads it
 _LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a name is plain: it leads nowhere else

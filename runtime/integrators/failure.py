@@ -1,4 +1,4 @@
-"""What a status of the C time loops stands for (templates/c/run.c.jinja), in words."""
+"""What a status of the C time loops stands for (templates/c/run/run.c.jinja), in words."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.compiled import Array, CompiledModel
-from gudgeon.dead_centre import nearly_dependent_rows
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
-from gudgeon.start import mechanism_size
-from gudgeon.steep import NEED_SLOPES, steep_force
-from gudgeon.written import of_time, rate_reason, reason, trees
+from gudgeon.model.assembly import mechanism_size
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.dead_centre import nearly_dependent_rows
+from gudgeon.model.steep import NEED_SLOPES, steep_force
+from gudgeon.model.written import of_time, rate_reason, reason, trees
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
 INTERRUPTED = "interrupted before its end"

@@ -1,8 +1,8 @@
 """No degree of freedom: positions by Newton from sample to sample, the rest by linear solves.
 
 Nothing is integrated but the work of drives and force elements, for the energy check: Gauss–Legendre quadrature of
-their power over the steps that follow the motion (templates/c/kinematic.c.jinja). `Trajectory.seconds` is the time
-of the motion, works and events not counted.
+their power over the steps that follow the motion (templates/c/kinematic/kinematic.c.jinja). `Trajectory.seconds` is
+the time of the motion, works and events not counted.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.compiled import Array
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
-from gudgeon.integrators.asking import Asker
 from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, drives_at, outgrown, too_far
 from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
-from gudgeon.start import mechanism_size
-from gudgeon.written import rate_reason, reason, reason_between
+from gudgeon.model.assembly import mechanism_size
+from gudgeon.model.compiled import Array
+from gudgeon.model.written import rate_reason, reason, reason_between
+from gudgeon.waiting.asking import Asker
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
@@ -150,7 +150,7 @@ class _Way:
 
     def trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
         """What is complete."""
-        from gudgeon.results import IMPACT_DTYPE
+        from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         rows = slice(self.reached + 1)
         empty, t = np.zeros((self.reached + 1, 0)), self.t[rows].copy()

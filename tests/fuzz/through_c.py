@@ -20,18 +20,18 @@ from typing import Any, cast
 
 import numpy as np
 
-from gudgeon.compiled import Array, CompiledModel
-from gudgeon.compiler import find_compiler
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, InputErrors
-from gudgeon.expression_tree import Expr, evaluate
 from gudgeon.generator.pipeline import generate
-from gudgeon.generator.read_yaml import read_mechanism
-from gudgeon.integrators.asking import NAME
-from gudgeon.kernel_source import KernelSource
-from gudgeon.simulation import Simulation
-from gudgeon.start import assemble
+from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.language.tree import Expr, evaluate
+from gudgeon.loading.compiler import find_compiler
+from gudgeon.model.assembly import assemble
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.waiting.asking import NAME
 from tests.fuzz.scenes import RandomFile, random_file
-from tests.generator.reduced import Reduced
+from tests.reduction.reduced import Reduced
 
 WARNINGS = ("-std=c11", "-Wall", "-Wextra", "-Werror")
 STATES = 3

@@ -8,15 +8,7 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from gudgeon.expression_tree import names, to_json
-from gudgeon.generator.constraints import Row, rate_jumps
-from gudgeon.generator.drive_jumps import jumping_drives
-from gudgeon.generator.driven_chains import Chain
-from gudgeon.generator.interface import element_series, kept_joints
-from gudgeon.generator.mechanism import GROUND
-from gudgeon.generator.model import Model
-from gudgeon.generator.units import Dimension
-from gudgeon.kernel_source import (
+from gudgeon.contract.kernel_source import (
     BodyInfo,
     ClearanceInfo,
     Condition,
@@ -29,8 +21,16 @@ from gudgeon.kernel_source import (
     SeriesInfo,
     Slot,
     WrittenInfo,
-)  # fmt: skip
-from gudgeon.story import Story
+)
+from gudgeon.contract.ledger import Story
+from gudgeon.generator.equations.constraints import Row, rate_jumps
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.notes import scene_notes
+from gudgeon.generator.kernels.outputs import element_series, kept_joints
+from gudgeon.generator.mechanism.mechanism import GROUND
+from gudgeon.generator.reduction.driven_chains import Chain
+from gudgeon.language.tree import names, to_json
+from gudgeon.language.units import Dimension
 
 UNTOLD = Story()
 
@@ -153,7 +153,7 @@ def _clearances(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[s
 
 
 def _simulate(model: Model) -> dict[str, float]:
-    from gudgeon.expression_tree import evaluate
+    from gudgeon.language.tree import evaluate
 
     defaults = {e.address: e.default for e in model.slots.entries.values()}
     return {
@@ -162,33 +162,6 @@ def _simulate(model: Model) -> dict[str, float]:
     }
 
 
-def scene_notes(model: Model) -> tuple[str, ...]:
-    """What this scene does not have, and so does not pay for."""
-    notes = []
-    if model.redundancy.dropped:
-        notes.append(
-            f"redundant rows left out: {', '.join(model.redundancy.dropped)}; reactions not determined by"
-            f" rigid bodies: {', '.join(model.redundancy.indeterminate)}"
-        )
-    if model.degrees_of_freedom < 0:
-        notes.append(
-            f"{-model.degrees_of_freedom} more rows than coordinates: nothing can move, and unless lengths and points"
-            " fit exactly it cannot be assembled"
-        )
-    if not model.clearances:
-        notes.append("no joint has play: no contact code, no film")
-        if model.degrees_of_freedom == 0:
-            notes.append("no degree of freedom: positions by Newton, nothing is integrated")
-    elif not any(c.film for c in model.clearances):
-        notes.append("no film: dry contact only")
-    if all(component == 0 for component in model.gravity):
-        notes.append("no gravity: no weight terms")
-    jumps = jumping_drives(model)
-    if jumps:
-        notes.append(
-            f"the rate of {', '.join(jumps)} may jump: the linkage follows by an impulse; smooth_step has no jump"
-        )
-    return tuple(notes)
 
 
 def _exponents(dimension: Dimension) -> tuple[int, int, int]:

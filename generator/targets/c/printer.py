@@ -9,8 +9,8 @@ import textwrap
 import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
-from gudgeon.generator.kernels import Argument, Kernel, Section, Statement
-from gudgeon.generator.parts import cut
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.ir.split import cut
 
 WIDTH = 110
 
