@@ -25,12 +25,13 @@ if TYPE_CHECKING:
         SolverError,
     )
     from gudgeon.results.results import Result
-    from gudgeon.simulation.simulation import Simulation, load
+    from gudgeon.simulation.from_file import load
+    from gudgeon.simulation.simulation import Simulation
 
 __version__ = "0.1.0"
 
 _HOME = {
-    "load": "simulation.simulation",
+    "load": "simulation.from_file",
     "Simulation": "simulation.simulation",
     "Result": "results.results",
     "GudgeonError": "errors",

@@ -1,7 +1,7 @@
 """The command line: how each command is called. What it does is in `gudgeon.commands`.
 
-Only typer is imported here: `gudgeon run` must start to integrate without waiting for anything that
-it may not need. Exit codes: 0 success, 1 a run failed, 2 bad input, 130 interrupted.
+Only typer is imported here: `gudgeon run` waits for nothing that it may not need.
+Exit codes: 0 success, 1 a run failed, 2 bad input, 130 interrupted.
 """
 
 from __future__ import annotations
@@ -43,12 +43,9 @@ def _told(command: Command) -> Command:
     def wrapper(*args: Any, **kwargs: Any) -> None:
         try:
             code = command(*args, **kwargs)
-        except GudgeonError as error:
-            complain(error)
-            code = error.exit_code
-        except MemoryError as error:
-            complain(MemoryShortage(error))
-            code = MemoryShortage.exit_code
+        except (GudgeonError, MemoryError) as error:
+            complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))
+            code = known.exit_code
         except KeyboardInterrupt:
             print("interrupted", file=sys.stderr)
             code = INTERRUPTED
@@ -79,9 +76,9 @@ def _path(text: str) -> Path:
 
 def _version(wanted: bool) -> None:
     if wanted:
-        from gudgeon import __version__
+        import gudgeon
 
-        print(f"gudgeon {__version__}")
+        print(f"gudgeon {gudgeon.__version__}")
         raise typer.Exit
 
 
@@ -292,7 +289,7 @@ def stress(
 
 def main() -> None:
     """The command line."""
-    told: set[str] = set()
+    told = set[str]()
 
     def tell(message: Warning | str, *_: Any, **__: Any) -> None:
         if str(message) not in told:  # once, and without a line of our code

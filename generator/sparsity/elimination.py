@@ -83,8 +83,7 @@ def _eliminate(
         waiting[n] = min(waiting[n], 2)
     left = set(range(len(pattern)))
     waits = [0] * len(pattern)  # how many pivots each node has to wait for, one after the other
-    order: list[int] = []
-    columns: dict[int, set[int]] = {}
+    order, columns = list[int](), dict[int, set[int]]()
     keys = {node: key(graph, node, waits[node]) for node in left if waiting[node] == 0}
     heap = sorted((value, node) for node, value in keys.items())
     while left:

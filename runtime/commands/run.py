@@ -19,7 +19,7 @@ from gudgeon.language.suggestions import unknown
 from gudgeon.model.default_step import T_END, scene_end
 from gudgeon.model.parameters import value
 from gudgeon.results.results import Result
-from gudgeon.simulation.simulation import load
+from gudgeon.simulation.from_file import load
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource

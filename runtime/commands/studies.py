@@ -15,7 +15,8 @@ from gudgeon.contract.kernel_source import Slot
 from gudgeon.errors import BadValueError
 from gudgeon.language.suggestions import unknown
 from gudgeon.model.parameters import number, prepare, value
-from gudgeon.simulation.simulation import Simulation, load
+from gudgeon.simulation.from_file import load
+from gudgeon.simulation.simulation import Simulation
 
 INTERRUPTED = 130
 

@@ -38,9 +38,8 @@ if TYPE_CHECKING:
 
 # Okabe and Ito's palette: told apart by readers with any of the common colour deficiencies
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-IDEAL = "#222222"
+IDEAL, UNTRUSTED = "#222222", "#888888"  # beyond a run's horizon
 TITLE = 66  # characters of a line, beside which the legend fits
-UNTRUSTED = "#888888"  # beyond a run's horizon
 STYLE = {
     "font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "xtick.labelsize": 8, "ytick.labelsize": 8,
     "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#888888", "axes.grid": True,

@@ -1,26 +1,27 @@
-"""Arguments of `simulate` that are times: when it ends, and at which times samples are wanted."""
+"""Arguments of `simulate`: its method and step, when it ends, and at which times samples are wanted."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.errors import BadValueError
+from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.integrators import adaptive, kinematic, rk4
-from gudgeon.integrators.peers import driver as python_driver
+from gudgeon.integrators.peers import driver
 from gudgeon.language.wanted import told
 from gudgeon.model.arrays import taken
-from gudgeon.model.compiled import Array
-from gudgeon.model.default_step import scene_end
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.default_step import scene_end, scene_step
 from gudgeon.model.parameters import number
 
 METHODS = {
     "rk4": rk4.run, "dop853": adaptive.run, "rodas5p": adaptive.run, "adaptive": adaptive.run,
-    "kinematic": kinematic.run, **dict.fromkeys(python_driver.NAMES, python_driver.run),
+    "kinematic": kinematic.run, **dict.fromkeys(driver.NAMES, driver.run),
 }  # fmt: skip
 MAX_STEPS = 10**12
-
 DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8
 NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18  # roundings between start and end; s, of a run
 
@@ -78,3 +79,37 @@ def _check_end(what: str, t0: float, end: float, roundings: int) -> None:
             " numbers have no room for the times between",
             hint="times are in s",
         )
+
+
+def method_of(source: KernelSource, method: str, fixed: bool) -> str:
+    """The method that runs, "adaptive" for what auto chooses as it goes; `fixed`: a step is given."""
+    dof = source.degrees_of_freedom
+    if dof < 0:
+        raise AssemblyError(
+            f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
+            "  remove a drive or a joint; `gudgeon check -v` lists the rows"
+        )
+    adaptive_too = ("adaptive", *driver.NAMES) if "dop853" in source.methods else ()
+    fitting = (*source.methods, *adaptive_too)
+    if method == "auto":
+        return fitting[0] if len(fitting) == 1 or fixed else "adaptive"
+    if method not in METHODS:
+        offered = ", ".join(name for name in METHODS if name != "adaptive")  # a name of ours for what auto runs
+        raise BadValueError(f"method {method!r}: expected auto, {offered}")
+    if method not in fitting:
+        freedom = f"{dof} degree{'' if dof == 1 else 's'} of freedom"
+        fit = ", ".join(source.methods)
+        raise BadValueError(f"method {method!r} does not fit: this scene has {freedom}, use auto ({fit} fit)")
+    return method
+
+
+def step_of(compiled: CompiledModel, step: float | str | None, method: str, p: Array, duration: float) -> float:
+    """The step (s) of a run; infinite where the method chooses its own."""
+    if method == "kinematic" or (step is None and method != "rk4"):
+        return math.inf
+    if step is None:
+        return scene_step(compiled, p, duration)
+    h = seconds("step", step)
+    if not h > 0:
+        raise BadValueError(f"step is {h:g} s: expected a positive time")
+    return h

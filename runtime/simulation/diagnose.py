@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -88,19 +88,7 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         )
     if compiled.source.events and ":" in problem.method:
         notes.append(f"events are not watched by method {problem.method}")
-    for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
-        c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
-        deepest = float(e_max) - c
-        if joint.film and not joint.dry and float(e_max) > THIN * c:
-            notes.append(
-                f"{joint.name}: the film is squeezed out, e/c = {float(e_max) / c:.7g}: its law, singular at e = c, is"
-                " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
-            )
-        if deepest > min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius):
-            notes.append(
-                f"{joint.name}: the journal goes {deepest:.3g} m into its bearing (c {c:.3g} m, radius {radius:.3g} m):"
-                " outside what contact laws hold for; a step too long does this too"
-            )
+    notes += _outside(compiled, p, trajectory)
     if compiled.source.indeterminate:
         notes.append(
             f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"
@@ -109,6 +97,23 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
     if counts.grazes:
         notes.append(f"{counts.grazes} steps touched and left again within: take a smaller step to resolve them")
     return tuple(notes)
+
+
+def _outside(compiled: CompiledModel, p: Array, trajectory: Trajectory) -> Iterator[str]:
+    """Joints with play that went where their laws do not hold."""
+    for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
+        c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
+        deepest = float(e_max) - c
+        if joint.film and not joint.dry and float(e_max) > THIN * c:
+            yield (
+                f"{joint.name}: the film is squeezed out, e/c = {float(e_max) / c:.7g}: its law, singular at e = c, is"
+                " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
+            )
+        if deepest > min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius):
+            yield (
+                f"{joint.name}: the journal goes {deepest:.3g} m into its bearing (c {c:.3g} m, radius {radius:.3g} m):"
+                " outside what contact laws hold for; a step too long does this too"
+            )
 
 
 def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:

@@ -21,7 +21,7 @@ from gudgeon.model.parameter_sets import Mask, ParameterSets, given_sets, prepar
 from gudgeon.model.redundant_rows import left_out
 from gudgeon.results.batch import Batch, as_failures, given_values, peaks_of
 from gudgeon.results.results import Result
-from gudgeon.simulation.arguments import MAX_STEPS, output_times
+from gudgeon.simulation.arguments import MAX_STEPS, method_of, output_times, step_of
 from gudgeon.simulation.conclusion import conclude
 from gudgeon.simulation.hidden_jumps import any_in_batch
 from gudgeon.simulation.single_runs import run_singly
@@ -51,7 +51,7 @@ def simulate_many(
         raise BadValueError(f"threads is {told(threads)}: expected a number of threads, 1 or more")
     workers = int(min(workers, max(len(given), 1)))  # no more than there is to do
     times = output_times(simulation.source, 0.0, t_end, output)
-    chosen = simulation._method(method, step is not None)
+    chosen = method_of(simulation.source, method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)
     in_c = chosen in many.METHODS and not left_out(simulation.compiled)
     if in_c:
@@ -59,7 +59,7 @@ def simulate_many(
         fine = np.delete(p, list(bad), axis=0)
         in_c = not any_in_batch(simulation.source, fine, 0.0, float(times[-1]))  # else each run looks for its own
     if in_c:
-        steps = np.array([simulation._step(step, chosen, row, float(times[-1])) for row in p])
+        steps = np.array([step_of(simulation.compiled, step, chosen, row, float(times[-1])) for row in p])
         if (times[-1] / steps).max() > MAX_STEPS:
             raise BadValueError(f"step {steps.min():.3g} s means more than {MAX_STEPS:.0e} steps")
         runs = many.Runs(simulation.compiled, p, motion, times, chosen, steps, tolerance, stop, side_by_side)

@@ -2,47 +2,40 @@
 
 from __future__ import annotations
 
-import math
-import os
 import time
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
-from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.errors import AssemblyError, BadValueError, InputError
+from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.wanted import flag, function, text
-from gudgeon.loading.build import compile_kernels
-from gudgeon.loading.find import Loading, Overrides, find_mechanism, kernel_source, override_values, read_bytes
+from gudgeon.loading.find import Loading
 from gudgeon.model.assembly import Start, assemble
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.default_step import scene_step
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.model.redundant_rows import check_start
-from gudgeon.simulation.arguments import MAX_STEPS, METHODS, output_times, seconds
+from gudgeon.simulation.arguments import MAX_STEPS, METHODS, method_of, output_times, step_of
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.hidden_jumps import up_to_a_jump
 from gudgeon.simulation.restart import numbers, own
 from gudgeon.waiting.ctrl_c import CtrlC
-from gudgeon.waiting.imports import GENERATOR, RUNTIME, whole
+from gudgeon.waiting.imports import GENERATOR, whole
 
 if TYPE_CHECKING:
-
     from gudgeon.generator.equations.model import Model
     from gudgeon.loading.find import Loading
     from gudgeon.model.parameter_sets import ParameterSets
     from gudgeon.results.batch import Batch
     from gudgeon.results.results import Result, State
-
 
 
 class Simulation:
@@ -81,6 +74,8 @@ class Simulation:
             return self
         if self._full is None:
 
+
+            from gudgeon.simulation.from_file import load_bytes
 
             self._full = load_bytes(
                 self._loaded_bytes(), self.file, self.source.scene, overrides=self._overrides, formulation="full",
@@ -165,12 +160,12 @@ class Simulation:
         - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else
           "adaptive", which is "dop853" while steps are bounded by accuracy and "rodas5p" while stability
           would bound them (integrators/adaptive.py);
-        - "rk4" with fixed `step` (s), the longest; each interval between outputs is divided evenly;
+        - "rk4" with fixed `step` (s), of which only the last one is shorter; outputs lie on the interpolant;
         - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-8): the error of a
           step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
           unchanged, without error control;
-        - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/python_driver.py).
-        `horizon`: run thrice more to find the time to which it can be trusted (predictability.py).
+        - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/peers).
+        `horizon`: run thrice more to find the time to which it can be trusted (horizon.py).
         `parameters`: {address or parameter name: float in SI or '0.5 mm'}, each number once. Where `start` is given,
         they are over its own parameters, which hold unless replaced; a number that differs is told in the run's
         notes. A state of another mechanism, scene, file or overrides is refused. Ctrl-C ends the run and keeps
@@ -194,9 +189,9 @@ class Simulation:
         times = output_times(self.source, t0, t_end, output)
         if self.source.degrees_of_freedom < 0:
             assemble(self.compiled, p)  # names the joints that contradict each other
-        chosen = self._method(method, step is not None)
+        chosen = method_of(self.source, method, step is not None)
         tolerance = adaptive.tolerance(rtol, chosen, step is not None)
-        h = self._step(step, chosen, p, float(times[-1] - t0))
+        h = step_of(self.compiled, step, chosen, p, float(times[-1] - t0))
         if (times[-1] - t0) / h > MAX_STEPS:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         q, v, memory = self._closed(p) if begin is None else (begin.q, begin.v, begin.memory)
@@ -206,19 +201,7 @@ class Simulation:
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,
         )  # fmt: skip
         problem, jump = up_to_a_jump(problem)
-        with CtrlC() as ctrl_c:
-            problem = replace(problem, take=ctrl_c.take)
-            before = time.perf_counter()
-            trajectory = METHODS[chosen](problem)
-            spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
-            result = conclude(self.compiled, chosen, problem, trajectory, given, is_given, spent)
-            result, contradicts = contradicted(problem, trajectory, result)
-            ended = trajectory.interrupted or trajectory.t[-1] < problem.t[-1]  # before the jump
-            stopped = trajectory.stopped or contradicts or (None if ended else jump)
-        result = late(ctrl_c, result)
-        if stopped is not None:
-            stopped.partial = result
-            raise stopped
+        result = self._ran(problem, jump, given, is_given)
         if horizon and not result.diagnostics.interrupted:
             from gudgeon.simulation.horizon import with_horizon
 
@@ -246,97 +229,24 @@ class Simulation:
 
         return simulate_many(self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side)
 
+    def _ran(self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array) -> Result:
+        """What the time loop made of it. Raises SolverError with its `partial`; `jump`: that at the problem's end."""
+        with CtrlC() as ctrl_c:
+            problem = replace(problem, take=ctrl_c.take)
+            before = time.perf_counter()
+            trajectory = METHODS[problem.method](problem)
+            spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
+            result = conclude(self.compiled, problem.method, problem, trajectory, given, is_given, spent)
+            result, contradicts = contradicted(problem, trajectory, result)
+            ended = trajectory.interrupted or trajectory.t[-1] < problem.t[-1]  # before the jump
+            stopped = trajectory.stopped or contradicts or (None if ended else jump)
+        result = late(ctrl_c, result)
+        if stopped is not None:
+            stopped.partial = result
+            raise stopped
+        return result
+
     def _closed(self, p: Array) -> tuple[Array, Array, Array]:
         """The start that the file describes: q, q̇, and nothing in contact."""
         assembled = assemble(self.compiled, p)
         return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)
-
-    def _method(self, method: str, fixed: bool) -> str:
-        dof = self.source.degrees_of_freedom
-        if dof < 0:
-            raise AssemblyError(
-                f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
-                "  remove a drive or a joint; `gudgeon check -v` lists the rows"
-            )
-        adaptive_too = ("adaptive", *python_driver.NAMES) if "dop853" in self.source.methods else ()
-        fitting = (*self.source.methods, *adaptive_too)
-        if method == "auto":
-            return fitting[0] if len(fitting) == 1 or fixed else "adaptive"
-        if method not in METHODS:
-            offered = ", ".join(name for name in METHODS if name != "adaptive")  # a name of ours for what auto runs
-            raise BadValueError(f"method {method!r}: expected auto, {offered}")
-        if method not in fitting:
-            freedom = f"{dof} degree{'' if dof == 1 else 's'} of freedom"
-            fit = ", ".join(self.source.methods)
-            raise BadValueError(f"method {method!r} does not fit: this scene has {freedom}, use auto ({fit} fit)")
-        return method
-
-    def _step(self, step: float | str | None, method: str, p: Array, duration: float) -> float:
-        if method == "kinematic" or (step is None and method != "rk4"):
-            return math.inf
-        if step is None:
-            return scene_step(self.compiled, p, duration)
-        h = seconds("step", step)
-        if not h > 0:
-            raise BadValueError(f"step is {h:g} s: expected a positive time")
-        return h
-
-
-def load(
-    mechanism: str | os.PathLike[str],
-    scene: str | None = None,
-    *,
-    overrides: Overrides | None = None,
-    formulation: str = "reduced",
-    portable: bool = False,
-    regenerate: bool = False,
-) -> Simulation:
-    """A mechanism's scene, compiled and ready to simulate.
-
-    mechanism: text with "/" or ending in ".yaml" is a path, other text the name of a shipped mechanism.
-    scene: a scene of the file; None is "ideal", which has no play and exists in every file.
-    overrides: values by address that may change the structure. portable: compile for any CPU of this
-    kind. formulation: what is integrated, "reduced" (coordinates of a tree) or "full" (absolute ones, with the
-    Jacobian of their state equation); results are the same. regenerate: derive and compile even if the
-    cache has both.
-    Raises InputError if the file is wrong, BuildError if its C cannot be compiled.
-    """
-    start = perf_counter()
-    file, overrides = find_mechanism(mechanism), override_values(overrides)
-    scene = None if scene is None else text(scene, "scene", "the name of a scene")
-    formulation = text(formulation, "formulation")
-    portable, regenerate = flag(portable, "portable"), flag(regenerate, "regenerate")
-    return load_bytes(
-        read_bytes(file), file, scene, overrides=overrides, formulation=formulation, portable=portable,
-        regenerate=regenerate, start=start,
-    )  # fmt: skip
-
-
-def load_bytes(
-    data: bytes,
-    file: Path,
-    scene: str | None = None,
-    *,
-    overrides: Overrides | None = None,
-    formulation: str = "reduced",
-    portable: bool = False,
-    regenerate: bool = False,
-    start: float | None = None,
-) -> Simulation:
-    """`load` of the bytes of a file; `start`: when reading them began (perf_counter)."""
-    read = perf_counter()
-    start = read if start is None else start
-    source, origin = kernel_source(
-        data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate
-    )
-    have_source = perf_counter()
-    module = compile_kernels(source, portable=portable, rebuild=regenerate)
-    have_module = perf_counter()
-
-    whole(*RUNTIME)
-    from gudgeon.model.compiled import CompiledModel
-
-
-    loading = Loading(origin, read - start, have_source - read, have_module - have_source, have_module - start)
-    compiled = CompiledModel(source, module, portable)
-    return Simulation(compiled, file=file, overrides=dict(overrides or {}), loading=loading)

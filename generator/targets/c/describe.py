@@ -49,7 +49,6 @@ def describe(
     row_of = {row.name: r for r, row in enumerate(model.rows)}
     unit_of = {row.name: row.unit for row in model.all_rows}
     start = mechanism.start
-    used = set(model.slots.entries)
     return KernelSource(
         mechanism=mechanism.name, scene=scene.name, title=mechanism.title, sha256=mechanism.sha256,
         files=files, main=main, cdef=cdef,
@@ -57,17 +56,8 @@ def describe(
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
         points=_points(model, place, body_of),
         rows=tuple(map(_row, model.rows)),
-        joints=tuple(
-            JointInfo(
-                joint.name, joint.kind, body_of[joint.first.body], body_of[joint.second.body],
-                f"{joint.second.body}.{joint.second.point}",
-                tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
-            )
-            for joint in kept_joints(model)
-        ),
-        drives=tuple(
-            DriveInfo(name, row_of.get(name, -1), unit_of[name]) for name in mechanism.drives
-        ),
+        joints=_joints(model, body_of, row_of),
+        drives=tuple(DriveInfo(name, row_of.get(name, -1), unit_of[name]) for name in mechanism.drives),
         clearances=_clearances(model, place, body_of),
         series=tuple(SeriesInfo(name, unit) for name, (_, unit) in element_series(model).items()),
         start_rows=tuple(map(_row, model.all_rows)),
@@ -80,15 +70,7 @@ def describe(
             for e in model.slots.entries.values()
         ),
         derived=tuple(symbol.name for symbol in model.slots.derived),
-        conditions=tuple(
-            Condition(c.address, c.relation, c.bound, c.message)
-            for c in mechanism.conditions
-            if c.address in used and (not isinstance(c.bound, str) or c.bound in used)
-        )
-        + tuple(
-            Condition(address, relation, 0.0, "a direction along an axis turns round with load(overrides=...) only")
-            for address, relation in model.slots.signs.items()
-        ),
+        conditions=_conditions(model),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_simulate(model),
         operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
@@ -97,6 +79,31 @@ def describe(
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         written=tuple(_written(model)), story=story, lanes=lanes,
     )  # fmt: skip
+
+
+def _joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int]) -> tuple[JointInfo, ...]:
+    """Joints without play."""
+    return tuple(
+        JointInfo(
+            joint.name, joint.kind, body_of[joint.first.body], body_of[joint.second.body],
+            f"{joint.second.body}.{joint.second.point}",
+            tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
+        )
+        for joint in kept_joints(model)
+    )  # fmt: skip
+
+
+def _conditions(model: Model) -> tuple[Condition, ...]:
+    """The file's, of numbers that this scene has; and of signs that its equations take for granted."""
+    used = set(model.slots.entries)
+    return tuple(
+        Condition(c.address, c.relation, c.bound, c.message)
+        for c in model.scene.mechanism.conditions
+        if c.address in used and (not isinstance(c.bound, str) or c.bound in used)
+    ) + tuple(
+        Condition(address, relation, 0.0, "a direction along an axis turns round with load(overrides=...) only")
+        for address, relation in model.slots.signs.items()
+    )
 
 
 def _written(model: Model) -> Iterator[WrittenInfo]:

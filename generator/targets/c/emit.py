@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -135,7 +135,35 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         loops, beside = kinematic_code(model, kkt, integrated, terms, watched, counts, render), {}
     prepare = closed_linkage.prepare_kernel(model, printer.expression)
     kernels = [*right_hand_side, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
-    files = {
+    files = _files(model, counts, prepare, around, right_hand_side, clearances)
+    files |= {**(reduced.files if reduced else {}), **loops.files}
+    files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
+    return describe(
+        model, files=files | beside, main="scene.c", cdef=_cdef(reduced, integrates, files, beside),
+        methods=("rk4", "dop853", "rodas5p") if integrates else ("kinematic",),
+        pivots=kkt.pivots, start_pivots=loops.pivots, motion_pivots=integrated.pivots,
+        operations=_operations(model, kernels),
+        tree=reduced.system.unknowns if reduced else (), chain=integrated.chain,
+        closures=tuple(row.name for row in reduced.system.rows) if reduced else (), formulation=formulation,
+        story=tell(model, kkt, loops.solved, integrated.system, loops.groups),
+        lanes=lanes_code.MAIN if beside else "",
+    )  # fmt: skip
+
+
+def _cdef(reduced: ReducedCode | None, integrates: bool, files: Collection[str], beside: Collection[str]) -> str:
+    """What Python calls, as cffi reads it."""
+    cdef = COMMON_CDEF + (reduced.cdef if reduced else "") + (METHOD_CDEF if integrates else KINEMATIC_CDEF)
+    cdef += SINGLE_CDEF * bool(beside)
+    cdef += (TREE_NEWTON_CDEF if reduced else NEWTON_CDEF) * integrates
+    return cdef + EVENTS_CDEF * ("kinematic_events.c" in files)
+
+
+def _files(
+    model: Model, counts: Mapping[str, int], prepare: Kernel, around: Iterable[Kernel],
+    right_hand_side: Iterable[Kernel], clearances: Sequence[str],
+) -> dict[str, str]:  # fmt: skip
+    """What every scene has, in the order in which it is read."""
+    return {
         "model.h": render("scene/model.h.jinja", **_header(model), **counts),
         "asked.c": render("scene/asked.c.jinja"),
         "trigonometry.c": render("scene/trigonometry.c.jinja", vector="Four", bits="FourBits", given="*angle"),
@@ -146,24 +174,7 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         "dynamics.c": _kernels(*right_hand_side),
         "system.c": render("scene/calls.c.jinja", **counts),
         "start.c": _start(model),
-        **(reduced.files if reduced else {}),
-        **loops.files,
     }
-    files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
-    files |= beside
-    cdef = COMMON_CDEF + (reduced.cdef if reduced else "") + (METHOD_CDEF if integrates else KINEMATIC_CDEF)
-    cdef += SINGLE_CDEF * bool(beside)
-    cdef += (TREE_NEWTON_CDEF if reduced else NEWTON_CDEF) * integrates + EVENTS_CDEF * ("kinematic_events.c" in files)
-    return describe(
-        model, files=files, main="scene.c", cdef=cdef,
-        methods=("rk4", "dop853", "rodas5p") if integrates else ("kinematic",),
-        pivots=kkt.pivots, start_pivots=loops.pivots, motion_pivots=integrated.pivots,
-        operations=_operations(model, kernels),
-        tree=reduced.system.unknowns if reduced else (), chain=integrated.chain,
-        closures=tuple(row.name for row in reduced.system.rows) if reduced else (), formulation=formulation,
-        story=tell(model, kkt, loops.solved, integrated.system, loops.groups),
-        lanes=lanes_code.MAIN if beside else "",
-    )  # fmt: skip
 
 
 def _angles(model: Model) -> tuple[int, ...]:
