@@ -55,10 +55,6 @@ class Aside:
             self._clear(True)
             raise
 
-    def __del__(self) -> None:
-        """Ctrl-C may come before __exit__ has begun, or in __enter__."""
-        self._clear(True)
-
     def _clear(self, failed: bool) -> None:
         """What was not moved goes; a second call goes on where the first was left."""
         while self._parts:

@@ -21,6 +21,7 @@ from gudgeon.language.wanted import text
 from gudgeon.results import trace
 from gudgeon.results.hdf5_image import Table, Variable, pieces
 from gudgeon.results.results import Array, Result
+from gudgeon.waiting.ctrl_c import CtrlC
 
 if TYPE_CHECKING:
     import xarray
@@ -117,7 +118,13 @@ def save(run: Result, path: str | os.PathLike[str]) -> None:
         import h5py  # noqa: F401
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
-    path, found = named(path, "path"), list(tables(run))
-    with written(path) as file:
-        for piece in pieces(found):
-            file.write(piece)
+    path, found = named(path, "path"), []
+    with CtrlC() as ctrl_c:  # Python drops what is raised in callbacks of weak references, Ctrl-C too
+        for table in tables(run):
+            found.append(table)
+            ctrl_c.take()
+        with written(path) as file:
+            for piece in pieces(found):
+                file.write(piece)
+                ctrl_c.take()
+    ctrl_c.take()

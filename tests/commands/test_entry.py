@@ -17,7 +17,8 @@ START = "from gudgeon.entry import main; main()"
 TERMINATED = """
 import os, signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
-from gudgeon.integrators import asking, session
+from gudgeon.integrators import session
+from gudgeon.waiting import asking
 asking.EVERY, real, looks = 0.0, session.Session.look, []
 
 def look(self):
