@@ -15,7 +15,7 @@ run: setup  ## the nine-bar press in three scenes: a table, and a picture under 
 	@$(GUDGEON) run nine_bar_press $(ARGS)
 
 checks: setup-test  ## README's table of what is checked against what, measured anew
-	@.venv/bin/python -m docs.checks
+	@.venv/bin/python -m tests.checks
 
 test: lint types  ## ruff, mypy and the tests
 	@.venv/bin/pytest -n 2 -q $(ARGS)
@@ -31,6 +31,7 @@ test-all: lint types  ## the slow tests too, and the others under every later Py
 
 lint: setup-test
 	@.venv/bin/ruff check .
+	@.venv/bin/lint-imports
 
 types: setup-test
 	@.venv/bin/mypy -p gudgeon

@@ -24,11 +24,11 @@ from functools import cache
 from pathlib import Path
 
 import gudgeon
-from gudgeon.loading import generator_hash
-from gudgeon.measure.box import Range, corners, judge_point, sobol
-from gudgeon.measure.cells import Cell, Status
-from gudgeon.measure.work import Setting
-from gudgeon.simulation import Simulation
+from gudgeon.loading.find import generator_hash
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.box import Range, corners, judge_point, sobol
+from gudgeon.studies.runs import Setting
+from gudgeon.studies.verdicts import Cell, Status
 
 MECHANISM, PERIODS, PATIENCE = "nine_bar_press", 2, 60.0  # s a period
 CONTACT = {"dry": "dry", "lubricated": "oil"}  # what the joints of a scene have

@@ -21,8 +21,8 @@ from pathlib import Path
 
 import numpy as np
 
-from gudgeon import compiler
-from gudgeon.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.loading import compiler
 
 COUNTS = (100, 1100)
 PORTABLE = ("-march=x86-64-v3",) if os.uname().machine == "x86_64" else ()

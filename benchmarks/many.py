@@ -23,8 +23,8 @@ import numpy as np
 
 import gudgeon
 from benchmarks.peers import press
-from gudgeon.batch import Batch
-from gudgeon.simulation import Simulation
+from gudgeon.results.batch import Batch
+from gudgeon.simulation.simulation import Simulation
 
 BATCH = 64  # runs side by side
 # mechanism, scene, columns (address, from, to), end and step in s

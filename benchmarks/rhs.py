@@ -26,9 +26,9 @@ import numpy as np
 
 import gudgeon
 from benchmarks import callgrind
-from gudgeon.compiled import N_WORK
-from gudgeon.measure.rhs import operations
-from gudgeon.simulation import Simulation
+from gudgeon.model.compiled import N_WORK
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.rhs_time import operations
 from tests.oracles import press_dense
 from tests.oracles.press_dense import Press
 

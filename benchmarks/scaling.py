@@ -22,13 +22,13 @@ import numpy as np
 from sympy.core.cache import clear_cache
 
 import gudgeon
-from gudgeon.build import compile_kernels
-from gudgeon.compiled import CompiledModel
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.c.emit import emit
-from gudgeon.loading import FORMULATIONS
+from gudgeon.loading.build import compile_kernels
+from gudgeon.loading.find import FORMULATIONS
 from gudgeon.mechanisms.n_four_bar import text as yaml_text
-from gudgeon.simulation import Simulation
+from gudgeon.model.compiled import CompiledModel
+from gudgeon.simulation.simulation import Simulation
 
 COLUMNS = ("derive [s]", "emit [s]", "operations", "C [kB]", "compile [s]", "rhs [us]")
 BAR = 1.15  # the largest exponent that is asked for

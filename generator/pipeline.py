@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from gudgeon.generator.model import Model, make_model
-from gudgeon.generator.read_yaml import read_mechanism
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.generator.equations.model import Model, make_model
+from gudgeon.generator.mechanism.scene import make_scene
+from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.redundancy import find_redundancy
-from gudgeon.generator.scene import make_scene
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import emit
-from gudgeon.kernel_source import KernelSource
 
 
 def derive(data: bytes, file: str, scene: str, overrides: Mapping[str, str | float | bool] | None = None) -> Model:

@@ -13,13 +13,13 @@ from collections.abc import Sequence
 import numpy as np
 import sympy as sp
 
-from gudgeon.compiled import Array
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
-from gudgeon.generator.constraints import Row
-from gudgeon.generator.model import Model, Redundancy
-from gudgeon.kernel_source import KernelSource
-from gudgeon.rank import RANK, rank, tied
-from gudgeon.start import search
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.model import Model, Redundancy
+from gudgeon.model.assembly import search
+from gudgeon.model.compiled import Array
+from gudgeon.model.rank import RANK, rank, tied
 
 SAMPLES = 3
 REACH = 0.05  # rad or share of the size, how far from the start the other configurations are sought

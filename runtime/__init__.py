@@ -24,16 +24,16 @@ if TYPE_CHECKING:
         SingularError,
         SolverError,
     )
-    from gudgeon.loading import load
-    from gudgeon.results import Result
-    from gudgeon.simulation import Simulation
+    from gudgeon.results.results import Result
+    from gudgeon.simulation.from_file import load
+    from gudgeon.simulation.simulation import Simulation
 
 __version__ = "0.1.0"
 
 _HOME = {
-    "load": "loading",  # no module may be called `load`: importing it would take the function's place
-    "Simulation": "simulation",
-    "Result": "results",
+    "load": "simulation.from_file",
+    "Simulation": "simulation.simulation",
+    "Result": "results.results",
     "GudgeonError": "errors",
     "InputError": "errors",
     "AssemblyError": "errors",
@@ -65,7 +65,7 @@ __all__ = [
 def __getattr__(name: str) -> object:
     if name not in _HOME:
         raise AttributeError(f"module 'gudgeon' has no attribute {name!r}")
-    from gudgeon.ctrl_c import CtrlC
+    from gudgeon.waiting.ctrl_c import CtrlC
 
     with CtrlC() as ctrl_c:  # NumPy half imported could not be imported again
         value = getattr(import_module(f"gudgeon.{_HOME[name]}"), name)

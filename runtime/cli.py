@@ -1,7 +1,7 @@
 """The command line: how each command is called. What it does is in `gudgeon.commands`.
 
-Only typer is imported here: `gudgeon run` must start to integrate without waiting for anything that
-it may not need. Exit codes: 0 success, 1 a run failed, 2 bad input, 130 interrupted.
+Only typer is imported here: `gudgeon run` waits for nothing that it may not need.
+Exit codes: 0 success, 1 a run failed, 2 bad input, 130 interrupted.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Annotated, Any, TypeVar
 import typer
 
 from gudgeon.errors import GudgeonError, MemoryShortage
-from gudgeon.shown import visible
+from gudgeon.language.shown import visible
 
 INTERRUPTED = 130
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -43,12 +43,9 @@ def _told(command: Command) -> Command:
     def wrapper(*args: Any, **kwargs: Any) -> None:
         try:
             code = command(*args, **kwargs)
-        except GudgeonError as error:
-            complain(error)
-            code = error.exit_code
-        except MemoryError as error:
-            complain(MemoryShortage(error))
-            code = MemoryShortage.exit_code
+        except (GudgeonError, MemoryError) as error:
+            complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))
+            code = known.exit_code
         except KeyboardInterrupt:
             print("interrupted", file=sys.stderr)
             code = INTERRUPTED
@@ -70,11 +67,18 @@ def _whole(least: int) -> Callable[[str], int]:
     return read
 
 
+def _path(text: str) -> Path:
+    """A name of a file or folder; of no text Path makes the folder in which one stands."""
+    if not str(text).strip():
+        raise typer.BadParameter(f"{visible(str(text))!r}: expected a name")
+    return Path(text)
+
+
 def _version(wanted: bool) -> None:
     if wanted:
-        from gudgeon import __version__
+        import gudgeon
 
-        print(f"gudgeon {__version__}")
+        print(f"gudgeon {gudgeon.__version__}")
         raise typer.Exit
 
 
@@ -88,7 +92,7 @@ def _root(
 File = Annotated[str, typer.Argument(metavar="FILE", help="A YAML file, or the name of a shipped mechanism.")]
 Scenes = Annotated[list[str] | None, typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
-Out = Annotated[Path, typer.Option("--out", help="Folder for what is written.")]
+Out = Annotated[Path, typer.Option("--out", parser=_path, metavar="PATH", help="Folder for what is written.")]
 
 
 @app.command()
@@ -163,7 +167,10 @@ def check(
 @_told
 def emit(
     file: File,
-    folder: Annotated[Path, typer.Option("--out", "-o", help="Folder for the C files, one below it a scene.")],
+    folder: Annotated[
+        Path,
+        typer.Option("--out", "-o", parser=_path, metavar="PATH", help="Folder for the C files, one below it a scene."),
+    ],
     scene: Scenes = None,
 ) -> int:
     """Write the generated C, to be read or to be built into something else.
@@ -179,7 +186,7 @@ def emit(
 @_told
 def equations(
     file: File,
-    target: Annotated[Path, typer.Option("--out", "-o", help="x.tex, x.txt or x.html.")],
+    target: Annotated[Path, typer.Option("--out", "-o", parser=_path, metavar="PATH", help="x.tex, x.txt or x.html.")],
     scene: Annotated[str, typer.Option("--scene", "-s", help="Which scene.")] = "ideal",
 ) -> int:
     """Write the equations of a scene as LaTeX, text or HTML.
@@ -209,7 +216,10 @@ Mark = Annotated[
 ]
 Set = Annotated[list[str] | None, typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a number: c=0.5mm.")]
 End = Annotated[str | None, typer.Option("--t-end", help="Length of the measured runs, in s or with a unit.")]
-Csv = Annotated[Path | None, typer.Option("--csv", help="Where the table goes, the picture beside it.")]
+Csv = Annotated[
+    Path | None,
+    typer.Option("--csv", parser=_path, metavar="PATH", help="Where the table goes, the picture beside it."),
+]
 
 
 @app.command()
@@ -231,7 +241,7 @@ def bench(
     Example: gudgeon bench engine.yaml --scene dry --mark-step 0.1ms
     """
     from gudgeon.commands.bench import bench_file
-    from gudgeon.commands.measure import Request
+    from gudgeon.commands.studies import Request
 
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
     return bench_file(request, tuple(methods or ()))
@@ -270,8 +280,8 @@ def stress(
 
     Example: gudgeon stress engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
     """
-    from gudgeon.commands.measure import Request
     from gudgeon.commands.stress import Stress, stress_file
+    from gudgeon.commands.studies import Request
 
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
     return stress_file(request, Stress(method, at, tuple(axis or ()), box, tuple(range_ or ())))
@@ -279,7 +289,7 @@ def stress(
 
 def main() -> None:
     """The command line."""
-    told: set[str] = set()
+    told = set[str]()
 
     def tell(message: Warning | str, *_: Any, **__: Any) -> None:
         if str(message) not in told:  # once, and without a line of our code

@@ -24,15 +24,15 @@ from pathlib import Path
 import numpy as np
 
 import gudgeon
-from gudgeon.batch import Batch
-from gudgeon.large import nearest_step
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
-from gudgeon.rank import rank, tied
-from gudgeon.results import Result
-from gudgeon.start import search, smallest
-from gudgeon.stress import stress
-from tests.runtime.kept import check_kept
-from tests.runtime.test_large import squares
+from gudgeon.model.assembly import search, smallest
+from gudgeon.model.large import nearest_step
+from gudgeon.model.rank import rank, tied
+from gudgeon.results.batch import Batch
+from gudgeon.results.results import Result
+from gudgeon.studies.stress import stress
+from tests.model.test_large import squares
+from tests.simulation.kept import check_kept
 
 BAR = 0.5  # s
 MECHANISMS = Path(gudgeon.__file__).resolve().parents[1] / "mechanisms"

@@ -21,10 +21,12 @@ if "benchmarks" not in sys.modules:  # the root stays off sys.path, so the folde
     spec.submodule_search_locations = [str(Path(__file__).resolve().parents[1] / "benchmarks")]
     sys.modules["benchmarks"] = importlib.util.module_from_spec(spec)
 
-from benchmarks import callgrind, race_page, race_record, rhs  # noqa: E402
+from benchmarks import callgrind, rhs
 from benchmarks.peers import cvode_sweep, ideal, press  # noqa: E402
 from benchmarks.peers.reference import ONSETS  # noqa: E402
-from benchmarks.race_record import time_to  # noqa: E402
+from benchmarks.race import page as race_page
+from benchmarks.race import record as race_record
+from benchmarks.race.record import time_to  # noqa: E402
 
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 

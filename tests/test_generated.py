@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from gudgeon.shipped import committed, read_generated, shipped, write_generated
+from gudgeon.loading.shipped import committed, read_generated, shipped, write_generated
 
 ROOT = Path(__file__).parents[1]
 

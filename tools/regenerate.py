@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 
 from gudgeon.generator.pipeline import generate
-from gudgeon.generator.read_yaml import read_mechanism
-from gudgeon.shipped import write_generated
+from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.loading.shipped import write_generated
 
 
 def regenerate(mechanisms: Path, generated: Path) -> None:

@@ -3,7 +3,7 @@
  *
  * The equations are those of press_dense.c, taken as they stand: 48 numbers y = (q, v), dense 44x44 system.
  */
-#include "press_dense.c"
+#include "../../tests/oracles/press_dense.c"
 
 /* A run's data and its counters. `array` is SUNDIALS' N_VGetArrayPointer; NULL where plain arrays are passed. */
 typedef struct {

@@ -10,7 +10,7 @@
 #include <time.h>
 #include <tgmath.h>
 #define double long double
-#include "press_dense.c"
+#include "../../tests/oracles/press_dense.c"
 #undef double
 
 typedef long double real;

@@ -1,0 +1,1 @@
+"""What is written from a Model: C, documents, a JSON Schema."""

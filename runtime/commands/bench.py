@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from gudgeon.bench import SceneBench, bench, usual_steps
-from gudgeon.commands.measure import Request, each, exit_code, load_scenes
 from gudgeon.commands.progress import Report
-from gudgeon.measure.choice import choice
-from gudgeon.measure.show_bench import show_bench
-from gudgeon.simulation import Simulation
+from gudgeon.commands.studies import Request, each, exit_code, load_scenes
+from gudgeon.errors import BadValueError
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.bench import SceneBench, bench, usual_steps
+from gudgeon.studies.methods import choice
+from gudgeon.studies.show.bench import show_bench
+
+EVERY = "leave it out for all that fit; or auto,dop853,rodas5p,rk4"
 
 
 def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
     """Measure, print, write the table and the picture; the exit code."""
     step, t_end = request.seconds("--mark-step", request.mark), request.seconds("--t-end", request.t_end)
     loaded = load_scenes(request)
-    wanted = [name.strip() for text in methods for name in text.split(",") if name.strip()] or None
+    wanted = [name.strip() for text in methods for name in text.split(",") if name.strip()] if methods else None
+    if wanted == []:
+        raise BadValueError(f"--methods {', '.join(map(repr, methods))}: expected names of methods", hint=EVERY)
     for simulation in loaded:
         if simulation.source.degrees_of_freedom != 0:
             choice(simulation, wanted, request.quick)  # a name that is none is told before anything is run

@@ -12,15 +12,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.story import story_data, tell
+from gudgeon.commands.reduction_story import story_data, tell
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import InputError, InputErrors
-from gudgeon.kernel_source import KernelSource
-from gudgeon.loading import find_mechanism, kernel_source, read_bytes
+from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from gudgeon.generator.mechanism import Mechanism
+    from gudgeon.generator.mechanism.mechanism import Mechanism
 
 WIDTH = 100  # columns of what is printed
 MARGIN, GAP = 2, 3  # of a table, and between its columns
@@ -29,7 +29,7 @@ CHECKS = ("scipy:*", "sundials:*")  # integrators of others, which fit wherever 
 
 def check_file(name: str, verbose: bool, as_json: bool) -> int:
     """Read, tell, and return the exit code."""
-    from gudgeon.generator.read_yaml import read_mechanism
+    from gudgeon.generator.reader.read import read_mechanism
 
     file = find_mechanism(name)
     try:
@@ -155,7 +155,7 @@ def _of_scene(source: KernelSource) -> dict[str, Any]:
 
 
 def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
-    from gudgeon.shown import one_line, plain_console
+    from gudgeon.language.shown import one_line, plain_console
 
     facts = {scene: _facts(source) for scene, source in scenes.items()}
     names = [

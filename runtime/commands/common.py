@@ -7,23 +7,24 @@ from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
-from gudgeon.errors import BadValueError, InputError, OutputError, UnknownNameError, shortened
-from gudgeon.loading import find_mechanism, generator_hash, read_bytes
-from gudgeon.parameters import plain_number, spaced
-from gudgeon.writing import check_target
+from gudgeon.errors import BadValueError, InputError, OutputError, shortened
+from gudgeon.files.writing import check_target
+from gudgeon.language.suggestions import unknown
+from gudgeon.loading.find import find_mechanism, generator_hash, read_bytes
+from gudgeon.model.parameters import value
 
 SCENES = "scenes.json"
 
 
 def scene_names(mechanism: str) -> tuple[str, ...]:
     """All scenes of a mechanism file in its order; on a warm start without reading the YAML."""
-    from gudgeon.cache import default_cache, digest
+    from gudgeon.loading.cache import default_cache, digest
 
     file = find_mechanism(mechanism)
     data = read_bytes(file)
 
     def make(folder: Path) -> None:
-        from gudgeon.generator.read_yaml import read_mechanism
+        from gudgeon.generator.reader.read import read_mechanism
 
         names = list(read_mechanism(data, str(file)).scenes)
         (folder / SCENES).write_text(json.dumps(names), encoding="utf-8")
@@ -41,26 +42,8 @@ def chosen_scenes(mechanism: str, wanted: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(wanted)) or names
 
 
-def unknown(message: str, name: str, known: tuple[str, ...]) -> UnknownNameError:
-    """An error for a name that does not exist; it tells the nearest ones, or all if they are few.
-
-    Of many names those without a dot: the parameters, not every number of every body.
-    """
-    import difflib
-
-    near = difflib.get_close_matches(name, known, n=3, cutoff=0.5)
-    if near:
-        return UnknownNameError(message, hint=f"nearest: {', '.join(near)}")
-    if len(known) <= 12:
-        return UnknownNameError(message, hint=f"there are: {', '.join(known)}")
-    short, address = [n for n in known if "." not in n], next((n for n in known if "." in n), "")
-    return UnknownNameError(message, hint=f"there are: {', '.join(short[:20])}, and addresses such as {address}")
 
 
-def value(text: str) -> float | str:
-    """A number as typed: a float if it is one (SI), else text with a space before its unit ("0.5mm", "0.5 mm")."""
-    number = plain_number(text)
-    return spaced(text) if number is None else number
 
 
 def settings(texts: Iterable[str]) -> dict[str, float | str]:

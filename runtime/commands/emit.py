@@ -11,9 +11,9 @@ from pathlib import Path
 from gudgeon.commands.common import check_folder, chosen_scenes
 from gudgeon.commands.progress import status_line
 from gudgeon.errors import InputError
-from gudgeon.loading import find_mechanism, kernel_source, read_bytes
-from gudgeon.shipped import REST
-from gudgeon.writing import PART, Aside, read_regular
+from gudgeon.files.writing import PART, Aside, read_regular
+from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
+from gudgeon.loading.shipped import REST
 
 LIST = "emitted.sha256"  # what was written, as `sha256sum -c` reads it
 _LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a name is plain: it leads nowhere else
@@ -82,11 +82,18 @@ def refuse_foreign(folder: Path) -> None:
         if not folder.is_dir():
             raise InputError(f"{folder} is a file", hint="name another folder")
         listed = _listed(folder)
+        if not listed and read_regular(folder / LIST):
+            told = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
+            raise InputError(told, hint="put the list back as it was, remove the folder, or name another one")
         foreign = sorted(path.name for path in folder.iterdir() if not _is_own(path, listed))
     except OSError as error:
         raise InputError(f"{folder} cannot be read: {error.strerror or error}", hint="name another folder") from error
+    own = [name for name in foreign if name in listed]
+    if foreign and own == foreign:
+        told = f"{folder}: {', '.join(own[:5])} and the checksums in {LIST} differ: files or list were changed"
+        raise InputError(told, hint="put back what was changed, move those files away or name another folder")
     if foreign:
-        hint = "move them away or name another folder"
+        foreign, hint = [name for name in foreign if name not in listed], "move them away or name another folder"
         raise InputError(f"{folder} holds files that `emit` did not write so: {', '.join(foreign[:5])}", hint=hint)
 
 

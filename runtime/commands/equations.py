@@ -6,9 +6,9 @@ from pathlib import Path
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
-from gudgeon.loading import find_mechanism, read_bytes
-from gudgeon.working import working
-from gudgeon.writing import write_text
+from gudgeon.files.writing import write_text
+from gudgeon.loading.find import find_mechanism, read_bytes
+from gudgeon.waiting.working import working
 
 
 def write_equations(mechanism: str, target: Path, scene: str) -> int:

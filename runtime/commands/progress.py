@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from gudgeon import working
-from gudgeon.shown import visible
+from gudgeon.language.shown import visible
+from gudgeon.waiting import working
 
 Report = Callable[[float, str], None]  # fraction done, a few words
 
@@ -55,7 +55,7 @@ def _status(text: str) -> Iterator[None]:
     from rich.live import Live
     from rich.text import Text
 
-    from gudgeon.shown import plain_console
+    from gudgeon.language.shown import plain_console
 
     line = Text(f"{visible(text)} …", no_wrap=True, overflow="ellipsis")
     with Live(line, console=plain_console(stderr=True), auto_refresh=False, transient=True):
@@ -65,7 +65,7 @@ def _status(text: str) -> Iterator[None]:
 def _start() -> Any:
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-    from gudgeon.shown import plain_console
+    from gudgeon.language.shown import plain_console
 
     progress = Progress(
         TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn(),

@@ -11,18 +11,20 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_folder, check_name, chosen_scenes, settings, unknown, value
+from gudgeon.commands.common import check_folder, check_name, chosen_scenes, settings
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
-from gudgeon.loading import load
-from gudgeon.results import Result
-from gudgeon.shown import visible
-from gudgeon.step import T_END, scene_end
+from gudgeon.language.shown import visible
+from gudgeon.language.suggestions import unknown
+from gudgeon.model.default_step import T_END, scene_end
+from gudgeon.model.parameters import value
+from gudgeon.results.results import Result
+from gudgeon.simulation.from_file import load
 
 if TYPE_CHECKING:
-    from gudgeon.kernel_source import KernelSource
-    from gudgeon.report import SceneReport
-    from gudgeon.simulation import Simulation
+    from gudgeon.contract.kernel_source import KernelSource
+    from gudgeon.results.report import SceneReport
+    from gudgeon.simulation.simulation import Simulation
 
 Settings: TypeAlias = Mapping[str, float | str]  # address -> SI, or text with a unit
 Files: TypeAlias = dict[str, str]  # scene, or "picture" -> path
@@ -100,7 +102,7 @@ def _load(request: Request, scene: str) -> Simulation:
 
 def _interrupted(names: Iterable[str], session: Session) -> str:
     """What Ctrl-C left, and what it left out."""
-    from gudgeon.predictability import UNFINISHED
+    from gudgeon.simulation.horizon import UNFINISHED
 
     if not session.runs:
         return "interrupted before anything was computed: nothing is shown or saved"
@@ -118,7 +120,7 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
 
 def _check(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
     """Names that no scene has and values that are not valid are told before anything is run or written."""
-    from gudgeon.parameters import prepare
+    from gudgeon.model.parameters import prepare
 
     known = tuple(dict.fromkeys(address for s in simulations.values() for address in addresses(s)))
     for address in settings:
@@ -127,7 +129,7 @@ def _check(request: Request, settings: Settings, simulations: Mapping[str, Simul
     for simulation in simulations.values():
         prepare(simulation.compiled, _own(settings, simulation))
     if request.watch:
-        from gudgeon.series import catalogue
+        from gudgeon.results.series import catalogue
 
         series = tuple(dict.fromkeys(name for s in simulations.values() for name in catalogue(s.source)))
         for name in request.watch:
@@ -182,7 +184,7 @@ def _simulate(
 
 def _hand_over(request: Request, ideal: Simulation, session: Session) -> None:
     """Everything after the integration: the results are saved first, for nothing that follows may lose them."""
-    from gudgeon.report import compare, default_watch
+    from gudgeon.results.report import compare, default_watch
 
     runs = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
     _save(request.out, runs, session)
@@ -241,7 +243,7 @@ def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequen
     """One picture: it is smaller than results, and there may be room for it where there was none for them."""
     if not _have("picture", "matplotlib"):
         return
-    from gudgeon.plots import figure, save_figure
+    from gudgeon.results.plots import figure, save_figure
 
     path = out / f"{next(iter(runs.values())).source.mechanism}.png"
     try:
@@ -267,8 +269,8 @@ def _have(what: str, *packages: str) -> bool:
 
 def _show(request: Request, source: KernelSource, reports: list[SceneReport], session: Session) -> None:
     """What was found and written: tables and notes, or JSON."""
-    from gudgeon.report import as_json, tables
-    from gudgeon.shown import plain_console
+    from gudgeon.language.shown import plain_console
+    from gudgeon.results.report import as_json, tables
 
     if request.json:
         import json

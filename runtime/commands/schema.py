@@ -7,7 +7,7 @@ import json
 
 def print_schema() -> int:
     """The JSON Schema (draft 2020-12), written from the reader's own shapes, to standard output."""
-    from gudgeon.generator.json_schema import schema
+    from gudgeon.generator.targets.json_schema import schema
 
     print(json.dumps(schema(), indent=1, ensure_ascii=False))
     return 0

@@ -6,21 +6,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from gudgeon.commands.common import unknown, value
-from gudgeon.commands.measure import Request, each, exit_code, load_scenes
 from gudgeon.commands.progress import Report
 from gudgeon.commands.run import addresses
+from gudgeon.commands.studies import Request, each, exit_code, load_scenes
+from gudgeon.contract.kernel_source import Slot
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.adaptive import tolerance
-from gudgeon.kernel_source import Slot
-from gudgeon.measure.axes import GROUPS, SETTINGS, axis, typed
-from gudgeon.measure.box import Range
-from gudgeon.measure.show_box import show_box
-from gudgeon.measure.show_stress import PASCAL, show_stress
-from gudgeon.measure.work import FIXED, Setting, natural_step
-from gudgeon.parameters import number
-from gudgeon.simulation import Simulation
-from gudgeon.stress import USUAL, StressBox, StressMap, default_steps, stress, stress_box
+from gudgeon.language.suggestions import unknown
+from gudgeon.model.parameters import number, value
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.axes import GROUPS, SETTINGS, axis, typed
+from gudgeon.studies.box import Range
+from gudgeon.studies.runs import FIXED, Setting, natural_step
+from gudgeon.studies.show.box import show_box
+from gudgeon.studies.show.stress import show_stress
+from gudgeon.studies.show.stress_words import PASCAL
+from gudgeon.studies.stress import USUAL, StressBox, StressMap, default_steps, stress, stress_box
 
 METHODS = ("auto", "dop853", "rodas5p", "rk4")
 

@@ -1,0 +1,1 @@
+"""What drives the time loops in C."""

@@ -1,4 +1,4 @@
-"""Methods that choose their step, with located events and projection (templates/c/adaptive.c.jinja).
+"""Methods that choose their step, with located events and projection (templates/c/methods/adaptive.c.jinja).
 
 - `dop853`: explicit, order 8, dense output of order 7 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
   Differential Equations I, 1993, section II.5).
@@ -20,13 +20,13 @@ from time import perf_counter
 
 import numpy as np
 
-from gudgeon.compiled import Array, CompiledModel
+from gudgeon.contract.kernel_source import Slot
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators.session import Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.kernel_source import Slot
-from gudgeon.parameters import number
-from gudgeon.start import mechanism_sizes
+from gudgeon.model.assembly import mechanism_sizes
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.parameters import number
 
 CHOICES = {"dop853": 0, "rodas5p": 1, "adaptive": 2}
 BEGIN_STIFF = 3  # adaptive in a scene with a film: stiff from rest on (physics.md, section 6)

@@ -1,4 +1,4 @@
-"""What a status of the C time loops stands for (templates/c/run.c.jinja), in words."""
+"""What a status of the C time loops stands for (templates/c/run/run.c.jinja), in words."""
 
 from __future__ import annotations
 
@@ -7,29 +7,42 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.compiled import Array, CompiledModel
-from gudgeon.dead_centre import nearly_dependent_rows
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
-from gudgeon.start import mechanism_size
-from gudgeon.written import rate_reason, reason
+from gudgeon.model.assembly import mechanism_size
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.dead_centre import nearly_dependent_rows
+from gudgeon.model.steep import NEED_SLOPES, steep_force
+from gudgeon.model.written import of_time, rate_reason, reason, trees
 
-NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED = -2, -4, -5, -6, -8, -10, -11
+NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
 INTERRUPTED = "interrupted before its end"
 NO_NUMBER = "end the run before that, or write it so that it is a number at every time"
+NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
+BOUNDED = "end the run before that, or write the drive so that its second rate is bounded: with powers of 2 and more"
+GROWN = "a drive that grows beyond all bounds cannot be followed: end the run before it, or change the drive"
+FELT, TOO_FAST = 1e-3, 1e9  # rad or m in a step of a run that stands still; rad/s or m/s that nothing can follow
 NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
 
 
 def failure(
-    compiled: CompiledModel, status: int, t: float, advice: str, last: Array, e_max: Array, p: Array
+    compiled: CompiledModel, method: str, status: int, t: float, advice: str, last: Array, e_max: Array, p: Array
 ) -> SolverError:
     """The error for a status at time t (s): `last` state, largest eccentricities (n_clearances,), parameters."""
+    if status in (UNBOUNDED, TOO_SMALL) and (drive := unbounded_drive(compiled, p, t)):
+        told = f"the second rate of drive {drive} grows beyond all bounds there"
+        return SolverError(f"no step leads beyond t = {t:.9g} s: {told}\n  {BOUNDED}", t)
+    status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
         q, v = np.ravel(last)[: compiled.n], np.ravel(last)[compiled.n : 2 * compiled.n]
         why = reason(compiled.source, p, t, q, v)
         if why or (why := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]):
             return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
+        if method in NEED_SLOPES and (why := steep_force(compiled.source, p, t, q, v)):
+            return NonFiniteError(f"{why}\n  {NO_SLOPE}", t)
+        fast = drives_at(compiled, p, t, TOO_FAST)
+        advice = GROWN if fast else advice
     if status == NOT_FINITE:
-        return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s\n  {advice}", t)
+        return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast}\n  {advice}", t)
     if status == CHATTERING:
         return SolverError(
             f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s\n"
@@ -37,7 +50,7 @@ def failure(
         )  # fmt: skip
     if status == TOO_SMALL:
         known = _closed_film(compiled, e_max, p, t) or _dead_centre(compiled, last, p, t)
-        return known or SolverError(f"no step is small enough at t = {t:.9g} s\n  {advice}", t)
+        return known or SolverError(f"no step is small enough at t = {t:.9g} s{fast}\n  {advice}", t)
     if status == LOST:
         return SolverError(f"a contact was lost at t = {t:.9g} s: a free journal lies outside its bearing", t)
     if status == OUTSIDE:
@@ -45,13 +58,21 @@ def failure(
     if status == STOPPED:
         return SolverError(INTERRUPTED, t)
     if status == STALLED:
-        return SolverError(f"the run no longer advances at t = {t:.9g} s\n  {advice}", t)
+        return SolverError(f"the run no longer advances at t = {t:.9g} s{drives_at(compiled, p, t)}\n  {advice}", t)
+    return _singular(compiled, status, t, advice, last, p, fast)
+
+
+def _singular(
+    compiled: CompiledModel, status: int, t: float, advice: str, last: Array, p: Array, fast: str
+) -> SolverError:
+    """The error for a pivot that vanished, or that only seems to have."""
     row = compiled.source.motion_pivots[status - 1]
     if row in compiled.source.chain_rows:
         return SingularError(
             f"the linkage reaches a dead centre at t = {t:.9g} s: where its drives want it, nothing closes constraint"
-            f" row {row}\n  the lengths do not let the drives move on from there; end the run before it, or change the"
-            " drive", t, row
+            f" row {row}{drives_at(compiled, p, t)}\n"
+            "  the lengths do not let the drives move on from there; end the run before it, or change the drive; in rk4"
+            " a shorter step follows a faster one", t, row
         )  # fmt: skip
     try:
         compiled.check_pivot(status, t, compiled.source.motion_pivots)
@@ -64,7 +85,7 @@ def failure(
         if dead:
             return dead
         where = f"t = {t:.9g} s (constraint row {error.pivot})"
-        return NonFiniteError(f"the motion diverged before {where}\n  {advice}", t, error.pivot)
+        return NonFiniteError(f"the motion diverged before {where}{fast}\n  {advice}", t, error.pivot)
     raise AssertionError(f"status {status} stands for no failure")
 
 
@@ -84,6 +105,42 @@ class Pace:
         return self.left / max(self.gained, 1e-300) * self.steps
 
 
+def unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
+    """The drive whose second rate is far larger at a time than beside it; "": none."""
+    zero = np.zeros(compiled.n)
+    beside = 1e-4 * max(abs(t), 1e-9)
+    near = (t - 8 * np.spacing(t), np.nextafter(t, -np.inf), t, np.nextafter(t, np.inf), t + 8 * np.spacing(t))
+    at, apart = (
+        np.nan_to_num(np.abs([compiled.closed_gamma(float(s), zero, zero, p) for s in times]), nan=none).max(axis=0)
+        for times, none in ((near, np.inf), ((t - beside, t + beside), 0.0))
+    )
+    rows = [k for k, row in enumerate(compiled.source.start_rows) if row.kind == "drive" and at[k] > 100.0 * apart[k]]
+    return compiled.source.start_rows[max(rows, key=lambda k: at[k])].owner if rows else ""
+
+
+def drives_at(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) -> str:
+    """The value and rate of each drive that is so fast: "; drive motor is at 12.3 rad, its rate 4 rad/s"."""
+    source, rates = compiled.source, compiled.closed_nu(t, np.zeros(compiled.n), p)
+    written = {info.address.split(".")[1]: tree for info, tree in trees(source, ("drives",))}
+    with np.errstate(all="ignore"):
+        values = {name: of_time(source, p, tree, np.array([t]))[0] for name, tree in written.items()}
+    told = [
+        f"drive {row.owner} is at {values[row.owner]:.9g} {row.unit}, its rate {rate:.9g} {row.unit}/s"
+        for row, rate in zip(source.start_rows, rates, strict=True)
+        if row.kind == "drive" and not abs(rate) < fast
+    ]
+    return "".join(f"; {text}" for text in told)
+
+
+def outgrown(pace: Pace, drives: str) -> SolverError:
+    """A run whose `drives` (drives_at) lead on ever faster."""
+    return SolverError(
+        f"the motion no longer advances at t = {pace.t:.12g} s: its last {pace.steps} steps gained {pace.gained:.3g} s"
+        f" and less and less, {pace.left:.3g} s are left{drives}\n"
+        f"  {GROWN}", pace.t
+    )  # fmt: skip
+
+
 def too_far(pace: Pace) -> SolverError:
     """A run to an end that no computer reaches."""
     return SolverError(
@@ -93,12 +150,14 @@ def too_far(pace: Pace) -> SolverError:
     )  # fmt: skip
 
 
-def stalled(pace: Pace, ended: NDArray[np.int_], film: str) -> SolverError:
+def stalled(pace: Pace, ended: NDArray[np.int_], film: str, fast: str) -> SolverError:
     """A run that no longer advances: how many steps ended at contacts, corners of forces, frictions, events; `film`:
-    which one is all but closed, "": none."""
+    which one is all but closed, `fast`: drives for which steps are so short (drives_at), "": none."""
     if not pace.crawls:
         return too_far(pace)
     whose = int(ended.argmax())
+    if fast and not film and ended[whose] <= 0.01 * pace.steps:
+        return outgrown(pace, fast)
     kinds = ("a contact begins or ends", "a force changes its form (a corner of min, max, abs, sign or of its law)",
              "friction changes between stick and slip", "an event's expression is zero")  # fmt: skip
     count = "all" if ended[whose] == pace.steps else str(ended[whose])

@@ -1,8 +1,8 @@
 """No degree of freedom: positions by Newton from sample to sample, the rest by linear solves.
 
 Nothing is integrated but the work of drives and force elements, for the energy check: Gauss–Legendre quadrature of
-their power over the steps that follow the motion (templates/c/kinematic.c.jinja). `Trajectory.seconds` is the time
-of the motion, works and events not counted.
+their power over the steps that follow the motion (templates/c/kinematic/kinematic.c.jinja). `Trajectory.seconds` is
+the time of the motion, works and events not counted.
 """
 
 from __future__ import annotations
@@ -13,18 +13,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.compiled import Array
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
-from gudgeon.integrators.asking import Asker
-from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, too_far
+from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, drives_at, outgrown, too_far
 from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
-from gudgeon.start import mechanism_size
-from gudgeon.written import rate_reason, reason_between
+from gudgeon.model.assembly import mechanism_size
+from gudgeon.model.compiled import Array
+from gudgeon.model.written import rate_reason, reason, reason_between
+from gudgeon.waiting.asking import Asker
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
+NO_NUMBER_THERE = -2  # status
 REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
 CHUNK, TURN = 10_000, 0.02  # samples whose motion, works and events are computed together, at most; s they may take
 
@@ -125,20 +126,31 @@ class _Way:
         at, gained, steps, crawls = self._pace()
         t, t_end = float(at[0]), float(self.problem.t[-1])
         if status == STALLED:
-            return _stalled(self.problem, Pace(t, t_end - t, gained, steps, crawls))
+            pace = Pace(t, t_end - t, gained, steps, bool(crawls))
+            return outgrown(pace, drives_at(self.compiled, self.problem.p, t)) if crawls else too_far(pace)
+        if status == NO_NUMBER_THERE:
+            return self._no_number(float(at[1]))
         return _failure(self.problem, status, t)
 
-    def _pace(self) -> tuple[Array, float, int, bool]:
+    def _no_number(self, t: float) -> SolverError:
+        """A drive, a force or a rate of theirs is none at t (s), where a work was asked for."""
+        compiled, p = self.compiled, self.problem.p
+        why = reason(compiled.source, p, t, self.q[self.reached], self.v[self.reached])
+        why = why or rate_reason(compiled, p, np.array([t]), np.zeros(compiled.n))[0]
+        why = why or f"what the drives and forces do is no number at t = {t:.9g} s{drives_at(compiled, p, t)}"
+        return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
+
+    def _pace(self) -> tuple[Array, float, int, int]:
         """Where motion and works are (s); what the last steps gained (s), how many they are, whether they crawl."""
         t, gained, steps = np.zeros(2), np.zeros(1), np.zeros(2, dtype=np.int_)
         self.compiled.lib.gudgeon_course_pace(
             self.pointer(self.course, "void *"), self.pointer(t), self.pointer(gained), self.pointer(steps, "long *")
         )
-        return t, float(gained[0]), int(steps[0]), bool(steps[1])
+        return t, float(gained[0]), int(steps[0]), int(steps[1])
 
     def trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
         """What is complete."""
-        from gudgeon.results import IMPACT_DTYPE
+        from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         rows = slice(self.reached + 1)
         empty, t = np.zeros((self.reached + 1, 0)), self.t[rows].copy()
@@ -169,17 +181,6 @@ def run(problem: Problem) -> Trajectory:
     return way.trajectory(interrupted, stopped)
 
 
-def _stalled(problem: Problem, pace: Pace) -> SolverError:
-    """A motion that no longer advances."""
-    if not pace.crawls:
-        return too_far(pace)
-    return SolverError(
-        f"the motion no longer advances at t = {pace.t:.12g} s: its last {pace.steps} steps gained {pace.gained:.3g} s"
-        f" and less and less, {pace.left:.3g} s are left{_drives(problem, pace.t)}\n"
-        "  a drive that grows beyond all bounds cannot be followed: end the run before it, or change the drive", pace.t
-    )  # fmt: skip
-
-
 def _failure(problem: Problem, status: int, t: float) -> SolverError:
     """Why the motion cannot be followed beyond t (s)."""
     later = problem.t[problem.t > t]
@@ -193,28 +194,16 @@ def _failure(problem: Problem, status: int, t: float) -> SolverError:
     if status < 0:
         return SolverError(
             f"the linkage cannot follow its drives beyond t = {t:.12g} s: Newton's method finds no position"
-            f" there{_drives(problem, t)}\n"
+            f" there{drives_at(problem.compiled, problem.p, t)}\n"
             "  the lengths do not let the drives turn on, or the linkage passes a dead centre",
             t,
         )
     row = problem.compiled.source.start_pivots[status - 1]
     return SingularError(
         f"the linkage cannot be followed beyond t = {t:.12g} s: it is singular there, the pivot of constraint row {row}"
-        f" vanished{_drives(problem, t)}\n"
+        f" vanished{drives_at(problem.compiled, problem.p, t)}\n"
         "  links lie in one line (a dead centre) or do not reach further, or constraints are redundant: end the run"
         " before it, or change lengths or drives",
         t,
         row,
     )
-
-
-def _drives(problem: Problem, t: float) -> str:
-    """The value and rate of each drive, ", drive motor is at 12.3 rad (rate 45.6 rad/s)"."""
-    compiled, zero = problem.compiled, np.zeros(problem.compiled.n)
-    rates, values = compiled.closed_nu(t, zero, problem.p), compiled.closed_phi(t, zero, problem.p)
-    told = [
-        f"drive {row.owner} is at {-value:.9g} {row.unit}, its rate {rate:.9g} {row.unit}/s"
-        for row, value, rate in zip(compiled.source.start_rows, values, rates, strict=True)
-        if row.kind == "drive"
-    ]
-    return "".join(f"; {text}" for text in told)

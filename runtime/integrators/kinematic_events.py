@@ -1,8 +1,8 @@
 """Events of a scene without a degree of freedom: its motion is known at every time, so their times are too.
 
-templates/c/kinematic_events.c.jinja looks for changes of sign over parts of the way in which no expression turns back,
-and finds their times by bisection to 4 ulp of t or 1e-12 of the part. A zero at the end of the run counts: the way is
-looked at a little beyond it.
+templates/c/kinematic/kinematic_events.c.jinja looks for changes of sign over parts of the way in which no expression
+turns back, and finds their times by bisection to 4 ulp of t or 1e-12 of the part. A zero at the end of the run counts:
+the way is looked at a little beyond it.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.compiled import Array
 from gudgeon.errors import SolverError
 from gudgeon.integrators.failure import STOPPED
 from gudgeon.integrators.session import told_apart
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Problem, no_events
+from gudgeon.model.compiled import Array
 
 if TYPE_CHECKING:
     from gudgeon.integrators.kinematic import _Way

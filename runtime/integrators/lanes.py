@@ -1,4 +1,4 @@
-"""Runs of a batch side by side in vector registers (templates/c/lanes.c.jinja): rk4 with one step for all.
+"""Runs of a batch side by side in vector registers (templates/c/batch/lanes.c.jinja): rk4 with one step for all.
 
 Their library is compiled when a batch first asks for it. It moves runs on as far as they go together; what is then
 not over goes on alone, from where it is.
@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.arrays import address
-from gudgeon.compiled import Array, CompiledModel
+from gudgeon.model.arrays import address
+from gudgeon.model.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
-    from gudgeon.integrators.many import Runs
+    from gudgeon.integrators.batch import Runs
 
 CDEF = """\
 int gudgeon_lane_count(void);
@@ -32,7 +32,7 @@ class Lanes:
     """The library of a scene's runs side by side; `count` of them."""
 
     def __init__(self, compiled: CompiledModel) -> None:
-        from gudgeon.build import compile_kernels
+        from gudgeon.loading.build import compile_kernels
 
         source = replace(compiled.source, main=compiled.source.lanes, cdef=CDEF)
         module: Any = compile_kernels(source, portable=compiled.portable)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from gudgeon.compiled import Array, CompiledModel
-from gudgeon.start import smallest
+from gudgeon.model.assembly import smallest
+from gudgeon.model.compiled import Array, CompiledModel
 
 PASSES = 3  # Newton: the second one is at rounding already, from anywhere that an integrator leads to
 CLOSED = 1e-15  # m or rad: Φ that no further pass makes smaller

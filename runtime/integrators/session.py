@@ -1,4 +1,4 @@
-"""The C struct of one run: started, driven by a method, and read out (templates/c/run.c.jinja)."""
+"""The C struct of one run: started, driven by a method, and read out (templates/c/run/run.c.jinja)."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon import trace
-from gudgeon.compiled import N_WORK, Array, CompiledModel
 from gudgeon.errors import SolverError
-from gudgeon.integrators.asking import Asker
-from gudgeon.integrators.failure import STALLED, Pace, failure, film, stalled
+from gudgeon.integrators import trace
+from gudgeon.integrators.failure import FELT, STALLED, Pace, drives_at, failure, film, stalled
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Problem, Trajectory, no_events
+from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.waiting.asking import Asker
 
 EVENTS_FULL, ENDED, STOPPED = -3, -7, -10
 N_IMPACTS, N_COUNTS = 256, 9
@@ -56,7 +56,7 @@ def told_apart(compiled: CompiledModel, found: NDArray[Any]) -> tuple[NDArray[An
 
 def fetch_impacts(compiled: CompiledModel, run: Any, last: bool) -> NDArray[Any]:
     """IMPACT_DTYPE, the list of contacts of a struct, which is emptied; with `last` those that still go on too."""
-    from gudgeon.results import IMPACT_DTYPE
+    from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
     numbers, joints = np.zeros((N_IMPACTS, 5)), np.zeros(N_IMPACTS, dtype=np.intc)
     lists = (compiled.pointer(numbers), compiled.pointer(joints, "int *"))
@@ -79,7 +79,7 @@ class Session:
     """Samples by row: y (N, 2n + 3), memory, contact codes; `done` rows are filled."""
 
     def __init__(self, problem: Problem, p: Array | None = None) -> None:
-        from gudgeon.results import IMPACT_DTYPE
+        from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         self.problem, self.compiled = problem, problem.compiled
         self.lib, self.pointer = self.compiled.lib, self.compiled.pointer
@@ -225,5 +225,7 @@ class Session:
             arrays = (self.pointer(gained), self.pointer(steps, "long *"), self.pointer(ended, "long *"))
             self.lib.gudgeon_run_pace(self.run, *arrays)
             pace = Pace(t, float(self.problem.t[-1]) - t, float(gained[0]), int(steps[0]), bool(steps[1]))
-            raise stalled(pace, ended, film(self.compiled, peaks[:, 2], self.p))
-        raise failure(self.compiled, status, t, advice, y, peaks[:, 2], self.p)
+            # a drive that still turns on in steps so short is what they are short for
+            fast = drives_at(self.compiled, self.p, t, FELT * pace.steps / max(pace.gained, 1e-300))
+            raise stalled(pace, ended, film(self.compiled, peaks[:, 2], self.p), fast)
+        raise failure(self.compiled, self.problem.method, status, t, advice, y, peaks[:, 2], self.p)

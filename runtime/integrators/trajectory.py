@@ -9,9 +9,13 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.compiled import Array, CompiledModel
 from gudgeon.errors import SolverError
-from gudgeon.trace import Trace
+from gudgeon.integrators.trace import Trace
+from gudgeon.model.compiled import Array, CompiledModel
+
+IMPACT_DTYPE = np.dtype(
+    [("joint", "i4"), ("t_on", "f8"), ("t_off", "f8"), ("deltadot", "f8"), ("F_peak", "f8"), ("t_peak", "f8")]
+)
 
 Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is being done
 

@@ -6,7 +6,7 @@ import random
 import re
 from collections.abc import Collection, Mapping
 
-from gudgeon.generator.units import DIMENSIONLESS, LENGTH, RATE, TIME, Dimension, si_unit
+from gudgeon.language.units import DIMENSIONLESS, LENGTH, RATE, TIME, Dimension, si_unit
 
 OF_A_NUMBER = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")
 _NAME = re.compile(r"[A-Za-z_][\w.]*")

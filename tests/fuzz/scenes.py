@@ -6,7 +6,7 @@ import random
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from gudgeon.generator.units import DIMENSIONLESS, FORCE, LENGTH, RATE, TIME, TORQUE, VELOCITY, Dimension
+from gudgeon.language.units import DIMENSIONLESS, FORCE, LENGTH, RATE, TIME, TORQUE, VELOCITY, Dimension
 from tests.fuzz.expressions import Writer
 
 # names that emitted code has, or might have

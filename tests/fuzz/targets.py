@@ -9,10 +9,10 @@ from importlib import resources
 from pathlib import Path
 
 from gudgeon.errors import InputError, InputErrors, Location
-from gudgeon.expression_tree import evaluate, from_json, names, to_json
-from gudgeon.generator.expressions import check_dimension, parse
-from gudgeon.generator.read_yaml import read_mechanism
-from gudgeon.generator.units import DIMENSIONLESS, LENGTH, TIME, Dimension
+from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.language.parser import check_dimension, parse
+from gudgeon.language.tree import evaluate, from_json, names, to_json
+from gudgeon.language.units import DIMENSIONLESS, LENGTH, TIME, Dimension
 
 HERE = Location("f", 1, 1)
 KNOWN: Mapping[str, Dimension | None] = {"t": TIME, "a": LENGTH, "b": None, "L1.x": LENGTH, "k": DIMENSIONLESS}

@@ -5,6 +5,8 @@ What is refused must be refused with a place; whatever else goes wrong is a `Fau
 
 from __future__ import annotations
 
+import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -18,23 +20,24 @@ from typing import Any, cast
 
 import numpy as np
 
-from gudgeon.compiled import Array, CompiledModel
-from gudgeon.compiler import find_compiler
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, InputErrors
-from gudgeon.expression_tree import Expr, evaluate
 from gudgeon.generator.pipeline import generate
-from gudgeon.generator.read_yaml import read_mechanism
-from gudgeon.integrators.asking import NAME
-from gudgeon.kernel_source import KernelSource
-from gudgeon.simulation import Simulation
-from gudgeon.start import assemble
+from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.language.tree import Expr, evaluate
+from gudgeon.loading.compiler import find_compiler
+from gudgeon.model.assembly import assemble
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.waiting.asking import NAME
 from tests.fuzz.scenes import RandomFile, random_file
-from tests.generator.reduced import Reduced
+from tests.reduction.reduced import Reduced
 
 WARNINGS = ("-std=c11", "-Wall", "-Wextra", "-Werror")
 STATES = 3
 SAFETY = 1e5  # what a change of 1e-10 of the state changes covers rounding so many times
 LONGEST = 3.0  # s, that a run may take
+MOST_TIME, MOST_MEMORY = 120, 4 << 30  # s of the processor, bytes: beyond these a file of a few lines is a fault
 _PARTS = ("x", "y", "theta", "vx", "vy", "omega")
 BOTH = """
 int fuzz_both(double t, const double *s, const double *rate, const double *memory, const double *parameters,
@@ -83,7 +86,9 @@ def try_files(seeds: Iterable[int], compared: int, ran: int, patient: bool = Fal
     with tempfile.TemporaryDirectory() as folder:
         for k, seed in enumerate(seeds):
             try:
+                signal.setitimer(signal.ITIMER_PROF, MOST_TIME if patient else 0)
                 _try(seed, k % 2 == 0, k % compared == 0, k % ran == 0, Path(folder), tally.counts)
+                signal.setitimer(signal.ITIMER_PROF, 0)
             except Exception as error:
                 fault = f"file {seed}: {type(error).__name__}: {error}"
                 if not patient:
@@ -239,8 +244,9 @@ def _check(
     """As near as what an error of the state in its tenth digit changes."""
     source = compiled.source
     tree, q, v, everything, of_tree, of_all, rescued = found
-    slack = [SAFETY * 1e-5 * np.max([abs(a - b) for a in other], axis=0) for b, other in
-             zip(found, zip(*moved, strict=True), strict=True)]  # fmt: skip
+    with np.errstate(invalid="ignore"):
+        slack = [SAFETY * 1e-5 * np.max([abs(a - b) for a in other], axis=0) for b, other in
+                 zip(found, zip(*moved, strict=True), strict=True)]  # fmt: skip
     _agree("events", of_tree, of_all, slack[4])
     if hasattr(compiled.lib, "gudgeon_reduced_rescue"):
         size = np.max(abs(tree), initial=1.0)
@@ -255,7 +261,8 @@ def _check(
 
 def _agree(what: str, a: Array, b: Array, slack: Array) -> None:
     good = np.isfinite(a) & np.isfinite(b) & np.isfinite(slack)
-    wrong = good & (abs(a - b) > 1e-9 * np.maximum(1e-6, abs(b)) + slack)
+    with np.errstate(invalid="ignore"):
+        wrong = good & (abs(a - b) > 1e-9 * np.maximum(1e-6, abs(b)) + slack)
     if wrong.any() or (np.isfinite(a) != np.isfinite(b)).any() and np.isfinite(slack).all():
         raise Fault(f"{what} differ: {a} and {b}, slack {slack}")
 
@@ -333,9 +340,15 @@ class _Patience:
             raise KeyboardInterrupt
 
 
+def _too_long(*_: object) -> None:
+    raise Fault(f"it takes longer than {MOST_TIME} s")
+
+
 def main(count: int, seed: int) -> None:
-    """Tell every thousand files how it goes."""
+    """Tell every 200 files how it goes."""
     total = Tally(Counter(), [])
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, resource.getrlimit(resource.RLIMIT_AS)[1]))
+    signal.signal(signal.SIGPROF, _too_long)
     for first in range(0, count, 200):
         part = try_files(range(seed + first, seed + min(first + 200, count)), 20, 100, patient=True)
         total.counts += part.counts

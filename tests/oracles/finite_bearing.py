@@ -76,5 +76,5 @@ def overstated(eps: float, reynolds: bool, l_over_d: float = L_OVER_D) -> float:
 
 
 if __name__ == "__main__":
-    for eps in (0.2, 0.5, 0.9):
+    for eps in (0.05, 0.2, 0.5, 0.9):
         print(f"ε = {eps}: {overstated(eps, False):.3f} (half film), {overstated(eps, True):.3f} (Reynolds' condition)")

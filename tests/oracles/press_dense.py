@@ -1,4 +1,4 @@
-"""The hand-written dense C press (benchmarks/peers/press_dense.c), compiled on first use and called by ctypes.
+"""The hand-written dense C press (tests/oracles/press_dense.c), compiled on first use and called by ctypes.
 
 Choices that the golden values depend on:
 
@@ -29,7 +29,7 @@ import numpy as np
 
 from .ideal_press import PressData, motion
 
-SOURCE = Path(__file__).resolve().parents[2] / "benchmarks" / "peers" / "press_dense.c"
+SOURCE = Path(__file__).with_name("press_dense.c")
 FLAGS = ("-std=gnu11", "-O3", "-march=native", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC")
 _EIGHT = ctypes.c_double * 8
 _SCALARS = (

@@ -4,7 +4,7 @@
 #include <limits.h>
 #include <time.h>
 
-enum { MOST_UNSEEN = 64, PACE_STEPS = 32768, PACE_TIMES = 3 };
+enum { MOST_UNSEEN = 64, PACE_STEPS = 32768, PACE_TIMES = 3, LEAST_DOUBLED = 1 << 18, DOUBLINGS = 4, OUTRUN = 2 };
 #define TOO_MANY 1e8   /* steps still to make, beyond which one that crawls is given up */
 #define HOPELESS 1e11  /* the same, whatever the pace was before */
 #define CRAWL 1e-3     /* of the pace before, that is a crawl */
@@ -48,6 +48,12 @@ static void set_asked(Asked *x, int (*ask)(void *), void *whom, double every)
     *x = (Asked){.ask = ask, .whom = whom, .every = every};
 }
 
+/* What doubling the number of steps gained the last times (s), and the number at which it is looked at next. */
+typedef struct {
+    double t, gain[DOUBLINGS];
+    long next;
+} Doubling;
+
 /*
  * The pace of a run: what PACE_STEPS of its steps gain, what they gained on the average while it advanced, and how
  * often in a row it did not.
@@ -55,11 +61,32 @@ static void set_asked(Asked *x, int (*ask)(void *), void *whom, double every)
 typedef struct {
     double t, gain, sum; /* s: where these steps began; what the last ones gained, and the good ones together */
     long steps, good;
-    int slow, crawls;    /* how often in a row it was too slow; whether that is far slower than it was before */
+    int slow, crawls;    /* how often in a row it was too slow; whether that is far slower than it was before, or OUTRUN */
+    Doubling doubling;
 } Pace;
 
 /* How many steps are left at the pace of the last ones. */
 static double steps_left(const Pace *x, double t, double t_end) { return (t_end - t) / x->gain * PACE_STEPS; }
+
+/*
+ * Whether something outruns all steps: where a drive grows at least exponentially, twice as many of them gain no more
+ * time than a doubling did some doublings ago (methods may change meanwhile), so that so many doublings are left.
+ */
+static int is_outrun(Pace *pace, double t, double t_end)
+{
+    Doubling *x = &pace->doubling;
+    const double gain = t - x->t, steps = (double)pace->steps, earlier = x->gain[0];
+    if (pace->steps < x->next)
+        return 0;
+    x->t = t;
+    for (int k = 1; k < DOUBLINGS; k++)
+        x->gain[k - 1] = x->gain[k];
+    x->gain[DOUBLINGS - 1] = gain;
+    x->next = x->next ? 2 * pace->steps : 1024;
+    /* its steps do not become longer again meanwhile */
+    const int slows = pace->gain * steps <= 2.0 * gain * PACE_STEPS;
+    return steps >= LEAST_DOUBLED && gain <= earlier && slows && steps * exp2((t_end - t) / gain) > HOPELESS;
+}
 
 /*
  * Once a step, at its end: whether the run no longer advances. Steps that become longer again are given time, however
@@ -67,7 +94,12 @@ static double steps_left(const Pace *x, double t, double t_end) { return (t_end 
  */
 static int creeps(Pace *x, double t, double t_end)
 {
-    if (x->steps++ % PACE_STEPS)
+    const long before_it = x->steps++;
+    if (is_outrun(x, t, t_end)) {
+        x->crawls = OUTRUN;
+        return 1;
+    }
+    if (before_it % PACE_STEPS)
         return 0;
     const double before = x->gain;
     x->gain = x->steps > 1 ? t - x->t : INFINITY;

@@ -2,10 +2,7 @@
  * No degree of freedom is left: at every time the drives say where everything is. Nothing is integrated; the motion
  * is followed from sample to sample so that it stays on its branch.
  */
-enum {
-    MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30, NEWTON_FAILED = -1,
-    LEAST_DOUBLED = 1 << 18
-};
+enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30, NEWTON_FAILED = -1, NO_NUMBER = -2 };
 
 /* A place on the way: the motion of all bodies at a time, the largest |Phi| and |Phi_dot| there. */
 typedef struct {
@@ -20,18 +17,11 @@ typedef struct {
     int halvings;
 } Stride;
 
-/* What doubling the number of steps gained: the number at which it is looked at next, s, how often in a row no more. */
-typedef struct {
-    double t, gain, next;
-    int falling;
-} Doubling;
-
 /* A run of many calls: where it is to end, where its motion and its works are, whom it asks, its pace. */
 typedef struct {
     double reach, extent, t_end;
     Asked asked;
     Pace pace;
-    Doubling doubling;
     Place motion, work;
     int motion_begun, work_begun;
 } Course;
@@ -43,7 +33,7 @@ void gudgeon_course_begin(void *memory, double reach, double extent, double t_en
     double every)
 {
     Course *course = memory;
-    *course = (Course){.reach = reach, .extent = extent, .t_end = t_end, .doubling.next = 1024.0};
+    *course = (Course){.reach = reach, .extent = extent, .t_end = t_end};
     set_asked(&course->asked, ask, whom, every);
 }
 
@@ -403,23 +393,7 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
     }
 }
 
-/*
- * Whether a drive outruns all steps: where it grows at least exponentially, twice as many of them gain no more time
- * than the last doubling did, so that so many doublings are left.
- */
-static int is_outrun(Doubling *x, double steps, double t, double t_end)
-{
-    if (steps < x->next)
-        return 0;
-    const double gain = t - x->t;
-    x->falling = gain <= x->gain ? x->falling + 1 : 0;
-    x->t = t;
-    x->gain = gain;
-    x->next = 2.0 * steps;
-    return steps >= LEAST_DOUBLED && x->falling > 3 && steps * exp2((t_end - t) / gain) > HOPELESS;
-}
-
-/* The same, of a run whose pace is watched. */
+/* To t1, in steps; a run whose pace is watched. */
 static int advance(Course *course, double t1, const Parameters *p, Place *here, long *steps)
 {
     Stride stride = {course->reach, course->extent, t1 - here->t, 0};
@@ -430,10 +404,6 @@ static int advance(Course *course, double t1, const Parameters *p, Place *here, 
         ++*steps;
         if (creeps(&course->pace, here->t, course->t_end))
             return STALLED;
-        if (is_outrun(&course->doubling, (double)course->pace.steps, here->t, course->t_end)) {
-            course->pace.crawls = 1;
-            return STALLED;
-        }
     }
     return settle(p, here);
 }
@@ -486,6 +456,7 @@ static double turn(const double *v, int k, double extent) { return k % 3 == 2 ? 
 /*
  * Works between two places that are one step apart: quadrature of Gauss and Legendre with three nodes. `jumped`: the
  * velocities change by more than the accelerations on the way say, so that the rate of a drive jumps, or nearly so.
+ * NO_NUMBER where a power is none, at `work[0]`.
  */
 static int work_between(const Parameters *p, double extent, const Place *a, const Place *b, double least, double *work,
     int *jumped)
@@ -504,8 +475,13 @@ static int work_between(const Parameters *p, double extent, const Place *a, cons
             status = powers(p, &at, power);
         if (status)
             return status;
-        for (int k = 0; k < N_WORK; k++)
+        for (int k = 0; k < N_WORK; k++) {
+            if (!isfinite(power[k])) {
+                work[0] = at.t;
+                return NO_NUMBER;
+            }
             work[k] += half * weight[i] * power[k];
+        }
         for (int k = 0; k < N_Q; k++) {
             missed[k] -= half * weight[i] * at.a[k];
             scale = larger(scale, half * turn(at.a, k, extent));
@@ -513,7 +489,8 @@ static int work_between(const Parameters *p, double extent, const Place *a, cons
     }
     for (int k = 0; k < N_Q; k++)
         most = larger(most, turn(missed, k, extent));
-    *jumped = most > least && most > 1e-6 * scale;
+    /* or an acceleration is none: a rate of no bounded slope */
+    *jumped = !(scale <= DBL_MAX) || (most > least && most > 1e-6 * scale);
     return 0;
 }
 
@@ -535,9 +512,11 @@ static int work_across(const Parameters *p, double extent, const Place *a, const
     double *work)
 {
     double part[N_WORK] = {0.0}, moved;
-    int jumped;
+    int jumped = 0;
     int status = work_between(p, extent, a, b, least, part, &jumped);
     const double t = a->t + 0.5 * (b->t - a->t);
+    if (status == NO_NUMBER)
+        work[0] = part[0];
     if (status)
         return status;
     const int wide = t > a->t && t < b->t;
@@ -551,6 +530,10 @@ static int work_across(const Parameters *p, double extent, const Place *a, const
     }
     if (jumped && !wide)
         part[0] = kinetic_energy_at(p, b) - kinetic_energy_at(p, a);
+    if (!isfinite(part[0])) {
+        work[0] = t;
+        return NO_NUMBER;
+    }
     for (int k = 0; k < N_WORK; k++)
         work[k] += part[k];
     return 0;
@@ -592,5 +575,7 @@ int gudgeon_kinematic_works(void *memory, long n, const double *t, const double 
     }
     course->work = here;
     course->work_begun = 1;
+    if (status == NO_NUMBER)
+        course->work.t = work[(*done + 1) * N_WORK];
     return status;
 }

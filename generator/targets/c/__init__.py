@@ -1,0 +1,1 @@
+"""C: printing, which templates, names for the runtime."""

@@ -8,14 +8,7 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from gudgeon.expression_tree import names, to_json
-from gudgeon.generator.constraints import Row, rate_jumps
-from gudgeon.generator.driven_chains import Chain
-from gudgeon.generator.interface import element_series, kept_joints
-from gudgeon.generator.mechanism import GROUND
-from gudgeon.generator.model import Model
-from gudgeon.generator.units import Dimension
-from gudgeon.kernel_source import (
+from gudgeon.contract.kernel_source import (
     BodyInfo,
     ClearanceInfo,
     Condition,
@@ -28,8 +21,16 @@ from gudgeon.kernel_source import (
     SeriesInfo,
     Slot,
     WrittenInfo,
-)  # fmt: skip
-from gudgeon.story import Story
+)
+from gudgeon.contract.ledger import Story
+from gudgeon.generator.equations.constraints import Row, rate_jumps
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.notes import scene_notes
+from gudgeon.generator.kernels.outputs import element_series, kept_joints
+from gudgeon.generator.mechanism.mechanism import GROUND
+from gudgeon.generator.reduction.driven_chains import Chain
+from gudgeon.language.tree import names, to_json
+from gudgeon.language.units import Dimension
 
 UNTOLD = Story()
 
@@ -48,7 +49,6 @@ def describe(
     row_of = {row.name: r for r, row in enumerate(model.rows)}
     unit_of = {row.name: row.unit for row in model.all_rows}
     start = mechanism.start
-    used = set(model.slots.entries)
     return KernelSource(
         mechanism=mechanism.name, scene=scene.name, title=mechanism.title, sha256=mechanism.sha256,
         files=files, main=main, cdef=cdef,
@@ -56,38 +56,21 @@ def describe(
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
         points=_points(model, place, body_of),
         rows=tuple(map(_row, model.rows)),
-        joints=tuple(
-            JointInfo(
-                joint.name, joint.kind, body_of[joint.first.body], body_of[joint.second.body],
-                f"{joint.second.body}.{joint.second.point}",
-                tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
-            )
-            for joint in kept_joints(model)
-        ),
-        drives=tuple(
-            DriveInfo(name, row_of.get(name, -1), unit_of[name]) for name in mechanism.drives
-        ),
+        joints=_joints(model, body_of, row_of),
+        drives=tuple(DriveInfo(name, row_of.get(name, -1), unit_of[name]) for name in mechanism.drives),
         clearances=_clearances(model, place, body_of),
         series=tuple(SeriesInfo(name, unit) for name, (_, unit) in element_series(model).items()),
         start_rows=tuple(map(_row, model.all_rows)),
         start_guess=tuple(start.guess), start_set=tuple(start.set), start_rates=tuple(start.rates),
         frictions=tuple(friction.name for friction in model.frictions), methods=methods, pivots=pivots,
         start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
-        rate_jumps=_rate_jumps(model),
+        rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
         slots=tuple(
             Slot(e.address, _unit(e.dimension), e.default, e.follows, _exponents(e.dimension))
             for e in model.slots.entries.values()
         ),
         derived=tuple(symbol.name for symbol in model.slots.derived),
-        conditions=tuple(
-            Condition(c.address, c.relation, c.bound, c.message)
-            for c in mechanism.conditions
-            if c.address in used and (not isinstance(c.bound, str) or c.bound in used)
-        )
-        + tuple(
-            Condition(address, relation, 0.0, "a direction along an axis turns round with load(overrides=...) only")
-            for address, relation in model.slots.signs.items()
-        ),
+        conditions=_conditions(model),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_simulate(model),
         operations=dict(operations), notes=scene_notes(model), gravity=any(c != 0 for c in model.gravity),
@@ -96,6 +79,31 @@ def describe(
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         written=tuple(_written(model)), story=story, lanes=lanes,
     )  # fmt: skip
+
+
+def _joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int]) -> tuple[JointInfo, ...]:
+    """Joints without play."""
+    return tuple(
+        JointInfo(
+            joint.name, joint.kind, body_of[joint.first.body], body_of[joint.second.body],
+            f"{joint.second.body}.{joint.second.point}",
+            tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
+        )
+        for joint in kept_joints(model)
+    )  # fmt: skip
+
+
+def _conditions(model: Model) -> tuple[Condition, ...]:
+    """The file's, of numbers that this scene has; and of signs that its equations take for granted."""
+    used = set(model.slots.entries)
+    return tuple(
+        Condition(c.address, c.relation, c.bound, c.message)
+        for c in model.scene.mechanism.conditions
+        if c.address in used and (not isinstance(c.bound, str) or c.bound in used)
+    ) + tuple(
+        Condition(address, relation, 0.0, "a direction along an axis turns round with load(overrides=...) only")
+        for address, relation in model.slots.signs.items()
+    )
 
 
 def _written(model: Model) -> Iterator[WrittenInfo]:
@@ -152,7 +160,7 @@ def _clearances(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[s
 
 
 def _simulate(model: Model) -> dict[str, float]:
-    from gudgeon.expression_tree import evaluate
+    from gudgeon.language.tree import evaluate
 
     defaults = {e.address: e.default for e in model.slots.entries.values()}
     return {
@@ -161,40 +169,6 @@ def _simulate(model: Model) -> dict[str, float]:
     }
 
 
-def scene_notes(model: Model) -> tuple[str, ...]:
-    """What this scene does not have, and so does not pay for."""
-    notes = []
-    if model.redundancy.dropped:
-        notes.append(
-            f"redundant rows left out: {', '.join(model.redundancy.dropped)}; reactions not determined by"
-            f" rigid bodies: {', '.join(model.redundancy.indeterminate)}"
-        )
-    if model.degrees_of_freedom < 0:
-        notes.append(
-            f"{-model.degrees_of_freedom} more rows than coordinates: nothing can move, and unless lengths and points"
-            " fit exactly it cannot be assembled"
-        )
-    if not model.clearances:
-        notes.append("no joint has play: no contact code, no film")
-        if model.degrees_of_freedom == 0:
-            notes.append("no degree of freedom: positions by Newton, nothing is integrated")
-    elif not any(c.film for c in model.clearances):
-        notes.append("no film: dry contact only")
-    if all(component == 0 for component in model.gravity):
-        notes.append("no gravity: no weight terms")
-    jumps = _rate_jumps(model)
-    if jumps:
-        notes.append(
-            f"the rate of {', '.join(jumps)} may jump: the linkage follows by an impulse, in rk4 with formulation"
-            " \"full\" only afterwards; smooth_step has no jump"
-        )
-    return tuple(notes)
-
-
-def _rate_jumps(model: Model) -> tuple[str, ...]:
-    """Drives whose rate may jump before something that is free to move."""
-    drives = model.scene.mechanism.drives.values() if model.degrees_of_freedom else ()
-    return tuple(drive.name for drive in drives if rate_jumps(drive))
 
 
 def _exponents(dimension: Dimension) -> tuple[int, int, int]:

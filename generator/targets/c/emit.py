@@ -2,32 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import cache
 from importlib import resources
 from typing import Any
 
 import jinja2
 
-from gudgeon.generator import interface
-from gudgeon.generator.dynamics import dynamics_kernel
-from gudgeon.generator.events import SIGNS
-from gudgeon.generator.kernels import Kernel, without_unused
-from gudgeon.generator.kkt import KKT, NEARLY_SINGULAR, SINGULAR
-from gudgeon.generator.law_kernels import law_kernels
-from gudgeon.generator.model import Model
-from gudgeon.generator.projection import closing_kernel
-from gudgeon.generator.story import tell
-from gudgeon.generator.system import absolute
-from gudgeon.generator.targets.c import lanes_code, printer
-from gudgeon.generator.targets.c.clearance_code import clearance_code
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.generator.equations.events import SIGNS
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.system import absolute
+from gudgeon.generator.ir.kernels import Kernel, without_unused
+from gudgeon.generator.kernels import closed_linkage, outputs
+from gudgeon.generator.kernels.drive_jumps import jumps_of
+from gudgeon.generator.kernels.dynamics import dynamics_kernel
+from gudgeon.generator.kernels.event_functions import watched_kernel
+from gudgeon.generator.kernels.laws import law_kernels
+from gudgeon.generator.kernels.ledger import tell
+from gudgeon.generator.kernels.projection import closing_kernel
+from gudgeon.generator.kernels.time_terms import time_terms_kernel
+from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR, SINGULAR
+from gudgeon.generator.targets.c import lanes as lanes_code
+from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.describe import describe
-from gudgeon.generator.targets.c.loops import Integrated, LoopCode, integrator_loops, kinematic_code
-from gudgeon.generator.targets.c.newton_code import jacobian_code, newton_code, tangent_code
-from gudgeon.generator.targets.c.reduced_code import ReducedCode, reduced_code
-from gudgeon.generator.time_terms import time_terms_kernel
-from gudgeon.generator.watched import watched_kernel
-from gudgeon.kernel_source import KernelSource
+from gudgeon.generator.targets.c.newton import jacobian_code, newton_code, tangent_code
+from gudgeon.generator.targets.c.play import clearance_code
+from gudgeon.generator.targets.c.reduced import ReducedCode, reduced_code
+from gudgeon.generator.targets.c.time_loops import Integrated, LoopCode, integrator_loops, kinematic_code
 
 COMMON_CDEF = """\
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p);
@@ -115,45 +117,29 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     kkt = KKT(system)
     dynamics = dynamics_kernel(system, kkt)
     around = [
-        interface.mass_kernel(model), *interface.row_kernels(model), interface.start_kernel(model),
-        interface.outputs_kernel(model),
+        closed_linkage.mass_kernel(model), *closed_linkage.row_kernels(model), closed_linkage.start_kernel(model),
+        outputs.outputs_kernel(model),
     ]  # fmt: skip
     # rendered before `prepare`, which lists what the others derived
     clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
     reduced = reduced_code(model, kkt.pivots, render, _kernels) if formulation == "reduced" else None
     watched = watched_kernel(dynamics, model)
     right_hand_side = [dynamics, *([watched] if watched and formulation == "full" and integrates else [])]
-    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched,
-                       render("motion_full.c.jinja"), kkt.pivots)  # fmt: skip
+    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched, jumps_of(dynamics, model),
+                       render("motion/motion_full.c.jinja"), kkt.pivots)  # fmt: skip
     integrated = reduced.integrated if reduced else plain
     counts, terms = _counts(model, integrated), time_terms_kernel(dynamics)
     if integrates:
         loops, beside = _loops(model, integrated, reduced, terms, counts)
     else:
         loops, beside = kinematic_code(model, kkt, integrated, terms, watched, counts, render), {}
-    prepare = interface.prepare_kernel(model, printer.expression)
+    prepare = closed_linkage.prepare_kernel(model, printer.expression)
     kernels = [*right_hand_side, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
-    files = {
-        "model.h": render("model.h.jinja", **_header(model), **counts),
-        "asked.c": render("asked.c.jinja"),
-        "trigonometry.c": render("trigonometry.c.jinja", vector="Four", bits="FourBits", given="*angle"),
-        "parameters.c": _kernels(prepare),
-        "constraints.c": _kernels(*around),
-        "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
-        **({"singular.c": _singular(model, counts)} if model.rows and not model.frictions else {}),
-        "dynamics.c": _kernels(*right_hand_side),
-        "system.c": render("system.c.jinja", **counts),
-        "start.c": _start(model),
-        **(reduced.files if reduced else {}),
-        **loops.files,
-    }
+    files = _files(model, counts, prepare, around, right_hand_side, clearances)
+    files |= {**(reduced.files if reduced else {}), **loops.files}
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
-    files |= beside
-    cdef = COMMON_CDEF + (reduced.cdef if reduced else "") + (METHOD_CDEF if integrates else KINEMATIC_CDEF)
-    cdef += SINGLE_CDEF * bool(beside)
-    cdef += (TREE_NEWTON_CDEF if reduced else NEWTON_CDEF) * integrates + EVENTS_CDEF * ("kinematic_events.c" in files)
     return describe(
-        model, files=files, main="scene.c", cdef=cdef,
+        model, files=files | beside, main="scene.c", cdef=_cdef(reduced, integrates, files, beside),
         methods=("rk4", "dop853", "rodas5p") if integrates else ("kinematic",),
         pivots=kkt.pivots, start_pivots=loops.pivots, motion_pivots=integrated.pivots,
         operations=_operations(model, kernels),
@@ -162,6 +148,33 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
         story=tell(model, kkt, loops.solved, integrated.system, loops.groups),
         lanes=lanes_code.MAIN if beside else "",
     )  # fmt: skip
+
+
+def _cdef(reduced: ReducedCode | None, integrates: bool, files: Collection[str], beside: Collection[str]) -> str:
+    """What Python calls, as cffi reads it."""
+    cdef = COMMON_CDEF + (reduced.cdef if reduced else "") + (METHOD_CDEF if integrates else KINEMATIC_CDEF)
+    cdef += SINGLE_CDEF * bool(beside)
+    cdef += (TREE_NEWTON_CDEF if reduced else NEWTON_CDEF) * integrates
+    return cdef + EVENTS_CDEF * ("kinematic_events.c" in files)
+
+
+def _files(
+    model: Model, counts: Mapping[str, int], prepare: Kernel, around: Iterable[Kernel],
+    right_hand_side: Iterable[Kernel], clearances: Sequence[str],
+) -> dict[str, str]:  # fmt: skip
+    """What every scene has, in the order in which it is read."""
+    return {
+        "model.h": render("scene/model.h.jinja", **_header(model), **counts),
+        "asked.c": render("scene/asked.c.jinja"),
+        "trigonometry.c": render("scene/trigonometry.c.jinja", vector="Four", bits="FourBits", given="*angle"),
+        "parameters.c": _kernels(prepare),
+        "constraints.c": _kernels(*around),
+        "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
+        **({"singular.c": _singular(model, counts)} if model.rows and not model.frictions else {}),
+        "dynamics.c": _kernels(*right_hand_side),
+        "system.c": render("scene/calls.c.jinja", **counts),
+        "start.c": _start(model),
+    }
 
 
 def _angles(model: Model) -> tuple[int, ...]:
@@ -178,7 +191,10 @@ def _loops(
     files = integrator_loops(model, integrated, linearized, closing, terms, counts, render, lanes)
     beside = {}
     if reduced is not None and lanes:
-        beside = lanes_code.lanes_code(model, (*reduced.plain, without_unused(closing)), counts, render)
+        beside = lanes_code.lanes_code(
+            model, (*reduced.plain, without_unused(closing)),
+            {**counts, "n_corners": integrated.jumps.count if integrated.jumps else 0}, render,
+        )  # fmt: skip
     return LoopCode(files, tuple(kernels), integrated.kkt), beside
 
 
@@ -207,7 +223,7 @@ def _environment() -> jinja2.Environment:
 
 
 def _kernels(*kernels: Kernel) -> str:
-    return render("kernels.c.jinja", kernels=[printer.kernel(kernel) for kernel in kernels])
+    return render("scene/kernels.c.jinja", kernels=[printer.kernel(kernel) for kernel in kernels])
 
 
 def _counts(model: Model, integrated: Integrated) -> dict[str, int]:
@@ -217,7 +233,7 @@ def _counts(model: Model, integrated: Integrated) -> dict[str, int]:
         "n_q": len(model.q),
         "n_rows": len(model.rows),
         "n_all_rows": len(model.all_rows),
-        "n_joints": len(interface.kept_joints(model)),
+        "n_joints": len(outputs.kept_joints(model)),
         "n_drives": len(model.scene.mechanism.drives),
         "n_clearances": len(model.clearances),
         "n_frictions": len(model.frictions),
@@ -229,7 +245,7 @@ def _counts(model: Model, integrated: Integrated) -> dict[str, int]:
         "n_memory": len(model.clearances) + len(model.frictions),
         "n_margins": len(model.clearances) + switches + len(model.frictions) + len(model.events),
         "n_events": len(model.events),
-        "n_series": len(interface.element_series(model)),
+        "n_series": len(outputs.element_series(model)),
     }
 
 
@@ -247,7 +263,7 @@ def _header(model: Model) -> dict[str, Any]:
 
 def _singular(model: Model, counts: Mapping[str, int]) -> str:
     place = {row.name: r for r, row in enumerate(model.all_rows)}
-    return render("singular.c.jinja", kept=[place[row.name] for row in model.rows], singular=SINGULAR,
+    return render("scene/singular.c.jinja", kept=[place[row.name] for row in model.rows], singular=SINGULAR,
         nearly=NEARLY_SINGULAR, **counts)
 
 
@@ -255,7 +271,7 @@ def _start(model: Model) -> str:
     place = {model.symbols.info[q].meaning: k for k, q in enumerate(model.q)}
     start = model.scene.mechanism.start
     return render(
-        "start.c.jinja", guess=[place[name] for name in start.guess], fixed=[place[name] for name in start.set],
+        "scene/start.c.jinja", guess=[place[name] for name in start.guess], fixed=[place[name] for name in start.set],
         rates=[place[f"{name.partition('.')[0]}.{_POSITION[name.partition('.')[2]]}"] for name in start.rates],
         lengths=[int(row.unit == "m") for row in model.all_rows],
     )  # fmt: skip

@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.kernels import Argument, Guard, Kernel, Section, Statement
-from gudgeon.generator.law_kernels import SIDES
-from gudgeon.generator.sine_pairs import lane_by_lane
+from gudgeon.generator.ir.kernels import Argument, Guard, Kernel, Section, Statement
+from gudgeon.generator.ir.signatures import SIDES
+from gudgeon.generator.ir.sine_pairs import lane_by_lane
 from gudgeon.generator.targets.c import printer
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")

@@ -9,8 +9,8 @@ import textwrap
 import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
-from gudgeon.generator.kernels import Argument, Kernel, Section, Statement
-from gudgeon.generator.parts import cut
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.ir.split import cut
 
 WIDTH = 110
 
@@ -93,6 +93,16 @@ class CPrinter(C99CodePrinter):
         """Not below zero picks the first: a NaN stays in it."""
         side, a, b = (self._print(argument) for argument in expr.args)
         return f"({side} < 0.0 ? {b} : {a})"
+
+    def _print_Slope(self, expr: sp.Expr) -> str:
+        """From finite_slopes.py."""
+        return self._call("finite_slope", *expr.args)
+
+    def _print_JustAhead(self, expr: sp.Expr) -> str:
+        return self._call("just_ahead", expr.args[0])
+
+    def _print_JustBehind(self, expr: sp.Expr) -> str:
+        return self._call("just_behind", expr.args[0])
 
 
 def _double(number: sp.Expr) -> str:

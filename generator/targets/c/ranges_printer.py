@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.kernels import Argument, Kernel, Statement
+from gudgeon.generator.ir.kernels import Argument, Kernel, Statement
 from gudgeon.generator.targets.c import printer
 
 _TYPES = {"const double": "const Range", "const double *": "const Range *", "Aside *": "Range *"}

@@ -7,9 +7,9 @@ from itertools import groupby
 
 import sympy as sp
 
-from gudgeon.generator.constraints import Row
-from gudgeon.generator.joints.joint_type import joint_types
-from gudgeon.generator.model import Model
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.targets.latex.document import Block, Equation, Section, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, temporaries

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import sympy as sp
 
-from gudgeon.generator.force_elements.element_type import element_types
-from gudgeon.generator.friction import Friction
-from gudgeon.generator.model import Model
+from gudgeon.generator.equations.friction import Friction
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.targets.latex.document import Block, Equation, Section, Sketch, cells, paragraph, table
 from gudgeon.generator.targets.latex.kinematics import equation, indexed
 from gudgeon.generator.targets.latex.letters import Name, letter
+from gudgeon.generator.targets.latex.mechanism import Values, field_rows, place, sketch_of
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
-from gudgeon.generator.targets.latex.parts import Values, field_rows, place, sketch_of
 
 KKT = Equation(
     Name(
@@ -70,7 +70,7 @@ def _elements(model: Model, notation: Notation) -> list[Block]:
         if applied.loads.potential != 0:
             blocks.append(equation(letter("V", name), notation.expand(applied.loads.potential), notation))
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
-        summary, *lines = sketch_of("force_elements", kind)
+        summary, *lines = sketch_of("forces", kind)
         blocks += [paragraph(summary), Sketch(tuple(lines))]
     return blocks
 

@@ -9,8 +9,8 @@ from functools import cached_property
 
 import sympy as sp
 
-from gudgeon.generator.model import Model
-from gudgeon.generator.symbols import Symbols
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.symbols.symbols import Symbols
 from gudgeon.generator.targets.latex.letters import Name, letter, word
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 

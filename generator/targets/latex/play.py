@@ -6,19 +6,19 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from gudgeon.generator import contact
-from gudgeon.generator.clearance import Clearance, LawEquations
-from gudgeon.generator.contact import Step
-from gudgeon.generator.forces.law import RESULTS
-from gudgeon.generator.mechanism import LawUse, Play, Quantity
-from gudgeon.generator.model import Model
-from gudgeon.generator.targets.latex import contact_names
+from gudgeon.generator.equations import contact_steps as contact
+from gudgeon.generator.equations.contact_steps import Step
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.play import Clearance, LawEquations
+from gudgeon.generator.kinds.laws.law import RESULTS
+from gudgeon.generator.mechanism.mechanism import LawUse, Play, Quantity
+from gudgeon.generator.targets.latex import play_letters as contact_names
 from gudgeon.generator.targets.latex.document import Block, Section, Text, cells, paragraph, sentence, table
 from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
+from gudgeon.generator.targets.latex.mechanism import as_written
 from gudgeon.generator.targets.latex.notation import Notation, distinct
-from gudgeon.generator.targets.latex.parts import as_written
-from gudgeon.generator.units import si_unit
+from gudgeon.language.units import si_unit
 
 # What the laws call their abbreviations and constants, in the paper's letters.
 _LAW_LETTERS = {

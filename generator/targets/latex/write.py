@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from gudgeon.generator.model import Model
-from gudgeon.generator.targets.c.describe import scene_notes as notes
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.notes import scene_notes as notes
 from gudgeon.generator.targets.latex.document import Document, Section, paragraph, sentence
 from gudgeon.generator.targets.latex.kinematics import kinematics_sections
+from gudgeon.generator.targets.latex.mechanism import part_sections
 from gudgeon.generator.targets.latex.motion import motion_sections
 from gudgeon.generator.targets.latex.notation import make_notation
-from gudgeon.generator.targets.latex.parts import part_sections
 from gudgeon.generator.targets.latex.play import play_sections
 from gudgeon.generator.targets.latex.render import render
-from gudgeon.shown import one_line
+from gudgeon.language.shown import one_line
 
 
 def make_document(model: Model) -> Document:

@@ -1,0 +1,177 @@
+"""The tables and figures of docs/race.md, made from benchmarks/race.csv and from nothing else.
+
+    python -m benchmarks.race_page          # after a race, or after a change of the page's text
+
+The page's own text stands outside the marks `<!-- race: name -->` … `<!-- end -->`; what is between them is written
+here, and a test compares it with the CSV.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from benchmarks.race.record import LEVELS, MEASURES, ONSET_LEVELS, Record, read
+
+FOLDER = Path(__file__).resolve().parents[1]
+CSV, FIGURES, PAGE = FOLDER / "race.csv", FOLDER / "figures", FOLDER.parent / "docs" / "race.md"
+UNITS = {"ideal": ("µs a sample", 1e6), "sweep": ("ms a run", 1e3)}
+DEFAULT = "gudgeon auto"  # what a user gets who names no method: it alone is held to the bars
+
+
+@dataclass(frozen=True)
+class Bar:
+    """What is asked at the errors `levels`: `least` times the speed of a peer, or with no peer `most` seconds."""
+
+    work: str
+    own: str
+    levels: tuple[float, ...]
+    peer: str = ""
+    least: float = math.nan
+    most: tuple[float, ...] = ()
+
+
+BARS = (
+    Bar("lubricated", DEFAULT, LEVELS, "CVODE BDF from C", 15.0),
+    Bar("lubricated", DEFAULT, LEVELS, most=(1.7e-3, 2.0e-3, 3.0e-3)),
+    Bar("dry", DEFAULT, LEVELS, "LSODA (SciPy)", 30.0),
+    Bar("dry", DEFAULT, LEVELS, most=(1.9e-3, 2.0e-3, 3.1e-3)),
+    Bar("ideal", "gudgeon kinematic", LEVELS, most=(2e-6, 2e-6, 2e-6)),
+    Bar("andrews", DEFAULT, LEVELS[1:], "jitcode dop853", 3.0),
+    Bar("andrews", DEFAULT, LEVELS[1:], "Exudyn gen.-alpha", 500.0),
+    Bar("sweep", f"{DEFAULT}, 1 thread", (1e-6,), most=(3e-3,)),
+)
+THREADS = 1.8  # the sweep: two threads over one, at least
+
+
+def number(x: float) -> str:
+    """Three digits; a dash where an error was not reached."""
+    return f"{x:#.3g}".rstrip(".") if math.isfinite(x) else "–"
+
+
+def grid(head: list[str], rows: list[list[str]]) -> list[str]:
+    """A Markdown table with columns of equal width, so that it reads as text too."""
+    widths = [max(len(row[k]) for row in [head, *rows]) for k in range(len(head))]
+    line = ["---".ljust(w, "-") if k == 0 else "-" * (w - 1) + ":" for k, w in enumerate(widths)]
+    fitted = [
+        [cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, widths, strict=True))]
+        for row in [head, line, *rows]
+    ]
+    return [f"| {' | '.join(row)} |" for row in fitted]
+
+
+def bars(record: Record) -> list[str]:
+    """What is asked, what was found, and found over asked: 1 or more meets it."""
+    rows = []
+    for bar in (b for b in BARS if record.entries(b.work)):
+        own = [record.time_to(bar.work, bar.own, MEASURES[bar.work][0], level) for level in bar.levels]
+        if bar.peer:
+            peer = [record.time_to(bar.work, bar.peer, MEASURES[bar.work][0], level) for level in bar.levels]
+            found = [b / a for a, b in zip(own, peer, strict=True)]
+            text, shares = f"{number(bar.least)} × {bar.peer}", [x / bar.least for x in found]
+        else:
+            unit, scale = UNITS.get(bar.work, ("ms", 1e3))
+            found, shares = [x * scale for x in own], [m / x for m, x in zip(bar.most, own, strict=True)]
+            text = f"≤ {' / '.join(f'{m * scale:g}' for m in dict.fromkeys(bar.most))} {unit}"
+        cells = [f"{number(x)} ({number(s)})" for x, s in zip(found, shares, strict=True)]
+        at = dict(zip(bar.levels, cells, strict=True))
+        rows.append([bar.work, text, *(at.get(level, "") for level in LEVELS)])
+    if record.entries("sweep"):
+        one, two = (record.time_to("sweep", f"{DEFAULT}, {k}", "worst", 1e-6) for k in ("1 thread", "2 threads"))
+        cell = f"{number(one / two)} ({number(one / two / THREADS)})"
+        rows.append(["sweep", f"2 threads {THREADS} × one", "", cell, ""])
+    return grid(["work", "asked", *(f"{level:.0e}" for level in LEVELS)], rows)
+
+
+def table(record: Record, work: str, measure: str) -> list[str]:
+    """Time of every entry to each error, and over that of gudgeon as it comes."""
+    levels = ONSET_LEVELS if measure == "onset" else LEVELS
+    unit, scale = UNITS.get(work, ("ms", 1e3))
+    names = record.entries(work)
+    base = next((n for n in names if n.startswith(DEFAULT)), next((n for n in names if record.is_own(work, n)), ""))
+    ours = [record.time_to(work, base, measure, level) for level in levels]
+    rows = []
+    for name in names:
+        times = [record.time_to(work, name, measure, level) for level in levels]
+        rows.append(
+            [name, *(number(t * scale) for t in times), *(number(t / b) for t, b in zip(times, ours, strict=True))]
+        )
+    at = [f"{level:.0e}{' s' if measure == 'onset' else ''}" for level in levels]
+    return grid([f"{measure}, {unit}", *at, *(f"× at {level}" for level in at)], rows)
+
+
+def facts(record: Record, work: str = "") -> list[str]:
+    """What was noted of a work, or of the machine."""
+    prefix = f"{work}, " if work else ""
+    chosen = {
+        name.removeprefix(prefix): value
+        for name, value in record.facts.items()
+        if (name.startswith(prefix) if work else name.partition(", ")[0] not in MEASURES)
+    }
+    return [f"- {name}: {value}" for name, value in chosen.items()]
+
+
+def blocks(record: Record) -> dict[str, str]:
+    """The text between the marks of the page, by name."""
+    found = {"machine": facts(record), "bars": bars(record)}
+    for work, measures in MEASURES.items():
+        lines = facts(record, work)
+        for measure in measures:
+            lines += ["", *table(record, work, measure)]
+        found[work] = lines
+    return {name: "\n".join(lines).strip() for name, lines in found.items()}
+
+
+def filled(page: str, record: Record) -> str:
+    """The page with what stands between its marks made anew. Raises ValueError where a mark names nothing."""
+    texts = blocks(record)
+
+    def put(found: re.Match[str]) -> str:
+        if found[1] not in texts:
+            raise ValueError(f"the page asks for {found[1]!r}; there are: {', '.join(texts)}")
+        return f"<!-- race: {found[1]} -->\n{texts[found[1]]}\n<!-- end -->"
+
+    return re.sub(r"<!-- race: (\w+) -->\n.*?<!-- end -->", put, page, flags=re.S)
+
+
+def draw(folder: Path, record: Record) -> None:
+    """Time against error, log-log, a figure a work; gudgeon's lines are thick, its default dashed on top of the method
+    that it chose."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    from matplotlib.ticker import NullFormatter
+
+    for work, measures in MEASURES.items():
+        unit, scale = UNITS.get(work, ("ms", 1e3))
+        figure, axis = plt.subplots(figsize=(8.0, 4.6), layout="constrained")
+        for name in record.entries(work):
+            points = [(e, scale * t) for e, t in record.points(work, name, measures[0]) if 0.0 < e < math.inf]
+            style = {"linewidth": 2.4 if record.is_own(work, name) else 1.0, "label": name}
+            if name == DEFAULT:
+                style |= {"linestyle": "--", "color": "black", "linewidth": 1.6, "zorder": 5}
+            if points:
+                axis.loglog(*zip(*points, strict=True), marker="o", markersize=3, **style)
+        axis.set(title=work, xlabel=f"error ({measures[0]})", ylabel=f"time [{unit}]")
+        low, high = axis.get_xlim()
+        axis.set_xlim(10.0 ** math.ceil(math.log10(high) - 0.2), 10.0 ** math.floor(math.log10(low) + 0.2))
+        for side in (axis.xaxis, axis.yaxis):
+            side.set_minor_formatter(NullFormatter())
+        axis.grid(True, which="major", alpha=0.3)
+        figure.legend(fontsize=7, loc="outside right upper")
+        figure.savefig(folder / f"race_{work}.png", dpi=100, metadata={"Software": None})
+        plt.close(figure)
+
+
+def main() -> None:
+    """Page and figures from the CSV."""
+    record = read(CSV)
+    PAGE.write_text(filled(PAGE.read_text(encoding="utf-8"), record), encoding="utf-8")
+    draw(FIGURES, record)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,160 @@
+"""Φ, Φ_q, ν and γ, row by row (physics.md, section 1): every joint type is derived the same way."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+import sympy as sp
+
+from gudgeon.generator.equations.fields import JointFields
+from gudgeon.generator.equations.geometry import BodySymbols, Geometry, PointFrame
+from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.mechanism.mechanism import GROUND, Drive, Joint, PointRef
+from gudgeon.generator.symbols.from_expressions import quantity_to_sympy, to_sympy
+from gudgeon.language.tree import functions
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row of Φ with what follows from it; all in the derived symbols of the geometry."""
+
+    name: str  # "A.x"
+    owner: str  # joint or drive
+    kind: str  # "joint" or "drive"
+    unit: str  # "m" or "rad"
+    phi: sp.Expr
+    phi_q: Mapping[sp.Symbol, sp.Expr]  # the non-zeros, by coordinate
+    phi_q_v: sp.Expr  # Φ_q q̇
+    nu: sp.Expr  # −Φ_t
+    gamma: sp.Expr  # −(Φ_q q̇)_q q̇ − 2Φ_qt q̇ − Φ_tt
+
+
+class Constraints:
+    """Derives rows; `t` is time, `drive_angles` holds what each drive prescribes."""
+
+    def __init__(self, geometry: Geometry) -> None:
+        self.geometry, self.symbols = geometry, geometry.symbols
+        self.t = self.symbols.new("time", "t", "time", "s")
+        self.drive_angles: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
+
+    def joint_rows(self, joint: Joint) -> list[Row]:
+        """The rows of a joint, named "<joint>.<row>"."""
+        kind = joint_types()[joint.kind]
+        first, second = self._point(joint.first), self._point(joint.second)
+        expressions = kind.rows(first, second, JointFields(joint, self.geometry))
+        named = zip(kind.row_names, kind.row_units, expressions, strict=True)
+        others = [joint.options[field.name] for field in kind.fields if field.kind == "body"]  # a gear's carrier
+        bodies = self._bodies(first, second) + [self.geometry.bodies[name] for name in others if name != GROUND]
+        return [
+            self._row(f"{joint.name}.{name}", joint.name, "joint", unit, sp.expand(phi), bodies)
+            for name, unit, phi in named
+        ]
+
+    def drive_rows(self, drive: Drive) -> list[Row]:
+        """What the drive prescribes, less f(t): one row, named as the drive."""
+        measured, bodies, unit = self._measured(drive)
+        phi = measured - self.drive_value(drive)
+        return [self._row(drive.name, drive.name, "drive", unit, phi, bodies)]
+
+    def _point(self, ref: PointRef) -> PointFrame:
+        return self.geometry.point(ref)
+
+    def _pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
+        """Coordinates and velocities that the bodies move with."""
+        return [(q, v) for body in bodies for q, v in zip(body.q, body.v, strict=True)]
+
+    def _measured(self, drive: Drive) -> tuple[sp.Expr, list[BodySymbols], str]:
+        """The driven quantity with the bodies that it depends on."""
+        if drive.kind == "distance":
+            first, second = (self._point(ref) for ref in drive.points)
+            return self._distance(drive.name, first, second), self._bodies(first, second), "m"
+        bodies = [self.geometry.bodies[name] for name in (drive.body, drive.reference) if name]
+        if drive.kind == "coordinate" and drive.coordinate != "theta":
+            return getattr(bodies[0], drive.coordinate), bodies, "m"
+        measured = bodies[0].theta - bodies[1].theta if len(bodies) > 1 else bodies[0].theta
+        return measured, bodies, "rad"
+
+    def _distance(self, name: str, first: PointFrame, second: PointFrame) -> sp.Symbol:
+        """‖r_Q − r_P‖ as a symbol, with u its direction: d length = u · dr, du = (ẑ × u)(ẑ × u · dr)/length.
+
+        Written out, the second derivatives of the root would be thousands of terms.
+        """
+        define, rules = self.symbols.define, self.symbols.rules
+        span = (second.x - first.x, second.y - first.y)
+        x, y = (define(f"{name}_span_{axis}", value, "", "span") for axis, value in zip("xy", span, strict=True))
+        length = define(f"{name}_length", sp.sqrt(x**2 + y**2), "", "its length")
+        u_x, u_y = (define(f"{name}_along_{axis}", value / length, "", "its direction")
+                    for axis, value in zip("xy", (x, y), strict=True))  # fmt: skip
+        rules[length], rules[u_x], rules[u_y] = {}, {}, {}
+        for q in [*(q for q, _ in self._pairs(self._bodies(first, second))), self.t]:
+            dx, dy = (self.symbols.diff(value, q) for value in span)
+            if dx == dy == 0:
+                continue
+            rules[length][q] = u_x * dx + u_y * dy
+            turn = (u_x * dy - u_y * dx) / length
+            rules[u_x][q], rules[u_y][q] = -u_y * turn, u_x * turn
+        return length
+
+    def drive_value(self, drive: Drive) -> sp.Symbol:
+        """f(t), f′ and f″ as symbols that know that they are each other's derivatives."""
+        if drive.name in self.drive_angles:
+            return self.drive_angles[drive.name][0]
+        slots, define = self.geometry.slots, self.symbols.define
+
+        def symbol_of(path: str) -> sp.Symbol:
+            return self.t if path == "t" else slots.entries[f"parameters.{path}"].symbol
+
+        value = quantity_to_sympy(drive.value, symbol_of)
+        f = define(f"{drive.name}_value", value, "", f"drive {drive.name}")
+        rate = define(f"{drive.name}_rate", _rate(value, self.t), "", "its rate")
+        second = define(f"{drive.name}_acceleration", _rate(_rate(value, self.t), self.t), "", "its second rate")
+        self.symbols.rules[f], self.symbols.rules[rate] = {self.t: rate}, {self.t: second}
+        self.drive_angles[drive.name] = f, rate, second
+        return f
+
+    @staticmethod
+    def _bodies(*points: PointFrame) -> list[BodySymbols]:
+        return [point.body for point in points if point.body is not None]
+
+    def _row(self, name: str, owner: str, kind: str, unit: str, phi: sp.Expr, bodies: list[BodySymbols]) -> Row:
+        diff, t = self.symbols.diff, self.t
+        pairs = self._pairs(bodies)
+        phi_q = {q: entry for q, _ in pairs if (entry := sp.expand(diff(phi, q))) != 0}
+        phi_q_v = sum((phi_q[q] * v for q, v in pairs if q in phi_q), sp.Integer(0))
+        phi_t = diff(phi, t)
+        gamma = -sum((diff(phi_q_v, q) * v for q, v in pairs), sp.Integer(0)) - 2 * diff(phi_q_v, t) - diff(phi_t, t)
+        gamma = min(sp.expand(gamma), gamma, key=sp.count_ops)
+        return Row(name, owner, kind, unit, phi, phi_q, phi_q_v, -phi_t, gamma)
+
+
+JUMPS = frozenset({"ramp", "abs", "min", "max", "sign"})  # whose slopes jump; smooth_step's does not
+
+
+@lru_cache(maxsize=256)
+def rate_jumps(drive: Drive) -> bool:
+    """Whether what a drive prescribes has corners: the linkage then follows by an impulse. A root of a square has."""
+    if not JUMPS.isdisjoint(functions(drive.value.value)):
+        return True
+    return bool(to_sympy(drive.value.value, lambda path: sp.Symbol(path, real=True)).has(sp.Abs))
+
+
+def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
+    """d/dt with the corners of min, max and abs taken from one side, at the corner from behind it: no impulse there."""
+    rate = sp.diff(value.replace(sp.Abs, _plain), t).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
+    return rate.replace(_Upon, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
+
+
+class _Upon(sp.Function):
+    """The sign of x as a factor that has no derivative."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        return sp.Integer(0)
+
+
+def _plain(x: sp.Expr) -> sp.Expr:
+    """|x|; SymPy differentiates that of what may be complex, acos(t) beyond 1, by its real and imaginary parts."""
+    return sp.Abs(x) if x.is_real else x * _Upon(x)

@@ -1,0 +1,129 @@
+"""What happens in a joint with play around its force laws, as equations in the order of their use.
+
+physics.md, sections 3 and 4. The emitted C and the written equations both come from these steps; what is
+no equation (the normal at e = 0, free or closed, the latching of δ̇⁻ at onset) is in templates/c.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from gudgeon.generator.equations.play import Clearance, LawEquations
+
+EPSILON_MAX = 0.9999  # the film is evaluated with its eccentricity ratio capped here
+
+
+@dataclass(frozen=True)
+class Step:
+    """symbol = value."""
+
+    symbol: sp.Symbol
+    value: sp.Expr
+
+
+def _symbol(name: str) -> sp.Symbol:
+    return sp.Symbol(name, real=True)
+
+
+e_x, e_y, de_x, de_y, omega_i, omega_j = map(_symbol, ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j"))
+e, n_x, n_y, delta, deltadot, de_t = map(_symbol, ("e", "n_x", "n_y", "delta", "deltadot", "de_t"))
+stored, ratio, a_i, a_j, v_t = map(_symbol, ("stored", "ratio", "a_i", "a_j", "v_t"))
+epsilon, w_n, w_t, share = map(_symbol, ("epsilon", "w_n", "w_t", "share"))
+F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_symbol, ("F_along_n", "F_along_t", "F_x", "F_y", "M_i", "M_j"))
+
+
+def of_part(symbol: sp.Symbol, part: str) -> sp.Symbol:
+    """F_t, M_i, M_j of the dry contact or of the film."""
+    return _symbol(f"{symbol.name}_{part}")
+
+
+def gap(clearance: Clearance) -> list[Step]:
+    """Eccentricity's length, normal, penetration and their rates; t is n turned by +90°."""
+    return [
+        Step(e, sp.sqrt(e_x**2 + e_y**2)),
+        Step(n_x, e_x / e),
+        Step(n_y, e_y / e),
+        Step(delta, e - clearance.pair.c),
+        Step(deltadot, de_x * n_x + de_y * n_y),
+        Step(de_t, de_y * n_x - de_x * n_y),
+    ]
+
+
+def before_dry(clearance: Clearance) -> list[Step]:
+    """Levers of the contact point, in the middle of the penetration, and the surfaces' slip."""
+    pair = clearance.pair
+    clipped = [Step(ratio, sp.Max(-1, sp.Min(1, deltadot / stored)))] if clearance.clip_ratio else []
+    return [
+        Step(a_i, pair.R_i + delta / 2),
+        Step(a_j, pair.R_j - delta / 2),
+        Step(v_t, de_t + omega_j * a_j - omega_i * a_i),
+        *clipped,
+    ]
+
+
+def after_dry() -> list[Step]:
+    """Moments about the centres of bearing i and journal j."""
+    tangential = of_part(F_along_t, "dry")
+    return [
+        Step(of_part(M_i, "dry"), -a_i * tangential),
+        Step(of_part(M_j, "dry"), a_j * tangential),
+    ]
+
+
+def before_film(clearance: Clearance, film: LawEquations) -> list[Step]:
+    """Eccentricity ratio and the effective squeeze velocity over the film's clearance."""
+    c = clearance.constants.get("film_clearance", clearance.pair.c)
+    turning = omega_j - omega_i if film.options.get("angular_velocity") == "relative" else omega_i + omega_j
+    return [
+        Step(epsilon, sp.Min(e / c, sp.Float(EPSILON_MAX))),
+        Step(w_n, deltadot / c),
+        Step(w_t, (de_t - turning * e / 2) / c),
+    ]
+
+
+def after_film(film: LawEquations) -> list[Step]:
+    """Without shear the resultant acts at the journal's centre; with shear at each pin's own."""
+    tangential = of_part(F_along_t, "film")
+    if not film.options.get("shear", False):
+        return [Step(of_part(M_i, "film"), -e * tangential), Step(of_part(M_j, "film"), sp.Integer(0))]
+    drag = _symbol("T0") * (omega_j - omega_i)
+    return [
+        Step(of_part(M_i, "film"), drag - e * tangential / 2),
+        Step(of_part(M_j, "film"), -drag - e * tangential / 2),
+    ]
+
+
+def blend(clearance: Clearance, closed: bool = False) -> Step:
+    """The share of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq. 17).
+
+    Of a `closed` contact: without the corner at e = c, which closing and opening it stand for.
+    """
+    of_closed = sp.Min(1, delta / clearance.transition)
+    return Step(share, of_closed if closed else sp.Max(0, of_closed))
+
+
+def resultant(clearance: Clearance) -> list[Step]:
+    """Force on the journal in ground axes and both moments, film and dry contact blended."""
+    dry, film = clearance.normal is not None, clearance.film is not None
+    normal, radial = -_symbol("F_n"), _symbol("F_r")
+    steps: list[Step] = []
+    if dry and film:
+        steps.append(blend(clearance))
+        mixed = {s: (of_part(s, "dry"), of_part(s, "film")) for s in (F_along_t, M_i, M_j)}
+        mixed = {F_along_n: (normal, radial), **mixed}
+        steps += [Step(s, share * of_dry + (1 - share) * of_film) for s, (of_dry, of_film) in mixed.items()]
+        along = F_along_n
+    else:
+        along = normal if dry else radial
+    tangential = F_along_t if dry and film else of_part(F_along_t, "dry" if dry else "film")
+    return [*steps, Step(F_x, along * n_x - tangential * n_y), Step(F_y, along * n_y + tangential * n_x)]
+
+
+def moments(clearance: Clearance) -> tuple[sp.Symbol, sp.Symbol]:
+    """The symbols of the moments about both centres."""
+    if clearance.normal is not None and clearance.film is not None:
+        return M_i, M_j
+    part = "film" if clearance.normal is None else "dry"
+    return of_part(M_i, part), of_part(M_j, part)

@@ -1,0 +1,156 @@
+"""A joint's own fields, and a force element's, as their files ask for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import sympy as sp
+
+from gudgeon.errors import Location
+from gudgeon.generator.equations.geometry import Geometry, PointFrame
+from gudgeon.generator.mechanism.mechanism import GROUND, ForceElement, Joint, PointRef, Quantity, Vector
+from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
+from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.language.tree import Name, names
+
+ZERO = sp.Integer(0)
+
+
+class JointFields:
+    """What a joint file may ask for; numbers come as slots or as what `prepare` derives from them."""
+
+    def __init__(self, joint: Joint, geometry: Geometry) -> None:
+        self._joint, self._slots, self._geometry = joint, geometry.slots, geometry
+
+    def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
+        """A vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
+        return unit_vector(self._joint.vectors[name], f"{self._joint.name}_{name}", self._slots)
+
+    def angle_of(self, name: str) -> sp.Expr:
+        """The angle of a vector field in its body's frame (rad)."""
+        x, y = self.direction(name)
+        return self._slots.derive(f"{self._joint.name}_{name}_angle", sp.atan2(y, x), "direction of the axis")
+
+    def quantity(self, name: str, default: sp.Expr) -> sp.Expr:
+        """A number field, or `default` where the user gave none."""
+        quantity = self._joint.quantities.get(name)
+        return sp.sympify(default) if quantity is None else self._slots.use(quantity)
+
+    def vector(self, name: str) -> tuple[sp.Expr, sp.Expr]:
+        """Both numbers of a vector field."""
+        x, y = self._joint.vectors[name]
+        return self._slots.use(x), self._slots.use(y)
+
+    def option(self, name: str) -> str:
+        """A structural choice."""
+        return self._joint.options[name]
+
+    def body_angle(self, name: str) -> sp.Expr:
+        """θ of the body that a body field names; 0 for the ground."""
+        body = self._joint.options[name]
+        return ZERO if body == GROUND else self._geometry.bodies[body].theta
+
+    def derive(self, name: str, expression: sp.Expr) -> sp.Expr:
+        """A number that is computed once a run."""
+        return self._slots.derive(f"{self._joint.name}_{name}", expression, f"of joint {self._joint.name}")
+
+    def at_guess(self, name: str, expression: sp.Expr) -> sp.Expr:
+        """`expression` of angles at the start's guess or set values (0 where there are none)."""
+        start = self._geometry.mechanism.start
+        values = {}
+        for body in self._geometry.bodies.values():
+            key = f"{body.name}.theta"
+            quantity = start.set.get(key) or start.guess.get(key)
+            values[body.theta] = ZERO if quantity is None else self._slots.use(quantity)
+        return self.derive(name, expression.xreplace(values))
+
+
+def unit_vector(vector: Vector, wanted: str, slots: Slots) -> tuple[sp.Expr, sp.Expr]:
+    """A vector's direction; along an axis it is exactly (±1, 0) or (0, ±1)."""
+    x, y = slots.use(vector[0]), slots.use(vector[1])
+    length = sp.sqrt(x**2 + y**2)
+
+    def component(axis: str, own: sp.Expr, other: sp.Expr) -> sp.Expr:
+        if own == 0:
+            return ZERO
+        if other == 0:
+            entry = next((e for e in slots.entries.values() if e.symbol == own), None)
+            if entry is not None and not entry.follows:  # only its sign matters, and the sign is structural
+                slots.signs[entry.address] = ">" if entry.default > 0 else "<"
+                return sp.Integer(1 if entry.default > 0 else -1)
+        return slots.derive(f"{wanted}_{axis}", own / length, "unit vector")
+
+    return component("x", x, y), component("y", y, x)
+
+
+class ElementFields:
+    """What a force element's file may ask for."""
+
+    def __init__(self, element: ForceElement, geometry: Geometry, t: sp.Symbol) -> None:
+        self._element, self._geometry, self._t = element, geometry, t
+
+    def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
+        """A vector field as a unit vector."""
+        return unit_vector(self._element.vectors[name], f"{self._element.name}_{name}", self._geometry.slots)
+
+    def quantity(self, name: str) -> sp.Expr:
+        """A number field; 0 where the user gave none."""
+        quantity = self._element.quantities.get(name)
+        return ZERO if quantity is None else self._value(quantity)
+
+    def vector(self, name: str) -> tuple[sp.Expr, sp.Expr]:
+        x, y = self._element.vectors[name]
+        return self._value(x), self._value(y)
+
+    def option(self, name: str) -> str:
+        return self._element.options[name]
+
+    def named(self, name: str, value: sp.Expr) -> sp.Expr:
+        """A temporary of the emitted code; numbers stay as they are."""
+        if value.is_number or value.is_Symbol:
+            return value
+        return self._geometry.symbols.define(
+            f"{self._element.name}_{name}", value, "", f"{name} of {self._element.name}"
+        )
+
+    def named_vector(self, name: str, value: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+        return self.named(f"{name}_x", value[0]), self.named(f"{name}_y", value[1])
+
+    def _value(self, quantity: Quantity) -> sp.Expr:
+        """A slot for an expression of parameters; an expression of t and motion is written out."""
+        variable = VariableNames(self._geometry, self._t)
+        if not any(variable.is_variable(name) for name in names(quantity.value)):
+            return self._geometry.slots.use(quantity)
+        return quantity_to_sympy(quantity, variable)
+
+
+class VariableNames:
+    """Names in a force's expression: t, parameters, coordinates and velocities of bodies and points."""
+
+    def __init__(self, geometry: Geometry, t: sp.Symbol) -> None:
+        self._geometry, self._t = geometry, t
+
+    def is_variable(self, name: Name) -> bool:
+        return name.path == "t" or "." in name.path
+
+    def __call__(self, path: str) -> sp.Expr:
+        if path == "t":
+            return self._t
+        if "." not in path:
+            return self._geometry.slots.entries[f"parameters.{path}"].symbol
+        owner, _, what = path.rpartition(".")
+        if owner in self._geometry.bodies:
+            return getattr(self._geometry.bodies[owner], what)
+        body, _, point = owner.partition(".")
+        return _OF_POINT[what](self._geometry.point(PointRef(body, point, _NOWHERE)))
+
+
+_OF_POINT: Mapping[str, Callable[[PointFrame], sp.Expr]] = {
+    "x": lambda point: point.x,
+    "y": lambda point: point.y,
+    "vx": lambda point: point.velocity[0],
+    "vy": lambda point: point.velocity[1],
+}
+
+
+_NOWHERE = Location("", 0, 0)

@@ -1,0 +1,173 @@
+"""Coordinates, angles and points: what every joint row and every force is written in.
+
+q_i = (x_i, y_i, θ_i) with the origin at the centre of mass (physics.md, section 1). A point is
+r = (x, y) + A(θ) s; its arm A(θ) s is a symbol pair that turns: d arm/dθ = ẑ × arm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from gudgeon.generator.mechanism.mechanism import GROUND, Body, PointRef, Vector
+from gudgeon.generator.mechanism.scene import Scene
+from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.symbols import Symbols
+
+ZERO = sp.Integer(0)
+
+
+@dataclass(frozen=True)
+class BodySymbols:
+    """Coordinates and velocities of one body; `mass`, `inertia` are slots."""
+
+    name: str
+    index: int  # of x in q
+    x: sp.Symbol
+    y: sp.Symbol
+    theta: sp.Symbol
+    vx: sp.Symbol
+    vy: sp.Symbol
+    omega: sp.Symbol
+    mass: sp.Expr
+    inertia: sp.Expr
+
+    @property
+    def q(self) -> tuple[sp.Symbol, sp.Symbol, sp.Symbol]:
+        return self.x, self.y, self.theta
+
+    @property
+    def v(self) -> tuple[sp.Symbol, sp.Symbol, sp.Symbol]:
+        return self.vx, self.vy, self.omega
+
+
+@dataclass(frozen=True)
+class PointFrame:
+    """A point of a body (or of the ground: `body` None) as joints and forces see it."""
+
+    geometry: Geometry
+    body: BodySymbols | None
+    arm: tuple[sp.Expr, sp.Expr]  # from the centre of mass, ground axes; the point itself on the ground
+
+    @property
+    def x(self) -> sp.Expr:
+        return self.arm[0] + (self.body.x if self.body else ZERO)
+
+    @property
+    def y(self) -> sp.Expr:
+        return self.arm[1] + (self.body.y if self.body else ZERO)
+
+    @property
+    def theta(self) -> sp.Expr:
+        return self.body.theta if self.body else ZERO
+
+    @property
+    def omega(self) -> sp.Expr:
+        return self.body.omega if self.body else ZERO
+
+    @property
+    def velocity(self) -> tuple[sp.Expr, sp.Expr]:
+        """ṙ = (ẋ, ẏ) + ω ẑ × arm."""
+        if self.body is None:
+            return ZERO, ZERO
+        return self.body.vx - self.arm[1] * self.body.omega, self.body.vy + self.arm[0] * self.body.omega
+
+    def direction(self, local: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+        """A direction fixed in the body, in ground axes."""
+        return local if self.body is None else self.geometry.turn(self.body, local, f"axis_{self.body.name}")
+
+
+class Geometry:
+    """Makes the symbols of bodies and points, each once."""
+
+    def __init__(self, scene: Scene, symbols: Symbols, slots: Slots) -> None:
+        self.symbols, self.slots, self.mechanism = symbols, slots, scene.mechanism
+        self.bodies = {name: self._body(i, body) for i, (name, body) in enumerate(self.mechanism.bodies.items())}
+        self.local = {
+            (body.name, point): self._local(body, point)
+            for body in self.mechanism.bodies.values()
+            for point in self.point_names(body)
+        }
+        self._turned: dict[tuple[str, sp.Expr, sp.Expr], tuple[sp.Expr, sp.Expr]] = {}
+        self._angles: dict[str, tuple[sp.Symbol, sp.Symbol]] = {}
+
+    def _body(self, number: int, body: Body) -> BodySymbols:
+        new, index, name = self.symbols.new, 3 * number, body.name
+        x, y, theta = (new(f"{name}_{c}", f"q[{index + k}]", f"{name}.{c}") for k, c in enumerate(("x", "y", "theta")))
+        rates = ("vx", "vy", "omega")
+        vx, vy, omega = (new(f"{name}_{c}", f"v[{index + k}]", f"{name}.{c}") for k, c in enumerate(rates))
+        mass, inertia = self.slots.use(body.mass), self.slots.use(body.inertia)
+        return BodySymbols(name, index, x, y, theta, vx, vy, omega, mass, inertia)
+
+    @staticmethod
+    def point_names(body: Body) -> list[str]:
+        """Every point of a body: the implied ones, then the user's."""
+        # the head first: a bar's other points are then written with its positive length
+        implied = (["head", "tail"] if body.length else []) + ["origin", "com"]
+        return implied + [name for name in body.points if name not in implied]
+
+    def _in_body(self, body: Body, point: str, com: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+        if point in body.points:
+            x, y = body.points[point]
+            return self.slots.use(x), self.slots.use(y)
+        if point == "com":
+            return com
+        return (self.slots.use(body.length), ZERO) if point == "head" and body.length else (ZERO, ZERO)
+
+    def _local(self, body: Body, point: str) -> tuple[sp.Expr, sp.Expr]:
+        """A point in the centre-of-mass frame, as numbers that `prepare` derives."""
+        if body.com is not None:
+            com = (self.slots.use(body.com[0]), self.slots.use(body.com[1]))
+        else:
+            com = (self.slots.use(body.length) / 2, ZERO) if body.length else (ZERO, ZERO)
+        s = self._in_body(body, point, com)
+        x, y = (
+            self.slots.derive_signed(f"{body.name}_{point}_{axis}", value - origin, "point from the centre of mass")
+            for axis, value, origin in zip("xy", s, com, strict=True)
+        )
+        return x, y
+
+    def ground_vector(self, vector: Vector) -> tuple[sp.Expr, sp.Expr]:
+        return self.slots.use(vector[0]), self.slots.use(vector[1])
+
+    def angle(self, body: BodySymbols) -> tuple[sp.Symbol, sp.Symbol]:
+        """cos θ and sin θ of a body."""
+        if body.name not in self._angles:
+            define, name = self.symbols.define, body.name
+            cos = define(f"cos_theta_{name}", sp.cos(body.theta), "", f"cos of {name}.theta")
+            sin = define(f"sin_theta_{name}", sp.sin(body.theta), "", f"sin of {name}.theta")
+            self.symbols.rules[cos], self.symbols.rules[sin] = {body.theta: -sin}, {body.theta: cos}
+            self._angles[name] = cos, sin
+        return self._angles[body.name]
+
+    def turn(self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], wanted: str) -> tuple[sp.Expr, sp.Expr]:
+        """A(θ) s as a pair of symbols; the opposite of a known arm is its negative."""
+        if s == (ZERO, ZERO):
+            return ZERO, ZERO
+        if (body.name, -s[0], -s[1]) in self._turned:
+            x, y = self._turned[body.name, -s[0], -s[1]]
+            return -x, -y
+        if (body.name, *s) not in self._turned:
+            cos, sin = self.angle(body)
+            if all(component in (-1, 0, 1) for component in s):  # along an axis of the body: cos and sin themselves
+                return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]
+            x = self.symbols.define(f"{wanted}_x", cos * s[0] - sin * s[1], "", "A(theta) s, x")
+            y = self.symbols.define(f"{wanted}_y", sin * s[0] + cos * s[1], "", "A(theta) s, y")
+            self.symbols.rules[x], self.symbols.rules[y] = {body.theta: -y}, {body.theta: x}
+            self._turned[body.name, *s] = x, y
+        return self._turned[body.name, *s]
+
+    def point(self, ref: PointRef) -> PointFrame:
+        """The frame of a named point."""
+        if ref.body == GROUND:
+            at = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
+            return PointFrame(self, None, at)
+        body, s = self.bodies[ref.body], self.local[ref.body, ref.point]
+        opposite = (-s[0], -s[1])
+        names = self.point_names(self.mechanism.bodies[ref.body])
+        twin = next((name for name in names if self.local[ref.body, name] == opposite), None)
+        if twin is not None and s[0].could_extract_minus_sign():  # a bar's tail is its head turned over
+            x, y = self.turn(body, opposite, f"arm_{ref.body}_{twin}")
+            return PointFrame(self, body, (-x, -y))
+        return PointFrame(self, body, self.turn(body, s, f"arm_{ref.body}_{ref.point}"))

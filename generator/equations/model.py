@@ -1,0 +1,163 @@
+"""The derived equations of one scene: what the emitted code computes, and what a class reads.
+
+Every member is in the derived symbols of the geometry (cos θ, arms, drive angles) but for the
+properties Phi, Phi_q, nu, gamma, M and g, which write everything out in q, q̇, t and parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import sympy as sp
+
+from gudgeon.generator.equations.constraints import Constraints, Row
+from gudgeon.generator.equations.events import Event, make_event, refuse_constant
+from gudgeon.generator.equations.friction import Friction, make_friction
+from gudgeon.generator.equations.geometry import BodySymbols, Geometry
+from gudgeon.generator.equations.loads import AppliedElement, apply_element
+from gudgeon.generator.equations.play import Clearance, make_clearance
+from gudgeon.generator.mechanism.scene import Scene
+from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.symbols import Symbols
+from gudgeon.language.units import dimension
+
+
+@dataclass(frozen=True)
+class Redundancy:
+    """Names of rows to leave out, and of joints or drives whose multipliers are not determined."""
+
+    dropped: tuple[str, ...] = ()
+    indeterminate: tuple[str, ...] = ()
+
+
+BAUMGARTE = 50.0  # 1/s, both gains (physics.md, section 1)
+
+
+@dataclass(frozen=True)
+class Model:
+    """Φ(q, t) = 0 and M q̈ + Φ_qᵀ λ = g for one scene; shapes: q (n,), Φ (m,)."""
+
+    scene: Scene
+    symbols: Symbols
+    slots: Slots
+    geometry: Geometry
+    constraints: Constraints
+    all_rows: tuple[Row, ...]  # the closed linkage: joints with play closed, as the start needs it
+    rows: tuple[Row, ...]  # what constrains the motion
+    clearances: tuple[Clearance, ...]
+    elements: Mapping[str, AppliedElement]  # the section `forces`
+    frictions: tuple[Friction, ...]  # slips that friction may hold
+    redundancy: Redundancy  # rows that were left out
+    gravity: tuple[sp.Expr, sp.Expr]
+    baumgarte: tuple[sp.Symbol, sp.Symbol]
+    events: tuple[Event, ...] = ()  # what the user watches
+
+    def without(self, redundancy: Redundancy) -> Model:
+        """The same scene without the rows that say nothing new."""
+        kept = tuple(row for row in self.rows if row.name not in redundancy.dropped)
+        return replace(self, rows=kept, redundancy=redundancy)
+
+    @property
+    def bodies(self) -> tuple[BodySymbols, ...]:
+        return tuple(self.geometry.bodies.values())
+
+    @cached_property
+    def q(self) -> tuple[sp.Symbol, ...]:
+        """Coordinates (x, y, θ of each body's centre of mass), in the order of the file."""
+        return tuple(symbol for body in self.bodies for symbol in body.q)
+
+    @cached_property
+    def v(self) -> tuple[sp.Symbol, ...]:
+        """Velocities q̇ in the order of q."""
+        return tuple(symbol for body in self.bodies for symbol in body.v)
+
+    @property
+    def t(self) -> sp.Symbol:
+        return self.constraints.t
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        return len(self.q) - len(self.rows)
+
+    @cached_property
+    def masses(self) -> tuple[sp.Expr, ...]:
+        """The diagonal of M, in the order of q."""
+        return tuple(m for body in self.bodies for m in (body.mass, body.mass, body.inertia))
+
+    def _column(self, expressions: Iterable[sp.Expr]) -> sp.Matrix:
+        return sp.Matrix([self.symbols.explicit(e) for e in expressions])
+
+    @cached_property
+    def Phi(self) -> sp.Matrix:
+        """Φ(q, t), (m, 1); m and rad."""
+        return self._column(row.phi for row in self.rows)
+
+    @cached_property
+    def Phi_q(self) -> sp.Matrix:
+        """∂Φ/∂q, (m, n)."""
+        zero = sp.Integer(0)
+        return sp.Matrix([[self.symbols.explicit(row.phi_q.get(q, zero)) for q in self.q] for row in self.rows])
+
+    @cached_property
+    def nu(self) -> sp.Matrix:
+        """ν = −Φ_t, (m, 1): Φ_q q̇ = ν."""
+        return self._column(row.nu for row in self.rows)
+
+    @cached_property
+    def gamma(self) -> sp.Matrix:
+        """γ, (m, 1): Φ_q q̈ = γ."""
+        return self._column(row.gamma for row in self.rows)
+
+    @cached_property
+    def M(self) -> sp.Matrix:
+        """Mass matrix, (n, n), diagonal: the coordinates are those of the centres of mass."""
+        return sp.diag(*self.masses)
+
+    @cached_property
+    def g(self) -> sp.Matrix:
+        """Generalized applied forces without those of the clearance joints, (n, 1): gravity, force elements."""
+        gx, gy = self.gravity
+        forces = [f for body in self.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
+        for element in self.elements.values():
+            element.add_to(forces)
+        return self._column(forces)
+
+
+def make_model(scene: Scene) -> Model:
+    """Derive one scene, joint by joint."""
+    mechanism, symbols = scene.mechanism, Symbols()
+    slots = Slots(scene, symbols)
+    geometry = Geometry(scene, symbols, slots)
+    constraints = Constraints(geometry)
+    rate = dimension(time=-1)
+    baumgarte = (
+        slots.constant("baumgarte.alpha", "alpha", BAUMGARTE, rate),
+        slots.constant("baumgarte.beta", "beta", BAUMGARTE, rate),
+    )
+    rows = [row for joint in mechanism.joints.values() for row in constraints.joint_rows(joint)]
+    rows += [row for drive in mechanism.drives.values() for row in constraints.drive_rows(drive)]
+    clearances = [make_clearance(mechanism.joints[name], play, geometry, slots) for name, play in scene.play.items()]
+    gravity = geometry.ground_vector(mechanism.gravity) if mechanism.gravity else (sp.Integer(0), sp.Integer(0))
+    elements = {e.name: apply_element(e, geometry, constraints.t) for e in mechanism.forces.values()}
+    pairs = [(q, v) for body in geometry.bodies.values() for q, v in zip(body.q, body.v, strict=True)]
+    frictions = tuple(
+        make_friction(name, e.loads.slip, pairs, constraints.t, symbols)
+        for name, e in elements.items()
+        if e.loads.slip
+    )
+    kept = tuple(row for row in rows if row.owner not in scene.play)
+    events = tuple(make_event(event, geometry, constraints.t) for event in scene.events.values())
+    for event in events:
+        refuse_constant(scene.events[event.name], event, geometry, constraints.t)
+    return Model(
+        scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), elements, frictions,
+        Redundancy(), gravity, baumgarte, events,
+    )  # fmt: skip
+
+
+def stick_gain(model: Model) -> sp.Expr:
+    """2α of a stick, of its own: methods that project have no other stabilisation."""
+    alpha = model.slots.constant("baumgarte.stick", "alpha_stick", BAUMGARTE, dimension(time=-1))
+    return model.slots.derive("two_alpha_stick", 2 * alpha, "2 alpha of a stick")

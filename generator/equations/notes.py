@@ -1,0 +1,41 @@
+"""What a scene's equations mean for its user, in sentences."""
+
+from __future__ import annotations
+
+from gudgeon.generator.equations.constraints import rate_jumps
+from gudgeon.generator.equations.model import Model
+
+
+def scene_notes(model: Model) -> tuple[str, ...]:
+    """What this scene does not have, and so does not pay for."""
+    notes = []
+    if model.redundancy.dropped:
+        notes.append(
+            f"redundant rows left out: {', '.join(model.redundancy.dropped)}; reactions not determined by"
+            f" rigid bodies: {', '.join(model.redundancy.indeterminate)}"
+        )
+    if model.degrees_of_freedom < 0:
+        notes.append(
+            f"{-model.degrees_of_freedom} more rows than coordinates: nothing can move, and unless lengths and points"
+            " fit exactly it cannot be assembled"
+        )
+    if not model.clearances:
+        notes.append("no joint has play: no contact code, no film")
+        if model.degrees_of_freedom == 0:
+            notes.append("no degree of freedom: positions by Newton, nothing is integrated")
+    elif not any(c.film for c in model.clearances):
+        notes.append("no film: dry contact only")
+    if all(component == 0 for component in model.gravity):
+        notes.append("no gravity: no weight terms")
+    jumps = jumping_drives(model)
+    if jumps:
+        notes.append(
+            f"the rate of {', '.join(jumps)} may jump: the linkage follows by an impulse; smooth_step has no jump"
+        )
+    return tuple(notes)
+
+
+def jumping_drives(model: Model) -> tuple[str, ...]:
+    """Drives whose rate may jump before something that is free to move."""
+    drives = model.scene.mechanism.drives.values() if model.degrees_of_freedom else ()
+    return tuple(drive.name for drive in drives if rate_jumps(drive))

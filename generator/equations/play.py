@@ -1,0 +1,113 @@
+"""A joint with play: eccentricity, its rate, and the force laws that act in it (physics.md, 3 and 4)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from gudgeon.generator.equations.geometry import Geometry, PointFrame
+from gudgeon.generator.equations.loads import PointLoad
+from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES, Law, LawInputs, PairSymbols, laws
+from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
+from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.language.units import VELOCITY
+
+VELOCITY_FLOOR = 1e-6  # m/s, least impact velocity that an onset stores
+
+
+@dataclass(frozen=True)
+class LawEquations:
+    """A law with its symbols filled in; `steps` are abbreviations, then the role's results."""
+
+    law: Law
+    options: Mapping[str, str | bool]
+    variables: tuple[sp.Symbol, ...]
+    steps: Mapping[str, sp.Expr]
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """Bearing i on the first body, journal j on the second; e = r_j − r_i, all in ground axes."""
+
+    name: str
+    joint: Joint
+    first: PointFrame
+    second: PointFrame
+    pair: PairSymbols
+    normal: LawEquations | None
+    friction: LawEquations | None
+    film: LawEquations | None
+    transition: sp.Expr | None
+    velocity_floor: sp.Expr
+    clip_ratio: bool
+    constants: Mapping[str, sp.Expr]  # what a report prints: K, S, …
+
+    @property
+    def eccentricity(self) -> tuple[sp.Expr, sp.Expr]:
+        return self.second.x - self.first.x, self.second.y - self.first.y
+
+    @property
+    def eccentricity_rate(self) -> tuple[sp.Expr, sp.Expr]:
+        (vx_i, vy_i), (vx_j, vy_j) = self.first.velocity, self.second.velocity
+        return vx_j - vx_i, vy_j - vy_i
+
+    def on_points(self, F: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> list[PointLoad]:
+        """F on the journal, −F on the bearing, and both moments."""
+        return [PointLoad(self.first, -F[0], -F[1], moments[0]), PointLoad(self.second, F[0], F[1], moments[1])]
+
+    def power(self, F: Sequence[sp.Expr], edot: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> sp.Expr:
+        """F · ė + M_i ω_i + M_j ω_j (W)."""
+        turning = moments[0] * self.first.omega + moments[1] * self.second.omega
+        return F[0] * edot[0] + F[1] * edot[1] + turning
+
+
+def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -> Clearance:
+    """The equations of one joint with play."""
+    constants: dict[str, sp.Expr] = {}
+    pair = _pair(joint.name, play.bearing, slots)
+
+    def derive(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
+        # named after what it is made of: joints with the same bearing and contact share it
+        wanted = f"{play.contact.name}_{play.bearing.name}_{name}"
+        constants[name] = slots.derive(wanted, expression, meaning)
+        return constants[name]
+
+    def law(use: LawUse | None, role: str) -> LawEquations | None:
+        return None if use is None else _law(use, role, pair, slots, derive)
+
+    contact = play.contact
+    normal, friction, film = law(contact.normal, "normal"), law(contact.friction, "friction"), law(contact.film, "film")
+    floor = (
+        slots.use(contact.velocity_floor)
+        if contact.velocity_floor
+        else slots.constant(f"contacts.{contact.name}.velocity_floor", "velocity_floor", VELOCITY_FLOOR, VELOCITY)
+    )
+    transition = slots.use(contact.transition) if contact.transition is not None else None
+    constants["c"], constants["R_i"], constants["R_j"] = pair.c, pair.R_i, pair.R_j
+    return Clearance(
+        joint.name, joint, geometry.point(joint.first), geometry.point(joint.second),
+        pair, normal, friction, film, transition, floor, contact.clip_ratio, constants,
+    )  # fmt: skip
+
+
+def _pair(name: str, bearing: Bearing, slots: Slots) -> PairSymbols:
+    R_i, c = slots.use(bearing.radius), slots.use(bearing.clearance)
+    R_j = slots.derive(f"R_j_{bearing.name}", R_i - c, "journal radius")
+    i, j = bearing.bearing_material, bearing.journal_material
+    return PairSymbols(
+        R_i, R_j, c, slots.use(bearing.length), slots.use(i.E), slots.use(i.nu), slots.use(j.E), slots.use(j.nu)
+    )
+
+
+def _law(use: LawUse, role: str, pair: PairSymbols, slots: Slots, derive: object) -> LawEquations:
+    law = laws()[use.law]
+    variables = {name: sp.Symbol(name, real=True) for name in VARIABLES[role]}
+    parameters = {name: slots.use(quantity) for name, quantity in use.quantities.items()}
+    inputs = LawInputs(parameters, use.options, pair, variables, derive)  # type: ignore[arg-type]
+    steps = law.build(inputs)
+    missing = set(RESULTS[role]) - set(steps)
+    if missing:
+        raise TypeError(f"law {law.name} returns no {', '.join(sorted(missing))}")
+    return LawEquations(law, use.options, tuple(variables.values()), steps)

@@ -1,0 +1,1 @@
+"""Straight-line functions: statements, passes over them, derivatives."""

@@ -1,0 +1,71 @@
+"""Slopes of terms that stay finite while what they are made of overflows: 1/(1 + e^u), 1/cosh u, atan(e^u), e^(-1/x).
+
+Such a term is saturated where its derivative as written is ∞/∞ or 0 · ∞, so that its rise over a short way tells the
+slope: most often exactly 0. Which terms are like that, their form says; all others are differentiated alone.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+_SATURATING = (sp.exp, sp.tanh, sp.atan, sp.atan2)  # finite where their argument is not
+_GROWING = (sp.exp, sp.sinh, sp.cosh, sp.tan, sp.log)
+_HIGH = 8  # a whole power that overflows for no number of a mechanism
+
+
+class Slope(sp.Function):
+    """Slope(d, ahead, behind, way): the derivative d where it is finite, else (ahead − behind)/way."""
+
+    nargs = 4
+    is_real = True
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        """Where d is finite."""
+        return sp.diff(self.args[0], s)
+
+
+class JustAhead(sp.Function):
+    """A number a little above its argument."""
+
+    nargs = 1
+    is_real = True
+
+
+class JustBehind(sp.Function):
+    """A number a little below its argument."""
+
+    nargs = 1
+    is_real = True
+
+
+def overflowing(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:
+    """The outermost terms of an expression that may be finite where their derivative by a symbol is not."""
+    if not any(map(_saturates, expression.atoms(sp.Pow, *_SATURATING))) or by not in expression.free_symbols:
+        return []
+    if _saturates(expression):
+        within = (part for argument in expression.args for part in sp.preorder_traversal(argument))
+        if any(_grows(part, by) for part in within):
+            return [expression]
+    return [term for argument in expression.args for term in overflowing(argument, by)]
+
+
+def _saturates(term: sp.Expr) -> bool:
+    """Whether it may be finite where what it is made of is not."""
+    if term.is_Pow:
+        return bool(term.exp.is_extended_negative or not term.exp.is_number)
+    return isinstance(term, _SATURATING)
+
+
+def _grows(part: sp.Basic, by: sp.Symbol) -> bool:
+    """Whether a part may overflow."""
+    if by not in part.free_symbols:
+        return False
+    return isinstance(part, _GROWING) or bool(
+        part.is_Pow and (not part.exp.is_number or part.exp < 0 or part.exp > _HIGH)
+    )
+
+
+def finite_slope(term: sp.Expr, by: sp.Symbol, derivative: sp.Expr) -> Slope:
+    """∂ term/∂ by, as the derivative has it where that is a number."""
+    ahead, behind = JustAhead(by), JustBehind(by)
+    return Slope(derivative, term.xreplace({by: ahead}), term.xreplace({by: behind}), ahead - behind)

@@ -1,0 +1,78 @@
+"""Divisions as products: one reciprocal for each denominator, those of parameters alone computed once a run.
+
+A division keeps the processor's divider busy for as long as several products take. Force laws divide by the same
+few lengths over and over.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import sympy as sp
+
+from gudgeon.generator.ir.kernels import Kernel, Section, Statement
+from gudgeon.generator.symbols.numbers import Slots
+
+
+def is_division(part: sp.Basic) -> bool:
+    """Whether it is x^-n, n a whole number, of an x that is no number."""
+    return bool(part.is_Pow and part.exp.is_Integer and part.exp < 0 and part.free_symbols)
+
+
+def base_name(power: sp.Basic) -> str:
+    """What a local of 1/x is named after: x where that is a symbol."""
+    return power.base.name.removeprefix("p->") if power.base.is_Symbol else "sum"
+
+
+def hoisted(slots: Slots, value: sp.Expr) -> sp.Expr:
+    """The value with its constant denominators as numbers that `prepare` derives."""
+
+    def constant(part: sp.Basic) -> bool:
+        return is_division(part) and slots.is_constant(part.base)
+
+    def derived(part: sp.Pow) -> sp.Expr:
+        name = base_name(part)
+        return slots.derive(f"inverse_{name}", 1 / part.base, f"1/{name}") ** -part.exp
+
+    return value.replace(constant, derived) if value.has(sp.Pow) else value
+
+
+def with_reciprocals(kernel: Kernel) -> Kernel:
+    """The kernel with each denominator that it divides by more than once as the local `inverse_…`."""
+    return replace(kernel, sections=tuple(_divided(kernel.sections)))
+
+
+def _divided(sections: tuple[Section, ...]) -> list[Section]:
+    statements = [s for section in sections for s in section.statements if isinstance(s, Statement)]
+    values = [s.value for s in statements if isinstance(s.value, sp.Expr)]
+    often = Counter(part.base for value in values for part in sp.preorder_traversal(value) if is_division(part))
+    taken = {s.target for s in statements}
+    names: dict[sp.Expr, sp.Symbol] = {}
+
+    def shared(part: sp.Basic) -> bool:
+        return is_division(part) and often[part.base] > 1
+
+    found = []
+    for section in sections:
+        kept: list[Statement | str] = []
+        for item in section.statements:
+            if isinstance(item, Statement) and isinstance(item.value, sp.Expr) and item.value.has(sp.Pow):
+                for part in sp.postorder_traversal(item.value):
+                    if shared(part) and part.base not in names:
+                        names[part.base] = _new(part, taken)
+                        kept.append(Statement(names[part.base].name, 1 / part.base))
+                item = replace(item, value=item.value.replace(shared, lambda part: names[part.base] ** -part.exp))
+            kept.append(item)
+        found.append(Section(section.title, tuple(kept)))
+    return found
+
+
+def _new(power: sp.Basic, taken: set[str]) -> sp.Symbol:
+    wanted = name = f"inverse_{base_name(power)}"
+    for k in range(2, len(taken) + 3):
+        if name not in taken:
+            break
+        name = f"{wanted}_{k}"
+    taken.add(name)
+    return sp.Symbol(name, real=True)

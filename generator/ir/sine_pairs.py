@@ -1,0 +1,121 @@
+"""Sines and cosines side by side: the pairs of a kernel are computed four at a time (trigonometry.c).
+
+Library calls for each pair cost more than half of a small right-hand side. Four angles in one vector take hardly
+longer than one; a last incomplete group repeats its last angle. A single pair takes a twentieth of the time of a
+small run longer than the library's, and is put into a vector all the same: runs side by side then have it too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import sympy as sp
+
+from gudgeon.generator.ir.kernels import Kernel, Section, Statement
+
+MANY = 4  # groups, beyond which they are computed in a loop
+# Angles, statements that turn them, how many a kernel has numbered before: lines, how many it has numbered then.
+Written = Callable[[Sequence[sp.Symbol | None], Sequence[Statement], int], tuple[list[Statement | str], int]]
+
+
+def side_by_side(kernel: Kernel) -> Kernel:
+    """The kernel with the cosines and sines of symbols taken from vectors, as soon as their angles are known."""
+    return _paired(kernel, _vectors)
+
+
+def lane_by_lane(kernel: Kernel) -> Kernel:
+    """The same angles, each already a vector of as many runs (lanes.h): the same functions, so the same bits."""
+    return _paired(kernel, _lanes)
+
+
+def _paired(kernel: Kernel, written: Written) -> Kernel:
+    """Section by section: a cosine or sine that a section before has is read there, numbers of groups go on."""
+    known: dict[sp.Expr, sp.Symbol] = {}
+    sections: list[Section] = []
+    first = 0  # groups, or angles, so far
+    for section in kernel.sections:
+        again = tuple(_known(statement, known) for statement in section.statements)
+        grouped, first = _grouped(Section(section.title, again), written, first)
+        sections.append(grouped)
+        for statement in section.statements:
+            if _angle(statement) is not None and isinstance(statement, Statement) and statement.local:
+                known.setdefault(sp.sympify(statement.value), sp.Symbol(statement.target, real=True))
+    return replace(kernel, sections=tuple(sections))
+
+
+def _known(statement: Statement | str, known: Mapping[sp.Expr, sp.Symbol]) -> Statement | str:
+    if isinstance(statement, str) or isinstance(statement.value, str) or statement.value not in known:
+        return statement
+    return replace(statement, value=known[statement.value])
+
+
+def _angle(statement: Statement | str) -> sp.Symbol | None:
+    """The symbol whose cosine or sine a statement is."""
+    value = statement.value if isinstance(statement, Statement) else None
+    return value.args[0] if isinstance(value, (sp.cos, sp.sin)) and value.args[0].is_Symbol else None
+
+
+def _grouped(section: Section, written: Written, before: int) -> tuple[Section, int]:
+    """First what the angles need, then these as they are `written`, then the rest; how many are numbered then."""
+    statements = [s for s in section.statements if isinstance(s, Statement) and isinstance(s.value, sp.Expr)]
+    if len(statements) < len(section.statements):
+        return section, before
+    places = {s.target: k for k, s in enumerate(statements)}
+    needs: list[frozenset[int]] = []  # earlier statements that each one reads, directly or not
+    for k, s in enumerate(statements):
+        reads = s.value.free_symbols if isinstance(s.value, sp.Expr) else set()
+        direct = [places[x.name] for x in reads if places.get(x.name, k) < k]
+        needs.append(frozenset(direct).union(*(needs[j] for j in direct)))
+    turned = [k for k, s in enumerate(statements) if _angle(s) is not None]
+    turned = [k for k in turned if not needs[k] & set(turned)]
+    angles = list(dict.fromkeys(_angle(statements[k]) for k in turned))
+    if not angles:
+        return section, before
+    early = frozenset[int]().union(*(needs[k] for k in turned))
+    first = [s for k, s in enumerate(statements) if k in early]
+    rest = [s for k, s in enumerate(statements) if k not in early and k not in turned]
+    taken = [statements[k] for k in turned]
+    lines, after = written(angles, taken, before)
+    return Section(section.title, (*first, *lines, *rest)), after
+
+
+def _vectors(
+    angles: Sequence[sp.Symbol | None], taken: Sequence[Statement], before: int
+) -> tuple[list[Statement | str], int]:
+    """Groups of four angles, and the statements that read the results; many groups in a loop, which is shorter."""
+    lines: list[Statement | str] = []
+    named = [str(a) for a in angles] + [str(angles[-1])] * (-len(angles) % 4)
+    groups = [", ".join(named[g : g + 4]) for g in range(0, len(named), 4)]
+    count, many, of = len(groups), len(groups) > MANY, f"of_{before}" if before else "of"
+    if many:
+        lines.append(f"const Four angles_{of}[{count}] = {{{', '.join(f'{{{group}}}' for group in groups)}}};")
+        lines.append(f"Four sines_{of}[{count}], cosines_{of}[{count}];")
+        lines.append(f"many_sines_and_cosines({count}, angles_{of}, sines_{of}, cosines_{of});")
+    else:
+        for n, group in enumerate(groups, before):
+            lines.append(f"const Four angles_{n} = {{{group}}};")
+            lines.append(f"Four sines_{n}, cosines_{n};")
+            lines.append(f"sines_and_cosines(&angles_{n}, &sines_{n}, &cosines_{n});")
+    places = {angle: k for k, angle in enumerate(angles)}
+    for s in taken:
+        n, lane = divmod(places[_angle(s)], 4)
+        which = "cosines" if isinstance(s.value, sp.cos) else "sines"
+        value = f"{which}_{of}[{n}][{lane}]" if many else f"{which}_{before + n}[{lane}]"
+        lines.append(replace(s, value=value))
+    return lines, before + count
+
+
+def _lanes(
+    angles: Sequence[sp.Symbol | None], taken: Sequence[Statement], before: int
+) -> tuple[list[Statement | str], int]:
+    """One call an angle, and the statements that read the results."""
+    lines: list[Statement | str] = []
+    place = {angle: k for k, angle in enumerate(angles, before)}
+    for angle, k in place.items():
+        lines.append(f"Lanes sines_{k}, cosines_{k};")
+        lines.append(f"sines_and_cosines({angle}, &sines_{k}, &cosines_{k}, rare);")
+    for s in taken:
+        which = "cosines" if isinstance(s.value, sp.cos) else "sines"
+        lines.append(Statement(s.target, f"{which}_{place[_angle(s)]}", s.local, s.comment))
+    return lines, before + len(place)

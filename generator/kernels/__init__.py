@@ -1,0 +1,1 @@
+"""Every function of a scene, before it is text."""

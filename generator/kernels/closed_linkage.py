@@ -1,0 +1,81 @@
+"""Functions of the closed linkage (every joint without play): Φ, Φ_q, ν, γ, M, the start and the parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import sympy as sp
+
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section, Statement
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE
+
+
+def prepare_kernel(model: Model, print_c: Callable[[sp.Expr], str]) -> Kernel:
+    """Slots from what is given, the rest from their defaults; then everything derived from them."""
+    slots: list[Statement | str] = []
+    for i, entry in enumerate(model.slots.entries.values()):
+        name = entry.symbol.name
+        slots.append(Statement(name, f"is_given[{i}] ? given[{i}] : {print_c(entry.value)}", True, entry.address))
+        slots.append(f"p->{name} = {name};")
+    derived: list[Statement | str] = []
+    for symbol, value in model.slots.derived.items():
+        derived.append(Statement(symbol.name, value, True, model.symbols.info[symbol].meaning))
+        derived.append(f"p->{symbol.name} = {symbol.name};")
+    return Kernel(
+        "prepare",
+        ("Every number of a run: slots given or by default, then what follows from them.",),
+        (Argument("const double *", "given"), Argument("const unsigned char *", "is_given"),
+         Argument("Parameters *", "p")),
+        (Section("slots", tuple(slots)), Section("derived", tuple(derived))),
+    )  # fmt: skip
+
+
+def mass_kernel(model: Model) -> Kernel:
+    build = KernelBuilder(model.symbols, "mass_matrix", ["The diagonal of M (n)."])
+    build.section("M")
+    for k, mass in enumerate(model.masses):
+        build.out(f"m[{k}]", mass)
+    return build.build((PARAMETERS, Argument("double *", "m")))
+
+
+def row_kernels(model: Model) -> list[Kernel]:
+    """Φ, Φ_q (dense, row by row), ν and γ of the closed linkage."""
+
+    def kernel(name: str, doc: str, out: str, velocity: bool, value: Callable[[Row], sp.Expr]) -> Kernel:
+        build = KernelBuilder(model.symbols, name, [doc])
+        build.section("rows")
+        for r, row in enumerate(model.all_rows):
+            build.out(f"{out}[{r}]", value(row), row.name)
+        arguments = (*STATE, PARAMETERS, Argument("double *", out))
+        return build.build(arguments if velocity else (*STATE[:2], *arguments[3:]))
+
+    return [
+        kernel("constraints", "Phi(q, t) of the closed linkage; m and rad.", "phi", False, lambda row: row.phi),
+        _jacobian_kernel(model),
+        kernel("velocity_rhs", "nu = -Phi_t: Phi_q v = nu.", "nu", False, lambda row: row.nu),
+        kernel("acceleration_rhs", "gamma: Phi_q a = gamma.", "gamma_rows", True, lambda row: row.gamma),
+    ]
+
+
+def _jacobian_kernel(model: Model) -> Kernel:
+    build = KernelBuilder(model.symbols, "jacobian", ["Phi_q of the closed linkage, dense, row by row; zeros kept."])
+    build.section("non-zeros")
+    place = {q: k for k, q in enumerate(model.q)}
+    for r, row in enumerate(model.all_rows):
+        for q, value in row.phi_q.items():
+            build.out(f"phi_q[{r * len(model.q) + place[q]}]", value, f"d {row.name} / d {q.name}")
+    return build.build((*STATE[:2], PARAMETERS, Argument("double *", "phi_q")))
+
+
+def start_kernel(model: Model) -> Kernel:
+    """The numbers of the file's `start`."""
+    start = model.scene.mechanism.start
+    build = KernelBuilder(model.symbols, "start_values", ["Values of the start's guess, set and rates."])
+    build.section("start")
+    for key, group in (("guess", start.guess), ("set", start.set), ("rates", start.rates)):
+        for k, quantity in enumerate(group.values()):
+            build.out(f"{key}[{k}]", model.slots.use(quantity), quantity.address)
+    arguments = (PARAMETERS, *(Argument("double *", key) for key in ("guess", "set", "rates")))
+    return build.build(arguments)

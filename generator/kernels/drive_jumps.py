@@ -1,0 +1,87 @@
+"""Corners of drives for `rk4`: functions of time alone, at whose zeros the rate of what is prescribed may jump.
+
+The adaptive methods look for them along a step with all others (watched.py). rk4 keeps to its grid and to no sides; it
+needs to know the times only, which hang on no state: a part of its step ends there (templates/c/watch/jumps.c.jinja).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.notes import jumping_drives
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.symbols.corners import SideOf
+
+_DOC = ("Switching functions that hang on time alone.",)
+_SIDES = ("const double *const side = NULL; /* of corners within corners: as they are */", "double g[N_SWITCHES + 1];")
+
+
+@dataclass(frozen=True)
+class Jumps:
+    """Values of `count` switching functions at a time, and their ranges over a part of it."""
+
+    count: int
+    values: Kernel
+    ranges: Kernel
+
+
+
+
+def jumps_of(dynamics: Kernel, model: Model) -> Jumps | None:
+    """From what a right-hand side reads; None where no drive's rate may jump."""
+    if not jumping_drives(model):
+        return None
+    known, corners = _of_time(dynamics)
+    if not corners:
+        return None
+    read: set[str] = set()
+    waiting = [symbol.name for g in corners for symbol in g.free_symbols]
+    while waiting:
+        name = waiting.pop()
+        if name not in read:
+            read.add(name)
+            value = known[name].value
+            waiting += [symbol.name for symbol in value.free_symbols] if isinstance(value, sp.Expr) else []
+    needed = [s for name, s in known.items() if name in read]
+    nested = any(isinstance(s.value, SideOf) for s in needed)
+    outs = Section("corners", tuple(Statement(f"out[{k}]", g, local=False) for k, g in enumerate(corners)))
+    time, p = Argument("const double", "t"), next(a for a in dynamics.arguments if a.name == "p")
+    front = ((_SIDES[:1] if nested else ()), (_SIDES if nested else ()))
+    ranges, values = (Section("parameters and time", (*lines, *needed)) for lines in front)
+    own, bounds = (time, p, Argument("double *", "out")), (time, p, Argument("Aside *", "aside"))
+    kernel = replace(dynamics, doc=_DOC, returns="void", inline=False)
+    return Jumps(
+        len(corners), replace(kernel, name="drive_corners", arguments=own, sections=(values, outs)),
+        replace(kernel, name="drive_corner_ranges", arguments=bounds, sections=(ranges, outs)),
+    )  # fmt: skip
+
+
+def _of_time(dynamics: Kernel) -> tuple[dict[str, Statement], list[sp.Expr]]:
+    """Locals that time and parameters determine, in their order; corners among them that hang on time."""
+    known: dict[str, Statement] = {}
+    timed: set[str] = set()
+    corners: dict[sp.Expr, None] = {}
+    for s in _statements(dynamics):
+        if isinstance(s.value, str):
+            if s.local and (s.value == "t" or s.value.startswith("p->")):
+                known[s.target] = s
+                timed |= {s.target} if s.value == "t" else set()
+            continue
+        names = {symbol.name for symbol in s.value.free_symbols}
+        if not names <= known.keys() or not s.local:
+            continue
+        known[s.target] = s
+        if names & timed:
+            timed.add(s.target)
+            if isinstance(s.value, SideOf):
+                corners[s.value.args[1]] = None
+    return known, list(corners)
+
+
+def _statements(kernel: Kernel) -> Iterator[Statement]:
+    for section in kernel.sections:
+        yield from (s for s in section.statements if isinstance(s, Statement))

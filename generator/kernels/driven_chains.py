@@ -1,0 +1,207 @@
+"""Kernels of driven chains: steps towards their closures, and three rates of their coordinates.
+
+With c the coordinates of the chains and Φ_c their closures' Jacobian, block by block
+(generator/solvers/square_rows.py):
+
+    Φ_c δ = Φ,    Φ_c ε = Φ_cc[δ, δ]/2,    Φ_c ċ = ν,    Φ_c c̈ = γ,    Φ_c c⃛ = d/dt (γ − Φ_c c̈) at the same c̈.
+
+The step δ + ε is that of Chebyshev's method, of order 3 (J. F. Traub, Iterative Methods for the Solution of Equations,
+1964, section 5.2): a second solve costs less than other sines. The third rate is what ∂f/∂t of the equations of
+motion needs; the last derivative is taken forwards, by t alone. Cosines and sines of the closures' angles are
+computed once and read by all kernels of the motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import sympy as sp
+
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.system import System
+from gudgeon.generator.ir.differentiation import Tangents
+from gudgeon.generator.ir.kernels import (
+    HELD,
+    Argument,
+    Kernel,
+    KernelBuilder,
+    Section,
+    Statement,
+    with_sides,
+    without_unused,
+)
+from gudgeon.generator.ir.signatures import HELD_SIDES, MEMORY, PARAMETERS, STATE
+from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.reduction.driven_chains import Chain
+from gudgeon.generator.solvers.square_rows import SquareRows
+from gudgeon.generator.symbols.corners import SideOf
+
+ZERO = sp.Integer(0)
+STEP, RATES, THIRD, DIRECTIONS = "chain_step", "chain_rates", "chain_third", "chain_directions"
+TOLD_SIDES = Section(HELD, HELD_SIDES[:1])
+
+
+class ChainKernels:
+    """The kernels of a system's chains; `corners`: whether what drives them has any."""
+
+    def __init__(self, system: System, chain: Chain) -> None:
+        self.system, self.chain, self.symbols = system, chain, system.model.symbols
+        own = replace(
+            system, q=tuple(k.q for k in chain.known), v=tuple(k.rate for k in chain.known), rows=chain.rows, known=()
+        )
+        self.square = SquareRows(own, ["." in name for name in chain.names])
+        self.first = len(system.q)  # of the chains' coordinates in q and v
+        raw = [side_by_side(without_unused(kernel)) for kernel in self._all()]
+        sides = [s.value for kernel in raw for section in kernel.sections for s in section.statements
+                 if isinstance(s, Statement) and isinstance(s.value, SideOf)]  # fmt: skip
+        self.corners = bool(sides)
+        held = [with_sides(kernel, HELD_SIDES) for kernel in raw]
+        self.kernels = [*held, self._corners(sides)] if sides else held
+
+    def _all(self) -> list[Kernel]:
+        return [self._directions(), self._step(), self._rates(), self._third()]
+
+    def _directions(self) -> Kernel:
+        """Cosines and sines, which all other kernels read."""
+        build = KernelBuilder(self.symbols, DIRECTIONS, [
+            "Cosines and sines of all angles in the chains' closures, behind the coordinates in q.",
+        ])  # fmt: skip
+        build.section("directions")
+        first = self.first + len(self.chain.names)
+        symbols = [symbol for direction in self.chain.directions for symbol in (direction.cos, direction.sin)]
+        for k, symbol in enumerate(symbols):
+            build.out(f"out[{first + k}]", self.symbols.definitions[symbol], symbol.name)
+        return build.build((*STATE[:2], MEMORY, PARAMETERS, Argument("double *", "out")), owner="")
+
+    def turned(self) -> list[tuple[int, str]]:
+        """Where each direction is in q that a step of the chains' coordinates turns, and how far it turns, in C."""
+        first = self.first + len(self.chain.names)
+
+        def factor(c: sp.Expr) -> str:
+            if c == 1:
+                return ""
+            return f"{float(c)!r} * " if c.is_Number else f"-p->{-c} * " if (-c).is_Symbol else f"p->{c} * "
+
+        return [
+            (first + 2 * k, " + ".join(f"{factor(c)}step[{j}]" for j, c in d.turns.items()))
+            for k, d in enumerate(self.chain.directions)
+            if d.turns
+        ]
+
+    def shares(self) -> list[str]:
+        """What a step of each coordinate is multiplied by to be a number: an angle is one, a slide goes by the size."""
+        if not any("." in name for name in self.chain.names):
+            return ["1.0"] * len(self.chain.names)
+        geometry, slots = self.system.model.geometry, self.system.model.slots
+        ground = map(geometry.ground_vector, self.system.model.scene.mechanism.ground.values())
+        squares = [x**2 for point in (*geometry.local.values(), *ground) for x in point]
+        size = slots.derive("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
+        return ["1.0" if "." not in name else f"1.0 / (p->{size} + DBL_MIN)" for name in self.chain.names]
+
+    def _step(self) -> Kernel:
+        """A step towards the closures at a position."""
+        build = KernelBuilder(self.symbols, STEP, [
+            "Newton's step of the driven chains' coordinates, Phi_c newton = Phi, and with it Chebyshev's of order 3,",
+            "step = newton + bend, Phi_c bend = Phi_cc[newton, newton]/2. `row`: the number, from 1, of the row with",
+            "the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
+        ])  # fmt: skip
+        build.section("closures of the chains")
+        named = zip(self.square.names, self.chain.rows, strict=True)
+        phi = [build.local(f"phi_{name}", row.phi) for name, row in named]
+        build.section("the largest")
+        build.line("*row = 1;")
+        if len(phi) > 1:
+            build.line(f"double most = fabs({phi[0]});")
+        for r, value in enumerate(phi[1:], 2):
+            build.line(f"if (fabs({value}) > most) {{")
+            build.line(f"    most = fabs({value});")
+            build.line(f"    *row = {r};")
+            build.line("}")
+        solvers = self.square.factorize(build)
+        build.section("Newton's step")
+        newton = self.square.solve(build, solvers, phi, "newton")
+        build.section("what the rows' curvature adds")
+        bend = self.square.solve(build, solvers, [self._curvature(row, newton) / 2 for row in self.chain.rows], "bend")
+        for k, (x, more) in enumerate(zip(newton, bend, strict=True)):
+            build.out(f"step[{k}]", x + more)
+            build.out(f"bend[{k}]", more)
+        build.line("return 0;")
+        outs = (Argument("double *", "step"), Argument("double *", "bend"), Argument("int *", "row"))
+        return build.build((*STATE[:2], MEMORY, PARAMETERS, *outs), "int", owner="", prune=True)
+
+    def _curvature(self, row: Row, x: Sequence[sp.Expr]) -> sp.Expr:
+        """Φ_cc[x, x]."""
+        along = dict(zip([k.q for k in self.chain.known], x, strict=True))
+        slope = sp.Add(*(entry * along[q] for q, entry in row.phi_q.items()))
+        return sp.expand(sp.Add(*(self.symbols.diff(slope, q) * step for q, step in along.items())))
+
+    def _rates(self) -> Kernel:
+        """First and second rates at a position that closes the chains."""
+        build = KernelBuilder(self.symbols, RATES, [
+            "First and second rates of the driven chains' coordinates, where these close their loops: Phi_c c' = nu,",
+            "Phi_c c'' = gamma. They go behind those of the other coordinates in v.",
+            "Returns 0, or the number of a row that depends on others here.",
+        ])  # fmt: skip
+        known, rows = self.chain.known, self.chain.rows
+        solvers = self.square.factorize(build)
+        build.section("rates")
+        rates = self.square.solve(build, solvers, [row.nu for row in rows], "rate")
+        for k, value in zip(known, rates, strict=True):  # by the name under which all expressions know it
+            build.line_statement(Statement(k.rate.name, value))
+        for symbol in self._moving():
+            build.line_statement(Statement(symbol.name, self.symbols.definitions[symbol]))
+        build.section("second rates")
+        second = self.square.solve(build, solvers, [row.gamma for row in rows], "second")
+        build.section("results")
+        for at, (x, value) in enumerate(zip(known, second, strict=True), self.first):
+            build.out(f"v[{at}]", x.rate)
+            build.out(f"v[{at + len(known)}]", value)
+        build.line("return 0;")
+        return build.build((*STATE[:2], MEMORY, PARAMETERS, Argument("double *", "v")), "int", owner="", prune=True)
+
+    def _third(self) -> Kernel:
+        """Third rates, forwards: d/dt of γ − Φ_c c̈ at the same c̈."""
+        build = KernelBuilder(self.symbols, THIRD, [
+            "Third rates of the driven chains' coordinates: Phi_c c''' = d/dt (gamma - Phi_c c'') at the same c''.",
+            "Returns 0, or the number of a row that depends on others here.",
+        ])  # fmt: skip
+        known, t = self.chain.known, self.system.model.t
+        solvers = self.square.factorize(build)
+        build.section("third rates")
+        tangents = Tangents(self.symbols, build, (t,))
+        for k in known:
+            tangents.know(k.q, {t: k.rate})
+            tangents.know(k.rate, {t: k.second})
+        left = [sp.Add(row.gamma, *(-row.phi_q.get(k.q, ZERO) * k.second for k in known)) for row in self.chain.rows]
+        slopes = [tangents.gradient(value).get(t, ZERO) for value in left]
+        for at, value in enumerate(self.square.solve(build, solvers, slopes, "third")):
+            build.out(f"out[{at}]", value)
+        build.line("return 0;")
+        return build.build((*STATE, MEMORY, PARAMETERS, Argument("double *", "out")), "int", owner="", prune=True)
+
+    def _moving(self) -> list[sp.Symbol]:
+        """Definitions in the chains' rates: they come after these, not in front of the kernel."""
+        info, definitions = self.symbols.info, self.symbols.definitions
+        moving = {k.rate for k in self.chain.known}
+        others = {*self.system.v, *self.system.q}
+        found = []
+        for symbol in [s for s in info if s in definitions and not info[s].home]:
+            reads = definitions[symbol].free_symbols
+            if reads & others:
+                others.add(symbol)
+            elif reads & moving:
+                moving.add(symbol)
+                found.append(symbol)
+        return [symbol for symbol in found if symbol not in others]
+
+    def _corners(self, sides: Sequence[SideOf]) -> Kernel:
+        """Switching functions of the drives, which nobody else may look at."""
+        build = KernelBuilder(self.symbols, "chain_corners", ["Switching functions of what drives the chains."])
+        build.section("corners")
+        for side in dict.fromkeys(sides):
+            name = f"side_{side.args[0]}"
+            build.line_statement(Statement(name, side))
+            build.line(f"(void){name};")
+        kernel = build.build((*STATE[:2], MEMORY, PARAMETERS, Argument("double *", "g")), owner="")
+        return replace(kernel, sections=(TOLD_SIDES, *kernel.sections))

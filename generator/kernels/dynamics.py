@@ -1,0 +1,192 @@
+"""The kernels of one scene: what is computed at a state, each a straight-line function."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import sympy as sp
+
+from gudgeon.generator.equations.loads import PointLoad
+from gudgeon.generator.equations.model import Model, stick_gain
+from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.equations.system import System
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
+from gudgeon.generator.ir.signatures import HELD_SIDES, MEMORY, PARAMETERS, STATE, ZERO
+from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR
+
+_DOC = (
+    "Accelerations a (n) and multipliers in `aside` at a state:",
+    "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).",
+    "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
+)
+# What solves the system where a pivot vanishes: statements by the coordinates' forces and the rows' right-hand sides.
+Rescue = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
+
+
+def dynamics_kernel(
+    system: System, kkt: KKT, name: str = "dynamics", doc: Sequence[str] = _DOC, stabilised: bool = True,
+    rescue: Rescue | None = None,
+) -> Kernel:  # fmt: skip
+    """q̈ and λ at a state, clearance forces included.
+
+    Without stabilisation the rows are γ alone and Φ, Φ̇ are not computed: for methods that project.
+    """
+    model = system.model
+    build = KernelBuilder(model.symbols, name, doc)
+    if kkt.rows and not model.frictions:
+        build.section("status")
+        build.line("int pivot = 0;")
+    _events(model, build)
+    loads = [load for element in model.elements.values() for load in element.on_points()]
+    for index, clearance in enumerate(model.clearances):
+        loads += _clearance_call(build, index, clearance)
+    acting, on_given = system.generalized(loads)
+    forces = [own + load for own, load in zip(system.applied, acting, strict=True)]
+    slips = _slips(model, build, kkt, forces)
+    b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
+    b.update(_constraint_rhs(model, build, kkt, stabilised))
+    b.update(slips)
+    # where friction may stick, a vanishing pivot is told, not mended: rows come and go there
+    if model.frictions:
+        factor = kkt.factorize(build)
+    else:
+        factor = kkt.factorize(build, "{{ pivot = {}; goto dependent; }}", NEARLY_SINGULAR)
+    x = kkt.solve(build, factor, b)
+    build.section("results")
+    for k, _ in enumerate(system.q):
+        build.out(f"a[{k}]", x[k])
+    for r, _ in enumerate(kkt.rows):
+        build.out(f"aside->lambda[{r}]", x[kkt.n + r])
+    _friction_forces(build, kkt, x)
+    if kkt.rows and not model.frictions:
+        (rescue or _dependent_rows)(build, kkt, b)
+    _powers(build, kkt, on_given)
+    build.line("return pivot;" if kkt.rows and not model.frictions else "return 0;")
+    arguments = (*STATE, MEMORY, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
+    kernel = build.build(arguments, "int", owner="")
+    return with_sides(kernel, (HELD_SIDES[0], "double *const g = aside->g;"))
+
+
+def _events(model: Model, build: KernelBuilder) -> None:
+    """What the user watches: known at every state, also where a pivot vanishes."""
+    if model.events:
+        build.section("events")
+    for index, event in enumerate(model.events):
+        build.out(f"aside->event[{index}]", event.expression, event.name)
+
+
+def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
+    """Calls the joint's force function; its result acts on both bodies."""
+    name, out = clearance.name, f"aside->clearance[{index}]"
+    build.section(f"clearance joint {name}")
+    e = [build.local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)]
+    edot = [
+        build.local(f"edot_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
+    ]
+    omegas = (clearance.first.omega, clearance.second.omega)
+    arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in omegas)])
+    build.line(f"clearance_{name}({arguments}, &memory->latch[{index}], p, side, g, &{out});", omegas)
+    F = [build.local(f"F_{name}_{axis}", f"{out}.F{axis}") for axis in "xy"]
+    moments = [
+        ZERO if point.body is None else build.local(f"M_{name}_{which}", f"{out}.moment_{which}")
+        for point, which in ((clearance.first, "first"), (clearance.second, "second"))
+    ]
+    build.out(f"{out}.power", clearance.power(F, edot, moments))
+    return clearance.on_points(F, moments)
+
+
+def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bool) -> dict[int, sp.Expr]:
+    """γ − 2αΦ̇ − β²Φ a row; the residuals are kept in `aside` for the diagnostics."""
+    if not stabilised:
+        if kkt.rows:
+            build.section("constraints: gamma")
+        named = (build.local(f"rhs_{row.name.replace('.', '_')}", row.gamma) for row in kkt.rows)
+        return {kkt.n + r: rhs for r, rhs in enumerate(named)}
+    alpha, beta = model.baumgarte
+    two_alpha = model.slots.derive("two_alpha", 2 * alpha, "2 alpha")
+    beta_squared = model.slots.derive("beta_squared", beta**2, "beta^2")
+    rhs: dict[int, sp.Expr] = {}
+    if kkt.rows:
+        build.section("constraints: Phi, Phi_dot = Phi_q v - nu, gamma")
+    for r, row in enumerate(kkt.rows):
+        name = row.name.replace(".", "_")
+        phi = build.local(f"phi_{name}", row.phi)
+        phi_dot = build.local(f"phi_dot_{name}", row.phi_q_v - row.nu)
+        rhs[kkt.n + r] = build.local(f"rhs_{name}", row.gamma - two_alpha * phi_dot - beta_squared * phi)
+        build.out(f"aside->phi[{r}]", phi)
+        build.out(f"aside->phi_dot[{r}]", phi_dot)
+    return rhs
+
+
+
+
+def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
+    """Slip velocities; the force of slip goes to the coordinates, the right-hand side of stick is returned."""
+    rhs: dict[int, sp.Expr] = {}
+    if kkt.frictions:
+        build.section("friction: slip, or stick as a row")
+    place = {q: k for k, q in enumerate(kkt.system.q)}
+    two_alpha = stick_gain(model) if kkt.frictions else ZERO
+    for r, friction in enumerate(kkt.frictions):
+        name, node = friction.name, kkt.first_friction + r
+        v = build.local(f"slip_{name}", friction.slip.v)
+        mode = build.local(f"mode_{name}", f"memory->mode[{r}]", "0 stick, 1 or -1 the sign of the slip, 2 held")
+        kkt.sticks[node] = build.local(f"stick_{name}", f"{mode.name} == 0.0 ? 1.0 : 0.0")
+        sign = build.local(f"sign_{name}", f"fabs({mode.name}) > 1.0 ? 0.0 : {mode.name}")
+        force = build.local(f"kinetic_{name}", -sign * friction.slip.kinetic)
+        for q, entry in friction.jacobian.items():
+            forces[place[q]] += entry * force
+        rhs[node] = build.local(f"rhs_{name}", friction.gamma - two_alpha * v)
+        for key, value in (("v", v), ("static_limit", friction.slip.static), ("speed", friction.slip.speed)):
+            build.out(f"aside->friction[{r}].{key}", value)
+        build.out(f"aside->friction[{r}].force", force)
+    return rhs
+
+
+def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
+    """In stick the force is what the row needs; the slip's rate is J q̈ − γ."""
+    place = {q: k for k, q in enumerate(kkt.system.q)}
+    for r, friction in enumerate(kkt.frictions):
+        rate = sum((entry * x[place[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
+        build.out(f"aside->friction[{r}].rate", rate)
+        stick = kkt.sticks[kkt.first_friction + r]
+        build.line(f"if ({stick.name} != 0.0)")
+        build.out(f"    aside->friction[{r}].force", -x[kkt.first_friction + r], f"stick of {friction.name}")
+
+
+def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+    """The way out when a pivot vanishes (templates/c/scene/singular.c.jinja)."""
+    build.line("goto powers;")
+    build.section("a pivot vanished: rows depend on each other here")
+    build.line("dependent: {")
+    build.line("    double force[N_Q], rhs[N_ROWS];")
+    for k in range(kkt.n):
+        build.out(f"    force[{k}]", b.get(k, ZERO))
+    for r in range(len(kkt.rows)):
+        build.out(f"    rhs[{r}]", b.get(kkt.n + r, ZERO))
+    build.line("    pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);")
+    build.line("}")
+    build.line("powers:")
+
+
+def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> None:
+    """Power of the drives, of the force elements that store nothing, of the clearance forces (W).
+
+    A drive does −λᵀν, and what inertia and loads need at a coordinate that it prescribes.
+    """
+    model = kkt.system.model
+    multipliers = {r: sp.Symbol(f"aside->lambda[{r}]") for r, row in enumerate(kkt.rows) if row.nu != 0}
+    drives = sp.Add(*(-multiplier * kkt.rows[r].nu for r, multiplier in multipliers.items()))
+    for given in kkt.system.given:
+        needed = sp.Add(*(m * sp.Symbol(f"a[{k}]") for k, m in given.mass.items())) - given.applied
+        for r, friction in enumerate(kkt.frictions):
+            needed -= model.symbols.written_out(friction.slip.v, given.rate) * sp.Symbol(f"aside->friction[{r}].force")
+        drives += given.rate * (needed - on_given.get(given.name, ZERO))
+    clearances = " + ".join(f"aside->clearance[{i}].power" for i in range(len(model.clearances)))
+    build.out("aside->power[0]", drives)
+    rubs = [f"aside->friction[{r}]" for r in range(len(kkt.frictions))]
+    friction = sp.Add(
+        *(sp.Symbol(f"{rub}.force") * (sp.Symbol(f"{rub}.v") + sp.Symbol(f"{rub}.speed")) for rub in rubs)
+    )
+    build.out("aside->power[1]", sp.Add(*(element.loads.power for element in model.elements.values())) + friction)
+    build.out("aside->power[2]", clearances or ZERO)

@@ -1,0 +1,101 @@
+"""Functions of the state whose zeros end a step: a scene's own corners and its user events, apart from the rest.
+
+A step may be long where the motion is smooth, and an expression may change its sign many times meanwhile. So each is
+looked at along a step (templates/c/watch/watched.c.jinja), by bounds over its parts. This is the part of the
+right-hand side that they need: mostly no more than the positions in them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+import sympy as sp
+
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.ir.kernels import Kernel, Section, Statement
+from gudgeon.generator.symbols.corners import SideOf
+
+NAME, RANGES = "watched_functions", "watched_ranges"
+_DOC = (
+    "Switching functions of the scene's own corners, in aside->g, and what the user watches, in aside->event.",
+)  # fmt: skip
+_RANGES_DOC = ("Ranges of the scene's own corners and of what the user watches over ranges of t, q and v.",)
+_WRITES_CORNERS = "double *const g = aside->g;"
+_KNOWN_LATE = "aside->"  # what a text with this in it reads is known only once forces or accelerations are
+
+
+def watched_kernel(dynamics: Kernel, model: Model) -> Kernel | None:
+    """What a right-hand side's kernel computes of the scene's corners and events; None where that hangs on forces."""
+    corners = {switch.index for switch in model.symbols.switches.of("")}
+    if not corners and not model.events:
+        return None
+    outs = {s: out for section in dynamics.sections for s in section.statements
+            if isinstance(s, Statement) and (out := _out(s, corners))}  # fmt: skip
+    by_target = {s.target: s for section in dynamics.sections for s in section.statements
+                 if isinstance(s, Statement) and s.local}  # fmt: skip
+    read: set[Statement] = set()
+    waiting = list(outs.values())
+    while waiting:
+        found = {by_target[name] for name in _reads(waiting.pop()) if name in by_target} - read
+        read |= found
+        waiting += found
+    if any(isinstance(s.value, str) and _KNOWN_LATE in s.value for s in read):
+        return None
+    has_sides = any(isinstance(s.value, SideOf) for s in read)
+    sections = []
+    for section in dynamics.sections:
+        lines: list[Statement | str] = []
+        if has_sides and any("side =" in str(line) for line in section.statements):
+            lines = list(section.statements)  # the sides that are held
+        for s in section.statements:
+            if isinstance(s, Statement):
+                lines += [line for line in (s if s in read else None, outs.get(s)) if line]
+        if lines:
+            sections.append(Section(section.title, tuple(lines)))
+    arguments = tuple(a for a in dynamics.arguments if a.name != "a")
+    return replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=tuple(sections), returns="void")
+
+
+def ranges_kernel(watched: Kernel, corners: Sequence[int]) -> Kernel:
+    """The same for ranges of t, q and v: what is watched goes to `out`, corners first, in this order."""
+    place = {f"aside->g[{k}]": i for i, k in enumerate(corners)}
+    sections = []
+    for section in watched.sections:
+        kept: list[Statement | str] = []
+        for s in section.statements:
+            if isinstance(s, str) or s.local:
+                kept += [s] if s != _WRITES_CORNERS else []
+                continue
+            event = re.fullmatch(r"aside->event\[(\d+)\]", s.target)
+            index = len(corners) + int(event[1]) if event else place[s.target]
+            kept.append(replace(s, target=f"out[{index}]"))
+        sections.append(Section(section.title, tuple(kept)))
+    return replace(watched, name=RANGES, doc=_RANGES_DOC, sections=tuple(s for s in sections if s.statements))
+
+
+def reads_state(kernel: Kernel) -> bool:
+    """Whether it hangs on more than time."""
+    return reads_beyond(kernel, 0)
+
+
+def reads_beyond(kernel: Kernel, count: int) -> bool:
+    """Whether it reads a coordinate, or the rate of one, behind the first `count`."""
+    values = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
+    read = [int(k) for value in values if isinstance(value, str) for k in re.findall(r"\b[qv]\[(\d+)\]", value)]
+    return max(read, default=-1) >= count
+
+
+def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
+    """What is written of a statement that tells a corner or an event."""
+    value = statement.value
+    if isinstance(value, SideOf) and int(value.args[0]) in corners:
+        return Statement(f"aside->g[{int(value.args[0])}]", value.args[1], local=False)
+    return statement if not statement.local and statement.target.startswith("aside->event") else None
+
+
+def _reads(statement: Statement) -> set[str]:
+    if isinstance(statement.value, sp.Expr):
+        return {symbol.name for symbol in statement.value.free_symbols}
+    return set(re.findall(r"\w+", statement.value))

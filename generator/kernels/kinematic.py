@@ -1,0 +1,75 @@
+"""Kernels of a scene without freedom in tree coordinates: Newton's step with rates, then all bodies."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from gudgeon.generator.equations.system import System
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, without_unused
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE
+from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.solvers.square_rows import SquareRows
+
+
+def kinematic_kernels(system: System, rows: SquareRows) -> list[Kernel]:
+    """`close_step` at a position, `arrive` at a position with its rates."""
+    return [side_by_side(without_unused(kernel)) for kernel in (_close_step(system, rows), _arrive(system, rows))]
+
+
+def _close_step(system: System, rows: SquareRows) -> Kernel:
+    build = KernelBuilder(system.model.symbols, "close_step", [
+        "Newton's step and the rates of the tree's coordinates q: Phi_q step = Phi, Phi_q rates = nu.",
+        "`worst`: the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
+    ])  # fmt: skip
+    build.section("closures")
+    phi = [build.local(f"phi_{name}", row.phi) for name, row in zip(rows.names, system.rows, strict=True)]
+    solvers = rows.factorize(build)
+    build.section("Newton's step")
+    step = rows.solve(build, solvers, phi, "step")
+    build.section("rates")
+    rates = rows.solve(build, solvers, [row.nu for row in system.rows], "rate")
+    build.section("results")
+    for k, (x, u) in enumerate(zip(step, rates, strict=True)):
+        build.out(f"step[{k}]", x)
+        build.out(f"rates[{k}]", u)
+    _largest(build, "worst", phi)
+    build.line("return 0;")
+    outs = (Argument("double *", name) for name in ("step", "rates", "worst"))
+    return build.build((*STATE[:2], PARAMETERS, *outs), "int")
+
+
+def _arrive(system: System, rows: SquareRows) -> Kernel:
+    build = KernelBuilder(system.model.symbols, "arrive", [
+        "Accelerations a of the tree's coordinates q with rates v, and with them the motion of all bodies:",
+        "all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.",
+        "Returns 0, or the number of a row that depends on others here; all_q and all_v are known also then.",
+    ])  # fmt: skip
+    bodies = system.model.bodies
+    build.section("positions and velocities of the bodies")
+    for body in bodies:
+        for k, (q, v) in enumerate(zip(body.q, body.v, strict=True), body.index):
+            build.out(f"all_q[{k}]", q)
+            build.out(f"all_v[{k}]", v)
+    build.section("rates of the closures")
+    _largest(build, "worst", [
+        build.local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in zip(rows.names, system.rows, strict=True)
+    ])  # fmt: skip
+    solvers = rows.factorize(build)
+    build.section("accelerations")
+    a = rows.solve(build, solvers, [row.gamma for row in system.rows], "second")
+    for k, value in enumerate(a):
+        build.out(f"a[{k}]", value)
+    for body in bodies:
+        motion = system.motions[body.name]
+        for k, (line, bias) in enumerate(zip(motion.jacobian, motion.bias, strict=True), body.index):
+            build.out(f"all_a[{k}]", sp.Add(bias, *(entry * a[j] for j, entry in line.items())))
+    build.line("return 0;")
+    outs = (Argument("double *", name) for name in ("a", "all_q", "all_v", "all_a", "worst"))
+    return build.build((*STATE, PARAMETERS, *outs), "int")
+
+
+def _largest(build: KernelBuilder, name: str, values: list[sp.Symbol]) -> None:
+    """*name = the largest magnitude; NaN counts as nothing here, steps and solutions tell it."""
+    build.line(f"*{name} = 0.0;")
+    for value in values:
+        build.line(f"*{name} = max_of(*{name}, fabs({value}));")

@@ -1,0 +1,116 @@
+"""The story of a scene's reduction, from what the generator has done: runtime/contract/ledger.py says what is in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from gudgeon.contract import ledger as told
+from gudgeon.contract.ledger import Group, Placed, Solve, Step, Story
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.system import System
+from gudgeon.generator.reduction.affine import CONSTANT, Affine
+from gudgeon.generator.reduction.links import Link
+from gudgeon.generator.reduction.reduction import TreeSystem
+from gudgeon.generator.reduction.tree import Tree
+from gudgeon.generator.solvers.kkt import KKT
+from gudgeon.generator.sparsity.matching import Block
+
+
+def tell(model: Model, absolute: KKT, solved: KKT | None, system: System, blocks: Sequence[Block]) -> Story:
+    """`system` is what is integrated, `solved` what a right-hand side of it factors (None: none is), `blocks` the
+    groups that are solved one after the other where no freedom is left."""
+    tree = system.tree if isinstance(system, TreeSystem) else None
+    steps = [*_opened(model), *(_reduced(model, system) if isinstance(system, TreeSystem) else ())]
+    names = _unknowns(model, system)
+    return Story(
+        coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
+        rows=tuple(row.name for row in model.all_rows),
+        jacobian=sum(len(row.phi_q) for row in model.rows),
+        steps=tuple(step for step in steps if step.owners),
+        tree=tuple(Placed(x.body, x.parent, x.joint.name if x.joint else "") for x in tree.links) if tree else (),
+        costs=tree.costs if tree else (),
+        before=_solve(absolute),
+        after=_solve(solved) if solved else None,
+        groups=tuple(
+            Group(tuple(system.rows[r].name for r in block.rows), tuple(names[k] for k in block.columns))
+            for block in blocks
+        ),
+    )
+
+
+def _unknowns(model: Model, system: System) -> tuple[str, ...]:
+    if isinstance(system, TreeSystem):
+        return system.unknowns
+    return tuple(model.symbols.info[q].meaning for q in model.q)
+
+
+def _solve(kkt: KKT) -> Solve:
+    elimination = kkt.elimination
+    return Solve(
+        kkt.n, len(elimination.order) - kkt.n, kkt.n + 2 * len(kkt.entry),
+        sum(map(len, elimination.structure.values())), elimination.products,
+    )  # fmt: skip
+
+
+def _opened(model: Model) -> Iterator[Step]:
+    """From the closed linkage to the rows that constrain the motion."""
+    dropped = model.redundancy.dropped
+    open_rows = tuple(r.name for r in model.all_rows if r.owner in model.scene.play)
+    yield Step(told.PLAY, tuple(model.scene.play), rows_gone=open_rows)
+    owner = {row.name: row.owner for row in model.all_rows}
+    yield Step(told.REDUNDANT, tuple(dict.fromkeys(owner[name] for name in dropped)), rows_gone=dropped)
+
+
+def _reduced(model: Model, system: TreeSystem) -> Iterator[Step]:
+    """From the absolute rows to the closures of the tree."""
+    yield from _angles(model, system.tree)
+    yield from _hubs(system.tree)
+    links = [link for link in system.tree.links if link.joint]
+    for kind in (told.HINGES, told.SLIDES):
+        some = [link for link in links if link.slides == (kind == told.SLIDES)]
+        yield Step(
+            kind, _owners(some), tuple(f"{link.body}.{axis}" for link in some for axis in "xy"),
+            tuple(name for link in some for name in link.coordinates), tuple(row for link in some for row in link.rows),
+        )  # fmt: skip
+    if system.slides:
+        by = dict.fromkeys(k for affine in system.slides.values() for k in affine if k != CONSTANT)
+        yield Step(told.KNOWN, tuple(by) or tuple(system.slides), tuple(system.slides), rows_gone=system.sliding)
+    if system.chain:
+        rows = tuple(row.name for row in system.chain.rows)
+        gone = tuple(name if "." in name else f"{name}.theta" for name in system.chain.names)
+        yield Step(told.CHAIN, tuple(dict.fromkeys(row.owner for row in system.chain.rows)), gone, rows_gone=rows)
+
+
+def _owners(links: Iterable[Link]) -> tuple[str, ...]:
+    return tuple(link.joint.name for link in links if link.joint)
+
+
+def _angles(model: Model, tree: Tree) -> Iterator[Step]:
+    """Angles that rows say in others: each row that was used up has taken one."""
+    drives = model.scene.mechanism.drives
+
+    def kind(affine: Affine) -> str:
+        keys = [k for k in affine if k != CONSTANT]
+        if any(k not in drives for k in keys):
+            return told.FOLLOWING
+        return told.PRESCRIBED if keys else told.CONSTANT
+
+    owner = {row.name: row.owner for row in model.all_rows}
+    for which in (told.PRESCRIBED, told.CONSTANT, told.FOLLOWING):
+        rows = {row: body for row, body in tree.solved.items() if kind(tree.angles[body]) == which}
+        by = dict.fromkeys(k for body in rows.values() for k in tree.angles[body] if k != CONSTANT)
+        yield Step(
+            which, tuple(by) or tuple(dict.fromkeys(owner[row] for row in rows)),
+            tuple(f"{body}.theta" for body in rows.values()), rows_gone=tuple(rows),
+        )  # fmt: skip
+
+
+def _hubs(tree: Tree) -> Iterator[Step]:
+    """The file's pairs of points give way to those that the tree and its closures take."""
+    for hub in tree.hubs:
+        taken = [link.joint for link in tree.links if link.joint in hub.pairs]
+        taken += [joint for joint in tree.closing if joint in hub.pairs]
+        came = tuple(row for joint in taken if joint and joint not in hub.joints for row in hub.rows_of(joint))
+        went = tuple(row for joint in hub.joints if joint not in taken for row in hub.rows_of(joint))
+        if went:
+            yield Step(told.HUB, tuple(joint.name for joint in hub.joints), rows_gone=went, rows_come=came)

@@ -1,0 +1,73 @@
+"""The kernels around the dynamics: parameters, the closed linkage's Φ and its parts, the start, outputs."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
+from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.mechanism.mechanism import Joint
+
+
+def outputs_kernel(model: Model) -> Kernel:
+    """Reactions, drive torques and energies from q, q̇ and λ."""
+    build = KernelBuilder(model.symbols, "outputs", [
+        "Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),",
+        "drive torques on the driven body, kinetic and potential energy.",
+    ])  # fmt: skip
+    multiplier: dict[str, sp.Expr] = {}
+    build.section("multipliers")
+    for r, row in enumerate(model.rows):
+        multiplier[row.name] = build.local(f"multiplier_{row.name.replace('.', '_')}", f"lambda[{r}]")
+    build.section("reactions")
+    rows_of: dict[str, list[Row]] = {}
+    for row in model.rows:
+        rows_of.setdefault(row.owner, []).append(row)
+    for j, joint in enumerate(kept_joints(model)):
+        for k, value in enumerate(_reaction(model, joint, rows_of.get(joint.name, []), multiplier)):
+            build.out(f"reactions[{3 * j + k}]", value, f"{joint.name}.{('Fx', 'Fy', 'M')[k]}")
+    for d, name in enumerate(model.scene.mechanism.drives):
+        build.out(f"torques[{d}]", -multiplier.get(name, ZERO), f"{name}")
+    for k, (name, (value, _)) in enumerate(element_series(model).items()):
+        build.out(f"series[{k}]", value, name)
+    build.section("energy")
+    build.out("energy[0]", sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True))))
+    gx, gy = model.gravity
+    weights = (-body.mass * (gx * body.x + gy * body.y) for body in model.bodies)
+    build.out("energy[1]", sp.Add(*weights, *(element.loads.potential for element in model.elements.values())))
+    out = (Argument("double *", name) for name in ("reactions", "torques", "series", "energy"))
+    return build.build((*STATE, PARAMETERS, Argument("const double *", "lambda"), *out))
+
+
+def element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
+    """Results of the force elements: "coil.F" -> (value, unit)."""
+    return {f"{name}.{what}": value for name, e in model.elements.items() for what, value in e.loads.series.items()}
+
+
+def kept_joints(model: Model) -> list[Joint]:
+    """Joints that constrain the motion: those without play."""
+    return [joint for joint in model.scene.mechanism.joints.values() if joint.name not in model.scene.play]
+
+
+def _reaction(
+    model: Model, joint: Joint, rows: list[Row], multiplier: dict[str, sp.Expr]
+) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """Force on the second body and moment about the joint's point; on the ground: what all the others do not get."""
+    first, second = model.geometry.point(joint.first), model.geometry.point(joint.second)
+    kind = joint_types()[joint.kind]
+    at = first if kind.reaction_at == "first" else second
+    sign, bodies = 1, [second.body]
+    if second.body is None:
+        others = [joint.options[field.name] for field in kind.fields if field.kind == "body"]  # a gear's carrier
+        sign, bodies = -1, [first.body, *(model.geometry.bodies.get(name) for name in others)]
+    wrench = [ZERO, ZERO, ZERO]
+    for body in bodies:
+        if body is not None:
+            share = [-sum((row.phi_q.get(q, ZERO) * multiplier[row.name] for row in rows), ZERO) for q in body.q]
+            arm = at.arm if at.body is body else (at.x - body.x, at.y - body.y)
+            share[2] = sp.expand(share[2] - (arm[0] * share[1] - arm[1] * share[0]))
+            wrench = [total + sign * part for total, part in zip(wrench, share, strict=True)]
+    return wrench[0], wrench[1], wrench[2]

@@ -1,0 +1,61 @@
+"""Onto the constraints: the smallest changes of positions and velocities, in the metric of M."""
+
+from __future__ import annotations
+
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.system import System
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
+from gudgeon.generator.ir.signatures import HELD_SIDES, MEMORY, PARAMETERS, STATE
+from gudgeon.generator.solvers.kkt import KKT, VANISHING
+
+
+def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
+    """x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r: the smallest x, in the metric of M, with Φ_q x = r."""
+    model, kkt = system.model, KKT(system, rows)
+    build = KernelBuilder(model.symbols, name, [
+        "The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of",
+        "the closed linkage, redundant ones are not looked at.",
+        "Returns 0, or the number of the pivot that vanished.",
+    ])  # fmt: skip
+    build.section("right-hand side")
+    place = {row.name: k for k, row in enumerate(model.all_rows)}
+    r = {
+        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", f"r[{place[row.name]}]")
+        for k, row in enumerate(kkt.rows)
+    }
+    x = kkt.solve(build, kkt.factorize(build), r, "step_")
+    build.section("results")
+    for k, _ in enumerate(system.q):
+        build.out(f"x[{k}]", x[k])
+    build.line("return 0;")
+    arguments = (*STATE[:2], Argument("const double *", "r"), PARAMETERS, Argument("double *", "x"))
+    return build.build(arguments, "int"), kkt
+
+
+def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
+    """One Newton step onto Φ = 0 and one onto Φ̇ = 0, with one factorization."""
+    kkt = KKT(system, system.rows)
+    build = KernelBuilder(system.model.symbols, name, [
+        "The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.",
+        "`worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.",
+    ])  # fmt: skip
+    build.section("Phi and Phi_dot")
+    phi, phi_dot = {}, {}
+    for r, row in enumerate(kkt.rows):
+        named = row.name.replace(".", "_")
+        phi[kkt.n + r] = build.local(f"phi_{named}", row.phi)
+        phi_dot[kkt.n + r] = build.local(f"phi_dot_{named}", row.phi_q_v - row.nu)
+    factor = kkt.factorize(build, share=VANISHING)  # nearer, rounding would be blown up
+    x, u = kkt.solve(build, factor, phi, "dq_"), kkt.solve(build, factor, phi_dot, "dv_")
+    build.section("results")
+    for k, _ in enumerate(system.q):
+        build.out(f"dq[{k}]", x[k])
+        build.out(f"dv[{k}]", u[k])
+    build.line("*worst = 0.0;")
+    for value in phi.values():  # text: this maximum is no corner of the motion
+        build.line(f"*worst = max_of(*worst, fabs({value}));")
+    build.line("return 0;")
+    outs = (Argument("double *", name) for name in ("dq", "dv", "worst"))
+    # a corner that no acceleration knows (in lengths and parameters alone) is watched by nobody, so not held
+    kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), "int", owner="", only_known=True)
+    return with_sides(kernel, HELD_SIDES)

@@ -1,0 +1,137 @@
+"""The kernels of the reduced formulation: right-hand side in tree coordinates, and the ways there and back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import sympy as sp
+
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.fields import JointFields
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, without_unused
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE
+from gudgeon.generator.kernels.dynamics import dynamics_kernel
+from gudgeon.generator.kernels.event_functions import reads_beyond, watched_kernel
+from gudgeon.generator.kernels.projection import projection_kernel
+from gudgeon.generator.reduction.links import Link
+from gudgeon.generator.reduction.reduction import TreeSystem
+from gudgeon.generator.solvers.kkt import KKT
+
+DYNAMICS = "reduced_dynamics"  # the right-hand side's name
+_DOC = (
+    "Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:",
+    "[M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.",
+    "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
+)
+
+
+def is_rescued(system: TreeSystem) -> bool:
+    """Whether a vanishing pivot is mended; where friction may stick it is told, rows come and go there."""
+    return bool(system.rows and not system.frictions)
+
+
+def motion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
+    """From tree coordinates to absolute ones and back."""
+    return [_expand(system), *_reduce(model, system)]
+
+
+def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
+    """Closures, right-hand side and projection in tree coordinates, sines one by one; the order of the pivots."""
+    kkt = KKT(system, daring=is_rescued(system))
+    dynamics = dynamics_kernel(system, kkt, DYNAMICS, _DOC, stabilised=False, rescue=_rescue)
+    projection, _ = projection_kernel(system, system.rows, "reduced_project")
+    follows = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
+    watched = None if follows else watched_kernel(dynamics, system.model)  # what is followed is not watched
+    if watched and system.chain and reads_beyond(watched, len(system.q)):
+        watched = None  # chains are closed by rates()
+    kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
+    return [without_unused(kernel) for kernel in kernels], kkt
+
+
+def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+    """Where a pivot vanishes the absolute formulation solves, which finds out what is dependent."""
+    build.line("goto powers;")
+    build.section("a pivot vanished: rows depend on each other here")
+    build.line("dependent:")
+    build.line("pivot = solve_by_absolute(t, q, v, memory, p, a, aside);")
+    build.line("powers:")
+
+
+def _expand(system: TreeSystem) -> Kernel:
+    """Absolute coordinates and velocities of a state of the tree."""
+    build = KernelBuilder(system.model.symbols, "expand", [
+        "Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.",
+    ])  # fmt: skip
+    build.section("bodies")
+    for body in system.model.bodies:
+        for k, (q, v) in enumerate(zip(body.q, body.v, strict=True)):
+            build.out(f"all_q[{body.index + k}]", q)
+            build.out(f"all_v[{body.index + k}]", v)
+    out = (Argument("double *", "all_q"), Argument("double *", "all_v"))
+    return build.build((*STATE, PARAMETERS, *out))
+
+
+def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
+    """Tree coordinates of an absolute state, and the accelerations of an absolute one."""
+    pairs = list(zip(model.q, model.v, strict=True))
+    diff = model.symbols.diff
+    names = (*system.unknowns, *(system.chain.names if system.chain else ()))
+    positions = _tree_coordinates(model, system, names)
+    rates = [sp.Add(*(diff(s, q) * v for q, v in pairs)) for s in positions]
+    state = KernelBuilder(model.symbols, "reduce_state", [
+        "Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.",
+    ])  # fmt: skip
+    state.section("tree coordinates")
+    for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
+        state.out(f"s[{k}]", position, names[k])
+        state.out(f"s_rate[{k}]", rate)
+    accelerations = KernelBuilder(model.symbols, "reduce_accelerations", ["Their second rates a, from absolute all_a."])
+    accelerations.section("tree coordinates")
+    for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
+        if k == len(system.unknowns):
+            break
+        along = (diff(position, q) * sp.Symbol(f"all_a[{i}]") for i, q in enumerate(model.q))
+        accelerations.out(f"a[{k}]", sp.Add(*along, *(diff(rate, q) * v for q, v in pairs)), system.unknowns[k])
+    out = (Argument("double *", "s"), Argument("double *", "s_rate"))
+    given = Argument("const double *", "all_a")
+    kernels = [state.build((*STATE, PARAMETERS, *out))]
+    if is_rescued(system):
+        kernels.append(accelerations.build((*STATE, given, PARAMETERS, Argument("double *", "a"))))
+    return kernels
+
+
+def _tree_coordinates(model: Model, system: TreeSystem, names: Sequence[str]) -> list[sp.Expr]:
+    """Coordinates of the tree in absolute ones: angles, and slides along their axes."""
+    slides: dict[str, sp.Expr] = {}
+    for link in system.tree.links:
+        body = model.geometry.bodies[link.body]
+        for name, value in zip(link.coordinates, (body.x, body.y), strict=False):
+            slides[name] = value if link.joint is None else _slide(model, link)
+    return [slides[name] if name in slides else model.geometry.bodies[name].theta for name in names]
+
+
+def _slide(model: Model, link: Link) -> sp.Expr:
+    """How far the second body has slid along the axis of the first."""
+    assert link.joint is not None
+    geometry = model.geometry
+    first, second = geometry.point(link.joint.first), geometry.point(link.joint.second)
+    u_x, u_y = first.direction(JointFields(link.joint, geometry).direction("axis"))
+    return u_x * (second.x - first.x) + u_y * (second.y - first.y)
+
+
+def _closures(system: TreeSystem) -> list[Kernel]:
+    """Φ of the closures and its rate."""
+
+    def kernel(name: str, doc: str, velocity: bool, value: Callable[[Row], sp.Expr]) -> Kernel:
+        build = KernelBuilder(system.model.symbols, name, [doc])
+        build.section("rows")
+        for r, row in enumerate(system.rows):
+            build.out(f"out[{r}]", value(row), row.name)
+        arguments: Sequence[Argument] = STATE if velocity else STATE[:2]
+        return build.build((*arguments, PARAMETERS, Argument("double *", "out")))
+
+    return [
+        kernel("closures", "Phi of the loop closures in tree coordinates; m and rad.", False, lambda row: row.phi),
+        kernel("closure_rates", "Its rate Phi_q v - nu.", True, lambda row: row.phi_q_v - row.nu),
+    ]

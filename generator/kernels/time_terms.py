@@ -1,0 +1,163 @@
+"""Terms of the equations that hang on time alone and may rise and fall between two looks: pulses, narrow bumps.
+
+A step of a method sees forces and drives at its stages only. Polynomials, sines and exponentials of a linear argument
+show there what they do; e^(−t²), 1/(1 + t²), tanh t or a sine of a sine may be at rest at all of them and act in
+between. Such terms are known without the state, and so are their bounds over a part of a step
+(templates/c/watch/time_terms.c.jinja, ranges.c.jinja).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import sympy as sp
+
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.symbols.corners import Pick, SideOf
+
+NAME = "time_terms"
+MOST = 32  # terms of a scene
+_DOC = ("Terms that hang on time alone and may rise and fall within a step.",)
+_LINEAR = (sp.sin, sp.cos, sp.exp)  # what shows at the stages of a step, of a linear argument
+_POWERS = range(1, 5)  # likewise, of what does
+
+
+def count_terms(kernel: Kernel | None) -> int:
+    """How many terms a kernel tells."""
+    statements = [s for section in kernel.sections for s in section.statements] if kernel else []
+    return sum(isinstance(s, Statement) and not s.local for s in statements)
+
+
+def time_terms_kernel(dynamics: Kernel) -> Kernel | None:
+    """What a right-hand side reads of time alone; None where nothing of it can hide within a step."""
+    found = _Terms()
+    for section in dynamics.sections:
+        for statement in section.statements:
+            if isinstance(statement, Statement):
+                found.read(statement)
+    terms = list(found.terms)[:MOST]
+    if not terms:
+        return None
+    outs = [Statement(f"out[{k}]", term, local=False) for k, term in enumerate(terms)]
+    sections = (Section("parameters and time", tuple(found.needed(terms))), Section("terms", tuple(outs)))
+    arguments = (Argument("const double", "t"), *(a for a in dynamics.arguments if a.name == "p"),
+                 Argument("Aside *", "aside"))  # fmt: skip
+    return replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=sections, returns="void")
+
+
+class _Terms:
+    """Reads statements in their order; `terms` are in the order in which they are met."""
+
+    def __init__(self) -> None:
+        self.known: dict[str, Statement] = {}  # locals that time and parameters determine
+        self.timed: dict[str, sp.Expr] = {}  # those of them that hang on time, written out
+        self.terms: dict[sp.Expr, None] = {}
+        self.time = "t"
+        self._tame: dict[sp.Expr, bool] = {}  # parts recur in the derivatives of what is nested
+        self._names: dict[sp.Expr, frozenset[str]] = {}
+
+    def read(self, statement: Statement) -> None:
+        value = statement.value
+        if isinstance(value, str):
+            if statement.local and (value == "t" or value.startswith("p->")):
+                self.known[statement.target] = statement
+            if value == "t":
+                self.time = statement.target
+            return
+        names = {symbol.name for symbol in value.free_symbols}
+        if names <= self.known.keys():
+            if statement.local:
+                self.known[statement.target] = statement
+            self.collect(value)
+        else:
+            for part in sp.preorder_traversal(value):
+                if isinstance(part, (sp.Add, sp.Mul)):
+                    part = part.func(*(factor for factor in part.args if self.is_timed(factor)))
+                if isinstance(part, sp.Expr):
+                    self.collect(part)
+        if statement.local and statement.target in self.known and self.is_timed(value):
+            self.timed[statement.target] = self.written_out(value)
+
+    def written_out(self, value: sp.Expr) -> sp.Expr:
+        """With the locals that hang on time as what they are."""
+        if self.names_in(value).isdisjoint(self.timed):
+            return value
+        inner = {s: self.timed[s.name] for s in value.free_symbols if s.name in self.timed}
+        return value.xreplace(inner) if inner else value
+
+    def names_in(self, value: sp.Expr) -> frozenset[str]:
+        """Of its symbols; each part is looked at once."""
+        if value not in self._names:
+            parts = (self.names_in(part) for part in value.args)
+            self._names[value] = frozenset({value.name}) if value.is_Symbol else frozenset().union(*parts)
+        return self._names[value]
+
+    def is_timed(self, value: sp.Expr) -> bool:
+        """Whether it hangs on time, and on nothing but time and parameters."""
+        names = self.names_in(value)
+        return names <= self.known.keys() and (self.time in names or not names.isdisjoint(self.timed))
+
+    def collect(self, value: sp.Expr) -> None:
+        """The terms of a value, and those within them."""
+        if not self.is_timed(value) or self.is_tame(value):
+            return
+        if isinstance(value, SideOf):
+            return self.collect(value.args[1])
+        parts = [part for part in value.args if self.is_timed(part) and not self.is_tame(part)]
+        if isinstance(value, (sp.Add, sp.Mul, Pick)):
+            if len(parts) > 1 and not isinstance(value, Pick):
+                self.terms.setdefault(value.func(*parts))
+        elif not value.is_Symbol:
+            self.terms.setdefault(value)
+        for part in parts:
+            self.collect(part)
+        return None
+
+    def is_tame(self, value: sp.Expr) -> bool:
+        """Whether it shows at the stages what it does between them. Corners end steps: their branches count."""
+        if value not in self._tame:
+            self._tame[value] = self._is_tame(self.written_out(value))
+        return self._tame[value]
+
+    def _is_tame(self, value: sp.Expr) -> bool:
+        if self.time not in self.names_in(value):
+            return True
+        match value:
+            case sp.Symbol():
+                return True
+            case SideOf():
+                return self.is_tame(value.args[1])
+            case sp.Add() | sp.Mul() | Pick():
+                return all(map(self.is_tame, value.args))
+            case sp.Pow() if value.exp.is_Integer and int(value.exp) in _POWERS:
+                return self.is_tame(value.base)
+        if isinstance(value, _LINEAR):
+            return self.is_linear(value.args[0])
+        return False
+
+    def is_linear(self, value: sp.Expr) -> bool:
+        """Whether its form says that it is linear in time."""
+        timed = [part for part in value.args if self.time in self.names_in(part)]
+        if isinstance(value, (sp.Add, sp.Mul)):
+            return (len(timed) < 2 or isinstance(value, sp.Add)) and all(map(self.is_linear, timed))
+        return value.is_Symbol or not timed
+
+    def needed(self, terms: list[sp.Expr]) -> list[Statement]:
+        """The locals that the terms read, in their order."""
+        waiting = [s.name for term in terms for s in term.free_symbols]
+        read: set[str] = set()
+        while waiting:
+            name = waiting.pop()
+            if name in self.known and name not in read:
+                read.add(name)
+                value = self.known[name].value
+                waiting += [s.name for s in value.free_symbols] if isinstance(value, sp.Expr) else []
+        return [_unheld(s) for name, s in self.known.items() if name in read]
+
+
+def _unheld(statement: Statement) -> Statement:
+    """A side as its function has it over a range: nothing is held where time alone is looked at."""
+    if isinstance(statement.value, SideOf):
+        return replace(statement, value=sp.sign(statement.value.args[1]))
+    return statement
+

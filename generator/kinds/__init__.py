@@ -1,0 +1,1 @@
+"""One-file extensions, found by being in their folder."""

@@ -1,0 +1,1 @@
+"""One file a force element: what `forces:` of a file may hold."""

@@ -1,0 +1,41 @@
+r"""A force at a point of a body, in ground or body axes; its components may vary with time and motion.
+
+body  o------>  value
+    point
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.forces.force_type import ElementField, ElementType, Load, Loads
+from gudgeon.language.units import FORCE, dimension
+
+
+def build(targets: Any, fields: Any) -> Loads:
+    """The force and its power F · ṙ."""
+    import sympy as sp
+
+    (point,) = targets
+    value = fields.vector("value")
+    if fields.option("axes") == "body" and point.body is not None:
+        cos, sin = point.geometry.angle(point.body)
+        value = (cos * value[0] - sin * value[1], sin * value[0] + cos * value[1])
+    x, y = fields.named_vector("force", value)
+    vx, vy = point.velocity
+    series = {"Fx": (x, "N"), "Fy": (y, "N"), "F": (sp.sqrt(x**2 + y**2), "N")}
+    return Loads((Load(0, x, y, sp.Integer(0)),), sp.Integer(0), x * vx + y * vy, series)
+
+
+ELEMENT = ElementType(
+    "force",
+    "force at a point",
+    "points",
+    (1,),
+    (
+        ElementField("value", "vector", "components", dimension(mass=1, length=1, time=-2), True, variable=True),
+        ElementField("axes", "option", "in which axes the components are", values=("ground", "body")),
+    ),
+    (("Fx", FORCE), ("Fy", FORCE), ("F", FORCE)),
+    build,
+)

@@ -1,0 +1,83 @@
+"""What a force element declares. One file in this folder is one kind; it exports `ELEMENT`.
+
+As with joints and laws nothing here imports SymPy at the top. `build(targets, fields)` gets one
+PointFrame a target and the element's own numbers, and returns a `Loads`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from gudgeon.generator.kinds.discovery import declared
+from gudgeon.language.units import Dimension
+
+
+@dataclass(frozen=True)
+class ElementField:
+    """A key beside the element's own."""
+
+    name: str
+    kind: str  # "quantity", "vector" or "option"
+    meaning: str
+    dimension: Dimension = Dimension()
+    required: bool = False
+    variable: bool = False  # may use t and named coordinates and velocities, not parameters alone
+    values: tuple[str, ...] = ()  # of an option; the first is the default
+    not_negative: bool = False
+    at_least: str = ""  # another field of the element that it must not fall below
+
+
+@dataclass(frozen=True)
+class Load:
+    """Force (N, ground axes) and moment (N·m, about the point) on the body of one target."""
+
+    target: int
+    x: Any
+    y: Any
+    moment: Any
+
+
+@dataclass(frozen=True)
+class Slip:
+    """A slip velocity that friction may hold at zero: v (m/s), the surface's own speed, limits in N."""
+
+    v: Any
+    speed: Any
+    static: Any
+    kinetic: Any
+
+
+@dataclass(frozen=True)
+class Loads:
+    """What an element does: loads, the energy it stores, the power of what it does not store.
+
+    `series` are results by name ("F", "length"), with their units.
+    """
+
+    loads: tuple[Load, ...]
+    potential: Any
+    power: Any
+    series: Mapping[str, tuple[Any, str]]
+    slip: Slip | None = None
+
+
+@dataclass(frozen=True)
+class ElementType:
+    """A kind of force element: the YAML key `kind: target` or `kind: [target, target]`."""
+
+    kind: str
+    title: str
+    targets: str  # "points" or "bodies"; the ground is one of either
+    counts: tuple[int, ...]  # how many targets there may be
+    fields: tuple[ElementField, ...]
+    results: tuple[tuple[str, Dimension], ...]  # names of `Loads.series`, for outputs
+    build: Callable[..., Loads]
+
+
+@cache
+def element_types() -> Mapping[str, ElementType]:
+    """All the kinds in this folder."""
+    return {e.kind: e for e in declared("gudgeon.generator.kinds.forces", "ELEMENT", ElementType)}

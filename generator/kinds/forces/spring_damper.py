@@ -1,0 +1,53 @@
+r"""Spring and damper between two points, along the line that joins them.
+
+     P o--/\/\/--[=--o Q       F = k (l − l_0) + d l̇      l = ‖r_Q − r_P‖, tension positive
+
+With a literal free length of zero the spring's force k (r_Q − r_P) is written without the direction, so
+that it stays regular where the points meet.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.forces.force_type import ElementField, ElementType, Load, Loads
+from gudgeon.language.units import FORCE, LENGTH, dimension
+
+
+def build(targets: Any, fields: Any) -> Loads:
+    """The pair of forces, ½ k (l − l_0)² and −d l̇²."""
+    import sympy as sp
+
+    P, Q = targets
+    k, l_0, d = (fields.quantity(name) for name in ("stiffness", "free_length", "damping"))
+    (x, y), (vx, vy) = fields.named_vector("span", (Q.x - P.x, Q.y - P.y)), fields.named_vector("span_rate", tuple(
+        b - a for a, b in zip(P.velocity, Q.velocity, strict=True)))  # fmt: skip
+    squared = x**2 + y**2
+    if l_0 == 0 and d == 0:
+        pull, potential, series = k, k * squared / 2, {"length": (sp.sqrt(squared), "m")}
+        force = k * sp.sqrt(squared)
+        power = sp.Integer(0)
+    else:
+        length = fields.named("length", sp.sqrt(squared))
+        rate = fields.named("length_rate", (x * vx + y * vy) / length)
+        force = fields.named("force", k * (length - l_0) + d * rate)
+        pull = fields.named("pull", force / length)
+        potential, power = k * (length - l_0) ** 2 / 2, -d * rate**2
+        series = {"length": (length, "m")}
+    loads = (Load(0, pull * x, pull * y, sp.Integer(0)), Load(1, -pull * x, -pull * y, sp.Integer(0)))
+    return Loads(loads, potential, power, {"F": (force, "N"), **series})
+
+
+ELEMENT = ElementType(
+    "spring_damper",
+    "spring and damper between two points",
+    "points",
+    (2,),
+    (
+        ElementField("stiffness", "quantity", "k", dimension(mass=1, time=-2), not_negative=True),
+        ElementField("free_length", "quantity", "l_0", LENGTH, not_negative=True),
+        ElementField("damping", "quantity", "d", dimension(mass=1, time=-1), not_negative=True),
+    ),
+    (("F", FORCE), ("length", LENGTH)),
+    build,
+)

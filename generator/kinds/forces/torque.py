@@ -1,0 +1,37 @@
+r"""A torque on a body, or between two bodies (on the first, and its opposite on the second).
+
+( value
+ body
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.forces.force_type import ElementField, ElementType, Load, Loads
+from gudgeon.language.units import TORQUE, dimension
+
+
+def build(targets: Any, fields: Any) -> Loads:
+    """The torque and its power."""
+    import sympy as sp
+
+    zero = sp.Integer(0)
+    moment = fields.named("torque", fields.quantity("value"))
+    loads = [Load(0, zero, zero, moment)]
+    power = moment * targets[0].omega
+    if len(targets) == 2:
+        loads.append(Load(1, zero, zero, -moment))
+        power -= moment * targets[1].omega
+    return Loads(tuple(loads), zero, power, {"M": (moment, "N*m")})
+
+
+ELEMENT = ElementType(
+    "torque",
+    "torque on a body or between two",
+    "bodies",
+    (1, 2),
+    (ElementField("value", "quantity", "on the first", dimension(mass=1, length=2, time=-2), True, variable=True),),
+    (("M", TORQUE),),
+    build,
+)

@@ -1,0 +1,31 @@
+r"""Point on line (pin in slot): a point of the first body stays on a line fixed in the second.
+
+second  ====o=================>  direction (in the second body's frame, through its point)
+            |
+          first                  Φ = n · (r_P − r_Q),  n: the direction's unit vector turned +90°
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.joints.joint_type import JointField, JointType
+from gudgeon.language.units import DIMENSIONLESS
+
+
+def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+    """One row: the distance of the point from the line (m)."""
+    u_x, u_y = second.direction(fields.direction("direction"))
+    return [u_x * (first.y - second.y) - u_y * (first.x - second.x)]
+
+
+JOINT = JointType(
+    "point_on_line",
+    "point on a line (pin in slot)",
+    (JointField("direction", "vector", "of the line, in the second body's frame", DIMENSIONLESS, True, nonzero=True),),
+    False,
+    ("offset",),
+    ("m",),
+    rows,
+    reaction_at="first",
+)

@@ -1,0 +1,22 @@
+r"""Revolute joint: a point of the first body coincides with a point of the second.
+
+     \        /
+      \      /
+first  \    /  second          Φ = r_first + A(θ_first) s_first − r_second − A(θ_second) s_second
+        \  /
+         ()                    the paper's Eq. 19, row by row
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.joints.joint_type import JointType
+
+
+def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+    """Two rows: the two points' coordinates in ground axes are equal (m)."""
+    return [first.x - second.x, first.y - second.y]
+
+
+JOINT = JointType("revolute", "revolute joint", (), True, ("x", "y"), ("m", "m"), rows, carries=("x", "y"))

@@ -1,0 +1,39 @@
+r"""Translational joint: the second body slides along an axis of the first and does not turn to it.
+
+  ====[  second  ]====>  axis (fixed in the first body, through its point)
+     first
+
+Φ = ( n · (r_Q − r_P),  θ_second − θ_first − angle )     n: the axis' unit vector turned +90°
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.joints.joint_type import JointField, JointType
+from gudgeon.language.units import DIMENSIONLESS
+
+
+def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+    """Two rows: the offset from the axis (m), the angle between the bodies (rad)."""
+    axis = fields.direction("axis")
+    axis_x, axis_y = first.direction(axis)
+    offset = axis_x * (second.y - first.y) - axis_y * (second.x - first.x)
+    return [offset, second.theta - first.theta - fields.quantity("angle", fields.angle_of("axis"))]
+
+
+JOINT = JointType(
+    "translational",
+    "translational joint",
+    (
+        JointField(
+            "axis", "vector", "direction of sliding in the first body's frame", DIMENSIONLESS, True, nonzero=True
+        ),
+        JointField("angle", "quantity", "θ_second − θ_first; default: the axis' direction", DIMENSIONLESS),
+    ),
+    False,
+    ("offset", "angle"),
+    ("m", "rad"),
+    rows,
+    carries=("offset",),
+)

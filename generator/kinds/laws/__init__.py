@@ -1,0 +1,1 @@
+"""One file a law of contact, friction or film."""

@@ -1,0 +1,98 @@
+"""What a force law declares. One file in this folder is one law; it exports `LAW`.
+
+This module and the top level of every law file import no SymPy: reading a YAML file needs a law's
+parameters and options, not its equations. Equations are built inside functions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from gudgeon.generator.kinds.discovery import declared
+from gudgeon.language.units import Dimension
+
+
+@dataclass(frozen=True)
+class LawParameter:
+    """A number of a law: a run-time slot `contacts.<contact>.<role>.<name>`."""
+
+    name: str
+    symbol: str  # as in the paper, in LaTeX
+    meaning: str
+    dimension: Dimension
+    default: float | None = None  # None: the user must give it
+    bounds: tuple[tuple[str, float | str], ...] = ()  # (relation, number or name of another parameter)
+    any_dimension: bool = False  # its unit depends on other numbers: not checked
+
+
+@dataclass(frozen=True)
+class LawOption:
+    """A structural choice of a law; bool options have values (False, True)."""
+
+    name: str
+    values: tuple[str | bool, ...]
+    default: str | bool
+    meaning: str
+
+
+@dataclass(frozen=True)
+class PairSymbols:
+    """Journal j in bearing i, as SymPy symbols: radii R_i, R_j, radial clearance c, length L, E and ν."""
+
+    R_i: Any
+    R_j: Any
+    c: Any
+    L: Any
+    E_i: Any
+    nu_i: Any
+    E_j: Any
+    nu_j: Any
+
+
+@dataclass(frozen=True)
+class LawInputs:
+    """What a law's `build` may use: its own parameters, the pair, and the state variables of its role.
+
+    `derive(name, expression, meaning)` gives the symbol of a constant that is computed once a run.
+    """
+
+    parameters: Mapping[str, Any]
+    options: Mapping[str, str | bool]
+    pair: PairSymbols
+    variables: Mapping[str, Any]
+    derive: Callable[[str, Any, str], Any]
+
+
+# The state variables that a role's law is written in, and what it returns.
+VARIABLES: Mapping[str, tuple[str, ...]] = {
+    "normal": ("delta", "ratio"),  # δ > 0 (m), δ̇/δ̇⁻
+    "friction": ("F_n", "v_t"),  # normal force (N), slip (m/s)
+    "film": ("epsilon", "w_n", "w_t"),  # ε < 1, effective squeeze velocity over c (1/s)
+}
+RESULTS: Mapping[str, tuple[str, ...]] = {"normal": ("F_n",), "friction": ("F_t",), "film": ("F_r", "F_t", "T0")}
+
+
+@dataclass(frozen=True)
+class Law:
+    """A force law. `build(inputs: LawInputs)` returns the role's RESULTS by name, as SymPy.
+
+    Local abbreviations, if any, are returned first under their own names, in order of use.
+    """
+
+    name: str
+    role: str  # "normal", "friction" or "film": the key under a contact in the YAML
+    title: str
+    source: str
+    validity: str
+    parameters: tuple[LawParameter, ...]
+    options: tuple[LawOption, ...]
+    build: Callable[..., Any]
+
+
+@cache
+def laws() -> Mapping[str, Law]:
+    """All the laws in this folder by name."""
+    return {law.name: law for law in declared("gudgeon.generator.kinds.laws", "LAW", Law)}

@@ -1,0 +1,42 @@
+"""Modified Coulomb friction: no force below the slip v0, the full Coulomb force above v1.
+
+    F_t = −c_f c_d F_n,   c_d = clip((v_t − v0)/(v1 − v0), 0, 1) − clip((−v_t − v0)/(v1 − v0), 0, 1)
+
+which is the usual c_d(|v_t|) sgn(v_t), written without a corner at v_t = 0, where there is no force.
+
+J. A. C. Ambrósio's form of Coulomb's law, as in the paper (physics.md, section 3). It depends on the
+slip alone, so it cannot hold stick.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.laws.law import Law, LawInputs, LawParameter
+from gudgeon.language.units import DIMENSIONLESS, VELOCITY
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_t (N) on the journal, along t."""
+    import sympy as sp
+
+    v0, v1, v_t = s.parameters["v0"], s.parameters["v1"], s.variables["v_t"]
+    slope = s.derive("friction_slope", 1 / (v1 - v0), "1/(v1 - v0)")
+    forward, backward = (sp.Max(sp.Min((v - v0) * slope, 1), 0) for v in (v_t, -v_t))
+    return {"F_t": -s.parameters["mu"] * (forward - backward) * s.variables["F_n"]}
+
+
+LAW = Law(
+    name="modified_coulomb",
+    role="friction",
+    title="modified Coulomb friction",
+    source="physics.md section 3, after J. A. C. Ambrosio",
+    validity="sliding; creeps below v1 where Coulomb's law would stick",
+    parameters=(
+        LawParameter("mu", "c_f", "coefficient of friction", DIMENSIONLESS, None, ((">=", 0.0),)),
+        LawParameter("v0", "v_0", "slip below which there is no friction", VELOCITY, None, ((">=", 0.0),)),
+        LawParameter("v1", "v_1", "slip above which friction is full", VELOCITY, None, ((">", "v0"),)),
+    ),
+    options=(),
+    build=build,
+)

@@ -1,0 +1,70 @@
+"""Long-bearing film of Pinkus and Sternlicht in a form without branch, arctangent or division by ε.
+
+    s = √(1 − ε²),  W = √(w_n² + w_t²),  f = 1 + 1.5 ε w_n/(s W + 1.5 ε |w_n|),  S = 6 μ R_j³ L/c²
+    F_r = −(S/s³)[4 ε s W/(2 + ε²) + π w_n f],   F_t = −2π S w_t f/((2 + ε²) s)
+
+w is the effective squeeze velocity ė − ½(ω_i + ω_j) ẑ × e, over c: w_n = ε̇, w_t = −½ ε ω_s. It is the
+formula of O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961) with the sign of the
+radial force for ε̇ < 0 corrected; option `as_printed` restores the sign that the paper prints.
+With `shear` the film also carries the friction torque T0 = 2π μ R_j³ L (ω_j − ω_i)/(c s).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.laws.law import Law, LawInputs, LawOption, LawParameter
+from gudgeon.language.units import LENGTH, VISCOSITY
+
+# Where W vanishes so does every numerator: this keeps 0/0 away, in the derivatives (its square) too, and
+# changes no other value.
+TINY = 1e-150
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_r along n, F_t along t (N, on the journal); T0 is the shear torque per unit ω_j − ω_i (N·m·s)."""
+    import sympy as sp
+
+    epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))
+    pair, viscosity = s.pair, s.parameters["viscosity"]
+    c = s.derive("film_clearance", pair.c + s.parameters["extra_clearance"], "clearance of the film")
+    S = s.derive("S", 6 * viscosity * pair.R_j**3 * pair.L / c**2, "film factor 6 mu R_j^3 L/c^2")
+    root, W, f = sp.Symbol("root", real=True), sp.Symbol("W", real=True), sp.Symbol("factor", real=True)
+    half = sp.Rational(3, 2) * epsilon
+    F_r = -S / root**3 * (4 * epsilon * root * W / (2 + epsilon**2) + sp.pi * w_n * f)
+    if s.options["as_printed"]:
+        F_r = F_r * (1 - 2 * sp.Max(-sp.sign(w_n), 0))
+    return {
+        "root": sp.sqrt(1 - epsilon**2),
+        "W": sp.sqrt(w_n**2 + w_t**2),
+        "factor": 1 + half * w_n / (root * W + half * sp.Abs(w_n) + sp.Float(TINY)),
+        "F_r": F_r,
+        "F_t": -2 * sp.pi * S * w_t * f / ((2 + epsilon**2) * root),
+        "T0": s.derive("shear", S * c * sp.pi / 3, "2 pi mu R_j^3 L/c") / root if s.options["shear"] else sp.Integer(0),
+    }
+
+
+LAW = Law(
+    name="pinkus_sternlicht",
+    role="film",
+    title="Pinkus and Sternlicht: long journal bearing, half film",
+    source="O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961), sign corrected",
+    validity="long bearing (L/D >> 1); follows Guembel's film for |omega_s| >> |d epsilon/dt|; epsilon capped at .9999",
+    parameters=(
+        LawParameter("viscosity", r"\mu", "dynamic viscosity", VISCOSITY, None, ((">", 0.0),)),
+        LawParameter("extra_clearance", "e_t", "added to c in the film alone", LENGTH, 0.0, ((">=", 0.0),)),
+    ),
+    options=(
+        LawOption(
+            "as_printed", (False, True), False, "the radial force's sign as the paper's Eq. 12 prints it (wrong)"
+        ),
+        LawOption("shear", (False, True), False, "shear torque, and the film's resultant at each pin centre"),
+        LawOption(
+            "angular_velocity",
+            ("absolute", "relative"),
+            "absolute",
+            "omega_i + omega_j; relative is the paper's omega_j - omega_i, which depends on the observer",
+        ),
+    ),
+    build=build,
+)

@@ -1,0 +1,1 @@
+"""What a file says, names resolved: frozen values, no SymPy."""

@@ -1,0 +1,229 @@
+"""A mechanism as its YAML file describes it: names resolved, numbers in SI, no SymPy.
+
+All of these are frozen values. A `Quantity` is a number with an address: it becomes a run-time
+slot of the compiled model unless it is a literal zero, which is structural (its terms vanish).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from gudgeon.errors import Location
+from gudgeon.language.tree import Expr, Number
+from gudgeon.language.units import Dimension
+
+GROUND = "ground"
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One physical number: `value` is an expression of parameters (of `t` too, in a drive)."""
+
+    address: str  # "bodies.L2.mass", "ground.O4.y", "parameters.omega"
+    value: Expr
+    dimension: Dimension
+    where: Location
+
+    @property
+    def is_zero(self) -> bool:
+        """True for a literal zero only: a parameter is never assumed zero."""
+        return isinstance(self.value, Number) and self.value.value == 0.0
+
+
+Vector = tuple[Quantity, Quantity]
+
+
+@dataclass(frozen=True)
+class PointRef:
+    """A named point of a body (`L1.head`) or of the ground (`ground.O1`)."""
+
+    body: str
+    point: str
+    where: Location
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body. Its frame: a bar (a body with `length`) has its origin at the tail and its x axis
+    towards the head; any other body has its origin where its points are measured from.
+
+    `points` are in that frame and hold `origin` always, `tail` and `head` for a bar.
+    `com` is the centre of mass in that frame; None stands for the default: mid-length of a bar,
+    the origin of any other body.
+    """
+
+    name: str
+    mass: Quantity
+    inertia: Quantity  # about the centre of mass
+    length: Quantity | None
+    com: Vector | None
+    points: Mapping[str, Vector]  # what the user named; tail, head, origin, com are implied
+    where: Location
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint between a point of the first and a point of the second body; `ground` may be either.
+
+    `kind` names a file in generator/joints, which owns the meaning of `quantities` (numbers with
+    addresses), `vectors` (pairs of them) and `options` (structural words).
+    """
+
+    name: str
+    kind: str
+    first: PointRef
+    second: PointRef
+    quantities: Mapping[str, Quantity]
+    vectors: Mapping[str, Vector]
+    options: Mapping[str, str]
+    where: Location
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Prescribes `value` of t: of an angle, of a coordinate, or of the distance of two points.
+
+    kind "angle": of `body`, relative to `reference` if that is not None; "coordinate": `coordinate`
+    ("x", "y" or "theta") of `body`; "distance": between the two `points` (`body` is then that of the first
+    point that is not on the ground).
+    """
+
+    name: str
+    kind: str
+    body: str
+    reference: str | None
+    value: Quantity
+    where: Location
+    coordinate: str = "theta"
+    points: tuple[PointRef, ...] = ()
+
+
+@dataclass(frozen=True)
+class ForceElement:
+    """An entry of the section `forces`; `kind` names a file in generator/force_elements.
+
+    `targets` are the points or bodies that its own key lists (a body is a PointRef to its `com`, the
+    ground one to the point ""). Expressions (`quantities`, `vectors`) may use t and named coordinates and
+    velocities where the element's field says so.
+    """
+
+    name: str
+    kind: str
+    targets: tuple[PointRef, ...]
+    quantities: Mapping[str, Quantity]
+    vectors: Mapping[str, Vector]
+    options: Mapping[str, str]
+    where: Location
+
+
+@dataclass(frozen=True)
+class Start:
+    """`guess` picks the branch, `set` is held exactly, `rates` are velocities that drives leave free.
+
+    Keys are coordinates "L7.theta", "S9.x", "L1.omega"; values have addresses "start.guess.L7.theta".
+    """
+
+    guess: Mapping[str, Quantity] = field(default_factory=dict)
+    set: Mapping[str, Quantity] = field(default_factory=dict)
+    rates: Mapping[str, Quantity] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Material:
+    name: str
+    E: Quantity
+    nu: Quantity
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """A pin in a hole: bearing radius R_i, radial clearance c = R_i − R_j, length L, two materials."""
+
+    name: str
+    radius: Quantity
+    clearance: Quantity
+    length: Quantity
+    bearing_material: Material
+    journal_material: Material
+
+
+@dataclass(frozen=True)
+class LawUse:
+    """A force law with its numbers; `law` names a file in generator/forces."""
+
+    law: str
+    quantities: Mapping[str, Quantity]  # with the law's defaults filled in
+    options: Mapping[str, str | bool]  # structural, with the law's defaults filled in
+
+
+@dataclass(frozen=True)
+class Contact:
+    """What happens between journal and bearing: dry laws, a film, the width of the transition."""
+
+    name: str
+    normal: LawUse | None
+    friction: LawUse | None
+    film: LawUse | None
+    transition: Quantity | None
+    clip_ratio: bool = False  # clip δ̇/δ̇⁻ to [−1, 1] (physics.md, section 3)
+    velocity_floor: Quantity | None = None  # least δ̇⁻ that an onset stores
+
+
+@dataclass(frozen=True)
+class Play:
+    bearing: Bearing
+    contact: Contact
+    where: Location
+
+
+@dataclass(frozen=True)
+class EventSpec:
+    """The run is watched for `zero` crossing zero: "rising", "falling" or "both"; action "record" or "stop"."""
+
+    name: str
+    zero: Quantity  # an expression of t, parameters, coordinates and velocities, of any dimension
+    direction: str
+    action: str
+    where: Location
+
+
+@dataclass(frozen=True)
+class SceneSpec:
+    """A scene as the file writes it, `extends` already followed."""
+
+    name: str
+    play: Mapping[str, Play]  # joint -> play
+    parameters: Mapping[str, Quantity]  # parameter name -> its value in this scene
+    simulate: Mapping[str, Quantity]  # t_end, output, step
+    where: Location
+    events: Mapping[str, EventSpec] = field(default_factory=dict)  # the file's, with the scene's own put in
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What a value must satisfy, at reading and again for every run-time override."""
+
+    address: str
+    relation: str  # ">" ">=" "<" "<="
+    bound: float | str  # a number, or the address of another quantity
+    message: str  # "a mass is positive"
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    name: str
+    title: str
+    gravity: Vector | None
+    parameters: Mapping[str, Quantity]  # in the order of the file
+    bodies: Mapping[str, Body]
+    ground: Mapping[str, Vector]
+    joints: Mapping[str, Joint]
+    drives: Mapping[str, Drive]
+    start: Start
+    scenes: Mapping[str, SceneSpec]  # holds `ideal` always
+    outputs: Mapping[str, Quantity]
+    conditions: tuple[Condition, ...]
+    file: str
+    sha256: str  # of the file's bytes
+    forces: Mapping[str, ForceElement] = field(default_factory=dict)

@@ -1,0 +1,39 @@
+"""A scene: the mechanism plus which joints have play, with which laws. The unit that is compiled."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from gudgeon.generator.mechanism.mechanism import EventSpec, Mechanism, Play, Quantity
+from gudgeon.language.suggestions import unknown_name
+
+
+@dataclass(frozen=True)
+class Scene:
+    """`parameters` are the mechanism's, in the order of the file, with the scene's own values put in.
+
+    A parameter keeps its address `parameters.<name>` whichever scene gives its value: it is the same
+    run-time slot in all of them.
+    """
+
+    mechanism: Mechanism
+    name: str
+    play: Mapping[str, Play]  # joint -> play
+    parameters: Mapping[str, Quantity]
+    simulate: Mapping[str, Quantity]  # t_end, output, step
+    events: Mapping[str, EventSpec]
+
+
+def make_scene(mechanism: Mechanism, name: str) -> Scene:
+    """The scene `name` of a mechanism. Raises UnknownNameError, which names the scenes that exist."""
+    if name not in mechanism.scenes:
+        raise unknown_name("scene", name, mechanism.scenes, None)
+    spec = mechanism.scenes[name]
+    parameters = {
+        key: replace(own, value=spec.parameters[key].value, where=spec.parameters[key].where)
+        if key in spec.parameters
+        else own
+        for key, own in mechanism.parameters.items()
+    }
+    return Scene(mechanism, name, spec.play, parameters, spec.simulate, spec.events)

@@ -1,0 +1,1 @@
+"""Shapes to a Mechanism, section by section, all mistakes at once."""

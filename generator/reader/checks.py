@@ -1,0 +1,113 @@
+"""Every number is finite and within its bounds: with the file's parameters, and with every scene's."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Callable, Iterator, Mapping
+
+from gudgeon.errors import BadValueError, InputError, Location
+from gudgeon.generator.mechanism.mechanism import Condition, Quantity, SceneSpec
+from gudgeon.generator.reader.collector import Reader
+from gudgeon.generator.reader.parameters import parameter_values
+from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, evaluate, names
+from gudgeon.language.units import si_unit
+
+RELATIONS: Mapping[str, Callable[[float, float], bool]] = {
+    ">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le,
+}  # fmt: skip
+
+
+def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Mapping[str, SceneSpec]) -> None:
+    """Collect a BadValueError at the place of each number that is not finite or breaks a condition."""
+    before = len(reader.errors)
+    _check_with(reader, parameters, None, broken_is_told=before > 0)
+    if len(reader.errors) > before:
+        return  # the same would be told of every scene
+    for scene in scenes.values():
+        if scene.parameters:
+            _check_with(reader, parameters, scene, broken_is_told=before > 0)
+
+
+def _check_with(
+    reader: Reader, parameters: Mapping[str, Quantity], scene: SceneSpec | None, broken_is_told: bool
+) -> None:
+    """All checks with the file's parameters, or with a scene's."""
+    own = scene.parameters if scene else {}
+    context = f" in scene {scene.name}" if scene else ""
+    try:
+        known = parameter_values({**parameters, **own})
+    except InputError:
+        return  # a cycle, told already
+    values = _values(reader, known)
+
+    def complain(address: str, message: str, hint: str) -> None:
+        reader.errors.append(BadValueError(f"{address} {message}", _place(reader.quantities[address], own), hint))
+
+    for address, value in values.items():
+        if not math.isfinite(value) and not broken_is_told:
+            hint = "expected a finite number: is there a division by zero or a root of a negative number?"
+            complain(address, f"is {value}{context}", hint)
+        elif address.endswith(".simulate.output") and math.isfinite(value) and value != math.floor(value):
+            complain(address, f"is {value:.6g}{context}", "expected a whole number of equal intervals")
+    for address, quantity in reader.quantities.items():
+        if address not in values and not broken_is_told and ".parameters." not in address:
+            parts = (float(evaluate(part, known.__getitem__)) for part in _constant_parts(quantity.value, known))
+            wrong = next((part for part in parts if not math.isfinite(part)), None)
+            if wrong is not None:
+                hint = "expected finite numbers: is there a division by zero or a root of a negative number?"
+                complain(address, f"has a part that is {wrong}{context}", hint)
+    for condition in reader.conditions:
+        broken = _broken(condition, values)
+        if broken:
+            unit = si_unit(reader.quantities[condition.address].dimension)
+            found, hint = broken
+            message = f"is {found} {unit}".rstrip() + f"{context}: {condition.message}"
+            complain(condition.address, message, f"{hint} {unit}".rstrip())
+    for vector in reader.vectors_not_zero:
+        if all(values.get(component.address) == 0.0 for component in vector):
+            complain(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
+
+
+def _constant_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
+    """The largest parts of an expression that parameters alone determine, and 1 over each of them that divides."""
+    if all(name.path in known for name in names(expr)):
+        yield expr
+        return
+    match expr:
+        case Unary(operand=operand):
+            yield from _constant_parts(operand, known)
+        case Binary(operator=operator, left=left, right=right):
+            yield from _constant_parts(left, known)
+            for part in _constant_parts(right, known):
+                yield Binary("/", Number(1.0), part) if operator == "/" and part is right else part
+        case Call(function=function, arguments=arguments):
+            divides = arguments[-1] if function in ("ramp", "smooth_step") else None
+            for argument in arguments:
+                for part in _constant_parts(argument, known):
+                    yield Binary("/", Number(1.0), part) if part is divides else part
+
+
+def _values(reader: Reader, known: Mapping[str, float]) -> dict[str, float]:
+    """Every number that parameters alone determine (SI), by address."""
+    return {
+        address: float(evaluate(quantity.value, known.__getitem__))
+        for address, quantity in reader.quantities.items()
+        if not (address.startswith("scenes.") and ".parameters." in address)  # they are parameters of their scene
+        and all(name.path in known for name in names(quantity.value))  # neither t nor a result
+    }
+
+
+def _place(quantity: Quantity, own: Mapping[str, Quantity]) -> Location:
+    """Where a wrong number comes from: from the scene, if it uses one of the scene's own parameters."""
+    return next((own[name.path].where for name in names(quantity.value) if name.path in own), quantity.where)
+
+
+def _broken(condition: Condition, values: Mapping[str, float]) -> tuple[str, str] | None:
+    """The value and what was expected, if a condition does not hold; a number that is NaN was told already."""
+    value = values.get(condition.address, math.nan)
+    bound = values.get(condition.bound, math.nan) if isinstance(condition.bound, str) else condition.bound
+    if math.isnan(value) or math.isnan(bound) or RELATIONS[condition.relation](value, bound):
+        return None
+    limit = f"{condition.bound} = {bound:.6g}" if isinstance(condition.bound, str) else f"{bound:.6g}"
+    return f"{value:.6g}", f"expected {condition.relation} {limit}"

@@ -1,0 +1,162 @@
+"""What all parts of the reader share: the errors found so far, the numbers, what they must satisfy."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+
+from gudgeon.errors import BadValueError, ExpressionError, InputError, InputErrors, Location, UnknownNameError
+from gudgeon.generator.mechanism.mechanism import Condition, Quantity, Vector
+from gudgeon.generator.yaml.shapes import ANY_NAME, FileShape, check_shape
+from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.language.parser import at, check_dimension, parse
+from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.tree import Expr, Name, Number, Unary, names
+from gudgeon.language.units import DIMENSIONLESS, TIME, Dimension
+
+ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
+
+
+MOST_ERRORS = 50  # nobody reads more, and each costs a search for the nearest name
+
+
+class EnoughErrors(Exception):
+    """Ends the reading of a file with very many mistakes."""
+
+
+class Reader:
+    """Collects errors instead of stopping at the first: what is broken becomes NaN and is asked no more."""
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self.errors: list[InputError] = []
+        self.quantities: dict[str, Quantity] = {}  # by address
+        self.conditions: list[Condition] = []
+        self.vectors_not_zero: list[Vector] = []
+        self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
+        self.uses: dict[str, set[Dimension]] = {}  # of those: what they were used as
+        self.left_out: frozenset[str] = frozenset()  # names of entries whose shape is wrong
+
+    def check_shape(self, root: Map) -> FileShape:
+        """The file as typed shapes, without the entries whose shape is wrong: these are told, and not missed."""
+        with self.collect():
+            checked = check_shape(root)
+            twice = (ANY_NAME,) if self.errors else ()  # a key given twice may stand for one that is missing now
+            self.left_out = checked.left_out.union(twice)
+            self.errors += checked.errors
+            return checked.shape
+        raise EnoughErrors  # nothing is left to read
+
+    @contextmanager
+    def collect(self) -> Iterator[None]:
+        """Keep the error that is raised inside, and go on."""
+        try:
+            yield
+        except InputErrors as several:
+            self.errors.extend(several.errors)
+        except InputError as error:
+            self.errors.append(error)
+        if len(self.errors) >= MOST_ERRORS:
+            raise EnoughErrors
+
+    def raise_errors(self) -> None:
+        """Raise what was collected: one error as itself, several as InputErrors."""
+        errors = [e for e in {_told(e): e for e in reversed(self.errors)}.values() if not self._follows(e)]
+        if len(errors) == 1:
+            raise errors[0]
+        if errors:
+            raise InputErrors(errors)
+
+    def _follows(self, error: InputError) -> bool:
+        """Whether an error is that of a name whose entry was left out."""
+        name = re.match(r"unknown [^']*'([A-Za-z0-9_]+)", error.message)
+        return isinstance(error, UnknownNameError) and bool(self.left_out.intersection((ANY_NAME, name and name[1])))
+
+    def quantity(
+        self,
+        text: Text,
+        address: str,
+        expected: Dimension | None,
+        time: bool = False,
+        result: ResultDimension | None = None,
+    ) -> Quantity:
+        """The number at `address`; `time` and `result` say whether t and names of results may occur in it.
+
+        An error is collected, and the number is then NaN.
+        """
+        expr: Expr = broken(text)
+        found = expected
+        with self.collect():
+            parsed = self.parse(text, address)
+            dimensions = self.check_names(parsed, text.where, time, result)
+            found = check_dimension(parsed, expected, dimensions.get, text.where)
+            expr = parsed
+            self._note_use(parsed, expected)
+        return self.keep(Quantity(address, expr, found if found is not None else DIMENSIONLESS, text.where))
+
+    def keep(self, quantity: Quantity) -> Quantity:
+        """Register a quantity under its address."""
+        self.quantities[quantity.address] = quantity
+        return quantity
+
+    def parse(self, text: Text, address: str) -> Expr:
+        """The tree of a scalar. Raises what expressions.parse raises, and on nothing or several lines."""
+        if text.is_nothing:
+            raise BadValueError(f"{address} has no value", text.where, "expected a number or an expression")
+        if not text.one_line:
+            raise ExpressionError(
+                f"{address} stands on several lines", text.where, "expected an expression on one line"
+            )
+        return parse(text, text.where)
+
+    def check_names(
+        self, expr: Expr, where: Location, time: bool = False, result: ResultDimension | None = None
+    ) -> Mapping[str, Dimension | None]:
+        """The dimension of every name in `expr`. Raises ExpressionError or UnknownNameError at the name."""
+        found: dict[str, Dimension | None] = {}
+        for name in names(expr):
+            place = at(where, name.offset)
+            if name.path == "t":
+                if not time:
+                    hint = "expected parameters; time can stand in drives and outputs only"
+                    raise ExpressionError("'t' is time, and this number is constant", place, hint)
+                found["t"] = TIME
+            elif name.path in self.parameters:
+                found[name.path] = self.parameters[name.path]
+            elif result is not None:
+                found[name.path] = result(name, place)
+            elif "." in name.path:
+                hint = "expected parameters" + (" and t" if time else "") + ", which have no parts"
+                raise ExpressionError(f"{name.path!r} cannot stand here", place, hint)
+            else:
+                raise unknown_name("name", name.path, self.parameters, place)
+        return found
+
+    def _note_use(self, expr: Expr, expected: Dimension | None) -> None:
+        """A parameter without a unit takes the dimension of the place where it stands alone."""
+        while isinstance(expr, Unary):
+            expr = expr.operand
+        if isinstance(expr, Name) and expected is not None and self.parameters.get(expr.path, TIME) is None:
+            self.uses.setdefault(expr.path, set()).add(expected)
+
+    def vector(self, pair: list[Text], address: str, expected: Dimension) -> Vector:
+        """Two components `address`.x and `address`.y."""
+        return self.quantity(pair[0], f"{address}.x", expected), self.quantity(pair[1], f"{address}.y", expected)
+
+    def require(self, quantity: Quantity, relation: str, bound: float | Quantity, message: str) -> None:
+        """Note a condition, for now and for every override at run time."""
+        limit = bound.address if isinstance(bound, Quantity) else bound
+        self.conditions.append(Condition(quantity.address, relation, limit, message))
+
+
+def _told(error: InputError) -> tuple[str, str, str]:
+    """What makes two errors the same: what a contact or scene inherits is wrong once, where it is written."""
+    message = re.sub(r"\b(contacts\.|scenes\.|in scene )\w+", "", error.message)
+    return str(error.where), type(error).__name__, message
+
+
+def broken(text: str) -> Number:
+    """Stands for a number that could not be read."""
+    return Number(math.nan, str(text))

@@ -1,0 +1,85 @@
+"""Parameters: numbers that may be defined through each other, in an order without cycles."""
+
+from __future__ import annotations
+
+import graphlib
+from collections.abc import Mapping
+from dataclasses import replace
+
+from gudgeon.errors import CycleError, InputError, Location
+from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.reader.collector import Reader, broken
+from gudgeon.generator.yaml.tree import Text
+from gudgeon.language.dimension_check import check_dimension
+from gudgeon.language.names import check_name
+from gudgeon.language.tree import Expr, evaluate, names
+from gudgeon.language.units import DIMENSIONLESS, Dimension
+
+
+def read_parameters(reader: Reader, section: Mapping[Text, Text]) -> dict[str, Quantity]:
+    """The section `parameters:` in the order of the file; reader.parameters knows them afterwards."""
+    reader.parameters.update(dict.fromkeys(section))
+    trees: dict[str, Expr] = {}
+    for name, text in section.items():
+        trees[name] = broken(text)
+        with reader.collect():
+            check_name(name, "parameter", name.where)
+            tree = reader.parse(text, f"parameters.{name}")
+            reader.check_names(tree, text.where)
+            trees[name] = tree
+    order: tuple[str, ...] = tuple(trees)
+    with reader.collect():
+        order = dependency_order(trees, {str(name): text.where for name, text in section.items()})
+    places = {str(name): text.where for name, text in section.items()}
+    for used in order:
+        with reader.collect():
+            reader.parameters[used] = _dimension(used, trees[used], places[used], reader)
+    return {
+        str(name): reader.keep(
+            Quantity(f"parameters.{name}", trees[name], reader.parameters[name] or DIMENSIONLESS, text.where)
+        )
+        for name, text in section.items()
+    }
+
+
+def _dimension(name: str, tree: Expr, where: Location, reader: Reader) -> Dimension | None:
+    found = check_dimension(tree, None, reader.parameters.get, where)
+    if found is not None and not found.is_whole:
+        raise InputError(
+            f"the unit of parameter {name} has a broken exponent", where, "expected whole powers of m, kg, s"
+        )
+    return found
+
+
+def settle(reader: Reader, parameters: Mapping[str, Quantity]) -> dict[str, Quantity]:
+    """Parameters with the dimension that their use shows, where they were defined without a unit."""
+    settled = dict(parameters)
+    for name, used_as in reader.uses.items():
+        if len(used_as) == 1:  # a number used as several things stays a bare one
+            settled[name] = reader.keep(replace(settled[name], dimension=next(iter(used_as))))
+    return settled
+
+
+def dependency_order(trees: Mapping[str, Expr], places: Mapping[str, Location]) -> tuple[str, ...]:
+    """Names so that each stands behind those that it uses. Raises CycleError, which names the cycle."""
+    sorter = graphlib.TopologicalSorter(
+        {name: [used.path for used in names(tree) if used.path in trees] for name, tree in trees.items()}
+    )
+    try:
+        return tuple(sorter.static_order())
+    except graphlib.CycleError as error:
+        cycle = list(reversed(error.args[1]))[:-1]  # graphlib lists users first and the first one twice
+        first = min(range(len(cycle)), key=lambda i: places[cycle[i]])
+        path = [*cycle[first:], *cycle[:first], cycle[first]]
+        hint = "expected one of them to have a value of its own"
+        message = f"parameters defined through each other: {' → '.join(path)}"
+        raise CycleError(message, places[cycle[first]], hint) from None
+
+
+def parameter_values(parameters: Mapping[str, Quantity]) -> dict[str, float]:
+    """Every parameter's number (SI), each computed once. Raises CycleError."""
+    trees = {name: quantity.value for name, quantity in parameters.items()}
+    values: dict[str, float] = {}
+    for name in dependency_order(trees, {name: quantity.where for name, quantity in parameters.items()}):
+        values[name] = float(evaluate(trees[name], values.__getitem__))
+    return values

@@ -1,0 +1,111 @@
+"""From YAML text to a frozen Mechanism: the reader's table of contents."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Mapping
+
+from gudgeon.errors import BadValueError
+from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
+from gudgeon.generator.reader.bodies import Places, read_bodies, read_gravity, read_ground, read_start
+from gudgeon.generator.reader.checks import check_values
+from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
+from gudgeon.generator.reader.contacts import read_bearings, read_contacts, read_materials
+from gudgeon.generator.reader.drives import read_drives
+from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
+from gudgeon.generator.reader.parameters import read_parameters, settle
+from gudgeon.generator.reader.result_names import MotionNames, ResultNames
+from gudgeon.generator.reader.scenes import Parts, read_events, read_scenes
+from gudgeon.generator.yaml.overrides import apply_overrides
+from gudgeon.generator.yaml.shapes import FileShape
+from gudgeon.generator.yaml.tree import parse_yaml
+from gudgeon.language.names import Namespace, check_name
+
+_MAX_TITLE = 200
+# without controls, what ends a line and what turns the direction of the text behind it
+_SHOWN = r"\x20-\x7e\u00a0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\uffef\U00010000-\U0010ffff"
+
+
+def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float | bool] | None = None) -> Mechanism:
+    """The mechanism that a file describes.
+
+    data: the file's bytes; file: its name, for messages and for `Mechanism.file`;
+    overrides: address -> text or number that replaces what the file says there.
+    Raises an InputError at file:line:column, or InputErrors with all that are wrong.
+    """
+    reader = Reader(file)
+    root = apply_overrides(parse_yaml(data, file, reader.errors), overrides or {})
+    try:
+        mechanism = _read(reader, reader.check_shape(root), hashlib.sha256(data).hexdigest())
+    except EnoughErrors:
+        mechanism = None
+    reader.raise_errors()
+    assert mechanism is not None
+    return mechanism
+
+
+def _read(reader: Reader, shape: FileShape, sha256: str) -> Mechanism:
+    """Section by section; what is wrong is collected in the reader."""
+    namespace = Namespace()
+    title = _read_title(reader, shape)
+    parameters = read_parameters(reader, shape.parameters)
+    gravity = read_gravity(reader, shape)
+    bodies, ground = read_bodies(reader, shape, namespace), read_ground(reader, shape)
+    places = Places(bodies, ground)
+    joints = read_joints(reader, shape, places, namespace)
+    drives = read_drives(reader, shape, places, namespace)
+    motion = MotionNames(places, (*shape.joints, *shape.forces), drives, shape.parameters)
+    forces = read_forces(reader, shape, places, namespace, motion)
+    start = read_start(reader, shape, places)
+    bearings = read_bearings(reader, shape, read_materials(reader, shape))
+    contacts = read_contacts(reader, shape)
+    events = read_events(reader, shape.events, "events", motion)
+    scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, shape, motion))
+    unread = {*shape.joints, *shape.drives, *shape.forces} - {*joints, *drives, *forces} | namespace.twice
+    known = ResultNames(places, joints, drives, forces, shape.parameters, unread)
+    outputs = _read_outputs(reader, shape, namespace, known)
+    check_values(reader, parameters, scenes)
+    return Mechanism(
+        name=str(shape.name),
+        title=title,
+        gravity=gravity,
+        parameters=settle(reader, parameters),
+        bodies=bodies,
+        ground=ground,
+        joints=joints,
+        drives=drives,
+        start=start,
+        scenes=scenes,
+        outputs=outputs,
+        conditions=tuple(reader.conditions),
+        file=reader.file,
+        sha256=sha256,
+        forces=forces,
+    )
+
+
+def _read_title(reader: Reader, shape: FileShape) -> str:
+    """The title, which will stand in comments of emitted code; the name, if there is none."""
+    with reader.collect():
+        check_name(shape.name, "mechanism", shape.name.where)
+    title = shape.title if shape.title is not None else shape.name
+    with reader.collect():
+        bad = re.search(rf"[^{_SHOWN}]|\\|\*/|/\*|\?\?/", title)
+        if bad or len(title) > _MAX_TITLE:
+            what = f"has {bad[0]!r}" if bad else f"has {len(title)} characters"
+            hint = f"expected one line of at most {_MAX_TITLE} characters without backslashes or comment signs"
+            raise BadValueError(f"the title {what}", title.where, hint)
+    return str(title)
+
+
+def _read_outputs(
+    reader: Reader, shape: FileShape, namespace: Namespace, known: ResultDimension
+) -> dict[str, Quantity]:
+    """Named expressions of t, parameters and anything that a result has."""
+    outputs = {}
+    for name, text in shape.outputs.items():
+        with reader.collect():
+            namespace.add(name, "output", name.where)
+        outputs[str(name)] = reader.quantity(text, f"outputs.{name}", None, time=True, result=known)
+    return outputs

@@ -1,0 +1,118 @@
+"""Names of what a result has, with their dimensions: all of them for outputs, motion alone for forces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from gudgeon.errors import ExpressionError, Location
+from gudgeon.generator.kinds.forces.force_type import element_types
+from gudgeon.generator.mechanism.mechanism import GROUND, Drive, ForceElement
+from gudgeon.generator.reader.bodies import Places
+from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.tree import Name
+from gudgeon.language.units import (
+    ACCELERATION,
+    ANGULAR_ACCELERATION,
+    DIMENSIONLESS,
+    FORCE,
+    LENGTH,
+    RATE,
+    TORQUE,
+    VELOCITY,
+    Dimension,
+)
+
+_POINT: Mapping[str, Dimension] = {
+    "x": LENGTH, "y": LENGTH, "vx": VELOCITY, "vy": VELOCITY, "ax": ACCELERATION, "ay": ACCELERATION,
+}  # fmt: skip
+_BODY: Mapping[str, Dimension] = {**_POINT, "theta": DIMENSIONLESS, "omega": RATE, "alpha": ANGULAR_ACCELERATION}
+_JOINT: Mapping[str, Dimension] = {"Fx": FORCE, "Fy": FORCE, "F": FORCE, "M": TORQUE}
+_PLAY: Mapping[str, Dimension] = {
+    "Fn": FORCE, "Ft": FORCE, "e": LENGTH, "ex": LENGTH, "ey": LENGTH, "delta": LENGTH, "eps": DIMENSIONLESS,
+    "deltadot": VELOCITY, "vt": VELOCITY, "state": DIMENSIONLESS, "deltadot_minus": VELOCITY,
+}  # fmt: skip
+_TOTALS: Mapping[str, Mapping[str, Dimension]] = {
+    "energy": {"kinetic": TORQUE, "potential": TORQUE, "residual": TORQUE},
+    "work": {"drives": TORQUE, "forces": TORQUE, "clearances": TORQUE},
+}
+_ACCELERATIONS = ("ax", "ay", "alpha")
+
+
+class ResultNames:
+    """Dimensions of a mechanism's results. Names with play count too: a scene without it tells at run time.
+
+    `unread` are joints, drives and forces whose own errors were told: their results are taken as they come.
+    """
+
+    def __init__(
+        self,
+        places: Places,
+        joints: Iterable[str],
+        drives: Mapping[str, Drive],
+        forces: Mapping[str, ForceElement],
+        parameters: Iterable[str],
+        unread: Iterable[str] = (),
+    ) -> None:
+        self._unread = frozenset(unread)
+        self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTALS)
+        self.owners |= dict.fromkeys(places.bodies, _BODY)
+        self.owners |= {name: _of_drive(drive) for name, drive in drives.items()}
+        self.owners |= dict.fromkeys(places.names(), _POINT)
+        self.owners |= {name: dict(element_types()[force.kind].results) for name, force in forces.items()}
+        for name in places.ground:
+            self.owners[f"{GROUND}.{name}"] = {"x": LENGTH, "y": LENGTH}
+        self.owners |= dict.fromkeys(joints, {**_JOINT, **_PLAY})
+        self.parameters = parameters
+
+    def __call__(self, name: Name, where: Location) -> Dimension | None:
+        """The dimension of a name; None for one that fits any. Raises UnknownNameError at the part that is wrong."""
+        owner, dot, last = name.path.rpartition(".")
+        if owner in self._unread:
+            return None
+        if not dot:
+            known = [path for path in self.paths() if path.partition(".")[0] == name.path]
+            raise unknown_name("name", name.path, known or self.parameters, where)
+        if owner not in self.owners:
+            raise unknown_name("name", name.path, self.paths(), where)
+        if last not in self.owners[owner]:
+            place = Location(where.file, where.line, where.column + len(owner) + 1)
+            raise unknown_name(f"result of {owner}", last, self.owners[owner], place)
+        return self.owners[owner][last]
+
+    def paths(self) -> Iterator[str]:
+        """Every name."""
+        return (f"{owner}.{part}" for owner, parts in self.owners.items() for part in parts)
+
+
+class MotionNames(ResultNames):
+    """What a force may depend on: coordinates and velocities; accelerations and forces follow from it."""
+
+    def __init__(
+        self, places: Places, others: Iterable[str], drives: Mapping[str, Drive], parameters: Iterable[str]
+    ) -> None:
+        super().__init__(places, (), {}, {}, parameters)
+        for total in _TOTALS:
+            del self.owners[total]
+        self.owners = {
+            owner: {part: of for part, of in parts.items() if part not in _ACCELERATIONS}
+            for owner, parts in self.owners.items()
+        }
+        self._later = frozenset((*_TOTALS, *drives, *others))
+
+    def __call__(self, name: Name, where: Location) -> Dimension | None:
+        """The dimension of a name. Raises ExpressionError for what is known only once the forces are."""
+        owner, _, last = name.path.rpartition(".")
+        if owner in self._later or owner in self.owners and last in _ACCELERATIONS and last not in self.owners[owner]:
+            what = "an acceleration" if last in _ACCELERATIONS else "a result"
+            hint = (
+                "expected t, parameters, and coordinates and velocities of bodies and points:"
+                " L1.x .y .theta .vx .vy .omega, L1.head.x .y .vx .vy"
+            )
+            raise ExpressionError(f"{name.path!r} is {what} that follows from the forces", where, hint)
+        return super().__call__(name, where)
+
+
+def _of_drive(drive: Drive) -> Mapping[str, Dimension]:
+    """A drive of an angle needs a torque, a drive of a length a force."""
+    turns = drive.kind == "angle" or drive.coordinate == "theta"
+    return {"torque": TORQUE} if turns else {"force": FORCE}

@@ -1,0 +1,1 @@
+"""The same motion in the coordinates of a tree."""

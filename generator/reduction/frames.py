@@ -1,0 +1,134 @@
+"""Coordinates and turning frames of a tree: what angles and slides are, and how they move.
+
+A frame turns with an angle that is affine in the coordinates, θ = const + Σ c_k z_k; the z are the unknown
+coordinates s and those that drives prescribe. Bodies that keep their angle to each other share a frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+
+from gudgeon.generator.reduction.affine import CONSTANT, Affine
+from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.symbols import Symbols
+
+ZERO, ONE = sp.Integer(0), sp.Integer(1)
+Pair = tuple[sp.Expr, sp.Expr]
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """A coordinate with its rate; `acceleration` is known where a drive prescribes it, else None."""
+
+    name: str
+    q: sp.Symbol
+    v: sp.Symbol
+    acceleration: sp.Expr | None = None
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Directions that turn together; `turns` are the c_k by coordinate, none for the ground's."""
+
+    name: str
+    theta: sp.Expr
+    omega: sp.Expr
+    cos: sp.Expr
+    sin: sp.Expr
+    turns: Mapping[str, sp.Expr]
+
+
+class Motions:
+    """Values and rates of affine quantities, with the rules by which their symbols are differentiated."""
+
+    def __init__(self, symbols: Symbols, slots: Slots, t: sp.Symbol) -> None:
+        self.symbols, self.slots, self.t = symbols, slots, t
+        self.coordinates: dict[str, Coordinate] = {}
+        self._arms: dict[tuple[str, sp.Expr, sp.Expr], Pair] = {}
+
+    def hoisted(self, name: str, affine: Affine) -> Affine:
+        """Coefficients as numbers of `prepare`."""
+        return {k: self.slots.derive(f"{name}_by_{k or 'constant'}", c) for k, c in affine.items()}
+
+    def value(self, affine: Affine) -> sp.Expr:
+        terms = (c if k == CONSTANT else c * self.coordinates[k].q for k, c in affine.items())
+        return sp.Add(*terms)
+
+    def rate(self, affine: Affine) -> sp.Expr:
+        return sp.Add(*(c * self.coordinates[k].v for k, c in affine.items() if k != CONSTANT))
+
+    def rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+        """Derivatives by unknown coordinates, and by t through the prescribed ones, of what moves by `columns`."""
+        rules: dict[sp.Symbol, sp.Expr] = {}
+        through_t = ZERO
+        for k, entry in columns.items():
+            coordinate = self.coordinates[k]
+            if coordinate.acceleration is None:
+                rules[coordinate.q] = entry
+            else:
+                through_t += entry * coordinate.v
+        return rules | ({self.t: through_t} if through_t != 0 else {})
+
+    def rate_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+        """The same of Σ column · rate, where the columns themselves move."""
+        by = [self.coordinates[k].q for k in columns if self.coordinates[k].acceleration is None] + [self.t]
+        rate = sp.Add(*(entry * self.coordinates[k].v for k, entry in columns.items()))
+        rules = {q: value for q in by if (value := self.symbols.diff(rate, q)) != 0}
+        for k, entry in columns.items():
+            if self.coordinates[k].acceleration is None:
+                rules[self.coordinates[k].v] = entry
+        return rules
+
+    def named(self, wanted: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
+        """A symbol that stands for `value` and moves by `columns`."""
+        symbol = self.symbols.define(wanted, value)
+        self.symbols.rules[symbol] = self.rules(columns)
+        return symbol
+
+    def named_rate(self, wanted: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
+        """A symbol of a rate."""
+        symbol = self.symbols.define(wanted, value)
+        self.symbols.rules[symbol] = self.rate_rules(columns)
+        return symbol
+
+    def frame(self, name: str, affine: Affine) -> Frame:
+        """The frame that turns with θ = `affine`; its cosine and sine are one pair of symbols."""
+        turns = {k: c for k, c in affine.items() if k != CONSTANT}
+        theta, omega = self.value(affine), self.rate(affine)
+        if not theta.is_Symbol:
+            theta = self.named(f"{name}_angle", theta, turns)
+        if not omega.is_Symbol and omega != 0:
+            omega = self.named_rate(f"{name}_rate", omega, turns)
+        cos = self.symbols.define(f"cos_theta_{name}", sp.cos(theta), "", f"cos of {name}.theta")
+        sin = self.symbols.define(f"sin_theta_{name}", sp.sin(theta), "", f"sin of {name}.theta")
+        frame = Frame(name, theta, omega, cos, sin, turns)
+        self.symbols.rules[cos] = self.rules({k: -c * sin for k, c in turns.items()})
+        self.symbols.rules[sin] = self.rules({k: c * cos for k, c in turns.items()})
+        return frame
+
+    def arm(self, frame: Frame, w: Pair, wanted: str) -> Pair:
+        """A(θ) w as a pair of symbols; the opposite of a known arm is its negative."""
+        x, y = w
+        if not frame.turns or w == (ZERO, ZERO):
+            return w
+        if all(part in (-1, 0, 1) for part in w):
+            return frame.cos * x - frame.sin * y, frame.sin * x + frame.cos * y
+        if (frame.name, -x, -y) in self._arms:
+            a_x, a_y = self._arms[frame.name, -x, -y]
+            return -a_x, -a_y
+        if (frame.name, x, y) not in self._arms:
+            a_x = self.symbols.define(f"{wanted}_x", frame.cos * x - frame.sin * y, "", "A(theta) s, x")
+            a_y = self.symbols.define(f"{wanted}_y", frame.sin * x + frame.cos * y, "", "A(theta) s, y")
+            self.symbols.rules[a_x] = self.rules({k: -c * a_y for k, c in frame.turns.items()})
+            self.symbols.rules[a_y] = self.rules({k: c * a_x for k, c in frame.turns.items()})
+            self._arms[frame.name, x, y] = a_x, a_y
+        return self._arms[frame.name, x, y]
+
+    def constant_vector(self, wanted: str, w: Pair) -> Pair:
+        """Both components as numbers of `prepare`."""
+        derive = self.slots.derive_signed
+        return derive(f"{wanted}_x", sp.expand(w[0]), "vector in its frame"), derive(
+            f"{wanted}_y", sp.expand(w[1]), "vector in its frame")  # fmt: skip

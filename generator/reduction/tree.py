@@ -1,0 +1,188 @@
+"""Which coordinates describe a linkage: angles that are free, and a tree of joints that place the bodies.
+
+Rows that are linear in angles with constant coefficients (a weld, a slide, gears, a driven angle) express angles
+by others. What is left of the joints is a graph of bodies; along a spanning tree of it each body is placed by its
+parent, and only the joints that are not in the tree stay as loop closures (R. Featherstone, Rigid Body Dynamics
+Algorithms, 2008, chapters 4 and 8). Angles are absolute: in the plane the position of a point is then a sum of
+arms, each of which turns with one angle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from gudgeon.generator.equations.constraints import Row, rate_jumps
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.mechanism.mechanism import GROUND, Joint
+from gudgeon.generator.reduction.affine import CONSTANT, Affine, substitute
+from gudgeon.generator.reduction.links import Link, path
+from gudgeon.generator.reduction.shared_points import Hub, find_hubs
+from gudgeon.generator.reduction.tree_cost import Estimate
+
+DEPTHS = (None, 5, 3, 2, 1)  # how many bodies a chain may have before it is cut
+SEARCHED = 24  # more coordinates than that: the tree is not improved by exchanges
+
+
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Angles of the bodies in free ones ("L7") and drives ("crank1"); links, parents before children."""
+
+    angles: Mapping[str, Affine]
+    free: tuple[str, ...]  # bodies whose angles are coordinates
+    links: tuple[Link, ...]
+    rows: frozenset[str]  # those that the angles and the links make hold by themselves, or hubs say otherwise
+    closing: tuple[Joint, ...]  # pairs of bodies that meet in a hub and are not joined by the tree
+    hubs: tuple[Hub, ...]
+    solved: Mapping[str, str]  # rows that the angles use up, each with the body whose angle it says
+    costs: tuple[int, ...]  # estimated operations of the trees that were looked at, the first breadth first
+
+    def multiplier(self, row: str) -> dict[str, int]:
+        """A closure's multiplier in those of the file's rows."""
+        name, _, which = row.rpartition(".")
+        for hub in self.hubs:
+            for joint in self.closing:
+                if joint in hub.pairs and joint.name == name:
+                    spanning = [link.joint for link in self.links if link.joint in hub.pairs]
+                    spanning += [other for other in self.closing if other in hub.pairs]
+                    shares = hub.share([j for j in spanning if j is not None], joint)
+                    return {f"{owner}.{which}": sign for owner, sign in shares.items()}
+        return {row: 1}
+
+
+def stays_a_row(model: Model, row: Row) -> bool:
+    """A drive whose rate jumps while others are free to move: the jump is an impulse on its row."""
+    return row.kind == "drive" and model.degrees_of_freedom > 0 and rate_jumps(model.scene.mechanism.drives[row.name])
+
+
+def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
+    """The angles by free ones and drives, with the rows that this uses up, each with its body."""
+    angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
+    used: dict[str, str] = {}
+    for row in sorted(model.rows, key=lambda row: row.kind != "drive"):  # what a drive prescribes is never free
+        total = _linear(model, row, angles)
+        pivots = {b: c for b, c in (total or {}).items() if b in angles and c != 0}
+        if total is None or not pivots:
+            continue
+        order = list(angles)
+        pivot = max(pivots, key=lambda b: (abs(pivots[b]) == 1, order.index(b)))
+        solved = {k: -c / pivots[pivot] for k, c in total.items() if k != pivot}
+        angles = {b: substitute(a, pivot, solved) for b, a in angles.items()}
+        used[row.name] = pivot
+    return angles, used
+
+
+
+
+def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | None:
+    """The row in free angles, or None where it is not linear in angles with constant coefficients."""
+    body_of = {body.theta: body.name for body in model.bodies}
+    if not all(q in body_of and model.slots.is_constant(c) for q, c in row.phi_q.items()):
+        return None
+    drives = {value: name for name, (value, *_) in model.constraints.drive_angles.items()}
+    if stays_a_row(model, row):
+        return None
+    rest = sp.expand(row.phi - sum(c * q for q, c in row.phi_q.items()))
+    total: dict[str, sp.Expr] = {}
+    for value in sorted(rest.free_symbols & set(drives), key=lambda s: s.name):
+        total[drives[value]] = rest.coeff(value)
+        rest = rest - rest.coeff(value) * value
+    if not model.slots.is_constant(rest):
+        return None
+    affine: Affine = {**total, CONSTANT: rest}
+    for q, c in row.phi_q.items():
+        affine = substitute({**affine, "?": c}, "?", angles[body_of[q]])
+    return affine
+
+
+def choose_tree(model: Model) -> Tree:
+    """The tree of the least estimated operations among a few, improved by exchanges of joints in loops."""
+    angles, solved = solve_angles(model)
+    used = frozenset(solved)
+    free = tuple(b for b in angles if angles[b] == {b: 1})
+    edges = _edges(model, angles)
+    hubs = find_hubs(edges)
+    gathered = {joint.name for hub in hubs for joint in hub.joints}
+    edges = [j for j in edges if j.name not in gathered] + [j for hub in hubs for j in hub.pairs]
+    estimate = Estimate(model, angles, used, hubs)
+    best = min((_grow(model, edges, edges, depth) for depth in DEPTHS), key=estimate)
+    if len(free) <= SEARCHED and best == _grow(model, edges, edges, None):
+        best = _exchange(model, edges, best, estimate)
+    rows = used.union(*(link.rows for link in best), *(hub.rows for hub in hubs))
+    closing = tuple(estimate.closing(best))
+    return Tree(angles, free, best, rows, closing, tuple(hubs), solved, tuple(estimate.costs.values()))
+
+
+def _edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
+    """Joints that can place a body: all their rows are kept, and a slide's bodies turn together."""
+    kept = {row.name for row in model.rows}
+
+    def turning(body: str) -> dict[str, sp.Expr]:
+        return {k: c for k, c in angles.get(body, {}).items() if k != CONSTANT}
+
+    def carries(joint: Joint) -> bool:
+        rows = joint_types()[joint.kind].carries
+        if not rows or not all(f"{joint.name}.{row}" in kept for row in rows):
+            return False
+        return len(rows) == 2 or turning(joint.first.body) == turning(joint.second.body)
+
+    return list(filter(carries, model.scene.mechanism.joints.values()))
+
+
+def _grow(model: Model, edges: Sequence[Joint], wanted: Sequence[Joint], depth: int | None) -> tuple[Link, ...]:
+    """Breadth first from the ground along the wanted joints; bodies that nothing reaches move freely."""
+    near: dict[str, list[Joint]] = {name: [] for name in (GROUND, *model.geometry.bodies)}
+    names = {joint.name for joint in wanted}
+    for joint in edges:
+        if joint.name in names:
+            near[joint.first.body].append(joint)
+            near[joint.second.body].append(joint)
+    links: list[Link] = []
+    placed: dict[str, int] = {GROUND: 0}
+    waiting = [GROUND]
+    bodies = list(model.geometry.bodies)
+    while waiting or len(placed) <= len(bodies):
+        if not waiting:
+            root = next(b for b in bodies if b not in placed)
+            links.append(Link(root, GROUND))
+            placed[root] = 1
+            waiting = [root]
+        body = waiting.pop(0)
+        for joint in near[body]:
+            other = joint.second.body if joint.first.body == body else joint.first.body
+            if other not in placed and (depth is None or placed[body] < depth):
+                links.append(Link(other, body, joint))
+                placed[other] = placed[body] + 1
+                waiting.append(other)
+    return tuple(links)
+
+
+def _exchange(model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: Estimate) -> tuple[Link, ...]:
+    """While a joint that closes a loop is better in the tree than one of the loop, they change places."""
+    best = estimate(links)
+    improved = True
+    while improved:
+        improved = False
+        inside = [link.joint for link in links if link.joint]
+        for joint in [j for j in edges if j not in inside]:
+            for other in _loop(links, joint):
+                candidate = _grow(model, edges, [j for j in (*inside, joint) if j is not other], None)
+                if len(candidate) == len(links) and (cost := estimate(candidate)) < best:
+                    links, best, improved = candidate, cost, True
+                    break
+            if improved:
+                break
+    return links
+
+
+
+
+def _loop(links: Sequence[Link], joint: Joint) -> list[Joint]:
+    """The tree's joints in the loop that `joint` closes."""
+    one, two = path(links, joint.first.body), path(links, joint.second.body)
+    return [link.joint for link in (*one, *two) if (link in one) != (link in two) and link.joint]

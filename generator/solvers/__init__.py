@@ -1,0 +1,1 @@
+"""Linear systems as statements: KKT, Newton, square blocks."""

@@ -1,0 +1,143 @@
+"""How the force of a joint with play changes: the steps of contact.py and the laws, differentiated forward.
+
+Slopes are those of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j); templates/c/play/tangent.c.jinja turns
+them into ground axes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy as sp
+
+from gudgeon.generator.equations import contact_steps as contact
+from gudgeon.generator.equations.contact_steps import Step
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.play import Clearance, LawEquations
+from gudgeon.generator.ir.differentiation import Tangent, Tangents
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Statement
+from gudgeon.generator.ir.reciprocals import hoisted
+from gudgeon.generator.ir.signatures import PARAMETERS, SIDES, ZERO
+from gudgeon.generator.kinds.laws.law import RESULTS
+
+INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
+DEPTH = sp.Symbol("depth", real=True)  # what the normal law is given for δ
+UNCLIPPED = sp.Symbol("unclipped", real=True)
+_ARGUMENTS = (
+    *(Argument("double", symbol.name) for symbol in INPUTS), Argument("const Latch *", "latch"), PARAMETERS, *SIDES,
+    Argument("PinSlopes *", "out"),
+)  # fmt: skip
+
+
+class _Slopes:
+    """One function: steps with their tangents by INPUTS."""
+
+    def __init__(self, model: Model, clearance: Clearance, part: str) -> None:
+        self.model, self.clearance, self.part = model, clearance, part
+        self.build = KernelBuilder(model.symbols, f"{part}_slopes_{clearance.name}", [
+            f"Joint {clearance.name}, {part}: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t,",
+            "omega_i, omega_j (forward differentiation of the same steps).",
+        ])  # fmt: skip
+        self.tangents = Tangents(model.symbols, self.build, INPUTS, clearance.name, share_powers=True)
+
+    def section(self, title: str) -> None:
+        self.build.section(title)
+
+    def step(self, step: Step) -> None:
+        """symbol = value of contact.py, and its tangent."""
+        value = in_place(self.model, step.value)
+        held = self.tangents.shared(self.tangents.held(value))
+        self.build.line_statement(Statement(step.symbol.name, held))
+        self.tangents.know(step.symbol, self.tangents.gradient(value, step.symbol))
+
+    def law(self, equations: LawEquations, given: Sequence[sp.Symbol]) -> dict[str, sp.Symbol]:
+        """The law's results by name; its variables are the symbols `given`, whose tangents are known."""
+        inner = self.tangents.inside(dict(zip(equations.variables, given, strict=True)))
+        results = {}
+        for name, equation in equations.steps.items():
+            symbol, value = sp.Symbol(name, real=True), hoisted(self.model.slots, sp.sympify(equation))
+            self.build.line_statement(Statement(name, inner.shared(inner.held(value))))
+            inner.know(symbol, inner.gradient(value, symbol))
+            if name in RESULTS[equations.law.role]:
+                results[name] = symbol
+                self.tangents.know(symbol, self.tangents.through(inner.of(symbol)))
+        return results
+
+    def finish(self, values: Sequence[sp.Expr]) -> Kernel:
+        """Writes (F along n, F along t, M_i, M_j) and their slopes."""
+        self.section("results")
+        for row, value in enumerate(values):
+            self.build.out(f"out->value[{row}]", value)
+            slopes: Tangent = self.tangents.gradient(value)
+            for column, base in enumerate(INPUTS):
+                self.build.out(f"out->slope[{row}][{column}]", slopes.get(base, ZERO))
+        return self.build.build(_ARGUMENTS, inline=True, prune=True)
+
+
+def film_slopes(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
+    """Of the film alone."""
+    slopes = _Slopes(model, clearance, "film")
+    slopes.section("eccentricity ratio and effective squeeze velocity")
+    for step in contact.before_film(clearance, film):
+        slopes.step(step)
+    slopes.section(f"film of joint {clearance.name}")
+    results = slopes.law(film, (contact.epsilon, contact.w_n, contact.w_t))
+    slopes.section("moments")
+    slopes.step(Step(contact.of_part(contact.F_along_t, "film"), results["F_t"]))
+    moments = contact.after_film(film)
+    for step in moments:
+        slopes.step(step)
+    tangential = contact.of_part(contact.F_along_t, "film")
+    return slopes.finish([results["F_r"], tangential, *(step.symbol for step in moments)])
+
+
+def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kernel:
+    """Of the dry contact alone, at δ < 0 too, where a step may look that ends at the separation: no force there."""
+    slopes = _Slopes(model, clearance, "dry")
+    build, tangents = slopes.build, slopes.tangents
+    slopes.section("penetration, ratio of velocities, slip")
+    slopes.step(contact.gap(clearance)[3])
+    build.line_statement(Statement(DEPTH.name, "max_of(delta, 0.0)"))
+    tangents.know(DEPTH, {contact.e: build.local("depth_by_e", "delta > 0.0 ? 1.0 : 0.0")})
+    ratio = UNCLIPPED if clearance.clip_ratio else contact.ratio
+    build.line_statement(Statement(ratio.name, "latch->closed ? deltadot / latch->deltadot_minus : 1.0"))
+    slope = build.local("ratio_by_deltadot", "latch->closed ? 1.0 / latch->deltadot_minus : 0.0")
+    tangents.know(ratio, {contact.deltadot: slope})
+    for step in contact.before_dry(clearance):
+        slopes.step(unlatched(step))
+    slopes.section(f"contact of joint {clearance.name}")
+    F_n = slopes.law(normal, (DEPTH, contact.ratio))["F_n"]
+    tangential = contact.of_part(contact.F_along_t, "dry")
+    if clearance.friction is not None:
+        force = slopes.law(clearance.friction, (F_n, contact.v_t))["F_t"]
+    slopes.step(Step(tangential, ZERO if clearance.friction is None else force))
+    moments = contact.after_dry()
+    for step in moments:
+        slopes.step(step)
+    return slopes.finish([-F_n, tangential, *(step.symbol for step in moments)])
+
+
+def unlatched(step: Step) -> Step:
+    """The ratio of velocities is C's own (latched or not): only its clipping is an equation."""
+    stored = contact.deltadot / contact.stored
+    return Step(step.symbol, step.value.subs(stored, UNCLIPPED)) if step.symbol == contact.ratio else step
+
+
+def in_place(model: Model, value: sp.Expr) -> sp.Expr:
+    """A step's value with parameters read from their struct, the reciprocals that it needs of them as well."""
+    value = hoisted(model.slots, value)
+    return value.xreplace({s: sp.Symbol(f"p->{s.name}") for s in value.free_symbols if s in model.symbols.info})
+
+
+def share_slope(model: Model, clearance: Clearance) -> Kernel:
+    """The share of the dry contact in the transition of a closed contact, and its derivative by e."""
+    build = KernelBuilder(model.symbols, f"share_slope_{clearance.name}", [
+        f"Joint {clearance.name}: the share of the dry contact between film and contact, and its derivative by e.",
+    ])  # fmt: skip
+    tangents = Tangents(model.symbols, build, (contact.delta,), clearance.name)
+    build.section("share")
+    value = in_place(model, contact.blend(clearance, closed=True).value)
+    build.out("out[0]", tangents.held(value))
+    build.out("out[1]", tangents.gradient(value).get(contact.delta, ZERO))
+    arguments = (Argument("double", "delta"), PARAMETERS, *SIDES, Argument("double *", "out"))
+    return build.build(arguments, inline=True)

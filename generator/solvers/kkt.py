@@ -1,0 +1,257 @@
+"""The KKT system [M Φ_qᵀ; Φ_q 0][x; λ] = [b; r] as straight-line statements.
+
+Its symbolic L D Lᵀ (generator/sparsity/elimination.py) becomes one named temporary an entry; entries that
+are a number or a single symbol are written in place. The pivots of coordinates are masses, or what
+elimination leaves of them; the pivot of a row is compared with what it would be if the row were
+independent of the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import sympy as sp
+
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.system import System
+from gudgeon.generator.ir.kernels import Guard, KernelBuilder
+from gudgeon.generator.sparsity.elimination import Elimination, choose_elimination
+
+ZERO = sp.Integer(0)
+Entries = dict[tuple[int, int], sp.Expr]
+
+# A row counts as dependent when less than this share of its pivot is left after elimination: the
+# share is the squared sine of the angle between the row and the others, rounding leaves some 1e-15.
+SINGULAR = 1e-13
+# Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
+# The rank-revealing way (templates/c/scene/singular.c.jinja) leaves it out for the moment if the others agree.
+NEARLY_SINGULAR = 1e-8
+# Share of a joint's two rows that is left of one of them where it counts as vanished: their size is the squared sine
+# of the angle to the singular position, and within 1e-5 of it rounding decides where things go.
+VANISHING = 1e-10
+# The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
+# and the other way to solve is exact.
+EARLY = 1e-5
+
+
+@dataclass(frozen=True)
+class Factor:
+    """L by (row node, column node), D⁻¹ by nodes: numbers, symbols, or negatives of symbols.
+
+    D has blocks of one and of two nodes: two that follow each other and couple need one division, not one
+    after the other.
+    """
+
+    L: Mapping[tuple[int, int], sp.Expr]
+    inverse: Mapping[int, Mapping[int, sp.Expr]]
+
+
+class KKT:
+    """Emits factorization and solution of a scene's KKT system; nodes are coordinates, then rows."""
+
+    def __init__(self, system: System, rows: Sequence[Row] | None = None, daring: bool = False) -> None:
+        """`daring`: the pairs of rows of a joint may be eliminated early; where links stand in one line such a
+
+        pivot vanishes although the system is regular: what `failed` does in `factorize` must then solve it.
+        """
+        self.system, self.n = system, len(system.q)
+        self.rows = system.rows if rows is None else tuple(rows)
+        self.frictions, self.first_friction = system.frictions if rows is None else (), self.n + len(self.rows)
+        place = {q: k for k, q in enumerate(system.q)}
+        self.entry = {(i, j): value for (i, j), value in system.mass.items() if i != j}
+        for r, linear in enumerate((*(row.phi_q for row in self.rows), *(f.jacobian for f in self.frictions))):
+            self.entry |= {(self.n + r, place[q]): value for q, value in linear.items()}
+        near: list[set[int]] = [set() for _ in range(self.first_friction + len(self.frictions))]
+        for r, c in self.entry:
+            near[r].add(c)
+            near[c].add(r)
+        pattern = tuple(map(frozenset, near))
+        pairs = self._row_pairs(pattern) if daring else {}
+        self.elimination: Elimination = choose_elimination(pattern, self.n, self.first_friction, pairs)
+        names = [row.name for row in self.rows] + [friction.name for friction in self.frictions]
+        self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in names]
+        self.blocks = self._blocks()
+        self.sticks: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
+        self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
+
+    def _row_pairs(self, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
+        """Two rows of a joint in the same coordinates, of which there are more than two."""
+        pairs: dict[int, int] = {}
+        for r, (row, other) in enumerate(pairwise(self.rows), self.n):
+            if row.owner == other.owner and r not in pairs and pattern[r] == pattern[r + 1] and len(pattern[r]) > 2:
+                pairs |= {r: r + 1, r + 1: r}
+        return pairs
+
+    def _blocks(self) -> list[list[int]]:
+        """Pivots that follow each other, both changed by elimination and coupled, two by two."""
+        order, structure = self.elimination.order, self.elimination.structure
+        changed = {i for column in structure.values() for i in column}
+        blocks: list[list[int]] = []
+        for k in order:
+            last = blocks[-1] if blocks else []
+            alike = len(last) == 1 and (last[0] < self.n) == (k < self.n) and {last[0], k} <= changed
+            if alike and k < self.first_friction and structure[last[0]] == (k, *structure[k]):
+                last.append(k)
+            else:
+                blocks.append([k])
+        return blocks
+
+    def factorize(self, build: KernelBuilder, failed: str = "return {}", share: float = SINGULAR) -> Factor:
+        """Statements for L and 1/D; `failed` is what a pivot below its `share` does, its number, from 1, for {}."""
+        build.section("L D L^T of the KKT matrix")
+        L: Entries = {}
+        W: Entries = {}  # entries before the division by their pivot
+        inverse: dict[int, dict[int, sp.Expr]] = {}
+        earlier: dict[int, list[int]] = {k: [] for k in self.elimination.order}  # columns with an entry in row k
+        count = 0
+        for block in self.blocks:
+            inverse |= self._pivots(build, block, earlier, (L, W), (failed, count), share)
+            count += sum(k >= self.n for k in block)
+            later = [i for i in self.elimination.structure[block[-1]]]
+            for i in later:
+                for k in block:
+                    shared = [j for j in earlier[k] if (i, j) in L]
+                    value = self.entry.get((i, k), self.entry.get((k, i), ZERO))
+                    value -= sum((L[i, j] * W[k, j] for j in shared), ZERO)
+                    W[i, k] = self._named(build, f"w_{self.names[i]}__{self.names[k]}", value)
+                for k in block:
+                    value = sum((W[i, j] * entry for j, entry in inverse[k].items()), ZERO)
+                    L[i, k] = self._named(build, f"l_{self.names[i]}__{self.names[k]}", value)
+            for i in later:
+                earlier[i] += block
+        return Factor(L, inverse)
+
+    def _pivots(
+        self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
+        made: tuple[Entries, Entries], failed: tuple[str, int], share: float,
+    ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
+        """D⁻¹ of a block; `made` are L and W, `failed` is what failing does and how many rows came before."""
+        (L, W), (what, count) = made, failed
+        if len(block) == 2:
+            return self._pair(build, block, earlier, made, [what.format(count + 1), what.format(count + 2)], share)
+        (k,) = block
+        if k < self.n:
+            return {k: {k: self._coordinate_pivot(build, k, earlier[k], L, W)}}
+        return {k: {k: self._row_pivot(build, k, earlier[k], L, W, what.format(count + 1), share)}}
+
+    def _pair(
+        self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
+        made: tuple[Entries, Entries], failed: Sequence[str], share: float,
+    ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
+        """The inverse of a 2 × 2 block by its determinant; of rows, D is negative."""
+        L, W = made
+        first, second = block
+        rows = first >= self.n
+        mass = {
+            (i, k): ZERO if rows else self.system.mass.get((max(i, k), min(i, k)), ZERO) for i in block for k in block
+        }
+
+        def left(i: int, k: int, of: Callable[[int], bool]) -> sp.Expr:
+            done = sum((L[i, j] * W[k, j] for j in earlier[i] if (k, j) in L and of(j)), ZERO)
+            return done if rows else mass[i, k] - done
+
+        name = [self.names[k] for k in block]
+        scales = [left(k, k, lambda j: j < self.n) for k in block] if rows else []
+        scale = [build.local(f"scale_{name[i]}", value) for i, value in enumerate(scales)]
+        pivots = [left(k, k, lambda j: j >= self.n or not rows) for k in block]
+        values = [own + of for own, of in zip(scale, pivots, strict=True)] if rows else pivots
+        own = [self._named(build, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
+        cross = self._named(build, f"pivot_{name[0]}__{name[1]}", left(second, first, lambda j: True))
+        determinant = build.local(f"determinant_{name[0]}__{name[1]}", own[0] * own[1] - cross**2)
+        if rows:
+            early = any(i < self.n for i in self.elimination.structure[second])
+            share = max(share, EARLY) if early else share
+            build.line(Guard(f"{own[0]} > {share!r} * {scale[0]}", failed[0]))
+            build.line(Guard(f"{determinant} > {share!r} * {scale[1]} * {own[0]}", failed[1]))
+            self._look_for_vanishing(build, block, scale, (own[0], determinant), failed)
+        inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
+        one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
+        both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
+        return {first: {first: one, second: both}, second: {first: both, second: two}}
+
+    def _look_for_vanishing(
+        self, build: KernelBuilder, block: Sequence[int], scale: Sequence[sp.Symbol],
+        found: tuple[sp.Expr, sp.Expr], failed: Sequence[str],
+    ) -> None:  # fmt: skip
+        """The pivots of a joint's x and y, `found` and their determinant, against the sum of their scales.
+
+        In a tree's angles one of these rows vanishes as a whole where links stand in one line, and is as large as
+        itself there.
+        """
+        one, two = (self.rows[k - self.n] for k in block)
+        if not self.system.in_tree or one.owner != two.owner or one.unit != two.unit:
+            return
+        size = build.local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
+        build.line(Guard(f"{found[0]} > {VANISHING!r} * {size}", failed[0]))
+        build.line(Guard(f"{found[1]} > {VANISHING!r} * {size} * {found[0]}", failed[1]))
+
+    def _coordinate_pivot(
+        self, build: KernelBuilder, k: int, earlier: Sequence[int],
+        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr],
+    ) -> sp.Expr:  # fmt: skip
+        """1/D of a coordinate: of a mass alone it is a number of `prepare`."""
+        mass = self.system.mass[k, k]
+        if not earlier and self.system.model.slots.is_constant(mass):
+            inverse: sp.Expr = self.system.model.slots.derive(f"inverse_{self._mass_name(mass, k)}", 1 / mass, "1/M")
+            return inverse
+        value = mass - sum((L[k, j] * W[k, j] for j in earlier), sp.Integer(0))
+        return build.local(f"inverse_pivot_{self.names[k]}", 1 / value)
+
+    def _mass_name(self, mass: sp.Expr, k: int) -> str:
+        return mass.name if isinstance(mass, sp.Symbol) else f"mass_{self.names[k]}"
+
+    def _row_pivot(
+        self, build: KernelBuilder, k: int, earlier: Sequence[int],
+        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr], failed: str,
+        least: float,
+    ) -> sp.Expr:  # fmt: skip
+        """1/D of a row: D = −scale + what earlier rows explain; NaN fails the comparison with the scale too."""
+        name = self.names[k]
+        own = sum((L[k, j] * W[k, j] for j in earlier if j < self.n), sp.Integer(0))
+        scale = build.local(f"scale_{name}", own)
+        pivot: sp.Expr = scale
+        others = [j for j in earlier if j >= self.n]
+        if others:
+            value = scale + sum((L[k, j] * W[k, j] for j in others), sp.Integer(0))
+            pivot = build.local(f"pivot_{name}", value)
+        test = f"{pivot.name} > {least!r} * {scale.name}"
+        if k < self.first_friction:
+            build.line(Guard(test, failed))
+            return -build.local(f"inverse_pivot_{name}", 1 / pivot)
+        stick = self.sticks[k]  # a row that slips is switched off: its multiplier is zero
+        build.line(f"if ({stick.name} != 0.0 && !({test})) {failed};")
+        return -build.local(f"inverse_pivot_{name}", f"{stick.name} != 0.0 ? 1.0 / {pivot.name} : 0.0")
+
+    @staticmethod
+    def _named(build: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
+        return value if is_simple(value) else build.local(name, value)
+
+    def solve(
+        self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
+    ) -> dict[int, sp.Expr]:
+        """Solution by node for a right-hand side by node (absent: zero)."""
+        build.section("forward substitution")
+        columns: dict[int, list[int]] = {k: [] for k in self.elimination.order}
+        for i, k in factor.L:
+            columns[i].append(k)
+        z: dict[int, sp.Expr] = {}
+        for k in self.elimination.order:
+            value = b.get(k, sp.Integer(0)) - sum(
+                (factor.L[k, j] * z[j] for j in columns[k] if z[j] != 0), sp.Integer(0)
+            )
+            z[k] = self._named(build, f"{prefix}z_{self.names[k]}", value)
+        build.section("backward substitution")
+        x: dict[int, sp.Expr] = {}
+        for k in reversed(self.elimination.order):
+            value = sum((z[j] * entry for j, entry in factor.inverse[k].items()), ZERO)
+            value -= sum((factor.L[i, k] * x[i] for i in self.elimination.structure[k] if (i, k) in factor.L), ZERO)
+            kind = "acceleration" if k < self.n else "lambda"
+            x[k] = build.local(f"{prefix}{kind}_{self.names[k]}", value)
+        return x
+
+
+def is_simple(value: sp.Expr) -> bool:
+    """A number, a symbol or its negative: cheaper written in place than named."""
+    return bool(value.is_Number or value.is_Symbol or (-value).is_Symbol)

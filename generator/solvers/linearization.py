@@ -1,0 +1,225 @@
+"""The equations of motion linearized at a state: what Newton's method and the Jacobian need of them.
+
+With accelerations a and multipliers λ that satisfy, at (t, q, v),
+
+    R1 = M a + Φ_qᵀ λ − g = 0,    R2 = Φ_q a − γ + 2α Φ̇ + β² Φ = 0
+
+and are held, this collects the structural non-zeros of R1_q, R1_v, R1_t, R2_t and of what is left of
+
+    R2_v = 2α Φ_q + V,    R2_q = β² Φ_q + Q
+
+where Φ_q itself is taken out. Friction that may stick is a row as well, v = J q̇ − speed = 0 with β = 0; its
+multiplier is zero while it slips. Powers P are those of the works that are integrated with the motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from gudgeon.generator.equations.friction import Friction
+from gudgeon.generator.equations.loads import PointLoad
+from gudgeon.generator.equations.model import stick_gain
+from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.equations.system import System
+from gudgeon.generator.ir.differentiation import Tangent, Tangents
+from gudgeon.generator.ir.kernels import KernelBuilder
+from gudgeon.generator.symbols.symbols import Symbols
+
+ZERO = sp.Integer(0)
+Place = tuple[int, int]  # node (coordinates, then rows, then frictions), column (coordinate)
+N_WORK = 3
+
+
+@dataclass
+class Parts:
+    """Non-zeros by (node, coordinate); powers by (power, coordinate) or (power, node of a or λ)."""
+
+    mass: dict[Place, sp.Expr] = field(default_factory=dict)
+    phi_q: dict[Place, sp.Expr] = field(default_factory=dict)
+    by_q: dict[Place, sp.Expr] = field(default_factory=dict)  # R1_q, Q
+    by_v: dict[Place, sp.Expr] = field(default_factory=dict)  # R1_v, V
+    by_t: dict[int, sp.Expr] = field(default_factory=dict)
+    power_q: dict[Place, sp.Expr] = field(default_factory=dict)
+    power_v: dict[Place, sp.Expr] = field(default_factory=dict)
+    power_row: dict[Place, sp.Expr] = field(default_factory=dict)
+    power_t: dict[int, sp.Expr] = field(default_factory=dict)
+
+
+class Linearization:
+    """Emits what is common (contacts, tangents) into a kernel and gives the parts in its symbols."""
+
+    def __init__(self, system: System, build: KernelBuilder) -> None:
+        self.system, self.model, self.build = system, system.model, build
+        self.symbols: Symbols = system.model.symbols
+        self.n, self.m = len(system.q), len(system.rows)
+        self.t = system.model.t
+        self.q, self.v = ({s: k for k, s in enumerate(group)} for group in (system.q, system.v))
+        self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, self.t))
+        for known in system.known:  # functions of t
+            for symbol, rate in ((known.q, known.rate), (known.rate, known.second), (known.second, known.third)):
+                self.tangents.know(symbol, {self.t: rate})
+        self.parts = Parts()
+        self.a = [self._held(f"a_{q.name}", f"a[{k}]") for k, q in enumerate(system.q)]
+        self.multiplier = [
+            self._held(f"held_lambda_{row.name}", f"aside->lambda[{r}]") for r, row in enumerate(system.rows)
+        ]
+        self.sticks: list[sp.Symbol] = []  # 1 in stick, 0 in slip
+        self.powers: list[sp.Expr] = [ZERO] * N_WORK
+
+    def derive(self) -> Parts:
+        """All parts."""
+        loads = [load for element in self.model.elements.values() for load in element.on_points()]
+        self.powers[0] = sp.Add(*(-x * row.nu for x, row in zip(self.multiplier, self.system.rows, strict=True)))
+        self.powers[1] = sp.Add(*(element.loads.power for element in self.model.elements.values()))
+        for index, clearance in enumerate(self.model.clearances):
+            loads += self._clearance(index, clearance)
+        acting, on_given = self.system.generalized(loads)
+        residual = [-own - load for own, load in zip(self.system.applied, acting, strict=True)]
+        for given in self.system.given:
+            needed = sp.Add(*(m * self.a[k] for k, m in given.mass.items())) - given.applied
+            self.powers[0] += given.rate * (needed - on_given.get(given.name, ZERO))
+        self._rows()
+        self._frictions(residual)
+        self._coordinates(residual)
+        self._power_parts()
+        return self.parts
+
+    def _held(self, wanted: str, home: str) -> sp.Symbol:
+        return self.symbols.new(wanted.replace(".", "_"), home)
+
+    def _clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
+        """The joint's force as symbols, with their tangents from its own function."""
+        name, build, out = clearance.name, self.build, f"aside->clearance[{index}]"
+        build.section(f"clearance joint {name}")
+        e = [build.local(f"e_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity, strict=True)]
+        edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
+        given = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
+        arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in given[4:])])
+        slopes = self.symbols.unique(f"change_{name}")
+        build.line(f"double {slopes}[4][6];")
+        build.line(f"tangent_{name}({arguments}, &memory->latch[{index}], p, side, g, {slopes});", given[4:])
+        inner = [self.tangents.gradient(x) for x in given]
+        values = []
+        for i, what in enumerate(("Fx", "Fy", "moment_first", "moment_second")):
+            symbol = self._held(f"{name}_{what}", f"{out}.{what}")
+            by = [build.local(f"{name}_{what}_by_{k}", f"{slopes}[{i}][{j}]") for j, k in enumerate(_BY) if inner[j]]
+            known = iter(by)
+            pairs = {next(known): tangent for tangent in inner if tangent}
+            self.tangents.know(symbol, self.tangents.sum(pairs.items()))
+            values.append(symbol)
+        moments = [x if end.body is not None else ZERO for x, end in zip(
+            values[2:], (clearance.first, clearance.second), strict=True)]  # fmt: skip
+        self.powers[2] += clearance.power(values[:2], clearance.eccentricity_rate, moments)
+        return clearance.on_points(values[:2], moments)
+
+    def _rows(self) -> None:
+        """Φ_q, V = R2_v − 2α Φ_q, Q = R2_q − β² Φ_q and R2_t of the constraints."""
+        if self.system.rows:
+            self.build.section("constraints")
+        two_alpha, beta_squared = self._gains()
+        for r, row in enumerate(self.system.rows):
+            node = self.n + r
+            self._phi_q(node, row.phi_q)
+            self._split(node, row.gamma, -1, v_only=True)
+            bent = sum((entry * self.a[self.q[q]] for q, entry in row.phi_q.items()), -row.gamma)
+            phi_dot = row.phi_q_v - row.nu
+            at_q = self._of(self.tangents.gradient(bent), self.q)
+            for k, value in self._of(self.tangents.gradient(phi_dot), self.q).items():
+                at_q[k] = at_q.get(k, ZERO) + two_alpha * value
+            self.parts.by_q |= {(node, k): value for k, value in at_q.items() if value != 0}
+            at_t = [self.tangents.gradient(x).get(self.t, ZERO) for x in (bent, phi_dot, row.phi)]
+            if (value := at_t[0] + two_alpha * at_t[1] + beta_squared * at_t[2]) != 0:
+                self.parts.by_t[node] = value
+
+    def _gains(self) -> tuple[sp.Expr, sp.Expr]:
+        """2α and β² as numbers of `prepare`."""
+        alpha, beta = self.model.baumgarte
+        derive = self.model.slots.derive
+        return derive("two_alpha", 2 * alpha, "2 alpha"), derive("beta_squared", beta**2, "beta^2")
+
+    def _phi_q(self, node: int, jacobian: Mapping[sp.Symbol, sp.Expr]) -> None:
+        self.parts.phi_q |= {(node, self.q[q]): entry for q, entry in jacobian.items()}
+
+    def _split(self, node: int, value: sp.Expr, sign: int, v_only: bool = False) -> None:
+        """Derivatives of one residual into the parts."""
+        tangent = self.tangents.gradient(value)
+        for part, place in ((self.parts.by_v, self.v), (self.parts.by_q, self.q)):
+            if place is self.v or not v_only:
+                part |= {(node, k): sign * x for k, x in self._of(tangent, place).items()}
+        if not v_only and self.t in tangent:
+            self.parts.by_t[node] = sign * tangent[self.t]
+
+    @staticmethod
+    def _of(tangent: Tangent, place: Mapping[sp.Symbol, int]) -> dict[int, sp.Expr]:
+        return {place[s]: value for s, value in tangent.items() if s in place}
+
+    def _frictions(self, residual: list[sp.Expr]) -> None:
+        """Rows of stick, forces of slip, and their power; a mode is held."""
+        if self.system.frictions:
+            self.build.section("friction: slip, or stick as a row")
+        two_alpha = stick_gain(self.model) if self.system.frictions else ZERO
+        for r, friction in enumerate(self.system.frictions):
+            node, name, build = self.n + self.m + r, friction.name, self.build
+            mode = build.local(f"mode_{name}", f"memory->mode[{r}]")
+            stick = build.local(f"stick_{name}", f"{mode.name} == 0.0 ? 1.0 : 0.0")
+            sign = build.local(f"sign_{name}", f"fabs({mode.name}) > 1.0 ? 0.0 : {mode.name}")
+            force = build.local(f"held_force_{name}", f"{stick.name} != 0.0 ? aside->friction[{r}].force : 0.0")
+            self.sticks.append(stick)
+            self._phi_q(node, friction.jacobian)
+            row = sum((entry * self.a[self.q[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
+            self._split(node, row + two_alpha * friction.slip.v, 1)
+            for q, entry in friction.jacobian.items():
+                k = self.q[q]
+                left = self.parts.by_v.pop((node, k), ZERO) - two_alpha * entry  # V has no 2α Φ_q
+                if left := sp.expand(left):
+                    self.parts.by_v[node, k] = left
+                residual[k] += entry * (sign * friction.slip.kinetic - force)
+            self._friction_power(node, friction, force - sign * friction.slip.kinetic, stick)
+
+    def _friction_power(self, node: int, friction: Friction, force: sp.Expr, stick: sp.Symbol) -> None:
+        """Force times the velocity on which it acts; in stick the force is −λ."""
+        moving = friction.slip.v + friction.slip.speed
+        self.powers[1] += force * moving
+        self.parts.power_row[1, node] = -stick * moving
+        for given in self.system.given:  # what friction asks of a drive
+            along = given.rate * self.symbols.written_out(friction.slip.v, given.rate)
+            if along != 0:
+                self.powers[0] -= along * force
+                self.parts.power_row[0, node] = self.parts.power_row.get((0, node), ZERO) + stick * along
+
+    def _coordinates(self, residual: list[sp.Expr]) -> None:
+        """M, R1_q, R1_v and R1_t."""
+        self.build.section("coordinates")
+        for (i, j), value in self.system.mass.items():
+            for k, other in sorted({(i, j), (j, i)}):
+                self.parts.mass[k, other] = value
+                residual[k] += value * self.a[other]
+        for multiplier, row in zip(self.multiplier, self.system.rows, strict=True):
+            for q, entry in row.phi_q.items():
+                residual[self.q[q]] += entry * multiplier
+        for k, value in enumerate(residual):
+            self._split(k, value, 1)
+
+    def _power_parts(self) -> None:
+        if not any(self.powers):
+            return
+        self.build.section("powers")
+        for w, power in enumerate(self.powers):
+            tangent = self.tangents.gradient(power)
+            self.parts.power_q |= {(w, k): value for k, value in self._of(tangent, self.q).items()}
+            self.parts.power_v |= {(w, k): value for k, value in self._of(tangent, self.v).items()}
+            if self.t in tangent:
+                self.parts.power_t[w] = tangent[self.t]
+        for r, row in enumerate(self.system.rows):
+            if row.nu != 0:
+                self.parts.power_row[0, self.n + r] = -row.nu
+        for given in self.system.given:  # a drive also moves what inertia the accelerations meet it with
+            for k, mass in given.mass.items():
+                self.parts.power_row[0, k] = self.parts.power_row.get((0, k), ZERO) + given.rate * mass
+
+
+_BY = ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j")
+

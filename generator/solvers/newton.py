@@ -1,0 +1,287 @@
+"""Newton's matrix of the equations of motion, and the solution of (I/η − J) u = r + s f_t, as kernels.
+
+J is the Jacobian of y' = f(t, y) with y = (q, v, works) and η = h γ of the method. Eliminating u_q = η (r_q + u_v)
+leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),
+
+    [M + η R1_v + η² R1_q   Φ_qᵀ] [u_v ]   [ η (M r_v − η R1_q r_q − s R1_t)                         ]
+    [Φ_q + η/κ (V + η Q)    0   ] [η μ ] = [ η/κ (Φ_q (r_v − η β² r_q) − η Q r_q − s R2_t)           ]
+
+    u_w = η (r_w + P_q u_q + P_v u_v + P_λ μ + s P_t),   μ the multipliers' own change.
+
+At η = 0 the matrix is the KKT matrix. It is factorized as L U without pivoting in an order chosen on its
+symmetric pattern, a row only after the coordinates in it. E. Hairer, G. Wanner, Solving Ordinary Differential
+Equations II, Springer (1996), IV.8 and VII.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
+
+import sympy as sp
+
+from gudgeon.generator.equations.model import stick_gain
+from gudgeon.generator.equations.system import System
+from gudgeon.generator.ir.differentiation import Tangents
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section, Statement, with_sides
+from gudgeon.generator.ir.signatures import HELD_SIDES, MEMORY, PARAMETERS, STATE
+from gudgeon.generator.ir.stored_values import Pool
+from gudgeon.generator.solvers.kkt import SINGULAR, is_simple
+from gudgeon.generator.solvers.linearization import N_WORK, Linearization, Parts, Place
+from gudgeon.generator.sparsity.elimination import choose_elimination
+
+ZERO = sp.Integer(0)
+ETA, ETA_ROW, ETA_STICK = (sp.Symbol(name, real=True) for name in ("eta", "eta_row", "eta_stick"))
+
+
+class Newton:
+    """The kernels of one system; `prefix` tells them from those of another system in the same library."""
+
+    def __init__(self, system: System, prefix: str = "") -> None:
+        self.system, self.model, self.prefix = system, system.model, prefix
+        self.n, self.m = len(system.q), len(system.rows)
+        self.nodes = self.n + self.m + len(system.frictions)
+        named = [row.name for row in system.rows] + [friction.name for friction in system.frictions]
+        self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named]
+        self.values = Pool(system.model.symbols, "lin->value")
+        self.factors = Pool(system.model.symbols, "lin->lu")
+        self.lin = Argument(f"const {prefix.title()}Linear *", "lin")
+        self.linearize = self._linearize()
+        self.factor = self._factor()
+        self.substitute = self._substitute()
+        self.solve = self._solve()
+
+    def _builder(self, name: str, doc: Sequence[str]) -> KernelBuilder:
+        return KernelBuilder(self.model.symbols, self.prefix + name, doc)
+
+    def _linearize(self) -> Kernel:
+        """All parts at a state, into `lin->value`; afterwards `self.parts` is in symbols that read them there."""
+        build = self._builder("linearize", [
+            "The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:",
+            "non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.",
+        ])  # fmt: skip
+        work = Linearization(self.system, build)
+        parts = work.derive()
+        build.section("results")
+        self.parts = self._pooled(build, parts, work.tangents)
+        self.sticks = [self.values.keep(build, stick, f"is_{stick.name}") for stick in work.sticks]
+        self.tables = self._tables(build)
+        build.line("lin->p = p;")
+        arguments = (
+            *STATE, MEMORY, PARAMETERS, Argument("const double *", "a"), Argument("const Aside *", "aside"),
+            self._own_lin(),
+        )  # fmt: skip
+        return with_sides(build.build(arguments, owner="", prune=True), HELD_SIDES)
+
+    def _pooled(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
+        """The parts with each value in the pool, once up to its sign."""
+
+        def keep(value: sp.Expr, name: str) -> sp.Expr:
+            return self.values.keep(build, tangents.shared(value), name)
+
+        def pooled(what: str, part: Mapping[Place, sp.Expr], rows: Sequence[str]) -> dict[Place, sp.Expr]:
+            return {(i, j): keep(value, f"{what}_{rows[i]}_{self.names[j]}") for (i, j), value in part.items()}
+
+        works = [str(w) for w in range(N_WORK)]
+        return Parts(
+            pooled("mass", parts.mass, self.names), pooled("phi", parts.phi_q, self.names),
+            pooled("by_q", parts.by_q, self.names), pooled("by_v", parts.by_v, self.names),
+            {k: keep(x, f"by_t_{self.names[k]}") for k, x in parts.by_t.items()},
+            pooled("power_q", parts.power_q, works), pooled("power_v", parts.power_v, works),
+            pooled("power", parts.power_row, works),
+            {w: keep(x, f"power_t_{w}") for w, x in parts.power_t.items()},
+        )  # fmt: skip
+
+    def _tables(self, build: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
+        """Where each part is in `lin->value`: (row, column, index, sign); columns of q, then of v."""
+        parts, n = self.parts, self.n
+
+        def table(part: Mapping[Place, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
+            return [(i, first + k, *self.values.place(build, value)) for (i, k), value in part.items()]
+
+        return {
+            "phi_q": table(parts.phi_q),
+            "residual": table(parts.by_q) + table(parts.by_v, n),
+            "residual_t": table({(node, 0): value for node, value in parts.by_t.items()}),
+            "power": table(parts.power_q) + table(parts.power_v, n),
+            "power_row": table(parts.power_row),
+            "power_t": table({(w, 0): value for w, value in parts.power_t.items()}),
+        }
+
+    def _entries(self, build: KernelBuilder) -> dict[Place, sp.Expr]:
+        """The matrix, by (row, column); both triangles."""
+        parts = self.parts
+        self._scales(build, {self._scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
+        build.section("matrix")
+        entries: dict[Place, sp.Expr] = dict(parts.mass)
+        for node, k in sorted({*parts.by_v, *parts.by_q, *parts.phi_q}):
+            place = node, k
+            change = parts.by_v.get(place, ZERO) + ETA * parts.by_q.get(place, ZERO)
+            value = parts.mass.get(place, ZERO) if node < self.n else parts.phi_q.get(place, ZERO)
+            value += self._scale(node) * change
+            name = f"n_{self.names[node]}__{self.names[k]}"
+            entries[place] = value if is_simple(value) else build.local(name, value)
+        return entries | {(k, node): value for (node, k), value in parts.phi_q.items()}
+
+    def _scale(self, node: int) -> sp.Symbol:
+        """What a row's change is multiplied by."""
+        if node < self.n:
+            return ETA
+        return ETA_ROW if node < self.n + self.m else ETA_STICK
+
+    def _scales(self, build: KernelBuilder, wanted: Collection[sp.Symbol]) -> None:
+        """η/κ of constraints and of sticks, as far as they are wanted."""
+        alpha, beta = self.model.baumgarte
+        derive = self.model.slots.derive
+        two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
+        build.section("eta/kappa")
+        if ETA_ROW in wanted:
+            build.line_statement(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
+        if ETA_STICK in wanted:
+            build.line_statement(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
+
+    def _factor(self) -> Kernel:
+        """L U of the matrix, L with unit diagonal; what is neither number nor known is stored in `lin->lu`."""
+        build = self._builder("newton_factor", [
+            "L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the",
+            "number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.",
+        ])  # fmt: skip
+        entries = self._entries(build)
+        pattern = [{j for j in range(self.nodes) if j != i and ((i, j) in entries or (j, i) in entries)}
+                   for i in range(self.nodes)]  # fmt: skip
+        self.elimination = choose_elimination(tuple(map(frozenset, pattern)), self.n, self.n + self.m)
+        build.section("L U")
+        factors = _Factors(self, build, entries)
+        for k in self.elimination.order:
+            factors.eliminate(k, self.elimination.structure[k])
+        self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
+        build.line("return 0;")
+        return self._build(build, (Argument("double", "eta"), self._own_lin()), "int")
+
+    def _own_lin(self) -> Argument:
+        return replace(self.lin, type=self.lin.type.removeprefix("const "))
+
+    def _build(self, build: KernelBuilder, arguments: Sequence[Argument], returns: str = "void") -> Kernel:
+        """A kernel that reads the run's numbers through `lin`."""
+        kernel = build.build(arguments, returns, prune=True)
+        numbers = Section("numbers of the run", ("const Parameters *const p = lin->p;",))
+        reads = any("p->" in str(s.value) for section in kernel.sections for s in section.statements
+                    if isinstance(s, Statement))  # fmt: skip
+        return replace(kernel, sections=(numbers, *kernel.sections)) if reads else kernel
+
+    def _substitute(self) -> Kernel:
+        """x becomes the solution of N x = b, which it holds at first; nodes are coordinates, rows, frictions."""
+        build = self._builder("newton_substitute", ["x (all nodes) holds b and becomes the solution of N x = b."])
+        build.section("forward")
+        order = self.elimination.order
+        x: dict[int, sp.Symbol] = {}
+        earlier: dict[int, list[int]] = {k: [] for k in order}
+        for i, j in self.lower:
+            earlier[i].append(j)
+        for k in order:
+            value = sp.Symbol(f"x[{k}]") - sp.Add(*(self.lower[k, j] * x[j] for j in earlier[k]))
+            x[k] = build.local(f"b_{self.names[k]}", value)
+        build.section("backward")
+        for k in reversed(order):
+            value = x[k] - sp.Add(*(self.upper[k, j] * x[j] for j in self.elimination.structure[k]))
+            x[k] = build.local(f"x_{self.names[k]}", value * self.inverse[k])
+            build.out(f"x[{k}]", x[k])
+        return self._build(build, (self.lin, Argument("double *", "x")))
+
+    def _solve(self) -> Kernel:
+        """From r (2n + works) to u."""
+        n, parts = self.n, self.parts
+        build = self._builder("newton_solve", [
+            "(1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.",
+        ])  # fmt: skip
+        self._scales(build, {self._scale(node) for node in range(self.nodes)})
+        build.section("right-hand side")
+        build.line(f"double x[{self.nodes}];")
+        beta_squared = self.model.slots.derive("beta_squared", self.model.baumgarte[1] ** 2)
+        r_q, r_v = ([sp.Symbol(f"r[{first + k}]") for k in range(n)] for first in (0, n))
+        wanted = sorted({k for node, k in parts.phi_q if node < n + self.m})
+        shifted = {k: build.local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k]) for k in wanted}
+        b: list[list[sp.Expr]] = [[] for _ in range(self.nodes)]
+        for (i, k), value in parts.mass.items():
+            b[i].append(value * r_v[k])
+        for (i, k), value in parts.phi_q.items():
+            b[i].append(value * (shifted[k] if i < n + self.m else r_v[k]))
+        for (i, k), value in parts.by_q.items():
+            b[i].append(-ETA * value * r_q[k])
+        for i, value in parts.by_t.items():
+            b[i].append(-sp.Symbol("s") * value)
+        for i, terms in enumerate(b):
+            build.out(f"x[{i}]", self._scale(i) * sp.Add(*terms))
+        build.line(f"{self.prefix}newton_substitute(lin, x);")
+        build.section("solution")
+        for k in range(n):
+            build.out(f"u[{k}]", ETA * (r_q[k] + sp.Symbol(f"x[{k}]")))
+            build.out(f"u[{n + k}]", sp.Symbol(f"x[{k}]"))
+        for w in range(N_WORK):
+            build.out(f"u[{2 * n + w}]", self._work(w))
+        arguments = (self.lin, Argument("double", "eta"), Argument("double", "s"), Argument("const double *", "r"),
+                     Argument("double *", "u"))  # fmt: skip
+        return self._build(build, arguments)
+
+    def _work(self, w: int) -> sp.Expr:
+        """u_w; x holds u_v, that is η (δa + r_v), and η μ behind it."""
+        parts, n = self.parts, self.n
+        terms = [sp.Symbol(f"r[{2 * n + w}]"), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
+        for part, first in ((parts.power_q, 0), (parts.power_v, n)):
+            terms += [value * sp.Symbol(f"u[{first + k}]") for (i, k), value in part.items() if i == w]
+        changes = [ZERO]
+        for (i, node), value in parts.power_row.items():
+            before = ETA * sp.Symbol(f"r[{n + node}]") if node < n else ZERO
+            changes += [value * (sp.Symbol(f"x[{node}]") - before)] if i == w else []
+        return ETA * sp.Add(*terms) + sp.Add(*changes)
+
+
+class _Factors:
+    """L, U and inverse pivots as they come, column by column."""
+
+    def __init__(self, newton: Newton, build: KernelBuilder, entries: Mapping[Place, sp.Expr]) -> None:
+        self.newton, self.build, self.entries = newton, build, entries
+        self.lower: dict[Place, sp.Expr] = {}  # (later, earlier)
+        self.upper: dict[Place, sp.Expr] = {}  # (earlier, later)
+        self.inverse: dict[int, sp.Expr] = {}
+        self._before: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
+
+    def eliminate(self, k: int, later: Sequence[int]) -> None:
+        """Pivot k, its column of L and its row of U."""
+        self.inverse[k] = self._pivot(k)
+        names = self.newton.names
+        for i in later:
+            shared = [j for j in self._before[k] if (i, j) in self.lower]
+            column = self.entries.get((i, k), ZERO) - self._products(i, k, shared)
+            row = self.entries.get((k, i), ZERO) - self._products(k, i, shared)
+            self.lower[i, k] = self._kept(f"l_{names[i]}__{names[k]}", column * self.inverse[k])
+            self.upper[k, i] = self._kept(f"u_{names[k]}__{names[i]}", row)
+            self._before[i].append(k)
+
+    def _products(self, i: int, k: int, shared: Sequence[int]) -> sp.Expr:
+        return sp.Add(*(self.lower[i, j] * self.upper[j, k] for j in shared))
+
+    def _pivot(self, k: int) -> sp.Expr:
+        """1/pivot; what is left of a row is compared with what it would be if it were independent of the others."""
+        newton, build, name = self.newton, self.build, self.newton.names[k]
+        own = self.entries.get((k, k), ZERO)
+        if not self._before[k] and own in newton.model.masses:
+            return newton.model.slots.derive(f"inverse_{own}", 1 / own, "1/M")
+        first = [j for j in self._before[k] if j < newton.n or k < newton.n]
+        others = [j for j in self._before[k] if j not in first]
+        scale = build.local(f"scale_{name}", own - self._products(k, k, first))
+        pivot = build.local(f"pivot_{name}", scale - self._products(k, k, others)) if others else scale
+        if k < newton.n:
+            test, size = f"!(fabs({pivot}) > {SINGULAR!r} * fabs({own}))", own
+        else:
+            test, size = f"!(fabs({pivot}) > {SINGULAR!r} * fabs({scale}))", scale
+        stick = newton.sticks[k - newton.n - newton.m] if k >= newton.n + newton.m else None
+        build.line(f"if ({f'{stick} != 0.0 && ' if stick else ''}{test})", [size])
+        build.line(f"    return {k + 1};", [stick] if stick else [])
+        # a row that slips is switched off: its multiplier is zero
+        value = 1 / pivot if stick is None else f"{stick} != 0.0 ? 1.0 / {pivot} : 0.0"
+        return newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", value))
+
+    def _kept(self, name: str, value: sp.Expr) -> sp.Expr:
+        own = is_simple(value) and not value.free_symbols & {ETA, ETA_ROW, ETA_STICK}  # not what every call is given
+        return self.newton.factors.adopt(self.build, value if own else self.build.local(name, value))

@@ -1,0 +1,152 @@
+"""Φ_q x = r where there are as many rows as coordinates: solved part by part, without M.
+
+A linkage without freedom falls into groups of bodies that can be placed one after the other (the Assur groups of
+kinematics, mostly dyads: two rows in two angles). In Φ_q they are the diagonal blocks of its block triangular form:
+match every row with a coordinate of its own, then take the strongly connected parts of who needs whom, in order
+(A. Pothen, C.-J. Fan, ACM Trans. Math. Softw. 16:303, 1990). One row is a division, two are Cramer's rule, larger
+blocks are factorized densely with pivoting at run time (templates/c/scene/block.c.jinja).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import sqrt
+
+import sympy as sp
+
+from gudgeon.generator.equations.system import System
+from gudgeon.generator.ir.kernels import KernelBuilder
+from gudgeon.generator.solvers.kkt import SINGULAR
+from gudgeon.generator.sparsity.matching import Block, triangular_blocks
+from gudgeon.generator.symbols.corners import Size
+
+ZERO = sp.Integer(0)
+# A block is singular when its determinant is less than this share of what it could be, were the arms in it turned:
+# the sine of an angle, where KKT compares its square.
+SHARE = sqrt(SINGULAR)
+
+
+
+
+@dataclass(frozen=True)
+class Solver:
+    """What is known of a block at a state: the inverse of its pivot or determinant, or the name of its factors."""
+
+    block: Block
+    inverse: sp.Expr = ZERO
+    name: str = ""
+
+
+class SquareRows:
+    """Emits the solution of Φ_q x = r for a system's rows in its coordinates, if it `fits`."""
+
+    def __init__(self, system: System, slides: Sequence[bool]) -> None:
+        """`slides`: which coordinates are lengths, not angles."""
+        rows, q = system.rows, system.q
+        place = {symbol: k for k, symbol in enumerate(q)}
+        self._symbols, self._q, self._slides = system.model.symbols, tuple(q), slides
+        self.names = [row.name.replace(".", "_").replace("=", "_") for row in rows]
+        self.unknowns = [symbol.name for symbol in q]
+        self.entries: list[Mapping[int, sp.Expr]] = [{place[s]: c for s, c in row.phi_q.items()} for row in rows]
+        self.blocks = triangular_blocks([set(entries) for entries in self.entries], len(q))
+
+    @property
+    def fits(self) -> bool:
+        """False where rows and coordinates are not equally many, or the rows' pattern leaves some coordinate open."""
+        return self.blocks is not None
+
+    @property
+    def largest(self) -> int:
+        """Rows of the largest block; more than two need the code of block.c.jinja."""
+        return max((len(block.rows) for block in self.blocks or ()), default=0)
+
+    def factorize(self, build: KernelBuilder) -> list[Solver]:
+        """Statements that make a block singular return the number, from 1, of a row of it."""
+        build.section("groups of rows that are solved one after the other")
+        solvers = []
+        for block in self.blocks or ():
+            size = min(len(block.rows), 3)
+            solvers.append((self._single, self._pair, self._dense)[size - 1](build, block))
+        return solvers
+
+    def _single(self, build: KernelBuilder, block: Block) -> Solver:
+        (row,), (column,) = block.rows, block.columns
+        pivot = self.entries[row][column]
+        if pivot.is_Number:
+            return Solver(block, 1 / pivot)
+        named = build.local(f"pivot_{self.names[row]}", pivot)
+        build.line(f"if (!(fabs({named}) > {SHARE!r} * {self._size(build, row, column, block)})) return {row + 1};")
+        return Solver(block, build.local(f"inverse_{self.names[row]}", 1 / named))
+
+    def _pair(self, build: KernelBuilder, block: Block) -> Solver:
+        name = f"{self.names[block.rows[0]]}__{self.names[block.rows[1]]}"
+        (a, b), (c, d) = self._square(block)
+        determinant = build.local(f"determinant_{name}", a * d - b * c)
+        (A, B), (C, D) = ([self._size(build, r, k, block) for k in block.columns] for r in block.rows)
+        bound = build.local(f"bound_{name}", A * D + B * C)
+        build.line(f"if (!(fabs({determinant}) > {SHARE!r} * {bound})) return {block.rows[1] + 1};")
+        return Solver(block, build.local(f"inverse_{name}", 1 / determinant))
+
+    def _size(self, build: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
+        """What an entry could be if arms lay in the worst direction, within a factor of two.
+
+        For an angle |c| + |dc/dθ|, for a slide the sum of |c| over the block's slides: units do not mix.
+        """
+        entries = self.entries[row]
+        if self._slides[column]:
+            size = sp.Add(*(sp.Abs(entries.get(k, ZERO)) for k in block.columns if self._slides[k]))
+        else:
+            entry = entries.get(column, ZERO)
+            size = sp.Abs(entry) + sp.Abs(self._symbols.diff(entry, self._q[column]))
+        if size.is_Number:
+            return size
+        return build.local(f"size_{self.names[row]}__{self.unknowns[column]}", size.replace(sp.Abs, Size))
+
+    def _dense(self, build: KernelBuilder, block: Block) -> Solver:
+        n, name = len(block.rows), self._symbols.unique(f"block_{self.names[block.rows[0]]}")
+        build.line(f"double {name}_values[{n * n}];")
+        build.line(f"int {name}_order[{n}];")
+        for k, value in enumerate(value for line in self._square(block) for value in line):
+            build.out(f"{name}_values[{k}]", value)
+        build.line(f"if (factor_block({n}, {name}_values, {name}_order)) return {block.rows[0] + 1};")
+        return Solver(block, name=name)
+
+    def _square(self, block: Block) -> list[list[sp.Expr]]:
+        return [[self.entries[r].get(c, ZERO) for c in block.columns] for r in block.rows]
+
+    def solve(
+        self, build: KernelBuilder, solvers: Sequence[Solver], rhs: Sequence[sp.Expr], prefix: str
+    ) -> list[sp.Expr]:
+        """x by coordinate for one right-hand side."""
+        x: dict[int, sp.Expr] = {}
+        for solver in solvers:
+            block = solver.block
+            left = [rhs[r] - sum((c * x[k] for k, c in self.entries[r].items() if k in x), ZERO) for r in block.rows]
+            if len(left) > 1:
+                left = [
+                    build.local(f"{prefix}_rest_{self.names[r]}", value) if len(value.free_symbols) > 1 else value
+                    for r, value in zip(block.rows, left, strict=True)
+                ]
+            for k, value in zip(block.columns, self._solve(build, solver, left, prefix), strict=True):
+                x[k] = build.local(f"{prefix}_{self.unknowns[k]}", value)
+        return [x[k] for k in range(len(self.unknowns))]
+
+    def _solve(
+        self, build: KernelBuilder, solver: Solver, left: Sequence[sp.Expr], prefix: str
+    ) -> Sequence[sp.Expr | str]:  # fmt: skip
+        if len(left) == 1:
+            return [left[0] * solver.inverse]
+        if len(left) == 2:
+            (a, b), (c, d) = self._square(solver.block)
+            return [(d * left[0] - b * left[1]) * solver.inverse, (a * left[1] - c * left[0]) * solver.inverse]
+        name, n = self._symbols.unique(f"{solver.name}_{prefix}"), len(left)
+        build.line(f"double {name}[{n}];")
+        for k, value in enumerate(left):
+            build.out(f"{name}[{k}]", value)
+        build.line(f"solve_block({n}, {solver.name}_values, {solver.name}_order, {name});")
+        return [f"{name}[{k}]" for k in range(n)]
+
+
+
+

@@ -1,0 +1,1 @@
+"""Graphs of a matrix: elimination order, block triangular form; no SymPy."""

@@ -1,0 +1,134 @@
+"""Sparse L D Lᵀ of the KKT matrix, symbolically: which entries exist, and the sums that give them.
+
+The matrix is [M Φ_qᵀ; Φ_q 0] with a diagonal M. A row of Φ is eliminated only after all the
+coordinates in it: its pivot is then −Φ_q M⁻¹ Φ_qᵀ of what is left, never a structural zero, and
+negative as long as the rows are independent. The order is chosen here, once, by counting products.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+
+DIVISION = 20  # products in the time of one division and what waits for it (measured)
+LONG = 8  # divisions in a chain that is long
+Pattern = tuple[frozenset[int], ...]  # neighbours of each node in the graph of the matrix
+NO_PAIRS: Mapping[int, int] = MappingProxyType({})
+FIRST = (-1,)  # a key before all others
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """`order[k]` is the k-th pivot; `structure[k]` the later nodes in column k of L, in their order."""
+
+    order: tuple[int, ...]
+    structure: dict[int, tuple[int, ...]]
+    products: int
+    depth: int  # divisions in the longest chain of pivots that wait for each other
+
+    @property
+    def cost(self) -> int:
+        """In products; each division waits for the one before, in a long chain other work fills the time."""
+        return self.products + DIVISION * min(self.depth, LONG)
+
+
+def choose_elimination(
+    pattern: Pattern, coordinates: int, last: int | None = None, pairs: Mapping[int, int] = NO_PAIRS
+) -> Elimination:
+    """The cheapest of a few greedy orders; nodes below `coordinates` are coordinates, the others rows.
+
+    Nodes from `last` on come after all the others. Rows in `pairs` (each with its partner, in the same
+    coordinates) may go as soon as two of their coordinates are gone: their 2 × 2 pivot then vanishes where two
+    links are in one line, so that the caller must look at it.
+    """
+    end = len(pattern) if last is None else last
+
+    def degree(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        return (node >= end, len(graph[node]), node)
+
+    def fill(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        near = sorted(graph[node])
+        missing = sum(b not in graph[a] for i, a in enumerate(near) for b in near[i + 1 :])
+        return (node >= end, missing, len(near), node)
+
+    def bodies_first(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        return (node >= end, node >= coordinates, *fill(graph, node, wait))
+
+    def untouched(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        return (node >= end, graph[node] != pattern[node], *fill(graph, node, wait))
+
+    def shallow(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        _, missing, near, _ = fill(graph, node, wait)
+        return (node >= end, missing, wait, near, node)
+
+    def early(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
+        return (node >= end, wait, *fill(graph, node, wait))
+
+    keys = (degree, fill, bodies_first, untouched, shallow, early)
+    candidates = [
+        _eliminate(pattern, coordinates, key, which) for which in (NO_PAIRS, pairs)[: 1 + bool(pairs)] for key in keys
+    ]
+    return min(candidates, key=lambda e: e.cost)
+
+
+def _eliminate(
+    pattern: Pattern, coordinates: int, key: Callable[[Sequence[set[int]], int, int], tuple[int, ...]],
+    pairs: Mapping[int, int],
+) -> Elimination:  # fmt: skip
+    graph = [set(near) for near in pattern]
+    waiting = [sum(near < coordinates for near in pattern[n]) if n >= coordinates else 0 for n in range(len(pattern))]
+    for n in pairs:
+        waiting[n] = min(waiting[n], 2)
+    left = set(range(len(pattern)))
+    waits = [0] * len(pattern)  # how many pivots each node has to wait for, one after the other
+    order, columns = list[int](), dict[int, set[int]]()
+    keys = {node: key(graph, node, waits[node]) for node in left if waiting[node] == 0}
+    heap = sorted((value, node) for node, value in keys.items())
+    while left:
+        value, node = heapq.heappop(heap)
+        if keys.get(node) != value:
+            continue  # its key has changed since it was pushed
+        if pairs.get(node) in left:  # its partner comes next, before everything else
+            heapq.heappush(heap, (FIRST, pairs[node]))
+            keys[pairs[node]] = FIRST
+        near = graph[node]
+        order.append(node)
+        columns[node] = set(near)
+        left.discard(node)
+        del keys[node]
+        touched = set(near)
+        for a in near:
+            graph[a].discard(node)
+            own = node >= coordinates and pairs.get(node) not in left or node < coordinates and waits[node] > 0
+            waits[a] = max(waits[a], waits[node] + own)
+            graph[a] |= near - {a}
+            touched |= graph[a]
+            if a >= coordinates and node < coordinates and a in pattern[node]:
+                waiting[a] -= 1
+        for a in touched & left:
+            if keys.get(a) == FIRST:
+                continue
+            if waiting[a] <= 0:
+                keys[a] = key(graph, a, waits[a])
+                heapq.heappush(heap, (keys[a], a))
+    place = {node: k for k, node in enumerate(order)}
+    structure = {node: tuple(sorted(columns[node], key=place.__getitem__)) for node in order}
+    products = sum(len(c) * (len(c) + 3) // 2 for c in columns.values())
+    return Elimination(tuple(order), structure, products, _depth(order, structure, coordinates))
+
+
+def _depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], coordinates: int) -> int:
+    """Pivots that elimination does not change are known beforehand; two that follow each other are one."""
+    changed = set[int]().union(*structure.values())
+    waits = dict.fromkeys(order, 0)
+    paired = -1
+    for place, k in enumerate(order):
+        own = k != paired and (k >= coordinates or k in changed)
+        following = order[place + 1] if place + 1 < len(order) else -1
+        paired = following if own and structure[k] == (following, *structure.get(following, ())) else -1
+        waits[k] += own
+        for i in structure[k][:1]:
+            waits[i] = max(waits[i], waits[k])
+    return max(waits.values(), default=0)

@@ -1,0 +1,1 @@
+"""Names, corners and run-time numbers of the equations."""

@@ -1,0 +1,142 @@
+"""Switching functions: where min, max, abs and sign of the equations have their corners.
+
+Each corner is the zero of a function g of the state. In emitted code its `side` (the sign of g) is either
+taken from g itself or held fixed over a step, so that a method of high order sees a smooth right-hand
+side, and its Jacobian the same branch; a zero of g then ends the step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+
+class SideOf(sp.Function):
+    """SideOf(k, g): the side of switch k, −1 or 1 (0 only where g is 0 and nothing is held)."""
+
+    nargs = 2
+    is_real = True
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """A side is constant over a step."""
+        return sp.Integer(0)
+
+
+class Pick(sp.Function):
+    """Pick(side, a, b): b on the side below zero, else a."""
+
+    nargs = 3
+    is_real = True
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        """The derivative of the branch that is picked: that of the other may be infinite."""
+        side, a, b = self.args
+        da, db = sp.diff(a, s), sp.diff(b, s)
+        return da if da == db else Pick(side, da, db)
+
+
+class Magnitude(sp.Function):
+    """|x| of an x that its side keeps from being negative, but for stages beyond the corner; never 0.
+
+    The base of a broken power: x^1.5 of the held x would be no number there, |x|^1.5 goes on as smoothly.
+    """
+
+    nargs = 1
+    is_real = True
+    is_nonnegative = True
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Of the side on which the step is."""
+        return sp.Integer(1)
+
+
+class Size(sp.Function):
+    """|x| in a bound, which is compared with and no part of the motion: its corner is none."""
+
+    nargs = 1
+    is_real = True
+
+
+@dataclass(frozen=True)
+class Switch:
+    """One corner: `owner` is the joint with play that it belongs to, "" for the scene."""
+
+    index: int
+    owner: str
+    g: sp.Expr
+
+
+@dataclass
+class Switches:
+    """The corners of a scene, each once."""
+
+    found: dict[tuple[str, sp.Expr], Switch] = field(default_factory=dict)
+    spare: list[int] = field(default_factory=list)  # numbers of the scene's own corners on the other side
+
+    def beside(self) -> Switches:
+        """For other functions of the same scene: the joints' corners are the same, the scene's are told anew."""
+        joints = {key: switch for key, switch in self.found.items() if switch.owner}
+        return Switches(joints, sorted(switch.index for switch in self.of("")))
+
+    @property
+    def count(self) -> int:
+        """How many numbers are taken."""
+        return 1 + max([*(switch.index for switch in self.found.values()), *self.spare], default=-1)
+
+    def known(self, owner: str, g: sp.Expr) -> tuple[Switch, int] | None:
+        """The switch of g, and −1 where it is known by −g; None: there is none yet."""
+        for sign in (1, -1):
+            if (known := self.found.get((owner, sp.expand(sign * g)))) is not None:
+                return known, sign
+        return None
+
+    def side(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
+        """The same; what is not known becomes one."""
+        if (known := self.known(owner, g)) is not None:
+            return known
+        switch = Switch(self.spare.pop(0) if self.spare and not owner else self.count, owner, g)
+        self.found[owner, sp.expand(g)] = switch
+        return switch, 1
+
+    def of(self, owner: str) -> list[Switch]:
+        """The switches of one joint with play, in their order."""
+        return [switch for switch in self.found.values() if switch.owner == owner]
+
+    def hold(
+        self, expression: sp.Expr, owner: str, sides: dict[sp.Symbol, sp.Expr], only_known: bool = False
+    ) -> sp.Expr:
+        """`expression` with its corners as sides; the symbols that it then reads are added to `sides`.
+
+        only_known: other corners stay what they are, in a function beside the one that tells them all.
+        """
+        if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside):
+            return expression
+        arguments = [self.hold(a, owner, sides, only_known) for a in expression.args]
+
+        def side(g: sp.Expr) -> sp.Expr:
+            if only_known and self.known(owner, g) is None:
+                return sp.sign(g)
+            switch, sign = self.side(owner, g)
+            symbol = sp.Symbol(f"side_{switch.index}", real=True)
+            sides.setdefault(symbol, SideOf(sp.Integer(switch.index), switch.g))
+            return sign * symbol
+
+        match expression:
+            case sp.Abs():
+                return side(arguments[0]) * arguments[0]
+            case sp.sign():
+                return side(arguments[0])
+            case sp.Heaviside():
+                return Pick(side(arguments[0]), sp.Integer(1), sp.Integer(0))
+            case sp.Max() | sp.Min():
+                ordered = sorted(arguments, key=lambda a: (a.is_Number, str(a)))
+                value, up = ordered[0], isinstance(expression, sp.Max)
+                for other in ordered[1:]:
+                    value = Pick(side(value - other if up else other - value), value, other)
+                return value
+            case sp.Pow() if not expression.exp.is_integer and arguments[0] != expression.base:
+                # what is not known to stay above zero is no number below it, and must not become one
+                base = Magnitude(arguments[0]) if expression.base.is_nonnegative else arguments[0]
+                return base ** arguments[1]
+        return expression.func(*arguments)

@@ -1,0 +1,120 @@
+"""The run-time numbers of a scene: slots that the user may override, and what `prepare` derives.
+
+Every physical number has an address and becomes a member of the C struct `Parameters`; a literal
+zero is structural and stays a zero. Derived numbers (inverse masses, K, S, …) follow the slots.
+"""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass
+
+import sympy as sp
+
+from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.mechanism.scene import Scene
+from gudgeon.generator.symbols.from_expressions import to_sympy
+from gudgeon.generator.symbols.symbols import Symbols
+from gudgeon.language.tree import evaluate, names
+from gudgeon.language.units import DIMENSIONLESS, Dimension
+
+
+@dataclass(frozen=True)
+class SlotEntry:
+    """`value` is the default in symbols of earlier slots; a number unless it follows parameters."""
+
+    symbol: sp.Symbol
+    address: str
+    value: sp.Expr
+    default: float
+    dimension: Dimension
+
+    @property
+    def follows(self) -> bool:
+        return bool(self.value.free_symbols)
+
+
+class Slots:
+    """Collects slots in order of use; parameters come first, in dependency order."""
+
+    def __init__(self, scene: Scene, symbols: Symbols) -> None:
+        self.symbols = symbols
+        self.entries: dict[str, SlotEntry] = {}
+        self.derived: dict[sp.Symbol, sp.Expr] = {}
+        self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
+        self._derived_by: dict[sp.Expr, sp.Symbol] = {}
+        self._parameters = scene.parameters
+        for name in scene.parameters:
+            self._parameter(name)
+
+    def beside(self, symbols: Symbols) -> Slots:
+        """The same slots for functions with other symbols (`Symbols.beside`)."""
+        other = copy.copy(self)
+        other.symbols = symbols
+        return other
+
+    def is_constant(self, expression: sp.Expr) -> bool:
+        """Whether `prepare` could compute it: nothing but slots and numbers in it."""
+        info = self.symbols.info
+        return all(s in info and info[s].home.startswith("p->") for s in expression.free_symbols)
+
+    def _parameter(self, name: str) -> sp.Symbol:
+        waiting = [name]  # not by recursion: thousands may be defined through each other
+        while waiting:
+            quantity = self._parameters[waiting[-1]]
+            used = (used.path for used in names(quantity.value) if f"parameters.{used.path}" not in self.entries)
+            if (first := next(used, None)) is not None:
+                waiting.append(first)
+                continue
+            last = waiting.pop()
+            if f"parameters.{last}" not in self.entries:
+                self._add(f"parameters.{last}", last, quantity)
+        return self.entries[f"parameters.{name}"].symbol
+
+    def _add(self, address: str, wanted: str, quantity: Quantity) -> sp.Symbol:
+        value = to_sympy(quantity.value, self._parameter)
+        default = float(evaluate(quantity.value, lambda path: self.entries[f"parameters.{path}"].default))
+        if not names_any(quantity):
+            value = sp.Float(default, 17)
+        symbol = self.symbols.new(wanted, "p->{}", address)
+        self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension)
+        return symbol
+
+    def use(self, quantity: Quantity) -> sp.Expr:
+        """The slot of a quantity; 0 for a literal zero."""
+        if quantity.is_zero:
+            return sp.Integer(0)
+        if quantity.address not in self.entries:
+            _, _, rest = quantity.address.partition(".")
+            self._add(quantity.address, rest or quantity.address, quantity)
+        self.symbols.adopt(self.entries[quantity.address].symbol)
+        return self.entries[quantity.address].symbol
+
+    def constant(self, address: str, wanted: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
+        """A slot that no file names, such as the Baumgarte gains."""
+        if address not in self.entries:
+            symbol = self.symbols.new(wanted, "p->{}", address)
+            self.entries[address] = SlotEntry(symbol, address, sp.Float(default, 17), default, dimension)
+        self.symbols.adopt(self.entries[address].symbol)
+        return self.entries[address].symbol
+
+    def derive(self, wanted: str, expression: sp.Expr, meaning: str = "") -> sp.Expr:
+        """A number that `prepare` computes once a run; numbers and slots themselves stay as they are."""
+        if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].home.startswith("p->")):
+            return expression
+        if expression not in self._derived_by:
+            symbol = self.symbols.define(wanted, expression, "p->{}", meaning)
+            self.derived[symbol] = expression
+            self._derived_by[expression] = symbol
+        self.symbols.adopt(self._derived_by[expression])
+        return self._derived_by[expression]
+
+    def derive_signed(self, wanted: str, expression: sp.Expr, meaning: str = "") -> sp.Expr:
+        """Like `derive`, but −s is written with the symbol of s, so that opposite arms are shared."""
+        opposite = self._derived_by.get(-expression)
+        return self.derive(wanted, expression, meaning) if opposite is None else -opposite
+
+
+def names_any(quantity: Quantity) -> bool:
+    """Whether a quantity's expression has any name in it."""
+    return any(True for _ in names(quantity.value))

@@ -1,0 +1,167 @@
+"""The first part of the document: bodies, ground, joints, drives, parameters."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+
+import sympy as sp
+
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.mechanism.mechanism import ForceElement, Joint, PointRef, Quantity, Vector
+from gudgeon.generator.symbols.numbers import SlotEntry
+from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, cells, paragraph, table
+from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.notation import Notation
+from gudgeon.language.tree import Binary, Call, Expr, Number, Unary
+from gudgeon.language.units import si_unit
+
+
+class Values:
+    """The numbers of a scene as table cells: letter, and value with what it follows."""
+
+    def __init__(self, model: Model, notation: Notation) -> None:
+        self._slots, self._notation = model.slots, notation
+
+    def cell(self, quantity: Quantity | None) -> Text:
+        """ "l = 0.08", "y = −l_5 = −0.3", "0", what varies as it is written; nothing for a number that is not there."""
+        if quantity is None:
+            return ("",)
+        if quantity.address not in self._slots.entries:
+            return ("0" if quantity.is_zero else as_written(quantity.value),)
+        return self.slot(self._slots.entries[quantity.address])
+
+    def slot(self, entry: SlotEntry) -> Text:
+        """Letter = value."""
+        return self._notation.math(entry.symbol), " = ", *self.value(entry)
+
+    def value(self, entry: SlotEntry) -> Text:
+        """The default; in front of it the expression that it follows."""
+        # what follows others is a result of arithmetic: its last digits would say nothing
+        number = self._notation.math(sp.Float(float(f"{entry.default:.12g}") if entry.follows else entry.default, 17))
+        return (self._notation.math(entry.value), " = ", number) if entry.follows else (number,)
+
+    def vector(self, vector: Vector) -> Text:
+        return (*self.cell(vector[0]), ",  ", *self.cell(vector[1]))
+
+
+def part_sections(model: Model, notation: Notation) -> list[Section]:
+    """Everything that the file names, with letters and values."""
+    values = Values(model, notation)
+    return [
+        Section("Bodies", tuple(_bodies(model, values))),
+        *([Section("Ground", tuple(_ground(model, values)))] if model.scene.mechanism.ground else []),
+        Section("Joints", tuple(_joints(model, values))),
+        *([Section("Drives", tuple(_drives(model)))] if model.scene.mechanism.drives else []),
+        *([Section("Parameters", tuple(_parameters(model, notation, values)))] if model.scene.parameters else []),
+    ]
+
+
+def _bodies(model: Model, values: Values) -> list[Block]:
+    rows, points = [], []
+    for body in model.scene.mechanism.bodies.values():
+        rows.append(cells(body.name, values.cell(body.mass), values.cell(body.inertia), values.cell(body.length)))
+        named = {"com": body.com, **body.points} if body.com is not None else body.points
+        points += [cells(f"{body.name}.{name}", values.vector(at)) for name, at in named.items()]
+    lead = (
+        "The x axis of a body with a length runs from its tail (the origin) to its head. The centre of mass (com) is "
+        "at mid-length, or at the origin of a body without length, unless it is given below; inertias are about it."
+    )
+    return [
+        paragraph(lead),
+        *table(cells("body", "mass, kg", "inertia, kg m^2", "length, m"), rows),
+        *table(cells("point", "in the frame of its body, m"), points),
+    ]
+
+
+def _ground(model: Model, values: Values) -> list[Block]:
+    rows = [cells(name, values.vector(at)) for name, at in model.scene.mechanism.ground.items()]
+    return table(cells("point", "position, m"), rows)
+
+
+def _joints(model: Model, values: Values) -> list[Block]:
+    rows = []
+    for joint in model.scene.mechanism.joints.values():
+        own = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == joint.name]
+        shown = f"{own[0]} to {own[-1]}" if len(own) > 1 else "".join(own)
+        own_type = joint_types()[joint.kind]
+        ends = [place(ref, own_type.joins) for ref in (joint.first, joint.second)]
+        none = "none: it has play" if joint.name in model.scene.play else "none: they are redundant"
+        rows.append(cells(joint.name, own_type.title, *ends, shown or none))
+    blocks: list[Block] = table(cells("joint", "type", "first", "second", "rows"), rows)
+    fields = [row for joint in model.scene.mechanism.joints.values() for row in field_rows(joint, values)]
+    blocks += table(cells("joint", "field", "value"), fields)
+    used = {s for row in model.rows for s in model.symbols.explicit(row.phi).free_symbols}
+    guessed = [e for e in model.slots.entries.values() if e.symbol in used and e.address.startswith("start.")]
+    blocks += table(cells("angle at the start", "value, rad"), [cells(e.address, values.slot(e)) for e in guessed])
+    for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
+        summary, *lines = sketch_of("joints", kind)
+        blocks += [paragraph(summary), Sketch(tuple(lines))]
+    return blocks
+
+
+def field_rows(of: Joint | ForceElement, values: Values) -> list[tuple[Text, ...]]:
+    """The fields of a joint or force element: its name, the field's, the value."""
+    fields = [
+        *((name, values.vector(vector)) for name, vector in of.vectors.items()),
+        *((name, values.cell(quantity)) for name, quantity in of.quantities.items()),
+        *((name, (word,)) for name, word in of.options.items()),
+    ]
+    return [cells(of.name, name, text) for name, text in fields]
+
+
+def place(ref: PointRef, joins: str) -> str:
+    """A point by its name; the body alone where it is bodies that are joined."""
+    return ref.body if joins == "bodies" else f"{ref.body}.{ref.point}"
+
+
+def sketch_of(folder: str, kind: str) -> list[str]:
+    """What the file of a joint type or force element says at its top: a line, then its sketch."""
+    doc = inspect.cleandoc(importlib.import_module(f"gudgeon.generator.kinds.{folder}.{kind}").__doc__ or "")
+    summary, _, rest = doc.partition("\n")
+    return [summary, *rest.strip("\n").splitlines()]
+
+
+def _drives(model: Model) -> list[Block]:
+    rows = []
+    for name, drive in model.scene.mechanism.drives.items():
+        if drive.kind == "distance":
+            what = "distance of " + " and ".join(f"{p.body}.{p.point}" for p in drive.points)
+        else:
+            what = "angle" if drive.kind == "angle" else drive.coordinate
+            what += f" of {drive.body}" + (f" against {drive.reference}" if drive.reference else "")
+        own = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == name]
+        rows.append(cells(name, what, as_written(drive.value.value), "".join(own) or "redundant"))
+    return table(cells("drive", "prescribes", "value in the file", "row"), rows, (2,))
+
+
+_STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
+
+
+def as_written(tree: Expr, around: int = 0) -> str:
+    """An expression of the file with its own numbers and units."""
+    match tree:
+        case Number(value=value, text=text):
+            return text or repr(value)
+        case Unary(operand=operand):
+            text, own = f"-{as_written(operand, 3)}", 3
+        case Binary(operator=operator, left=left, right=right):
+            own = _STRENGTH[operator]
+            sides = (own + 1, own) if operator == "**" else (own, own + 1)
+            text = f"{as_written(left, sides[0])} {operator} {as_written(right, sides[1])}"
+        case Call(function=function, arguments=arguments):
+            return f"{function}({', '.join(as_written(a) for a in arguments)})"
+        case _:
+            return tree.path
+    return f"({text})" if own < around else text
+
+
+def _parameters(model: Model, notation: Notation, values: Values) -> list[Block]:
+    rows = []
+    for name in model.scene.parameters:
+        entry = model.slots.entries[f"parameters.{name}"]
+        rows.append(
+            cells(name, notation.math(entry.symbol), values.value(entry), si_unit(entry.dimension) or Name("-", "-"))
+        )
+    return table(cells("parameter", "letter", "value in this scene", "unit"), rows)

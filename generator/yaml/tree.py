@@ -1,0 +1,255 @@
+"""YAML bytes to a tree of text, lists and mappings that know their places; nothing is constructed.
+
+ruamel.yaml scans and parses; its events are composed here, because only so are the bounds on depth,
+size and aliases in force while the file is read, and because a scalar must stay the text that the
+user wrote: `1e-4`, `on` and `012` mean what our expressions say, not what YAML says.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+from ruamel.yaml import YAML
+from ruamel.yaml.error import MarkedYAMLError, YAMLError
+from ruamel.yaml.events import (
+    AliasEvent,
+    DocumentStartEvent,
+    MappingEndEvent,
+    MappingStartEvent,
+    ScalarEvent,
+    SequenceEndEvent,
+    SequenceStartEvent,
+)
+from ruamel.yaml.reader import ReaderError
+
+from gudgeon.contract.limits import MAX_BYTES
+from gudgeon.errors import InputError, InputErrors, LimitError, Location, NotYamlError, UnknownKeyError
+from gudgeon.generator.yaml.commas import Events
+
+MAX_DEPTH = 24
+MAX_NODES = 20_000  # aliases counted as what they stand for
+# what ruamel raises on hostile text besides its own errors: "%YAML 1.13" fails an assertion
+_OF_RUAMEL = (ValueError, RecursionError, LookupError, AttributeError, TypeError, AssertionError, ArithmeticError)
+
+
+class Text(str):
+    """A scalar: its text and the place of its first character (behind the quote of a quoted one)."""
+
+    where: Location
+    plain: bool  # neither quoted nor a block: an empty plain scalar is nothing at all
+    one_line: bool
+
+    @staticmethod
+    def make(text: str, where: Location, plain: bool = True, one_line: bool = True) -> Text:
+        made = Text(text)
+        made.where, made.plain, made.one_line = where, plain, one_line
+        return made
+
+    @property
+    def is_nothing(self) -> bool:
+        """Whether YAML reads it as null."""
+        return self.plain and self in ("", "~", "null", "Null", "NULL")
+
+
+class Map(dict[str, Any]):
+    """A mapping; its keys are Text (see `names`), so that a key has a place, too."""
+
+    where: Location
+
+    @staticmethod
+    def make(items: Any, where: Location) -> Map:
+        made = Map(items)
+        made.where = where
+        return made
+
+    def key(self, name: str) -> Text:
+        """The key itself, with its place."""
+        return next(key for key in self.names() if key == name)
+
+    def names(self) -> list[Text]:
+        """The keys as what they are."""
+        return [key for key in self if isinstance(key, Text)]
+
+
+class Items(list[Any]):
+    """A sequence."""
+
+    where: Location
+
+    @staticmethod
+    def make(items: Any, where: Location) -> Items:
+        made = Items(items)
+        made.where = where
+        return made
+
+
+Node: TypeAlias = Text | Map | Items
+
+
+def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None) -> Map:
+    """The mapping that a file holds.
+
+    Raises NotYamlError, LimitError, or UnknownKeyError for a key that is given twice; these go to `twice`, if given.
+    """
+    if len(data) > MAX_BYTES:
+        raise LimitError(f"a file of {len(data)} bytes", Location(file, 1, 1), f"expected at most {MAX_BYTES}")
+    text = _decode(data, file)
+    composer = _Composer(text, file)
+    try:
+        root = composer.document()
+    except YAMLError as error:
+        raise _translate(error, text, file) from None
+    except _OF_RUAMEL as error:
+        raise NotYamlError(f"not YAML: {error}", Location(file, 1, 1)) from None
+    if twice is not None:
+        twice += composer.duplicates
+    elif composer.duplicates:
+        raise composer.duplicates[0] if len(composer.duplicates) == 1 else InputErrors(composer.duplicates)
+    if root is None or isinstance(root, Text) and root.is_nothing:
+        raise NotYamlError(
+            "the file is empty", Location(file, 1, 1), "expected a mapping that begins with format: gudgeon/1"
+        )
+    if not isinstance(root, Map):
+        hint = "expected a mapping that begins with format: gudgeon/1"
+        raise NotYamlError(f"the file holds {kind_of(root)}", root.where, hint)
+    return root
+
+
+def kind_of(node: object) -> str:
+    """A node in words."""
+    if isinstance(node, Map):
+        return "a mapping"
+    if isinstance(node, Items):
+        return "a list"
+    if isinstance(node, Text) and not node.is_nothing:
+        return repr(str(node)[:60])
+    return "nothing"
+
+
+def _decode(data: bytes, file: str) -> str:
+    try:
+        return data.decode("utf-8").removeprefix("\ufeff")
+    except UnicodeDecodeError as error:
+        before = data[: error.start]
+        column = len(before.rpartition(b"\n")[2].decode("utf-8", "replace")) + 1
+        where = Location(file, before.count(b"\n") + 1, column)
+        raise NotYamlError(f"byte 0x{data[error.start]:02x} is no UTF-8", where, "expected a UTF-8 text file") from None
+
+
+def _translate(error: YAMLError, text: str, file: str) -> NotYamlError:
+    """ruamel's error in our words, with its place."""
+    if isinstance(error, ReaderError):
+        before = text[: error.position]
+        where = Location(file, before.count("\n") + 1, len(before.rpartition("\n")[2]) + 1)
+        return NotYamlError(f"character {text[error.position : error.position + 1]!r} is not allowed in YAML", where)
+    if not isinstance(error, MarkedYAMLError):
+        return NotYamlError(f"not YAML: {error}"[:500], Location(file, 1, 1))
+    mark = error.problem_mark or error.context_mark
+    where = Location(file, mark.line + 1, mark.column + 1) if mark else Location(file, 1, 1)
+    problem = str(error.problem or error.context or "")
+    if "'\\t'" in problem:
+        return NotYamlError("a tab where YAML wants spaces", where, "indent with spaces")
+    context = f" ({error.context})" if error.context and error.problem else ""
+    if context and error.context_mark and error.context_mark.line != (mark.line if mark else -1):
+        begin = Location(file, error.context_mark.line + 1, error.context_mark.column + 1)
+        context = f" ({error.context} that begins at {begin})"
+    return NotYamlError(
+        f"not YAML: {problem}{context}", where, "a text that holds ': ', ' #' or begins with @ % ` needs quotes"
+    )
+
+
+class _Composer:
+    """Builds the tree from ruamel's events and counts as it goes."""
+
+    def __init__(self, text: str, file: str) -> None:
+        self.events = Events(YAML(typ="safe", pure=True).parse(text), text)
+        self.file = file
+        self.anchors: dict[str, Node] = {}
+        self.sizes: dict[int, int] = {}  # id of an anchored node -> nodes in it, aliases expanded
+        self.nodes = 0
+        self.duplicates: list[InputError] = []
+
+    def document(self) -> Node | None:
+        """The root of the only document; None if there is none."""
+        root, documents = None, 0
+        for event in self.events:
+            if isinstance(event, DocumentStartEvent):
+                documents += 1
+                if documents > 1:
+                    raise NotYamlError("a second document begins", self.place(event), "expected one document a file")
+            elif isinstance(event, (ScalarEvent, SequenceStartEvent, MappingStartEvent, AliasEvent)):
+                root = self.node(event, 0)
+        return root
+
+    def place(self, event: Any, shift: int = 0) -> Location:
+        return Location(self.file, event.start_mark.line + 1, event.start_mark.column + 1 + shift)
+
+    def count(self, nodes: int, event: Any) -> None:
+        self.nodes += nodes
+        if self.nodes > MAX_NODES:
+            message = "the file is too large once its aliases are expanded" if nodes > 1 else "the file holds too much"
+            raise LimitError(message, self.place(event), f"expected at most {MAX_NODES} values")
+
+    def node(self, event: Any, depth: int) -> Node:
+        """The node that `event` begins."""
+        if isinstance(event, AliasEvent):
+            return self.alias(event)
+        if depth > MAX_DEPTH:
+            raise LimitError("nested too deeply", self.place(event), f"expected at most {MAX_DEPTH} levels")
+        tag = getattr(event, "tag", None)
+        if tag is not None:
+            raise NotYamlError(
+                f"the tag {str(tag)[:60]!r}", self.place(event), "expected plain text, lists and mappings"
+            )
+        before = self.nodes
+        self.count(1, event)
+        if isinstance(event, ScalarEvent):
+            node: Node = self.scalar(event)
+        elif isinstance(event, SequenceStartEvent):
+            node = self.sequence(event, depth)
+        else:
+            node = self.mapping(event, depth)
+        if event.anchor is not None:  # only now: a node cannot hold itself
+            self.anchors[event.anchor] = node
+            self.sizes[id(node)] = self.nodes - before
+        return node
+
+    def alias(self, event: Any) -> Node:
+        if event.anchor not in self.anchors:
+            hint = "expected its anchor before it, and not around it"
+            raise NotYamlError(f"the alias *{event.anchor} has no anchor", self.place(event), hint)
+        node = self.anchors[event.anchor]
+        self.count(self.sizes[id(node)], event)
+        return node
+
+    def scalar(self, event: Any) -> Text:
+        one_line = event.start_mark.line == event.end_mark.line
+        quoted = event.style in ("'", '"')
+        return Text.make(event.value, self.place(event, int(quoted)), event.style is None, one_line)
+
+    def sequence(self, event: Any, depth: int) -> Items:
+        items = Items.make((), self.place(event))
+        while not isinstance(inner := next(self.events), SequenceEndEvent):
+            items.append(self.node(self.events.whole(inner, False) if event.flow_style else inner, depth + 1))
+        return items
+
+    def mapping(self, event: Any, depth: int) -> Map:
+        made = Map.make((), self.place(event))
+        while not isinstance(inner := next(self.events), MappingEndEvent):
+            key = self.node(inner, depth + 1)
+            if not isinstance(key, Text):
+                raise NotYamlError(f"{kind_of(key)} as a key", key.where, "expected a name as the key")
+            below = next(self.events)
+            value = self.node(self.events.whole(below, True) if event.flow_style else below, depth + 1)
+            if key == "<<":
+                raise UnknownKeyError("merge keys ('<<') are no part of the format", key.where, "use extends:")
+            if key in made:
+                first = made.key(key).where
+                self.duplicates.append(
+                    UnknownKeyError(
+                        f"{str(key)!r} is given twice", key.where, f"expected once; the first is at {first}"
+                    )
+                )
+            else:
+                made[key] = value
+        return made

@@ -1,0 +1,127 @@
+"""What `gudgeon bench` and `gudgeon stress` share: the scenes, their numbers, where the table goes, Ctrl-C."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol, TypeVar
+
+from gudgeon.commands.common import check_file, check_name, chosen_scenes, need_suffix, settings
+from gudgeon.commands.progress import Report, progress_bar, status_line
+from gudgeon.commands.run import addresses
+from gudgeon.contract.kernel_source import Slot
+from gudgeon.errors import BadValueError
+from gudgeon.language.suggestions import unknown
+from gudgeon.model.parameters import number, prepare, value
+from gudgeon.simulation.from_file import load
+from gudgeon.simulation.simulation import Simulation
+
+INTERRUPTED = 130
+
+
+class Measured(Protocol):
+    """What is found of a scene; after Ctrl-C a part of it."""
+
+    @property
+    def scene(self) -> str:
+        """Its name."""
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether something is missing."""
+
+    @property
+    def done(self) -> tuple[int, int]:
+        """How many runs were judged or measured, and of how many."""
+
+
+Found = TypeVar("Found", bound=Measured)
+
+
+@dataclass(frozen=True)
+class Request:
+    """What both commands are asked for, as typed."""
+
+    file: str
+    scenes: tuple[str, ...] = ()
+    sets: tuple[str, ...] = ()
+    t_end: str | None = None
+    out: Path = Path("out")
+    csv: Path | None = None
+    quick: bool = False
+    mark: str | None = None
+    json: bool = False
+
+    @property
+    def parameters(self) -> dict[str, float | str]:
+        """--set ADDRESS=VALUE."""
+        return settings(self.sets)
+
+    def of(self, simulation: Simulation) -> dict[str, float | str]:
+        """The settings that a scene knows: an ideal scene has no viscosity."""
+        known = set(addresses(simulation))
+        return {name: told for name, told in self.parameters.items() if name in known}
+
+    def seconds(self, option: str, text: str | None) -> float | None:
+        """A positive time (s) that was typed, or None."""
+        if text is None:
+            return None
+        found = number(value(text), Slot(option, "s", 0.0, False, (0, 0, 1)))
+        if not found > 0:
+            raise BadValueError(f"{option} is {found:g} s: expected a positive time")
+        return found
+
+    def table(self, mechanism: str, what: str) -> Path:
+        """Where the CSV goes; pictures go beside it. Told before anything is run if it cannot be written."""
+        table = self.csv or self.out / f"{mechanism}_{what}.csv"
+        if self.csv is not None:
+            need_suffix(self.csv, (".csv",))
+        option = "--out" if self.csv is None else "--csv"
+        check_file(option, table)
+        check_name(option, table.with_suffix(".png"))
+        return table
+
+
+def each(
+    loaded: Sequence[Simulation], one: Callable[[Simulation, Report | None], Found], quiet: bool
+) -> tuple[list[Found], bool]:
+    """Scene by scene, and whether Ctrl-C ended it: the last one may then be a part."""
+    found: list[Found] = []
+    with progress_bar(quiet) as bar:
+        try:
+            for simulation in loaded:
+                found.append(one(simulation, bar(simulation.source.scene)))
+                if found[-1].interrupted:
+                    return found, True
+        except KeyboardInterrupt:
+            return found, True
+    return found, False
+
+
+def exit_code(loaded: Sequence[Simulation], found: Sequence[Measured], interrupted: bool) -> int:
+    """0, or 130 with a sentence on what is there and what is not."""
+    if not interrupted:
+        return 0
+    if not found:
+        print("interrupted before anything was measured: nothing is shown or written", file=sys.stderr)
+        return INTERRUPTED
+    parts = ["{}: {} of {} runs".format(scene.scene, *scene.done) for scene in found]
+    names = {scene.scene for scene in found}
+    parts += [f"{s.source.scene}: not begun" for s in loaded if s.source.scene not in names]
+    print(f"interrupted: what is shown and written is partial ({'; '.join(parts)})", file=sys.stderr)
+    return INTERRUPTED
+
+
+def load_scenes(request: Request) -> list[Simulation]:
+    """All scenes, and their parameters checked once before anything runs."""
+    with status_line(quiet=request.json):
+        loaded = [load(request.file, scene) for scene in chosen_scenes(request.file, request.scenes)]
+    known = tuple(dict.fromkeys(address for simulation in loaded for address in addresses(simulation)))
+    for name in request.parameters:
+        if name not in known:
+            raise unknown(f"--set: no scene has a number {name!r}", name, known)
+    for simulation in loaded:
+        prepare(simulation.compiled, request.of(simulation))
+    return loaded

@@ -1,0 +1,211 @@
+"""What the generator hands to the runtime: C text and the names of everything in it.
+
+Nothing else crosses. It is stored as JSON, so that a warm start needs neither SymPy nor Jinja.
+All numbers in it are SI; all indices count from 0.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from gudgeon.contract.ledger import Story
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A run-time number: `given[i]` of the C function `prepare`."""
+
+    address: str  # "bodies.L2.mass", "parameters.omega"
+    unit: str  # SI, "kg*m^2"; "" for a pure number
+    default: float  # its value when nothing is overridden
+    follows: bool  # an expression of other parameters: it follows them unless overridden itself
+    dimension: tuple[int, int, int]  # exponents of m, kg, s
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What a slot must satisfy; `bound` is a number or another slot's address."""
+
+    address: str
+    relation: str
+    bound: float | str
+    message: str
+
+
+@dataclass(frozen=True)
+class BodyInfo:
+    """`index` of x in q; y and theta follow it."""
+
+    name: str
+    index: int
+
+
+@dataclass(frozen=True)
+class PointInfo:
+    """A point in its body's centre-of-mass frame: (sign_x p[x], sign_y p[y]); an index −1 is a zero."""
+
+    name: str  # "L1.head"
+    body: int  # index into bodies; −1: ground
+    x: int
+    y: int
+    sign_x: int = 1
+    sign_y: int = 1
+
+
+@dataclass(frozen=True)
+class RowInfo:
+    """A row of Φ (and its multiplier): "A.x" belongs to joint A."""
+
+    name: str
+    owner: str  # joint or drive
+    kind: str  # "joint" or "drive"
+    unit: str  # of the row: "m" or "rad"
+
+
+@dataclass(frozen=True)
+class JointInfo:
+    """A joint that is kept as a constraint; the reaction on the second body is at `point`."""
+
+    name: str
+    kind: str
+    first: int  # body index, −1: ground
+    second: int
+    point: str  # name of the second body's point
+    rows: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class DriveInfo:
+    """Its row (−1: redundant, left out); the row's unit tells a torque ("rad") from a force ("m")."""
+
+    name: str
+    row: int
+    unit: str
+
+
+@dataclass(frozen=True)
+class SeriesInfo:
+    """A result of a force element, such as "coil.F"."""
+
+    name: str
+    unit: str
+
+
+@dataclass(frozen=True)
+class WrittenInfo:
+    """An expression of t or motion in the file: a drive's, a force's, an event's; `tree` is its JSON."""
+
+    address: str  # "drives.crank.value"
+    tree: str
+    line: int
+    column: int
+
+
+@dataclass(frozen=True)
+class EventInfo:
+    """An event of the user: action "record" or "stop", direction "rising", "falling" or "both"."""
+
+    name: str
+    action: str
+    direction: str
+
+
+@dataclass(frozen=True)
+class ClearanceInfo:
+    """A joint with play: journal on the second body, bearing on the first."""
+
+    name: str
+    first: int
+    second: int
+    point: str  # the journal's point
+    dry: bool
+    film: bool
+    clearance: int  # index into p of c
+    constants: Mapping[str, int]  # name -> index into p of what is worth printing: K, S, radius …
+
+
+@dataclass(frozen=True)
+class KernelSource:
+    """A compiled-to-be scene. `files` are C texts by name; `main` is the one to compile."""
+
+    mechanism: str
+    scene: str
+    title: str
+    sha256: str  # of the YAML bytes
+    files: Mapping[str, str]
+    main: str
+    cdef: str
+    coordinates: tuple[str, ...]  # "L1.x", "L1.y", "L1.theta", …
+    bodies: tuple[BodyInfo, ...]
+    points: tuple[PointInfo, ...]
+    rows: tuple[RowInfo, ...]
+    joints: tuple[JointInfo, ...]
+    drives: tuple[DriveInfo, ...]
+    clearances: tuple[ClearanceInfo, ...]
+    series: tuple[SeriesInfo, ...]
+    start_rows: tuple[RowInfo, ...]  # of the start's Φ: joints with play are closed there
+    start_guess: tuple[str, ...]  # coordinates in the order of the C function `start_values`
+    start_set: tuple[str, ...]
+    start_rates: tuple[str, ...]  # "L1.omega"
+    frictions: tuple[str, ...]  # force elements that may stick
+    methods: tuple[str, ...]  # integrators in the library
+    pivots: tuple[str, ...]  # rows in their order of elimination: a status k > 0 names pivots[k − 1]
+    start_pivots: tuple[str, ...]  # the same for the kinematic method's projection
+    rate_jumps: tuple[str, ...]  # drives whose rate may jump: the linkage follows by an impulse
+    indeterminate: tuple[str, ...]  # joints and drives whose multipliers redundancy leaves open
+    slots: tuple[Slot, ...]
+    derived: tuple[str, ...]  # names of the prepared numbers that follow the slots in p
+    conditions: tuple[Condition, ...]
+    outputs: Mapping[str, Any]  # name -> expression tree as nested lists
+    simulate: Mapping[str, float]  # the scene's own t_end, step, output, if given
+    operations: Mapping[str, int]  # kernel -> operation count
+    notes: tuple[str, ...]  # what was skipped and why (check -v)
+    gravity: bool
+    formulation: str = "full"  # what is integrated: "reduced" or "full"
+    motion_pivots: tuple[str, ...] = ()  # as pivots, of what is integrated
+    tree: tuple[str, ...] = ()  # coordinates of the reduced formulation: "L7" (an angle), "guide.slide", "L3.x"
+    closures: tuple[str, ...] = ()  # its rows
+    chain: tuple[str, ...] = ()  # coordinates that drives determine through loops: they are evaluated, not integrated
+    chain_rows: tuple[str, ...] = ()  # the rows of these loops
+    events: tuple[EventInfo, ...] = ()
+    story: Story = Story()  # how the equations became what is integrated (check -v)
+    written: tuple[WrittenInfo, ...] = ()
+    lanes: str = ""  # the file to compile for runs side by side; "": there is none
+    overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Coordinates less constraint rows."""
+        return len(self.coordinates) - len(self.rows)
+
+    def to_json(self) -> str:
+        """Readable JSON; the same source gives the same bytes."""
+        data = asdict(self)
+        if not self.overrides:  # nothing is said of what is rare
+            del data["overrides"]
+        return json.dumps(data, indent=1, ensure_ascii=False)
+
+    @staticmethod
+    def from_json(text: str) -> KernelSource:
+        """The source that `to_json` wrote."""
+        data = json.loads(text)
+        kinds = {
+            "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
+            "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
+            "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
+            "written": WrittenInfo,
+        }  # fmt: skip
+        for key, kind in kinds.items():
+            data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))
+        for key, value in data.items():
+            if isinstance(value, list) and key not in kinds:
+                data[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)
+        return KernelSource(**data | {"story": Story.from_data(data.get("story", {}))})
+
+
+def _tuples(item: dict[str, Any]) -> dict[str, Any]:
+    """JSON knows lists only: the fields of our values are tuples."""
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in item.items()}

@@ -1,0 +1,1 @@
+"""Files of the user's: written whole or not at all, believed only if they are the user's own."""

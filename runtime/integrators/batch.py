@@ -1,0 +1,227 @@
+"""Many runs in C (templates/c/batch/many.c.jinja): the arrays that they fill, and the threads that work on them.
+
+A call of C takes runs from start to end and holds no lock of Python; Python hands out runs, and fetches the
+lists of contacts and events.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.errors import GudgeonError, SolverError
+from gudgeon.integrators import adaptive, lanes, rk4
+from gudgeon.integrators.failure import INTERRUPTED, STOPPED, failure
+from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
+from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, told_apart
+from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Progress, Trajectory
+from gudgeon.model.assembly import assemble, mechanism_sizes
+from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.waiting.ctrl_c import CtrlC
+
+METHODS = ("rk4", "dop853", "rodas5p", "adaptive")
+ALL_OVER, LISTS, RUN_OVER = 0, 1, 2  # what a call returns
+PORTION = 16  # runs handed out at once, at most
+GLANCE = 0.05  # s between two looks of the waiting thread
+
+
+class Runs:
+    """Arrays by run, and by sample where there are samples; what is not reached is NaN."""
+
+    def __init__(
+        self, compiled: CompiledModel, p: Array, motion: Array, times: Array, method: str, step: Array, rtol: float,
+        stop: bool, side_by_side: bool,
+    ) -> None:  # fmt: skip
+        from gudgeon.integrators.trajectory import IMPACT_DTYPE
+
+        self.compiled, self.method, self.times = compiled, method, times
+        n, N, size, nc = len(p), len(times), 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
+        self.n = n
+        scale, least = adaptive.tolerances(compiled, p, rtol)
+        self.arrays: dict[str, NDArray[Any]] = {
+            "t": times, "p": p, "p_motion": motion, "size": mechanism_sizes(compiled, p), "step": step,
+            "scale": scale, "least": least, "start": np.full((n, 2 * compiled.n), np.nan),
+            "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((n, N, size)),
+            "latched": np.empty((n, N, max(compiled.n_memory, 1))), "state": np.zeros((n, N, nc), np.int8),
+            "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
+            "t_last": np.full(n, times[0]), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
+            "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, 4), np.nan),
+            "peaks": np.full((n, nc, 3), np.nan), "ending": np.zeros(1, np.intc),
+        }  # fmt: skip
+        self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
+        self.struct = self._struct(math.isfinite(step[0]), stop)
+        self.impacts = [[np.zeros(0, IMPACT_DTYPE)] for _ in range(n)]
+        self.events = [[np.zeros(0, EVENT_DTYPE)] for _ in range(n)]
+        self.failures: dict[int, GudgeonError] = {}
+        self.interrupted = False
+        self.lanes = Lanes(compiled) if side_by_side and lanes.wanted(compiled, method, step) else None
+
+    def _struct(self, fixed: bool, stop: bool) -> Any:
+        struct = self.compiled.ffi.new("Batch *")
+        explicit = self.method == "rk4"
+        struct.samples, struct.numbers = len(self.times), self.arrays["p"].shape[1]
+        struct.limit = rk4.CHUNK if explicit else adaptive.CHUNK
+        struct.choice = -1 if explicit else adaptive.choice_of(self.compiled, self.method)
+        struct.fixed, struct.stop = float(self.arrays["step"][0]) if fixed else 0.0, int(stop)
+        kinds = {"uint8": "unsigned char *", "int8": "signed char *", "int32": "int *", "int64": "long *"}
+        for name, array in self.arrays.items():
+            setattr(struct, name, self.compiled.pointer(array, kinds.get(array.dtype.name, "double *"), True))
+        return struct
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What is over: arrays and lists, without what C worked on."""
+        return self.__dict__ | {"struct": None, "lanes": None}
+    @property
+    def stopping(self) -> bool:
+        """Whether all runs are to end where they are; C reads the same number."""
+        return bool(self.arrays["ending"][0])
+
+    def leave_out(self, failures: dict[int, Any]) -> None:
+        """These runs are over before they begin."""
+        self.failures.update(failures)
+        self.arrays["phase"][list(failures)] = OVER
+
+    def run(self, threads: int, progress: Progress | None) -> None:
+        """All of them. Ctrl-C ends them where they are."""
+        with CtrlC() as ctrl_c:
+            try:
+                self._in_threads(threads, progress, range(self.n), ctrl_c)
+                left = self._not_closed()
+                if left:
+                    again = [i for i in left if self._assemble(i, ctrl_c)]
+                    self._in_threads(threads, progress, again, ctrl_c)
+                ctrl_c.take()
+            except KeyboardInterrupt:
+                self.interrupted = True
+            self._judge()
+
+    def _judge(self) -> None:
+        """Lists the runs that did not come to their ends, and marks what was not reached."""
+        self._not_closed()
+        for i in np.flatnonzero(self.arrays["phase"] != OVER).tolist():
+            self.failures[i] = SolverError(INTERRUPTED, float(self.arrays["t_last"][i]))
+        for i in np.flatnonzero(~np.isin(self.arrays["status"], (0, ENDED))).tolist():
+            if i not in self.failures:
+                self.failures[i] = self._failure(i)
+        for i, done in enumerate(self.arrays["done"].tolist()):
+            if done < len(self.times):
+                self.arrays["y"][i, done:], self.arrays["latched"][i, done:] = np.nan, np.nan
+
+    def _not_closed(self) -> list[int]:
+        """Runs whose start C could not close: they are yet to begin."""
+        left: list[int] = np.flatnonzero(self.arrays["status"] == NOT_CLOSED).tolist()
+        self.arrays["phase"][left], self.arrays["status"][left] = NEW, 0
+        return left
+
+    def _assemble(self, i: int, ctrl_c: CtrlC) -> bool:
+        """The start of a run that C could not close, by the search in Python."""
+        ctrl_c.take()
+        try:
+            start = assemble(self.compiled, self.arrays["p"][i])
+        except GudgeonError as error:
+            self.leave_out({i: error})
+            return False
+        self.arrays["start"][i] = np.concatenate([start.q, start.v])
+        self.arrays["started"][i] = 1
+        return True
+
+    def _in_threads(
+        self, threads: int, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC
+    ) -> None:
+        portion = max(1, min(PORTION, len(wanted) // (8 * threads)))
+        if self.lanes:
+            portion = math.ceil(portion / self.lanes.count) * self.lanes.count
+        portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
+        with ThreadPoolExecutor(threads, thread_name_prefix="gudgeon") as pool:
+            try:
+                waiting: set[Future[None]] = {pool.submit(self._work, portions) for _ in range(threads)}
+                while waiting:
+                    ended, waiting = wait(waiting, GLANCE)
+                    ctrl_c.take()
+                    for future in ended:
+                        future.result()
+                    if progress:
+                        progress(float(np.mean(self.arrays["phase"] == OVER)), "integrating")
+            except BaseException:
+                self.arrays["ending"][0] = 1
+                raise
+
+    def _work(self, portions: deque[range | list[int]]) -> None:
+        """One thread: portions of runs until none is left."""
+        size, count = self.compiled.lib.gudgeon_run_size(), self.lanes.count if self.lanes else 1
+        memories = np.zeros((count, size), dtype=np.uint8)
+        while portions and not self.stopping:
+            try:
+                portion = portions.popleft()
+            except IndexError:  # another thread was quicker
+                return
+            if self.lanes is None and isinstance(portion, range):
+                self._alone(portion.start, portion.stop, memories[0])
+                continue
+            new = [i for i in portion if self.arrays["phase"][i] == NEW]
+            for group in self.lanes.groups(new, self.arrays["step"]) if self.lanes else [[i] for i in new]:
+                if self.lanes and len(group) >= lanes.LEAST and not self.stopping:
+                    self.lanes.together(self, group, memories)
+                for k, i in enumerate(group):
+                    self._alone(i, i + 1, memories[k])
+
+    def _alone(self, first: int, end: int, memory: NDArray[np.uint8]) -> None:
+        """Runs one after the other, from where they are to their ends."""
+        compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
+        run = compiled.pointer(memory, "void *")
+        while True:  # what has begun is handed over even where the batch is ending
+            status = compiled.lib.gudgeon_many(self.struct, run, current, end)
+            if status == ALL_OVER:
+                break
+            if status in (LISTS, RUN_OVER):
+                self.fetch(int(current[0]), run, status == RUN_OVER)
+            current[0] += status == RUN_OVER
+
+    def fetch(self, i: int, run: Any, last: bool) -> None:
+        """Takes over the lists of contacts and events of run i."""
+        self.impacts[i].append(fetch_impacts(self.compiled, run, last))
+        self.events[i].append(fetch_events(self.compiled, run, self.times))
+
+    def _failure(self, i: int) -> GudgeonError:
+        """What ended run i, as a single run says it."""
+        x = {name: array[i] for name, array in self.arrays.items() if len(array) == self.n}
+        advice = adaptive.ADVICE if self.method != "rk4" else rk4.ADVICE.format(float(x["step"]))
+        joints = len(self.compiled.source.clearances)
+        numbers = (int(x["status"]), float(x["t_last"]), advice, x["last"], x["peaks"][:joints, 2], x["p_motion"])
+        return failure(self.compiled, self.method, *numbers)
+
+    def impacts_of(self, i: int) -> NDArray[Any]:
+        """IMPACT_DTYPE, the contacts of run i by their onset."""
+        impacts = np.concatenate(self.impacts[i])
+        return impacts[np.argsort(impacts["t_on"], kind="stable")]
+
+    def events_of(self, i: int) -> NDArray[Any]:
+        """EVENT_DTYPE, the user events of run i by time."""
+        return told_apart(self.compiled, np.concatenate(self.events[i]))[0]
+
+    def counts(self, i: int) -> Counts:
+        """Sums and maxima over the steps of run i."""
+        return counts_of(self.arrays["counts"][i], self.arrays["residuals"][i])
+
+    def trajectory(self, i: int) -> Trajectory:
+        """Run i as its method would hand it back."""
+        compiled, n, done = self.compiled, self.compiled.n, int(self.arrays["done"][i])
+        y, memory, state = (self.arrays[name][i, :done] for name in ("y", "latched", "state"))
+        t = self.times[:done].copy()
+        if done and self.arrays["status"][i] in (ENDED, STOPPED):
+            t[-1] = self.arrays["t_last"][i]
+        error = self.failures.get(i)
+        joints = len(compiled.source.clearances)
+        return Trajectory(
+            t, y[:, :n].copy(), y[:, n : 2 * n].copy(), None, memory[:, : compiled.n_memory].copy(),
+            state[:, :joints].copy(), y[:, 2 * n :].copy(),
+            self.impacts_of(i), self.arrays["peaks"][i, :joints].copy(), self.counts(i),
+            self.interrupted and error is not None, error if isinstance(error, SolverError) else None,
+            seconds=float(self.arrays["seconds"][i]), events=self.events_of(i),
+            no_number=told_apart(compiled, np.concatenate(self.events[i]))[1],
+        )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Others' integrators on our right-hand side: cross-checks."""

@@ -1,0 +1,205 @@
+"""Joints with play in a run that Python drives: latches, events on a step's interpolant, peaks.
+
+Written anew, not after templates/c/run/events.c.jinja: a cross-check must not share what it checks. The root is
+sought on the method's own dense output and not by its built-in event search, since SciPy's and CVODE's see changes
+of sign between ends of steps only and so lose a contact that begins and ends within one step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.model.compiled import Array, CompiledModel
+
+NODES = np.linspace(0.0, 1.0, 9)  # shares of a step at which it is looked at
+CLOSE = 0.5e-12  # of the part of a step in which an event is sought; 2 ulp of its time where these are more
+KEPT = 0.9  # share of the known peak above which a step's own one is sought
+LOST = 1e-3  # of c: a free journal further outside its bearing was lost
+ROUNDED = 1e-7  # of the bearing's radius, beside it
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One accepted step: the interpolant as the method has it, and projected."""
+
+    t0: float
+    t1: float
+    at: Callable[[float], Array]
+    projected: Callable[[float], Array]
+
+    def nodes(self) -> Array:
+        """Times at which the step is looked at, both ends among them."""
+        t = self.t0 + NODES * (self.t1 - self.t0)
+        t[-1] = self.t1
+        return t
+
+
+@dataclass(frozen=True)
+class View:
+    """Joints with play at N states, (N, n_clearances) each."""
+
+    delta: Array  # m
+    deltadot: Array  # m/s
+    F: Array  # N
+    e: Array  # m
+
+
+class Contacts:
+    """What a run remembers of its joints with play. `memory` (n_clearances,): δ̇⁻, NaN while free."""
+
+    def __init__(self, compiled: CompiledModel, p: Array, memory: Array, state: NDArray[np.int8] | None) -> None:
+        self.compiled, self.p = compiled, p
+        joints = compiled.source.clearances
+        self.count = len(joints)
+        self.c = p[[joint.clearance for joint in joints]]
+        self.R = p[[joint.constants["R_i"] for joint in joints]]
+        self.floor = _floor(compiled, p)
+        self.memory = np.array(memory[: self.count], dtype=np.float64)
+        self.compressing = np.zeros(self.count, dtype=bool) if state is None else np.asarray(state) == 1
+        self.open = [(np.nan, 0.0, np.nan)] * self.count  # onset, largest force, its time
+        self.impacts: list[tuple[int, float, float, float, float, float]] = []
+        self.peaks = np.zeros((self.count, 3))  # F, t, e_max
+        self.onsets = self.ratio_outside = 0
+        self.ratio = (np.inf, -np.inf)
+
+    @property
+    def closed(self) -> NDArray[np.bool_]:
+        """(n_clearances,)."""
+        return ~np.isnan(self.memory)
+
+    @property
+    def codes(self) -> NDArray[np.int8]:
+        """(n_clearances,) 0 free, 1 impact, 2 contact."""
+        return np.where(self.closed, 2 - self.compressing, 0).astype(np.int8)
+
+    def view(self, t: Array, y: Array) -> View:
+        """At times (N,) and states (N, 2n or more)."""
+        n = self.compiled.n
+        memory = np.broadcast_to(self.memory, (len(t), self.count))
+        found = self.compiled.evaluate(t, y[:, :n], y[:, n : 2 * n], memory, self.p).clearance
+        return View(found[..., 6] - self.c, found[..., 7], np.hypot(found[..., 2], found[..., 3]), found[..., 6])
+
+    def begin(self, t: float, y: Array) -> None:
+        """A start inside contact is in contact; contacts of an earlier run go on."""
+        now = self.view(np.array([t]), y[None])
+        self.open = [(t, 0.0, t)] * self.count
+        for k in np.flatnonzero(~self.closed & (now.delta[0] >= 0.0)):
+            self._close(int(k), t, float(now.deltadot[0, k]))
+
+    def change(self, t: float, y: Array, event: int) -> None:
+        """Joint `event` changes between free and contact, and with it every other one that is over its edge."""
+        now = self.view(np.array([t]), y[None])
+        sign = np.where(self.closed, 1.0, -1.0)
+        over = (sign * now.delta[0] < 0.0) & (sign * now.deltadot[0] < 0.0)
+        over[event] = True
+        for k in np.flatnonzero(over):
+            if self.closed[k]:
+                self._open(int(k), t)
+            else:
+                self._close(int(k), t, float(now.deltadot[0, k]))
+
+    def _close(self, k: int, t: float, deltadot: float) -> None:
+        self.memory[k] = max(deltadot, self.floor)
+        self.compressing[k] = True
+        self.onsets += 1
+        self.open[k] = (t, 0.0, t)
+
+    def _open(self, k: int, t: float) -> None:
+        onset, F, t_peak = self.open[k]
+        self.impacts.append((k, onset, t, float(self.memory[k]), F, t_peak))
+        self.memory[k] = np.nan
+
+    def note(self, t: Array, view: View) -> None:
+        """Peaks of accepted states."""
+        for k in range(self.count):
+            i = int(np.argmax(view.F[:, k]))
+            self._peak(k, float(t[i]), float(view.F[i, k]))
+            self.peaks[k, 2] = max(self.peaks[k, 2], view.e[:, k].max())
+
+    def _peak(self, k: int, t: float, F: float) -> None:
+        if self.peaks[k, 0] < F:
+            self.peaks[k, :2] = F, t
+        if self.closed[k] and self.open[k][1] < F:
+            self.open[k] = (self.open[k][0], F, t)
+
+    def end_of_step(self, t: float, y: Array) -> int | None:
+        """Ratios and peaks at an accepted state; the index of a joint whose contact was lost."""
+        now = self.view(np.array([t]), y[None])
+        self.note(np.array([t]), now)
+        closed = self.closed
+        for ratio in (now.deltadot[0] / self.memory)[closed]:
+            self.ratio = min(self.ratio[0], float(ratio)), max(self.ratio[1], float(ratio))
+            self.ratio_outside += abs(ratio) > 1.0
+        self.compressing &= closed & (now.deltadot[0] > 0.0)
+        lost = np.flatnonzero(~closed & (now.delta[0] > LOST * self.c + ROUNDED * self.R))
+        return int(lost[0]) if len(lost) else None
+
+    def inner_peaks(self, piece: Piece, t: Array, view: View) -> None:
+        """Peaks inside a step, from its nodes t before what ended it."""
+        from scipy.optimize import minimize_scalar
+
+        for k in range(self.count):
+            i = int(np.argmax(view.F[:, k]))
+            known = self.open[k][1] if self.closed[k] else self.peaks[k, 0]
+            bounds = (t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)])
+            if bounds[0] < bounds[1] and view.F[i, k] > KEPT * known:
+                top = minimize_scalar(
+                    lambda x, k=k: -self._at(piece.at, x).F[0, k], bounds=bounds, method="bounded",
+                    options={"xatol": 1e-5 * (bounds[1] - bounds[0])},
+                )  # fmt: skip
+                self._peak(k, float(top.x), -float(top.fun))
+
+    def _at(self, state: Callable[[float], Array], t: float) -> View:
+        return self.view(np.array([t]), state(t)[None])
+
+    def first_event(self, piece: Piece, t: Array, view: View) -> tuple[float, int] | None:
+        """When and where the first contact begins or ends inside a step, from its nodes."""
+        sign = np.where(self.closed, 1.0, -1.0)
+        found = [(self._crossing(piece, k, t, sign[k] * view.delta[:, k], sign[k] * view.deltadot[:, k]), k)
+                 for k in range(self.count)]  # fmt: skip
+        times = [(at, k) for at, k in found if at is not None]
+        return min(times) if times else None
+
+    def _crossing(self, piece: Piece, k: int, t: Array, margin: Array, rate: Array) -> float | None:
+        """The first time at which joint k's margin (not negative while nothing changes) is used up."""
+        for i in range(1, len(t)):
+            low, high = float(t[i - 1]), float(t[i])
+            if margin[i - 1] < 0.0:  # begun on the wrong side: over, unless it is coming back
+                if margin[i] < 0.0 and rate[i] < 0.0:
+                    return low
+                continue
+            if margin[i] >= 0.0:
+                if not rate[i - 1] < 0.0 < rate[i]:
+                    continue
+                high = self._root(piece, k, low, high, rate=True) or high  # where the margin is least
+            at = self._root(piece, k, low, high)
+            if at is not None:
+                return at
+        return None
+
+    def _root(self, piece: Piece, k: int, low: float, high: float, rate: bool = False) -> float | None:
+        """Where the projected margin of joint k (or its rate) changes its sign; None: it does not."""
+        from scipy.optimize import brentq
+
+        def value(t: float) -> float:
+            view = self._at(piece.projected, t)
+            number = view.deltadot[0, k] if rate else view.delta[0, k]
+            return float(number if self.closed[k] else -number)
+
+        at_low, at_high = value(low), value(high)
+        if rate and not at_low < 0.0 < at_high or not rate and at_high >= 0.0:
+            return None
+        if not rate and at_low < 0.0:  # by less than what projection moves
+            return low
+        close = max(CLOSE * (high - low), 2.0 * np.spacing(abs(high)))
+        return float(brentq(value, low, high, xtol=close, rtol=1e-15))
+
+
+def _floor(compiled: CompiledModel, p: Array) -> float:
+    """The least δ̇⁻ that an onset stores (m/s): the smallest of the scene's contacts, which rarely differ."""
+    slots = enumerate(compiled.source.slots)
+    return min((float(p[k]) for k, slot in slots if slot.address.endswith(".velocity_floor")), default=0.0)

@@ -1,0 +1,241 @@
+"""Integrators of others on the compiled right-hand side and Jacobian: cross-checks, slow and independent.
+
+- `scipy:DOP853`, `scipy:RK45`, `scipy:Radau`, `scipy:BDF`, `scipy:LSODA` (integrators/scipy_backend.py)
+- `sundials:cvode` (BDF), `sundials:cvode_adams` (integrators/sundials_backend.py), of the extra `bench`
+
+The loop is the same for all: a step of theirs, events on their dense output, projection onto Φ = 0 and Φ̇ = 0,
+restart after a contact begins or ends. Tolerances mean what they mean in integrators/adaptive.py. What the C methods
+do and these do not: hold the sides of laws' corners during a step (here the error control finds them), and
+dry_friction elements, whose modes C owns.
+"""
+
+from __future__ import annotations
+
+import math
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import BadValueError, NonFiniteError, SolverError
+from gudgeon.integrators.adaptive import tolerances
+from gudgeon.integrators.peers.contacts import Contacts, Piece
+from gudgeon.integrators.peers.stepper import SCIPY, Equations, Stepper
+from gudgeon.integrators.projection import residuals
+from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
+from gudgeon.model.compiled import N_WORK, Array
+
+SUNDIALS = ("sundials:cvode", "sundials:cvode_adams")
+NAMES = SCIPY + SUNDIALS
+UNCONTROLLED = 1e20  # tolerance of the works, which do not act on the motion
+MAX_STUCK = 200  # events at one time
+GROWN = 2.0  # times the speed for which the tolerances were made: they are made anew
+
+
+
+
+
+
+def unfit(source: KernelSource) -> str:
+    """Why these methods do not fit a scene; "" if they do."""
+    if source.degrees_of_freedom == 0:
+        return "nothing is integrated"
+    if source.frictions:
+        elements = ", ".join(source.frictions)
+        return f"dry_friction elements ({elements}) switch between stick and slip in the C methods only"
+    if source.rate_jumps:
+        jumps = f"where the rate of {', '.join(source.rate_jumps)} jumps the linkage follows by an impulse"
+        return f"{jumps}, which the adaptive methods in C give it"
+    return ""
+
+
+def run(problem: Problem) -> Trajectory:
+    """Integrate over the output times with the integrator that problem.method names."""
+    if reason := unfit(problem.compiled.source):
+        raise BadValueError(
+            f"method {problem.method!r}: {reason}",
+            hint="use auto, dop853 or rodas5p, or a smooth_step in place of a ramp",
+        )
+    stopping = [event.name for event in problem.compiled.source.events if event.action == "stop"]
+    if stopping and problem.stop:
+        raise BadValueError(
+            f"method {problem.method!r}: events ({', '.join(stopping)}) are watched by the methods in C only",
+            hint="use auto, dop853, rodas5p or rk4, or simulate(…, stop=False)",
+        )
+    if math.isfinite(problem.step):
+        raise BadValueError(f"method {problem.method!r} chooses its step", hint="give rtol, or leave out step")
+    return _Driver(problem).run()
+
+
+def _stepper(equations: Equations, problem: Problem) -> Stepper:
+    package, _, name = problem.method.partition(":")
+    t_end = float(problem.t[-1])
+    if package == "scipy":
+        from gudgeon.integrators.peers.scipy_steppers import ScipyStepper
+
+        return ScipyStepper(equations, t_end, name)
+    from gudgeon.integrators.peers.sundials_steppers import CvodeStepper
+
+    return CvodeStepper(equations, t_end, name)
+
+
+class _Driver:
+    """One run: the present state, and the samples so far."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem, self.n = problem, problem.compiled.n
+        self.contacts = Contacts(problem.compiled, problem.p, problem.memory, problem.state)
+        self.equations = Equations(problem, self.contacts)
+        self.stepper: Stepper
+        self.began = math.nan  # s, when the packages were there
+        duration = float(problem.t[-1] - problem.t[0])
+        self.scale, least = tolerances(problem.compiled, problem.p, problem.rtol)
+        self.speed_floor = least / max(duration, 1e-300)
+        self.angle = np.array([name.endswith(".theta") for name in problem.compiled.source.coordinates])
+        self.t, self.y = float(problem.t[0]), np.concatenate([problem.q, problem.v, np.zeros(N_WORK)])
+        self.speed, self.controlled = np.zeros(2), np.zeros(2)
+        self.steps = self.stuck = 0
+        self.worst = np.zeros(2)  # |Φ|, |Φ̇|
+        self.times: list[float] = []
+        self.samples: list[tuple[NDArray[Any], ...]] = []  # y, a, memory, codes
+
+    def run(self) -> Trajectory:
+        """As far as it goes; the start is stored before packages are imported, which Ctrl-C may cut short."""
+        interrupted, stopped = False, None
+        self._begin()
+        try:
+            self.stepper = _stepper(self.equations, self.problem)
+            self.began = perf_counter()
+            self._restart()
+            while len(self.samples) < len(self.problem.t):
+                self._step()
+                self.problem.take()
+        except KeyboardInterrupt:
+            interrupted = True
+            self._close()
+        except SolverError as error:
+            stopped = error
+        return self._trajectory(interrupted, stopped)
+
+    def _close(self) -> None:
+        """The present state as the last sample, in place of those that are as late."""
+        while self.times and self.times[-1] >= self.t:
+            self.times.pop()
+            self.samples.pop()
+        self._sample(self.t, self.y)
+
+    def _begin(self) -> None:
+        self.contacts.begin(self.t, self.y)
+        self._watch()
+        self._sample_present()
+
+    def _atol(self) -> Array:
+        """Tolerances for the largest speeds so far, (2n + 3,)."""
+        self.controlled = self.speed.copy()
+        speed = (self.speed + self.speed_floor)[self.angle.astype(int)]
+        return np.concatenate([self.scale[: self.n], self.scale[self.n :] * speed, np.full(N_WORK, UNCONTROLLED)])
+
+    def _restart(self) -> None:
+        self.atol = self._atol()
+        self.stepper.restart(self.t, self.y, self.atol)
+
+    def _step(self) -> None:
+        """One step of the integrator, or its part up to an event."""
+        t1 = self.stepper.step()
+        piece = Piece(self.t, t1, self.stepper.at, lambda t: self.equations.project(t, self.stepper.at(t)))
+        end = self.stepper.at(t1)
+        if not np.isfinite(end).all():
+            raise self.equations.failure or NonFiniteError(f"the motion is no longer finite at t = {t1:.9g} s", t1)
+        event = self._look(piece)
+        t_new = t1 if event is None else event[0]
+        self._sample_before(piece, t_new)
+        y = piece.projected(t_new)
+        self.stuck = self.stuck + 1 if t_new - self.t < 1e-9 * (t1 - self.t) else 0
+        self.t, self.y = t_new, y
+        self.steps += 1
+        self._watch()
+        if event is not None:
+            if self.stuck > MAX_STUCK:
+                raise SolverError(f"contacts change without end near t = {t_new:.9g} s", t_new)
+            self.contacts.change(t_new, y, event[1])
+        self._go_on(event is not None, end)
+        self._sample_present()
+        if self.problem.progress:
+            t = self.problem.t
+            self.problem.progress((t_new - t[0]) / max(t[-1] - t[0], 1e-300), "integrating")
+
+    def _look(self, piece: Piece) -> tuple[float, int] | None:
+        """The event that ends the step, and peaks before it."""
+        if not self.contacts.count:
+            return None
+        t = piece.nodes()
+        view = self.contacts.view(t, np.array([piece.at(x) for x in t.tolist()]))
+        event = self.contacts.first_event(piece, t, view)
+        before = t < (math.inf if event is None else event[0])
+        if before.any():
+            part = type(view)(*(array[before] for array in vars(view).values()))
+            self.contacts.inner_peaks(piece, t[before], part)
+        return event
+
+    def _watch(self) -> None:
+        """Speeds, residuals and contacts of an accepted state."""
+        v = np.abs(self.y[self.n : 2 * self.n])
+        kinds = [v[~self.angle].max(initial=0.0), v[self.angle].max(initial=0.0)]
+        self.speed = np.maximum(self.speed, kinds)
+        q, v = self.y[: self.n], self.y[self.n : 2 * self.n]
+        self.worst = np.maximum(self.worst, residuals(self.problem.compiled, self.t, q, v, self.equations.p))
+        lost = self.contacts.end_of_step(self.t, self.y) if self.contacts.count else None
+        if lost is not None:
+            name = self.problem.compiled.source.clearances[lost].name
+            raise SolverError(f"a contact was lost at t = {self.t:.9g} s: a free journal of {name} is outside", self.t)
+
+    def _go_on(self, event: bool, end: Array) -> None:
+        """Restart, move the integrator onto the constraints, or leave it as it is."""
+        if self.t >= self.problem.t[-1]:
+            return
+        moved = float((np.abs(self.y - end) / self.atol).max())
+        if event or (self.speed > GROWN * (self.controlled + self.speed_floor)).any():
+            self._restart()
+        elif moved > self.stepper.patience:
+            self.stepper.move(self.t, self.y, self.atol)
+
+    def _sample_before(self, piece: Piece, t_new: float) -> None:
+        """Samples inside the step, projected, with the contacts that it began with."""
+        times = self.problem.t
+        while len(self.samples) < len(times) and times[len(self.samples)] < t_new:
+            self._sample(float(times[len(self.samples)]), piece.projected(float(times[len(self.samples)])))
+
+    def _sample_present(self) -> None:
+        if len(self.samples) < len(self.problem.t) and self.problem.t[len(self.samples)] <= self.t:
+            self._sample(self.t, self.y)
+
+    def _sample(self, t: float, y: Array) -> None:
+        """A sample is output, not integration: its right-hand side is not counted."""
+        dy = self.problem.compiled.rhs(t, y, self.equations.p, self.contacts.memory)
+        self.times.append(t)
+        self.samples.append((y, dy[self.n : 2 * self.n], self.contacts.memory.copy(), self.contacts.codes))
+
+    def _trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
+        from gudgeon.integrators.trajectory import IMPACT_DTYPE
+
+        contacts, equations, n = self.contacts, self.equations, self.n
+        if not self.samples:  # the start at least
+            self.times.append(self.t)
+            self.samples.append((self.y, np.full(n, np.nan), contacts.memory.copy(), contacts.codes))
+        count = len(self.samples)
+        going_on = [(k, contacts.open[k][0], math.nan, float(contacts.memory[k]), *contacts.open[k][1:])
+                    for k in np.flatnonzero(contacts.closed)]  # fmt: skip
+        impacts = np.array([*contacts.impacts, *going_on], dtype=IMPACT_DTYPE)
+        y, a, memory, state = (np.array([row[i] for row in self.samples]).reshape(count, -1) for i in range(4))
+        ratio = contacts.ratio if contacts.ratio[0] <= contacts.ratio[1] else (math.nan, math.nan)
+        counts = Counts(
+            self.steps, equations.calls, contacts.onsets, phi_max=self.worst[0], phi_dot_max=self.worst[1],
+            ratio_min=ratio[0], ratio_max=ratio[1], ratio_outside=contacts.ratio_outside, jacobians=equations.jacobians,
+        )  # fmt: skip
+        return Trajectory(
+            np.array(self.times), y[:, :n].copy(), y[:, n : 2 * n].copy(), a, memory, state.astype(np.int8),
+            y[:, 2 * n :].copy(), impacts[np.argsort(impacts["t_on"], kind="stable")], contacts.peaks, counts,
+            interrupted, stopped, seconds=perf_counter() - self.began if self.began == self.began else 0.0,
+        )  # fmt: skip

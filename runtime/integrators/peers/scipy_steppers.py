@@ -1,0 +1,64 @@
+"""SciPy's integrators step by step (P. Virtanen et al., Nature Methods 17 (2020) 261-272; scipy.integrate).
+
+DOP853 (order 8) and RK45 (5) are explicit; Radau (5) and BDF (1 to 5) take the exact Jacobian; LSODA (A. Hindmarsh,
+L. Petzold) chooses between Adams and BDF.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from gudgeon.errors import SolverError
+from gudgeon.integrators.peers.stepper import Equations, Stepper
+from gudgeon.model.compiled import Array
+
+ONE_STEP = ("DOP853", "RK45", "Radau")
+EXPLICIT = ("DOP853", "RK45")
+# of SciPy's rtol · |y|, which our tolerances have no place for: the least that it takes without a warning
+RELATIVE = 100.0 * np.finfo(float).eps
+
+
+class ScipyStepper(Stepper):
+    """`name` is a solver class of scipy.integrate."""
+
+    def __init__(self, equations: Equations, t_end: float, name: str) -> None:
+        super().__init__(equations, t_end)
+        from scipy import integrate
+
+        self.name, self.kind = name, getattr(integrate, name)
+        self.patience = 1e-3 if name in ONE_STEP else 10.0  # to move a method of several steps is to begin anew
+        self.solver: Any = None
+        self.dense: Any = None
+
+    def restart(self, t: float, y: Array, atol: Array) -> None:
+        """SciPy controls a root mean square over all components (LSODA the largest): no one of them may be larger."""
+        mean = 1.0 if self.name == "LSODA" else math.sqrt(len(y))
+        options = {} if self.name in EXPLICIT else {"jac": self.equations.jacobian}
+        controlled = {"rtol": RELATIVE, "atol": atol / mean}
+        self.solver = self.kind(self.equations.rates, t, y.copy(), self.t_end, **controlled, **options)
+
+    def step(self) -> float:
+        """One step; SciPy's own words where there is none small enough."""
+        self.equations.failure = None
+        with np.errstate(invalid="ignore", over="ignore"):  # a step far too long is tried, and rejected
+            message = self.solver.step()
+        if self.solver.status == "failed":
+            t = float(self.solver.t)
+            raise self.equations.failure or SolverError(f"{self.name} stopped at t = {t:.9g} s: {message}", t)
+        self.dense = self.solver.dense_output()
+        return float(self.solver.t)
+
+    def at(self, t: float) -> Array:
+        """The end as it is: the interpolant meets it to rounding only."""
+        return np.array(self.solver.y if t == self.solver.t else self.dense(t), dtype=np.float64)
+
+    def move(self, t: float, y: Array, atol: Array) -> None:
+        """A method of one step needs no more than the new state and its rates."""
+        if self.name not in ONE_STEP:
+            self.restart(t, y, atol)
+            return
+        self.solver.y = y.copy()
+        self.solver.f = self.equations.rates(t, y)

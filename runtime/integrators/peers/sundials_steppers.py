@@ -1,0 +1,87 @@
+"""CVODE of SUNDIALS through scikit-sundae, step by step (A. C. Hindmarsh et al., ACM TOMS 31 (2005) 363-396).
+
+`cvode`: BDF, orders 1 to 5, Newton with the exact Jacobian; `cvode_adams`: Adams–Moulton, orders 1 to 12.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from gudgeon.errors import GudgeonError, SolverError
+from gudgeon.integrators.peers.stepper import Equations, Stepper
+from gudgeon.model.compiled import Array
+
+METHODS = {"cvode": "BDF", "cvode_adams": "Adams"}
+INSTALL = "make peers in a clone, else pip install scikit-sundae"
+RELATIVE = 1e-15  # of rtol · |y|, which our tolerances have no place for
+
+
+class CvodeStepper(Stepper):
+    """`name`: cvode or cvode_adams."""
+
+    patience = 10.0  # tolerances: to move a method of several steps is to begin anew
+
+    def __init__(self, equations: Equations, t_end: float, name: str) -> None:
+        super().__init__(equations, t_end)
+        self.kind = METHODS[name]
+        self.cvode = _cvode()
+        self.solver: Any = None
+        self.t, self.y = math.nan, np.zeros(0)
+
+    def restart(self, t: float, y: Array, atol: Array) -> None:
+        """CVODE controls a root mean square over all components: no one of them may be larger than its tolerance."""
+        options: dict[str, Any] = {"method": self.kind, "rtol": RELATIVE, "atol": atol / math.sqrt(len(y))}
+        if self.equations.jacobian is not None:
+            options["jacfn"] = self._jacobian
+        self.solver = self.cvode(self._rates, max_num_steps=10**6, **options)
+        self.solver.init_step(t, y.copy())
+        self.t, self.y = t, y.copy()
+
+    def _rates(self, t: float, y: Array, out: Array) -> None:
+        out[:] = self.equations.rates(t, y)
+
+    def _jacobian(self, t: float, y: Array, rates: Array, out: Array) -> None:
+        assert self.equations.jacobian is not None
+        out[:] = self.equations.jacobian(t, y)
+
+    def step(self) -> float:
+        """One internal step; after a look into the last one CVODE first hands out its end again."""
+        self.equations.failure = None
+        before = self.t
+        for _ in range(2):
+            found = self._call(self.t_end, "onestep")
+            if self.t > before:
+                return self.t
+        raise SolverError(f"CVODE made no step at t = {before:.9g} s: {found.message}", before)
+
+    def at(self, t: float) -> Array:
+        """The method's own polynomial inside the last step."""
+        if t == self.t:
+            return self.y.copy()
+        end, y = self.t, self.y
+        found = self._call(t, "normal")
+        self.t, self.y = end, y
+        return np.array(found.y, dtype=np.float64).reshape(-1)
+
+    def move(self, t: float, y: Array, atol: Array) -> None:
+        """Begin anew."""
+        self.restart(t, y, atol)
+
+    def _call(self, t: float, how: str) -> Any:
+        """One call of CVODE; the time and state that it came to."""
+        found = self.solver.step(t, method=how, tstop=self.t_end)
+        if not found.success:
+            raise self.equations.failure or SolverError(f"CVODE stopped at t = {self.t:.9g} s: {found.message}", self.t)
+        self.t, self.y = float(np.ravel(found.t)[-1]), np.array(found.y, dtype=np.float64).reshape(-1)
+        return found
+
+
+def _cvode() -> Any:
+    try:
+        from sksundae.cvode import CVODE
+    except ModuleNotFoundError as error:
+        raise GudgeonError(f"methods sundials:… need scikit-sundae\n  {INSTALL}") from error
+    return CVODE

@@ -1,0 +1,1 @@
+"""Numbers, units, names, expressions and arguments as people give them; no YAML, no SymPy."""

@@ -1,0 +1,169 @@
+"""Dimension analysis of expression trees: what is added, compared or used must be of one kind.
+
+A bare number is SI and fits any dimension: in a sum or as a whole value it takes the dimension that
+is wanted; in a product with a quantity it is a pure number (`2 * 3 mm`), except beside `t` alone,
+where it may be a rate (`sin(2*pi*t)`). A parameter that is defined without a unit fits anywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from gudgeon.errors import Location, UnitError
+from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary, evaluate, names
+from gudgeon.language.units import DIMENSIONLESS, Dimension, describe, unit
+
+_MOST = 24  # bound on exponents: nothing in mechanics needs more
+
+
+@dataclass(frozen=True)
+class _Flexible:
+    """No dimension of its own: a bare number (`pure`), or a product with a parameter without a unit."""
+
+    pure: bool
+
+
+_BARE, _ANY = _Flexible(True), _Flexible(False)
+_Found = Dimension | _Flexible
+
+_SAME = ("abs", "min", "max", "hypot")  # the result has the arguments' dimension
+_RATIO = ("atan2", "sign", "smooth_step", "ramp")  # arguments of one dimension, a pure number comes out
+
+
+def check_dimension(
+    expr: Expr, expected: Dimension | None, dimension_of: Callable[[str], Dimension | None], where: Location
+) -> Dimension | None:
+    """The dimension of `expr`: `expected` if given and `expr` fits it, None if `expr` fits any.
+
+    `dimension_of(path)` gives the dimension of a name, None for one that fits any; it may raise.
+    `where` is the place of the expression's first character.
+    Raises UnitError, which says what was found and what was expected in words and SI units.
+    """
+    found = _Checker(dimension_of, where).of(expr)
+    if isinstance(found, _Flexible):
+        return expected
+    if expected is not None and found != expected:
+        raise UnitError(f"expected {describe(expected)}, got {describe(found)}", where, _of_a_divisor(expr, expected))
+    return found
+
+
+def _of_a_divisor(expr: Expr, expected: Dimension) -> str:
+    """What to write for `1/12 kg*m^2`, which is 1/(12 kg*m^2)."""
+    if not (isinstance(expr, Binary) and expr.operator == "/" and isinstance(expr.right, Number)):
+        return ""
+    number, _, word = expr.right.text.partition(" ")
+    known = unit(word) if expr.right.has_unit else None
+    if known is None or known.dimension != expected:
+        return ""
+    return f"a unit belongs to the number before it: write 1 {word} * …, or (…)/{number} * 1 {word}"
+
+
+def _is_of_time_alone(expr: Expr) -> bool:
+    """Whether an expression is made of `t` and bare numbers."""
+    match expr:
+        case Number(has_unit=has_unit):
+            return not has_unit
+        case Name(path=path):
+            return path == "t"
+        case Unary(operand=operand):
+            return _is_of_time_alone(operand)
+        case Binary(left=left, right=right):
+            return _is_of_time_alone(left) and _is_of_time_alone(right)
+    return False
+
+
+class _Checker:
+    def __init__(self, dimension_of: Callable[[str], Dimension | None], where: Location) -> None:
+        self._dimension_of, self._where = dimension_of, where
+
+    def of(self, expr: Expr) -> _Found:
+        """The dimension of a tree, from its leaves up."""
+        match expr:
+            case Number(text=text, has_unit=has_unit):
+                known = unit(text.partition(" ")[2]) if has_unit else None
+                return known.dimension if known else _BARE
+            case Name(path=path):
+                return self._dimension_of(path) or _ANY
+            case Unary(operand=operand):
+                return self.of(operand)
+            case Call():
+                return self._call(expr)
+        if expr.operator in ("+", "-"):
+            word = "add" if expr.operator == "+" else "subtract"
+            return self._same(f"cannot {word}", expr.left, expr.right)
+        if expr.operator == "**":
+            return self._power(expr)
+        return self._product(expr)
+
+    def _place(self, expr: Expr) -> Location:
+        """Where an expression begins; a Binary's own offset is its operator's."""
+        while isinstance(expr, Binary):
+            expr = expr.left
+        return Location(self._where.file, self._where.line, self._where.column + expr.offset)
+
+    def _same(self, what: str, *parts: Expr) -> _Found:
+        """The one dimension of all parts."""
+        result: _Found = _BARE
+        for part in parts:
+            found = self.of(part)
+            if isinstance(found, _Flexible):
+                result = result if isinstance(result, Dimension) or found.pure else found
+            elif isinstance(result, Dimension) and found != result:
+                message = f"{what}: {describe(result)} and {describe(found)}"
+                raise UnitError(message, self._place(part), f"expected {describe(result)}")
+            else:
+                result = found
+        return result
+
+    def _call(self, call: Call) -> _Found:
+        if call.function in _SAME:
+            return self._same(f"{call.function} of unlike quantities", *call.arguments)
+        if call.function in _RATIO:
+            self._same(f"{call.function} of unlike quantities", *call.arguments)
+            return DIMENSIONLESS
+        argument = call.arguments[0]
+        found = self.of(argument)
+        if call.function == "sqrt":
+            return found if isinstance(found, _Flexible) else found ** Fraction(1, 2)
+        if isinstance(found, Dimension) and found != DIMENSIONLESS:
+            message = f"{call.function} expected {describe(DIMENSIONLESS)}, got {describe(found)}"
+            raise UnitError(message, self._place(argument))
+        return DIMENSIONLESS if isinstance(found, Dimension) else _BARE  # `0.1 * sin(2*pi*t)` may still be a length
+
+    def _product(self, expr: Binary) -> _Found:
+        left, right = self.of(expr.left), self.of(expr.right)
+        if _ANY in (left, right):
+            return _ANY
+        if left == right == _BARE:
+            return _BARE
+        if _BARE in (left, right) and _is_of_time_alone(expr):
+            return _ANY
+        a = left if isinstance(left, Dimension) else DIMENSIONLESS
+        b = right if isinstance(right, Dimension) else DIMENSIONLESS
+        return self._bounded(a * b if expr.operator == "*" else a / b, expr)
+
+    def _power(self, expr: Binary) -> _Found:
+        base, exponent = self.of(expr.left), self.of(expr.right)
+        if isinstance(exponent, Dimension) and exponent != DIMENSIONLESS:
+            message = f"an exponent is a pure number, got {describe(exponent)}"
+            raise UnitError(message, self._place(expr.right))
+        if isinstance(base, _Flexible) or base == DIMENSIONLESS:
+            return base
+        value = float("nan") if any(True for _ in names(expr.right)) else float(evaluate(expr.right, lambda _: np.nan))
+        if (
+            not abs(value) <= _MOST
+            or (power := Fraction(value).limit_denominator(12)) != value
+            and abs(power - value) > 1e-12
+        ):
+            message = f"the exponent of {describe(base)} is a plain number such as 2 or 1/2"
+            raise UnitError(message, self._place(expr.right))
+        return self._bounded(base**power, expr)
+
+    def _bounded(self, found: Dimension, expr: Binary) -> Dimension:
+        if max(abs(found.length), abs(found.mass), abs(found.time)) > _MOST:
+            raise UnitError(f"a unit with an exponent above {_MOST}", self._place(expr))
+        return found

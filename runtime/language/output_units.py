@@ -1,0 +1,97 @@
+"""The unit of an output from the units of the names in its expression.
+
+The generator has checked the dimensions when it read the file; here only the label is worked out,
+so that a plot of an output can say metres. What cannot be told is labelled "".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import TypeAlias
+
+from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary
+
+# exponents of m, kg, s, rad; None: a bare number, which fits any dimension
+Exponents: TypeAlias = tuple[Fraction, Fraction, Fraction, Fraction]
+_BASES = ("m", "kg", "s", "rad")
+_DERIVED = {"N": "m*kg/s^2", "J": "m^2*kg/s^2", "W": "m^2*kg/s^3", "Pa": "kg/m/s^2", "Hz": "1/s"}
+_PLAIN = (Fraction(0),) * 4
+_NAMES = ("N", "J", "N/m", "N*s/m", "Pa", "Pa*s", "W", "m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2")  # preferred
+
+
+def unit_of(expression: Expr, unit: Callable[[str], str | None]) -> str:
+    """Unit of `expression` in SI; `unit(name)` gives the unit of a name, None if it has none."""
+    try:
+        return _text(_exponents(expression, unit) or _PLAIN)
+    except (ValueError, ZeroDivisionError):
+        return ""
+
+
+def parse(unit: str) -> Exponents:
+    """Exponents of an SI unit such as "kg*m^2/s"; ValueError for any other text."""
+    total = list(_PLAIN)
+    sign = 1
+    for part in unit.replace("*", " * ").replace("/", " / ").split():
+        if part in "*/":
+            sign = 1 if part == "*" else -1
+            continue
+        name, _, power = part.partition("^")
+        exponent = sign * Fraction(power or "1")
+        if name in _BASES:
+            total[_BASES.index(name)] += exponent
+        elif name in _DERIVED:
+            total = [a + exponent * b for a, b in zip(total, parse(_DERIVED[name]), strict=True)]
+        elif name != "1":
+            raise ValueError(f"not an SI unit: {unit!r}")
+    return total[0], total[1], total[2], total[3]
+
+
+def _exponents(expression: Expr, unit: Callable[[str], str | None]) -> Exponents | None:
+    match expression:
+        case Number():
+            return None
+        case Name(path=path):
+            text = unit(path)
+            return None if text is None else parse(text)
+        case Unary(operand=operand):
+            return _exponents(operand, unit)
+        case Binary(operator="+" | "-", left=left, right=right):
+            return _either(_exponents(left, unit), _exponents(right, unit))
+        case Binary(operator="**", left=left, right=Number(value=power)):
+            return _scaled(_exponents(left, unit), Fraction(power).limit_denominator(12))
+        case Binary(operator="*" | "/" as operator, left=left, right=right):
+            factor = _scaled(_exponents(right, unit) or _PLAIN, Fraction(1 if operator == "*" else -1))
+            return _sum(_exponents(left, unit) or _PLAIN, factor or _PLAIN)
+        case Call(function="sqrt", arguments=(argument,)):
+            return _scaled(_exponents(argument, unit), Fraction(1, 2))
+        case Call(function="abs" | "min" | "max" | "hypot", arguments=(first, *rest)):
+            return _either(_exponents(first, unit), _exponents(rest[0], unit) if rest else None)
+        case Call(function="asin" | "acos" | "atan" | "atan2"):
+            return parse("rad")
+    return _PLAIN
+
+
+def _either(a: Exponents | None, b: Exponents | None) -> Exponents | None:
+    return b if a is None or (a == _PLAIN and b is not None) else a
+
+
+def _sum(a: Exponents, b: Exponents) -> Exponents:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
+
+
+def _scaled(a: Exponents | None, factor: Fraction) -> Exponents | None:
+    return None if a is None else (a[0] * factor, a[1] * factor, a[2] * factor, a[3] * factor)
+
+
+def _text(exponents: Exponents) -> str:
+    """A name that people use, else a product of powers; an angle beside a length is left out (rad = 1)."""
+    if any(exponents[:2]):
+        exponents = (*exponents[:3], Fraction(0))
+    for name in _NAMES:
+        if parse(name) == exponents:
+            return name
+    powers = [(base, power) for base, power in zip(_BASES, exponents, strict=True) if power]
+    above = "*".join(base if power == 1 else f"{base}^{power}" for base, power in powers if power > 0)
+    below = "".join(f"/{base}" if power == -1 else f"/{base}^{-power}" for base, power in powers if power < 0)
+    return (above or "1") + below if powers else ""

@@ -1,0 +1,175 @@
+"""Expressions of a mechanism file: text to tree, parsed by precedence and never evaluated as Python.
+
+    sum     = product {("+" | "-") product}
+    product = signed {("*" | "/") signed}
+    signed  = ("-" | "+") signed | power
+    power   = atom ["**" signed]                       right-associative, binds tighter than a sign
+    atom    = number [" " unit] | "pi" [" " unit] | name | function "(" sum {"," sum} ")" | "(" sum ")"
+
+A unit follows a numeric literal or `pi` after exactly one space and holds none (units.py). The tree
+holds SI numbers; `check_dimension` (dimensions.py) says whether they fit together.
+"""
+
+from __future__ import annotations
+
+from typing import NoReturn
+
+from gudgeon.errors import ExpressionError, LimitError, Location
+from gudgeon.language.dimension_check import check_dimension
+from gudgeon.language.suggestions import nearest
+from gudgeon.language.tokens import Token, Tokenizer, at
+from gudgeon.language.tree import FUNCTIONS, Binary, Call, Expr, Name, Unary
+from gudgeon.language.units import DIMENSIONLESS, unit
+
+__all__ = ["MAX_DEPTH", "MAX_LENGTH", "MAX_NODES", "MAX_WEIGHT", "at", "check_dimension", "parse"]
+
+MAX_LENGTH = 1000  # characters
+MAX_DEPTH = 50  # levels of the tree
+MAX_NODES = 300
+MAX_WEIGHT = 400  # nodes once functions are written out: nested smooth steps grow by powers
+_COPIES = {"smooth_step": 3}  # of its arguments in the formula
+
+
+def parse(text: str, where: Location) -> Expr:
+    """The tree of `text`, whose first character stands at `where`.
+
+    Raises ExpressionError (syntax), UnitError (unknown unit) or LimitError (too long, deep or large),
+    each at the exact column.
+    """
+    if len(text) > MAX_LENGTH:
+        raise LimitError(f"an expression of {len(text)} characters", where, f"expected at most {MAX_LENGTH}")
+    return _Parser(text, where).whole()
+
+
+class _Parser:
+    """Precedence climbing over the tokens; counts depth and nodes as it builds."""
+
+    def __init__(self, text: str, where: Location) -> None:
+        self.tokens, self.where = Tokenizer(text, where), where
+        self.token = self.tokens.next()
+        self.depths: dict[int, int] = {}  # id of a node -> levels below it
+        self.weights: dict[int, int] = {}  # id of a node -> nodes below it, functions written out
+        self.kept: list[Expr] = []  # keeps the ids alive
+
+    def whole(self) -> Expr:
+        """The one expression that is all of the text."""
+        expr = self.sum(0)
+        if self.token.kind != "end":
+            self.fail(
+                f"unexpected {self.token}",
+                self.token.offset,
+                "expected an operator (a product is written with '*') or the end",
+            )
+        return expr
+
+    def fail(self, message: str, offset: int, hint: str) -> NoReturn:
+        raise ExpressionError(message, at(self.where, offset), hint)
+
+    def advance(self) -> Token:
+        token, self.token = self.token, self.tokens.next()
+        return token
+
+    def make(self, expr: Expr, *children: Expr) -> Expr:
+        """Every node passes here, so that no tree grows beyond the bounds."""
+        depth = 1 + max((self.depths[id(child)] for child in children), default=0)
+        self.depths[id(expr)] = depth
+        weight = 1 + sum(self.weights[id(child)] for child in children) * _COPIES.get(getattr(expr, "function", ""), 1)
+        self.weights[id(expr)] = weight
+        self.kept.append(expr)
+        self.bound(depth, expr.offset)
+        if len(self.kept) > MAX_NODES or weight > MAX_WEIGHT:
+            hint = f"expected at most {MAX_NODES}; smooth steps in each other count by powers of three"
+            raise LimitError("an expression of too many parts", at(self.where, expr.offset), hint)
+        return expr
+
+    def bound(self, depth: int, offset: int) -> None:
+        if depth > MAX_DEPTH:
+            hint = f"expected at most {MAX_DEPTH} levels; name a part of it as a parameter"
+            raise LimitError("an expression nested too deeply", at(self.where, offset), hint)
+
+    def sum(self, level: int) -> Expr:
+        return self.chain(("+", "-"), level)
+
+    def chain(self, operators: tuple[str, str], level: int) -> Expr:
+        """Left-associative operators: sums of products, products of signed powers."""
+        below = self.signed if operators == ("*", "/") else lambda n: self.chain(("*", "/"), n)
+        self.bound(level, self.token.offset)
+        left = below(level)
+        while self.token.kind == "operator" and self.token.text in operators:
+            operator = self.advance()
+            self.refuse_ambiguous_angle(operator)
+            right = below(level)
+            left = self.make(Binary(operator.text, left, right, operator.offset), left, right)
+        return left
+
+    def refuse_ambiguous_angle(self, operator: Token) -> None:
+        """`pi/4 deg` is pi/(4 deg) = 45, and no dimension check can see that it was meant as 45 deg."""
+        number = self.token.number
+        if operator.text != "/" or number is None or not number.has_unit:
+            return
+        word = number.text.partition(" ")[2]
+        known = unit(word)
+        if word != "rad" and known and known.dimension == DIMENSIONLESS:
+            hint = f"a unit belongs to the number before it: write 1 {word} * …, or …/({self.token.text})"
+            self.fail(f"a division by {self.token.text} can mean two things", self.token.offset, hint)
+
+    def signed(self, level: int) -> Expr:
+        self.bound(level, self.token.offset)
+        if self.token.kind == "operator" and self.token.text in ("-", "+"):
+            sign = self.advance()
+            operand = self.signed(level + 1)
+            return self.make(Unary("-", operand, sign.offset), operand) if sign.text == "-" else operand
+        base = self.atom(level)
+        if self.token.kind == "operator" and self.token.text == "**":
+            operator = self.advance()
+            exponent = self.signed(level + 1)
+            return self.make(Binary("**", base, exponent, operator.offset), base, exponent)
+        return base
+
+    def atom(self, level: int) -> Expr:
+        token = self.token
+        if token.number is not None:
+            self.advance()
+            return self.make(token.number)
+        if token.kind == "name":
+            self.advance()
+            return self.name(token, level)
+        if token.text != "(":
+            what = f"got {token}" if token.text or token.offset else "got nothing"
+            self.fail(
+                f"expected a number, a name or '(', {what}", token.offset, "an expression such as 80 mm or 2*pi * t"
+            )
+        self.advance()
+        inner = self.sum(level + 1)
+        self.close(token.offset)
+        return inner
+
+    def close(self, opened: int) -> None:
+        if self.token.text != ")":
+            hint = f"the '(' at column {self.where.column + opened} is open"
+            self.fail(f"expected ')', got {self.token}", self.token.offset, hint)
+        self.advance()
+
+    def name(self, token: Token, level: int) -> Expr:
+        called = self.token.text == "("
+        if token.text not in FUNCTIONS:
+            if called:
+                guess = nearest(token.text, FUNCTIONS)
+                hint = (f"did you mean {guess!r}? " if guess else "") + f"expected one of: {', '.join(FUNCTIONS)}"
+                self.fail(f"unknown function {token.text!r}", token.offset, hint)
+            return self.make(Name(token.text, token.offset))
+        if not called:
+            self.fail(f"{token.text!r} is a function", token.offset, f"expected {token.text}(…)")
+        opened = self.advance().offset
+        arguments = [self.sum(level + 1)]
+        while self.token.text == ",":
+            self.advance()
+            arguments.append(self.sum(level + 1))
+        self.close(opened)
+        wanted = FUNCTIONS[token.text][0]
+        if len(arguments) != wanted:
+            hint = "smooth_step(t, start, duration) goes from 0 to 1" if token.text in ("smooth_step", "ramp") else ""
+            self.fail(
+                f"{token.text} takes {wanted} argument{'s' * (wanted > 1)}, got {len(arguments)}", token.offset, hint
+            )
+        return self.make(Call(token.text, tuple(arguments), token.offset), *arguments)

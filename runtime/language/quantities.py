@@ -1,0 +1,26 @@
+"""A number with its unit from the command line or a Python call: '0.5 mm'. Neither YAML nor SymPy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from gudgeon.errors import BadValueError, Location
+from gudgeon.language.parser import check_dimension, parse
+from gudgeon.language.tree import evaluate, names
+from gudgeon.language.units import dimension
+
+
+def number_of_text(text: str, address: str, exponents: Sequence[int]) -> float:
+    """The number (SI) that `text` writes for the run-time number at `address`.
+
+    exponents: of m, kg, s; a bare number fits any. An expression of numbers is a number: '2*pi rad/s'.
+    Raises what the same text would raise in a file, at "value of <address>:1:column".
+    """
+    where = Location(f"value of {address}", 1, 1)
+    expr = parse(text.strip(), where)
+    name = next(names(expr), None)
+    if name is not None:
+        hint = "expected a number such as '0.5 mm'; what follows other parameters is written in the file"
+        raise BadValueError(f"{text!r} holds the name {name.path!r}", where, hint)
+    check_dimension(expr, dimension(*exponents), lambda path: None, where)
+    return float(evaluate(expr, lambda path: None))

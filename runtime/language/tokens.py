@@ -1,0 +1,151 @@
+"""Tokens of an expression: numbers with their units, names, operators; each with its place."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import NoReturn
+
+from gudgeon.errors import ExpressionError, InputError, Location, UnitError
+from gudgeon.language.suggestions import nearest
+from gudgeon.language.tree import FUNCTIONS, Number
+from gudgeon.language.units import UNITS, Unit, parse_unit
+
+_MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractions grow without bound
+_TOKEN = re.compile(
+    r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
+    r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*(?:\.[A-Za-z_][A-Za-z0-9_]*)*)"
+    r"|(?P<operator>\*\*|[-+*/(),])"
+)
+# words of YAML and Python that look like values or operators; nobody's parameter has such a name
+_WORDS = frozenset(
+    ("true", "false", "null", "yes", "no", "on", "off", "inf", "nan", "True", "False", "None")
+    + ("and", "or", "not", "in", "is", "if", "else", "lambda", "for", "await", "yield")
+)
+_ADVICE = {
+    "^": "a power is written with **", "%": "there is no remainder", "=": "there are no comparisons",
+    "<": "there are no comparisons", ">": "there are no comparisons", "!": "there are no comparisons",
+    "[": "there are no subscripts", "]": "there are no subscripts", "'": "there are no strings",
+    '"': "there are no strings", "\t": "write a space, not a tab", "\u2212": "write '-'", "\u00b7": "write '*'",
+    "\u00d7": "write '*'", "\u00b0": "write deg after a space", "{": "there are no braces", ";": "one expression only",
+    ":": "there is no ':' in an expression", ".": "a name continues with a letter after '.'",
+}  # fmt: skip
+
+
+def at(where: Location, offset: int) -> Location:
+    """The place `offset` characters behind `where`."""
+    return Location(where.file, where.line, where.column + offset)
+
+
+@dataclass(frozen=True)
+class Token:
+    kind: str  # "number", "name", "operator" or "end"
+    text: str
+    offset: int
+    number: Number | None = None
+
+    def __str__(self) -> str:
+        return repr(self.text) if self.text else "the end"
+
+
+class Tokenizer:
+    """Cuts text into tokens; a unit is part of its number."""
+
+    def __init__(self, text: str, where: Location) -> None:
+        self.text, self.where, self.position = text, where, 0
+
+    def fail(self, message: str, offset: int, hint: str = "", kind: type[InputError] = ExpressionError) -> NoReturn:
+        raise kind(message, at(self.where, offset), hint)
+
+    def next(self) -> Token:
+        """The next token."""
+        text = self.text
+        while text.startswith(" ", self.position):
+            self.position += 1
+        start = self.position
+        if start == len(text):
+            return Token("end", "", start)
+        match = _TOKEN.match(text, start)
+        if match is None:
+            self.fail(f"unexpected character {text[start]!r}", start, _ADVICE.get(text[start], ""))
+        self.position = match.end()
+        kind = str(match.lastgroup)
+        if kind == "number" or match[0] == "pi":
+            return self._number(match[0], start)
+        if kind == "name":
+            self._check_name(match[0], start)
+        return Token(kind, match[0], start)
+
+    def _check_name(self, name: str, start: int) -> None:
+        if name in _WORDS:
+            self.fail(f"{name!r} is no number", start, "expected a number, a name or an expression")
+        offset = start
+        for part in name.split("."):
+            if part.startswith("_") or "__" in part:
+                self.fail(f"{part!r} is no name", offset, "attributes of Python objects cannot be reached from here")
+            offset += len(part) + 1
+
+    def _number(self, literal: str, start: int) -> Token:
+        """A number or pi, with its unit if one follows."""
+        value = Fraction(math.pi) if literal == "pi" else self._value(literal, start)
+        unit, end = self._unit(start)
+        self.position = end
+        text = self.text[start:end]
+        try:
+            si = unit.to_si(value) if unit else float(value)
+        except OverflowError:
+            self.fail(f"{text!r} is too large", start, "expected a number below 1.8e308")
+        if value and (not si or math.isinf(si)):
+            self.fail(f"{text!r} is out of range", start, "expected a magnitude from 1e-308 to 1e308")
+        return Token("number", text, start, Number(si, text, unit is not None, start))
+
+    def _value(self, literal: str, start: int) -> Fraction:
+        following = self.text[self.position : self.position + 1]
+        if re.match(r"0[0-9]", literal) or (literal == "0" and following in ("x", "o", "b", "X", "O", "B")):
+            self.fail(
+                f"{literal + following!r} does not begin a number",
+                start,
+                "expected a decimal number, such as 12 or 1e-4",
+            )
+        if following == "_":
+            self.fail("'_' in a number", self.position, "expected digits without separators")
+        if following.isalpha():
+            self.fail(
+                f"{following!r} right behind the number {literal}", self.position,
+                f"a unit follows after one space ({literal} mm), a product is written {literal} * name",
+            )  # fmt: skip
+        _, _, exponent = literal.lower().partition("e")
+        if exponent and (len(exponent) > 5 or abs(int(exponent)) > _MAX_EXPONENT):
+            self.fail(f"{literal!r} is out of range", start, "expected a magnitude from 1e-308 to 1e308")
+        return Fraction(literal)
+
+    def _unit(self, start: int) -> tuple[Unit | None, int]:
+        text, end = self.text, self.position
+        if text[end : end + 1] != " ":
+            return None, end
+        found = parse_unit(text, end + 1)
+        if found:
+            after = found[1]
+            if re.match(r" *\*\*", text[after:]):
+                hint = "a power of the unit is m^2; a power of the quantity is (3 m)**2"
+                self.fail(f"a power behind {text[start:after]!r} can mean two things", after, hint)
+            return found
+        spaces = len(text) - end - len(text[end:].lstrip(" "))
+        word = re.match(r"[A-Za-z\u00b5\u03bc_][\w*/^.-]*", text[end + spaces :])
+        if word:
+            self._unknown_unit(word[0], end + spaces, spaces)
+        return None, end
+
+    def _unknown_unit(self, word: str, offset: int, spaces: int) -> NoReturn:
+        if parse_unit(word):
+            self.fail(f"{spaces} spaces before the unit {word!r}", offset, "expected exactly one")
+        guess = nearest(word, UNITS, 0.6)
+        if word == "Hz":
+            hint = "write rev/s or 1/s: they differ by 2*pi"
+        elif word in ("pi", "t") or word in FUNCTIONS or guess is None:
+            hint = f"a product is written with '*'; units are {', '.join(list(UNITS)[:12])}, …"
+        else:
+            hint = f"did you mean {guess!r}? A product is written with '*'"
+        self.fail(f"unknown unit {word!r}", offset, hint, UnitError)

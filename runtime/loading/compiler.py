@@ -1,0 +1,127 @@
+"""The C compiler: which one, its flags, and everything about this machine that a library depends on."""
+
+from __future__ import annotations
+
+import os
+import sys
+from functools import cache as remember
+from importlib.machinery import EXTENSION_SUFFIXES
+from pathlib import Path
+
+from gudgeon.errors import BadValueError, BuildError
+from gudgeon.loading.cache import Cache, digest
+from gudgeon.waiting.programs import Programs
+
+INSTALL_COMPILER = (
+    "install one — Debian, Ubuntu: apt-get install gcc libc6-dev; Fedora: dnf install gcc; "
+    "macOS: xcode-select --install — or name it in $CC"
+)
+INSTALL_HEADERS = (
+    "install Python's headers — Debian, Ubuntu: apt-get install python3-dev; Fedora: dnf install python3-devel"
+)
+
+# -O1, two passes of gcc's -O2, which keep registers across calls, and vectors for the methods' loops over components:
+# runs are as fast as with -O2 or faster, since straight-line code leaves it little to do, and a scene is compiled in
+# 60 % of the time.
+# Never -ffast-math: it deletes the isnan tests. No contraction to fused multiply-adds, so that gcc and clang
+# round alike. Nobody reads errno after sqrt, and without it sqrt is one instruction.
+FLAGS = (
+    "-O1", "-fcaller-saves", "-fipa-ra", "-ftree-loop-vectorize", "-std=c11", "-fPIC", "-ffp-contract=off",
+    "-fno-math-errno",
+)
+
+
+def flags(portable: bool) -> tuple[str, ...]:
+    """Compiler flags; `portable` leaves out what binds the library to this CPU."""
+    machine = os.uname().machine
+    native = "-mcpu=native" if machine in ("arm64", "aarch64") else "-march=native"
+    return (*FLAGS, *(() if portable else (native,)))
+
+
+def link_flags() -> tuple[str, ...]:
+    """What makes objects a module of Python."""
+    return ("-bundle", "-undefined", "dynamic_lookup") if sys.platform == "darwin" else ("-shared",)
+
+
+def find_compiler() -> tuple[str, ...]:
+    """The command: $CC (words of it may be options or a wrapper), or the first of cc, gcc, clang on PATH.
+
+    Raises BuildError if there is none, BadValueError for a $CC that is no command.
+    """
+    import shlex
+    import shutil
+
+    try:
+        named = shlex.split(os.environ.get("CC", ""))
+    except ValueError as error:
+        raise BadValueError(f"$CC is {os.environ['CC']!r}: {error}", hint="name a compiler, or unset it") from error
+    for command in [named] if named else [["cc"], ["gcc"], ["clang"]]:
+        if found := shutil.which(command[0]):
+            return (found, *command[1:])
+    wanted = f"the compiler in $CC, {named[0]!r}, was not found" if named else "no C compiler found (cc, gcc, clang)"
+    raise BuildError(f"{wanted}\n  {INSTALL_COMPILER}")
+
+
+def include_folders() -> tuple[str, ...]:
+    """Where Python.h of the Python in use is. Raises BuildError if it is missing."""
+    import sysconfig
+
+    paths = sysconfig.get_paths()
+    folders = tuple(dict.fromkeys((paths["include"], paths["platinclude"])))
+    if not any(Path(folder, "Python.h").is_file() for folder in folders):
+        raise BuildError(f"Python.h was not found in {', '.join(folders)}\n  {INSTALL_HEADERS}")
+    return folders
+
+
+def identity(command: tuple[str, ...], cache: Cache) -> str:
+    """Compiler, its version, Python's binary interface, C library: what a library's key must hold.
+
+    Asking a compiler for its version takes longer than a warm start may: the answer is kept under the
+    path, size and time of every program in the command.
+    """
+    import shutil
+
+    programs = [os.path.realpath(found) for word in command if (found := shutil.which(word))]
+    stats = [os.stat(program) for program in programs]
+    key = digest([*command, *(f"{p} {s.st_size} {s.st_mtime_ns}" for p, s in zip(programs, stats, strict=True))])
+    entry = cache.fetch("compilers", key, lambda folder: _ask_version(command, folder))
+    return "\n".join([*command, (entry / "version").read_text(), *_binary_interface()])
+
+
+def _ask_version(command: tuple[str, ...], folder: Path) -> None:
+    try:
+        with Programs() as programs:
+            answer, _ = programs.wait(programs.begin([*command, "--version"], None, plain()))
+    except OSError as error:
+        raise BuildError(f"the compiler {' '.join(command)} cannot be run: {error}\n  {INSTALL_COMPILER}") from error
+    (folder / "version").write_text(answer or "unknown")
+
+
+def _binary_interface() -> tuple[str, ...]:
+    import _cffi_backend
+
+    libc = os.confstr("CS_GNU_LIBC_VERSION") if "CS_GNU_LIBC_VERSION" in os.confstr_names else ""
+    return EXTENSION_SUFFIXES[0], _cffi_backend.__version__, sys.platform, os.uname().machine, libc or ""
+
+
+@remember
+def cpu() -> str:
+    """Model and instruction sets of the CPU, which `native` code is bound to."""
+    if sys.platform == "darwin":
+        import subprocess
+
+        return subprocess.run(["sysctl", "-n", "machdep.cpu.brand_string"], capture_output=True, text=True).stdout
+    wanted = ("vendor_id", "cpu family", "model", "stepping", "flags", "CPU ", "Features")
+    lines = []
+    with open("/proc/cpuinfo", errors="replace") as file:
+        for line in file:
+            if not line.strip():
+                break  # the first core speaks for all: a node of hundreds would cost milliseconds
+            if line.startswith(wanted):
+                lines.append(line.strip())
+    return "\n".join(lines)
+
+
+def plain() -> dict[str, str]:
+    """The environment for the compiler: its messages in English, because we read some of them."""
+    return {**os.environ, "LC_ALL": "C"}

@@ -1,0 +1,145 @@
+"""From a mechanism's name or file to a simulation: two look-ups when nothing changed, the generator when it did."""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.limits import MAX_BYTES
+from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
+from gudgeon.files.writing import kind
+from gudgeon.language.wanted import mapping, number_of, path, text
+from gudgeon.loading.cache import Cache, default_cache, digest
+from gudgeon.loading.shipped import PACKAGE, committed, shipped, shipped_file
+from gudgeon.waiting.imports import GENERATOR, whole
+from gudgeon.waiting.working import working
+
+if TYPE_CHECKING:
+    pass
+
+Overrides = Mapping[str, str | float | bool]
+DEFAULT_SCENE = "ideal"  # it exists in every file
+FORMULATIONS = ("reduced", "full")
+SOURCE = "source.json"
+
+
+@dataclass(frozen=True)
+class Loading:
+    """Where a simulation's kernels came from and how long each stage took (s)."""
+
+    origin: str  # "cache", "generated" (committed, shipped) or "derived"
+    read: float
+    source: float  # from the file's bytes to C text
+    compile: float  # from C text to a loaded library
+    total: float
+
+
+
+
+
+
+def override_values(overrides: Overrides | None) -> dict[str, str | float | bool]:
+    """Overrides as texts, numbers and flags. Raises BadValueError for anything else."""
+    found = mapping(overrides, "overrides", "{address: a value as the file would have it}")
+    return {text(name, "an address of overrides"): _override(name, value) for name, value in found.items()}
+
+
+def _override(name: str, value: object) -> str | float | bool:
+    if isinstance(value, (str, bool)):
+        return text(value, f"overrides: {name}") if isinstance(value, str) else value
+    number = number_of(value, f"overrides: {name}")
+    return value if isinstance(value, int) else number
+
+
+def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
+    """The YAML file that a name or path stands for. Raises UnknownNameError for an unknown name."""
+    mechanism = path(mechanism, "mechanism")
+    if isinstance(mechanism, os.PathLike) or "/" in mechanism or mechanism.endswith((".yaml", ".yml")):
+        return Path(mechanism)
+    return shipped_file(mechanism)
+
+
+def read_bytes(file: Path) -> bytes:
+    """A mechanism file's bytes. InputError if it cannot be read or is no regular file, LimitError if it is too large.
+
+    A device or pipe is not opened: it may have no end, or keep us waiting; and a file is read more than once.
+    """
+    try:
+        found = os.stat(file)
+        if stat.S_ISREG(found.st_mode):
+            handle = os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+            with open(handle, "rb") as opened:
+                found = os.fstat(handle)
+                data = opened.read(MAX_BYTES + 1) if found.st_size <= MAX_BYTES else b""
+    except (OSError, ValueError) as error:  # ValueError: a name with a zero byte
+        hint = f"the mechanism that comes with gudgeon is called {file.stem}" if file.stem in shipped() else ""
+        why = getattr(error, "strerror", "") or error
+        raise InputError(f"cannot read {shortened(file)}: {why}", hint=hint) from error
+    if not stat.S_ISREG(found.st_mode):
+        pipe = stat.S_ISFIFO(found.st_mode)
+        hint = "write what comes through the pipe to a file first" if pipe else "name a YAML file"
+        raise InputError(f"cannot read {file}: it is {kind(found)}, not a file", hint=hint)
+    size = max(found.st_size, len(data))
+    if size > MAX_BYTES:
+        raise LimitError(f"a file of {size} bytes", Location(str(file), 1, 1), f"expected at most {MAX_BYTES}")
+    return data
+
+
+def kernel_source(
+    data: bytes,
+    file: Path,
+    scene: str | None = None,
+    *,
+    overrides: Overrides | None = None,
+    formulation: str = "reduced",
+    regenerate: bool = False,
+    cache: Cache | None = None,
+) -> tuple[KernelSource, str]:
+    """The C of a scene and where it came from: the cache, the committed files, or a derivation just made."""
+    if formulation not in FORMULATIONS:
+        raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
+    scene, overrides, cache = scene or DEFAULT_SCENE, overrides or {}, cache or default_cache()
+    key = model_key(data, scene, overrides, formulation)
+    origin = "cache"
+
+    def make(folder: Path) -> None:
+        nonlocal origin
+        source = None
+        if not (overrides or regenerate or formulation != FORMULATIONS[0]):
+            source = committed(file.stem, scene, sha256(data).hexdigest())
+        origin = "generated" if source else "derived"
+        if source is None:
+            with working(f"deriving {file.stem}, scene {scene}"):
+                whole(*GENERATOR)
+                from gudgeon.generator.pipeline import generate
+
+                source = generate(data, str(file), scene, overrides, formulation)
+        source = replace(source, overrides=tuple(sorted(overrides.items())))
+        (folder / SOURCE).write_bytes(source.to_json().encode())
+
+    entry = cache.fetch("models", key, make, renew=regenerate)
+    return KernelSource.from_json((entry / SOURCE).read_bytes().decode()), origin
+
+
+def model_key(data: bytes, scene: str, overrides: Overrides, formulation: str) -> str:
+    """Everything that decides the emitted C: the file's bytes, what is asked of it, and who emits it."""
+    asked = json.dumps([scene, sorted(overrides.items()), formulation])
+    return digest(["model/1", data, asked, generator_hash()])
+
+
+def generator_hash(package: Path = PACKAGE) -> str:
+    """Hash of the generator's and the templates' contents (2 ms; times of files say nothing after a checkout)."""
+    files = [*(package / "generator").rglob("*.py"), *(package / "templates").rglob("*.jinja")]
+    for room in ("language", "contract"):  # what it reads with, and the stored form
+        files += (package / room).glob("*.py")
+    parts: list[str | bytes] = []
+    for file in sorted(files):
+        parts += [file.relative_to(package).as_posix(), file.read_bytes()]
+    return digest(parts)

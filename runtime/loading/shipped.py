@@ -1,0 +1,74 @@
+"""What comes with gudgeon: the mechanism files, and the kernels that were generated from them.
+
+`generated/<mechanism>/<scene>/` holds the C files as they are compiled and `kernel.json`, the rest of the
+KernelSource. With it an unmodified shipped mechanism needs no derivation.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import UnknownNameError
+
+PACKAGE = Path(__file__).parents[1]
+MECHANISMS = PACKAGE / "mechanisms"
+GENERATED = PACKAGE / "generated"
+REST = "kernel.json"
+_TEXTS = (".c", ".h")
+
+
+def shipped() -> tuple[str, ...]:
+    """The names of the mechanisms that come with gudgeon, sorted."""
+    return tuple(sorted(path.stem for path in MECHANISMS.glob("*.yaml")))
+
+
+def shipped_file(name: str) -> Path:
+    """The file of a shipped mechanism. Raises UnknownNameError, which names the nearest and all."""
+    names = shipped()
+    if name in names:
+        return (MECHANISMS / f"{name}.yaml").resolve()  # an editable install holds links: show the real file
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, names, 1)
+    raise UnknownNameError(
+        f"no mechanism {name!r} comes with gudgeon" + (f"; did you mean {near[0]!r}?" if near else ""),
+        hint=f"there are: {', '.join(names)}; a file of your own needs a '/' or '.yaml' in its name",
+    )
+
+
+def write_generated(source: KernelSource, folder: Path) -> None:
+    """Write a kernel source as files; the same source gives the same bytes, and nothing else stays."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for path in folder.iterdir():
+        if path.suffix in _TEXTS and path.name not in source.files:
+            path.unlink()
+    for name, text in source.files.items():
+        (folder / name).write_bytes(text.encode())
+    (folder / REST).write_bytes((replace(source, files={}).to_json() + "\n").encode())
+
+
+def read_generated(folder: Path) -> KernelSource | None:
+    """The kernel source that `write_generated` wrote; None if there is none, or not a readable one."""
+    try:
+        rest = KernelSource.from_json((folder / REST).read_bytes().decode())
+        texts = {path.name: path.read_bytes().decode() for path in sorted(folder.iterdir()) if path.suffix in _TEXTS}
+    except (OSError, ValueError, TypeError, KeyError):  # absent, cut short, or written by another version
+        return None
+    return replace(rest, files=texts) if rest.main in texts else None
+
+
+def committed(mechanism: str, scene: str, sha256: str) -> KernelSource | None:
+    """The committed kernels of a shipped mechanism's scene, if they were made from these very bytes of YAML."""
+    if not (mechanism.isidentifier() and scene.isidentifier()):
+        return None  # a name must not walk out of the folder
+    folder = GENERATED / mechanism / scene
+    try:
+        # the hash first: it decides in a tenth of the time
+        if json.loads((folder / REST).read_bytes())["sha256"] != sha256:
+            return None
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    return read_generated(folder)

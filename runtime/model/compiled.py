@@ -1,0 +1,300 @@
+"""One compiled scene: the C functions with NumPy in and out.
+
+Whatever is handed in goes through the door of arrays.py: lists, columns, arrays of any order, byte order or real
+type give the numbers of the plain array, and a wrong length is refused. Nothing here keeps state, so that any number
+of threads may use one CompiledModel; the GIL is released in every call. A CompiledModel may be pickled: its library
+is taken from the cache (or compiled) again when it is first asked for there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from time import perf_counter
+from types import ModuleType
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import SingularError
+from gudgeon.language.wanted import number_of, time
+from gudgeon.model.arrays import FLAG, pointer, taken
+
+Array: TypeAlias = NDArray[np.float64]
+
+N_WORK = 3  # works that are integrated with the motion
+CLEARANCE_COLUMNS = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt")
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Everything that follows from N samples, SI."""
+
+    a: Array  # (N, n) q̈
+    multipliers: Array  # (N, m) λ
+    reactions: Array  # (N, n_joints, 3) Fx, Fy, M on the second body at the joint's point, ground axes
+    torques: Array  # (N, n_drives) torque (N·m) or force (N) of each drive
+    clearance: Array  # (N, n_clearances, 9) CLEARANCE_COLUMNS: force on the journal; Fn > 0 pushes it back
+    series: Array  # (N, n_series) results of force elements
+    friction: Array  # (N, n_frictions, 2) force on the second body along the direction, slip
+    energy: Array  # (N, 2) kinetic, potential
+    power: Array  # (N, 3) of drives, of force elements (but what they store), of clearance forces (W)
+
+
+class CompiledModel:
+    """The library of one scene. `p` is what `prepare` returns: slots, then derived numbers."""
+
+    def __init__(self, source: KernelSource, module: ModuleType, portable: bool = False) -> None:
+        self.source = source
+        self.portable = portable  # how its library was compiled, and others beside it will be
+        self.__dict__.update(lib=module.lib, ffi=module.ffi)
+        self.n = len(source.coordinates)
+        self.n_p = len(source.slots) + len(source.derived)
+        self.n_memory = len(source.clearances) + len(source.frictions)
+        self._free = np.full(max(self.n_memory, 1), np.nan)
+        self._free.flags.writeable = False
+        self._kept = np.array([_index(source, row.name) for row in source.rows], dtype=int)
+
+    @cached_property
+    def lib(self) -> Any:
+        """The library's functions; of a pickled model when they are first asked for."""
+        return self._module.lib
+
+    @cached_property
+    def ffi(self) -> Any:
+        """cffi's view of the library."""
+        return self._module.ffi
+
+    @property
+    def _module(self) -> Any:
+        from gudgeon.loading.build import compile_kernels
+
+        return compile_kernels(self.source, portable=self.portable)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name not in ("lib", "ffi")}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def pointer(self, array: NDArray[Any], kind: str = "double *", written: bool = False) -> Any:
+        """C's view of an array, which it keeps alive; ArrayError where C would read something else (arrays.py)."""
+        return pointer(self.ffi, array, kind, written)
+
+    def prepare(self, given: ArrayLike, is_given: ArrayLike) -> Array:
+        """Every number of a run, (n_slots + n_derived,), from overridden slots (n_slots,) and a mask."""
+        shape = (len(self.source.slots),)
+        values, mask = taken(given, "given", shape), taken(is_given, "is_given", shape, dtype=FLAG)
+        p = np.empty(self.n_p)
+        pointers = self.pointer(values), self.pointer(mask, "unsigned char *"), self._out(p)
+        self.lib.gudgeon_prepare(*pointers)
+        return p
+
+    def mass(self, p: ArrayLike) -> Array:
+        """Diagonal of M, (n,)."""
+        out = np.empty(self.n)
+        self.lib.gudgeon_mass(self._numbers(p), self._out(out))
+        return out
+
+    def closed_phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
+        """Φ of the closed linkage (every joint without play), in the order of source.start_rows."""
+        return self._rows("gudgeon_phi", t, p, q)
+
+    def closed_phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
+        """Φ_q of the closed linkage, (rows, n)."""
+        out = np.empty((len(self.source.start_rows), self.n))
+        self.lib.gudgeon_phi_q(time(t), self._state(q, "q"), self._numbers(p), self._out(out))
+        return out
+
+    def closed_nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
+        """ν of the closed linkage."""
+        return self._rows("gudgeon_nu", t, p, q)
+
+    def phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
+        """Φ(q, t), (m,), rows of source.rows."""
+        return self.closed_phi(t, q, p)[self._kept]
+
+    def phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
+        """Φ_q, (m, n)."""
+        return self.closed_phi_q(t, q, p)[self._kept]
+
+    def nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
+        """ν = −Φ_t, (m,)."""
+        return self.closed_nu(t, q, p)[self._kept]
+
+    def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
+        """γ, (m,)."""
+        return self.closed_gamma(t, q, v, p)[self._kept]
+
+    def closed_gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
+        """γ of the closed linkage."""
+        return self._rows("gudgeon_gamma", t, p, q, v)
+
+    def start_values(self, p: ArrayLike) -> tuple[Array, Array, Array]:
+        """Numbers of the file's start: guess, set, rates."""
+        s = self.source
+        out = tuple(np.zeros(max(len(names), 1)) for names in (s.start_guess, s.start_set, s.start_rates))
+        self.lib.gudgeon_start_values(self._numbers(p), *(self._out(array) for array in out))
+        return out[0][: len(s.start_guess)], out[1][: len(s.start_set)], out[2][: len(s.start_rates)]
+
+    def close(self, t: float, p: ArrayLike, size: float) -> tuple[Array, Array, float] | None:
+        """The start's q and q̇ (n,), with max |Φ|, by plain Newton in C; None where that is not enough.
+
+        `size` of the mechanism, m, weighs lengths against angles: see start.py, which does what this leaves.
+        """
+        q, v, residual = np.empty(self.n), np.empty(self.n), np.empty(1)
+        given = time(t), self._numbers(p), number_of(size, "size")
+        status = self.lib.gudgeon_start(*given, *(self._out(array) for array in (q, v, residual)))
+        return None if status else (q, v, float(residual[0]))
+
+    def rhs(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> Array:
+        """(q̇, q̈, powers as in Evaluation), (2n + 3,), at y = (q, q̇), (2n,) or longer.
+
+        `memory` (n_clearances + n_frictions,) holds δ̇⁻ of closed contacts, NaN for free ones (the default), then
+        the modes of frictions. Raises ArrayError for another length.
+        """
+        out = np.empty(2 * self.n + N_WORK)
+        status = self.lib.gudgeon_rhs(time(t), *self._point(y, memory, p), self._out(out))
+        self.check_pivot(status, t)
+        return out
+
+    def jacobian(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> tuple[Array, Array]:
+        """∂f/∂y, (2n + 3, 2n + 3), and ∂f/∂t, (2n + 3,), of `rhs` f at y = (q, q̇), exact; SI.
+
+        Contacts, the sides of corners and the modes of friction are those of this state. Raises SingularError
+        where rows depend on each other, ValueError where nothing is integrated.
+        """
+        if not hasattr(self.lib, "gudgeon_jacobian"):
+            raise ValueError("this scene has no Jacobian: without a degree of freedom nothing is integrated")
+        J, f_t = np.empty((2 * self.n + N_WORK,) * 2), np.empty(2 * self.n + N_WORK)
+        status = self.lib.gudgeon_jacobian(time(t), *self._point(y, memory, p), self._out(J), self._out(f_t))
+        self.check_node(status, t)
+        return J, f_t
+
+    def newton(
+        self, t: float, y: ArrayLike, p: ArrayLike, eta: float, s: float, r: ArrayLike, memory: ArrayLike | None = None
+    ) -> Array:
+        """u, (2n + 3,), with u/η − J u = r + s f_t: a linear solve as the implicit methods do it."""
+        u = np.empty(2 * self.n + N_WORK)
+        right, eta, s = self.pointer(taken(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
+        status = self.lib.gudgeon_newton(time(t), *self._point(y, memory, p), eta, s, right, self._out(u))
+        self.check_node(status, t)
+        return u
+
+    def check_node(self, status: int, t: float) -> None:
+        """Raises SingularError for what the linearized equations return: −k is the k-th coordinate, row or friction."""
+        s = self.source
+        self.check_pivot(status, t)
+        if status < 0:
+            names = (*s.coordinates, *(row.name for row in s.rows), *s.frictions)
+            self.check_pivot(-status, t, names)
+
+    def evaluate(
+        self, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: ArrayLike,
+        take: Callable[[], object] = lambda: None,
+    ) -> Evaluation:  # fmt: skip
+        """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions).
+
+        `take` is called every few milliseconds, and what it raises is passed on.
+        """
+        s, time = self.source, taken(t, "t", (None,))
+        N = len(time)
+        latched = _table(memory, "memory", N, None)
+        if self.n_memory or latched.shape[1] > 1:  # in a scene that remembers nothing one number stands for none
+            _table(latched, "memory", N, self.n_memory)
+        inputs = (("q", _table(q, "q", N, self.n)), ("v", _table(v, "v", N, self.n)), ("memory", latched))
+        out = Evaluation(
+            np.empty((N, self.n)), np.empty((N, len(s.rows))), np.empty((N, len(s.joints), 3)),
+            np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))),
+            np.empty((N, len(s.series))), np.empty((N, len(s.frictions), 2)), np.empty((N, 2)), np.empty((N, 3)),
+        )  # fmt: skip
+        failed, first, chunk = self.ffi.new("long *"), 0, 1
+        results = (
+            out.a, out.multipliers, out.reactions, out.torques, out.clearance, out.series, out.friction, out.energy,
+            out.power,
+        )  # fmt: skip
+        while first < N:
+            before, count = perf_counter(), min(chunk, N - first)
+            rows = slice(first, first + count)
+            given = [taken(values[rows], name, (count, None)) for name, values in inputs]
+            status = self.lib.gudgeon_evaluate(
+                count, self.pointer(time[rows]), *map(self.pointer, given), self._numbers(p),
+                *(self._out(a[first:]) for a in results), failed,
+            )  # fmt: skip
+            if status:
+                self.check_pivot(status, float(time[first + failed[0]]))
+            first += count
+            chunk = 4 * count if perf_counter() - before < 5e-3 else max(1, count // 4)
+            take()
+        self._mark_indeterminate(out)
+        return out
+
+    def _mark_indeterminate(self, out: Evaluation) -> None:
+        """NaN where redundant constraints leave a reaction open: rigid bodies cannot tell it."""
+        s = self.source
+        for owner in s.indeterminate:
+            out.multipliers[:, [k for k, row in enumerate(s.rows) if row.owner == owner]] = np.nan
+            out.reactions[:, [k for k, joint in enumerate(s.joints) if joint.name == owner]] = np.nan
+            out.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
+
+    def memory_array(self, memory: ArrayLike | None) -> Array:
+        """δ̇⁻ a joint with play, mode a friction; None: all joints free, every mode still to be found.
+
+        (n_memory,); in a scene that remembers nothing one number stands for none. Not to be written.
+        """
+        if memory is None:
+            return self._free
+        array = taken(memory, "memory")
+        return array if not self.n_memory and array.shape == (1,) else taken(array, "memory", (self.n_memory,))
+
+    def check_pivot(self, status: int, t: float, pivots: tuple[str, ...] | None = None) -> None:
+        """Raises SingularError for a status k > 0, with the row that the pivot belongs to."""
+        if status > 0:
+            row = (pivots or self.source.pivots)[status - 1]
+            raise SingularError(
+                f"singular or non-finite at t = {t:.9g} s: the pivot of constraint row {row} vanished\n"
+                "  the mechanism is at a singular position (dead centre), constraints are redundant,"
+                " or the state is no longer finite: check the start, or take a smaller step",
+                t,
+                row,
+            )
+
+    def _rows(self, function: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
+        out = np.empty(len(self.source.start_rows))
+        pointers = [self._state(state, name) for name, state in zip("qv", states, strict=False)]
+        getattr(self.lib, function)(time(t), *pointers, self._numbers(p), self._out(out))
+        return out
+
+    def _point(self, y: ArrayLike, memory: ArrayLike | None, p: ArrayLike) -> tuple[Any, Any, Any]:
+        """Pointers to the arguments that every right-hand side takes."""
+        state = taken(y, "y")
+        if state.shape not in ((2 * self.n,), (2 * self.n + N_WORK,)):
+            taken(state, "y", (2 * self.n,))  # says so
+        return self.pointer(state), self.pointer(self.memory_array(memory)), self._numbers(p)
+
+    def _numbers(self, p: ArrayLike) -> Any:
+        """A pointer to what `prepare` returned."""
+        return self.pointer(taken(p, "p", (self.n_p,)))
+
+    def _state(self, values: ArrayLike, name: str) -> Any:
+        """A pointer to q or v."""
+        return self.pointer(taken(values, name, (self.n,)))
+
+    def _out(self, array: Array) -> Any:
+        """A pointer to what C fills."""
+        return self.pointer(array, written=True)
+
+
+def _table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Array:
+    """Checked as `taken` does; of an array of doubles, however it lies, no copy: its rows are taken piece by piece."""
+    if type(values) is not np.ndarray or values.dtype != np.float64:
+        return taken(values, name, (rows, columns))
+    taken(values[:0] if values.ndim else values, name, (0, columns))
+    return values if len(values) == rows else taken(values, name, (rows, columns))
+
+
+def _index(source: KernelSource, row: str) -> int:
+    return next(k for k, info in enumerate(source.start_rows) if info.name == row)

@@ -1,0 +1,55 @@
+"""A default step for fixed-step RK4 where neither the call nor the scene gives one.
+
+Three time scales bound it: the motion itself, a film's damping near ε = 0 (rate about πS/(c m), RK4
+is stable below 2.78 of it) and a dry contact's half period. Only a default: `bench` and `stress`
+measure what a step is worth.
+"""
+
+from __future__ import annotations
+
+import math
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.model.compiled import Array, CompiledModel
+
+T_END = 1.0  # s, of a scene that does not say
+SMOOTH = 2e-4  # of the run's length, at most
+FILM = 1.0  # h · rate
+CONTACT = 1.0 / 50.0  # of a contact's time
+IMPACT_SPEED = 0.1  # m/s, of the contact that the estimate takes
+
+
+def scene_end(source: KernelSource) -> float:
+    """When a plain run of the scene ends (s): as the file says, or T_END."""
+    return float(source.simulate.get("t_end", T_END))
+
+
+def scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
+    """The step (s) that a plain run takes: the file's, or the default."""
+    own = float(compiled.source.simulate.get("step", 0.0))
+    return own or default_step(compiled, p, duration if duration > 0.0 else T_END)
+
+
+def default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:
+    """The largest step (s) that all three scales allow."""
+    bounds = [SMOOTH * t_end, 1e-3]
+    mass = compiled.mass(p)
+    for joint in compiled.source.clearances:
+        bodies = [compiled.source.bodies[b].index for b in (joint.first, joint.second) if b >= 0]
+        inverse = sum(1.0 / mass[k] + 0.25 * _arm(compiled, p, k) ** 2 / mass[k + 2] for k in bodies)
+        numbers = {name: float(p[k]) for name, k in joint.constants.items()}
+        if joint.film and "S" in numbers:
+            bounds.append(FILM / (math.pi * numbers["S"] / numbers["c"] * inverse))
+        if joint.dry and "K" in numbers:
+            # Hertz: δ_max = (5 m v²/(4K))^(2/5), contact time 2.943 δ_max/v
+            deepest = (1.25 * IMPACT_SPEED**2 / (inverse * numbers["K"])) ** 0.4
+            bounds.append(CONTACT * 2.943 * deepest / IMPACT_SPEED)
+    return min(bounds)
+
+
+def _arm(compiled: CompiledModel, p: Array, index: int) -> float:
+    """The longest arm of a body's points, m."""
+    body = next(k for k, info in enumerate(compiled.source.bodies) if info.index == index)
+    points = [point for point in compiled.source.points if point.body == body]
+    lengths = [math.hypot(*(float(p[k]) if k >= 0 else 0.0 for k in (point.x, point.y))) for point in points]
+    return max(lengths, default=0.0)

@@ -1,0 +1,107 @@
+"""The parameters of many runs: rows of slots, from a sequence of mappings or from columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import BadValueError
+from gudgeon.language.wanted import mapping, told
+from gudgeon.model.arrays import taken
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.parameters import RELATIONS, check, given_slots, without_baumgarte
+
+Values: TypeAlias = float | str
+ParameterSets: TypeAlias = Sequence[Mapping[str, Values]] | Mapping[str, Values | Sequence[Values] | ArrayLike] | Array
+Mask: TypeAlias = NDArray[np.bool_]
+
+
+def given_sets(source: KernelSource, parameters: ParameterSets) -> tuple[Array, Mask]:
+    """Values and mask of the slots that are given, (n_runs, n_slots) each.
+
+    `parameters`: a mapping for every run; or {address: one value, or one for every run}, as which a structured
+    array counts too. Raises BadValueError, UnknownNameError.
+    """
+    rows = _rows(parameters)
+    if not rows:
+        raise BadValueError("parameters: no run is asked for", hint="a mapping for every run, or {address: values}")
+    pairs = []
+    for i, row in enumerate(rows):
+        try:
+            pairs.append(given_slots(source, row))
+        except BadValueError as error:
+            raise BadValueError(f"run {i}: {error}") from None
+    return np.array([given for given, _ in pairs]), np.array([mask for _, mask in pairs])
+
+
+def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]]:
+    if isinstance(parameters, np.ndarray) and parameters.dtype.names is not None:
+        table: NDArray[Any] = np.atleast_1d(parameters)
+        parameters = {name: table[name] for name in parameters.dtype.names}
+    if getattr(parameters, "ndim", 0) == 2 and hasattr(parameters, "columns"):  # a table of pandas
+        parameters = {str(name): parameters[name] for name in parameters.columns}
+    if not isinstance(parameters, Mapping) and not hasattr(parameters, "items"):
+        iterable = isinstance(parameters, Iterable) and not isinstance(parameters, (str, bytes, np.ndarray))
+        rows: list[Any] = list(parameters) if iterable else [None]
+        if not all(isinstance(row, Mapping) for row in rows):
+            raise BadValueError("parameters: expected a mapping for every run, or one of columns: {address: values}")
+        return rows
+    parameters = mapping(parameters, "parameters", "a mapping for every run, or {address: values}")
+    columns = {name: _column(name, values) for name, values in parameters.items()}
+    lengths = {name: len(column) for name, column in columns.items() if column is not None}
+    if len(set(lengths.values())) > 1:
+        told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+        raise BadValueError(f"parameters: columns of different lengths: {told}", hint="one value, or one for every run")
+    n = next(iter(lengths.values()), 1)
+    whole = {name: [parameters[name]] * n if column is None else column for name, column in columns.items()}
+    return [{name: column[i] for name, column in whole.items()} for i in range(n)]
+
+
+def _column(name: str, values: Any) -> list[Any] | None:
+    """The values of every run; None where one stands for all."""
+    try:
+        shape = () if isinstance(values, (str, bytes, Mapping)) else np.shape(values)
+    except ValueError:  # rows of different lengths
+        raise BadValueError(f"parameters: {name} is {told(values)}: expected one value for every run") from None
+    if not shape:
+        return None
+    if len(shape) != 1:
+        raise BadValueError(f"parameters: {name} has shape {shape}, expected one value for every run")
+    if isinstance(values, np.ndarray):
+        return taken(values, f"parameters: {name}").tolist() if values.dtype.kind in "biuf" else values.tolist()
+    return list(values)
+
+
+def prepare_sets(
+    compiled: CompiledModel, given: Array, is_given: Mask, free: bool
+) -> tuple[Array, Array, dict[int, BadValueError]]:
+    """Parameters of all runs, (n_runs, n_slots + n_derived): as they are, and of the motion.
+
+    With `free` the motion is without Baumgarte's terms. Then the runs, by number, whose parameters break a
+    condition of the file.
+    """
+    p = np.array([compiled.prepare(*pair) for pair in zip(given, is_given, strict=True)])
+    motion = p
+    if free:
+        motion = np.array([without_baumgarte(compiled, *pair) for pair in zip(given, is_given, strict=True)])
+    bad = {}
+    for i in np.flatnonzero(~_valid(compiled.source, p)).tolist():
+        try:
+            check(compiled.source, p[i])
+        except BadValueError as error:
+            bad[i] = error
+    return p, motion, bad
+
+
+def _valid(source: KernelSource, p: Array) -> Mask:
+    """What parameters.check asks for, of all runs at once, (n_runs,)."""
+    place = {slot.address: k for k, slot in enumerate(source.slots)}
+    valid = np.asarray(np.isfinite(p).all(axis=1))
+    for condition in source.conditions:
+        bound = p[:, place[condition.bound]] if isinstance(condition.bound, str) else condition.bound
+        valid &= RELATIONS[condition.relation](p[:, place[condition.address]], bound)
+    return valid

@@ -1,0 +1,138 @@
+"""Run-time numbers: addresses to slots, units, and the conditions that every value must satisfy."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import operator
+import re
+from collections.abc import Mapping
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.wanted import mapping, number_of
+from gudgeon.model.compiled import Array, CompiledModel
+
+# a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
+_NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+# such a number where a file is sure to take it: whole parts begin with one zero at most, exponents are below 400
+_MANTISSA, _EXPONENT = r"[0-9]{1,400}\.?[0-9]{0,400}|\.[0-9]{1,400}", r"[eE][-+]?[0-3]?[0-9]{1,2}"
+_PLAIN = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?")
+# a number and a unit without the space that the file format wants between them: nothing else can be meant
+_GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
+RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
+
+
+def given_slots(
+    source: KernelSource, parameters: Mapping[str, float | str] | None, what: str = "parameters"
+) -> tuple[Array, Array]:
+    """Values and mask, (n_slots,) each, from {address or parameter name: float or '0.5 mm'}.
+
+    None is an empty one, and a Series of pandas counts. `what` the mapping is called where it is wrong. Raises
+    UnknownNameError; BadValueError for a number given twice, by two spellings of its address.
+    """
+    parameters = mapping(parameters, what, "{address or parameter name: a float in SI, or '0.5 mm'}")
+    place = {slot.address: k for k, slot in enumerate(source.slots)}
+    values, mask, spelled = np.zeros(len(place)), np.zeros(len(place), dtype=bool), dict[int, str]()
+    for name, value in parameters.items():
+        address = name if name in place else f"parameters.{name}"
+        if address not in place:
+            raise _unknown(name, list(place))
+        k = place[address]
+        if k in spelled:
+            raise BadValueError(f"{address} is given twice: as {spelled[k]!r} and as {name!r}", hint="give it once")
+        values[k], mask[k], spelled[k] = number(value, source.slots[k]), True, name
+    return values, mask
+
+
+def number(value: float | str, slot: Slot) -> float:
+    """A float, or a text as in the YAML file, with a unit or without: '0.5 mm', '1e-9'; SI."""
+    if isinstance(value, str):
+        found = plain_number(value)
+        if found is not None:
+            return found
+        from gudgeon.language.quantities import number_of_text
+
+        value = number_of_text(spaced(value), slot.address, slot.dimension)
+    return number_of(value, slot.address)
+
+
+def plain_number(text: str) -> float | None:
+    """The number that a text without a unit writes; None where there is more to read, or no float has its size."""
+    found = _PLAIN.fullmatch(text.strip(" "))
+    if found is None:
+        return None
+    value = float(found[0])
+    return value if math.isfinite(value) and (value or not re.search("[1-9]", found["mantissa"])) else None
+
+
+def spaced(text: str) -> str:
+    """A space before the unit of a number: "0.5mm" is "0.5 mm"."""
+    glued = _GLUED.fullmatch(text.strip())
+    return f"{glued[1]} {glued[2]}" if glued else text.strip()
+
+
+def prepare(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> tuple[Array, Array, Array]:
+    """(p, given, is_given), checked: see CompiledModel.prepare. Raises BadValueError, UnknownNameError."""
+    given, is_given = given_slots(compiled.source, parameters)
+    return prepare_slots(compiled, given, is_given), given, is_given
+
+
+def prepare_slots(compiled: CompiledModel, given: Array, is_given: Array) -> Array:
+    """The p of values and mask, checked. Raises BadValueError."""
+    p = compiled.prepare(given, is_given)
+    check(compiled.source, p)
+    return p
+
+
+def without_baumgarte(compiled: CompiledModel, given: Array, is_given: Array) -> Array:
+    """p with both gains zero: for methods that project onto the constraints instead."""
+    place = {slot.address: k for k, slot in enumerate(compiled.source.slots)}
+    gains = [place[name] for name in ("baumgarte.alpha", "baumgarte.beta") if name in place]
+    values, mask = given.copy(), is_given.copy()
+    values[gains], mask[gains] = 0.0, True
+    return compiled.prepare(values, mask)
+
+
+def check(source: KernelSource, p: Array) -> None:
+    """Every condition of the file again, on the values of this run."""
+    value = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
+    for slot in source.slots:
+        if not math.isfinite(value[slot.address]):
+            raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
+    for condition in source.conditions:
+        bound = value[condition.bound] if isinstance(condition.bound, str) else condition.bound
+        if not RELATIONS[condition.relation](value[condition.address], bound):
+            raise BadValueError(
+                f"{condition.address} is {value[condition.address]:.6g}: {condition.message}"
+                + (f" ({condition.bound} is {bound:.6g})" if isinstance(condition.bound, str) else "")
+                + f"; expected {_range(source, condition.address)}"
+            )
+    for name, number in zip(source.derived, p[len(source.slots) :].tolist(), strict=True):
+        if not math.isfinite(number):
+            raise BadValueError(f"{name}, which follows from the parameters, is {number}: not finite with these values")
+
+
+def _range(source: KernelSource, address: str) -> str:
+    """All that the file's conditions ask of a number: "> 0 and <= 1"."""
+    asked = [condition for condition in source.conditions if condition.address == address]
+    told = (c.bound if isinstance(c.bound, str) else f"{c.bound:g}" for c in asked)
+    return " and ".join(f"{c.relation} {bound}" for c, bound in zip(asked, told, strict=True))
+
+
+def _unknown(name: str, addresses: list[str]) -> UnknownNameError:
+    short = [a.removeprefix("parameters.") for a in addresses]
+    near = difflib.get_close_matches(name, addresses + short, n=3)
+    hint = f"did you mean {', '.join(dict.fromkeys(near))}?" if near else "see run.parameters for all addresses."
+    return UnknownNameError(
+        f"no run-time number has the address {name!r} in this scene", None,
+        f"{hint} Structural choices go to gudgeon.load(..., overrides={{...}}).",
+    )  # fmt: skip
+
+
+def value(text: str) -> float | str:
+    """A number as typed: a float if it is one (SI), else text with a space before its unit ("0.5mm", "0.5 mm")."""
+    number = plain_number(text)
+    return spaced(text) if number is None else number

@@ -1,0 +1,180 @@
+"""What a file's own expressions are worth at a state: which one is no number there, and why.
+
+C computes with them and finds out that something is not finite; here their trees are walked again to say what.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
+from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, evaluate, from_json, names
+from gudgeon.model.compiled import Array, CompiledModel, Evaluation
+
+if TYPE_CHECKING:
+    from gudgeon.results.results import Result
+
+_REACH = tuple(10.0**k for k in range(-13, -8))  # s, or share of the time: how far ahead of a state a reason may lie
+Values = Callable[[str], float]
+
+
+def values_at(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> Values:
+    """Value of a name: t, a parameter, a coordinate or velocity of a body, or of a point."""
+    place = {name: k for k, name in enumerate(source.coordinates)}
+    slots = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
+    points = {point.name: point for point in source.points}
+    position = {"x": 0, "y": 1, "theta": 2, "vx": 0, "vy": 1, "omega": 2}
+
+    def value(path: str) -> float:
+        if path == "t":
+            return t
+        if (address := f"parameters.{path}") in slots:
+            return slots[address]
+        if (address := f"{path.rpartition('.')[0]}.{path.rpartition('.')[2]}") in slots:  # "ground.O.x"
+            return slots[address]
+        owner, _, part = path.rpartition(".")
+        state = v if part in ("vx", "vy", "omega") else q
+        if owner.count(".") == 0:
+            return float(state[place[f"{owner}.x"] + position[part]])
+        point = points[owner]
+        x, y = (0.0 if k < 0 else sign * float(p[k]) for k, sign in ((point.x, point.sign_x), (point.y, point.sign_y)))
+        if point.body < 0:
+            return (x, y)[position[part]]
+        first = 3 * point.body
+        theta, omega = float(q[first + 2]), float(v[first + 2])
+        dx, dy = x * math.cos(theta) - y * math.sin(theta), x * math.sin(theta) + y * math.cos(theta)
+        moved = (dx, dy) if state is q else (-omega * dy, omega * dx)
+        return float(state[first + position[part]]) + moved[position[part]]
+
+    return value
+
+
+def of_time(source: KernelSource, p: Array, tree: Expr, t: Array) -> Array:
+    """Values of an expression of t and parameters, (N,)."""
+    slots = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
+    return np.broadcast_to(evaluate(tree, lambda path: t if path == "t" else slots[f"parameters.{path}"]), t.shape)
+
+
+def trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[WrittenInfo, Expr]]:
+    """The file's expressions of t and motion of some sections: drives, forces, events."""
+    return [(info, from_json(json.loads(info.tree))) for info in source.written if info.address.split(".")[0] in kinds]
+
+
+def reason(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
+    """Which drive or force is no number at a state or just after it, where and why; "" where none is known to be."""
+    found = trees(source, ("drives", "forces"))
+    if not (np.isfinite(q).all() and np.isfinite(v).all()):
+        found = [(info, tree) for info, tree in found if all("." not in name.path for name in names(tree))]
+    for h in (0.0, *(reach * max(1.0, abs(t)) for reach in _REACH)):
+        with np.errstate(invalid="ignore"):  # a velocity may be infinite
+            told = _told(source, found, p, t + h, q + h * v, v)
+        if told:
+            return told
+    return ""
+
+
+def reason_between(source: KernelSource, p: Array, t0: float, t1: float) -> tuple[str, float]:
+    """Which drive ceases to be a number on the way from t0 to t1 (s), and when; ("", t1) where none does."""
+    none, first, told = np.zeros(0), t1, ""
+    for info, tree in trees(source, ("drives",)):
+        times = np.append(np.linspace(t0, t1, 4001), t1 + 1e-9 * max(1.0, abs(t1)))  # and just behind the end
+        wrong = np.flatnonzero(~np.isfinite(of_time(source, p, tree, times)))
+        if not len(wrong):
+            continue
+        high = float(times[wrong[0]])
+        low = float(times[max(wrong[0] - 1, 0)])
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            if np.isfinite(of_time(source, p, tree, np.array([middle])))[0]:
+                low = middle
+            else:
+                high = middle
+        if not told or high < first:
+            first, told = high, _told(source, [(info, tree)], p, high, none, none)
+    return told, first
+
+
+def rate_reason(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tuple[str, float]:
+    """Which drive's rate or second rate is none first at some times (s), and when; ("", the last) where all are."""
+    drives = [k for k, row in enumerate(compiled.source.start_rows) if row.kind == "drive"]
+    v = np.zeros(compiled.n)
+    for t in times.tolist() if drives else ():
+        for of, rows in (("rate", compiled.closed_nu(t, q, p)), ("second rate", compiled.closed_gamma(t, q, v, p))):
+            wrong = [k for k in drives if not np.isfinite(rows[k])]
+            if wrong:
+                name = compiled.source.start_rows[wrong[0]].name
+                return f"the {of} of drive {name} is {-rows[wrong[0]]:g} at t = {t:.9g} s", t
+    return "", float(times[-1])
+
+
+def with_odd_outputs(run: Result, evaluation: Evaluation) -> Result:
+    """The run, its notes with outputs that are no number at a sample at which all that they are made of is one."""
+    if not run.source.outputs:
+        return run
+    probe = replace(run, stored={})  # of many samples nothing is kept that nobody asked for
+    probe.__dict__["evaluation"] = evaluation
+    odd = [told for name in run.source.outputs if name in probe and (told := _odd(probe, name))]
+    notes = (*run.diagnostics.notes, *odd)
+    return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if odd else run
+
+
+def _odd(run: Result, name: str) -> str:
+    """When an output of a run is no number first, and why; "" where it is one, or only what it is made of is none."""
+    tree, shape = from_json(run.source.outputs[name]), run.t.shape
+    parts = {used.path: np.broadcast_to(run.value_of(used.path), shape) for used in names(tree)}
+    values = np.broadcast_to(evaluate(tree, parts.__getitem__), shape)
+    wrong = ~np.isfinite(values)
+    for part in parts.values() if wrong.any() else ():
+        wrong &= np.isfinite(part)
+    if not wrong.any():
+        return ""
+    k, count = int(wrong.argmax()), int(wrong.sum())
+    why = culprit(tree, lambda path: float(parts[path][k]))
+    others = f"; it is none at {count} of {len(wrong)} samples" if count > 1 else ""
+    return f"output {name} is no number ({values[k]}) at t = {run.t[k]:.9g} s: {why}{others}"
+
+
+def _told(
+    source: KernelSource, found: Iterable[tuple[WrittenInfo, Expr]], p: Array, t: float, q: Array, v: Array
+) -> str:
+    values = values_at(source, p, t, q, v)
+    for info, tree in found:
+        value = float(evaluate(tree, values))
+        if not math.isfinite(value):
+            place = f"line {info.line}, column {info.column}"
+            return f"{info.address} ({place}) is not finite at t = {t:.9g} s, {value}: {culprit(tree, values)}"
+    return ""
+
+
+def culprit(tree: Expr, values: Values) -> str:
+    """The smallest part of an expression that is not finite while what it is made of is, in words."""
+    match tree:
+        case Unary(operand=operand):
+            parts: tuple[Expr, ...] = (operand,)
+        case Binary(left=left, right=right):
+            parts = (left, right)
+        case Call(arguments=parts):
+            pass
+        case _:
+            return "a number that is not finite"
+    numbers = [float(evaluate(part, values)) for part in parts]
+    for part, number in zip(parts, numbers, strict=True):
+        if not math.isfinite(number) and not isinstance(part, Number):
+            return culprit(part, values)
+    told = [f"{number:.12g}" for number in numbers]
+    match tree:
+        case Binary(operator="/"):
+            return f"{told[0]} divided by {told[1]}"
+        case Binary(operator="**"):
+            return f"the power {told[1]} of {told[0]}"
+        case Binary(operator=operator):
+            return f"{told[0]} {operator} {told[1]}"
+        case Call(function=function):
+            return f"{function} of {', '.join(told)}"
+    return "a number that is not finite"

@@ -1,0 +1,1 @@
+"""What a run has: series, files, figures, report."""

@@ -1,0 +1,159 @@
+"""The results of many runs of one scene: arrays over the runs, each run as a Result when it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import GudgeonError
+from gudgeon.language.wanted import listed, refuse, told
+from gudgeon.results.results import Result
+from gudgeon.results.series import MOTION_UNITS, rates
+
+if TYPE_CHECKING:
+    import xarray
+
+Array: TypeAlias = NDArray[Any]
+
+PEAK_DTYPE = np.dtype([(name, "f8") for name in ("F", "t", "e_max", "first_contact", "first_peak")])
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A run that did not come to its end."""
+
+    run: int
+    error: GudgeonError
+
+    def __str__(self) -> str:
+        return f"run {self.run}: {self.error}"
+
+
+@dataclass(eq=False, repr=False)
+class Batch:
+    """n runs over N common output times; SI. What a run did not reach is NaN.
+
+    `batch[i]` is the full Result of run i, made when it is asked for (and anew each time), the same as that of
+    the run alone; of a run that failed it raises the error, whose `partial` is the result up to there.
+    `batch["S9.y"]` is that series of all runs, (n, N), made from these. It may be pickled, as a Result may.
+    """
+
+    source: KernelSource
+    t: Array  # (N,) s
+    q: Array  # (n, N, n_q)
+    v: Array
+    work: Array  # (n, N, 3) J: drives, applied forces, clearance forces
+    state: Array  # (n, N, n_clearances) int8: 0 free, 1 impact, 2 contact
+    samples: Array  # (n,) output times that were reached; where an event or Ctrl-C ended a run, the last is its end's
+    t_last: Array  # (n,) s, where each run ended
+    parameters: Mapping[str, Array]  # address -> (n,) values, of what was given to any run
+    impacts: tuple[Array, ...]  # IMPACT_DTYPE, one an onset, of each run
+    events: tuple[Array, ...]  # EVENT_DTYPE of each run
+    peaks: Array  # (n, n_clearances) PEAK_DTYPE: N, s, m; the first contact and its peak force, NaN: none
+    diagnostics: Mapping[str, Array]  # (n,) each: counts and maxima, named and meant as in Diagnostics
+    failures: tuple[Failure, ...]
+    seconds: float  # wall time of all runs
+    threads: int
+    interrupted: bool
+    result: Callable[[int], Result] = field(repr=False)
+
+    def __len__(self) -> int:
+        return len(self.q)
+
+    def __repr__(self) -> str:
+        failed = f", {len(self.failures)} failed" if self.failures else ""
+        return f"<Batch {self.source.mechanism}/{self.source.scene}: {len(self)} runs of {len(self.t)} samples{failed}>"
+
+    @overload
+    def __getitem__(self, key: str) -> Array: ...
+    @overload
+    def __getitem__(self, key: int) -> Result: ...
+    def __getitem__(self, key: int | str) -> Result | Array:
+        if isinstance(key, str):
+            return self._series(key)
+        if not isinstance(key, (int, np.integer)) or isinstance(key, bool):
+            refuse("a run of a batch", key, "its number, or the name of a series")
+        if not -len(self) <= key < len(self):
+            raise IndexError(f"run {told(key)}: there are {len(self)}")
+        return self.result(int(key) % len(self))
+
+    @property
+    def onsets(self) -> Array:
+        """How many contacts began at each joint with play, (n, n_clearances)."""
+        joints = range(len(self.source.clearances))
+        counts = [[int((impacts["joint"] == k).sum()) for k in joints] for impacts in self.impacts]
+        return np.array(counts, dtype=np.int_).reshape(len(self), len(joints))
+
+    def partial(self, i: int) -> Result | None:
+        """The result of run i as far as it came; None where it did not begin."""
+        try:
+            return self[i]
+        except GudgeonError as error:
+            found = getattr(error, "partial", None)
+            return found if isinstance(found, Result) else None
+
+    def _series(self, name: str) -> Array:
+        out = np.full((len(self), len(self.t)), np.nan)
+        for i in range(len(self)):
+            run = self.partial(i)
+            if run is not None:
+                out[i, : len(run.t)] = run[name]
+        return out
+
+    def to_xarray(self, names: Iterable[str] = ()) -> xarray.Dataset:
+        """A Dataset over `run` and `time`, every series by its name in a Result, those of `names` too.
+
+        Over `run` alone: samples, ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks.
+        `.to_dataframe()` has a row for each run and time.
+        """
+        try:
+            import xarray
+        except ModuleNotFoundError as error:
+            raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
+        reasons = dict((failure.run, str(failure.error)) for failure in self.failures)
+        found: dict[str, Any] = {
+            "samples": ("run", self.samples), "t_last": ("run", self.t_last, {"units": "s"}),
+            "failure": ("run", np.array([reasons.get(i, "") for i in range(len(self))])),
+        }  # fmt: skip
+        found |= {name: ("run", values) for name, values in self.diagnostics.items()}
+        for k, joint in enumerate(self.source.clearances):
+            found |= {f"{joint.name}.peak.{name}": ("run", self.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
+        for k, name in enumerate(self.source.coordinates):
+            for order, (column, values) in enumerate(((name, self.q), (rates(name)[0], self.v))):
+                found[column] = ("run", "time"), values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
+        for k, name in enumerate(("drives", "forces", "clearances")):
+            found[f"work.{name}"] = ("run", "time"), self.work[:, :, k], {"units": "J"}
+        names = listed(names, "names", str, "a list of names of series")
+        found |= {name: (("run", "time"), self[name]) for name in names}
+        coordinates: dict[str, Any] = {"time": ("time", self.t, {"units": "s"})}
+        coordinates |= {name: ("run", values) for name, values in self.parameters.items()}
+        attributes = {"mechanism": self.source.mechanism, "scene": self.source.scene, "title": self.source.title}
+        return xarray.Dataset(found, coordinates, attributes)
+
+
+def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:
+    """{address: (n,)} of what was given to any run, from the parameters (n, n_slots + n_derived) of all."""
+    return {source.slots[k].address: p[:, k].copy() for k in np.flatnonzero(is_given.any(axis=0)).tolist()}
+
+
+def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
+    """By the number of the run."""
+    return tuple(Failure(i, errors[i]) for i in sorted(errors))
+
+
+def peaks_of(peaks: Array, impacts: tuple[Array, ...]) -> Array:
+    """PEAK_DTYPE from F, t, e_max (n, n_clearances, 3) and the lists of contacts."""
+    out = np.full(peaks.shape[:2], np.nan, dtype=PEAK_DTYPE)
+    for k, name in enumerate(("F", "t", "e_max")):
+        out[name] = peaks[:, :, k]
+    for i, contacts in enumerate(impacts):
+        for joint in range(peaks.shape[1]):
+            own = contacts[contacts["joint"] == joint]
+            if len(own):
+                out["first_contact"][i, joint], out["first_peak"][i, joint] = own["t_on"][0], own["F_peak"][0]
+    return out

@@ -1,0 +1,123 @@
+"""Results as NetCDF 4 files, and as xarray's Datasets.
+
+A file holds every series under its own name over `time`, so that any NetCDF tool can read it, and in groups what has
+other rows: `impacts`, `events`, `parameters` and `trace` (trace.py), for people; `compiled`, the kernel source and
+what was derived from the parameters, so that gudgeon reads all of it back bit for bit without a compiled library.
+What has no row is not there. A file holds no date: the same run gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.errors import GudgeonError
+from gudgeon.files.writing import written
+from gudgeon.language.wanted import path as named
+from gudgeon.language.wanted import text
+from gudgeon.results import trace
+from gudgeon.results.hdf5_image import Table, Variable, pieces
+from gudgeon.results.results import Array, Result
+
+if TYPE_CHECKING:
+    import xarray
+
+FORMAT = "gudgeon-result/2"
+SERIES, TRACE, COMPILED = "series", "trace", "compiled"
+PARTS = ("impacts", "events", "parameters", TRACE)
+IMPACTS = {
+    "joint": ("", "joint with play"),
+    "t_on": ("s", "onset of the contact"),
+    "t_off": ("s", "separation, NaN: still closed"),
+    "deltadot": ("m/s", "rate of the penetration at the onset"),
+    "F_peak": ("N", "largest force of the contact"),
+    "t_peak": ("s", "time of the largest force"),
+}
+EVENTS = {"event": ("", "event of the mechanism's file"), "t": ("s", "time of the event")}
+
+
+def tables(run: Result) -> Iterator[Table]:
+    """All that a file holds: series over `time` at its root, groups over their own dimensions."""
+    yield Table("", "time", tuple(_series(run)), attributes(run))
+    joints = [joint.name for joint in run.source.clearances]
+    yield Table("impacts", "impact", tuple(_records(run.impacts, IMPACTS, joints)), {})
+    events = [event.name for event in run.source.events]
+    yield Table("events", "occurrence", tuple(_records(run.events, EVENTS, events)), {})
+    yield Table("parameters", "address", tuple(_parameters(run)), {})
+    traced = (Variable(name, *of) for name, of in trace.variables(run).items())
+    yield Table(TRACE, "t", tuple(traced), {})
+    derived = Variable("value", run.p[len(run.given) :], "", "what was derived from the parameters, SI")
+    yield Table(COMPILED, "derived", (derived,), {"source": run.source.to_json()})
+
+
+def _series(run: Result) -> Iterator[Variable]:
+    yield Variable("time", run.t, "s", "time")
+    for name, unit in run.names.items():
+        yield Variable(variable(name), run[name], unit, run.meaning(name))
+
+
+def _records(rows: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:
+    """Columns of impacts or events; the first one's numbers as the names that they stand for."""
+    for k, (name, (unit, meaning)) in enumerate(columns.items()):
+        yield Variable(name, _texts([names[i] for i in rows[name]]) if k == 0 else rows[name], unit, meaning)
+
+
+def _parameters(run: Result) -> Iterator[Variable]:
+    slots = run.source.slots
+    yield Variable("address", _texts([slot.address for slot in slots]), "", "where the number stands in the file")
+    yield Variable("value", run.p[: len(slots)], "", "what the run had, SI")
+    yield Variable("unit", _texts([slot.unit for slot in slots]), "", "of the value")
+    yield Variable("given", run.given, "", "overridden value, SI")
+    yield Variable("is_given", run.is_given.astype(np.int8), "", "1 where it was overridden")
+
+
+def _texts(values: list[str]) -> Array:
+    return np.array(values, dtype=object)
+
+
+def attributes(run: Result) -> dict[str, str]:
+    """Of the whole file."""
+    return {
+        "gudgeon": FORMAT,
+        "title": run.source.title,
+        "mechanism": run.source.mechanism,
+        "scene": run.source.scene,
+        "diagnostics": run.diagnostics.to_json(),
+    }
+
+
+def variable(name: str) -> str:
+    """An output may be called like what else stands at the root; no other name can, for they all have a dot."""
+    return f"output.{name}" if name in ("time", *PARTS, COMPILED) else name
+
+
+def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
+    """A table of the file as an xarray Dataset: the series, or one of PARTS."""
+    try:
+        import xarray
+    except ModuleNotFoundError as error:
+        raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
+    part = text(part, "part", "the name of a table")
+    group = "" if part == SERIES else part
+    if part not in (SERIES, *PARTS):
+        from gudgeon.errors import UnknownNameError
+
+        raise UnknownNameError(f"a result has no part {part!r}", hint=f"there are: {', '.join((SERIES, *PARTS))}")
+    table = next(table for table in tables(run) if table.group == group)
+    found: dict[str, Any] = {v.name: (table.dimension, v.values, v.attributes) for v in table.variables}
+    return xarray.Dataset(found, attrs=dict(table.attributes))
+
+
+def save(run: Result, path: str | os.PathLike[str]) -> None:
+    """Write `run` to `path`. OutputError where it cannot be written; an older file is then as it was."""
+    try:
+        import h5py  # noqa: F401
+    except ModuleNotFoundError as error:
+        raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
+    path, found = named(path, "path"), list(tables(run))
+    with written(path) as file:
+        for piece in pieces(found):
+            file.write(piece)

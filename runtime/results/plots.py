@@ -1,0 +1,300 @@
+"""Figures of results: one run at a time (`run.plot.orbit("A")`), and several scenes in one picture.
+
+matplotlib is imported with this module, hence only when somebody draws, and never through pyplot
+unless the caller uses pyplot already: no display is needed and no figure is kept alive.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+import textwrap
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
+from gudgeon.files.writing import write_bytes
+from gudgeon.language.shown import in_figure
+from gudgeon.language.wanted import told
+from gudgeon.results import trace
+from gudgeon.results.plot_units import label, scale
+from gudgeon.results.series import rates
+
+try:
+    import matplotlib
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
+except ModuleNotFoundError as error:
+    raise GudgeonError("figures need matplotlib: pip install 'gudgeon[plot]'") from error
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from gudgeon.results.results import Result
+
+# Okabe and Ito's palette: told apart by readers with any of the common colour deficiencies
+COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+IDEAL, UNTRUSTED = "#222222", "#888888"  # beyond a run's horizon
+TITLE = 66  # characters of a line, beside which the legend fits
+STYLE = {
+    "font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "xtick.labelsize": 8, "ytick.labelsize": 8,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#888888", "axes.grid": True,
+    "grid.color": "#e4e4e4", "grid.linewidth": 0.6, "axes.axisbelow": True, "legend.frameon": False,
+    "xtick.color": "#444444", "ytick.color": "#444444", "agg.path.chunksize": 20000, "text.usetex": False,
+}  # fmt: skip
+
+
+class Plot:
+    """Figures of one run; every method returns its Axes, `axes.figure.savefig(...)` stores them."""
+
+    def __init__(self, run: Result) -> None:
+        self.run = run
+
+    def series(self, *names: str, ax: Axes | None = None) -> Axes:
+        """Series of one unit over time."""
+        return self._curves({name: (self.run.t, self.run[name]) for name in names}, ax)
+
+    def _curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None) -> Axes:
+        """Times and values by the name of a series; all have one unit."""
+        run, names = self.run, list(curves)
+        if not names:
+            raise BadValueError("plot.series: expected the name of a series at least")
+        with matplotlib.rc_context(STYLE):
+            ax = ax or _axes(8.0, 3.6)
+            factor, text = scale(max(_peak(values) for _, values in curves.values()), run.unit(names[0]))
+            for (name, (t, values)), colour in zip(curves.items(), _cycle(len(names)), strict=True):
+                ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
+            ax.set(xlabel="t [s]", ylabel=label(names[0] if len(names) == 1 else "", text), title=_caption(run))
+            mark_horizon(ax, run, IDEAL)
+            if len(names) > 1:
+                ax.legend()
+        return ax
+
+    def forces(self, ax: Axes | None = None) -> Axes:
+        """Magnitudes of the forces at the joints with play, with the extremes of all steps; in an ideal scene at all
+        joints."""
+        joints = self.run.source.clearances or self.run.source.joints
+        return self._curves({f"{joint.name}.F": trace.force(self.run, joint.name) for joint in joints}, ax)
+
+    def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
+        """Path of the journal's centre in its clearance circle, in units of the clearance."""
+        joints = [each.name for each in self.run.source.clearances]
+        if joint not in joints:
+            hint = f"its joints with play: {', '.join(joints) or 'none'}"
+            raise UnknownNameError(f"no orbit of {told(joint)}: expected a joint with play", hint=hint)
+        with matplotlib.rc_context(STYLE):
+            ax = ax or _axes(4.2, 4.4)
+            draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))
+        return ax
+
+
+def _axes(width: float, height: float) -> Axes:
+    """Axes of a new figure: pyplot's, if the caller has imported it, so that plt.show() shows them."""
+    if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None:
+        axes: Axes = pyplot.figure(figsize=(width, height), layout="constrained").add_subplot()
+        return axes
+    return Figure(figsize=(width, height), layout="constrained").add_subplot()
+
+
+def _cycle(count: int) -> list[str]:
+    return [COLOURS[i % len(COLOURS)] for i in range(count)]
+
+
+def _peak(values: Any) -> float:
+    """Largest magnitude, 0 for none."""
+    return float(np.nanmax(np.abs(values), initial=0.0))
+
+
+def _caption(run: Result) -> str:
+    return f"{run.source.mechanism}, {run.source.scene}"
+
+
+def reach(run: Result, joint: str) -> float:
+    """Half the side of a square, in units of c, that holds the orbit and the circle."""
+    _, x, y = trace.path(run, joint)
+    return 1.04 * max(1.0, _peak(np.hypot(x, y)) / run.constants[f"{joint}.c"])
+
+
+def _trusted(run: Result) -> float | None:
+    """Time (s) to which a run can be trusted, None: to its end, or nobody asked."""
+    horizon = run.diagnostics.horizon
+    return horizon if np.isfinite(horizon) and horizon < run.t[-1] else None
+
+
+def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
+    """Over time: a thin line where the trace can no longer be trusted, and grey beyond; nothing where it always can."""
+    if (horizon := _trusted(run)) is not None:
+        ax.axvspan(horizon, float(run.t[-1]), color=UNTRUSTED, alpha=0.1, lw=0, zorder=0)
+        ax.axvline(horizon, color=colour, lw=0.8, ls=":", zorder=1)
+
+
+def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half: float) -> None:
+    """The journal's path through its steps, e/c, and the circle e = c; dots where the surfaces are in contact."""
+    c = run.constants[f"{joint}.c"]
+    t, x, y = trace.path(run, joint)
+    x, y, angle = x / c, y / c, np.linspace(0.0, 2 * np.pi, 181)
+    ax.fill(np.cos(angle), np.sin(angle), facecolor="#f6f6f6", edgecolor="#777777", lw=0.9, zorder=1)
+    ends = _trusted(run) or float(run.t[-1])
+    touching, known = np.hypot(x, y) >= 1.0, t <= ends
+    beyond = t >= t[known][-1]  # from the last trusted place on, so that the path has no gap
+    ax.plot(x[known], y[known], color=colour, lw=0.7, alpha=0.8, zorder=2)
+    ax.plot(x[touching & known], y[touching & known], ".", color=colour, ms=1.4, zorder=3)
+    if not known.all():
+        ax.plot(x[beyond], y[beyond], color=UNTRUSTED, lw=0.5, alpha=0.6, zorder=1.5)
+    ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=IDEAL, mew=0.9, zorder=4)
+    ax.set(xlim=(-half, half), ylim=(-half, half), aspect="equal", xticks=[], yticks=[])
+    factor, text = scale(c, "m")
+    ax.set_title(f"{joint}, {run.source.scene}: c = {c * factor:.4g} {text}")
+    ax.spines[:].set_visible(False)
+
+
+def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result], watch: Sequence[str]) -> Figure:
+    """The picture of `gudgeon run`: what the play in the joints does, scene by scene.
+
+    Left: error of the first two watched names against the ideal scene, with their rates, and the forces
+    at the joints with play. Right: journal orbits. `reference` is the ideal run at the same times and
+    parameters, one for all scenes or one a scene. Scenes without play are shown as they are.
+    """
+    played = {scene: run for scene, run in runs.items() if run.source.clearances}
+    references = dict(reference) if isinstance(reference, Mapping) else dict.fromkeys(played, reference)
+    shown = played or dict(runs)
+    colours = dict(zip(shown, _cycle(len(shown)) if played else [IDEAL, *_cycle(len(shown) - 1)], strict=True))
+    joints = list(dict.fromkeys(joint.name for run in played.values() for joint in run.source.clearances))[:4]
+    watch = list(watch)[:2]
+    with matplotlib.rc_context(STYLE):
+        picture = Figure(figsize=(12, 9), dpi=100)
+        picture.set_layout_engine("constrained", w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)
+        left, right = _halves(picture, len(played) if joints else 0)
+        rows = 3 + len(joints)
+        grid = left.add_gridspec(rows, max(1, len(watch)))
+        for column, name in enumerate(watch):
+            _draw_motion(left, grid, column, shown, references if played else {}, name, colours)
+        forces = [left.add_subplot(grid[3 + k, :]) for k in range(len(joints))]
+        _draw_forces(forces, joints, played, references, colours)
+        left.align_ylabels()
+        if right is not None:
+            _draw_orbits(right, joints, played, colours)
+        _head(picture, shown, colours, bool(played))
+    return picture
+
+
+def _halves(picture: Figure, orbits: int) -> tuple[Any, Any]:
+    """The left part for curves over time, the right one for orbits; None where there is no orbit."""
+    if not orbits:
+        return picture.subfigures(1, 1), None
+    parts: Any = picture.subfigures(1, 2, width_ratios=[1.0, 0.5 if orbits == 1 else 0.9])
+    return parts[0], parts[1]
+
+
+def _draw_motion(
+    part: Any, grid: Any, column: int, runs: Mapping[str, Result], references: Mapping[str, Result], name: str,
+    colours: Mapping[str, str],
+) -> None:  # fmt: skip
+    """Three rows: a name, its velocity and its acceleration, as errors where there is something to compare with."""
+    names = [series for series in (name, *rates(name)) if series]
+    for row, series in enumerate(names):
+        compared = [scene for scene in runs if scene in references and series in references[scene]]
+        found = {scene: runs[scene][series] - references[scene][series] for scene in compared}
+        if not found:
+            found = {scene: run[series] for scene, run in runs.items() if series in run}
+        if not found:
+            continue
+        ax = part.add_subplot(grid[row, column] if len(names) > 1 else grid[:3, column])
+        factor, text = scale(max(map(_peak, found.values())), runs[next(iter(found))].unit(series))
+        for scene, values in found.items():
+            ax.plot(runs[scene].t, values * factor, color=colours[scene], lw=0.9)
+            mark_horizon(ax, runs[scene], colours[scene])
+        word = f"error of {series}" if compared else series
+        _over_time(ax, label(word, text), [runs[scene].t for scene in found], row == len(names) - 1)
+
+
+def _draw_forces(
+    axes: Sequence[Axes], joints: Sequence[str], runs: Mapping[str, Result], references: Mapping[str, Result],
+    colours: Mapping[str, str],
+) -> None:  # fmt: skip
+    """One row a joint: its force in every scene, through the extremes of all steps and with their peak (▾), and the
+    ideal reaction over it."""
+    for ax, joint in zip(axes, joints, strict=True):
+        name = f"{joint}.F"
+        curves = [(*trace.force(run, joint), colours[scene], 0.8, "-") for scene, run in runs.items() if name in run]
+        ideal = max((r for r in references.values() if name in r), key=lambda r: r.t[-1], default=None)
+        if ideal is not None:
+            curves.append((ideal.t, ideal[name], IDEAL, 1.0, "--"))
+        factor, text = scale(max((_peak(values) for _, values, *_ in curves), default=0.0), "N")
+        for t, values, colour, width, dashes in curves:
+            ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
+        for scene, run in runs.items():
+            mark_horizon(ax, run, colours[scene])
+            for peak in (peak for peak in run.diagnostics.peaks if peak.joint == joint):
+                ax.plot([peak.t], [peak.F * factor], "v", color=colours[scene], ms=4, clip_on=False)
+        ax.set_ylim(bottom=0)
+        _over_time(ax, label(f"force at {joint}", text), [t for t, *_ in curves], ax is axes[-1])
+
+
+def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
+    """Only the last row of a column is labelled with the time."""
+    ax.set_ylabel(_folded(ax, text))
+    start, end = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
+    ax.set_xlim(start, end if end > start else start + 1.0)
+    ax.tick_params(labelbottom=last)
+    if last:
+        factor, text = scale(end, "s")
+        ax.xaxis.set_major_formatter(lambda t, _: f"{t * factor:g}")
+        ax.set_xlabel(label("t", text))
+    ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]))
+
+
+def _folded(ax: Axes, text: str) -> str:
+    """A label in as many lines as the height of its axes asks for: names of bodies may be long."""
+    spec = ax.get_subplotspec()
+    share = spec.rowspan.stop - spec.rowspan.start if spec else 1
+    rows = spec.get_gridspec().nrows if spec else 1
+    points = 72 * ax.figure.bbox.height / ax.figure.dpi * 0.85 * share / rows
+    width = max(8, int(points / (0.58 * float(ax.yaxis.label.get_fontsize()))))
+    words = [word if len(word) <= width else word.replace(".", ".\u200b") for word in text.split(" ")]
+    lines = textwrap.wrap(" ".join(words).replace("\u200b", " \u200b"), width, break_long_words=False)
+    return "\n".join(lines).replace(" \u200b", "").replace("\u200b", "")
+
+
+def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
+    """A clearance circle for each joint (down) and scene (across); more than six scenes do not fit."""
+    scenes = list(runs)[:6]
+    grid = part.add_gridspec(len(joints), len(scenes))
+    cells = [(row, column) for row in range(len(joints)) for column in range(len(scenes))]
+    found = [(r, c) for r, c in cells if f"{joints[r]}.e" in runs[scenes[c]]]
+    half = max(reach(runs[scenes[c]], joints[r]) for r, c in found)  # one scale: all circles are equally large
+    for row, column in found:
+        scene = scenes[column]
+        draw_orbit(part.add_subplot(grid[row, column]), runs[scene], joints[row], colours[scene], half)
+    part.supxlabel("journal in the circle e = c, ○ start\nforces: ▾ peak of all steps", fontsize=9, color="#444444")
+
+
+def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str], compared: bool) -> None:
+    """Title from the mechanism's file and one legend for all panels."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    run = next(iter(runs.values()))
+    title = in_figure(run.source.title or run.source.mechanism, TITLE)
+    picture.suptitle(title, fontsize=13, fontweight="bold", x=0.012, ha="left")
+    handles: list[Any] = [Line2D([], [], color=colour, lw=2.2, label=scene) for scene, colour in colours.items()]
+    if compared:
+        handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls="--", label="ideal"))
+    if any(_trusted(run) is not None for run in runs.values()):
+        handles.append(Patch(facecolor=UNTRUSTED, alpha=0.25, lw=0, label="not to be trusted"))
+    picture.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
+
+
+def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
+    """Write a picture aside and move it into place; it holds neither date nor version."""
+    path, drawn = Path(path), io.BytesIO()
+    suffix = path.suffix.removeprefix(".") or None
+    try:
+        picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
+    except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest one
+        raise GudgeonError(f"no picture {path}: its numbers cannot be drawn ({error})\n  watch others") from error
+    write_bytes(path, drawn.getvalue())

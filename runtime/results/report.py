@@ -1,0 +1,260 @@
+"""What a run has to say in figures: peak errors against the ideal scene, peak forces, trust and cost.
+
+`compare` computes it, `tables` shows it (rich, imported on first use), `as_json` hands it to scripts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.results.diagnostics import Diagnostics
+from gudgeon.results.plot_units import quantity, scale
+from gudgeon.results.results import Result
+from gudgeon.results.series import rates
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+COLUMNS = 4  # scenes beside each other in one table
+# of a joint with play: name -> (unit that a table can scale, what follows the name); the rest is in --json
+CONSTANTS = {"c": ("m", ""), "K": ("", " [N/mⁿ]"), "S": ("N*s", "")}
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A series over a run: its least and largest value, and the value of largest magnitude with its time."""
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    peak: float
+    t: float
+
+
+@dataclass(frozen=True)
+class SceneReport:
+    """One scene: all numbers in SI."""
+
+    scene: str
+    motion: tuple[Extreme, ...]  # of the watched names and their rates
+    errors: tuple[Extreme, ...]  # of the same, run less ideal; empty for the ideal scene
+    forces: Mapping[str, tuple[float, float]]  # joint -> peak force, its time (all steps with play, else all samples)
+    constants: Mapping[str, float]
+    diagnostics: Diagnostics
+    events: Mapping[str, tuple[float, ...]] = field(default_factory=dict)  # event -> its times
+
+
+def default_watch(reference: Result) -> tuple[str, ...]:
+    """What a reader wants to see: where the sliders on the ground are; without any, the outputs.
+
+    A slider's coordinate is the one that moves further in the ideal scene: along its axis.
+    """
+    found = []
+    for joint in reference.source.joints:
+        if joint.kind == "translational" and joint.first < 0:
+            body = reference.source.bodies[joint.second].name
+            found.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
+    last = reference.source.bodies[-1].name
+    return tuple(dict.fromkeys(found)) or tuple(reference.source.outputs) or (f"{last}.theta",)
+
+
+def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> SceneReport:
+    """The figures of one run; `reference` is the ideal run at the same times, None for the ideal run itself."""
+    series = [name for watched in watch for name in (watched, *rates(watched)) if name and name in run]
+    motion = tuple(_extreme(name, run.unit(name), run.t, run[name]) for name in series)
+    errors: tuple[Extreme, ...] = ()
+    if reference is not None:
+        compared = [name for name in series if name in reference]
+        errors = tuple(_extreme(name, run.unit(name), run.t, run[name] - reference[name]) for name in compared)
+    forces = {peak.joint: (peak.F, peak.t) for peak in run.diagnostics.peaks}
+    for joint in run.source.joints if not run.source.clearances else ():
+        reaction = _extreme("", "N", run.t, run[f"{joint.name}.F"])
+        forces[joint.name] = reaction.peak, reaction.t
+    events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
+    return SceneReport(run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events)
+
+
+def _extreme(name: str, unit: str, t: Any, values: Any) -> Extreme:
+    if not np.isfinite(values).any():
+        return Extreme(name, unit, math.nan, math.nan, math.nan, math.nan)
+    at = int(np.nanargmax(np.abs(values)))
+    return Extreme(name, unit, float(np.nanmin(values)), float(np.nanmax(values)), float(values[at]), float(t[at]))
+
+
+def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
+    """Plain values for `--json`; what JSON has no number for (NaN, infinity) is null."""
+    scenes = {}
+    for report in reports:
+        scenes[report.scene] = {
+            "motion": {e.name: asdict(e) for e in report.motion},
+            "errors": {e.name: asdict(e) for e in report.errors},
+            "peak_forces": {joint: {"F": force, "t": t} for joint, (force, t) in report.forces.items()},
+            "constants": dict(report.constants),
+            "events": {name: list(times) for name, times in report.events.items()},
+            "diagnostics": asdict(report.diagnostics),
+        }
+    clean: dict[str, Any] = _finite(scenes)
+    return clean
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(item) for item in value]
+    if hasattr(value, "item"):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def tables(title: str, reports: Sequence[SceneReport], width: int) -> list[Table]:
+    """A scene a column, a quantity a row; so many scenes beside each other as fit into `width` characters."""
+    from rich.measure import Measurement
+
+    from gudgeon.language.shown import plain_console
+
+    endless = plain_console(10_000)
+    rows = _rows(reports)
+    found: list[Table] = []
+    for count in range(min(COLUMNS, len(reports)), 0, -1):
+        parts = [slice(first, first + count) for first in range(0, len(reports), count)]
+        found = [_table("" if part.start else title, reports, rows, part) for part in parts]
+        if all(Measurement.get(endless, endless.options, table).maximum <= width for table in found):
+            break
+    return found
+
+
+def _table(title: str, reports: Sequence[SceneReport], rows: list[tuple[str, list[str]]], part: slice) -> Table:
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+    from rich.text import Text
+
+    from gudgeon.language.shown import one_line
+
+    title = one_line(title)
+    table = Table(title=title or None, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
+    table.add_column("", no_wrap=True)
+    for report in reports[part]:
+        table.add_column(report.scene, justify="right", no_wrap=True)
+    for name, cells in rows:
+        if not cells:
+            table.add_section()
+            table.add_row(Text(name, style="bold"))
+        else:
+            table.add_row(f"  {name}", *cells[part])
+    return table
+
+
+def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """(name, a cell a scene); no cells for a heading; rows that are empty in all scenes are left out."""
+    rows: list[tuple[str, list[str]]] = []
+    for heading, part in (
+        ("Peak error against ideal", _error_rows(reports)),
+        ("Motion", _motion_rows(reports)),
+        ("Peak force", _force_rows(reports)),
+        ("Joints with play", _play_rows(reports)),
+        ("Events", _event_rows(reports)),
+        ("Trust", _trust_rows(reports)),
+        ("Cost", _cost_rows(reports)),
+    ):
+        kept = [(name, cells) for name, cells in part if any(cell not in ("", "–") for cell in cells)]
+        rows += [(heading, []), *kept] if kept else []
+    return rows
+
+
+def _at(value: float, unit: str, t: float) -> str:
+    return f"{quantity(value, unit)} at {t:.4f} s" if math.isfinite(t) else "–"
+
+
+def _error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    names = dict.fromkeys(e.name for report in reports for e in report.errors)
+    found = [{e.name: _at(e.peak, e.unit, e.t) for e in report.errors} for report in reports]
+    return [(name, [cells.get(name, "–") for cells in found]) for name in names]
+
+
+def _motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    found = [{e.name: _range(e) for e in report.motion} for report in reports]
+    names = dict.fromkeys(e.name for report in reports for e in report.motion)
+    return [(name, [cells.get(name, "–") for cells in found]) for name in names]
+
+
+def _range(extreme: Extreme) -> str:
+    factor, text = scale(max(abs(extreme.low), abs(extreme.high)), extreme.unit)
+    return f"{extreme.low * factor:.5g} … {extreme.high * factor:.5g} {text}".strip()
+
+
+def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """At the joints that have play in any scene; where none has, at all joints."""
+    played = dict.fromkeys(peak.joint for report in reports for peak in report.diagnostics.peaks)
+    joints = played or dict.fromkeys(joint for report in reports for joint in report.forces)
+    missing = (math.nan, math.nan)
+    return [(joint, [_at(r.forces.get(joint, missing)[0], "N", r.forces.get(joint, missing)[1]) for r in reports])
+            for joint in joints]  # fmt: skip
+
+
+def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    peaks = [{peak.joint: peak for peak in report.diagnostics.peaks} for report in reports]
+    rows = []
+    for joint in dict.fromkeys(name for found in peaks for name in found):
+        shown = [found.get(joint) for found in peaks]
+        contacts = [p.first_contact if p else math.nan for p in shown]
+        rows.append((f"{joint} first contact", [quantity(t, "s") for t in contacts]))
+        rows.append((f"{joint} its peak", [quantity(p.first_peak, "N", 5) if p else "–" for p in shown]))
+        rows.append((f"{joint} largest e", [quantity(p.e_max, "m", 5) if p else "–" for p in shown]))
+        for name, (unit, after) in CONSTANTS.items():
+            values = [report.constants.get(f"{joint}.{name}", math.nan) for report in reports]
+            rows.append((f"{joint} {name}{after}", [quantity(value, unit) for value in values]))
+    return rows
+
+
+def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """How often, and when first; a dash in scenes that do not have the event."""
+
+    def cell(times: tuple[float, ...] | None) -> str:
+        if not times:
+            return "–" if times is None else "none"
+        return f"at {times[0]:.7g} s" if len(times) == 1 else f"{len(times)}, first at {times[0]:.7g} s"
+
+    names = dict.fromkeys(name for report in reports for name in report.events)
+    return [(name, [cell(report.events.get(name)) for report in reports]) for name in names]
+
+
+def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    every = [report.diagnostics for report in reports]
+    play = [bool(d.peaks) for d in every]
+    ratio = [f"{d.ratio_min:.3g} … {d.ratio_max:.3g}" if math.isfinite(d.ratio_min) else "–" for d in every]
+    return [
+        ("max |Φ|", [f"{d.phi_max:.2e}" for d in every]),
+        ("max |Φ̇|", [f"{d.phi_dot_max:.2e}" for d in every]),
+        ("energy residual", [quantity(d.energy_residual, "J", 3) for d in every]),
+        ("of turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),
+        ("trusted until", [_until(d.horizon) for d in every]),
+        ("onsets", [str(d.onsets) if p else "–" for d, p in zip(every, play, strict=True)]),
+        ("grazes", [str(d.grazes) if p and d.grazes else "–" for d, p in zip(every, play, strict=True)]),
+        ("δ̇/δ̇⁻ while latched", ratio),
+        ("steps with it outside ±1", [str(d.ratio_outside) if math.isfinite(d.ratio_min) else "–" for d in every]),
+    ]
+
+
+def _until(horizon: float) -> str:
+    """See predictability.py; NaN: nobody asked."""
+    return "to the end" if horizon == math.inf else quantity(horizon, "s", 3)
+
+
+def _cost_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    every = [report.diagnostics for report in reports]
+    return [
+        ("method", [d.method for d in every]),
+        ("step", [quantity(d.step, "s") for d in every]),
+        ("last step", [quantity(d.last_step, "s") for d in every]),
+        ("tolerance of a step", [f"{d.rtol:.3g}" if math.isfinite(d.rtol) else "–" for d in every]),
+        ("steps", [f"{d.steps:,}" if d.steps else "–" for d in every]),
+        ("right-hand sides", [f"{d.right_hand_sides:,}" if d.right_hand_sides else "–" for d in every]),
+        ("s per simulated s", [f"{d.seconds_per_simulated_second:.3g}" for d in every]),
+    ]

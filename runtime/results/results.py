@@ -1,0 +1,260 @@
+"""The result of one run: what the integrator stored, and by name everything that follows from it.
+
+Stored are t, q, q̇, q̈, contact state, latched rates and work; all other series are computed on
+first access, exactly, from these (one pass of the compiled model over the samples).
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
+from gudgeon.integrators.trajectory import no_events
+from gudgeon.language.wanted import text, told
+from gudgeon.results.diagnostics import Diagnostics
+
+if TYPE_CHECKING:
+    import xarray
+
+    from gudgeon.integrators.trace import Trace
+    from gudgeon.model.compiled import CompiledModel, Evaluation
+    from gudgeon.results.plots import Plot
+    from gudgeon.results.series import Series
+
+Array: TypeAlias = NDArray[Any]
+
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Where a run ended: what a further run needs to go on from there."""
+
+    mechanism: str
+    scene: str
+    t: float
+    q: Array  # (n,)
+    v: Array  # (n,)
+    state: Array  # (n_clearances,) 0 free, 1 impact, 2 contact
+    memory: Array  # (n_clearances,) δ̇⁻ in m/s, NaN while free
+    parameters: Mapping[str, float]  # address -> value, of what was overridden: a further run's, unless given others
+    sha256: str = ""  # of the mechanism's file; "": made by hand
+    overrides: tuple[tuple[str, str | float | bool], ...] = ()  # (address, value) with which the file was loaded
+    formulation: str = ""  # what was integrated; either goes on from the other's
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self.__dict__ | {"parameters": dict(self.parameters)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state | {"parameters": MappingProxyType(state["parameters"])})
+
+
+@dataclass(eq=False)
+class Result:
+    """One run of N samples. `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).
+
+    It may be pickled and copied: what is stored and computed so far goes with it; other series are computed there,
+    with the scene's library from the cache, or compiled again.
+    """
+
+    compiled: CompiledModel | None  # None: read from a file, where every series is stored
+    source: KernelSource
+    p: Array  # (n_slots + n_derived,)
+    given: Array  # (n_slots,) values of the slots that were overridden
+    is_given: Array  # (n_slots,) bool
+    t: Array  # (N,) s
+    q: Array  # (N, n)
+    v: Array
+    accelerations: Array | None  # (N, n), None: `a` computes them when they are first asked for
+    state: Array  # (N, n_clearances) int8
+    memory: Array  # (N, n_clearances)
+    work: Array  # (N, 3) J: drives, applied forces, clearance forces
+    impacts: Array  # IMPACT_DTYPE, one an onset
+    diagnostics: Diagnostics
+    events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: what the file's `events` watch
+    trace: Trace | None = None  # forces and paths from the steps; None: samples are all there is
+    stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
+
+    def __getitem__(self, name: str) -> Array:
+        """The series of that name, (N,), in SI, read-only. UnknownNameError names the nearest."""
+        if not isinstance(name, str):
+            raise self.unknown(name)
+        if name == "t":
+            return self.t
+        if name not in self.stored:
+            values = self._series(name).compute(self)[:]
+            values.flags.writeable = False
+            self.stored[name] = values
+        return self.stored[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of all series, as of a mapping."""
+        return iter(self.names)
+
+    def __contains__(self, name: str) -> bool:
+        return isinstance(name, str) and (name == "t" or name in self._catalogue)
+
+    def __repr__(self) -> str:
+        span = f"{self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "empty"
+        return f"<Result {self.source.mechanism}/{self.source.scene}: {len(self.t)} samples, {span}>"
+
+    @cached_property
+    def names(self) -> Mapping[str, str]:
+        """Every name with its unit, in the order in which a file stores them."""
+        return MappingProxyType({name: series.unit for name, series in self._catalogue.items()})
+
+    def unit(self, name: str) -> str:
+        """SI unit of a series, "" for a pure number."""
+        return "s" if text(name, "the name of a series") == "t" else self._series(name).unit
+
+    def meaning(self, name: str) -> str:
+        """One line on what a series is."""
+        return "time" if text(name, "the name of a series") == "t" else self._series(name).meaning
+
+    @cached_property
+    def parameters(self) -> Mapping[str, float]:
+        """Values of all run-time numbers by address ("bodies.L2.mass"); parameters also by their short name."""
+        values = {slot.address: float(value) for slot, value in zip(self.source.slots, self.p, strict=False)}
+        short = {key.removeprefix("parameters."): v for key, v in values.items() if key.startswith("parameters.")}
+        return MappingProxyType(values | short)
+
+    @cached_property
+    def constants(self) -> Mapping[str, float]:
+        """What is worth printing of each joint with play: "A.c", and as the laws have them "A.K", "A.S" …"""
+        found = {}
+        for joint in self.source.clearances:
+            found[f"{joint.name}.c"] = float(self.p[joint.clearance])
+            found |= {f"{joint.name}.{name}": float(self.p[i]) for name, i in joint.constants.items()}
+        return MappingProxyType(found)
+
+    def events_of(self, name: str) -> Array:
+        """Times at which an event of the file happened, (k,), s. UnknownNameError names the nearest event."""
+        names = [event.name for event in self.source.events]
+        if text(name, "the name of an event") not in names:
+            import difflib
+
+            nearest = difflib.get_close_matches(name, names, n=1)
+            hint = f"did you mean {nearest[0]!r}?" if nearest else f"its events: {', '.join(names) or 'none'}"
+            raise UnknownNameError(f"the scene {self.source.scene!r} has no event named {name!r}", hint=hint)
+        times: Array = self.events["t"][self.events["event"] == names.index(name)]
+        return times
+
+    @property
+    def final(self) -> State:
+        """The last sample as a state to restart from."""
+        slots = zip(self.source.slots, self.given, self.is_given, strict=True)
+        overridden = {slot.address: float(value) for slot, value, is_given in slots if is_given}
+        q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
+        source, parameters = self.source, MappingProxyType(overridden)
+        return State(
+            source.mechanism, source.scene, float(self.t[-1]), q, v, state, memory, parameters,
+            source.sha256, source.overrides, source.formulation,
+        )  # fmt: skip
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The fields, and the evaluation if it is at hand; what else is cached is made again in no time."""
+        kept = {*(each.name for each in fields(self)), "evaluation", "a"}
+        return {name: value for name, value in self.__dict__.items() if name in kept}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        for values in self.stored.values():
+            values.flags.writeable = False
+
+    @cached_property
+    def a(self) -> Array:
+        """q̈, (N, n); NaN where a sample has none."""
+        if self.accelerations is not None:
+            return self.accelerations
+        try:
+            return self.evaluation.a
+        except SolverError:
+            return np.full_like(self.q, np.nan)
+
+    @cached_property
+    def evaluation(self) -> Evaluation:
+        """Accelerations, multipliers, reactions, torques, clearance forces and energies at all samples."""
+        if self.compiled is None:
+            raise GudgeonError("this result was read from a file that lacks the series; run the scene again")
+        return self.compiled.evaluate(self.t, self.q, self.v, self.memory, self.p)
+
+    @property
+    def plot(self) -> Plot:
+        """Figures of this run: `run.plot.orbit("A")`, `.forces()`, `.series("S9.y")`."""
+        from gudgeon.results.plots import Plot
+
+        return Plot(self)
+
+    def value_of(self, name: str) -> Any:
+        """What a name in an output's expression stands for: a series, t, or a parameter."""
+        if text(name, "a name of a result") in self:
+            return self[name]
+        if name in self.parameters:
+            return self.parameters[name]
+        raise self.unknown(name)
+
+    def to_xarray(self, part: str = "series") -> xarray.Dataset:
+        """All series as one Dataset over `time`, with units and long names; `.to_dataframe()` has a row a sample.
+
+        part: "impacts", "events" or "parameters" for these, a row each.
+        """
+        from gudgeon.results import netcdf
+
+        return netcdf.dataset(self, part)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to a NetCDF file, aside first and then moved into place; OutputError where that fails."""
+        from gudgeon.results import netcdf
+
+        netcdf.save(self, path)
+
+    @staticmethod
+    def load(path: str | os.PathLike[str]) -> Result:
+        """The result that `save` wrote, bit for bit; it needs no compiled library."""
+        return read(path)
+
+    @cached_property
+    def _catalogue(self) -> Mapping[str, Series]:
+        from gudgeon.results.series import catalogue
+
+        return catalogue(self.source)
+
+    def _series(self, name: str) -> Series:
+        try:
+            return self._catalogue[name]
+        except KeyError:
+            raise self.unknown(name) from None
+
+    def unknown(self, name: str) -> UnknownNameError:
+        """The error for a name that this result does not have; it names the nearest."""
+        import difflib
+
+        if not isinstance(name, str):
+            return UnknownNameError(f"nothing is named {told(name)}", hint="a name is a text: run.names lists all")
+        if name in self.parameters:
+            return UnknownNameError(f"{name!r} is a parameter, no series", hint=f'see run.parameters["{name}"]')
+        if name in self.source.outputs:
+            from gudgeon.results.series import missing
+
+            lacking = ", ".join(missing(self.source, self.source.outputs[name], self._catalogue))
+            hint = "a joint's play, contact and reaction have results only in the scenes that have them"
+            scene = self.source.scene
+            return UnknownNameError(f"output {name!r} needs {lacking}, which scene {scene!r} lacks", hint=hint)
+        nearest = difflib.get_close_matches(str(name), self._catalogue, n=3, cutoff=0.5)
+        hint = f"nearest: {', '.join(nearest)}" if nearest else "run.names lists all names"
+        return UnknownNameError(f"the scene {self.source.scene!r} has nothing named {name!r}", hint=hint)
+
+
+def read(path: str | os.PathLike[str]) -> Result:
+    """Read a file that `Result.save` wrote. InputError if it is none."""
+    from gudgeon.results import netcdf_read
+
+    return netcdf_read.read(path)

@@ -1,0 +1,239 @@
+"""Every name that a result has: its unit, what it means and how it is computed.
+
+    S9.x .y .theta   .vx .vy .omega   .ax .ay .alpha       of a body's centre of mass
+    L1.head.x .y     .vx .vy          .ax .ay              of a point
+    A.Fx .Fy .F .M                                         of an ideal joint: on the second body, ground axes
+    A.Fx .Fy .F .Fn .Ft .e .ex .ey .delta .eps .deltadot .vt .state .deltadot_minus      with play
+    crank1.torque   lambda.A.x   energy.kinetic .potential .residual   work.drives .forces .clearances
+    lift                                                   an output of the mechanism file
+
+The names depend on the scene alone; nothing is computed before somebody asks (`Series.compute`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.contract.kernel_source import ClearanceInfo, JointInfo, KernelSource, PointInfo
+from gudgeon.language import tree as expression_tree
+from gudgeon.language.output_units import unit_of
+
+if TYPE_CHECKING:
+    from gudgeon.results.results import Result
+
+Array: TypeAlias = NDArray[Any]
+
+# (position, velocity, acceleration) and their units, in the order of q = (x, y, θ) of a body
+MOTION = (("x", "vx", "ax"), ("y", "vy", "ay"), ("theta", "omega", "alpha"))
+MOTION_UNITS = (("m", "m/s", "m/s^2"), ("m", "m/s", "m/s^2"), ("rad", "rad/s", "rad/s^2"))
+MOTION_WORDS = ("", "velocity, ", "acceleration, ")
+
+# columns of Evaluation.clearance: name -> (column, unit, meaning)
+CLEARANCE = {
+    "Fx": (0, "N", "force on the journal, x in ground axes"),
+    "Fy": (1, "N", "force on the journal, y in ground axes"),
+    "Fn": (2, "N", "normal force: its magnitude in dry contact, its component along e in a film"),
+    "Ft": (3, "N", "tangential force, along e turned by +90°"),
+    "ex": (4, "m", "eccentricity of the journal in its bearing, x in ground axes"),
+    "ey": (5, "m", "eccentricity of the journal in its bearing, y in ground axes"),
+    "e": (6, "m", "eccentricity"),
+    "deltadot": (7, "m/s", "rate of the penetration"),
+    "vt": (8, "m/s", "slip of the journal's surface on the bearing's"),
+}
+
+
+@dataclass(frozen=True)
+class Series:
+    """One name of a result; `compute` gives (N,) numbers in SI."""
+
+    unit: str
+    meaning: str
+    compute: Callable[[Result], Array]
+
+
+def catalogue(source: KernelSource) -> dict[str, Series]:
+    """All the names of a scene in the order in which they are listed and stored."""
+    found: dict[str, Series] = {}
+    for part in (_bodies, _points, _joints, _clearances, _drives, _elements, _frictions, _multipliers, _balance):
+        found.update(part(source))
+    for name, tree in source.outputs.items():
+        if not missing(source, tree, found):
+            found[name] = _output(source, name, tree, found)
+    return found
+
+
+def missing(source: KernelSource, tree: Any, known: Container[str]) -> list[str]:
+    """Names in an output's expression that this scene does not have (A.Fn where A has no play)."""
+    parameters = {slot.address.removeprefix("parameters.") for slot in source.slots} | {"t"}
+    used = [name.path for name in expression_tree.names(expression_tree.from_json(tree))]
+    return [path for path in dict.fromkeys(used) if path not in known and path not in parameters]
+
+
+def rates(name: str) -> tuple[str, str]:
+    """Names of the velocity and the acceleration that belong to a position: "S9.y" → ("S9.vy", "S9.ay").
+
+    Empty strings for a name that has none (a force, an output).
+    """
+    owner, _, last = name.rpartition(".")
+    for position, velocity, acceleration in MOTION:
+        if owner and last == position:
+            return f"{owner}.{velocity}", f"{owner}.{acceleration}"
+    return "", ""
+
+
+def _bodies(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    for body in source.bodies:
+        for axis in range(3):
+            for order, array in enumerate(("q", "v", "a")):
+                meaning = f"{body.name}, {MOTION_WORDS[order]}{_AXES[axis]} of the centre of mass"
+                compute = partial(_column, array=array, column=body.index + axis)
+                yield f"{body.name}.{MOTION[axis][order]}", Series(MOTION_UNITS[axis][order], meaning, compute)
+
+
+_AXES = ("x", "y", "angle")
+
+
+def _column(run: Result, array: str, column: int) -> Array:
+    values: Array = getattr(run, array)
+    return values[:, column]
+
+
+def _points(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    for point in source.points:
+        for order in range(3 if point.body >= 0 else 1):  # a point of the ground rests
+            for axis in range(2):
+                meaning = f"point {point.name}, {MOTION_WORDS[order]}{_AXES[axis]} in ground axes"
+                compute = partial(_point, point=point, axis=axis, order=order)
+                yield f"{point.name}.{MOTION[axis][order]}", Series(MOTION_UNITS[axis][order], meaning, compute)
+
+
+def _point(run: Result, point: PointInfo, axis: int, order: int) -> Array:
+    """r_P = r + A(θ) s, its first and second time derivatives; s = (x, y) in the body's frame."""
+    x = point.sign_x * float(run.p[point.x]) if point.x >= 0 else 0.0
+    y = point.sign_y * float(run.p[point.y]) if point.y >= 0 else 0.0
+    if point.body < 0:
+        return np.full(run.t.shape, (x, y)[axis])
+    i = run.source.bodies[point.body].index
+    sin, cos = np.sin(run.q[:, i + 2]), np.cos(run.q[:, i + 2])
+    arm = (cos * x - sin * y, sin * x + cos * y)
+    turned = (-arm[1], arm[0])[axis]  # d arm / dθ
+    if order == 0:
+        return run.q[:, i + axis] + arm[axis]
+    if order == 1:
+        return run.v[:, i + axis] + run.v[:, i + 2] * turned
+    return run.a[:, i + axis] + run.a[:, i + 2] * turned - run.v[:, i + 2] ** 2 * arm[axis]
+
+
+def _joints(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    for k, joint in enumerate(source.joints):
+        on = f"joint {joint.name}, on {_body_name(source, joint)} at its point, ground axes"
+        for column, (name, unit, what) in enumerate(
+            (("Fx", "N", "reaction force, x"), ("Fy", "N", "reaction force, y"), ("M", "N*m", "reaction moment"))
+        ):
+            compute = partial(_evaluated, part="reactions", index=(k, column))
+            yield f"{joint.name}.{name}", Series(unit, f"{what}: {on}", compute)
+        yield f"{joint.name}.F", Series("N", f"reaction force, magnitude: {on}", partial(_magnitude, name=joint.name))
+
+
+def _body_name(source: KernelSource, joint: JointInfo) -> str:
+    return source.bodies[joint.second].name if joint.second >= 0 else "the ground"
+
+
+def _evaluated(run: Result, part: str, index: tuple[int, ...]) -> Array:
+    values: Array = getattr(run.evaluation, part)
+    where: Any = (slice(None), *index)
+    return values[where]
+
+
+def _magnitude(run: Result, name: str) -> Array:
+    return np.hypot(run[f"{name}.Fx"], run[f"{name}.Fy"])
+
+
+def _clearances(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    for k, joint in enumerate(source.clearances):
+        at = f": joint {joint.name} with play"
+        for name, (column, unit, meaning) in CLEARANCE.items():
+            compute = partial(_evaluated, part="clearance", index=(k, column))
+            yield f"{joint.name}.{name}", Series(unit, meaning + at, compute)
+        force = Series("N", f"force on the journal, magnitude{at}", partial(_magnitude, name=joint.name))
+        yield f"{joint.name}.F", force
+        yield f"{joint.name}.delta", Series("m", f"penetration e − c{at}", partial(_penetration, joint=joint))
+        yield f"{joint.name}.eps", Series("", f"eccentricity ratio e/c{at}", partial(_ratio, joint=joint))
+        state = partial(_column, array="state", column=k)
+        yield f"{joint.name}.state", Series("", f"0 free, 1 impact, 2 contact{at}", state)
+        latched = partial(_column, array="memory", column=k)
+        yield f"{joint.name}.deltadot_minus", Series("m/s", f"rate of penetration at the last onset{at}", latched)
+
+
+def _penetration(run: Result, joint: ClearanceInfo) -> Array:
+    return run[f"{joint.name}.e"] - run.p[joint.clearance]
+
+
+def _ratio(run: Result, joint: ClearanceInfo) -> Array:
+    return run[f"{joint.name}.e"] / run.p[joint.clearance]
+
+
+def _drives(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    for k, drive in enumerate(source.drives):
+        turns = drive.unit == "rad"
+        name, unit = ("torque", "N*m") if turns else ("force", "N")
+        compute = partial(_evaluated, part="torques", index=(k,))
+        yield f"{drive.name}.{name}", Series(unit, f"{name} of drive {drive.name}", compute)
+
+
+def _frictions(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    first = len(source.clearances)
+    for k, name in enumerate(source.frictions):
+        force, slip = (partial(_evaluated, part="friction", index=(k, column)) for column in (0, 1))
+        yield f"{name}.F", Series("N", "friction on the second body", force)
+        yield f"{name}.v", Series("m/s", "slip", slip)
+        mode = partial(_column, array="memory", column=first + k)
+        yield f"{name}.mode", Series("", "0 stick, else the sign of the slip", mode)
+
+
+def _elements(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    for k, series in enumerate(source.series):
+        compute = partial(_evaluated, part="series", index=(k,))
+        yield series.name, Series(series.unit, "result of a force element", compute)
+
+
+def _multipliers(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    for k, row in enumerate(source.rows):
+        unit = "N" if row.unit == "m" else "N*m"
+        compute = partial(_evaluated, part="multipliers", index=(k,))
+        yield f"lambda.{row.name}", Series(unit, f"multiplier of the constraint {row.name}", compute)
+
+
+def _balance(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    for k, name in enumerate(("kinetic", "potential")):
+        compute = partial(_evaluated, part="energy", index=(k,))
+        yield f"energy.{name}", Series("J", f"{name} energy", compute)
+    yield "energy.residual", Series("J", "kinetic + potential energy less their start less all work", _residual)
+    for k, name in enumerate(("drives", "forces", "clearances")):
+        meaning = f"work done so far by the {'joints with play' if name == 'clearances' else name}"
+        yield f"work.{name}", Series("J", meaning, partial(_column, array="work", column=k))
+
+
+def _residual(run: Result) -> Array:
+    energy = run["energy.kinetic"] + run["energy.potential"]
+    return energy - energy[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
+
+
+def _output(source: KernelSource, name: str, tree: Any, known: dict[str, Series]) -> Series:
+    expression = expression_tree.from_json(tree)
+    wanted = {used.path for used in expression_tree.names(expression)}
+    units = {"t": "s"} | {slot.address.removeprefix("parameters."): slot.unit for slot in source.slots}
+    units |= {slot.address: slot.unit for slot in source.slots}
+    units |= {path: known[path].unit for path in wanted if path in known}
+
+    def compute(run: Result) -> Array:
+        values = expression_tree.evaluate(expression, run.value_of)
+        return np.array(np.broadcast_to(values, run.t.shape), dtype=float)
+
+    return Series(unit_of(expression, units.get), f"output {name}", compute)

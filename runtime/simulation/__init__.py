@@ -1,0 +1,1 @@
+"""A loaded scene: one run, many runs, going on, how far to trust them."""

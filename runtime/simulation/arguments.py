@@ -1,0 +1,115 @@
+"""Arguments of `simulate`: its method and step, when it ends, and at which times samples are wanted."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.errors import AssemblyError, BadValueError
+from gudgeon.integrators import adaptive, kinematic, rk4
+from gudgeon.integrators.peers import driver
+from gudgeon.language.wanted import told
+from gudgeon.model.arrays import taken
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.default_step import scene_end, scene_step
+from gudgeon.model.parameters import number
+
+METHODS = {
+    "rk4": rk4.run, "dop853": adaptive.run, "rodas5p": adaptive.run, "adaptive": adaptive.run,
+    "kinematic": kinematic.run, **dict.fromkeys(driver.NAMES, driver.run),
+}  # fmt: skip
+MAX_STEPS = 10**12
+DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8
+NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18  # roundings between start and end; s, of a run
+
+
+def seconds(name: str, value: float | str) -> float:
+    """A time (s) as a number or a text: '5 ms', '1e-3'. Raises InputError."""
+    return number(value, Slot(name, "s", 0.0, False, (0, 0, 1)))
+
+
+def output_times(source: KernelSource, t0: float, t_end: float | str | None, output: int | ArrayLike | None) -> Array:
+    """Output times (s), increasing, the first is t0; a copy of those that were given. Raises BadValueError."""
+    if output is not None and not isinstance(output, (int, np.integer)):
+        times = _given_times(t0, output)
+        _check_both(None if t_end is None else seconds("t_end", t_end), float(times[-1]))
+        return times
+    end = seconds("t_end", scene_end(source) if t_end is None else t_end)
+    if not end > t0:
+        raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
+    intervals = source.simulate.get("output", DEFAULT_OUTPUT) if output is None else output
+    if isinstance(intervals, bool) or not 1 <= intervals <= MOST_OUTPUT:
+        raise BadValueError(f"output is {told(intervals)}: expected a number of intervals, 1 to {MOST_OUTPUT:.0e}")
+    _check_end("t_end is", t0, end, 4 * int(intervals))
+    return np.linspace(t0, end, int(intervals) + 1)
+
+
+def _given_times(t0: float, output: ArrayLike) -> Array:
+    times = taken(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
+    if not len(times):
+        raise BadValueError("output: expected at least one time (s), got none")
+    back = np.flatnonzero(~(np.diff(times) > 0.0))
+    if len(back):
+        k = int(back[0])
+        raise BadValueError(f"output: expected increasing times (s), got {times[k + 1]!s} s after {times[k]!s} s")
+    if times[0] < t0:
+        raise BadValueError(f"output: times begin at {t0!s} s, got {times[0]!s} s")
+    _check_end("output ends", t0, float(times[-1]), 1)
+    return times if times[0] == t0 else np.concatenate([[t0], times])
+
+
+def _check_both(t_end: float | None, last: float) -> None:
+    """BadValueError for a t_end that is not the last of the times that were given, but for rounding."""
+    if t_end is not None and not abs(t_end - last) <= 1e-9 * max(abs(t_end), abs(last)):
+        hint = "leave out t_end, for the times say when the run ends, or let them end there"
+        raise BadValueError(f"t_end is {t_end:.12g} s, and the times of output end at {last:.12g} s", hint=hint)
+
+
+def _check_end(what: str, t0: float, end: float, roundings: int) -> None:
+    """BadValueError for an end so near to the start that no times lie between, or beyond all times."""
+    if end > FURTHEST:
+        raise BadValueError(f"{what} {end:g} s: expected {FURTHEST:g} s at most", hint="times are in s")
+    least = max(max(roundings, NEAREST) * float(np.spacing(max(abs(t0), abs(end)))), SHORTEST)
+    if 0.0 < end - t0 < least:
+        raise BadValueError(
+            f"{what} {end:.17g} s, {end - t0:.3g} s after the start at {t0:.9g} s: expected {least:.3g} s at least, or"
+            " numbers have no room for the times between",
+            hint="times are in s",
+        )
+
+
+def method_of(source: KernelSource, method: str, fixed: bool) -> str:
+    """The method that runs, "adaptive" for what auto chooses as it goes; `fixed`: a step is given."""
+    dof = source.degrees_of_freedom
+    if dof < 0:
+        raise AssemblyError(
+            f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
+            "  remove a drive or a joint; `gudgeon check -v` lists the rows"
+        )
+    adaptive_too = ("adaptive", *driver.NAMES) if "dop853" in source.methods else ()
+    fitting = (*source.methods, *adaptive_too)
+    if method == "auto":
+        return fitting[0] if len(fitting) == 1 or fixed else "adaptive"
+    if method not in METHODS:
+        offered = ", ".join(name for name in METHODS if name != "adaptive")  # a name of ours for what auto runs
+        raise BadValueError(f"method {method!r}: expected auto, {offered}")
+    if method not in fitting:
+        freedom = f"{dof} degree{'' if dof == 1 else 's'} of freedom"
+        fit = ", ".join(source.methods)
+        raise BadValueError(f"method {method!r} does not fit: this scene has {freedom}, use auto ({fit} fit)")
+    return method
+
+
+def step_of(compiled: CompiledModel, step: float | str | None, method: str, p: Array, duration: float) -> float:
+    """The step (s) of a run; infinite where the method chooses its own."""
+    if method == "kinematic" or (step is None and method != "rk4"):
+        return math.inf
+    if step is None:
+        return scene_step(compiled, p, duration)
+    h = seconds("step", step)
+    if not h > 0:
+        raise BadValueError(f"step is {h:g} s: expected a positive time")
+    return h

@@ -1,0 +1,99 @@
+"""The end of a run: its samples and counts, put together as a Result, and soon where Ctrl-C ended it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from time import monotonic
+
+import numpy as np
+
+from gudgeon.errors import SolverError
+from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.redundant_rows import contradiction
+from gudgeon.model.written import with_odd_outputs
+from gudgeon.results.results import Result
+from gudgeon.simulation.diagnose import diagnose, energy_balance
+from gudgeon.waiting.asking import EVERY
+from gudgeon.waiting.ctrl_c import CtrlC
+
+KEPT = 20_000  # samples whose reactions are kept at hand: they were computed for the energy balance
+AFTER_CTRL_C = 0.1  # s that the energy balance of an interrupted run may take; without it its residual is NaN
+
+
+class _TooLong(Exception):
+    """What is left can wait until somebody asks for it."""
+
+
+def conclude(
+    compiled: CompiledModel, method: str, problem: Problem, trajectory: Trajectory, given: Array, is_given: Array,
+    seconds: float, soon: bool = True,
+) -> Result:  # fmt: skip
+    """A run with its diagnostics, from its samples. Everything that follows from them is evaluated for its balance.
+
+    Where Ctrl-C comes meanwhile, or ended the run and (with `soon`) the samples are many, that is left for later.
+    """
+    x, evaluation, failed, balance = trajectory, None, False, (math.nan, math.nan)
+    look = _look(problem, x.interrupted, soon)
+    try:
+        evaluation = compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p, look)
+        balance = energy_balance(evaluation.energy, x.work, look)
+    except SolverError:
+        failed = True
+    except (_TooLong, MemoryError):  # the samples are there; what follows from them is evaluated when asked for
+        pass
+    except KeyboardInterrupt:
+        x = replace(x, interrupted=True)
+    a = x.a
+    if a is None and (evaluation is not None or failed):
+        a = np.full_like(x.q, np.nan) if evaluation is None else evaluation.a
+    result = Result(
+        compiled=compiled, source=compiled.source, p=problem.p, given=given, is_given=is_given, t=x.t, q=x.q, v=x.v,
+        accelerations=a, state=x.state, memory=x.memory, work=x.work, impacts=x.impacts,
+        diagnostics=diagnose(compiled, method, problem, x, balance, seconds), events=x.events, trace=x.trace,
+    )  # fmt: skip
+    if evaluation is not None:
+        result = with_odd_outputs(result, evaluation)
+        if len(x.t) <= KEPT:
+            result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
+    return result
+
+
+def _look(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]:
+    """What the evaluation calls each few milliseconds."""
+    begun = told = monotonic()
+
+    def look() -> None:
+        nonlocal told
+        problem.take()
+        now = monotonic()
+        if problem.progress and not interrupted and now - told > EVERY:
+            told = now
+            problem.progress(1.0, "balancing energy")
+        if interrupted and soon and now - begun > AFTER_CTRL_C:
+            raise _TooLong
+
+    return look
+
+
+def contradicted(problem: Problem, trajectory: Trajectory, result: Result) -> tuple[Result, SolverError | None]:
+    """The run, marked as interrupted where Ctrl-C comes meanwhile, and the contradiction of its constraints, if any."""
+    try:
+        return result, contradiction(problem, trajectory)
+    except KeyboardInterrupt:
+        return _interrupted(result), contradiction(problem, replace(trajectory, interrupted=True))
+
+
+def late(ctrl_c: CtrlC, result: Result) -> Result:
+    """The result; marked as interrupted where Ctrl-C came while it was put together."""
+    try:
+        ctrl_c.take()
+    except KeyboardInterrupt:
+        return _interrupted(result)
+    return result
+
+
+def _interrupted(result: Result) -> Result:
+    return replace(result, diagnostics=replace(result.diagnostics, interrupted=True))

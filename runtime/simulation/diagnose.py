@@ -1,0 +1,126 @@
+"""Diagnostics of a run from its trajectory: energy balance, peaks, and what a reader should know."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from gudgeon.integrators.rk4 import last_step
+from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.model.assembly import mechanism_size
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.dead_centre import dependent_rows
+from gudgeon.results.diagnostics import Diagnostics, Peak
+
+ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
+BLOCK = 1 << 16  # samples balanced between two looks
+APART = 0.01  # of the mechanism's size: violated constraints that no stabilisation explains
+THIN = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
+DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
+
+
+def diagnose(
+    compiled: CompiledModel, method: str, problem: Problem, trajectory: Trajectory, balance: tuple[float, float],
+    seconds: float,
+) -> Diagnostics:  # fmt: skip
+    """What a run says about itself, from its trajectory and the `balance` of its energy."""
+    x, counts = trajectory, trajectory.counts
+    worst, turned = balance
+    duration, used, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
+    if method == "rk4" and duration > 0.0:
+        last = last_step(duration, used)
+        used = max(last, min(used, duration))
+    simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
+    if method == "adaptive":
+        method = "dop853+rodas5p" if 0 < counts.stiff_steps < counts.steps else ORDER_OF_CHOICE[counts.stiff_steps > 0]
+    return Diagnostics(
+        method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
+        last_step=last if last != used else math.nan,
+        rtol=problem.rtol if math.isinf(problem.step) and method != "kinematic" else math.nan,
+        rejected=counts.rejected, stiff_steps=counts.stiff_steps, jacobians=counts.jacobians,
+        right_hand_sides=counts.right_hand_sides, onsets=counts.onsets, grazes=counts.grazes,
+        phi_max=counts.phi_max, phi_dot_max=counts.phi_dot_max, energy_residual=worst, energy_turned_over=turned,
+        ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
+        peaks=_peaks(compiled, x), seconds=seconds,
+        seconds_per_simulated_second=seconds / simulated if simulated > 0 else math.nan,
+        interrupted=x.interrupted, notes=_notes(compiled, problem, trajectory),
+    )  # fmt: skip
+
+
+def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tuple[float, float]:
+    """The largest residual of kinetic and potential energy (N, 2) and works (N, 3), and how much was turned over; J.
+
+    NaN where there is no sample. `look` is called now and then, and what it raises is passed on.
+    """
+    if not len(energy):  # not even the start has accelerations
+        return math.nan, math.nan
+    worst = turned = 0.0
+    for first in range(0, len(energy), BLOCK):
+        rows = slice(first, first + BLOCK)
+        residual = energy[rows].sum(axis=1) - energy[0].sum() - work[rows].sum(axis=1)
+        worst = float(np.maximum(worst, np.abs(residual).max()))  # NaN stays NaN
+        turned += float(np.abs(np.diff(work[first : first + BLOCK + 1], axis=0)).sum())
+        look()
+    return worst, turned + float(np.ptp(energy[:, 0]))
+
+
+def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
+    """What a reader of this run should know before trusting it."""
+    p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
+    if problem.state is None and (tied := dependent_rows(compiled, p, float(problem.t[0]), problem.q)):
+        notes.append(
+            f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"
+            " start.rates leave open were taken least: give a rate of each body that may move"
+        )
+    if problem.stop and len(trajectory.events):
+        last = compiled.source.events[trajectory.events["event"][-1]]
+        if last.action == "stop":
+            notes.append(f"event {last.name} ended the run at t = {trajectory.events['t'][-1]:.9g} s")
+    for event, t in trajectory.no_number:
+        name = compiled.source.events[event].name
+        notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
+    if counts.phi_max > APART * mechanism_size(compiled, p):
+        notes.append(
+            f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
+            " anything; a step too long does this, or a drive that pushes the links through a dead centre"
+        )
+    if compiled.source.events and ":" in problem.method:
+        notes.append(f"events are not watched by method {problem.method}")
+    notes += _outside(compiled, p, trajectory)
+    if compiled.source.indeterminate:
+        notes.append(
+            f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"
+            " by rigid bodies (NaN)"
+        )
+    if counts.grazes:
+        notes.append(f"{counts.grazes} steps touched and left again within: take a smaller step to resolve them")
+    return tuple(notes)
+
+
+def _outside(compiled: CompiledModel, p: Array, trajectory: Trajectory) -> Iterator[str]:
+    """Joints with play that went where their laws do not hold."""
+    for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
+        c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
+        deepest = float(e_max) - c
+        if joint.film and not joint.dry and float(e_max) > THIN * c:
+            yield (
+                f"{joint.name}: the film is squeezed out, e/c = {float(e_max) / c:.7g}: its law, singular at e = c, is"
+                " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
+            )
+        if deepest > min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius):
+            yield (
+                f"{joint.name}: the journal goes {deepest:.3g} m into its bearing (c {c:.3g} m, radius {radius:.3g} m):"
+                " outside what contact laws hold for; a step too long does this too"
+            )
+
+
+def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
+    peaks = []
+    for i, joint in enumerate(compiled.source.clearances):
+        own = trajectory.impacts[trajectory.impacts["joint"] == i]
+        first = (float(own["t_on"][0]), float(own["F_peak"][0])) if len(own) else (math.nan, math.nan)
+        F, t, e_max = (float(x) for x in trajectory.peaks[i])
+        peaks.append(Peak(joint.name, F, t, e_max, *first))
+    return tuple(peaks)

@@ -1,0 +1,174 @@
+"""Corners and jumps of drives that their form does not show: `acos(cos(t))`, `atan2`, a root that touches zero.
+
+What is written with abs, min, max or ramp, or is the root of a square, has its corners found by the generator, and a
+step ends there. What is left is looked for by values, of drives that have a function which may hide it.
+Where the second differences of f on an even grid stand out they are followed to ever shorter distances h. They go
+with h² where f is smooth, with h where its rate jumps, more slowly where that is infinite, and stay where f jumps.
+Where nothing is free there is no impulse to be left out, but near such a place rates are 0/0 in binary64.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import SolverError
+from gudgeon.integrators.trajectory import Problem
+from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, functions, names
+from gudgeon.model.compiled import Array
+from gudgeon.model.written import of_time, trees
+
+VISIBLE = frozenset({"abs", "min", "max", "ramp", "sign"})
+_HIDING = frozenset({"sqrt", "hypot", "asin", "acos", "atan", "atan2", "tan", "log"})
+GRID, MOST = 4096, 16  # intervals, candidates
+POINTS, LEVELS = 16, 11  # intervals of a closer look; each is a quarter as wide as the one before
+
+
+@dataclass(frozen=True)
+class Jump:
+    """Where and how: "rate" (by `size`, of f's unit a second), "infinite rate" or "value" (by `size`)."""
+
+    drive: str
+    t: float
+    kind: str
+    size: float
+
+
+def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
+    """Of all drives between two times (s), in time's order; at most MOST a drive."""
+    found = []
+    for drive, tree in _that_may_hide(source) if t1 > t0 else ():
+        with np.errstate(all="ignore"):
+            found += _jumps(source, p, tree, drive, t0, t1)
+    return sorted(found, key=lambda jump: jump.t)
+
+
+def _looked_at(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
+    """What no run goes over; without freedom infinite rates too, of drives whose corners are found otherwise."""
+    found = hidden_jumps(source, p, t0, t1)
+    if _integrates(source):
+        return found
+    hiding = {drive for drive, _ in _that_may_hide(source)}
+    for drive, tree in _with_drives(source) if t1 > t0 else ():
+        if drive not in hiding and _hides(tree):
+            with np.errstate(all="ignore"):
+                found += [jump for jump in _jumps(source, p, tree, drive, t0, t1) if jump.kind != "rate"]
+    return sorted(found, key=lambda jump: jump.t)
+
+
+def any_in_batch(source: KernelSource, p: Array, t0: float, t1: float) -> bool:
+    """Whether a run of a batch meets one, p (runs, numbers); drives with the same numbers are looked at once."""
+    seen = set()
+    for drive, tree in _that_may_hide(source) if t1 > t0 and _integrates(source) else ():
+        used = {f"parameters.{name.path}" for name in names(tree)}
+        columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
+        for row in p:
+            key = (drive, row[columns].tobytes())
+            if key in seen:
+                continue
+            seen.add(key)
+            with np.errstate(all="ignore"):
+                if any(jump.t > t0 for jump in _jumps(source, row, tree, drive, t0, t1)):
+                    return True
+    return False
+
+
+def _integrates(source: KernelSource) -> bool:
+    """Whether a jump is an impulse on what is free; else the linkage follows it, as far as rates are numbers there."""
+    return bool(source.drives) and source.methods != ("kinematic",)
+
+
+def _with_drives(source: KernelSource) -> list[tuple[str, Expr]]:
+    """All drives with their expressions."""
+    return [(info.address.split(".")[1], tree) for info, tree in trees(source, ("drives",))]
+
+
+def _that_may_hide(source: KernelSource) -> list[tuple[str, Expr]]:
+    """Drives whose corners the generator may not have found."""
+    return [
+        (drive, tree) for drive, tree in _with_drives(source)
+        if _hides(tree) and drive not in source.rate_jumps and VISIBLE.isdisjoint(functions(tree))
+    ]  # fmt: skip
+
+
+def up_to_a_jump(problem: Problem) -> tuple[Problem, SolverError | None]:
+    """A run that is to end where the first of them is, and the error that it then ends with."""
+    source = problem.compiled.source
+    t0 = float(problem.t[0])
+    first = next((jump for jump in _looked_at(source, problem.p, t0, float(problem.t[-1])) if jump.t > t0), None)
+    if first is None:
+        return problem, None
+    why = "its rate is no number there" if first.kind == "rate" else "no linkage follows it"
+    told = _told(first, "the impulse there would be left out" if _integrates(source) else why)
+    return replace(problem, t=problem.t[problem.t < first.t]), SolverError(told, first.t)
+
+
+def _told(jump: Jump, why: str) -> str:
+    if jump.kind == "infinite rate":
+        return (
+            f"drive {jump.drive}: its rate is infinite at t = {jump.t:.6g} s: no velocity is a number there\n"
+            "  write it so that its rate is bounded, or end the run before"
+        )
+    what = f"its rate jumps by about {jump.size:.3g}" if jump.kind == "rate" else f"it jumps by {jump.size:.4g}"
+    return (
+        f"drive {jump.drive}: {what} at t = {jump.t:.6g} s, which its form does not show: {why}\n"
+        "  write it with abs, min, max or ramp, whose corners are found, or end the run before"
+    )
+
+
+def _hides(tree: Expr) -> bool:
+    """Whether there is a function, a broken power or a division in it that may hide a corner."""
+    match tree:
+        case Unary(operand=operand):
+            return _hides(operand)
+        case Binary(operator=operator, left=left, right=right):
+            whole = isinstance(right, Number) and (operator == "/" or right.value == round(right.value) >= 0)
+            return operator in ("**", "/") and not whole or _hides(left) or _hides(right)
+        case Call(function=function, arguments=arguments):
+            return function in _HIDING or any(map(_hides, arguments))
+    return False
+
+
+def _jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
+    f = of_time(source, p, tree, np.linspace(t0, t1, GRID + 1))
+    bent = np.abs(np.diff(f, 2))
+    around = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(bent, 8, mode="edge"), 17), axis=1)
+    share = bent / (around + 1e-14 * np.abs(f).max(initial=0.0) + 1e-300)
+    outstanding = [k for k in np.argsort(-share, kind="stable")[: 4 * MOST].tolist() if share[k] > 3.0]
+    found: list[Jump] = []
+    h = (t1 - t0) / GRID
+    for k in outstanding:
+        at = t0 + (k + 1) * h
+        if len(found) < MOST and all(abs(at - jump.t) > 2.5 * h for jump in found):
+            jump = _follow(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
+            found += [jump] if jump else []
+    return found
+
+
+def _follow(source: KernelSource, p: Array, tree: Expr, drive: str, a: float, b: float) -> Jump | None:
+    """To ever shorter distances, as long as more is left of the differences than rounding."""
+    logs: list[float] = []
+    sizes: list[float] = []  # of the rate's change
+    for _ in range(LEVELS):
+        times = np.linspace(a, b, POINTS + 1)
+        f = of_time(source, p, tree, times)
+        bent = np.abs(np.diff(f, 2))
+        if not np.isfinite(bent).all():
+            return None  # no number there: another matter
+        k = int(bent.argmax())
+        if bent[k] < 1e-11 * np.abs(f).max(initial=0.0) or b - a < 1e-11 * max(abs(a), abs(b)):
+            break
+        logs.append(float(np.log(bent[k]) / np.log(4.0)))
+        sizes.append(float(abs((f[-1] - f[-2]) - (f[1] - f[0])) / (times[1] - times[0])))
+        value = float(bent[k])
+        a, b = float(times[max(k - 1, 0)]), float(times[min(k + 3, POINTS)])
+    if len(logs) < 5:
+        return None
+    powers = -np.diff(logs)  # how the differences go with h; a function may be smooth but for its last digits
+    if powers[-4:].mean() > 1.4:
+        return None
+    power = float(np.median(powers[: len(powers) // 2 + 1]))
+    kind = "rate" if power > 0.8 else "infinite rate" if power > 0.2 else "value"
+    return Jump(drive, 0.5 * (a + b), kind, sizes[min(3, len(sizes) - 1)] if kind == "rate" else value)

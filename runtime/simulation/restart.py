@@ -1,0 +1,117 @@
+"""Going on from the `final` of another run: whose state it is, and with which numbers.
+
+A state of another mechanism, another scene, another version of the file or other overrides is refused, whatever its
+size; so is one whose arrays have another length. Its run-time numbers are those of the further run unless that is
+given others, and then the run says so. The formulation does not matter: a state has the coordinates of all bodies.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import BadValueError
+from gudgeon.language.wanted import mapping, number_of, refuse, text
+from gudgeon.model.arrays import CODE, taken
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.parameters import given_slots
+from gudgeon.results.results import State
+
+FREE, AS_IT_WAS = 0, "the `final` of a run has both as they belong together"
+MOST_TOLD = 6  # numbers that a note names
+
+
+def own(source: KernelSource, start: Any) -> State:
+    """The state with its arrays as C reads them, copied. Raises BadValueError for one that is not this scene's."""
+    if not isinstance(start, State):
+        hint = "the `final` of a run" if not hasattr(start, "final") else "its `final`"
+        raise BadValueError(f"start is a {type(start).__name__}: expected a State", hint=f"give {hint}")
+    _check_origin(source, start)
+    n, clearances = len(source.coordinates), len(source.clearances)
+    state = taken(start.state, "start.state", (clearances,), dtype=CODE, own=True)
+    if state.size and (state.min() < 0 or state.max() > 2):
+        raise BadValueError("start.state: expected 0 (free), 1 (impact) or 2 (contact) for each joint with play")
+    memory = taken(start.memory, "start.memory", (clearances + len(source.frictions),), own=True)
+    _check_memory(source, state, memory)
+    return replace(
+        start,
+        t=number_of(start.t, "start.t"),
+        q=taken(start.q, "start.q", (n,), finite=True, own=True),
+        v=taken(start.v, "start.v", (n,), finite=True, own=True),
+        state=state,
+        memory=memory,
+    )
+
+
+def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:
+    """BadValueError for a contact that is both open and closed: what remembers a rate is closed, what has none open."""
+    for k, (joint, code, rate) in enumerate(zip(source.clearances, state.tolist(), memory.tolist(), strict=False)):
+        if code == FREE and not math.isnan(rate):
+            told, expected = f"remembers {rate:g} m/s while start.state[{k}] is 0 (free)", "NaN, or state 1 or 2"
+        elif code != FREE and not math.isfinite(rate):
+            told, expected = f"is {rate:g} while start.state[{k}] is {code}", "the rate (m/s) with which it closed"
+        else:
+            continue
+        raise BadValueError(f"start.memory[{k}] of joint {joint.name} {told}: expected {expected}", hint=AS_IT_WAS)
+    if np.isinf(memory).any():
+        k = int(np.isinf(memory).argmax())
+        told = f"start.memory[{k}] is {memory[k]:g}: expected the mode of a friction, or NaN"
+        raise BadValueError(told, hint=AS_IT_WAS)
+
+
+def _check_origin(source: KernelSource, start: State) -> None:
+    """What is empty in a state made by hand is not compared."""
+    for name in ("mechanism", "scene", "sha256", "formulation"):
+        text(getattr(start, name), f"start.{name}")
+    overrides = start.overrides
+    if not isinstance(overrides, tuple) or not all(isinstance(x, tuple) and len(x) == 2 for x in overrides):
+        refuse("start.overrides", overrides, "a tuple of pairs (address, value)")
+    if start.mechanism not in ("", source.mechanism) or start.scene not in ("", source.scene):
+        raise BadValueError(
+            f"start: this state belongs to another mechanism or scene, {start.mechanism} / {start.scene};"
+            f" this is {source.mechanism} / {source.scene}"
+        )
+    if start.sha256 not in ("", source.sha256):
+        raise BadValueError(
+            f"start: this state belongs to another mechanism: the file of {source.mechanism} was another one"
+            f" (SHA-256 {start.sha256[:12]}…, now {source.sha256[:12]}…)",
+            hint="go on with the file that it was computed with, or run this one from its start",
+        )
+    if start.sha256 and tuple(start.overrides) != source.overrides:
+        raise BadValueError(
+            f"start: this state was computed with overrides {dict(start.overrides)},"
+            f" this simulation has {dict(source.overrides)}",
+            hint="load the mechanism with the state's overrides",
+        )
+
+
+def numbers(
+    compiled: CompiledModel, start: State | None, parameters: Mapping[str, Any] | None
+) -> tuple[Array, Array, tuple[str, ...]]:
+    """Values and mask of the slots, (n_slots,) each: the state's, and over them those given; what to say of it."""
+    given, is_given = given_slots(compiled.source, parameters)
+    if start is None or not mapping(start.parameters, "start.parameters"):
+        before, was_given = np.zeros_like(given), np.zeros_like(is_given)
+    else:
+        before, was_given = given_slots(compiled.source, start.parameters, "start.parameters")
+    both, mask = np.where(is_given, given, before), np.logical_or(is_given, was_given)
+    if start is None or not is_given.any():
+        return both, mask, ()
+    had, has = compiled.prepare(before, was_given), compiled.prepare(both, mask)
+    changed = [k for k in np.flatnonzero(is_given).tolist() if had[k] != has[k]]
+    if not changed:
+        return both, mask, ()
+    slots = compiled.source.slots
+    told = [f"{slots[k].address} {_quantity(has[k], slots[k].unit)} (before {_quantity(had[k], slots[k].unit)})"
+            for k in changed[:MOST_TOLD]]  # fmt: skip
+    more = f" and {len(changed) - MOST_TOLD} more" if len(changed) > MOST_TOLD else ""
+    return both, mask, (f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(told)}{more}",)
+
+
+def _quantity(value: float, unit: str) -> str:
+    return f"{value:.6g} {unit}".strip()

@@ -1,0 +1,252 @@
+"""A loaded scene: call it, read its equations, run it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cached_property
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gudgeon.errors import BadValueError, InputError, SolverError
+from gudgeon.integrators import adaptive
+from gudgeon.integrators.peers import driver as python_driver
+from gudgeon.integrators.trajectory import Problem, Progress
+from gudgeon.language.wanted import flag, function, text
+from gudgeon.loading.find import Loading
+from gudgeon.model.assembly import Start, assemble
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
+from gudgeon.model.redundant_rows import check_start
+from gudgeon.simulation.arguments import MAX_STEPS, METHODS, method_of, output_times, step_of
+from gudgeon.simulation.conclusion import conclude, contradicted, late
+from gudgeon.simulation.hidden_jumps import up_to_a_jump
+from gudgeon.simulation.restart import numbers, own
+from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.waiting.imports import GENERATOR, whole
+
+if TYPE_CHECKING:
+    from gudgeon.generator.equations.model import Model
+    from gudgeon.loading.find import Loading
+    from gudgeon.model.parameter_sets import ParameterSets
+    from gudgeon.results.batch import Batch
+    from gudgeon.results.results import Result, State
+
+
+class Simulation:
+    """What `gudgeon.load` returns. It holds no state: runs may go on in several threads at once.
+
+    It may be pickled: another process takes its library from the cache.
+    """
+
+    def __init__(
+        self, compiled: CompiledModel, file: Path | str, *, overrides: Mapping[str, Any] | None = None,
+        loading: Loading | None = None,
+    ) -> None:  # fmt: skip
+        self.compiled, self.source, self.file = compiled, compiled.source, Path(file)
+        self.loading = loading  # where the kernels came from, and how long it took
+        self._overrides = dict(overrides or {})
+        self._model: Model | None = None
+        self._full: Simulation | None = None
+
+    @property
+    def model(self) -> Model:
+        """The scene's equations in SymPy, derived when first asked for. InputError if the file was edited since."""
+        if self._model is None:
+            whole(*GENERATOR)
+            from gudgeon.generator.pipeline import derive
+
+            self._model = derive(self._loaded_bytes(), str(self.file), self.source.scene, self._overrides)
+        return self._model
+
+    @property
+    def full(self) -> Simulation:
+        """The same scene integrated in absolute coordinates, with the Jacobian of its state equation.
+
+        Derived from the file when first asked for; InputError if that was edited since it was loaded.
+        """
+        if self.source.formulation == "full":
+            return self
+        if self._full is None:
+
+
+            from gudgeon.simulation.from_file import load_bytes
+
+            self._full = load_bytes(
+                self._loaded_bytes(), self.file, self.source.scene, overrides=self._overrides, formulation="full",
+                portable=self.compiled.portable,
+            )  # fmt: skip
+        return self._full
+
+    def _loaded_bytes(self) -> bytes:
+        """The file's bytes, if they are still those that the kernels were made from."""
+        from gudgeon.loading.find import read_bytes
+
+        data = read_bytes(self.file)
+        if sha256(data).hexdigest() != self.source.sha256:
+            raise InputError(
+                f"{self.file} was edited after it was loaded: equations derived from it now would not be those of"
+                " this simulation",
+                hint="load it again with gudgeon.load(…), or put the file back as it was",
+            )
+        return data
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What is derived is derived again where it is asked for."""
+        return self.__dict__ | {"_model": None, "_full": None}
+
+    @property
+    def p(self) -> Array:
+        """Every run-time number with the file's defaults: slots, then derived; a copy."""
+        return self._defaults.copy()
+
+    @cached_property
+    def _defaults(self) -> Array:
+        return prepare(self.compiled, {})[0]
+
+    def rhs(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
+        """ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
+        return self.compiled.rhs(t, y, self._defaults, memory)[: 2 * self.compiled.n]
+
+    def jacobian(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
+        """∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; exact, SI.
+
+        Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, corners of min, max, abs
+        and sign, and modes of friction stay as they are at y; `memory` as in CompiledModel.rhs.
+        Raises SingularError where constraint rows depend on each other, ValueError where nothing is integrated.
+        """
+        full = self.full
+        return full.compiled.jacobian(t, y, full._defaults, memory)[0][: 2 * full.compiled.n, : 2 * full.compiled.n]
+
+    def phi(self, t: float, q: ArrayLike) -> Array:
+        """Φ(q, t), (m,)."""
+        return self.compiled.phi(t, q, self._defaults)
+
+    def phi_q(self, t: float, q: ArrayLike) -> Array:
+        """Φ_q, (m, n)."""
+        return self.compiled.phi_q(t, q, self._defaults)
+
+    def nu(self, t: float, q: ArrayLike) -> Array:
+        """ν = −Φ_t, (m,)."""
+        return self.compiled.nu(t, q, self._defaults)
+
+    def gamma(self, t: float, q: ArrayLike, v: ArrayLike) -> Array:
+        """γ, (m,)."""
+        return self.compiled.gamma(t, q, v, self._defaults)
+
+    def mass(self) -> Array:
+        """Diagonal of M, (n,)."""
+        return self.compiled.mass(self._defaults)
+
+    def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
+        """The assembled start at t = 0. Raises AssemblyError."""
+        return assemble(self.compiled, prepare(self.compiled, parameters)[0])
+
+    def simulate(
+        self, t_end: float | str | None = None, *, output: int | ArrayLike | None = None, method: str = "auto",
+        rtol: float | str | None = None, step: float | str | None = None,
+        parameters: Mapping[str, float | str] | None = None, start: State | None = None,
+        progress: Progress | None = None, horizon: bool = False, stop: bool = True,
+    ) -> Result:  # fmt: skip
+        """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
+
+        `output`: so many equal intervals, both ends included, or times (s), of which the last is t_end: an array of any
+        layout and real type, a list, a column of a table; it is copied. Numbers may be texts: '5 ms', '1e-3'. `method`:
+        - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else
+          "adaptive", which is "dop853" while steps are bounded by accuracy and "rodas5p" while stability
+          would bound them (integrators/adaptive.py);
+        - "rk4" with fixed `step` (s), of which only the last one is shorter; outputs lie on the interpolant;
+        - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-8): the error of a
+          step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
+          unchanged, without error control;
+        - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/peers).
+        `horizon`: run thrice more to find the time to which it can be trusted (horizon.py).
+        `parameters`: {address or parameter name: float in SI or '0.5 mm'}, each number once. Where `start` is given,
+        they are over its own parameters, which hold unless replaced; a number that differs is told in the run's
+        notes. A state of another mechanism, scene, file or overrides is refused. Ctrl-C ends the run and keeps
+        what was computed. `stop` False: events that would end the run are recorded only.
+
+        Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
+        SolverError when the equations cannot be solved; its `partial` is the result up to there.
+        """
+        method, progress = text(method, "method"), function(progress, "progress")
+        horizon, stop = flag(horizon, "horizon"), flag(stop, "stop")
+        if method in python_driver.NAMES and self.source.formulation != "full":
+            if progress and self._full is None:
+                progress(0.0, "deriving the full formulation")
+            return self.full.simulate(
+                t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
+                progress=progress, horizon=horizon, stop=stop,
+            )  # fmt: skip
+        begin = None if start is None else own(self.source, start)
+        given, is_given, remarks = numbers(self.compiled, begin, parameters)
+        p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
+        times = output_times(self.source, t0, t_end, output)
+        if self.source.degrees_of_freedom < 0:
+            assemble(self.compiled, p)  # names the joints that contradict each other
+        chosen = method_of(self.source, method, step is not None)
+        tolerance = adaptive.tolerance(rtol, chosen, step is not None)
+        h = step_of(self.compiled, step, chosen, p, float(times[-1] - t0))
+        if (times[-1] - t0) / h > MAX_STEPS:
+            raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
+        q, v, memory = self._closed(p) if begin is None else (begin.q, begin.v, begin.memory)
+        check_start(self.compiled, p, t0, q)
+        problem = Problem(
+            self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state,
+            chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,
+        )  # fmt: skip
+        problem, jump = up_to_a_jump(problem)
+        result = self._ran(problem, jump, given, is_given)
+        if horizon and not result.diagnostics.interrupted:
+            from gudgeon.simulation.horizon import with_horizon
+
+            result = with_horizon(self, result, progress)
+        return result
+
+    def simulate_many(
+        self, parameters: ParameterSets, t_end: float | str | None = None, *, output: int | ArrayLike | None = None,
+        method: str = "auto", rtol: float | str | None = None, step: float | str | None = None,
+        threads: int | None = None, progress: Progress | None = None, stop: bool = True, side_by_side: bool = True,
+    ) -> Batch:  # fmt: skip
+        """Run the scene from t = 0 with each of many parameter sets, in threads; arguments as in `simulate`.
+
+        `parameters`: a mapping for every run, or columns {address: one value, or (n,) values in an array, a list,
+        a column}, as which a structured array or a table counts. `threads`: None for the cores there are; every
+        number is the same with any. Each run is bit for bit what `simulate` makes of its parameters. A run that
+        fails, or whose parameters break a condition of the file, is listed in `failures` and stops no other. Ctrl-C
+        ends all where they are.
+        `side_by_side`: whether runs of rk4 that have the same step may share vector registers, several in each
+        thread; the numbers are the same without, and what that takes is compiled on its first use.
+
+        Raises InputError for arguments.
+        """
+        from gudgeon.simulation.simulate_many import simulate_many
+
+        return simulate_many(self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side)
+
+    def _ran(self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array) -> Result:
+        """What the time loop made of it. Raises SolverError with its `partial`; `jump`: that at the problem's end."""
+        with CtrlC() as ctrl_c:
+            problem = replace(problem, take=ctrl_c.take)
+            before = time.perf_counter()
+            trajectory = METHODS[problem.method](problem)
+            spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
+            result = conclude(self.compiled, problem.method, problem, trajectory, given, is_given, spent)
+            result, contradicts = contradicted(problem, trajectory, result)
+            ended = trajectory.interrupted or trajectory.t[-1] < problem.t[-1]  # before the jump
+            stopped = trajectory.stopped or contradicts or (None if ended else jump)
+        result = late(ctrl_c, result)
+        if stopped is not None:
+            stopped.partial = result
+            raise stopped
+        return result
+
+    def _closed(self, p: Array) -> tuple[Array, Array, Array]:
+        """The start that the file describes: q, q̇, and nothing in contact."""
+        assembled = assemble(self.compiled, p)
+        return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)

@@ -1,0 +1,128 @@
+"""A batch from whole runs of Python, for methods that have no loop over runs in C.
+
+The runs go on in threads all the same, but share Python's lock where they are in Python.
+"""
+
+from __future__ import annotations
+
+import time
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.errors import GudgeonError, SolverError
+from gudgeon.integrators.batch import GLANCE
+from gudgeon.integrators.failure import INTERRUPTED
+from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, no_events
+from gudgeon.model.compiled import Array
+from gudgeon.model.parameter_sets import Mask
+from gudgeon.results.batch import Batch, as_failures, given_values, peaks_of
+from gudgeon.results.results import Result
+from gudgeon.waiting.ctrl_c import CtrlC
+
+if TYPE_CHECKING:
+    from gudgeon.simulation.simulation import Simulation
+
+
+class _Runs:
+    """Results and errors of runs by their number; a run may have both."""
+
+    def __init__(self, simulation: Simulation, given: Array, is_given: Mask, options: dict[str, Any]) -> None:
+        self.simulation, self.given, self.is_given, self.options = simulation, given, is_given, options
+        self.n, self.interrupted, self.ending = len(given), False, False
+        self.results: dict[int, Result] = {}
+        self.errors: dict[int, GudgeonError] = {}
+
+    def _one(self, i: int) -> None:
+        slots = self.simulation.source.slots
+        parameters = {slots[k].address: float(self.given[i, k]) for k in np.flatnonzero(self.is_given[i]).tolist()}
+        try:
+            run = self.simulation.simulate(parameters=parameters, progress=self._tick, **self.options)
+            self.results[i] = run
+            if run.diagnostics.interrupted:
+                self.errors[i] = SolverError(INTERRUPTED, float(run.t[-1]))
+                self.errors[i].partial = run  # type: ignore[attr-defined]
+        except KeyboardInterrupt:  # before it had anything
+            pass
+        except GudgeonError as error:
+            self.errors[i], partial = error, getattr(error, "partial", None)
+            if isinstance(partial, Result):
+                self.results[i] = partial
+
+    def _tick(self, fraction: float, text: str) -> None:
+        if self.ending:
+            raise KeyboardInterrupt
+
+    def run(self, threads: int, progress: Progress | None, t_first: float) -> None:
+        """All of them. Ctrl-C ends them where they are."""
+        with CtrlC() as ctrl_c, ThreadPoolExecutor(threads, thread_name_prefix="gudgeon") as pool:
+            try:
+                waiting: set[Future[None]] = {pool.submit(self._one, i) for i in range(self.n)}
+                while waiting:
+                    ended, waiting = wait(waiting, GLANCE)
+                    ctrl_c.take()
+                    for future in ended:
+                        future.result()
+                    if progress:
+                        progress(1.0 - len(waiting) / self.n, "integrating")
+            except KeyboardInterrupt:
+                self.interrupted = True
+            finally:
+                self.ending = True
+                pool.shutdown(cancel_futures=True)
+        for i in range(self.n):
+            if i not in self.results and i not in self.errors:
+                self.errors[i] = SolverError(INTERRUPTED, t_first)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What is over."""
+        return self.__dict__ | {"simulation": None, "options": {}}
+
+    def result(self, i: int) -> Result:
+        """Run i, as it went."""
+        if i in self.errors:
+            raise self.errors[i]
+        return self.results[i]
+
+    def padded(self, name: str, N: int) -> Array:
+        """A result's array of all runs, (n, N, ...), NaN (whole numbers: 0) where a run has no sample."""
+        found = {i: getattr(run, name) for i, run in self.results.items()}
+        shape, kind = next(((x.shape[1:], x.dtype) for x in found.values()), ((0,), np.dtype(float)))
+        out = np.full((self.n, N, *shape), np.nan if kind.kind == "f" else 0, dtype=kind)
+        for i, values in found.items():
+            out[i, : len(values)] = values
+        return out
+
+    def counts(self) -> dict[str, Array]:
+        """Diagnostics that are numbers, (n,) each; NaN for runs that did not begin."""
+        names = (*(field.name for field in fields(Counts)), "seconds")
+        rows = [self.results[i].diagnostics if i in self.results else None for i in range(self.n)]
+        return {name: np.array([np.nan if row is None else getattr(row, name, 0) for row in rows]) for name in names}
+
+
+def run_singly(
+    simulation: Simulation, given: Array, is_given: Mask, times: Array, options: dict[str, Any], threads: int,
+    progress: Progress | None,
+) -> Batch:  # fmt: skip
+    """The batch of simulation.simulate(parameters=..., **options) for each row of given (n, n_slots)."""
+    before = time.perf_counter()
+    runs, source, N = _Runs(simulation, given, is_given, options), simulation.source, len(times)
+    runs.run(threads, progress, float(times[0]))
+    p = np.array([simulation.compiled.prepare(*pair) for pair in zip(given, is_given, strict=True)])
+    found = [runs.results.get(i) for i in range(runs.n)]
+    impacts = tuple(np.zeros(0, IMPACT_DTYPE) if run is None else run.impacts for run in found)
+    peaks = np.full((runs.n, len(source.clearances), 3), np.nan)
+    for i, run in runs.results.items():
+        for k, peak in enumerate(run.diagnostics.peaks):
+            peaks[i, k] = peak.F, peak.t, peak.e_max
+    return Batch(
+        source=source, t=times, **{name: runs.padded(name, N) for name in ("q", "v", "work", "state")},
+        samples=np.array([0 if run is None else len(run.t) for run in found]),
+        t_last=np.array([times[0] if run is None else run.t[-1] for run in found]),
+        parameters=given_values(source, p, is_given), impacts=impacts,
+        events=tuple(no_events() if run is None else run.events for run in found), peaks=peaks_of(peaks, impacts),
+        diagnostics=runs.counts(), failures=as_failures(runs.errors), seconds=time.perf_counter() - before,
+        threads=threads, interrupted=runs.interrupted, result=runs.result,
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Many runs judged: bench, stress map, box of parameters."""

@@ -1,0 +1,269 @@
+"""`gudgeon bench`: run time against error, every method, scene by scene.
+
+The error of a run is taken against another method at a much tighter tolerance: two references by different
+methods, of which a run is compared with the one that it does not use. What they differ by is told; errors
+below twenty times that are not resolved. Times are the least of several runs on one thread.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gudgeon.errors import BadValueError
+from gudgeon.integrators.peers import driver as python_driver
+from gudgeon.language.wanted import flag, function, mapping, numbers, positive
+from gudgeon.model.default_step import scene_end
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies import runs as measured
+from gudgeon.studies.methods import ADAPTIVE, adaptive, choice
+from gudgeon.studies.rhs_time import RhsTime, time_rhs
+from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, Work, difference, natural_step, size
+
+FINEST, COARSEST = 1 / 5, 200  # steps that are tested, of the step that a plain run takes
+REFERENCE_STEPS = 200_000  # of the finest step: what bounds a smooth scene's window
+FINER = (4, 8)  # where nothing but a fixed step fits: the references' steps, the finest tested one divided by these
+REFERENCES = (Setting("dop853", 1e-13), Setting("rodas5p", 1e-12))
+TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 12))
+KINEMATIC = (10, 100, 1_000, 10_000)  # samples of a scene without a degree of freedom
+LONG, LIMIT = 2.0, 5.0  # s: a cross-check that took so long gets no tighter tolerance, and is stopped then
+QUICK = 0.02  # s of timed runs
+TRUSTED = 20  # times the references' difference: smaller errors are not resolved
+SMALL = 1e-3  # the largest error that tells an order
+STRAIGHT = math.log(2.5)  # the deviation from a line that still tells one
+
+
+@dataclass(frozen=True)
+class Row:
+    """One method with one step or tolerance; with the kinematic method one number of samples."""
+
+    setting: Setting
+    seconds: float  # a simulated second; NaN if the run failed
+    right_hand_sides: int
+    error: Error
+    jacobians: int = 0
+    samples: int = 0  # of a kinematic run
+    reference: Setting | None = None  # None: none, the error is max |Φ| by the mechanism's size
+    failure: str = ""
+    failed_at: float = NAN  # s
+
+
+@dataclass(frozen=True)
+class SceneBench:
+    """All rows of one scene, method by method, from the longest step or loosest tolerance on."""
+
+    scene: str
+    t_end: float
+    why: str  # this window
+    rows: tuple[Row, ...]
+    references: tuple[Setting, ...]
+    agreement: Error  # of the two references
+    contact: float  # s, the shortest contact in the window; NaN: none
+    rhs: tuple[RhsTime, ...]
+    left_out: tuple[str, ...] = ()  # sentences: cross-checks that were not run, or not so tightly
+    missing: int = 0  # settings that Ctrl-C cut short or left out
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether Ctrl-C left rows out."""
+        return self.missing > 0
+
+    @property
+    def done(self) -> tuple[int, int]:
+        """Rows that there are, rows that were asked for."""
+        return len(self.rows), len(self.rows) + self.missing
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """As they were tested."""
+        return tuple(dict.fromkeys(row.setting.method for row in self.rows))
+
+    def of(self, method: str) -> list[Row]:
+        """Its rows."""
+        return [row for row in self.rows if row.setting.method == method]
+
+    def order(self, measure: str, method: str = "rk4") -> float:
+        """Slope of log(error) over log(step), over the errors that are neither rounding nor large.
+
+        NaN for fewer than three, or where they lie on no line (a stiff scene at its stability limit).
+        """
+        points = [(row.setting.value, getattr(row.error, measure)) for row in self.of(method) if not row.failure]
+        kept = np.log([(h, e) for h, e in points if self.resolved(measure, e) and e < SMALL])
+        if len(kept) < 3:
+            return NAN
+        line = np.polyfit(kept[:, 0], kept[:, 1], 1)
+        return float(line[0]) if np.std(np.polyval(line, kept[:, 0]) - kept[:, 1]) < STRAIGHT else NAN
+
+    def resolved(self, measure: str, error: float) -> bool:
+        """Whether an error is larger than what the references leave in doubt."""
+        return error > TRUSTED * getattr(self.agreement, measure)
+
+    def row(self, setting: Setting) -> Row | None:
+        """The row of a setting, if it was tested."""
+        return next((r for r in self.of(setting.method) if math.isclose(r.setting.value, setting.value)), None)
+
+    def seconds_to(self, error: float, method: str) -> float:
+        """Least run time (s a simulated second) with every error at most this; NaN: no row has it, or none says so.
+
+        Where the references leave the error itself in doubt nothing can be said.
+        """
+        if any(TRUSTED * getattr(self.agreement, m) > error for m in ("motion", "path", "force")):
+            return NAN
+        return min((r.seconds for r in self.of(method) if not r.failure and r.error.largest <= error), default=NAN)
+
+
+Report = Callable[[float, str], None]
+
+
+def bench(
+    simulation: Simulation, steps: Sequence[float] | None = None, tolerances: Sequence[float] | None = None, *,
+    t_end: float | None = None, parameters: Parameters | None = None, quick: bool = False,
+    methods: Sequence[str] | None = None, progress: Report | None = None,
+) -> SceneBench:  # fmt: skip
+    """Measure one scene. `steps` (s) of rk4 default to 1, 2, 5 · 10^k around the step of a plain run.
+
+    `methods`: as `choice` takes them, by default all that fit. `tolerances` default to 1e-3 … 1e-11. `t_end` (s)
+    defaults to the first few contacts or, without contact, to as many of the shortest steps as are affordable.
+    `quick` takes fewer of both, a tenth of the window, shorter measurements and no cross-checks. After Ctrl-C the
+    rows until then.
+    """
+    parameters, progress = dict(mapping(parameters, "parameters")), function(progress, "progress")
+    t_end, quick = None if t_end is None else positive(t_end, "t_end"), flag(quick, "quick")
+    if simulation.source.degrees_of_freedom == 0:
+        return _kinematic(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
+    chosen, left_out = choice(simulation, methods, quick)
+    usual = usual_steps(simulation, parameters, quick)
+    steps = sorted(numbers(steps, "steps") or usual, reverse=True)
+    tolerances = sorted(numbers(tolerances, "tolerances") or (TOLERANCES[1::3] if quick else TOLERANCES), reverse=True)
+    if not steps[-1] > 0 or not 0 < tolerances[-1] <= tolerances[0] < 1:
+        raise BadValueError("expected positive steps (s) and tolerances between 0 and 1")
+    longest = max(REFERENCE_STEPS * steps[-1] / (10 if quick else 1), 2 * steps[0])
+    pilot = Setting("rk4", natural_step(simulation, parameters))
+    work = Work(simulation, t_end, parameters) if t_end else measured.window(simulation, longest, pilot, parameters)
+    work = replace(work, enough=QUICK if quick else work.enough)
+    settings = [Setting("rk4", step) for step in steps if "rk4" in chosen]
+    settings += [Setting(method, x) for method in chosen if method in ADAPTIVE for x in tolerances]
+    checks = [method for method in chosen if method in python_driver.NAMES]
+    if checks:
+        _ = simulation.full  # derived and compiled before any of them is timed
+    settings += [Setting(method, x) for method in checks for x in tolerances[::2]]
+    wanted = REFERENCES if adaptive(simulation) else references(settings)
+    found = _measure(work, settings, wanted, progress or (lambda fraction, text: None))
+    return replace(found, left_out=(*left_out, *found.left_out))
+
+
+def usual_steps(simulation: Simulation, parameters: Parameters | None = None, quick: bool = False) -> tuple[float, ...]:
+    """1, 2, 5 · 10^k s around the step of a plain run."""
+    usual = natural_step(simulation, parameters)
+    return measured.round_numbers(usual * (1 if quick else FINEST), usual * COARSEST)
+
+
+def references(settings: Sequence[Setting]) -> tuple[Setting, Setting]:
+    """Two methods at much tighter tolerance; where only a fixed step fits two shorter steps."""
+    if any(not setting.fixed for setting in settings):
+        return REFERENCES
+    finest = min(settings, key=lambda setting: setting.value)
+    return finest.finer(FINER[0]), finest.finer(FINER[1])
+
+
+def _measure(work: Work, settings: Sequence[Setting], wanted: Sequence[Setting], progress: Report) -> SceneBench:
+    """References first, then every setting: a run to compare and runs to time."""
+    count = len(settings) + len(wanted)
+
+    def attempt(done: int, setting: Setting) -> Attempt:
+        text = f"{setting.method} {setting}"
+        limited = replace(work, limit=LIMIT) if setting.method in python_driver.NAMES else work
+        return limited.run(setting, lambda fraction, _: progress((done + fraction) / count, text))
+
+    found = [attempt(done, setting) for done, setting in enumerate(wanted)]  # without them there is nothing to say
+    good = [a for a in found if a.run is not None and not a.failure]
+    agreement, contact = Error(math.inf, math.inf, math.inf), NAN
+    if good and good[0].run is not None:
+        lengths = good[0].run.impacts["t_off"] - good[0].run.impacts["t_on"]
+        contact = float(np.nanmin(lengths)) if np.isfinite(lengths).any() else NAN
+    if len(good) == 2 and good[0].run is not None and good[1].run is not None:
+        agreement = difference(good[0].run, good[1].run)
+    rows, left_out, missing = _rows(work, settings, good, lambda k, one: attempt(len(wanted) + k, one))
+    rhs = () if missing else tuple(time_rhs(work.simulation, work.t_end))
+    name = work.simulation.source.scene
+    return SceneBench(
+        name, work.t_end, work.why, tuple(rows), tuple(wanted), agreement, contact, rhs, tuple(left_out), missing
+    )
+
+
+def _rows(
+    work: Work, settings: Sequence[Setting], good: Sequence[Attempt], attempt: Callable[[int, Setting], Attempt]
+) -> tuple[list[Row], list[str], int]:
+    """Row by row, loose before tight; where a cross-check took long its tighter ones are left out. (rows, why, missing)
+
+    `missing`: how many Ctrl-C left out.
+    """
+    rows: list[Row] = []
+    slow: dict[str, str] = {}
+    for k, setting in enumerate(settings):
+        if setting.method in slow:
+            continue
+        try:
+            found = attempt(k, setting)
+            if found.slow:
+                slow[setting.method] = f"{setting.method}: {setting} and tighter left out: {found.failure}"
+                continue
+            rows.append(_row(work, found, good))
+        except KeyboardInterrupt:
+            return rows, list(slow.values()), sum(other.method not in slow for other in settings[k:])
+        if setting.method in python_driver.NAMES and _seconds(found) > LONG and k + 1 < len(settings):
+            following = settings[k + 1]
+            if following.method == setting.method:
+                took = f"{setting} took {_seconds(found):.2g} s"
+                slow[setting.method] = f"{setting.method}: {following} and tighter left out: {took}"
+    return rows, list(slow.values()), 0
+
+
+def _seconds(found: Attempt) -> float:
+    return found.run.diagnostics.seconds if found.run is not None else 0.0
+
+
+def _row(work: Work, found: Attempt, good: Sequence[Attempt]) -> Row:
+    if found.failure or found.run is None:
+        return Row(found.setting, NAN, 0, Error(), 0, 0, None, found.failure or "no result", found.failed_at)
+    diagnostics = found.run.diagnostics
+    names = diagnostics.method.split("+")
+    other = other_than([*names, names[0].rpartition(":")[2].lower()], good)  # nor by the same from elsewhere
+    error = difference(found.run, other.run) if other is not None and other.run is not None else Error()
+    known = diagnostics.seconds if found.setting.method in python_driver.NAMES else 0.0
+    seconds = known if known > work.enough else work.seconds(found.setting)
+    return Row(
+        found.setting, seconds / work.t_end, diagnostics.right_hand_sides, error,
+        diagnostics.jacobians, 0, None if other is None else other.setting,
+    )  # fmt: skip
+
+
+def other_than(methods: Iterable[str], good: Sequence[Attempt]) -> Attempt | None:
+    """The first reference by none of these methods; where each uses one of them, the last (the finest step)."""
+    return next((a for a in good if a.setting.method not in methods), good[-1] if good else None)
+
+
+def _kinematic(
+    simulation: Simulation, parameters: Parameters, counts: Sequence[int], t_end: float | None,
+    progress: Report | None,
+) -> SceneBench:  # fmt: skip
+    """No step and no reference: the error is what Newton's method leaves open of the constraints."""
+    work = Work(simulation, t_end or scene_end(simulation.source), parameters)
+    rows = []
+    for done, count in enumerate(counts):
+        if progress:
+            progress(done / len(counts), f"{count} samples")
+        setting = Setting("kinematic", work.t_end / count)
+        found = work.sampled(setting, np.linspace(0.0, work.t_end, count + 1))
+        if found.run is None or found.failure:
+            failed = found.failure or "no result"
+            rows.append(Row(setting, NAN, 0, Error(), 0, count, None, failed, found.failed_at))
+            continue
+        seconds = work.seconds(setting, count) / work.t_end
+        error = Error(found.run.diagnostics.phi_max / size(found.run))
+        rows.append(Row(setting, seconds, 0, error, samples=count))
+    rhs = tuple(time_rhs(simulation, work.t_end))
+    return SceneBench(simulation.source.scene, work.t_end, "", tuple(rows), (), Error(), NAN, rhs)

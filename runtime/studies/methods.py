@@ -1,0 +1,50 @@
+"""Which methods `gudgeon bench` measures in a scene, and why others are left out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fnmatch import fnmatchcase
+from importlib.util import find_spec
+
+from gudgeon.errors import BadValueError
+from gudgeon.integrators.peers import driver as python_driver
+from gudgeon.integrators.peers.sundials_steppers import INSTALL
+from gudgeon.language.wanted import listed
+from gudgeon.simulation.simulation import Simulation
+
+ADAPTIVE = ("dop853", "rodas5p", "auto")
+
+
+def adaptive(simulation: Simulation) -> bool:
+    """Whether methods that choose their step fit a scene."""
+    return set(ADAPTIVE[:2]) <= set(simulation.source.methods)
+
+
+def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
+    """Methods that fit a scene, of those wanted (names, or patterns such as "scipy:*"), and why others are left out.
+
+    By default all; with `quick` without the cross-checks, which take long. BadValueError for a name that is none.
+    """
+    every = ("rk4", *ADAPTIVE, *python_driver.NAMES)
+    usual = every[: 1 + len(ADAPTIVE)] if quick else every
+    wanted = usual if wanted is None else listed(wanted, "methods", str, "a list of names of methods")
+    named = [m for m in every if any(fnmatchcase(m, text) for text in wanted)]
+    for text in wanted:
+        if not any(fnmatchcase(method, text) for method in every):
+            raise BadValueError(f"method {text!r}: expected some of {', '.join(every)}, or a pattern such as 'scipy:*'")
+    reason = python_driver.unfit(simulation.source)
+    found, left_out = [], []
+    for method in named:
+        package = method.partition(":")[0]
+        if method in ADAPTIVE and not adaptive(simulation):
+            continue
+        if method in python_driver.NAMES and reason:
+            left_out.append(f"{package}:* left out: {reason}")
+        elif method in python_driver.SUNDIALS and find_spec("sksundae") is None:
+            left_out.append(f"sundials:* left out: scikit-sundae is not installed ({INSTALL})")
+        else:
+            found.append(method)
+    if not found:
+        told = list(dict.fromkeys(left_out)) or [f"scene {simulation.source.scene!r} takes a fixed step only: rk4"]
+        raise BadValueError("none of the methods fits", hint="; ".join(told))
+    return found, list(dict.fromkeys(left_out))

@@ -1,0 +1,246 @@
+"""What is run again and again, with which method and step or tolerance, and how two runs are compared."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from gudgeon.errors import GudgeonError, SolverError
+from gudgeon.integrators.adaptive import SMALLEST
+from gudgeon.integrators.trajectory import Progress
+from gudgeon.model.assembly import mechanism_size
+from gudgeon.model.compiled import Array
+from gudgeon.model.default_step import scene_end, scene_step
+from gudgeon.model.parameters import prepare
+from gudgeon.results.results import Result
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.words import seconds
+
+NAN = math.nan
+Parameters: TypeAlias = Mapping[str, float | str]  # as in `simulate`
+ONSETS = 4  # contacts that a window holds: after more of them dry motion is chaotic
+PILOTS = 6  # the first pilot run is 2^-6 of the longest window
+SAMPLES = 100  # at least so many in a window
+FIXED = ("rk4", "kinematic")  # methods that are given a step
+REPEATS, ENOUGH = 25, 0.5  # a timed run is repeated so often, or until it took so many seconds
+
+
+@dataclass(frozen=True)
+class Error:
+    """Largest difference of two runs over their common samples; NaN: the scene has no such thing."""
+
+    motion: float = NAN  # of a coordinate: lengths by the mechanism's size, angles by 1 rad
+    path: float = NAN  # of a journal's centre, by the clearance
+    force: float = NAN  # of a joint's force, or of its peak over all steps, by the peak force
+
+    @property
+    def largest(self) -> float:
+        """Of the three, those that there are."""
+        return max((x for x in (self.motion, self.path, self.force) if not math.isnan(x)), default=NAN)
+
+    def beyond(self, motion: float, path: float, force: float) -> bool:
+        """Whether any of them is larger than that."""
+        return self.motion > motion or self.path > path or self.force > force
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A method with what it is asked for: a step (s) of rk4 and kinematic, else the tolerance of a step."""
+
+    method: str
+    value: float  # the step (s) or the tolerance
+
+    @property
+    def fixed(self) -> bool:
+        """Whether the value is a step."""
+        return self.method in FIXED
+
+    def finer(self, factor: float) -> Setting:
+        """The same method, its step or tolerance divided; as few digits, so that it is found again."""
+        least = 0.0 if self.fixed else SMALLEST
+        return Setting(self.method, max(float(f"{self.value / factor:.6g}"), least))
+
+    def __str__(self) -> str:
+        return seconds(self.value) if self.fixed else f"{self.value:.0e}".replace("e-0", "e-")
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """One run: its result, as far as it came, and what stopped it ("" if nothing did)."""
+
+    setting: Setting
+    run: Result | None
+    failure: str = ""
+    failed_at: float = NAN  # s
+    slow: bool = False  # stopped because it took longer than it may
+    outside: bool = False  # stopped because the model does not hold there, and said so
+    cpu: float = NAN  # s of this thread's own time, samples included
+
+
+@dataclass(frozen=True, eq=False)
+class Work:
+    """A scene with numbers and a window in time. A run with step h is sampled every max(h, spacing)."""
+
+    simulation: Simulation
+    t_end: float
+    parameters: Parameters = field(default_factory=dict)
+    why: str = ""  # this window
+    limit: float = math.inf  # s of processor time that a run may take
+    enough: float = ENOUGH  # s, see above
+
+    @property
+    def spacing(self) -> float:
+        """A power of ten, so that steps 1, 2, 5 · 10^k fit into it, or are multiples of it."""
+        return 10.0 ** math.floor(math.log10(self.t_end / SAMPLES) + 1e-9)
+
+    def run(self, setting: Setting, progress: Progress | None = None) -> Attempt:
+        """Sampled for comparison."""
+        stride = max(1, math.floor(setting.value / self.spacing * (1 + 1e-9))) if setting.fixed else 1
+        count = max(1, math.floor(self.t_end / (stride * self.spacing) * (1 + 1e-9)))
+        return self.sampled(setting, np.arange(count + 1, dtype=np.float64) * (stride * self.spacing), progress)
+
+    def seconds(self, setting: Setting, output: int = 1, progress: Progress | None = None) -> float:
+        """Wall time of the integration (s), the least of several runs that store as little as possible."""
+        best, spent = math.inf, 0.0
+        for _ in range(REPEATS):
+            attempt = self.sampled(setting, np.linspace(0.0, self.t_end, output + 1), progress)
+            if attempt.run is None or attempt.failure:
+                return NAN
+            best = min(best, attempt.run.diagnostics.seconds)
+            spent += attempt.run.diagnostics.seconds
+            if spent > self.enough:
+                break
+        return best
+
+    def sampled(self, setting: Setting, times: Array, progress: Progress | None = None) -> Attempt:
+        """Sampled at these times (s)."""
+        return attempt(self.simulation, times, setting, self.parameters, progress, self.limit)
+
+
+class _TooSlowError(Exception):
+    """A run took more processor time than it may."""
+
+
+def attempt(
+    simulation: Simulation, times: Array, setting: Setting, parameters: Parameters, progress: Progress | None = None,
+    limit: float = math.inf,
+) -> Attempt:  # fmt: skip
+    """A run that may fail, or be stopped after `limit` seconds of processor time.
+
+    Ctrl-C is passed on, unlike in `simulate`: half a comparison is none.
+    """
+    before = time.thread_time()
+    reached = 0.0
+
+    def watch(fraction: float, text: str) -> None:
+        nonlocal reached
+        reached = fraction
+        if time.thread_time() - before > limit:
+            raise _TooSlowError
+        if progress:
+            progress(fraction, text)
+
+    chosen: dict[str, Any] = {"rtol": setting.value}
+    if setting.fixed:
+        chosen = {} if setting.method == "kinematic" else {"step": setting.value}
+    try:
+        run = simulation.simulate(
+            output=times, method=setting.method, parameters=parameters, progress=watch, stop=False, **chosen
+        )
+    except _TooSlowError:
+        told, at = f"more than {limit:.3g} s of processor time", float(times[0] + reached * (times[-1] - times[0]))
+        return Attempt(setting, None, told, at, slow=True, cpu=limit)
+    except SolverError as error:
+        outside = bool(getattr(error, "outside_model", False))
+        first = str(error).partition("\n")[0]
+        return Attempt(setting, error.partial, first, error.time, False, outside, time.thread_time() - before)
+    if run.diagnostics.interrupted:
+        raise KeyboardInterrupt
+    return Attempt(setting, run, cpu=time.thread_time() - before)
+
+
+def round_numbers(low: float, high: float) -> tuple[float, ...]:
+    """1, 2, 5 · 10^k from low to high, both included, ascending."""
+    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    every = (float(f"{mantissa}e{k}") for k in range(first, last + 1) for mantissa in (1, 2, 5))
+    return tuple(x for x in every if low * (1 - 1e-9) <= x <= high * (1 + 1e-9))
+
+
+def natural_step(simulation: Simulation, parameters: Parameters | None = None) -> float:
+    """The step (s) that a plain run would take: the scene's, or the default."""
+    p = prepare(simulation.compiled, parameters)[0]
+    return scene_step(simulation.compiled, p, scene_end(simulation.source))
+
+
+def window(simulation: Simulation, longest: float, setting: Setting, parameters: Parameters | None = None) -> Work:
+    """The work over the first few contacts, or over `longest` (s) where there are not so many.
+
+    Two runs of a scene with dry contacts differ by any amount once an error has gone through many
+    contacts, however small the step: errors mean something only over the first few. The window ends
+    half-way between the fourth onset and the next.
+    """
+    parameters = dict(parameters or {})
+    longest = min(longest, scene_end(simulation.source))
+    for halvings in range(PILOTS, -1, -1) if simulation.source.clearances else ():
+        span = longest / 2**halvings
+        pilot = attempt(simulation, np.linspace(0.0, span, 3), setting, parameters)
+        onsets = np.zeros(0) if pilot.run is None else np.sort(pilot.run.impacts["t_on"])
+        if len(onsets) > ONSETS:
+            end = float(onsets[ONSETS - 1] + onsets[ONSETS]) / 2
+            return Work(simulation, float(f"{end:.2g}"), parameters, f"the first {ONSETS} contacts")
+        if pilot.failure:
+            break
+    return Work(simulation, longest, parameters, "no contact" if simulation.source.clearances else "")
+
+
+def difference(run: Result, reference: Result) -> Error:
+    """`reference` is sampled as often as `run`, or a whole number of times as often."""
+    if len(run.t) < 2 or len(reference.t) < 2:
+        return Error()
+    motion, path, force = apart(run, reference)
+    highest = _peak(reference)
+    largest = float(force.max()) if highest > 0 else NAN
+    if abs(run.t[-1] - reference.t[-1]) < 0.5 * (run.t[1] - run.t[0]):  # the same window: peaks between samples too
+        for a, b in zip(run.diagnostics.peaks, reference.diagnostics.peaks, strict=True):
+            largest = max(largest, abs(a.F - b.F) / highest) if highest > 0 else largest
+    return Error(float(motion.max()), float(path.max()) if run.source.clearances else NAN, largest)
+
+
+def apart(run: Result, reference: Result) -> tuple[Array, Array, Array]:
+    """What `Error` has, of the worst coordinate and joint, at every common sample; zero where there is none."""
+    stride = round((run.t[1] - run.t[0]) / (reference.t[1] - reference.t[0]))
+    count = min(len(run.t), (len(reference.t) - 1) // stride + 1)
+    ours, theirs = slice(0, count), slice(0, (count - 1) * stride + 1, stride)
+    source, highest = run.source, _peak(reference)
+    scale = np.array([1.0 if name.endswith(".theta") else size(reference) for name in source.coordinates])
+    motion: Array = np.abs((run.q[ours] - reference.q[theirs]) / scale).max(axis=1)
+    path, force = np.zeros(count), np.zeros(count)
+    for joint in source.clearances or source.joints:
+        force = np.maximum(force, _distance(run, reference, f"{joint.name}.F", ours, theirs))
+    for clearance in source.clearances:
+        gap = _distance(run, reference, f"{clearance.name}.e", ours, theirs)
+        path = np.maximum(path, gap / float(reference.p[clearance.clearance]))
+    return motion, path, force / highest if highest > 0 else np.zeros(count)
+
+
+def _distance(run: Result, reference: Result, name: str, ours: slice, theirs: slice) -> Array:
+    return np.hypot(*(run[f"{name}{axis}"][ours] - reference[f"{name}{axis}"][theirs] for axis in "xy"))
+
+
+def _peak(run: Result) -> float:
+    """The largest force of a joint, samples and steps."""
+    joints = run.source.clearances or run.source.joints
+    samples = max((float(np.abs(run[f"{joint.name}.F"]).max()) for joint in joints), default=0.0)
+    return max([samples, *(peak.F for peak in run.diagnostics.peaks)])
+
+
+def size(run: Result) -> float:
+    """The mechanism's size, m: what lengths and residuals are compared with."""
+    if run.compiled is None:
+        raise GudgeonError("a result that was read from a file cannot be compared: run the scene again")
+    return mechanism_size(run.compiled, run.p)

@@ -1,0 +1,1 @@
+"""Studies as tables, CSV, JSON and figures."""

@@ -1,0 +1,193 @@
+"""What `gudgeon bench` prints and writes: tables, sentences from the data, CSV, JSON, a figure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.integrators.peers.driver import NAMES
+from gudgeon.studies.bench import TRUSTED, Row, SceneBench
+from gudgeon.studies.runs import NAN, Setting
+from gudgeon.studies.show.tables import console, new_table, print_json, write_files
+from gudgeon.studies.words import seconds, share
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.table import Table
+
+COLUMNS = ("method", "step, tol", "run time", "rhs", "Jacobians", "coordinates", "paths", "forces")
+GOOD_FORCE = 0.01  # share of the peak force that the sentence of `bench` asks for
+TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # errors that the second table asks for
+
+
+def show_bench(
+    source: KernelSource, found: Sequence[SceneBench], table: Path, mark_step: float | None, as_json: bool = False
+) -> None:
+    """Print everything (or only JSON), write the table and beside it the picture."""
+    rows = bench_rows(found)
+
+    def draw() -> Figure:
+        from gudgeon.studies.show.bench_figure import bench_figure
+
+        return bench_figure(source.title or source.mechanism, found, mark_step)
+
+    written, failed = write_files(table, rows, draw)
+    _show(source, found, written, mark_step, as_json)
+    if failed:
+        raise failed
+
+
+def _show(
+    source: KernelSource, found: Sequence[SceneBench], written: Sequence[Path], mark_step: float | None, as_json: bool
+) -> None:
+    """What was found, and what was written of it."""
+    if as_json:
+        scenes = [
+            {"scene": scene.scene, "t_end_s": scene.t_end, "interrupted": scene.interrupted,
+             "notes": notes(scene, mark_step)} for scene in found
+        ]  # fmt: skip
+        files = [str(path) for path in written]
+        print_json({"mechanism": source.mechanism, "scenes": scenes, "rows": bench_rows(found), "files": files})
+        return
+    out = console()
+    for scene in found:
+        out.print(_title(scene), style="bold")
+        if scene.methods == ("kinematic",):
+            out.print(_kinematic_table(scene))
+        elif own := [row for row in scene.rows if row.setting.method not in NAMES]:
+            out.print(_table(scene, own))
+        if checks := [row for row in scene.rows if row.setting.method in NAMES]:
+            out.print("  cross-checks: others' methods on the full formulation, driven from Python")
+            out.print(_table(scene, checks, [name for name in COLUMNS if name != "Jacobians"]))
+        for line in notes(scene, mark_step):
+            out.print(f"  {line}")
+        if scene.references:
+            out.print(_target_table(scene))
+    if any(scene.rhs for scene in found):
+        out.print("one right-hand side", style="bold")
+        out.print(_rhs_table(found))
+    for path in written:
+        out.print(f"wrote {path}")
+
+
+def _title(scene: SceneBench) -> str:
+    part = " (partial: interrupted after {} of {} rows)".format(*scene.done) if scene.interrupted else ""
+    return f"{scene.scene}: the first {seconds(scene.t_end)}" + (f" ({scene.why})" if scene.why else "") + part
+
+
+def _kinematic_table(scene: SceneBench) -> Table:
+    table = new_table(("samples", "a simulated s", "a sample", "max |Φ| / size"))
+    for row in scene.rows:
+        cells = (seconds(row.seconds), seconds(row.seconds * row.setting.value), _error(row.error.motion))
+        table.add_row(f"{row.samples:,}", *(cells if not row.failure else (row.failure, "", "")))
+    return table
+
+
+def _table(scene: SceneBench, rows: Sequence[Row], columns: Sequence[str] = COLUMNS) -> Table:
+    """Run time is that of the window, rhs its right-hand sides. Errors in brackets are not resolved."""
+    from rich.text import Text
+
+    table = new_table(columns)
+    before = ""
+    for row in rows:
+        method = row.setting.method if row.setting.method != before else ""
+        before = row.setting.method
+        if row.failure:
+            table.add_row(method, str(row.setting), Text("fails", "red"), Text(f"at {seconds(row.failed_at)}", "red"))
+            continue
+        errors = (_told(scene, m, getattr(row.error, m)) for m in ("motion", "path", "force"))
+        jacobians = [f"{row.jacobians:,}" if row.jacobians else "–"] if "Jacobians" in columns else []
+        time = seconds(row.seconds * scene.t_end)
+        table.add_row(method, str(row.setting), time, f"{row.right_hand_sides:,}", *jacobians, *errors)
+    return table
+
+
+def _told(scene: SceneBench, measure: str, error: float) -> str:
+    return _error(error) if math.isnan(error) or scene.resolved(measure, error) else f"({_error(error)})"
+
+
+def _error(value: float) -> str:
+    return "–" if math.isnan(value) else f"{value:.1e}"
+
+
+def _target_table(scene: SceneBench) -> Table:
+    """Run time of the window to bring every error below a bound, by method; what it is not told for is no better."""
+    table = new_table(("run time to errors below", *map(_error, TARGETS)), left=("run time to errors below",))
+    for method in scene.methods:
+        times = (scene.seconds_to(target, method) * scene.t_end for target in TARGETS)
+        table.add_row(method, *(seconds(x) if x == x else "–" for x in times))
+    return table
+
+
+def notes(scene: SceneBench, mark_step: float | None) -> list[str]:
+    """What the table says, in sentences."""
+    if not scene.references:
+        return ["no degree of freedom: nothing is integrated, the error is what is left open of the constraints"]
+    first, second = (f"{r.method} at {r}" for r in scene.references)
+    a = scene.agreement
+    differ = ", ".join(f"{name} {_error(x)}" for name, x in _named(a.motion, a.path, a.force))
+    lines = [
+        f"references: {first} and {second}; a run is compared with another method",
+        f"they differ by: {differ}; below {TRUSTED} times that, in brackets, not resolved",
+    ]
+    if math.isinf(a.motion):
+        lines[1] = "one of them fails: nothing confirms the errors"
+    orders = _named(*(scene.order(m) for m in ("motion", "path", "force")))
+    if told := ", ".join(f"{name} {order:.2f}" for name, order in orders):
+        lines.append(f"observed order of rk4: {told}")
+    if scene.of("rk4"):
+        good = [row for row in scene.of("rk4") if not row.failure and row.error.force < GOOD_FORCE]
+        bad = [row.setting.value for row in scene.of("rk4") if row.failure]
+        told = str(good[0].setting) if good else "none"
+        line = f"largest step of rk4 with forces within {share(GOOD_FORCE)} of their peak: {told}"
+        lines.append(line + (f"; from {seconds(min(bad))} on the run diverges" if bad else ""))
+    if mark_step is not None:
+        lines.append(f"rk4 at {seconds(mark_step)}: {_marked(scene, mark_step)}")
+    return [*lines, *scene.left_out]
+
+
+def _named(motion: float, path: float, force: float) -> list[tuple[str, float]]:
+    pairs = (("coordinates", motion), ("paths", path), ("forces", force))
+    return [(name, x) for name, x in pairs if not math.isnan(x)]
+
+
+def _marked(scene: SceneBench, step: float) -> str:
+    row: Row | None = scene.row(Setting("rk4", step))
+    if row is None:
+        return "not tested"
+    off = ((f"joint forces off by {share(row.error.force)} of their peak", row.error.force),
+           (f"journals' paths by {share(row.error.path)} of c", row.error.path))  # fmt: skip
+    said = row.failure or ", ".join(text for text, value in off if math.isfinite(value))
+    if math.isfinite(scene.contact):
+        said += f"; the shortest contact takes {scene.contact / step:.1f} steps"
+    return said
+
+
+def _rhs_table(found: Sequence[SceneBench]) -> Table:
+    table = new_table(("scene", "state", "time", "operations", "ns an operation"))
+    for scene in found:
+        for rhs in scene.rhs:
+            table.add_row(scene.scene, rhs.state, f"{rhs.seconds * 1e6:.3f} µs", f"{rhs.operations:,}",
+                          f"{rhs.seconds / max(rhs.operations, 1) * 1e9:.2f}")  # fmt: skip
+    return table
+
+
+def bench_rows(found: Sequence[SceneBench]) -> list[dict[str, Any]]:
+    """The table as it is written to a file: SI units in the names."""
+    return [
+        {
+            "scene": scene.scene, "method": row.setting.method, "t_end_s": scene.t_end,
+            "step_s": row.setting.value if row.setting.fixed else NAN,
+            "tolerance": NAN if row.setting.fixed else row.setting.value, "samples": row.samples,
+            "seconds": row.seconds * scene.t_end, "seconds_per_simulated_second": row.seconds,
+            "right_hand_sides": row.right_hand_sides, "jacobians": row.jacobians,
+            "error_coordinates": row.error.motion, "error_path": row.error.path, "error_force": row.error.force,
+            "reference": f"{row.reference.method} {row.reference.value:g}" if row.reference else "",
+            "references_differ_coordinates": scene.agreement.motion, "references_differ_path": scene.agreement.path,
+            "references_differ_force": scene.agreement.force, "failure": row.failure,
+        }
+        for scene in found for row in scene.rows
+    ]  # fmt: skip

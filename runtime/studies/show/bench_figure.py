@@ -1,0 +1,108 @@
+"""The figure of `gudgeon bench`: error against run time and against right-hand sides, a line a method."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import matplotlib
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from gudgeon.integrators.peers.driver import NAMES
+from gudgeon.language.shown import in_figure
+from gudgeon.results.plots import COLOURS, IDEAL, STYLE
+from gudgeon.studies.bench import TRUSTED, Row, SceneBench
+from gudgeon.studies.runs import Setting
+from gudgeon.studies.words import seconds, share
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+MARKERS = {"rk4": "s", "dop853": "o", "rodas5p": "^", "auto": "x", "kinematic": "D"}
+# cross-checks are in the background: thin, dashed, grey or light blue, told apart by their markers
+CHECKS = dict(zip(NAMES, ("v", "<", ">", "p", "h", "P", "*"), strict=True))
+GREY, LIGHT = "#666666", {"scipy": "#9a9a9a", "sundials": "#56B4E9"}
+
+
+def bench_figure(title: str, found: Sequence[SceneBench], mark_step: float | None = None) -> Figure:
+    """A row a scene. Hollow markers are below what the references agree to; a shaded band says how far that is."""
+    shown = [scene for scene in found if scene.references] or list(found)
+    with matplotlib.rc_context(STYLE):
+        picture = Figure(figsize=(11, 1.2 + 3.6 * len(shown)), dpi=120, layout="constrained")
+        axes = picture.subplots(len(shown), 2, squeeze=False, sharey="row")
+        for (left, right), scene in zip(axes, shown, strict=True):
+            _draw_scene(left, right, scene)
+            if mark_step is not None and scene.references:
+                _mark(left, right, mark_step, scene)
+        used = dict.fromkeys(method for scene in shown for method in scene.methods)
+        handles = [
+            Line2D([], [], color=_colour(m), marker=_shape(m), ls="--" if m in CHECKS else "-", ms=6, label=m)
+            for m in used
+        ]
+        doubt = "within the references' own uncertainty"
+        handles.append(Line2D([], [], color=GREY, marker="o", mfc="white", ls="", ms=5, label=doubt))
+        told = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
+        head = in_figure(f"{title}: run time against error{told}", 110)
+        picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
+        picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=8.5)
+    return picture
+
+
+def _shape(method: str) -> str:
+    return CHECKS.get(method) or MARKERS[method]
+
+
+def _colour(method: str) -> str:
+    if method in CHECKS:
+        return LIGHT[method.partition(":")[0]]
+    return COLOURS[list(MARKERS).index(method) % len(COLOURS)]
+
+
+def _draw_scene(left: Axes, right: Axes, scene: SceneBench) -> None:
+    for method in scene.methods:
+        rows = [row for row in scene.of(method) if not row.failure and row.error.largest > 0]
+        errors = [row.error.largest for row in rows]
+        colour, marker, check = _colour(method), _shape(method), method in CHECKS
+        times = [row.seconds * scene.t_end * 1e3 for row in rows]
+        for ax, x in ((left, times), (right, [row.right_hand_sides or row.samples for row in rows])):
+            dashes, width, z = ("--", 0.8, 1.9) if check else ("-", 1.3, 2)
+            ax.plot(x, errors, dashes, color=colour, lw=width, zorder=z)
+            for place, error, row in zip(x, errors, rows, strict=True):
+                face = colour if _clear(scene, row) else "white"
+                edge = {"c": [colour]} if marker == "x" else {"c": [face], "edgecolors": colour}
+                ax.scatter([place], [error], s=18 if check else 26, marker=marker, linewidths=1.1, zorder=3, **edge)
+    left.set(xscale="log", yscale="log", xlabel="run time of the window [ms]", ylabel="largest error")
+    right.set(xscale="log", xlabel="right-hand sides" if scene.references else "samples")
+    left.set_title(f"{scene.scene}, the first {seconds(scene.t_end)}", loc="left", fontsize=9.5)
+    doubt = TRUSTED * scene.agreement.largest
+    if math.isfinite(doubt) and doubt > left.get_ylim()[0]:
+        bottom = left.get_ylim()[0]
+        for ax in (left, right):
+            ax.axhspan(bottom, doubt, color="#eeeeee", zorder=0)
+        left.set_ylim(bottom=bottom)
+
+
+def _clear(scene: SceneBench, row: Row) -> bool:
+    """Whether the largest of a row's errors is resolved."""
+    return any(
+        getattr(row.error, m) == row.error.largest and scene.resolved(m, row.error.largest)
+        for m in ("motion", "path", "force")
+    ) or not scene.references  # fmt: skip
+
+
+def _mark(left: Axes, right: Axes, step: float, scene: SceneBench) -> None:
+    """A ring around the step's row; what it costs stands above the axes, where no marker is."""
+    row = scene.row(Setting("rk4", step))
+    if row is None:
+        return
+    if row.failure or not row.error.largest > 0:
+        text = f"rk4, {seconds(step)}: fails at {seconds(row.failed_at)}"
+        right.set_title(text, loc="right", fontsize=8.5, color=_colour("rk4"))
+        return
+    for ax, x in ((left, row.seconds * scene.t_end * 1e3), (right, row.right_hand_sides)):
+        ax.plot([x], [row.error.largest], "o", ms=12, mfc="none", mec=IDEAL, mew=1.2, zorder=4)
+    text = f"rk4, {seconds(step)}: forces off by {share(row.error.force)}"
+    text += f", {scene.contact / step:.1f} steps a contact" if math.isfinite(scene.contact) else ""
+    right.set_title(text, loc="right", fontsize=8.5, color=_colour("rk4"))

@@ -1,0 +1,109 @@
+"""What `gudgeon stress --box` prints and writes: counts by verdict and reason, the worst points, CSV, a figure."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.studies.show.stress import COLOURS, FULL, SIGNS, partial, stress_rows, tell_failures
+from gudgeon.studies.show.tables import console, new_table, print_json, write_files
+from gudgeon.studies.stress import StressBox
+from gudgeon.studies.verdicts import SEVERITY, Cell, Status
+from gudgeon.studies.words import seconds, share
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.table import Table
+
+WORST = 8  # points that are told with what runs them again; the rest is in the table on disk
+_NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
+
+
+def show_box(
+    source: KernelSource, file: str, found: Sequence[StressBox], table: Path, as_json: bool = False
+) -> None:
+    """Print everything (or only JSON), write the table and beside it the picture."""
+    rows = [row for box in found for row in stress_rows(box)]
+
+    def draw() -> Figure:
+        from gudgeon.studies.show.box_figure import box_figure
+
+        return box_figure(source.title or source.mechanism, found)
+
+    written, failed = write_files(table, rows, draw)
+    _show(source, file, found, written, as_json)
+    if failed:
+        raise failed
+
+
+def _show(
+    source: KernelSource, file: str, found: Sequence[StressBox], written: Sequence[Path], as_json: bool
+) -> None:
+    """What was found, and what was written of it."""
+    if as_json:
+        rows = [row for one in found for row in stress_rows(one)]
+        print_json({"mechanism": source.mechanism, "interrupted": any(box.interrupted for box in found),
+                    "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
+        return
+    out = console()
+    for box in found:
+        edges = ", ".join(f"{edge.name} {edge.low:.4g} … {edge.high:.4g}" for edge in box.ranges)
+        title = f"{box.scene}, {box.setting.method} at {box.setting}, {seconds(box.t_long)} a point: {edges}"
+        out.print(title + partial(box), style="bold")
+        if box.full:
+            out.print(f"  {FULL}")
+        out.print(f"  {count(box.cells)}")
+        out.print(_verdicts(box.cells))
+        if worst := worst_cells(box.cells):
+            out.print("  the worst points, and what runs them again")
+            tell_failures(out, file, box, worst)
+    for path in written:
+        out.print(f"wrote {path}")
+
+
+def count(cells: Sequence[Cell]) -> str:
+    """ "28 points: 27 stable, 1 outside the model; slowest 0.3 s"."""
+    counts = Counter(cell.status for cell in cells)
+    told = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
+    slowest = max((cell.seconds for cell in cells if math.isfinite(cell.seconds)), default=math.nan)
+    return f"{len(cells)} points: {told}; slowest {seconds(slowest)}"
+
+
+def grouped(cells: Sequence[Cell]) -> list[tuple[Status, str, list[Cell]]]:
+    """Verdict, reason without its numbers, the cells that have both: the worst verdict first, then the most cells."""
+    groups: dict[tuple[Status, str], list[Cell]] = {}
+    for cell in cells:
+        groups.setdefault((cell.status, kind(cell.reason)), []).append(cell)
+    order = sorted(groups.items(), key=lambda item: (SEVERITY.index(item[0][0]), -len(item[1]), item[0][1]))
+    return [(status, reason, own) for (status, reason), own in order]
+
+
+def kind(reason: str) -> str:
+    """What a reason says without the figures of its run."""
+    return _NUMBER.sub("…", re.split(r",? at t = |: ", reason)[0]).strip(", ")
+
+
+def worst_cells(cells: Sequence[Cell]) -> list[Cell]:
+    """Failed ones, the first of each reason before the second of any; where none failed, the largest errors."""
+    if not any(cell.failed for cell in cells):
+        known = [cell for cell in cells if math.isfinite(cell.error.largest)]
+        return sorted(known, key=lambda cell: -cell.error.largest)[: WORST // 2]
+    groups = [own for status, _, own in grouped([cell for cell in cells if cell.failed])]
+    rounds = [group[k] for k in range(WORST) for group in groups if k < len(group)]
+    return rounds[:WORST]
+
+
+def _verdicts(cells: Sequence[Cell]) -> Table:
+    from rich.text import Text
+
+    table = new_table(("verdict", "points", "largest error", "reason"), left=("verdict", "reason"))
+    for status, reason, own in grouped(cells):
+        errors = [cell.error.largest for cell in own if math.isfinite(cell.error.largest)]
+        sign = Text(f"{SIGNS[status]} {status.value}", COLOURS[status])
+        table.add_row(sign, str(len(own)), share(max(errors, default=math.nan)), reason)
+    return table

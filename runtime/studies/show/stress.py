@@ -1,0 +1,176 @@
+"""What `gudgeon stress` prints and writes: maps, failures with all their numbers, CSV, JSON, a figure."""
+
+from __future__ import annotations
+
+import math
+import shlex
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.studies.show.stress_words import explain, value
+from gudgeon.studies.show.tables import console, new_table, print_json, write_files
+from gudgeon.studies.stress import StressBox, StressMap
+from gudgeon.studies.verdicts import Cell, Status
+from gudgeon.studies.words import seconds, share
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+COLOURS = {
+    Status.STABLE: "green", Status.OUTSIDE: "bright_black", Status.INACCURATE: "yellow", Status.DIVERGED: "red",
+    Status.MISSING: "bright_black",
+}  # fmt: skip
+FULL = "integrated in the full formulation (absolute coordinates): the gains act there alone"
+SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", Status.DIVERGED: "✗",
+         Status.MISSING: "·"}  # fmt: skip
+
+
+
+def show_stress(
+    source: KernelSource, file: str, found: Sequence[StressMap], table: Path, mark_step: float | None,
+    as_json: bool = False,
+) -> None:  # fmt: skip
+    """Print everything (or only JSON), write the table and beside it the picture."""
+    rows = [row for scene in found for row in stress_rows(scene)]
+
+    def draw() -> Figure:
+        from gudgeon.studies.show.stress_figure import stress_figure
+
+        return stress_figure(source.title or source.mechanism, found, mark_step)
+
+    written, failed = write_files(table, rows, draw)
+    _show(source, file, found, written, mark_step, as_json)
+    if failed:
+        raise failed
+
+
+def _show(
+    source: KernelSource, file: str, found: Sequence[StressMap], written: Sequence[Path], mark_step: float | None,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """What was found, and what was written of it."""
+    if as_json:
+        rows = [row for one in found for row in stress_rows(one)]
+        print_json({"mechanism": source.mechanism, "interrupted": any(scene.interrupted for scene in found),
+                    "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
+        return
+    out = console()
+    for scene in found:
+        finer = "a ten times shorter step" if scene.setting.fixed else "a hundred times tighter tolerance"
+        title = f"{scene.scene}, {scene.setting.method}: sane over {seconds(scene.t_long)}, and equal to {finer}?"
+        out.print(title + partial(scene), style="bold")
+        if scene.full:
+            out.print(f"  {FULL}")
+        if scene.columns.ratios:
+            out.print(f"  {scene.rows.name} down, {scene.columns.name} across")
+        out.print(_map_table(scene))
+        if scene.rows.name == "step":
+            out.print(_boundary_table(scene))
+        elif failures := [cell for cell in scene.cells if cell.failed]:
+            out.print("  what failed, and what runs it again")
+            tell_failures(out, file, scene, failures)
+    out.print(legend(found))
+    for line in explain(found).splitlines():
+        out.print(f"  {line}")
+    for line in verdict(found, mark_step):
+        out.print(line)
+    for path in written:
+        out.print(f"wrote {path}")
+
+
+
+
+def _map_table(scene: StressMap) -> Table:
+    """Rows down, columns across; each cell its verdict and the number behind it."""
+    from rich.text import Text
+
+    heads = [value(scene.columns, x) for x in scene.columns.values]
+    table = new_table([scene.rows.name, *heads])
+    for row in scene.rows.values:
+        cells = (scene.cell(row, x) for x in scene.columns.values)
+        marked = (Text(f"{SIGNS[cell.status]} {cell.label}", COLOURS[cell.status]) for cell in cells)
+        table.add_row(value(scene.rows, row), *marked)
+    return table
+
+
+def _boundary_table(scene: StressMap) -> Table:
+    name = scene.columns.name
+    table = new_table((name, "largest stable step", "the next one"), left=("the next one",))
+    for x in scene.columns.values:
+        best = scene.largest_stable(x)
+        beyond = next((step for step in scene.rows.values if not step <= best), None)
+        cell = scene.cell(beyond, x) if beyond is not None else None
+        after = f"{cell.setting}, {cell.status.value}: {cell.reason}" if cell else "the grid ends"
+        table.add_row(value(scene.columns, x), seconds(best) if best == best else "none", after)
+    return table
+
+
+def tell_failures(out: Console, file: str, found: StressMap | StressBox, cells: Sequence[Cell]) -> None:
+    """Why, and what to type to see it again; that line is as long as it is, so that it can be copied."""
+    for cell in cells:
+        said = cell.reason or f"largest error {share(cell.error.largest)}"
+        out.print(f"  {SIGNS[cell.status]} {said}", markup=False, emoji=False)
+        again = command(file, found.scene, cell, found.t_long, found.full)
+        out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
+
+
+def partial(found: StressMap | StressBox) -> str:
+    """What follows the title of what Ctrl-C cut short."""
+    return " (partial: interrupted after {} of {} runs)".format(*found.done) if found.interrupted else ""
+
+
+def legend(found: Sequence[StressMap | StressBox]) -> Text:
+    """Signs and verdicts, "not judged" only where there is such a cell."""
+    from rich.text import Text
+
+    shown = [s for s in Status if s is not Status.MISSING or any(scene.interrupted for scene in found)]
+    return Text("   ").join(Text(f"{SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
+
+
+
+
+def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False) -> str:
+    """The line that runs a cell again, of the file as it was typed; as it stands it can be given to a shell."""
+    words = ["gudgeon", "run", f"./{file}" if file.startswith("-") else file, "--scene", scene]
+    words += ["--method", cell.setting.method, "--step" if cell.setting.fixed else "--rtol", repr(cell.setting.value)]
+    words += ["--formulation", "full"] if full else []
+    for name, told in cell.parameters.items():
+        words += ["--set", f"{name}={told}"]
+    return shlex.join([*words, "--t-end", repr(t_end)])
+
+
+def verdict(found: Sequence[StressMap], mark_step: float | None) -> list[str]:
+    """One line a scene on the marked step, from the cells; nothing without one."""
+    lines = []
+    for scene in (s for s in found if s.rows.name == "step"):
+        step = next((x for x in scene.rows.values if mark_step is not None and math.isclose(x, mark_step)), None)
+        if step is None:
+            continue
+        cells = [scene.cell(step, x) for x in scene.columns.values]
+        counts = Counter(cell.status for cell in cells)
+        told = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
+        best = [x for x in map(scene.largest_stable, scene.columns.values) if x == x]
+        shortest = seconds(min(best)) if len(best) == len(cells) else "below the grid"
+        lines.append(f"step {seconds(step)}, {scene.scene}: of {len(cells)} columns {told};"
+                     f" a step for all: {shortest}")  # fmt: skip
+    return lines
+
+
+def stress_rows(found: StressMap | StressBox) -> list[dict[str, Any]]:
+    """A row a cell, with what it takes to see it again."""
+    return [
+        {
+            "scene": found.scene, "method": cell.setting.method, "step_or_tolerance": cell.setting.value,
+            "parameters": " ".join(f"{name}={x}" for name, x in cell.parameters.items()),
+            "status": cell.status.value, "reason": cell.reason, "energy_residual_share": cell.energy,
+            "penetration_m": cell.penetration, "error_coordinates": cell.error.motion,
+            "error_path": cell.error.path, "error_force": cell.error.force, "seconds": cell.seconds,
+        }
+        for cell in found.cells
+    ]  # fmt: skip

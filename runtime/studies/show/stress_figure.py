@@ -1,0 +1,78 @@
+"""The figure of `gudgeon stress`: a map of verdicts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import matplotlib
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch, Rectangle
+
+from gudgeon.language.shown import in_figure
+from gudgeon.results.plots import IDEAL, STYLE
+from gudgeon.studies.show.stress_words import explain, value
+from gudgeon.studies.stress import StressMap
+from gudgeon.studies.verdicts import Cell, Status
+from gudgeon.studies.words import seconds
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+FILL = {
+    Status.STABLE: "#a8d8c0", Status.OUTSIDE: "#c9c9c9", Status.INACCURATE: "#f6d48f", Status.DIVERGED: "#e79a78",
+    Status.MISSING: "#f4f4f4",
+}  # fmt: skip
+NAMES = {"step": "step", "rtol": "tolerance", "clearance": "radial clearance"}
+
+
+def stress_figure(title: str, found: Sequence[StressMap], mark_step: float | None = None) -> Figure:
+    """A panel a scene, each cell its verdict and the number behind it."""
+    columns = max(len(scene.columns.values) for scene in found)
+    rows = max(len(scene.rows.values) for scene in found)
+    with matplotlib.rc_context(STYLE):
+        width = max(6.5, len(found) * (1.1 + 0.82 * columns))
+        picture = Figure(figsize=(width, 2.0 + 0.42 * rows), dpi=120, layout="constrained")
+        axes = picture.subplots(1, len(found), squeeze=False)[0]
+        for ax, scene in zip(axes, found, strict=True):
+            _draw_map(ax, scene, mark_step)
+        axes[0].set_ylabel(NAMES.get(found[0].rows.name, found[0].rows.name))
+        used = {cell.status for scene in found for cell in scene.cells}
+        handles: list[Any] = [Patch(facecolor=FILL[s], label=s.value) for s in Status if s in used]
+        if mark_step is not None and any(_marked(scene, y, mark_step) for scene in found for y in scene.rows.values):
+            handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {seconds(mark_step)}"))
+        question = "which step will do?" if found[0].rows.name == "step" else "where does it fail?"
+        told = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
+        head = in_figure(f"{title}: {question}{told}", int(10 * width))
+        picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
+        picture.legend(
+            handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=explain(found), title_fontsize=8
+        )
+    return picture
+
+
+def _draw_map(ax: Axes, scene: StressMap, mark_step: float | None) -> None:
+    rows, columns = scene.rows.values, scene.columns.values
+    for i, y in enumerate(rows):
+        for j, x in enumerate(columns):
+            _draw_cell(ax, i, j, scene.cell(y, x))
+        if _marked(scene, y, mark_step):
+            ax.add_patch(Rectangle((-0.5, i - 0.5), len(columns), 1, fill=False, ec=IDEAL, lw=1.8, zorder=4))
+    limits = {"xlim": (-0.5, len(columns) - 0.5), "ylim": (-0.5, len(rows) - 0.5)}
+    ax.set(**limits, title=f"{scene.scene}, {scene.setting.method}")
+    ax.set_yticks(range(len(rows)), [value(scene.rows, y) for y in rows])
+    ax.set_xticks(range(len(columns)), [value(scene.columns, x) for x in columns])
+    ax.set_xlabel(NAMES.get(scene.columns.name, scene.columns.name) if scene.columns.ratios else "no play")
+    ax.grid(False)
+    ax.tick_params(length=0)
+    ax.spines[:].set_visible(False)
+
+
+def _marked(scene: StressMap, row: float, step: float | None) -> bool:
+    return scene.rows.name == "step" and step is not None and math.isclose(row, step)
+
+
+def _draw_cell(ax: Axes, row: int, column: int, cell: Cell) -> None:
+    ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=FILL[cell.status], edgecolor="white", lw=1.5))
+    ax.text(column, row, cell.label, ha="center", va="center", fontsize=7.5, color="#333333", zorder=3)

@@ -1,0 +1,38 @@
+"""Reasons and values of a stress map in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from gudgeon.results.plot_units import quantity
+from gudgeon.studies.axes import Axis
+from gudgeon.studies.runs import Setting
+from gudgeon.studies.stress import StressMap
+from gudgeon.studies.words import clearance, seconds
+
+PASCAL = {"kg/m/s^2": "Pa", "kg/m/s": "Pa*s"}  # what only base units are known of
+# what a cell's label may begin with, and what that says; told where a cell has it
+LABELS = {
+    "at": "at: when the run failed", "energy": "energy: residual, or it comes from nowhere",
+    "motion": "motion: coordinates off by", "force": "force, path: off by", "path": "force, path: off by",
+    "through": "through: a journal left its bearing",
+    "lost": "lost: a contact was", "|Φ|": "|Φ|: constraints open", "?": "?: the finer run fails", "–": "–: not judged",
+    "δ": "δ: penetration beyond half the clearance or a hundredth of the bearing's radius",
+}  # fmt: skip
+
+
+def value(axis: Axis, x: float) -> str:
+    """A value on an axis as people say it."""
+    if axis.name == "clearance":
+        return clearance(x)
+    if axis.name == "rtol":
+        return str(Setting("auto", x))
+    return seconds(x) if axis.unit == "s" else quantity(x, PASCAL.get(axis.unit, axis.unit), 3)
+
+
+def explain(found: Sequence[StressMap]) -> str:
+    """What stands in the cells, of all that may stand there what does; three to a line."""
+    used = {cell.label.split(" ")[0] for scene in found for cell in scene.cells}
+    told = dict.fromkeys(text for word, text in LABELS.items() if word in used)
+    parts = ["a number: largest error against a finer run", *told]
+    return "\n".join(" · ".join(parts[k : k + 3]) for k in range(0, len(parts), 3))

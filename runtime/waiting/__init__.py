@@ -1,0 +1,1 @@
+"""What takes seconds: Ctrl-C, questions from C, programs that are started, late imports."""

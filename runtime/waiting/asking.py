@@ -1,0 +1,57 @@
+"""Whether a run is still wanted: Ctrl-C and progress while its loop is in C (templates/c/scene/asked.c.jinja).
+
+C asks each EVERY seconds, wherever it is, and gives up what it is at when told so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gudgeon.model.compiled import CompiledModel
+
+EVERY = 0.05  # s between two questions
+NAME = "gudgeon_python_asks"
+_registered: dict[int, Any] = {}  # libraries by id; kept, so that no other one gets the same
+
+
+class Asker:
+    """Whom C asks: `look` is called, and what it raises is kept until Python is back from C (`check`)."""
+
+    def __init__(self, compiled: CompiledModel, look: Callable[[], object]) -> None:
+        self.look = look
+        self.raised: BaseException | None = None
+        self.function = _function(compiled)
+        self.handle = compiled.ffi.new_handle(self)
+
+    @property
+    def arguments(self) -> tuple[Any, Any, float]:
+        """As C takes them: function, whom, seconds."""
+        return self.function, self.handle, EVERY
+
+    def answer(self) -> int:
+        """1: stop."""
+        try:
+            self.look()
+        except BaseException as error:  # nothing may pass through C
+            self.raised = error
+            return 1
+        return 0
+
+    def check(self, stopped: bool) -> None:
+        """Raises what was raised while C asked; `stopped`: C has given up."""
+        raised, self.raised = self.raised, None
+        if raised is not None:
+            raise raised
+        if stopped:
+            raise KeyboardInterrupt
+
+
+def _function(compiled: CompiledModel) -> Any:
+    """The function of a library that leads back to Python; an exception on the way there stops the run too."""
+    lib, ffi = compiled.lib, compiled.ffi
+    if id(lib) not in _registered:
+        ffi.def_extern(name=NAME, error=1, onerror=lambda *_: None)(lambda whom: ffi.from_handle(whom).answer())
+        _registered[id(lib)] = lib
+    return getattr(lib, NAME)

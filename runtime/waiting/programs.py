@@ -1,0 +1,61 @@
+"""Programs that run for gudgeon, each in a process group of its own: what is given up ends with all it started."""
+
+from __future__ import annotations
+
+import os
+import signal
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gudgeon.waiting.asking import EVERY
+from gudgeon.waiting.ctrl_c import CtrlC
+
+if TYPE_CHECKING:
+    import subprocess
+
+
+class Programs:
+    """A context that no program survives: what is still under way at its end (Ctrl-C, an error) is killed."""
+
+    def __init__(self) -> None:
+        self._begun: list[subprocess.Popen[str]] = []
+
+    def __enter__(self) -> Programs:
+        return self
+
+    def begin(self, line: list[str], folder: Path | None, environment: dict[str, str]) -> subprocess.Popen[str]:
+        """A program under way in a folder (None: this one). OSError if it cannot be run."""
+        import subprocess
+
+        with CtrlC() as ctrl_c:  # not between the start of a process and the note of it
+            process = subprocess.Popen(
+                line, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True,
+            )  # fmt: skip
+            self._begun.append(process)
+        ctrl_c.take()
+        return process
+
+    def wait(self, process: subprocess.Popen[str]) -> tuple[str, str]:
+        """Its output and errors, when it is over. KeyboardInterrupt within EVERY seconds of Ctrl-C."""
+        import subprocess
+
+        told: tuple[str, str] | None = None
+        with CtrlC() as ctrl_c:
+            while told is None:
+                try:
+                    told = process.communicate(timeout=EVERY)
+                except subprocess.TimeoutExpired:
+                    ctrl_c.take()
+        ctrl_c.take()  # one that came as the program ended
+        return told
+
+    def __exit__(self, *_: object) -> None:
+        left = [process for process in self._begun if process.returncode is None]
+        for process in left:
+            try:
+                os.killpg(process.pid, signal.SIGKILL)
+            except OSError:  # it is over
+                continue
+        for process in left:
+            process.communicate()

@@ -1,0 +1,228 @@
+"""`gudgeon run` as a user types it: exit codes, what is told, what is written, what is imported."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import gudgeon
+from gudgeon.errors import AssemblyError
+from gudgeon.simulation.simulation import Simulation
+from tests.pump import TEXT, Gudgeon, needs_compiler, written
+
+
+@needs_compiler
+def test_run_writes_a_file_a_scene_and_a_picture_and_shows_a_table(call: Gudgeon, pump: str, tmp_path: Path) -> None:
+    done = call("run", pump)
+    assert done.exit_code == 0, done.output
+    assert written(tmp_path) == {"out/pump_ideal.nc", "out/pump_worn.nc", "out/pump.png"}
+    for text in ("A pump with a worn wrist pin", "Peak error against ideal", "piston.x", "piston.ax", "B K", "worn"):
+        assert text in done.stdout
+    run = gudgeon.Result.load(tmp_path / "out/pump_worn.nc")
+    assert len(run.t) == 101 and run.t[-1] == 0.02
+
+
+@needs_compiler
+def test_json_holds_the_errors_against_the_ideal_scene(call: Gudgeon, pump: str) -> None:
+    done = call("run", pump, "--scene", "worn", "--json", "--t-end", "10 ms", "--output", "50", "--set", "c=0.3mm")
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)["scenes"]
+    worn = gudgeon.load(pump, scene="worn").simulate(0.01, output=50, parameters={"c": 0.3e-3})
+    ideal = gudgeon.load(pump).simulate(0.01, output=50)
+    error = worn["piston.ax"] - ideal["piston.ax"]
+    at = int(abs(error).argmax())
+    assert found["worn"]["errors"]["piston.ax"]["peak"] == error[at]
+    assert found["worn"]["errors"]["piston.ax"]["t"] == worn.t[at]
+    assert found["worn"]["peak_forces"]["B"]["F"] == worn.diagnostics.peaks[0].F
+    assert math.isclose(found["worn"]["constants"]["B.c"], 0.3e-3)
+    assert found["worn"]["diagnostics"]["onsets"] == worn.diagnostics.onsets > 0
+
+
+@needs_compiler
+def test_the_reference_has_the_parameters_of_the_scene(call: Gudgeon, tmp_path: Path) -> None:
+    """A scene that turns faster is compared with an ideal linkage that turns faster too."""
+    fast = TEXT + (
+        "  fast: {play: {B: {bearing: pin, contact: dry}}, parameters: {omega: 40 rad/s},\n"
+        "         simulate: {t_end: 0.005 s, step: 2e-6 s, output: 20}}\n"
+    )
+    (tmp_path / "fast.yaml").write_text(fast)
+    done = call("run", "fast.yaml", "--scene", "fast", "--json")
+    assert done.exit_code == 0, done.output
+    assert abs(json.loads(done.stdout)["scenes"]["fast"]["errors"]["piston.x"]["peak"]) < 3 * 0.2e-3
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("--scene", "wron"), "worn"),
+        (("--set", "cc=1mm"), "cc"),
+        (("--set", "bodies.rod.mas=1"), "bodies.rod.mass"),
+        (("--set", "c"), "ADDRESS=VALUE"),
+        (("--set", "c=11mm"), "clearance"),
+        (("--set", "c=1 kg"), "c"),
+        (("--set", "bodies.rod.mass=-1"), "mass"),
+        (("--watch", "piston.xx"), "piston.x"),
+        (("--t-end", "0"), "t_end"),
+        (("--step", "-1us"), "step"),
+        (("--method", "euler"), "rk4"),
+        (("--scene", "worn", "--method", "kinematic"), "use auto"),
+        (("--method", "rk4", "--rtol", "1e-6"), "no tolerance"),
+        (("--step", "1us", "--rtol", "1e-6"), "leave out rtol"),
+        (("--rtol", "1e-16"), "from 1e-14 to 1"),
+        (("--set", "contacts.dry.normal.restitution=1.5"), "expected > 0 and <= 1"),
+        (("--formulation", "tree"), "reduced, full"),
+        (("--output", "0"), "output"),
+    ],
+)
+def test_bad_arguments_end_with_2_and_nothing_written(
+    arguments: tuple[str, ...], told: str, call: Gudgeon, pump: str, tmp_path: Path
+) -> None:
+    done = call("run", pump, *arguments)
+    assert done.exit_code == 2, done.output
+    assert told in done.stderr
+    assert "Traceback" not in done.stderr and "adaptive" not in done.stderr
+    assert written(tmp_path) == set()
+
+
+@needs_compiler
+def test_the_full_formulation_is_what_is_integrated(call: Gudgeon, pump: str) -> None:
+    """Baumgarte's gains act there and nowhere else."""
+
+    def run(*arguments: str) -> Any:
+        done = call("run", pump, "--scene", "worn", "--method", "rk4", "--json", *arguments)
+        assert done.exit_code == 0, done.output
+        return json.loads(done.stdout)["scenes"]["worn"]["diagnostics"]["phi_dot_max"]
+
+    gains = ("--set", "baumgarte.alpha=1", "--set", "baumgarte.beta=1")
+    assert run() == run(*gains)
+    assert run("--formulation", "full") != run("--formulation", "full", *gains)
+
+
+@needs_compiler
+def test_an_interrupt_keeps_what_was_computed(
+    call: Gudgeon, pump: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulate = Simulation.simulate
+
+    def interrupted(self: Simulation, *args: Any, **options: Any) -> Any:
+        def progress(fraction: float, text: str) -> None:
+            if fraction > 0.3:
+                raise KeyboardInterrupt
+
+        if self.source.scene == "worn":
+            options |= {"progress": progress, "method": "rk4"}  # others are done before the first look
+        return simulate(self, *args, **options)
+
+    monkeypatch.setattr(Simulation, "simulate", interrupted)
+    monkeypatch.setattr("gudgeon.waiting.asking.EVERY", 0.0)  # C asks at every right-hand side
+    done = call("run", pump)
+    assert done.exit_code == 130, done.output
+    run = gudgeon.Result.load(tmp_path / "out/pump_worn.nc")
+    assert run.diagnostics.interrupted
+    assert 0.3 < run.t[-1] / 0.02 < 0.4
+
+
+@needs_compiler
+def test_a_scene_that_cannot_be_assembled_leaves_the_others(call: Gudgeon, tmp_path: Path) -> None:
+    """A rod of 5 mm does not reach the bore's axis."""
+    text = TEXT.replace("c: 0.2 mm", "c: 0.2 mm, l: 120 mm").replace("length: 120 mm", "length: l")
+    (tmp_path / "short.yaml").write_text(text + "  short: {parameters: {l: 5 mm}}\n")
+    done = call("run", "short.yaml", "--t-end", "1e-4")
+    assert done.exit_code == 1 and "error: scene short" in done.stderr, done.output
+    assert {"out/pump_worn.nc", "out/pump_ideal.nc"} <= written(tmp_path)
+
+
+@needs_compiler
+def test_figures_are_shown_even_if_they_cannot_be_written(
+    call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(self: gudgeon.Result, path: Path) -> None:
+        raise gudgeon.GudgeonError(f"cannot write {path}: No space left on device")
+
+    monkeypatch.setattr(gudgeon.Result, "save", full)
+    done = call("run", pump, "--t-end", "0.001")
+    assert done.exit_code == 1 and "No space left" in done.stderr
+    assert "Peak error against ideal" in done.stdout
+    assert "pump_worn.nc" in done.stderr and "pump_ideal.nc" in done.stderr, "each is tried, each is told"
+    assert written(Path("out")) == {"pump.png"}
+
+
+def test_a_folder_that_is_a_file_is_told_before_anything_is_run(call: Gudgeon, pump: str, tmp_path: Path) -> None:
+    done = call("run", pump, "--out", "pump.yaml/out")
+    assert done.exit_code == 2 and "pump.yaml is a file" in done.stderr
+    assert written(tmp_path) == set()
+
+
+@needs_compiler
+def test_tables_are_not_cut_where_the_screen_is_narrow(call: Gudgeon, pump: str) -> None:
+    from rich.console import Console
+
+    from gudgeon.results.report import compare, tables
+
+    runs = [gudgeon.load(pump, scene=scene).simulate(0.002, output=20, step=2e-6) for scene in ("ideal", "worn")]
+    reports = [compare(run, runs[0] if run is runs[1] else None, ["piston.x"]) for run in runs] * 2
+    shown = {}
+    for width in (200, 70):
+        console = Console(width=width, file=io.StringIO(), record=True)
+        for table in tables("A pump", reports, width):
+            console.print(table)
+        shown[width] = console.export_text()
+        assert max(map(len, shown[width].splitlines())) <= width
+    for text in shown[200].replace("─", "").split():
+        assert text in shown[70]
+
+
+@needs_compiler
+def test_a_run_that_fails_ends_with_1_and_keeps_what_it_had(call: Gudgeon, pump: str, tmp_path: Path) -> None:
+    """With a step of 1 ms the contact is far from resolved, and a stiff one throws the state out of range."""
+    done = call("run", pump, "--step", "1 ms", "--t-end", "1 s", "--set", "materials.steel.E=1e18")
+    if done.exit_code == 0:
+        pytest.skip("it survived")
+    assert done.exit_code == 1, done.output
+    assert "error: scene worn" in done.stderr and "Traceback" not in done.stderr
+    assert "out/pump_ideal.nc" in written(tmp_path)
+
+
+WARM = """
+import json, sys
+from gudgeon.simulation.simulation import Simulation
+simulate, seen = Simulation.simulate, []
+def watched(self, *args, **options):
+    seen.append(sorted({name.partition(".")[0] for name in sys.modules}))
+    return simulate(self, *args, **options)
+Simulation.simulate = watched
+from gudgeon.cli import app
+sys.argv = ["gudgeon", "run", sys.argv[1], "--t-end", "0.001"]
+try:
+    app()
+except SystemExit as end:
+    assert not end.code, end.code
+generator = [name for name in sys.modules if name.startswith("gudgeon.generator")]
+print(json.dumps([seen[0], sorted({name.partition(".")[0] for name in sys.modules}), generator]))
+"""
+
+
+@needs_compiler
+def test_a_warm_run_imports_little_before_it_integrates_and_the_generator_never(call: Gudgeon, pump: str) -> None:
+    assert call("run", pump, "--t-end", "0.001").exit_code == 0  # now it is warm
+    done = subprocess.run([sys.executable, "-c", WARM, pump], capture_output=True, text=True, check=True)
+    before, after, generator = json.loads(done.stdout.splitlines()[-1])
+    assert not {"sympy", "jinja2", "pydantic", "ruamel", "pint", "mpmath"} & set(after)
+    assert not {"xarray", "pandas", "matplotlib", "h5py", "rich", "scipy", "cffi"} & set(before)
+    assert generator == []
+
+
+def test_a_rate_that_a_joint_with_play_forbids_at_the_start_is_told(tmp_path: Path) -> None:
+    """It was called a dead centre against rows that the scene does not have."""
+    file = tmp_path / "pump.yaml"
+    file.write_text(TEXT.replace("piston.x: 0.14}", "piston.x: 0.14}\n  rates: {piston.vx: 3 m/s}"), encoding="utf-8")
+    with pytest.raises(AssemblyError, match=r"start\.rates piston\.vx cannot be met: a start closes .* play \(.*B"):
+        gudgeon.load(file, "worn").start()

@@ -1,0 +1,180 @@
+"""`gudgeon emit`: what it removes and replaces is its own, and a disk that fills leaves what was there."""
+
+from __future__ import annotations
+
+import errno
+import os
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gudgeon.commands import emit
+from gudgeon.commands.emit import LIST, emit_c, refuse_foreign
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import GudgeonError, InputError, OutputError
+from tests.tiny import tiny
+
+
+@pytest.fixture
+def source(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[KernelSource]:
+    """What is emitted next, for scenes called ideal and dry; no mechanism is read."""
+    current = [tiny()]
+    monkeypatch.setattr(emit, "chosen_scenes", lambda mechanism, wanted: wanted or ("ideal", "dry"))
+    monkeypatch.setattr(emit, "find_mechanism", Path)
+    monkeypatch.setattr(emit, "read_bytes", lambda file: b"")
+    monkeypatch.setattr(emit, "kernel_source", lambda data, file, scene: (current[0], "cache"))
+    return current
+
+
+def run(folder: Path) -> dict[str, bytes]:
+    emit_c("x.yaml", folder, ("dry",))
+    return contents(folder)
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_what_an_earlier_version_wrote_goes(source: list[KernelSource], tmp_path: Path) -> None:
+    source[0] = tiny(files={**tiny().files, "old.c": "/* old */\n"})
+    before = run(tmp_path / "c")
+    assert "dry/old.c" in before
+    source[0] = tiny(3)
+    after = run(tmp_path / "c")
+    assert "dry/old.c" not in after and after["dry/tiny.h"] != before["dry/tiny.h"]
+    for line in after[f"dry/{LIST}"].decode().splitlines():
+        total, name = line.split("  ")
+        assert sha256(after[f"dry/{name}"]).hexdigest() == total
+    assert run(tmp_path / "c") == after
+
+
+@pytest.mark.parametrize("how", ["../../precious.txt", "{0}/precious.txt", "link", "other bytes", "folder is a link"])
+def test_no_list_makes_emit_remove_a_users_file(source: list[KernelSource], tmp_path: Path, how: str) -> None:
+    precious = tmp_path / "precious.txt"
+    precious.write_text("precious")
+    total = sha256(b"precious").hexdigest()
+    folder = tmp_path / "c" / "dry"
+    run(tmp_path / "c")
+    listed = (folder / LIST).read_text()
+    if how == "link":
+        (folder / "old.c").symlink_to(precious)
+        (folder / LIST).write_text(f"{listed}{total}  old.c\n")
+    elif how == "other bytes":
+        (folder / "old.c").write_text("mine")
+        (folder / LIST).write_text(f"{listed}{total}  old.c\n")
+    elif how == "folder is a link":
+        folder.rename(tmp_path / "elsewhere")
+        folder.symlink_to(tmp_path / "elsewhere")
+        source[0] = tiny(5)
+    else:
+        (folder / LIST).write_text(f"{listed}{total}  {how.format(tmp_path)}\n")
+    before = contents(tmp_path)
+    with pytest.raises(InputError):
+        run(tmp_path / "c")
+    assert contents(tmp_path) == before
+
+
+def test_a_file_that_changes_after_it_was_looked_at_stays(source: list[KernelSource], tmp_path: Path) -> None:
+    """Bytes are compared when a file is removed, not only before."""
+    source[0] = tiny(files={**tiny().files, "old.c": "/* old */\n"})
+    run(tmp_path / "c")
+    (tmp_path / "c/dry/old.c").write_text("mine")
+    source[0] = tiny()
+    emit._write(tmp_path / "c/dry", {"tiny.c": b""})
+    assert (tmp_path / "c/dry/old.c").read_text() == "mine"
+
+
+def test_a_list_of_ones_own_is_not_replaced(source: list[KernelSource], tmp_path: Path) -> None:
+    (tmp_path / "c/dry").mkdir(parents=True)
+    (tmp_path / "c/dry" / LIST).write_text("things to buy\n")
+    with pytest.raises(InputError, match=LIST):
+        run(tmp_path / "c")
+
+
+@pytest.mark.parametrize("call", ["write", "replace"])
+def test_a_failure_at_any_file_is_no_obstacle_to_the_next_emit(
+    source: list[KernelSource], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: str
+) -> None:
+    """The old files whole, none lost, none half; the folder is still its own, and the next emit is as any."""
+    older = run(tmp_path / "c")
+    first = tiny(3, files={**tiny(3).files, "more.h": "/* more */\n"})
+    source[0] = first
+    wanted = run(tmp_path / "whole")
+    real_open, real_replace = os.open, os.replace
+    for failing in range(5):
+        count = [0]
+
+        def fail(count: list[int] = count, failing: int = failing) -> None:
+            count[0] += 1
+            if count[0] > failing:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+        def opening(path: str, flags: int, *args: int, **kwargs: int) -> int:
+            if str(path).endswith(".part"):
+                fail()
+            return real_open(path, flags, *args, **kwargs)
+
+        def replacing(*args: Any, **kwargs: Any) -> None:
+            fail()
+            real_replace(*args, **kwargs)
+
+        with monkeypatch.context() as patch, pytest.raises(OutputError, match="No space left") as caught:
+            patch.setattr(os, *(("open", opening) if call == "write" else ("replace", replacing)))
+            run(tmp_path / "c")
+        assert caught.value.exit_code == 1
+        there = contents(tmp_path / "c")
+        if call == "write":
+            assert there == older
+        names = there.keys() - {f"dry/{LIST}"}
+        assert older.keys() <= there.keys() and all(there[n] in (older.get(n), wanted[n]) for n in names)
+        refuse_foreign(tmp_path / "c/dry")
+    assert run(tmp_path / "c") == wanted
+
+
+def test_what_a_killed_emit_left_aside_is_replaced(source: list[KernelSource], tmp_path: Path) -> None:
+    wanted = run(tmp_path / "c")
+    half = tmp_path / "c/dry" / f".gudgeon-{'0' * 16}.part"
+    half.write_bytes(wanted["dry/tiny.c"][:10])
+    assert run(tmp_path / "c") == wanted
+
+
+def test_a_first_emit_that_fails_leaves_no_folder(
+    source: list[KernelSource], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(OutputError):
+        run(tmp_path / "c")
+    assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize("name", ["file", "file/x", "n" * 300, "/".join(["n" * 200] * 30), "/proc/x"])
+def test_a_folder_that_cannot_be_is_told(source: list[KernelSource], tmp_path: Path, name: str) -> None:
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(GudgeonError) as caught:
+        run(tmp_path / name)
+    assert caught.value.exit_code == 2 and len(str(caught.value)) < 600
+    assert contents(tmp_path) == {"file": b"mine"}
+
+
+def test_a_list_that_was_altered_is_what_is_told(tmp_path: Path) -> None:
+    """Not the files that it no longer lists."""
+    emit_c("pendulum", tmp_path, ("ideal",))
+    file = tmp_path / "ideal" / LIST
+    good = file.read_text()
+    file.write_text(good.replace("  model.h", "  ../model.h"))
+    with pytest.raises(InputError) as caught:
+        refuse_foreign(tmp_path / "ideal")
+    assert str(caught.value).startswith(f"{file} is no list")
+    assert "asked.c" not in str(caught.value)
+    line = next(each for each in good.splitlines() if each.endswith("  model.h"))
+    file.write_text(good.replace(line, "0" * 64 + "  model.h"))
+    with pytest.raises(InputError, match=rf": model.h and the checksums in {LIST} differ: files or list were changed"):
+        refuse_foreign(tmp_path / "ideal")
+    (tmp_path / "ideal" / "mine.txt").write_text("x")
+    with pytest.raises(InputError, match=r"did not write so: mine\.txt\n"):
+        refuse_foreign(tmp_path / "ideal")

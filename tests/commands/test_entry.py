@@ -1,0 +1,79 @@
+"""The command `gudgeon` as a process: streams that are closed or full, encodings, SIGTERM."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import gudgeon
+from tests.pump import needs_compiler
+
+START = "from gudgeon.entry import main; main()"
+TERMINATED = """
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from gudgeon.integrators import asking, session
+asking.EVERY, real, looks = 0.0, session.Session.look, []
+
+def look(self):
+    looks.append(0)
+    if len(looks) == 30:
+        os.kill(os.getpid(), signal.SIGTERM)
+    real(self)
+
+session.Session.look = look
+"""
+
+
+def gudgeon_process(line: str, folder: Path, before: str = "", **environment: str) -> subprocess.CompletedProcess[str]:
+    """A line of a shell, in which `gudgeon` is the command."""
+    code = before + START
+    return subprocess.run(
+        ["sh", "-c", 'gudgeon() { "$PYTHON" -c "$START" "$@"; }; ' + line], cwd=folder, capture_output=True, text=True,
+        encoding="utf-8", env={**os.environ, "PYTHON": sys.executable, "START": code, **environment},
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("closed", [">&-", ">&- 2>&-", "<&- >&- 2>&-"])
+def test_streams_that_are_closed(closed: str, tmp_path: Path) -> None:
+    done = gudgeon_process(f"gudgeon check pendulum {closed}", tmp_path)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert gudgeon_process(f"gudgeon check nobody.yaml {closed}", tmp_path).returncode == 2
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+def test_a_standard_output_without_room(tmp_path: Path) -> None:
+    for line in ("gudgeon check pendulum > /dev/full", "gudgeon schema > /dev/full"):
+        done = gudgeon_process(line, tmp_path)
+        assert done.returncode == 1
+        assert done.stderr == "error: cannot write standard output: No space left on device\n"
+
+
+def test_a_reader_that_has_enough(tmp_path: Path) -> None:
+    done = gudgeon_process("{ gudgeon schema; echo $? >&2; } | head -n 1", tmp_path)
+    assert done.stdout == "{\n" and done.stderr in ("0\n", "1\n")
+
+
+def test_what_an_encoding_lacks_is_escaped_as_in_json(tmp_path: Path) -> None:
+    line = "gudgeon check nine_bar_press -v"
+    done = gudgeon_process(line, tmp_path, PYTHONIOENCODING="ascii")
+    assert (done.returncode, done.stderr) == (0, "") and "\\u03a6_q" in done.stdout
+    found = [
+        json.loads(gudgeon_process(f"{line} --json", tmp_path, PYTHONIOENCODING=code).stdout)
+        for code in ("ascii", "utf-8")
+    ]
+    assert found[0] == found[1] and "non-zeros of Φ_q" in found[0]["scenes"]["dry"]
+
+
+@needs_compiler
+def test_sigterm_keeps_what_was_computed(tmp_path: Path) -> None:
+    done = gudgeon_process("gudgeon run pendulum --scene ideal --out out", tmp_path, TERMINATED)
+    assert done.returncode == 143, done.stderr
+    assert done.stderr.startswith("interrupted: what was computed is shown and saved; ideal ends at")
+    assert gudgeon.Result.load(tmp_path / "out/pendulum_ideal.nc").diagnostics.interrupted
+    assert not list((tmp_path / "out").glob(".*"))

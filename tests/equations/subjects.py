@@ -1,0 +1,72 @@
+"""A compiled scene beside the complex step of its equations, and how their Jacobians are compared."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.pipeline import derive
+from gudgeon.generator.targets.c.emit import emit
+from gudgeon.loading.build import compile_kernels
+from gudgeon.loading.shipped import shipped_file
+from gudgeon.model.compiled import CompiledModel
+from tests.equations.complex_step import ComplexStep
+
+NAN = float("nan")
+GAINS = ("baumgarte.alpha", "baumgarte.beta")
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A library and what it is compared with; `p` are its numbers."""
+
+    model: Model
+    library: CompiledModel
+    p: np.ndarray
+    exact: ComplexStep
+
+    @property
+    def n(self) -> int:
+        return self.library.n
+
+    def compare(self, t: float, y: np.ndarray, memory: np.ndarray, tolerance: float = 1e-10) -> np.ndarray:
+        """Checks f, J and f_t; gives J."""
+        f = self.library.rhs(t, y, self.p, memory)
+        assert_columns(f[:, None], self.exact(t, y, memory).real[:, None], self.n, tolerance)
+        J, f_t = self.library.jacobian(t, y, self.p, memory)
+        want, want_t = self.exact.jacobian(t, y, memory)
+        assert_columns(J[:, : 2 * self.n], want, self.n, tolerance)
+        assert_columns(f_t[:, None], want_t[:, None], self.n, tolerance)
+        assert not J[:, 2 * self.n :].any()
+        return J
+
+
+def assert_columns(got: np.ndarray, want: np.ndarray, n: int, tolerance: float) -> None:
+    """Velocities, accelerations, powers, each column relative to its largest entry.
+
+    Not less than 1e-4 of the block's largest, and 1e-2, below which nothing in these mechanisms matters.
+    """
+    for block in (slice(0, n), slice(n, 2 * n), slice(2 * n, None)):
+        scale = np.maximum(np.abs(want[block]).max(axis=0), max(1e-4 * np.abs(want[block]).max(), 1e-2))
+        assert (np.abs(got[block] - want[block]).max(axis=0, initial=0.0) <= tolerance * scale).all()
+
+
+def make(data: bytes, name: str, scene: str, values: Mapping[str, float] | None = None, **options: object) -> Subject:
+    """A scene; `values` by slot, `options` change the file itself."""
+    model = derive(data, name, scene, {key.replace("__", "."): x for key, x in options.items()})  # type: ignore[misc]
+    source = emit(model, "full")
+    library = CompiledModel(source, compile_kernels(source))
+    given, mask = np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool)
+    for k, slot in enumerate(source.slots):
+        if slot.address in (values or {}):
+            given[k], mask[k] = (values or {})[slot.address], True
+    return Subject(model, library, library.prepare(given, mask), ComplexStep(model, values))
+
+
+@cache
+def shipped_subject(name: str, scene: str, gains: float = 50.0) -> Subject:
+    return make(shipped_file(name).read_bytes(), name, scene, dict.fromkeys(GAINS, gains))

@@ -1,0 +1,157 @@
+"""The force laws as mathematics: against the oracles, their limits, their dissipation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import pytest
+import sympy as sp
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES, LawInputs, PairSymbols, laws
+from tests.oracles import dry, film
+
+PAIR = PairSymbols(R_i=0.015, R_j=0.0147, c=0.3e-3, L=0.04, E_i=70e9, nu_i=0.3, E_j=206e9, nu_j=0.28)
+VISCOSITY = 0.1
+UNIT = VISCOSITY * PAIR.R_j**3 * PAIR.L / PAIR.c**2  # μ R_j³ L / c²
+FAST = settings(derandomize=True, max_examples=200, deadline=None)
+
+rates = st.floats(-100.0, 100.0).filter(lambda x: x == 0.0 or abs(x) > 1e-9)
+moving = rates.filter(bool)
+ratios = st.floats(1e-6, 0.9999)
+
+
+class Evaluator:
+    """A law with numbers for everything but its state variables; calls give its results as floats."""
+
+    def __init__(self, name: str, parameters: Mapping[str, float], **options: str | bool) -> None:
+        self.law = laws()[name]
+        values = {p.name: p.default for p in self.law.parameters} | dict(parameters)
+        chosen = {o.name: o.default for o in self.law.options} | options
+        symbols = {v: sp.Symbol(v, real=True) for v in VARIABLES[self.law.role]}
+        pair = PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()})
+        numbers = {k: sp.Float(v) for k, v in values.items()}
+
+        def derive(name: str, expression: Any, meaning: str) -> Any:
+            return expression
+
+        steps = self.law.build(LawInputs(numbers, chosen, pair, symbols, derive))
+        known, self._steps = list(symbols.values()), []
+        for step, expression in steps.items():
+            self._steps.append((step, sp.lambdify(known, expression, "math")))
+            known.append(sp.Symbol(step, real=True))
+
+    def __call__(self, *state: float) -> tuple[float, ...]:
+        values, named = list(state), {}
+        for step, function in self._steps:
+            values.append(function(*values))
+            named[step] = float(values[-1])
+        return tuple(named[result] for result in RESULTS[self.law.role])
+
+
+FILM = Evaluator("pinkus_sternlicht", {"viscosity": VISCOSITY})
+PRINTED = Evaluator("pinkus_sternlicht", {"viscosity": VISCOSITY}, as_printed=True)
+SHEAR = Evaluator("pinkus_sternlicht", {"viscosity": VISCOSITY}, shear=True)
+NORMAL = {g: Evaluator("lankarani_nikravesh", {"restitution": 0.9}, geometry=g) for g in ("external", "internal")}
+FRICTION = Evaluator("modified_coulomb", {"mu": 0.15, "v0": 1e-4, "v1": 1e-3})
+
+
+def test_every_law_is_built_of_smooth_pieces_and_known_symbols() -> None:
+    """No Piecewise (common-subexpression elimination would hoist a division above its guard), no stray symbols."""
+    assert {law.role for law in laws().values()} == set(RESULTS)
+    for law in laws().values():
+        symbols = {v: sp.Symbol(v, real=True) for v in VARIABLES[law.role]}
+        parameters = {p.name: sp.Symbol(p.name, positive=True) for p in law.parameters}
+        pair = PairSymbols(**{k: sp.Symbol(k, positive=True) for k in vars(PAIR)})
+        chosen = {o.name: o.default for o in law.options}
+        steps = law.build(LawInputs(parameters, chosen, pair, symbols, lambda name, expression, meaning: expression))
+        assert set(RESULTS[law.role]) <= set(steps)
+        known = {*symbols.values(), *parameters.values(), *vars(pair).values()}
+        for name, expression in steps.items():
+            assert not expression.has(sp.Piecewise), (law.name, name)
+            assert expression.free_symbols <= known, (law.name, name)
+            known.add(sp.Symbol(name, real=True))
+
+
+@FAST
+@given(ratios, moving, rates)
+def test_film_is_pinkus_and_sternlicht(eps: float, eps_rate: float, omega_s: float) -> None:
+    w_t = -0.5 * eps * omega_s
+    got = FILM(eps, eps_rate, w_t)
+    want = film.pinkus_sternlicht(eps, eps_rate, omega_s)
+    tolerance = 1e-13 * UNIT * math.hypot(*want) / (1.0 - eps)  # 1 − ε² itself is only known to a rounding of ε
+    assert got[:2] == pytest.approx([UNIT * x for x in want], rel=1e-13, abs=tolerance)
+
+
+@FAST
+@given(ratios, moving, rates)
+def test_film_as_printed_differs_in_the_radial_sign_of_leaving(eps: float, eps_rate: float, omega_s: float) -> None:
+    radial, tangential, _ = FILM(eps, eps_rate, -0.5 * eps * omega_s)
+    assert PRINTED(eps, eps_rate, -0.5 * eps * omega_s)[:2] == (radial if eps_rate > 0 else -radial, tangential)
+    want = film.pinkus_sternlicht(eps, eps_rate, omega_s, as_printed=True)[0]
+    assert math.copysign(1.0, want) == math.copysign(1.0, PRINTED(eps, eps_rate, -0.5 * eps * omega_s)[0])
+
+
+@pytest.mark.parametrize("eps", [0.05, 0.3, 0.9, 0.999])
+def test_film_limits(eps: float) -> None:
+    steady = film.steady(eps, 12.0)
+    assert FILM(eps, 0.0, -6.0 * eps)[:2] == pytest.approx([UNIT * x for x in steady], rel=1e-12)
+    for rate in (3.0, -3.0):
+        assert FILM(eps, rate, 0.0)[0] == pytest.approx(UNIT * film.pure_squeeze(eps, rate), rel=1e-11)
+        assert FILM(0.0, rate, 2.0)[:2] == pytest.approx((UNIT * film.centred(rate), UNIT * film.centred(2.0)))
+    assert FILM(eps, 0.0, 0.0)[:2] == (0.0, 0.0)
+    assert FILM(0.0, 0.0, 0.0)[:2] == (0.0, 0.0)
+
+
+@FAST
+@given(st.floats(0.0, 0.9999), rates, rates)
+def test_film_only_dissipates(eps: float, w_n: float, w_t: float) -> None:
+    """F·w − T0 (ω_j − ω_i)² ≤ 0, in the frame of the mean surface speed; and mirrored whirl mirrors the force."""
+    radial, tangential, shear = SHEAR(eps, w_n, w_t)
+    assert radial * w_n + tangential * w_t <= 0.0
+    assert shear == pytest.approx(2.0 * math.pi * UNIT * PAIR.c / math.sqrt(1.0 - eps * eps), rel=1e-10)
+    assert SHEAR(eps, w_n, -w_t) == (radial, -tangential, shear)
+    assert FILM(eps, w_n, w_t)[2] == 0.0
+
+
+@FAST
+@given(st.floats(0.05, 0.95), st.floats(-0.5, 0.5), st.floats(50.0, 100.0))
+def test_film_is_near_gumbel_where_it_may_be(eps: float, eps_rate: float, omega_s: float) -> None:
+    assume(eps > 0.3)
+    got = FILM(eps, eps_rate, -0.5 * eps * omega_s)[:2]
+    want = film.gumbel_film(eps, eps_rate, omega_s, 4001)
+    assert math.dist(got, [UNIT * x for x in want]) < 0.1 * UNIT * math.hypot(*want)
+
+
+@FAST
+@given(st.floats(1e-9, 1e-4), st.floats(-5.0, 5.0), st.sampled_from(["external", "internal"]))
+def test_normal_force_is_lankarani_and_nikravesh(delta: float, ratio: float, geometry: str) -> None:
+    sign = 1 if geometry == "external" else -1
+    stiff = dry.stiffness(PAIR.R_i, PAIR.R_j, (PAIR.E_i, PAIR.E_j), (PAIR.nu_i, PAIR.nu_j), sign)
+    want = dry.normal_force(delta, ratio, 1.0, stiff, 1.5, dry.dissipation_factor(0.9))
+    assert NORMAL[geometry](delta, ratio)[0] == pytest.approx(want, rel=1e-13)
+
+
+def test_conformal_stiffness_is_ten_times_the_printed_one() -> None:
+    internal, external = NORMAL["internal"](1e-5, 0.0)[0], NORMAL["external"](1e-5, 0.0)[0]
+    assert internal / external == pytest.approx(math.sqrt(0.0297 / 0.0003), rel=1e-12)
+
+
+@FAST
+@given(st.floats(-0.01, 0.01), st.floats(0.0, 1e3))
+def test_friction_is_modified_coulomb(slip: float, normal: float) -> None:
+    (got,) = FRICTION(normal, slip)
+    assert got == pytest.approx(dry.friction_force(slip, normal, 0.15, 1e-4, 1e-3), rel=1e-11, abs=1e-13)
+    assert got * slip <= 0.0
+    assert abs(got) <= 0.15 * normal * (1.0 + 1e-15)
+
+
+@pytest.mark.parametrize(("given_restitution", "delivered"), [(0.9, 0.91318), (0.5, 0.72524)])
+def test_restitution_of_the_normal_law(given_restitution: float, delivered: float) -> None:
+    """The law's own damping factor, read from two forces, put into the identity a(1+e) = ln[(1+a)/(1−a e)]."""
+    law = Evaluator("lankarani_nikravesh", {"restitution": given_restitution})
+    factor = law(1e-5, 1.0)[0] / law(1e-5, 0.0)[0] - 1.0
+    assert dry.delivered(factor) == pytest.approx(delivered, abs=5e-6)

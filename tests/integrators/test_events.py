@@ -1,0 +1,132 @@
+"""Located events against closed forms: dead centres of a driven slider-crank, the period of a pendulum."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import gudgeon
+from gudgeon.cli import app
+from gudgeon.errors import UnknownNameError
+from gudgeon.simulation.simulation import Simulation
+
+pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+
+OMEGA = 20 * np.pi  # rad/s, of the shipped slider-crank: a turn in 0.1 s, dead centres every 0.05 s
+CLOSE = 1e-11  # s; the times are found to 1e-12 s
+EVENTS = """
+events:
+  dead: {zero: slider.vx}
+  inner: {zero: slider.vx, direction: rising}
+  outer: {zero: slider.vx, direction: falling}
+  clock: {zero: t - 33 ms}
+  up: {zero: crank.head.y - 25 mm, direction: rising}
+"""
+STOP = "  far: {zero: crank.theta - 9, action: stop}\n  too_late: {zero: t - 0.1432394488 s}\n"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("events")
+
+
+def load(folder: Path, name: str, events: str, scene: str = "ideal") -> Simulation:
+    """A shipped mechanism with events."""
+    text = resources.files("gudgeon.mechanisms").joinpath(f"{name}.yaml").read_text(encoding="utf-8")
+    path = folder / f"{name}.yaml"
+    path.write_text(text + events, encoding="utf-8")
+    return gudgeon.load(path, scene)
+
+
+@pytest.fixture(scope="module")
+def slider(folder: Path) -> Simulation:
+    return load(folder, "slider_crank", EVENTS)
+
+
+@pytest.mark.parametrize("output", [1, 7, 500])
+def test_dead_centres(slider: Simulation, output: int) -> None:
+    """However few samples are asked for: what is looked at are the steps that follow the motion."""
+    run = slider.simulate(0.42, output=output)
+    half_turns = np.arange(1, 9) * 0.05
+    np.testing.assert_allclose(run.events_of("dead"), half_turns, rtol=0, atol=CLOSE)
+    np.testing.assert_allclose(run.events_of("inner"), half_turns[::2], rtol=0, atol=CLOSE)
+    np.testing.assert_allclose(run.events_of("outer"), half_turns[1::2], rtol=0, atol=CLOSE)
+    np.testing.assert_allclose(run.events_of("clock"), [0.033], rtol=0, atol=CLOSE)
+    up = np.arange(5) * 0.1 + np.pi / 6 / OMEGA  # the crank's head is 50 mm · sin ωt high
+    np.testing.assert_allclose(run.events_of("up"), up, rtol=0, atol=CLOSE)
+    assert (np.diff(run.events["t"]) >= 0).all()
+    with pytest.raises(UnknownNameError, match="no event named 'outr'"):
+        run.events_of("outr")
+
+
+def test_more_events_than_there_is_room_for_at_once(slider: Simulation) -> None:
+    run = slider.simulate(39.98, output=1)
+    np.testing.assert_allclose(run.events_of("dead"), np.arange(1, 800) * 0.05, rtol=0, atol=1e-10)
+
+
+def test_a_run_ends_at_an_event_and_another_goes_on_from_there(folder: Path) -> None:
+    crank = load(folder, "slider_crank", EVENTS + STOP)
+    end = 9 / OMEGA
+    run = crank.simulate(0.5, output=100)
+    np.testing.assert_allclose(run.t, [*np.arange(29) * 0.005, end], rtol=0, atol=CLOSE)
+    assert abs(run["crank.theta"][-1] - 9.0) < OMEGA * CLOSE
+    assert run.events_of("far") == [run.t[-1]] and len(run.events_of("too_late")) == 0
+    assert run.diagnostics.notes[-1] == f"event far ended the run at t = {end:.9g} s"
+    assert run.diagnostics.energy_residual < 1e-6 * run.diagnostics.energy_turned_over
+    rest = crank.simulate(0.5, start=run.final)
+    assert rest.t[-1] == 0.5 and len(rest.events_of("far")) == 0 and len(rest.events_of("too_late")) == 1
+    both = np.concatenate([run.events_of("dead"), rest.events_of("dead")])
+    np.testing.assert_allclose(both, np.arange(1, 11)[: len(both)] * 0.05, rtol=0, atol=CLOSE)
+    through = crank.simulate(0.5, output=10, stop=False)
+    assert through.t[-1] == 0.5
+    np.testing.assert_allclose(through.events_of("far"), end, rtol=0, atol=CLOSE)
+
+
+def test_a_file_gives_the_events_back(slider: Simulation, tmp_path: Path) -> None:
+    pytest.importorskip("h5py")
+    run = slider.simulate(0.2, output=5)
+    run.save(tmp_path / "run.nc")
+    back = gudgeon.Result.load(tmp_path / "run.nc")
+    assert back.events.dtype == run.events.dtype and back.events.tobytes() == run.events.tobytes()
+    assert back.source.events == run.source.events
+    assert (back.events_of("dead") == run.events_of("dead")).all()
+
+
+def test_commands_tell_of_events(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The ideal run that the scene with play is compared with goes on where the ideal scene itself ends."""
+    load(folder, "slider_crank", EVENTS + "  soon: {zero: crank.theta - 0.4, action: stop}\n")
+    monkeypatch.chdir(tmp_path)
+    file = str(folder / "slider_crank.yaml")
+    done = CliRunner().invoke(app, ["check", "-v", file])
+    ideal, _ = done.output.split("scene dry")
+    assert "events dead (both, recorded), inner (rising, recorded)" in " ".join(ideal.split())
+    assert "soon (both, ends the run)" in done.output
+    done = CliRunner().invoke(app, ["run", file, "--t-end", "0.01", "--output", "10"])
+    assert done.exit_code == 0, done.output
+    assert re.search(r"soon +at 0\.00636619[78] s", done.output) and re.search(r"clock +none", done.output)
+    assert re.search(r"slider\.x +– +-?[\d.]+ mm at", done.output)
+    done = CliRunner().invoke(app, ["run", file, "--t-end", "0.01", "--output", "10", "--scene", "ideal", "--json"])
+    (soon,) = json.loads(done.stdout)["scenes"]["ideal"]["events"]["soon"]
+    assert abs(soon - 0.4 / OMEGA) < CLOSE
+
+
+SWING = "\nevents:\n  below: {zero: bob.x}\n  third: {zero: t - 2.75, action: stop}\n"
+
+
+@pytest.mark.parametrize(
+    ("method", "step", "rtol"), [("rk4", 1e-3, None), ("dop853", None, 1e-12), ("rodas5p", None, 1e-10)]
+)
+def test_period_of_a_pendulum(folder: Path, method: str, step: float | None, rtol: float | None) -> None:
+    """Released from the horizontal with a period of exactly 2 s, it passes its lowest place at ½, 1½, 2½ s."""
+    pendulum = load(folder, "pendulum", SWING, "two_seconds")
+    run = pendulum.simulate(4.0, output=4, method=method, step=step, rtol=rtol)
+    np.testing.assert_allclose(run.events_of("below"), [0.5, 1.5, 2.5], rtol=0, atol=1e-8)
+    np.testing.assert_allclose(run.t, [0.0, 1.0, 2.0, 2.75], rtol=0, atol=1e-12)
+    assert run.events_of("third") == [run.t[-1]]

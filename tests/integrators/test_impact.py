@@ -1,0 +1,65 @@
+"""One impact against closed forms: Hertz's contact time and peak force, the restitution that damping delivers.
+
+The ball starts 1 nm above the wall at the speed of a fall of 1 m, without gravity, as the closed forms have
+it. Hertz: δ_max = (5 m v²/(4 K))^(2/5), F = K δ_max^(3/2), T = 2.94327518432470 δ_max/v. The restitution e
+obeys a (1 + e) = ln[(1 + a)/(1 − a e)] for any F = K δⁿ (1 + a δ̇/δ̇⁻).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.generator.kinds.laws.dissipation import FACTORS
+from gudgeon.results.results import Result, State
+
+SPEED, MASS, K = 4.42944691807002, 0.092, 1.4e8
+WEIGHTLESS = {"gravity.y": -1e-12}  # a literal zero would be another scene
+
+
+def impact(simulation: gudgeon.Simulation, t_end: float, step: float, **restitution: float) -> Result:
+    start = simulation.start()
+    q, v = start.q.copy(), start.v.copy()
+    q[1], v[1] = -1.0 + 1e-9, -SPEED
+    state = State("", simulation.source.scene, 0.0, q, v, np.zeros(1, np.int8), np.array([np.nan]), {})
+    parameters = WEIGHTLESS | {f"contacts.damped.normal.{name}": x for name, x in restitution.items()}
+    return simulation.simulate(t_end, step=step, output=4, start=state, parameters=parameters)
+
+
+def test_hertz() -> None:
+    run = impact(gudgeon.load("bouncing_ball", "elastic"), 8e-4, 4e-9)
+    (contact,) = run.impacts
+    deepest = (1.25 * MASS * SPEED**2 / K) ** 0.4
+    time = 2.94327518432470 * deepest / SPEED
+    assert contact["t_off"] - contact["t_on"] == pytest.approx(time, rel=1e-8)
+    assert contact["F_peak"] == pytest.approx(K * deepest**1.5, rel=1e-8)
+    assert contact["F_peak"] == pytest.approx(2954.536232894533, rel=1e-8)
+    assert run["ball.vy"][-1] == pytest.approx(SPEED, rel=1e-9)  # nothing is lost
+
+
+@pytest.mark.parametrize(
+    ("c_e", "published"),
+    [
+        (0.1, 0.51583), (0.2, 0.54685), (0.3, 0.58129), (0.4, 0.61974), (0.5, 0.66296), (0.6, 0.71195), (0.7, 0.768),
+        (0.8, 0.83287), (0.9, 0.90902),
+    ],  # fmt: skip
+)
+def test_hunt_and_crossley_deliver(c_e: float, published: float) -> None:
+    run = impact(gudgeon.load("bouncing_ball", "damped"), 3e-3, 1e-7, restitution=c_e)
+    delivered = run["ball.vy"][-1] / SPEED
+    assert delivered == pytest.approx(published, abs=5e-6)
+    assert identity(1.5 * (1.0 - c_e), delivered) == pytest.approx(0.0, abs=1e-7)  # slope in e at most some 10
+
+
+@pytest.mark.parametrize("name", [name for name in FACTORS if name != "none"])
+def test_every_damping_factor_obeys_the_identity(name: str) -> None:
+    overrides = {"contacts.damped.normal.dissipation": name}
+    run = impact(gudgeon.load("bouncing_ball", "damped", overrides=overrides), 3e-3, 1e-7, restitution=0.7)
+    assert identity(float(FACTORS[name](0.7)), run["ball.vy"][-1] / SPEED) == pytest.approx(0.0, abs=1e-7)
+
+
+def identity(a: float, e: float) -> float:
+    return a * (1 + e) - math.log((1 + a) / (1 - a * e))

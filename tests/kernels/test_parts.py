@@ -1,0 +1,111 @@
+"""Long kernels cut into parts: the same numbers, bit for bit, whatever the parts' size."""
+
+from __future__ import annotations
+
+import shutil
+
+import numpy as np
+import pytest
+
+from gudgeon.generator.ir import sine_pairs
+from gudgeon.generator.ir import split as parts
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.ir.order import nearby
+from gudgeon.generator.pipeline import generate
+from gudgeon.loading.build import compile_kernels
+from gudgeon.loading.shipped import shipped_file
+from gudgeon.mechanisms.n_four_bar import text
+from gudgeon.model.compiled import CompiledModel
+from gudgeon.simulation.simulation import Simulation
+
+needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+WORKS = [
+    ("n_four_bar", "ideal", "reduced"), ("n_four_bar", "ideal", "full"), ("nine_bar_press", "lubricated", "reduced"),
+    ("andrews_squeezer", "ideal", "reduced"), ("belt_block", "ideal", "reduced"),
+]  # fmt: skip
+
+
+def simulation(name: str, scene: str, formulation: str, n: int = 0) -> Simulation:
+    """Derived and compiled now."""
+    file = shipped_file(name)
+    data = text(n).encode() if n else file.read_bytes()
+    source = generate(data, str(file), scene, None, formulation)
+    return Simulation(CompiledModel(source, compile_kernels(source)), file)
+
+
+def shorten(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Everything is long, and has many angles."""
+    monkeypatch.setattr(sine_pairs, "MANY", 1)
+    for name, value in (("LONG", 30), ("PART", 17), ("SHORTEST", 5)):
+        monkeypatch.setattr(parts, name, value)
+
+
+@needs_compiler
+@pytest.mark.parametrize(("name", "scene", "formulation"), WORKS)
+def test_runs_are_the_same_bit_for_bit(
+    name: str, scene: str, formulation: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = simulation(name, scene, formulation)
+    shorten(monkeypatch)
+    cut = simulation(name, scene, formulation)
+    assert "_part_2(" in "".join(cut.source.files.values()) and whole.source.files != cut.source.files
+    for method in ("dop853", "rodas5p"):
+        one, two = (s.simulate(5e-3, output=5, method=method) for s in (whole, cut))
+        assert np.array_equal(one.q, two.q) and np.array_equal(one.v, two.v)
+        assert one.diagnostics.right_hand_sides == two.diagnostics.right_hand_sides
+
+
+@needs_compiler
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_a_pivot_that_vanishes_within_a_part_is_dealt_with_as_before(
+    formulation: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # the cranks lie on the ground line: rows depend on each other, and what solves the system then is jumped to
+    whole = simulation("n_four_bar", "ideal", formulation, 3)
+    shorten(monkeypatch)
+    cut = simulation("n_four_bar", "ideal", formulation, 3)
+    q = np.zeros(21)
+    q[0:21:3] = [*(i + 0.5 for i in range(4)), 1.5, 2.5, 3.5]
+    v = np.zeros(21)
+    v[1:12:3], v[2:12:3], v[13::3] = -0.5, -1.0, -1.0
+    y = np.concatenate([q, v])
+    one, two = (s.rhs(0.0, y) for s in (whole, cut))
+    assert np.isfinite(one).all() and abs(one[21:]).max() > 0.1
+    assert np.array_equal(one, two)
+
+
+def test_statements_stand_near_what_reads_them() -> None:
+    # two pairs of values, computed first and read last: each pair moves to what reads it
+    defines = ["a", "b", "c", "d", "ab", "cd", ""]
+    reads = [frozenset(names.split()) for names in ("x", "y", "x", "y", "a b", "c d", "ab cd")]
+    assert nearby(reads, defines) == [0, 1, 4, 2, 3, 5, 6]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_every_statement_comes_once_and_behind_what_it_reads(seed: int) -> None:
+    draw = np.random.default_rng(seed)
+    needs = [set(draw.integers(0, k, size=3).tolist()) if k else set() for k in range(300)]
+    order = nearby([frozenset(f"x{j}" for j in own) for own in needs], [f"x{k}" for k in range(300)])
+    place = {k: n for n, k in enumerate(order)}
+    assert sorted(order) == list(range(300)) and order != sorted(order)
+    assert all(place[j] < place[k] for k, own in enumerate(needs) for j in own)
+
+
+def test_a_short_kernel_is_its_only_part() -> None:
+    kernel = Kernel("f", (), (Argument("double *", "x"),), (Section("", (Statement("x[0]", "1.0", False),)),))
+    assert parts.cut(kernel) == (kernel,)
+
+
+def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    shorten(monkeypatch)
+    plain = [Statement(f"a{k}", f"x[{k}]" if k == 0 else f"a{k - 1} + b[{k % 2}]") for k in range(40)]
+    lines: tuple[Statement | str, ...] = ("double b[2];", "fill(b);", *plain, Statement("y[0]", "a39 + a3", False))
+    kernel = Kernel("f", (), (Argument("const double *", "x"), Argument("double *", "y")), (Section("", lines),))
+    # every statement but the first reads b, which only a line of C knows: nothing may move
+    assert parts.cut(kernel) == (kernel,)
+    free = [Statement(f"a{k}", f"x[{k}]" if k == 0 else f"a{k - 1} + 1.0") for k in range(40)]
+    *pieces, main = parts.cut(Kernel("f", (), kernel.arguments, (Section("", (*lines[:2], *free, lines[-1])),)))
+    assert [piece.name for piece in pieces] == ["f_part_1", "f_part_2", "f_part_3"]
+    assert [line for section in main.sections for line in section.statements if isinstance(line, str)] == [
+        "double passed[3];", "double b[2];", "fill(b);", *(f"f_part_{k}(x, y, passed);" for k in (1, 2, 3)),
+    ]  # fmt: skip

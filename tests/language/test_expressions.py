@@ -1,0 +1,329 @@
+"""The expression parser: against Python's own arithmetic, against hostile text, column by column."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from gudgeon.errors import ExpressionError, InputError, LimitError, Location, UnitError
+from gudgeon.language.parser import MAX_LENGTH, check_dimension, parse
+from gudgeon.language.quantities import number_of_text
+from gudgeon.language.tree import FUNCTIONS, Binary, Call, Expr, Name, Number, Unary, evaluate, to_json
+from gudgeon.language.units import DIMENSIONLESS, LENGTH, MASS, RATE, TIME, VELOCITY, Dimension, dimension
+
+HERE = Location("file.yaml", 3, 10)
+PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
+VALUES = {"a": 1.5, "b_2": -0.75, "Long": 3.0}
+
+
+def number(expr: Expr, **values: float) -> float:
+    return float(evaluate(expr, {**VALUES, **values}.__getitem__))
+
+
+def write(expr: Expr, above: int = 0, right: bool = False) -> str:
+    """The tree as text with the fewest parentheses that our grammar, and Python's, need."""
+    match expr:
+        case Number(value=value):
+            return repr(value)
+        case Name(path=path):
+            return path
+        case Call(function=function, arguments=arguments):
+            return f"{function}({', '.join(write(a) for a in arguments)})"
+        case Unary(operand=operand):
+            text = f"-{write(operand, 3)}"
+            return f"({text})" if above > 3 and not right else text
+        case Binary(operator=operator, left=left, right=other):
+            own = PRECEDENCE[operator]
+            if operator == "**":
+                text = f"{write(left, 5)}**{write(other, 4, True)}"
+            else:
+                text = f"{write(left, own)} {operator} {write(other, own + 1)}"
+            return f"({text})" if own < above else text
+    raise AssertionError
+
+
+trees = st.recursive(
+    st.one_of(
+        st.floats(0, 1e6, allow_nan=False).filter(lambda x: x == 0 or x > 1e-6).map(Number),
+        st.sampled_from(sorted(VALUES)).map(Name),
+    ),
+    lambda inner: st.one_of(
+        inner.map(lambda x: Unary("-", x)),
+        st.builds(Binary, st.sampled_from(sorted(PRECEDENCE)), inner, inner),
+        st.builds(lambda f, a: Call(f, (a,)), st.sampled_from(["sin", "cos", "exp", "atan", "abs"]), inner),
+        st.builds(lambda f, a, b: Call(f, (a, b)), st.sampled_from(["atan2", "hypot", "min", "max"]), inner, inner),
+    ),
+    max_leaves=20,
+)
+
+
+@given(trees)
+def test_written_trees_read_back(tree: Expr) -> None:
+    assert to_json(parse(write(tree), HERE)) == to_json(tree)
+
+
+@given(trees)
+def test_against_pythons_own_arithmetic(tree: Expr) -> None:
+    """Precedence and associativity are Python's: its eval, with NumPy's functions, gives the same number.
+
+    But for the last bit: NumPy's power of scalars is not always that of arrays.
+    """
+    text = write(tree)
+    functions = {name: function for name, (_, function) in FUNCTIONS.items()}
+    values = {name: np.float64(value) for name, value in VALUES.items()}
+    # every literal a NumPy number, so that overflow and 0/0 are inf and nan on both sides
+    wrapped = write_wrapped(tree)
+    with np.errstate(all="ignore"):
+        expected = float(eval(wrapped, {"__builtins__": {}}, {**functions, **values, "F": np.float64}))  # noqa: S307
+        found = number(parse(text, HERE))
+    assert math.isclose(found, expected, rel_tol=1e-14) or (math.isnan(found) and math.isnan(expected))
+
+
+def write_wrapped(tree: Expr) -> str:
+    """`write`, with numbers as F(…)."""
+
+    def wrap(expr: Expr) -> Expr:
+        match expr:
+            case Number(value=value):
+                return Name(f"F({value!r})")
+            case Unary(operator=operator, operand=operand):
+                return Unary(operator, wrap(operand))
+            case Binary(operator=operator, left=left, right=right):
+                return Binary(operator, wrap(left), wrap(right))
+            case Call(function=function, arguments=arguments):
+                return Call(function, tuple(wrap(a) for a in arguments))
+        return expr
+
+    return write(wrap(tree))
+
+
+@given(st.text(max_size=60))
+def test_any_text_parses_or_raises_an_input_error(text: str) -> None:
+    try:
+        parse(text, HERE)
+    except InputError as error:
+        assert error.where is not None and error.where.line == HERE.line
+        assert HERE.column <= error.where.column <= HERE.column + len(text)
+
+
+@given(st.text(alphabet="0123456789.eE+-*/() ,_^abtpimksrdgNP\u00b5", max_size=40))
+def test_likely_text_parses_or_raises_an_input_error(text: str) -> None:
+    try:
+        tree = parse(text, HERE)
+    except InputError as error:
+        assert error.where is not None
+        assert HERE.column <= error.where.column <= HERE.column + len(text)
+    else:
+        try:
+            check_dimension(tree, LENGTH, lambda path: None, HERE)
+        except UnitError as error:
+            assert error.where is not None
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("80 mm", 0.08),
+        ("0.3 mm", 0.0003),
+        ("3.030e-4 kg*m^2", 3.030e-4),
+        ("2*pi rad/s", math.tau),
+        ("pi rad", math.pi),
+        ("-39.52 deg", -math.radians(39.52)),
+        ("100 1/s", 100.0),
+        ("3 in", 0.0762),
+        ("5 min", 300.0),
+        ("5 \u00b5m + 5 \u03bcm", 1e-5),
+        (".5 + 5. + 1e-1", 5.6),
+        ("-2**2", -4.0),
+        ("2**3**2", 512.0),
+        ("2**-1", 0.5),
+        ("-2**-2", -0.25),
+        ("1 - 2 - 3", -4.0),
+        ("8 / 4 / 2", 1.0),
+        ("+-+3", -3.0),
+        ("6 mm*a", 0.009),
+        ("(3 mm)**2", 9e-6),
+        ("1/(2 s)", 0.5),
+        ("smooth_step(0.25, 0, 0.5 s) * 90 deg", math.pi / 4),
+        ("ramp(3, 1, 4)", 0.5),
+        ("min(1, 2) * max(3, 4)", 4.0),
+    ],
+)
+def test_value(text: str, expected: float) -> None:
+    assert number(parse(text, HERE)) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "offset"),
+    [
+        ("", ExpressionError, 0),
+        ("   ", ExpressionError, 3),
+        ("1 +", ExpressionError, 3),
+        ("(1 + 2", ExpressionError, 6),
+        ("1 + 2)", ExpressionError, 5),
+        ("a b_2", ExpressionError, 2),
+        ("1 2", ExpressionError, 2),
+        ("80mm", ExpressionError, 2),
+        ("80  mm", ExpressionError, 4),
+        ("2 + 3 mm^12", UnitError, 6),
+        ("2 a", UnitError, 2),
+        ("2 pi", UnitError, 2),
+        ("2 t", UnitError, 2),
+        ("3 m**2", ExpressionError, 3),
+        ("3 m ** 2", ExpressionError, 3),
+        ("pi/4 deg", ExpressionError, 3),
+        ("0x1F", ExpressionError, 0),
+        ("0o17", ExpressionError, 0),
+        ("1 + 017", ExpressionError, 4),
+        ("1_000", ExpressionError, 1),
+        ("1e999", ExpressionError, 0),
+        ("1e-999", ExpressionError, 0),
+        ("1e99999999999", ExpressionError, 0),
+        ("1e308 km", ExpressionError, 0),
+        ("true", ExpressionError, 0),
+        ("null", ExpressionError, 0),
+        (".inf", ExpressionError, 0),
+        ("nan", ExpressionError, 0),
+        ("~", ExpressionError, 0),
+        ("omega.__class__", ExpressionError, 6),
+        ("a.b.__init__", ExpressionError, 4),
+        ("__import__", ExpressionError, 0),
+        ("_private", ExpressionError, 0),
+        ("a[0]", ExpressionError, 1),
+        ("a < b_2", ExpressionError, 2),
+        ("a == b_2", ExpressionError, 2),
+        ("'a'", ExpressionError, 0),
+        ("lambda: 0", ExpressionError, 0),
+        ("1 if a else 2", ExpressionError, 2),
+        ("a ^ 2", ExpressionError, 2),
+        ("a % 2", ExpressionError, 2),
+        ("\u2212 2", ExpressionError, 0),
+        ("1\t+ 2", ExpressionError, 1),
+        ("foo(1)", ExpressionError, 0),
+        ("a(1)", ExpressionError, 0),
+        ("sin", ExpressionError, 0),
+        ("2 * sin(1, 2)", ExpressionError, 4),
+        ("atan2(1)", ExpressionError, 0),
+        ("smooth_step(t, 1)", ExpressionError, 0),
+        ("sin()", ExpressionError, 4),
+        ("a,", ExpressionError, 1),
+        ("1; 2", ExpressionError, 1),
+    ],
+)
+def test_refused_at_its_column(text: str, kind: type[InputError], offset: int) -> None:
+    with pytest.raises(InputError) as caught:
+        parse(text, HERE)
+    error = caught.value
+    assert error.where == Location("file.yaml", 3, 10 + offset)
+    # "1 if …" reads "if" as a unit first; both classes say that it is no expression
+    assert type(error) is kind or (text.startswith("1 if") and isinstance(error, UnitError))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1" + "+1" * 5000,
+        "(" * 60 + "1" + ")" * 60,
+        "-" * 200 + "1",
+        "2**" * 100 + "2",
+        "1" + "+1" * 120,
+        "sin(" * 80 + "1" + ")" * 80,
+        "a" * (MAX_LENGTH + 1),
+    ],
+)
+def test_bounds(text: str) -> None:
+    with pytest.raises(LimitError):
+        parse(text, HERE)
+
+
+def test_wide_expressions_are_bounded_too() -> None:
+    def balanced(depth: int) -> str:
+        return "a" if depth == 0 else f"({balanced(depth - 1)}+{balanced(depth - 1)})"
+
+    parse(balanced(6), HERE)
+    with pytest.raises(LimitError):
+        parse(balanced(8), HERE)
+
+
+NAMES = {"t": TIME, "l": LENGTH, "m1": MASS, "omega": RATE, "free": None}
+
+
+def dimension_of(text: str, expected: Dimension | None = None) -> Dimension | None:
+    return check_dimension(parse(text, HERE), expected, NAMES.__getitem__, HERE)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("80 mm", LENGTH),
+        ("l * omega", VELOCITY),
+        ("2 * l + 3", LENGTH),
+        ("l**2", dimension(2)),
+        ("sqrt(l**2 + (3 mm)**2)", LENGTH),
+        ("l**(1/2)", Dimension(Fraction(1, 2))),
+        ("l**-1", dimension(-1)),
+        ("atan2(l, 3 mm) + 5 deg", DIMENSIONLESS),
+        ("omega * t + 10 deg", DIMENSIONLESS),
+        ("smooth_step(t, 0, 0.5 s) * 90 deg", DIMENSIONLESS),
+        ("10 mm * sin(omega * t)", LENGTH),
+        ("min(l, 3 mm)", LENGTH),
+        ("abs(-m1)", MASS),
+        ("5", None),
+        ("free * l", None),
+        ("10 mm + free", LENGTH),
+        ("2*pi*t", None),  # a bare number beside t alone may be a rate
+    ],
+)
+def test_dimension(text: str, expected: Dimension | None) -> None:
+    assert dimension_of(text) == expected
+
+
+@pytest.mark.parametrize("text", ["3", "free", "free * l", "-3 * 2", "2*pi*t", "sin(2*pi*t) * 10 mm", "3 + 2 mm"])
+def test_bare_numbers_fit(text: str) -> None:
+    assert dimension_of(text, LENGTH) == LENGTH
+
+
+@pytest.mark.parametrize(
+    ("text", "expected", "message", "offset"),
+    [
+        ("142 mm", MASS, "expected a mass (kg), got a length (m)", 0),
+        ("2 * 3 mm", MASS, "expected a mass (kg), got a length (m)", 0),
+        ("omega", LENGTH, "expected a length (m), got a rate or an angular velocity (rad/s)", 0),
+        ("1 + l + m1", LENGTH, "cannot add: a length (m) and a mass (kg)", 8),
+        ("l - 2 * m1", LENGTH, "cannot subtract: a length (m) and a mass (kg)", 4),
+        ("l * sin(omega)", LENGTH, "sin expected a pure number or an angle (rad), got a rate", 8),
+        ("max(l, 3 kg)", LENGTH, "max of unlike quantities: a length (m) and a mass (kg)", 7),
+        ("2**(3 mm)", None, "an exponent is a pure number, got a length (m)", 4),
+        ("l**free", None, "the exponent of a length (m) is a plain number", 3),
+        ("l**0.123456", None, "the exponent of a length (m) is a plain number", 3),
+        ("l**1e300", None, "the exponent of a length (m) is a plain number", 3),
+    ],
+)
+def test_wrong_dimension(text: str, expected: Dimension | None, message: str, offset: int) -> None:
+    with pytest.raises(UnitError) as caught:
+        dimension_of(text, expected)
+    assert message in caught.value.message
+    assert caught.value.where == Location("file.yaml", 3, 10 + offset)
+
+
+@given(trees, st.integers(-3, 3))
+def test_scaling_the_unit_scales_the_value(tree: Expr, power: int) -> None:
+    """`(tree) * 1 km^n` is 1000ⁿ times the tree, whatever the tree."""
+    value = number(parse(write(tree), HERE))
+    assume(math.isfinite(value) and 1e-200 < abs(value) < 1e200 and power)
+    scaled = number(parse(f"({write(tree)}) * 1 km^{power}", HERE))
+    assert scaled == pytest.approx(value * 1000.0**power, rel=1e-14)
+
+
+def test_number_of_text() -> None:
+    assert number_of_text(" 0.5 mm ", "bearings.pin.clearance", (1, 0, 0)) == 0.0005
+    assert number_of_text("2*pi rad/s", "parameters.omega", (0, 0, -1)) == math.tau
+    assert number_of_text("-3e-4", "parameters.c", (1, 0, 0)) == -3e-4
+    for text in ("1 kg", "c", "", "0.5mm", "2 * omega"):
+        with pytest.raises(InputError, match="value of parameters.c:1:"):
+            number_of_text(text, "parameters.c", (1, 0, 0))

@@ -1,0 +1,129 @@
+"""The table of units against pint, the converter of record."""
+
+from __future__ import annotations
+
+import math
+import re
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gudgeon.language.units import (
+    DIMENSIONLESS,
+    LENGTH,
+    UNITS,
+    VISCOSITY,
+    Dimension,
+    describe,
+    dimension,
+    parse_unit,
+    si_unit,
+    unit,
+)
+
+pint = pytest.importorskip("pint")
+BASES = {"[length]": 0, "[mass]": 1, "[time]": 2}
+WRITTEN = {"P": "poise", "cP": "centipoise", "rev": "revolution", "in": "inch"}  # where pint's symbol is another
+
+
+@pytest.fixture(scope="module")
+def registry():  # type: ignore[no-untyped-def]
+    return pint.UnitRegistry()
+
+
+@pytest.mark.parametrize("token", UNITS)
+def test_unit_is_pints(token: str, registry) -> None:  # type: ignore[no-untyped-def]
+    factor, of = UNITS[token]
+    written = re.sub(r"[A-Za-z]+", lambda symbol: WRITTEN.get(symbol[0], symbol[0]), token)
+    quantity = registry.Quantity(1.0, written).to_base_units()
+    assert factor == pytest.approx(quantity.magnitude, rel=1e-15)
+    exponents = [0, 0, 0]
+    for base, exponent in quantity.dimensionality.items():
+        exponents[BASES[base]] = exponent
+    assert of == dimension(*exponents)
+
+
+def test_the_list_is_closed() -> None:
+    for token in (
+        "t",
+        "c",
+        "k",
+        "h",
+        "e",
+        "G",
+        "R",
+        "Hz",
+        "tonne",
+        "ft",
+        "",
+        "mm ",
+        " mm",
+        "1",
+        "1/",
+        "m**2",
+        "m^0",
+        "m^10",
+    ):
+        assert unit(token) is None
+
+
+def test_rounding_is_done_once() -> None:
+    found = unit("mm")
+    assert found is not None
+    for micrometres in range(1, 2000):
+        assert found.to_si(Fraction(micrometres, 1000)) == float(f"{micrometres}e-6")
+    degree = unit("deg")
+    assert degree is not None
+    assert [degree.to_si(Fraction(n)) for n in (90, 180, -360)] == [math.pi / 2, math.pi, -2 * math.pi]
+
+
+@given(
+    st.lists(st.tuples(st.sampled_from(["m", "kg", "s", "N", "mm", "deg"]), st.integers(-3, 3)), min_size=1, max_size=4)
+)
+def test_products_multiply(factors: list[tuple[str, int]]) -> None:
+    factors = [(symbol, power or 1) for symbol, power in factors]
+    token = "*".join(f"{symbol}^{power}" if power != 1 else symbol for symbol, power in factors)
+    found = unit(token)
+    assert found is not None
+    expected, of = 1.0, DIMENSIONLESS
+    for symbol, power in factors:
+        expected *= UNITS[symbol][0] ** power
+        of = of * UNITS[symbol][1] ** power
+    assert found.to_si(Fraction(1)) == pytest.approx(expected, rel=1e-14)
+    assert found.dimension == of
+
+
+def test_a_unit_ends_where_the_expression_goes_on() -> None:
+    for text, token in (("mm*c", "mm"), ("m/s)", "m/s"), ("m/c", "m"), ("N*m*sin(t)", "N*m"), ("kg*m^2 * 3", "kg*m^2")):
+        found = parse_unit(text)
+        assert found is not None and text[: found[1]] == token
+    assert parse_unit("m_x") is None and parse_unit("mm3") is None
+
+
+@given(st.builds(dimension, st.integers(-4, 4), st.integers(-4, 4), st.integers(-4, 4)))
+def test_si_unit_reads_back(of: Dimension) -> None:
+    written = si_unit(of)
+    if of == DIMENSIONLESS:
+        assert written == ""
+        return
+    found = unit(written)
+    assert found is not None and found.dimension == of and found.to_si(Fraction(1)) == 1.0
+
+
+def test_words() -> None:
+    assert describe(LENGTH) == "a length (m)"
+    assert describe(VISCOSITY) == "a viscosity (Pa*s)"
+    assert describe(dimension(1, 1, 1)) == "a quantity (kg*m*s)"
+
+
+def test_a_divisor_with_the_wanted_unit_is_told_how_to_write_it() -> None:
+    from gudgeon.errors import Location, UnitError
+    from gudgeon.language.dimension_check import check_dimension
+    from gudgeon.language.parser import parse
+    from gudgeon.language.units import INERTIA
+
+    where = Location("f", 1, 1)
+    with pytest.raises(UnitError, match=r"write 1 kg\*m\^2 \* …, or \(…\)/12 \* 1 kg\*m\^2"):
+        check_dimension(parse("1/12 kg*m^2", where), INERTIA, lambda _: None, where)

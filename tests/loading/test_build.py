@@ -1,0 +1,327 @@
+"""From C text to a loaded library: what decides its key, what goes wrong, and what a process killed leaves."""
+
+from __future__ import annotations
+
+import os
+import select
+import shutil
+import signal
+import subprocess
+import sys
+import sysconfig
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from gudgeon.errors import BadValueError, BuildError
+from gudgeon.loading import build, compiler
+from gudgeon.loading.build import LIBRARY, compile_kernels, library_key
+from gudgeon.loading.cache import Cache, private_cache
+from tests.tiny import tiny
+
+# the real compiler behind a script that logs versions (V) and compiles of a scene (C), not the wrapper's nor the link
+SCRIPT = """#!/bin/sh
+case "$*" in *--version*) kind=V ;; *wrapper*) kind=W ;; *) kind=C ;; esac
+[ $kind = W ] || echo $kind >>"{log}"
+{extra}
+exec {real} "$@"
+"""
+CHILD = """
+from gudgeon.loading.build import compile_kernels
+from tests.tiny import tiny
+print(compile_kernels(tiny()).lib.scale(4.0))
+"""
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Cache:
+    """An empty cache, also of the child processes; no library of another test is remembered."""
+    monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(build, "_modules", {})
+    return Cache(tmp_path / "cache")
+
+
+@pytest.fixture
+def fake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Path]:
+    """Puts a script in $CC; the path of its log comes back."""
+    real = compiler.find_compiler()[0]
+
+    def write(extra: str = "") -> Path:
+        script, log = tmp_path / "cc.sh", tmp_path / "cc.log"
+        script.write_text(SCRIPT.format(log=log, extra=extra, real=real))
+        script.chmod(0o755)
+        monkeypatch.setenv("CC", str(script))
+        log.touch()
+        return log
+
+    return write
+
+
+def child() -> subprocess.Popen[str]:
+    path = os.pathsep.join(filter(None, [os.environ.get("PYTHONPATH"), str(ROOT)]))
+    return subprocess.Popen(
+        [sys.executable, "-c", CHILD],
+        env={**os.environ, "PYTHONPATH": path},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def only_library(cache: Cache) -> Path:
+    (path,) = cache.root.glob(f"libraries/*/{LIBRARY}")
+    return path
+
+
+def test_compiles_and_runs(cache: Cache) -> None:
+    module = compile_kernels(tiny(3), cache=cache)
+    assert module.lib.scale(2.0) == 6.0
+    assert module.ffi.typeof(module.lib.scale).result.cname == "double"
+
+
+def test_two_sources_live_side_by_side(cache: Cache) -> None:
+    two, five = compile_kernels(tiny(2)), compile_kernels(tiny(5))
+    assert (two.lib.scale(1.0), five.lib.scale(1.0)) == (2.0, 5.0)
+
+
+def test_the_second_time_neither_compiler_nor_version_is_asked_for(
+    cache: Cache, fake: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log = fake()
+    for _ in range(2):
+        monkeypatch.setattr(build, "_modules", {})  # as in a new process
+        compile_kernels(tiny())
+    assert log.read_text().split() == ["V", "C"]
+    compile_kernels(tiny(), rebuild=True)
+    assert log.read_text().split() == ["V", "C", "C"]
+
+
+def test_a_changed_compiler_is_asked_and_used_again(
+    cache: Cache, fake: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log = fake('case "$*" in *--version*) echo one; exit ;; esac')
+    compile_kernels(tiny())
+    fake('case "$*" in *--version*) echo three; exit ;; esac')
+    monkeypatch.setattr(build, "_modules", {})
+    compile_kernels(tiny())
+    assert log.read_text().split() == ["V", "C", "V", "C"]
+
+
+def key(portable: bool = False, **changes: object) -> str:
+    asked = {"source": tiny(), "command": ("cc",), "flags": compiler.flags(portable), "identity": "gcc 12", **changes}
+    return library_key(**asked, portable=portable)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"source": tiny(3)},
+        {"source": tiny(main="tiny.h")},
+        {"source": tiny(cdef="double scale(double y);")},
+        {"source": tiny(files={**tiny().files, "more.h": ""})},
+        {"command": ("cc", "-m64")},
+        {"flags": ("-O3",)},
+        {"identity": "gcc 13"},
+        {"portable": True},
+    ],
+)
+def test_the_key_changes_with_what_decides_the_library(changes: dict[str, object]) -> None:
+    assert key(**changes) != key()  # type: ignore[arg-type]
+
+
+def test_the_key_does_not_change_with_what_does_not() -> None:
+    files = dict(reversed(list(tiny().files.items())))
+    assert key(source=tiny(title="another", notes=("a note",), files=files)) == key()
+
+
+def test_only_native_code_is_bound_to_the_cpu(monkeypatch: pytest.MonkeyPatch) -> None:
+    native, portable = key(), key(portable=True)
+    monkeypatch.setattr(compiler, "cpu", lambda: "another")
+    assert key() != native
+    assert key(portable=True) == portable
+    assert not any("native" in flag for flag in compiler.flags(True))
+    assert any("native" in flag for flag in compiler.flags(False))
+
+
+def test_no_flag_breaks_isnan(cache: Cache) -> None:
+    files = {"nan.c": "#include <math.h>\nint bad(double x) { return !isfinite(x) || isnan(x); }\n"}
+    module = compile_kernels(tiny(files=files, main="nan.c", cdef="int bad(double x);"))
+    assert [module.lib.bad(x) for x in (1.0, float("nan"), float("inf"))] == [0, 1, 1]
+
+
+def test_a_damaged_library_is_built_again(cache: Cache, fake: Callable[..., Path]) -> None:
+    log = fake()
+    assert child().communicate()[0] == "8.0\n"
+    library = only_library(cache)
+    os.truncate(library, library.stat().st_size // 2)
+    assert child().communicate()[0] == "8.0\n"
+    assert log.read_text().split() == ["V", "C", "C"]
+
+
+def test_processes_on_an_empty_cache_compile_once(cache: Cache, fake: Callable[..., Path]) -> None:
+    log = fake()
+    children = [child() for _ in range(32)]
+    answers = [process.communicate() for process in children]
+    assert [out for out, _ in answers] == ["8.0\n"] * 32, answers
+    assert sorted(log.read_text().split()) == ["C", "V"]
+
+
+@pytest.fixture
+def gate(tmp_path: Path) -> Iterator[Path]:
+    """A compiler that finds this file tells that it runs, and then waits for good."""
+    (tmp_path / "gate").touch()
+    os.mkfifo(tmp_path / "running")
+    os.mkfifo(tmp_path / "never")
+    yield tmp_path / "gate"
+
+
+def test_killed_in_the_middle_of_a_compile(cache: Cache, fake: Callable[..., Path], gate: Path) -> None:
+    folder = gate.parent
+    fake(f'[ $kind = C ] && [ -e "{gate}" ] && {{ echo $$ >"{folder}/running"; read x <"{folder}/never"; }}')
+    running, orphan = os.open(folder / "running", os.O_RDONLY | os.O_NONBLOCK), 0
+    killed = child()
+    try:
+        assert select.select([running], [], [], 120)[0], "the compiler was never started"
+        orphan = int(os.read(running, 100))
+        assert len(list((cache.root / "aside").iterdir())) == 1
+        killed.kill()
+        killed.wait()
+        gate.unlink()
+        # the orphaned compiler still waits in its folder; neither it nor its lock may be in the way
+        again = child().communicate()
+        assert again[0] == "8.0\n", again
+        assert list((cache.root / "aside").iterdir()) == []
+        assert only_library(cache).is_file()
+    finally:
+        killed.kill()
+        if orphan:
+            os.killpg(orphan, signal.SIGKILL)
+        os.close(running)
+
+
+@pytest.mark.parametrize("kind", ["C", "W", "V", "*.so"])
+def test_ctrl_c_ends_the_compilers_and_what_they_started(
+    cache: Cache, fake: Callable[..., Path], gate: Path, kind: str
+) -> None:
+    """Of each program under way: scene, wrapper, version, link. Their ends of the pipe are all closed at once."""
+    folder = gate.parent
+    waits = f'{{ exec 9>"{folder}/running"; echo $$ >&9; sleep 1000; }}'  # the sleep holds the pipe too
+    is_it = f'case "$*" in *" {LIBRARY} "*) true ;; *) false ;; esac' if kind == "*.so" else f"[ $kind = {kind} ]"
+    fake(f"if {is_it}; then {waits}; fi")
+    running = os.open(folder / "running", os.O_RDONLY | os.O_NONBLOCK)
+    process = child()
+    try:
+        assert select.select([running], [], [], 120)[0], "the compiler was never started"
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=120)[1]
+        assert said.rstrip().endswith("KeyboardInterrupt"), said
+        while select.select([running], [], [], 60)[0]:
+            if not os.read(running, 100):
+                break  # the end, which comes when nobody is left who might write
+        else:
+            pytest.fail("something of the compiler is left")
+        assert [*cache.root.glob("aside/*"), *cache.root.glob("libraries/*")] == []
+    finally:
+        process.kill()
+        os.close(running)
+
+
+@pytest.mark.parametrize(("name", "said"), [("", "no C compiler found"), ("no-such-cc -O0", "'no-such-cc'")])
+def test_no_compiler_names_what_to_install(cache: Cache, monkeypatch: pytest.MonkeyPatch, name: str, said: str) -> None:
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setenv("CC", name)
+    with pytest.raises(BuildError, match=f"(?s){said}.*apt-get install gcc.*xcode-select"):
+        compile_kernels(tiny())
+
+
+def test_no_headers_names_what_to_install(cache: Cache, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(sysconfig, "get_paths", lambda: {"include": str(tmp_path), "platinclude": str(tmp_path)})
+    with pytest.raises(BuildError, match="(?s)Python.h.*python3-dev"):
+        compile_kernels(tiny())
+
+
+@pytest.mark.parametrize(
+    ("command", "code"),
+    [("echo 'as: BFD: cannot write: File too large' >&2; exit 1", "File too large"),
+     ("kill -XFSZ $$", "limit on the size"), ("echo 'Disk quota exceeded'; exit 4", "quota")],
+)  # fmt: skip
+def test_a_limit_that_stops_the_compiler_is_the_folders_fault(
+    cache: Cache, fake: Callable[..., Path], command: str, code: str
+) -> None:
+    fake(f'case "$kind $PWD" in "C {cache.root}"*) {command} ;; esac')
+    with pytest.warns(RuntimeWarning, match=code):
+        assert compile_kernels(tiny(3)).lib.scale(1.0) == 3.0
+
+
+def test_a_compiler_that_is_no_command_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CC", "'gcc")
+    with pytest.raises(BadValueError, match="(?s)CC.*No closing quotation"):
+        compiler.find_compiler()
+
+
+def test_wrong_c_shows_the_first_lines_and_leaves_nothing(cache: Cache) -> None:
+    wrong = tiny(files={"tiny.c": "double scale(double x) { return undeclared_name; }\n"})
+    with pytest.raises(BuildError, match="undeclared_name"):
+        compile_kernels(wrong)
+    assert list(cache.root.glob("libraries/*")) == []
+
+
+def test_a_disk_that_fills_up_under_the_compiler(cache: Cache, fake: Callable[..., Path]) -> None:
+    full = 'echo "ld: No space left on device" >&2; exit 1'
+    fake(f'case "$kind $PWD" in "C {cache.root}"*) {full} ;; esac')
+    with pytest.warns(RuntimeWarning, match="No space left"):
+        assert compile_kernels(tiny()).lib.scale(1.0) == 2.0
+    assert list(cache.root.glob("libraries/*")) == []
+
+
+def test_a_folder_that_forbids_running_code(
+    cache: Cache, fake: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As a file system mounted noexec: told once, with what to do, and compiled once for all starts."""
+    log = fake()
+    real = build._open
+
+    def open_elsewhere(key: str, entry: Path) -> ModuleType:
+        if entry.is_relative_to(cache.root):
+            raise ImportError("failed to map segment from shared object: Operation not permitted")
+        return real(key, entry)
+
+    monkeypatch.setattr(build, "_open", open_elsewhere)
+    monkeypatch.setattr(build, "_noexec", lambda folder: folder == cache.root)
+    with pytest.warns(RuntimeWarning, match="(?s)noexec.*GUDGEON_CACHE") as told:
+        for _ in range(2):
+            monkeypatch.setattr(build, "_modules", {})
+            module = compile_kernels(tiny(7))
+            assert module.lib.scale(1.0) == 7.0
+            shutil.rmtree(private_cache().root / "libraries")  # as in a new process
+    assert Path(str(module.__file__)).is_relative_to(private_cache().root)
+    assert len(told) == 1
+    assert log.read_text().split() == ["V", "C"]
+
+
+def test_no_folder_where_code_may_run_says_what_to_set(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(key: str, entry: Path) -> ModuleType:
+        raise ImportError("failed to map segment from shared object")
+
+    monkeypatch.setattr(build, "_open", refuse)
+    monkeypatch.setattr(build, "_noexec", lambda folder: True)
+    with pytest.warns(RuntimeWarning), pytest.raises(BuildError, match="(?s)failed to map.*TMPDIR"):
+        compile_kernels(tiny(13))
+
+
+def test_a_library_that_loads_nowhere_is_a_build_error(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(key: str, entry: Path) -> ModuleType:
+        raise ImportError("wrong ELF class")
+
+    monkeypatch.setattr(build, "_open", refuse)
+    with pytest.warns(RuntimeWarning, match="wrong ELF class"), pytest.raises(BuildError, match="wrong ELF class"):
+        compile_kernels(tiny(11))
+
+
+def test_the_same_source_is_the_same_module(cache: Cache) -> None:
+    assert compile_kernels(tiny()) is compile_kernels(replace(tiny(), title="other"))

@@ -1,0 +1,84 @@
+"""Ctrl-C while packages are imported, again in the same process: what is half imported would fail ever after."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from gudgeon.waiting import imports
+from tests.pump import needs_compiler
+
+ROOT = Path(__file__).parents[2]
+TWICE = """
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+def look(frame, event, _):
+    if event == "call" and frame.f_code.co_name == "<module>" and frame.f_code.co_filename.endswith(sys.argv[2]):
+        sys.setprofile(None)
+        signal.raise_signal(signal.SIGINT)
+
+sys.setprofile(look)
+try:
+    import gudgeon
+    gudgeon.load(sys.argv[1])
+    print("not interrupted")
+except KeyboardInterrupt:
+    print("interrupted")
+run = gudgeon.load(sys.argv[1]).simulate(0.01, output=2)
+print(run.t[-1])
+"""
+
+
+@needs_compiler
+@pytest.mark.parametrize("inside", ["pycparser/c_lexer.py", "sympy/polys/__init__.py"])
+def test_ctrl_c_while_a_package_is_imported_breaks_nothing_later(inside: str, tmp_path: Path) -> None:
+    file = tmp_path / "own.yaml"
+    file.write_text((ROOT / "mechanisms/pendulum.yaml").read_text(encoding="utf-8") + "# mine\n", encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-c", TWICE, str(file), inside],
+        env={**os.environ, "GUDGEON_CACHE": str(tmp_path / "cache")}, cwd=tmp_path, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert done.stdout == "interrupted\n0.01\n"
+
+
+def test_ctrl_c_is_raised_between_two_packages(monkeypatch: pytest.MonkeyPatch) -> None:
+    import signal
+
+    imported: list[str] = []
+
+    def import_module(name: str) -> None:
+        imported.append(name)
+        if name == "b":
+            signal.raise_signal(signal.SIGINT)
+            imported.append("whole")
+
+    monkeypatch.setattr(imports, "import_module", import_module)
+    with pytest.raises(KeyboardInterrupt):
+        imports.whole("a", "b", "c")
+    assert imported == ["a", "b", "whole"]
+
+
+COMMAND = """
+import signal, sys
+
+def look(frame, event, _):
+    if event == "call" and frame.f_code.co_filename.endswith("typer/__init__.py"):
+        sys.setprofile(None)
+        signal.raise_signal(signal.SIGINT)
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from gudgeon.entry import main
+sys.setprofile(look)
+main()
+"""
+
+
+def test_ctrl_c_while_the_command_line_is_imported_is_told_in_a_word() -> None:
+    done = subprocess.run([sys.executable, "-c", COMMAND], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")

@@ -1,0 +1,163 @@
+"""Figures: what is drawn where, in which units, and that a picture is written as a whole."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+pytest.importorskip("matplotlib")
+
+from gudgeon.errors import GudgeonError  # noqa: E402
+from gudgeon.results import plots  # noqa: E402
+from gudgeon.results.plot_units import PREFIXES, pretty, quantity, scale  # noqa: E402
+from gudgeon.results.results import Result  # noqa: E402
+
+
+def labels(picture: Any) -> list[str]:
+    return [ax.get_ylabel() for ax in picture.get_axes()]
+
+
+def test_the_picture_has_errors_forces_and_orbits(run: Result, ideal: Result, tmp_path: Path) -> None:
+    picture: Any = plots.figure({"ideal": ideal, "dry": run}, ideal, ["S9.y"])
+    found = labels(picture)
+    assert found[:4] == ["error of S9.y [mm]", "error of S9.vy [mm/s]", "error of S9.ay [m/s²]", "force at A [N]"]
+    drawn = picture.get_axes()[0].lines[0].get_ydata()
+    np.testing.assert_allclose(drawn, (run["S9.y"] - ideal["S9.y"]) * 1e3)
+    force = picture.get_axes()[3]
+    np.testing.assert_array_equal(force.lines[1].get_ydata(), ideal["A.F"])
+    assert force.lines[2].get_xydata().tolist() == [[0.115, 40.0]]  # the peak of all steps
+    plots.save_figure(picture, tmp_path / "x.png")
+    header = (tmp_path / "x.png").read_bytes()[:24]
+    assert (int.from_bytes(header[16:20]), int.from_bytes(header[20:24])) == (1200, 900)
+
+
+def test_an_orbit_is_in_units_of_the_clearance_and_stays_in_its_square(run: Result) -> None:
+    ax: Any = run.plot.orbit("A")
+    x, y = ax.lines[0].get_data()
+    np.testing.assert_allclose(np.hypot(x, y), run["A.eps"])
+    assert np.abs(x).max() < ax.get_xlim()[1] and np.abs(y).max() < ax.get_ylim()[1]
+    circle = ax.patches[0].get_xy()
+    np.testing.assert_allclose(np.hypot(circle[:, 0], circle[:, 1]), 1.0)
+
+
+def test_series_and_forces_of_one_run(run: Result, ideal: Result) -> None:
+    assert run.plot.series("S9.y").get_ylabel() == "S9.y [mm]"
+    assert [line.get_label() for line in ideal.plot.forces().lines] == ["guide.F", "A.F"]
+    assert [line.get_label() for line in run.plot.forces().lines] == ["A.F"]
+
+
+@pytest.mark.parametrize("scenes", [("ideal",), ("dry",), ("a", "b", "c", "d", "e", "f", "g")])
+def test_any_number_of_scenes_can_be_drawn(
+    scenes: tuple[str, ...], make: Callable[..., Result], tmp_path: Path
+) -> None:
+    runs = {scene: make(scene) for scene in scenes}
+    plots.save_figure(plots.figure(runs, make("ideal"), ["S9.y", "lift"]), tmp_path / "x.png")
+    plots.save_figure(plots.figure(runs, {}, ["A.F"]), tmp_path / "y.png")  # nothing to compare with
+    assert (tmp_path / "x.png").stat().st_size > 10_000
+
+
+def test_scenes_of_different_length_share_one_axis(make: Callable[..., Result]) -> None:
+    runs = {"dry": make("dry"), "short": make("short", t_end=0.25)}
+    references = {scene: make("ideal", t_end=run.t[-1]) for scene, run in runs.items()}
+    assert plots.figure(runs, references, ["S9.y"]).get_axes()[0].get_xlim() == (0.0, 1.0)
+
+
+def test_a_series_of_nan_and_a_run_of_one_sample_can_be_drawn(run: Result, make: Callable[..., Result]) -> None:
+    lost = replace(run, accelerations=np.full_like(run.a, np.nan), stored={})
+    plots.figure({"dry": lost}, make("ideal"), ["S9.y"])
+    one = make("dry", samples=1)
+    plots.figure({"dry": one}, make("ideal", samples=1), ["S9.y"])
+
+
+def test_a_failed_write_leaves_the_older_picture(run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "x.png"
+    path.write_bytes(b"older")
+    picture = plots.figure({"dry": run}, {}, ["S9.y"])
+
+    def fail(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", fail)
+    with pytest.raises(GudgeonError, match="No space left"):
+        plots.save_figure(picture, path)
+    assert path.read_bytes() == b"older" and list(tmp_path.iterdir()) == [path]
+
+
+@given(st.floats(1e-11, 1e11), st.sampled_from(["m", "N", "m/s", "N*m", "J"]))
+def test_a_prefix_brings_a_number_near_one_and_does_not_change_it(size: float, unit: str) -> None:
+    factor, text = scale(size, unit)
+    prefix = text.removesuffix(pretty(unit))
+    power = next(exponent for exponent, name in PREFIXES.items() if name == prefix)
+    assert math.isclose(factor * 10.0**power, 1.0)
+    assert 0.099 <= size * factor < 3000
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [(0.3e-3, "m", "0.3 mm"), (175.0, "N", "175 N"), (9e3, "N", "9 kN"), (1e-3, "kg", "0.001 kg"), (0.0, "m", "0 m"),
+     (math.nan, "m", "–"), (math.inf, "N", "inf N"), (2e-6, "kg*m^2", "2e-06 kg·m²"), (5.0, "", "5"),
+     (-0.02, "m/s^2", "-20 mm/s²"), (1e-8, "m^2", "1e-08 m²")],
+)  # fmt: skip
+def test_quantities_as_people_write_them(value: float, unit: str, text: str) -> None:
+    assert quantity(value, unit) == text
+
+
+def test_long_labels_stay_beside_their_axes(run: Result, ideal: Result) -> None:
+    """Names of bodies are up to their owner: a label is folded until it is no taller than its row."""
+    name = "the_rocker_of_the_second_stage.theta"
+    picture = plots.figure({"dry": run}, ideal, ["S9.y"])
+    folded = plots._folded(picture.subfigs[0].axes[0], f"error of {name} [mrad]")
+    assert folded.replace("\n", " ").replace(". theta", ".theta") == f"error of {name} [mrad]"
+    axes = picture.subfigs[0].axes[:3]
+    for ax in axes:
+        ax.set_ylabel(plots._folded(ax, "error of second_rocker.theta [mrad]"))
+    picture.draw_without_rendering()
+    spans = sorted((ax.yaxis.label.get_window_extent() for ax in axes), key=lambda box: -box.y1)
+    assert all(above.y0 >= below.y1 for above, below in zip(spans, spans[1:], strict=False))
+    assert spans[0].y1 <= picture.bbox.y1
+
+
+def test_a_long_title_leaves_the_legend_its_place(run: Result, ideal: Result) -> None:
+    long = replace(run, source=replace(run.source, title="a word and " * 12), stored={})
+    picture = plots.figure({"dry": long}, ideal, ["S9.y"])
+    picture.draw_without_rendering()
+    title: Any = picture._suptitle  # type: ignore[attr-defined]
+    title, legend = title.get_window_extent(), picture.legends[0].get_window_extent()
+    assert title.x1 < legend.x0
+
+
+def test_what_lies_beyond_the_horizon_is_marked_and_told(run: Result, ideal: Result) -> None:
+    """Grey over time with a word in the legend, grey in the orbits; nothing where it holds to the end."""
+    short = replace(run, diagnostics=replace(run.diagnostics, horizon=0.4), stored={})
+    for shown, marked in ((short, True), (run, False)):
+        picture = plots.figure({"dry": shown}, ideal, ["S9.y"])
+        told = [text.get_text() for text in picture.legends[0].get_texts()]
+        assert ("not to be trusted" in told) == marked
+        lines: Any = picture.subfigs[1].axes[0].lines
+        grey = [line for line in lines if line.get_color() == plots.UNTRUSTED]
+        assert len(grey) == marked
+    trusted = lines[0].get_xdata()
+    part: Any = short.plot.orbit("A").lines
+    known = int((run.t <= 0.4).sum())
+    assert len(part[0].get_xdata()) == known < len(trusted)
+    assert len(part[2].get_xdata()) == len(run.t) - known + 1  # from the last trusted sample on
+
+
+def test_numbers_that_cannot_be_drawn_are_told(tmp_path: Path) -> None:
+    """matplotlib finds no ticks near the largest number."""
+    from matplotlib.figure import Figure
+
+    picture = Figure()
+    picture.subplots().plot([0.0, 1.0], [1e308, 1e308])
+    with pytest.raises(GudgeonError, match="its numbers cannot be drawn"):
+        plots.save_figure(picture, tmp_path / "x.png")
+    assert not list(tmp_path.iterdir())

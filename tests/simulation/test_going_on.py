@@ -1,0 +1,148 @@
+"""A further run knows whose state it starts from, a simulation whether its file is still the one it was made from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.errors import BadValueError, InputError
+from gudgeon.results.results import State
+from tests.pump import needs_compiler
+
+pytestmark = needs_compiler
+METHODS: list[dict[str, Any]] = [
+    {}, {"method": "rk4", "step": 1e-3}, {"method": "dop853"}, {"method": "rodas5p"}, {"method": "scipy:DOP853"},
+]  # fmt: skip
+FILE = """\
+format: gudgeon/1
+name: swing
+gravity: [0, -g]
+parameters: {g: 9.81 m/s^2, l: 1 m}
+bodies: {bob: {mass: 1 kg, inertia: 1 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {rod: {distance: [ground.O, bob.origin], length: l}}
+start: {set: {bob.x: l, bob.theta: 0}, rates: {bob.omega: 0}}
+scenes: {other: {}}
+"""
+
+
+@pytest.fixture
+def swing(tmp_path: Path) -> Path:
+    file = tmp_path / "swing.yaml"
+    file.write_text(FILE)
+    return file
+
+
+@pytest.mark.parametrize("options", METHODS)
+def test_a_state_keeps_the_numbers_of_its_run(options: dict[str, Any], tmp_path: Path) -> None:
+    """g was the file's again from the second run on: −2.874 for −1.908."""
+    pendulum = gudgeon.load("pendulum")
+    whole = pendulum.simulate(output=np.linspace(0.0, 1.0, 11), parameters={"g": 1.62}, **options)
+    first = pendulum.simulate(output=np.linspace(0.0, 0.5, 6), parameters={"g": 1.62}, **options)
+    first.save(tmp_path / "first.nc")
+    for state in (first.final, gudgeon.Result.load(tmp_path / "first.nc").final):
+        rest = pendulum.simulate(output=np.linspace(0.5, 1.0, 6), start=state, **options)
+        assert rest.parameters["g"] == 1.62 and rest.final.parameters == {"parameters.g": 1.62}
+        np.testing.assert_allclose(rest.q, whole.q[5:], rtol=0, atol=2e-7)
+        assert not [note for note in rest.diagnostics.notes if "goes on" in note]
+
+
+@pytest.mark.parametrize("options", METHODS)
+def test_other_numbers_are_taken_and_told(options: dict[str, Any]) -> None:
+    pendulum = gudgeon.load("pendulum")
+    state = pendulum.simulate(0.5, output=1, parameters={"g": 1.62}).final
+    run = pendulum.simulate(1.0, output=1, start=state, parameters={"parameters.g": "9.81 m/s^2"}, **options)
+    assert run.parameters["g"] == 9.81
+    told = "goes on from t = 0.5 s with other numbers: parameters.g 9.81 m/s^2 (before 1.62 m/s^2)"
+    assert told in run.diagnostics.notes
+    same = pendulum.simulate(1.0, output=1, start=state, parameters={"g": 1.62}, **options)
+    assert not same.diagnostics.notes and same.parameters["g"] == 1.62
+
+
+def test_a_state_of_another_mechanism_of_the_same_size(swing: Path) -> None:
+    state = gudgeon.load("pendulum").simulate(0.1, output=1).final
+    simulation = gudgeon.load(swing)
+    with pytest.raises(BadValueError, match="another mechanism or scene, pendulum / ideal; this is swing / ideal"):
+        simulation.simulate(1.0, start=state)
+    other = gudgeon.load(swing, scene="other").simulate(0.1, output=1).final
+    with pytest.raises(BadValueError, match="swing / other; this is swing / ideal"):
+        simulation.simulate(1.0, start=other)
+    with pytest.raises(BadValueError, match="start is a Result.*\n.*its `final`"):
+        simulation.simulate(1.0, start=simulation.simulate(0.1, output=1))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("options", METHODS[:1])
+def test_a_state_of_another_version_of_the_file(swing: Path, options: dict[str, Any]) -> None:
+    state = gudgeon.load(swing).simulate(0.1, output=1).final
+    swing.write_text(FILE.replace("mass: 1 kg", "mass: 2 kg"))
+    with pytest.raises(BadValueError, match="another mechanism: the file of swing was another one"):
+        gudgeon.load(swing).simulate(0.2, output=1, start=state, **options)
+
+
+def test_a_state_of_other_overrides(swing: Path) -> None:
+    plain, heavy = gudgeon.load(swing), gudgeon.load(swing, overrides={"bodies.bob.mass": "3 kg"})
+    state = heavy.simulate(0.1, output=1).final
+    assert state.overrides == (("bodies.bob.mass", "3 kg"),)
+    with pytest.raises(BadValueError, match=r"computed with overrides.*3 kg.*\n.*load the mechanism with"):
+        plain.simulate(0.2, output=1, start=state)
+    with pytest.raises(BadValueError, match="computed with overrides"):
+        heavy.simulate(0.2, output=1, start=plain.simulate(0.1, output=1).final)
+    again = gudgeon.load(swing, overrides={"bodies.bob.mass": "3 kg"}).simulate(0.2, output=1, start=state)
+    assert again.t[0] == 0.1
+
+
+def test_either_formulation_goes_on_from_the_other(swing: Path) -> None:
+    reduced, full = gudgeon.load(swing), gudgeon.load(swing, formulation="full")
+    ends = {}
+    for first, second in ((reduced, full), (full, reduced)):
+        state = first.simulate(0.1, output=1, rtol=1e-11).final
+        assert state.formulation == first.source.formulation
+        ends[state.formulation] = second.simulate(0.2, output=1, rtol=1e-11, start=state).q[-1]
+    np.testing.assert_allclose(ends["full"], ends["reduced"], rtol=0, atol=1e-8)
+
+
+def test_a_state_made_by_hand_says_no_more_than_it_knows(swing: Path) -> None:
+    simulation = gudgeon.load(swing)
+    q, v = np.array([0.6, -0.8, 0.0]), np.zeros(3)
+    made = State("", "", 0.0, q, v, np.zeros(0), np.zeros(0), {"g": 5.0})
+    assert simulation.simulate(0.1, output=1, start=made).parameters["g"] == 5.0
+    with pytest.raises(gudgeon.InputError, match="no run-time number has the address 'h'"):
+        simulation.simulate(0.1, output=1, start=replace(made, parameters={"h": 1.0}))
+
+
+ASKS: dict[str, Any] = {
+    "model": lambda s: s.model,
+    "full": lambda s: s.full,
+    "jacobian": lambda s: s.jacobian(0.0, np.ones(6)),
+    "scipy": lambda s: s.simulate(0.01, output=1, method="scipy:DOP853"),
+}
+
+
+@pytest.mark.parametrize("ask", ASKS)
+def test_equations_of_an_edited_file_are_refused(ask: str, swing: Path) -> None:
+    simulation = gudgeon.load(swing)
+    swing.write_text(FILE.replace("mass: 1 kg", "mass: 2 kg"))
+    with pytest.raises(InputError, match=r"swing\.yaml was edited after it was loaded(?s:.*)load it again"):
+        ASKS[ask](simulation)
+    simulation.simulate(0.01, output=1)  # the kernels are there
+    swing.write_text("no mechanism any more")
+    with pytest.raises(InputError, match="was edited"):
+        ASKS[ask](simulation)
+    swing.unlink()
+    with pytest.raises(InputError, match="cannot read"):
+        ASKS[ask](simulation)
+    swing.write_text(FILE)
+    assert ASKS[ask](simulation) is not None
+
+
+def test_what_was_derived_before_an_edit_stays(swing: Path) -> None:
+    simulation = gudgeon.load(swing)
+    full = simulation.full
+    before = simulation.jacobian(0.0, np.ones(6))
+    swing.write_text(FILE.replace("mass: 1 kg", "mass: 2 kg"))
+    assert simulation.full is full and (simulation.jacobian(0.0, np.ones(6)) == before).all()

@@ -1,0 +1,61 @@
+"""Too little memory: told in a sentence, and what was computed before is kept."""
+
+from __future__ import annotations
+
+import tracemalloc
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import gudgeon
+from gudgeon.files.writing import read_regular
+from gudgeon.model.compiled import CompiledModel
+from gudgeon.simulation.simulation import Simulation
+from tests.pump import Gudgeon, needs_compiler
+
+
+def none_left(*_: Any, **__: Any) -> Any:
+    raise MemoryError("Unable to allocate 9 GiB")
+
+
+@needs_compiler
+def test_a_scene_without_memory_loses_no_other(
+    call: Gudgeon, pump: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulate = Simulation.simulate
+
+    def short(self: Simulation, *args: Any, **options: Any) -> Any:
+        return none_left() if self.source.scene == "ideal" else simulate(self, *args, **options)
+
+    monkeypatch.setattr(Simulation, "simulate", short)
+    done = call("run", pump)
+    assert done.exit_code == 1
+    assert "error: scene ideal: not enough memory: Unable to allocate 9 GiB\n  ask for fewer samples" in done.stderr
+    assert gudgeon.Result.load(tmp_path / "out/pump_worn.nc").t[-1] == 0.02
+
+
+@needs_compiler
+def test_a_command_without_memory_says_so(call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gudgeon.commands.check.check_file", none_left)
+    done = call("check", pump)
+    assert done.exit_code == 1 and done.stderr.startswith("error: not enough memory: Unable")
+
+
+@needs_compiler
+def test_a_run_is_kept_where_its_energy_cannot_be_balanced(monkeypatch: pytest.MonkeyPatch) -> None:
+    pendulum = gudgeon.load("pendulum")
+    with monkeypatch.context() as short:
+        short.setattr(CompiledModel, "evaluate", none_left)
+        run = pendulum.simulate(0.1, output=3)
+    assert (run.q == pendulum.simulate(0.1, output=3).q).all() and run["swing"][-1] > 0.0
+
+
+def test_a_small_file_takes_little_memory(tmp_path: Path) -> None:
+    (tmp_path / "x").write_bytes(b"12345")
+    tracemalloc.start()
+    try:
+        assert read_regular(tmp_path / "x") == b"12345"
+        assert tracemalloc.get_traced_memory()[1] < 1 << 20
+    finally:
+        tracemalloc.stop()

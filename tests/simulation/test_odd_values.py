@@ -1,0 +1,315 @@
+"""Every public argument with values that it was not made for: an error of gudgeon's that names it, or a good use."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import gudgeon
+from gudgeon.cli import app
+from gudgeon.errors import GudgeonError, InputError
+from gudgeon.results.plots import Plot
+from gudgeon.results.results import Result
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies import axes, bench, box, stress
+from gudgeon.studies.runs import Error
+
+pandas = pytest.importorskip("pandas", reason="a Series of pandas is one of the values")
+pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+
+
+def odd_values() -> dict[str, Any]:
+    values: dict[str, Any] = {
+        "None": None, "text": "x", "no text": "", "bytes": b"", "tuple": (1,), "list": [], "nested": [[1], [2, 3]],
+        "dict": {}, "numbered": {1: 2}, "mapped": {"x": None}, "huge": 10**400, "nan": float("nan"),
+        "inf": float("inf"), "-1": -1, "True": True, "object": object(), "0-d": np.array(3), "empty": np.zeros(0),
+        "complex": 1j, "path": Path("x"), "function": lambda *_: None, "texts": np.array(["a", "b"]),
+        "objects": np.array([None, 1], dtype=object), "days": np.datetime64("2020-01-01"), "set": {1}, "type": int,
+        "generator": (one for one in range(0)), "vast": np.broadcast_to(0.0, (10**12,)), "zero": "\0", "lone": "\ud800",
+        "long": "x" * 10**5, "iterator": iter([{}]), "thing": SimpleNamespace(columns=3, final=None),
+    }  # fmt: skip
+    return values | {"series": pandas.Series({"x": 1.0}), "table": pandas.DataFrame({"x": [1.0, 2.0]})}
+
+
+@pytest.fixture(scope="module")
+def pendulum() -> Simulation:
+    return gudgeon.load("pendulum")
+
+
+@pytest.fixture(scope="module")
+def run(pendulum: Simulation) -> Result:
+    return pendulum.simulate(0.01, output=2)
+
+
+@pytest.fixture(scope="module")
+def batch(pendulum: Simulation) -> Any:
+    return pendulum.simulate_many([{}, {}], 0.01, output=2)
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def refused_or_used(call: Callable[[Any], object], documented: tuple[type[Exception], ...] = (), but: str = "") -> None:
+    """`call` with every odd value; fails with all that came out of it and is no error of gudgeon's."""
+    raw = []
+    for name, value in odd_values().items():
+        if name == but:
+            continue
+        try:
+            call(value)
+        except GudgeonError:
+            pass
+        except Exception as error:
+            if isinstance(error, documented):
+                continue
+            raw.append(f"{name}: {type(error).__name__}: {str(error)[:200]}")
+    assert not raw, "\n".join(raw)
+
+
+RUN: dict[str, Any] = {"t_end": 0.01, "output": 2}
+ARGUMENTS = (
+    "t_end", "output", "method", "rtol", "step", "parameters", "start", "progress", "horizon", "stop",
+)  # fmt: skip
+
+
+CALLED = {"progress": "type"}  # int(0.0, "a text") fails in the caller's own function
+
+
+@pytest.mark.parametrize("name", ARGUMENTS)
+def test_simulate(pendulum: Simulation, name: str) -> None:
+    refused_or_used(lambda value: pendulum.simulate(**(RUN | {name: value})), but=CALLED.get(name, ""))
+
+
+@pytest.mark.parametrize("name", ["parameters", *(n for n in ARGUMENTS if n not in ("start", "horizon", "parameters")),
+                                  "threads", "side_by_side"])  # fmt: skip
+def test_simulate_many(pendulum: Simulation, name: str) -> None:
+    good = {"parameters": [{}]} | RUN
+    refused_or_used(lambda value: pendulum.simulate_many(**(good | {name: value})), but=CALLED.get(name, ""))
+
+
+@pytest.mark.parametrize("where", ["a run", "a batch", "a column", "the start"])
+def test_a_parameter(pendulum: Simulation, where: str) -> None:
+    address = pendulum.source.slots[0].address
+    calls: dict[str, Callable[[Any], object]] = {
+        "a run": lambda value: pendulum.simulate(**RUN, parameters={address: value}),
+        "a batch": lambda value: pendulum.simulate_many([{address: value}], **RUN),
+        "a column": lambda value: pendulum.simulate_many({address: value}, **RUN),
+        "the start": lambda value: pendulum.start({address: value}),
+    }
+    refused_or_used(calls[where])
+
+
+@pytest.mark.parametrize("field", ["mechanism", "scene", "t", "q", "v", "state", "memory", "parameters", "sha256",
+                                   "overrides", "formulation"])  # fmt: skip
+def test_a_state(pendulum: Simulation, run: Result, field: str) -> None:
+    refused_or_used(lambda value: pendulum.simulate(0.02, output=2, start=replace(run.final, **{field: value})))
+
+
+CALLS: dict[str, tuple[str, ...]] = {
+    "rhs": ("t", "y", "memory"), "jacobian": ("t", "y", "memory"), "phi": ("t", "q"), "phi_q": ("t", "q"),
+    "nu": ("t", "q"), "gamma": ("t", "q", "v"), "start": ("parameters",),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("method", "name"), [(method, name) for method, names in CALLS.items() for name in names])
+def test_equations(pendulum: Simulation, method: str, name: str) -> None:
+    n = pendulum.compiled.n
+    good: dict[str, Any] = {"t": 0.0, "y": np.zeros(2 * n), "q": np.zeros(n), "v": np.zeros(n), "memory": None,
+                            "parameters": None}  # fmt: skip
+    given = {argument: good[argument] for argument in CALLS[method]}
+    refused_or_used(lambda value: getattr(pendulum, method)(**(given | {name: value})))
+
+
+COMPILED: dict[str, tuple[str, ...]] = {
+    "rhs": ("t", "y", "p", "memory"), "jacobian": ("t", "y", "p", "memory"), "evaluate": ("t", "q", "v", "memory", "p"),
+    "newton": ("t", "y", "p", "eta", "s", "r", "memory"), "prepare": ("given", "is_given"), "mass": ("p",),
+    "closed_phi": ("t", "q", "p"), "closed_gamma": ("t", "q", "v", "p"), "start_values": ("p",),
+    "close": ("t", "p", "size"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("method", "name"), [(method, name) for method, names in COMPILED.items() for name in names])
+def test_compiled(pendulum: Simulation, method: str, name: str) -> None:
+    compiled = pendulum.full.compiled
+    n, slots = compiled.n, len(compiled.source.slots)
+    good: dict[str, Any] = {"t": 0.0, "y": np.zeros(2 * n), "q": np.zeros(n), "v": np.zeros(n), "memory": None,
+                            "p": pendulum.full.p, "eta": 1.0, "s": 0.0, "r": np.zeros(2 * n + 3), "size": 1.0,
+                            "given": np.zeros(slots), "is_given": np.zeros(slots)}  # fmt: skip
+    if method == "evaluate":
+        good |= {"t": [0.0], "q": np.zeros((1, n)), "v": np.zeros((1, n)), "memory": np.zeros((1, 1))}
+    given = {argument: good[argument] for argument in COMPILED[method]}
+    refused_or_used(lambda value: getattr(compiled, method)(**(given | {name: value})))
+
+
+@pytest.mark.parametrize("name", ["mechanism", "scene", "overrides", "formulation", "portable", "regenerate"])
+def test_load(name: str) -> None:
+    good: dict[str, Any] = {"mechanism": "pendulum"}
+    refused_or_used(lambda value: gudgeon.load(**(good | {name: value})))
+
+
+def test_an_override() -> None:
+    refused_or_used(lambda value: gudgeon.load("pendulum", overrides={"bodies.rod.mass": value}))
+
+
+RESULT: dict[str, Callable[[Result, Any], object]] = {
+    "[]": lambda run, value: run[value], "in": lambda run, value: value in run,
+    "unit": lambda run, value: run.unit(value), "meaning": lambda run, value: run.meaning(value),
+    "events_of": lambda run, value: run.events_of(value), "value_of": lambda run, value: run.value_of(value),
+    "to_xarray": lambda run, value: run.to_xarray(value), "save": lambda run, value: run.save(value),
+    "load": lambda run, value: Result.load(value),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", RESULT)
+def test_a_result(run: Result, name: str) -> None:
+    refused_or_used(lambda value: RESULT[name](run, value))
+
+
+@pytest.mark.parametrize("name", ["series", "orbit"])
+def test_a_plot(run: Result, name: str) -> None:
+    pytest.importorskip("matplotlib")
+    refused_or_used(lambda value: getattr(Plot(run), name)(value))
+
+
+def test_a_batch_by_number_and_name(batch: Any) -> None:
+    refused_or_used(lambda value: batch[value], (IndexError,))
+    refused_or_used(batch.partial, (IndexError,))
+    refused_or_used(lambda value: batch.to_xarray(value))
+
+
+BENCH = ("steps", "tolerances", "t_end", "parameters", "quick", "methods", "progress")
+
+
+@pytest.mark.parametrize("name", BENCH)
+def test_bench(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As far as the measuring itself, which takes its time."""
+    found = bench.SceneBench("", 1.0, "", (), (), Error(), 0.0, ())
+    monkeypatch.setattr(bench, "_measure", lambda *_: found)
+    good: dict[str, Any] = {"t_end": 0.01, "quick": True}
+    refused_or_used(lambda value: bench.bench(pendulum, **(good | {name: value})))
+
+
+STRESS = ("axes", "method", "value", "t_long", "t_short", "parameters", "limits", "quick", "progress")
+BOX = ("ranges", "count", "setting", "t_long", "parameters", "limits", "addresses", "quick", "progress")
+
+
+class _NoPool:
+    """Judges nothing."""
+
+    def __class_getitem__(cls, _: object) -> type[_NoPool]:
+        return cls
+
+    def __init__(self, *_: object) -> None: ...
+
+    def __enter__(self) -> _NoPool:
+        return self
+
+    def __exit__(self, *_: object) -> None: ...
+
+    def map(self, _: object, jobs: Any) -> list[None]:
+        return [None] * len(jobs)
+
+
+@pytest.mark.parametrize("name", STRESS)
+def test_stress(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stress, "Pool", _NoPool)
+    good: dict[str, Any] = {"quick": True}
+    refused_or_used(lambda value: stress.stress(pendulum, **(good | {name: value})))
+
+
+@pytest.mark.parametrize("name", BOX)
+def test_stress_box(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stress, "Pool", _NoPool)
+    ranges = [box.Range(pendulum.source.slots[0].address, 1.0, 2.0)]
+    good: dict[str, Any] = {"ranges": ranges, "count": 2}
+    refused_or_used(lambda value: stress.stress_box(pendulum, **(good | {name: value})))
+
+
+def test_axes(pendulum: Simulation) -> None:
+    address = pendulum.source.slots[0].address
+    refused_or_used(lambda value: axes.axis(pendulum, value, [1.0]))
+    refused_or_used(lambda value: axes.axis(pendulum, address, value))
+    refused_or_used(lambda value: axes.axis(pendulum, address, [1.0], value))
+    refused_or_used(lambda value: axes.typed(pendulum, value))
+    refused_or_used(lambda value: box.Range(address, value, 1.0))
+
+
+def test_what_is_told(pendulum: Simulation) -> None:
+    """Each by its name, with what was given and what was expected."""
+    vast = np.broadcast_to(0.0, (10**12,))
+    y = np.zeros(2 * pendulum.compiled.n)
+    refused: list[tuple[Callable[[], object], str]] = [
+        (lambda: pendulum.simulate(0.01, output=vast), "output has 1000000000000 entries: expected 100000000 at most"),
+        (lambda: pendulum.rhs(None, y), "t: 'None' is not one real number"),  # type: ignore[arg-type]
+        (lambda: pendulum.rhs(10**400, y), "t: "),
+        (lambda: pendulum.simulate(0.01, stop="no"), "stop is 'no': expected True or False"),  # type: ignore[arg-type]
+        (lambda: pendulum.simulate(0.01, parameters=np.zeros(0)), "parameters is a ndarray: expected a mapping"),  # type: ignore[arg-type]
+        (lambda: pendulum.simulate(0.01, parameters={1: 2.0}), "parameters: its key 1 is no text"),  # type: ignore[dict-item]
+        (lambda: pendulum.simulate_many(None), "parameters: expected a mapping for every run"),  # type: ignore[arg-type]
+        (lambda: pendulum.simulate_many({"g": [[1], [2, 3]]}), "parameters: g is list [[1], [2, 3]]: expected one"),
+        (lambda: pendulum.simulate_many([{}], threads="two"), "threads is 'two': expected a number"),  # type: ignore[arg-type]
+    ]  # fmt: skip
+    for call, told in refused:
+        with pytest.raises(InputError) as caught:
+            call()
+        assert told in str(caught.value)
+
+
+def test_a_series_of_pandas_is_a_mapping(pendulum: Simulation) -> None:
+    address = pendulum.source.slots[0].address
+    value = float(pendulum.p[0]) * 1.25
+    series, plain = (pendulum.simulate(0.1, output=2, parameters=p) for p in (pandas.Series({address: value}),
+                                                                            {address: value}))  # fmt: skip
+    assert series.parameters[address] == value
+    assert (series.q == plain.q).all()
+    with pytest.raises(InputError, match="a name twice"):
+        pendulum.simulate(0.1, parameters=pandas.Series([1.0, 2.0], index=[address, address]))
+
+
+@pytest.mark.parametrize(
+    ("code", "rate", "told"),
+    [
+        (2, np.nan, r"start.memory\[0\] of joint \w+ is nan while start.state\[0\] is 2: expected the rate"),
+        (1, np.nan, "is nan while"), (0, 1.0, r"remembers 1 m/s while start.state\[0\] is 0 \(free\)"),
+        (2, np.inf, "is inf while"), (0, -np.inf, "remembers -inf"),
+    ],
+)  # fmt: skip
+def test_a_state_that_contradicts_itself(code: int, rate: float, told: str) -> None:
+    crank = gudgeon.load("slider_crank", "dry")
+    final = crank.simulate(1e-3, output=1).final
+    codes, memory = final.state.copy(), final.memory.copy()
+    codes[0], memory[0] = code, rate
+    with pytest.raises(InputError, match=told):
+        crank.simulate(2e-3, output=1, start=replace(final, state=codes, memory=memory))
+    codes[0], memory[0] = 0, np.nan
+    crank.simulate(2e-3, output=1, start=replace(final, state=codes, memory=memory))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["stress", "slider_crank", "--scene", "dry", "--axis", "c=1..2:0"], "a whole number of values after ':'"),
+        (["stress", "slider_crank", "--scene", "dry", "--axis", "c=1..2:"], "a whole number of values after ':'"),
+        (["stress", "slider_crank", "--scene", "dry", "--axis", "c=1,2:3"], "only a range"),
+        (["bench", "pendulum", "--methods", ""], "--methods '': expected names of methods"),
+        (["bench", "pendulum", "--methods", " , "], "expected names of methods"),
+        *[([command, "pendulum", "--out", ""], "'': expected a name")
+          for command in ("run", "emit", "equations", "bench", "stress")],
+        (["bench", "pendulum", "--csv", ""], "'': expected a name"),
+    ],
+)  # fmt: skip
+def test_odd_options(arguments: list[str], told: str) -> None:
+    shown = CliRunner().invoke(app, arguments)
+    assert shown.exit_code == 2
+    assert told in " ".join(shown.output.split())
+    assert not list(Path().iterdir())

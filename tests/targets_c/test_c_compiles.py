@@ -1,0 +1,160 @@
+"""The emitted C: no warning under gcc and clang, clean under the address and undefined-behaviour sanitizers."""
+
+from __future__ import annotations
+
+import platform
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cffi import FFI
+
+import gudgeon
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.generator.pipeline import generate
+from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.loading.shipped import shipped, shipped_file
+
+FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror"]
+WIDTHS = ([], ["-mavx2"], ["-mavx512f"]) if platform.machine() in ("x86_64", "AMD64") else ([],)  # 2, 4, 8 lanes
+COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
+SCENES = [
+    (name, scene) for name in shipped() for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
+]
+
+# Reads p, then t, q, v of a start; prints how a short run went. The scene is included, not linked.
+INTEGRATE = r"""
+#include <stdio.h>
+static int go(const double *p, const double *y)
+{
+    void *run = calloc(1, gudgeon_run_size());
+    const double t[2] = {0.0, 4000 * STEP};
+    double latched[2 * (N_CLEARANCES + N_FRICTIONS + 1)], now[2 * N_S], numbers[5 * 256];
+    signed char state[2 * (N_CLEARANCES + 1)];
+    int joints[256], status = 0;
+    long done = 0;
+    for (int i = 0; i <= N_CLEARANCES + N_FRICTIONS; i++)
+        latched[i] = NAN;
+    gudgeon_run_start(run, p, 0.0, y, latched);
+    while (done < 2 && !status) {
+        status = gudgeon_rk4_run(run, p, STEP, 2, t, 4000, now, latched, state, &done);
+        if (status == EVENTS_FULL)
+            status = gudgeon_run_impacts(run, 0, numbers, joints) < 0;
+    }
+    gudgeon_run_impacts(run, 1, numbers, joints);
+    gudgeon_run_sample(run, p, now, latched, state);
+    free(run);
+    return status;
+}
+"""
+FOLLOW = r"""
+#include <stdio.h>
+static int go(const double *p, const double *y)
+{
+    double t[101], q[101 * N_Q], v[101 * N_Q], a[101 * N_Q], work[101 * N_WORK] = {0.0}, phi = 0.0, phi_dot = 0.0;
+    long steps = 0, done = 0;
+    static Course course;
+    for (int i = 0; i <= 100; i++)
+        t[i] = 0.01 * i;
+    for (int k = 0; k < N_Q; k++) {
+        q[k] = y[k];
+        v[k] = y[N_Q + k];
+    }
+    gudgeon_course_begin(&course, 0.05, 0.1, t[100], NULL, NULL, 0.0);
+    const int status = gudgeon_kinematic(&course, 100, t, p, q, v, a, &phi, &phi_dot, &steps, &done);
+    return status ? status : gudgeon_kinematic_works(&course, 100, t, p, q, v, work, &done);
+}
+"""
+MAIN = r"""
+int main(int argc, char **argv)
+{
+    static double p[sizeof(Parameters) / sizeof(double)], y[N_S];
+    FILE *file = argc > 1 ? fopen(argv[1], "rb") : NULL;
+    if (!file || fread(p, sizeof p, 1, file) != 1 || fread(y, sizeof y, 1, file) != 1)
+        return 99;
+    fclose(file);
+    return go(p, y);
+}
+"""
+
+
+def write(source: KernelSource, folder: Path) -> Path:
+    for name, text in source.files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder / source.main
+
+
+def compile_c(compiler: str, file: Path, flags: Sequence[str], libraries: Sequence[str] = ()) -> None:
+    done = subprocess.run([compiler, *flags, file.name, *libraries], cwd=file.parent, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[:4000]
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize(("name", "scene"), SCENES)
+def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> None:
+    source = gudgeon.load(name, scene).source
+    main = write(source, tmp_path)
+    compile_c(compiler, main, [*FLAGS, "-c", "-o", "scene.o"])
+    if source.lanes:
+        for width in WIDTHS:
+            compile_c(compiler, tmp_path / source.lanes, [*FLAGS, *width, "-c", "-o", "lanes.o"])
+
+
+@pytest.mark.parametrize(("name", "scene"), [("nine_bar_press", "ideal"), ("nine_bar_press", "lubricated"),
+                                             ("andrews_squeezer", "ideal"), ("belt_block", "ideal")])  # fmt: skip
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulation: str, tmp_path: Path) -> None:
+    """The wrapper is compiled apart and sees only what cffi is told: prototypes and structs must be the scene's."""
+    file = shipped_file(name)
+    source = generate(file.read_bytes(), file.name, scene, None, formulation)
+    write(source, tmp_path)
+    ffi = FFI()
+    ffi.cdef(source.cdef)
+    fields = [field for field, _ in ffi.typeof("Batch").fields] if "} Batch;" in source.cdef else []
+    same = [f"_Static_assert(offsetof(Batch, {f}) == offsetof(Told, {f}), \"{f}\");" for f in fields]
+    same += ['_Static_assert(sizeof(Batch) == sizeof(Told), "Batch");'] * bool(fields)
+    told = f"#define Batch Told\n{source.cdef}#undef Batch\n"
+    (tmp_path / "both.c").write_text('#include "scene.c"\n' + told + "\n".join(same) + "\n", encoding="utf-8")
+    compile_c(COMPILERS[0], tmp_path / "both.c", [*FLAGS, "-fsyntax-only"])
+
+
+# Structure that no shipped scene has: each option of each law once.
+OPTIONS: dict[str, dict[str, str | float | bool]] = {
+    "as_printed": {"contacts.oil.film.as_printed": True},
+    "shear": {"contacts.oil.film.shear": True},
+    "relative": {"contacts.oil.film.angular_velocity": "relative"},
+    "internal": {"contacts.oil.normal.geometry": "internal"},
+    "clipped": {"contacts.oil.clip_ratio": True},
+}
+
+
+@pytest.mark.parametrize("option", OPTIONS)
+def test_no_warning_under_any_option(option: str, tmp_path: Path) -> None:
+    file = shipped_file("nine_bar_press")
+    source = generate(file.read_bytes(), file.name, "lubricated", OPTIONS[option])
+    main = write(source, tmp_path)
+    compile_c(COMPILERS[0], main, [*FLAGS, "-c", "-o", "scene.o"])
+    compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, "-c", "-o", "lanes.o"])
+
+
+@pytest.mark.parametrize(("name", "scene"), SCENES)
+def test_clean_under_the_sanitizers(name: str, scene: str, tmp_path: Path) -> None:
+    simulation = gudgeon.load(name, scene)
+    start = simulation.start()
+    state = np.concatenate([simulation.p, start.q, start.v, np.zeros(3)])
+    (tmp_path / "start.bin").write_bytes(state.tobytes())
+    write(simulation.source, tmp_path)
+    go = FOLLOW if "kinematic.c" in simulation.source.files else INTEGRATE
+    driver = tmp_path / "driver.c"
+    driver.write_text(f'#include "scene.c"\n#define STEP 2e-6\n{go}{MAIN}', encoding="utf-8")
+    sanitize = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"]
+    probe = tmp_path / "probe.c"
+    probe.write_text("int main(void) { return 0; }\n")
+    if subprocess.run(["gcc", *sanitize, "probe.c", "-o", "probe"], cwd=tmp_path, capture_output=True).returncode:
+        pytest.skip("this compiler has no sanitizer libraries")
+    compile_c("gcc", driver, [*FLAGS, *sanitize, "-o", "driver"], ["-lm"])
+    done = subprocess.run(["./driver", "start.bin"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[:4000]

@@ -1,0 +1,167 @@
+"""What a class reads is what is computed: the equations' text is read back and compared with model and library."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.pipeline import derive
+from gudgeon.generator.targets.latex import equations_text
+from tests.equations.models import numeric, random_model, random_state
+from tests.targets_latex.equations_reader import dots_apart, equations, evaluate, numbers, rows, sections, state, value
+
+SHIPPED = resources.files("gudgeon.mechanisms")
+PRESS = SHIPPED.joinpath("nine_bar_press.yaml").read_text(encoding="utf-8")
+VALID = Path(__file__).parents[1] / "mechanisms" / "valid"
+SLIDER = (VALID / "slider_crank.yaml").read_text(encoding="utf-8")
+RANDOM = [f"random {seed}" for seed in range(6)]
+
+# Everything at once: points off the middle, all joint types, long drives, force elements, names that collide.
+ZOO = """
+format: gudgeon/1
+name: zoo
+parameters: {x_b1: 2 m, omega: 3 rad/s, alpha: 0.1, k_max: 40 N/m}
+bodies:
+  b1: {length: 80 mm, mass: 0.142 kg, inertia: 3.030e-4 kg*m^2, points: {eye: [x_b1, 5 mm]}, com: [30 mm, 1 mm]}
+  my_bar: {length: x_b1, mass: 0.142 kg, inertia: 3.030e-4 kg*m^2}
+  W1: {mass: 1 kg, inertia: 1 kg*m^2}
+  W2: {mass: 1 kg, inertia: 2 kg*m^2}
+  S: {mass: 1 kg, inertia: 1 kg*m^2}
+ground: {O: [0, 0], P: [1 m, 2 m]}
+joints:
+  O: {revolute: [ground.O, b1.tail]}
+  mesh: {gear: [W1, W2], radii: [40 mm, 60 mm], carrier: b1}
+  rod: {distance: [b1.eye, my_bar.head], length: 300 mm}
+  slot: {point_on_line: [my_bar.tail, b1.origin], direction: [1, 2]}
+  weld: {rigid: [b1.head, W1.origin]}
+  guide: {translational: [my_bar.head, S.origin], axis: [1, 3]}
+drives:
+  pull: {distance: [b1.eye, S.com], value: 0.3 m + 0.1 m * sin(3*t)}
+  turn: {angle: [b1, my_bar], value: "smooth_step(t, 0, 0.5 s) * 10 deg + 5 deg * sin(2*pi*t)"}
+forces:
+  coil: {spring_damper: [ground.P, b1.eye], stiffness: k_max, free_length: 77.85 mm, damping: 3}
+  twist: {rotational_spring_damper: [ground, b1], stiffness: 2 N*m/rad, free_angle: 10 deg}
+  motor: {torque: [b1, my_bar], value: 0.033 N*m * sin(omega*t)}
+  rub: {dry_friction: [b1.eye, S.com], direction: [1, 2], speed: 0.1 m/s, static: 5 N, kinetic: 4 N}
+start: {guess: {W1.theta: 10 deg}}
+"""
+
+
+@cache
+def model_of(which: str) -> Model:
+    """ "press dry", "slider oiled", "zoo", "random 3"."""
+    name, _, scene = which.partition(" ")
+    if name == "random":
+        return random_model(int(scene))[1]
+    text = {"press": PRESS, "slider": SLIDER, "zoo": ZOO}[name]
+    return derive(text.encode(), f"{name}.yaml", scene or "ideal")
+
+
+WITH_ROWS = ["press ideal", "press dry", "press lubricated", "slider ideal", "slider oiled", "zoo", *RANDOM]
+
+
+@cache
+def read(which: str) -> dict[str, list[str]]:
+    return sections(equations_text(model_of(which)))
+
+
+def given_numbers(which: str, t: float, q: np.ndarray, v: np.ndarray) -> dict[str, float]:
+    """A state by the names that physics.md gives to coordinates, and the numbers in the tables."""
+    known = {"t": t, **state([body.name for body in model_of(which).bodies], q, v)}
+    for title in ("Bodies", "Ground", "Joints", "Force elements", "Generalized forces"):
+        known |= numbers(read(which).get(title, []))
+    for cells in rows(read(which).get("Parameters", []))[2:]:
+        known[cells[1]] = float(cells[2].split(" = ")[-1])
+    return evaluate(read(which).get("Abbreviations", []), known)
+
+
+def column(which: str, title: str, letter: str, known: dict[str, float]) -> np.ndarray:
+    """A vector of the document by its components; those that are not shown are zero."""
+    found = np.zeros(len(model_of(which).rows))
+    for left, right in equations(read(which)[title]):
+        if left.startswith(f"{letter}_"):
+            found[int(left[2:]) - 1] = value(right, known)
+    return found
+
+
+@pytest.mark.parametrize("which", WITH_ROWS)
+def test_every_row_is_shown_once_under_its_joint(which: str) -> None:
+    model, lines = model_of(which), read(which)["Constraints"]
+    shown = [left for left, _ in equations(lines)]
+    assert shown == [f"Φ_{k}" for k in range(1, len(model.rows) + 1)]
+    text = " ".join(" ".join(lines).split())
+    for owner in dict.fromkeys(row.owner for row in model.rows):
+        named = [f"{row.name} ({row.unit})" for row in model.rows if row.owner == owner]
+        kind = "Joint" if owner in model.scene.mechanism.joints else "Drive"
+        assert re.search(rf"{kind} {owner}\b[^:]*; rows? {re.escape(', '.join(named))}:", text)
+
+
+@pytest.mark.parametrize("which", WITH_ROWS)
+def test_rows_read_back_are_the_models(which: str) -> None:
+    model = model_of(which)
+    for seed in range(2):
+        t, q, v = random_state(model, seed)
+        known = given_numbers(which, t, q, v)
+        for title, letter, matrix in (
+            ("Constraints", "Φ", model.Phi),
+            ("Right-hand side of the velocities", "ν", model.nu),
+            ("Right-hand side of the accelerations", "γ", model.gamma),
+        ):
+            want = numeric(model, matrix)(t, q, v)[:, 0]
+            assert column(which, title, letter, known) == pytest.approx(want, rel=1e-10, abs=1e-10)
+
+
+@pytest.mark.parametrize("which", WITH_ROWS)
+def test_jacobian_read_back_is_the_models(which: str) -> None:
+    """Blocks by joint, or entry by entry where a block would be too wide."""
+    model = model_of(which)
+    t, q, v = random_state(model, 1)
+    known = given_numbers(which, t, q, v)
+    place = {dots_apart(f"{c}_{b.name}"): b.index + k for b in model.bodies for k, c in enumerate("xyθ")}
+    found = np.zeros((len(model.rows), len(model.q)))
+    columns: list[int] = []
+    for cells in rows(read(which)["Jacobian"]):
+        if all(cell in place for cell in cells):
+            columns = [place[cell] for cell in cells]
+        elif re.fullmatch(r"Φ_\d+", cells[0]):
+            found[int(cells[0][2:]) - 1, columns] = [value(cell, known) for cell in cells[1:]]
+    for left, right in equations(read(which)["Jacobian"]):
+        row, by = left.split("/")
+        found[int(row[3:]) - 1, place[by[1:]]] = value(right, known)
+    assert found == pytest.approx(numeric(model, model.Phi_q)(t, q, v), rel=1e-10, abs=1e-10)
+
+
+@pytest.mark.parametrize("which", ["press ideal", "zoo", "slider ideal"])
+def test_masses_and_forces_read_back_are_the_models(which: str) -> None:
+    model = model_of(which)
+    t, q, v = random_state(model, 2)
+    known = given_numbers(which, t, q, v)
+    if model.elements:
+        known = evaluate(read(which)["Force elements"], known)
+    masses = [value(cell, known) for row in rows(read(which)["Masses"])[2:] for cell in row[1:]]
+    assert masses == pytest.approx(numeric(model, model.M)(t, q, v).diagonal())
+    found = np.zeros(len(model.q))
+    for left, right in equations(read(which)["Generalized forces"]):
+        found[int(left[2:]) - 1] = value(right, known)
+    assert found == pytest.approx(numeric(model, model.g)(t, q, v)[:, 0], rel=1e-10, abs=1e-12)
+
+
+def test_friction_read_back_is_the_models() -> None:
+    """Slip, the row of stick and the force of slip."""
+    model, (friction,) = model_of("zoo"), model_of("zoo").frictions
+    t, q, v = random_state(model, 3)
+    known = evaluate(read("zoo")["Force elements"], given_numbers("zoo", t, q, v))
+    explicit = model.symbols.explicit
+    columns = [explicit(sp.sympify(friction.jacobian.get(x, 0))) for x in model.q]
+    J = numeric(model, sp.Matrix([columns]))(t, q, v)[0]
+    slip, gamma = numeric(model, sp.Matrix([explicit(friction.slip.v), explicit(friction.gamma)]))(t, q, v)[:, 0]
+    assert (known["v_rub"], known["γ_rub"]) == pytest.approx((slip, gamma), rel=1e-10)
+    assert [known.get(f"J_rub.{k}", 0.0) for k in range(1, 1 + q.size)] == pytest.approx(J, rel=1e-10)
+    assert [known.get(f"Δg_{k}", 0.0) for k in range(1, 1 + q.size)] == pytest.approx(-4.0 * J * np.sign(slip))

@@ -1,0 +1,180 @@
+"""The three formats: hostile text, names, determinism, and that each is well formed."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from importlib import resources
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.pipeline import derive
+from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text
+from gudgeon.generator.targets.latex.letters import letter, of_latex, word
+from gudgeon.generator.targets.latex.notation import make_notation
+from gudgeon.generator.targets.latex.tex_text import sketch_line, tex
+from tests.targets_latex.equations_reader import sections, width
+from tests.targets_latex.test_equations import SLIDER, WITH_ROWS, model_of
+
+SHIPPED = resources.files("gudgeon.mechanisms")
+HOSTILE = r"\input{/etc/passwd} $x$ 100% {#1} a_b^c & ~ <script>alert('1')</script> <!-- \end{document}"
+# What may stand in escaped LaTeX: plain characters, escaped signs, commands without arguments, accents, short formulas.
+SAFE = re.compile(
+    r"(?:[A-Za-z0-9 .,;:!?'`()*+/=@\[\]~-]|\\[{}$&#%_]|\\(?:text[a-z]+|ss|o|O|ae|AE|oe|l|L|i)\{\}"
+    r"|\\[`'^~=.\"a-zA-Z]\{(?:[A-Za-z]|\\i\{\})\}|\$(?:\\[A-Za-z]+|[-{}^0-9]|\{|\})+\$)*"
+)
+
+
+def titled(model: Model, title: str) -> Model:
+    """The same model with another title; the reader refuses some that an embedding program may set."""
+    return replace(model, scene=replace(model.scene, mechanism=replace(model.scene.mechanism, title=title)))
+
+
+def test_a_hostile_title_is_only_text() -> None:
+    model = titled(model_of("press ideal"), HOSTILE)
+    source = equations_tex(model)
+    assert r"\input" not in source and source.count(r"\end{document}") == 1
+    (line,) = [line for line in source.splitlines() if line.startswith(r"{\Large")]
+    assert SAFE.fullmatch(line.removeprefix(r"{\Large ").removesuffix(r"\par}"))
+    assert equations_text(model).splitlines()[0] == HOSTILE
+    pytest.importorskip("latex2mathml")
+    page = equations_html(model)
+    assert "<script" not in page and "<!--" not in page and "&lt;script&gt;" in page
+
+
+@given(st.text(max_size=40))
+@settings(derandomize=True, max_examples=300, deadline=None)
+def test_any_text_becomes_harmless_latex(text: str) -> None:
+    assert SAFE.fullmatch(tex(text)), tex(text)
+    assert tex(text).isascii() and sketch_line(text).isascii()
+
+
+@given(st.text(alphabet=st.characters(min_codepoint=32, max_codepoint=126), max_size=40))
+@settings(derandomize=True, max_examples=200, deadline=None)
+def test_ascii_is_kept_to_the_letter(text: str) -> None:
+    """Undo the escapes: the text must come back."""
+    names = {"backslash": "\\", "asciicircum": "^", "asciitilde": "~", "less": "<", "greater": ">", "bar": "|",
+             "quoteleft": "`"}  # fmt: skip
+    back = re.sub(r"\\text([a-z]+)\{\}|\\([{}$&#%_])", lambda m: names[m[1]] if m[1] else m[2], tex(text))
+    assert back == text.replace('"', "''")
+
+
+@pytest.mark.parametrize("which", WITH_ROWS)
+def test_latex_is_well_formed(which: str) -> None:
+    source = equations_tex(model_of(which))
+    assert source.isascii()
+    packages = re.findall(r"\\usepackage(?:\[[^]]*\])?\{(\w+)\}", source)
+    assert packages == ["amsmath"]
+    bare = re.sub(r"\\[{}]", "", source)
+    depth = 0
+    for character in bare:
+        depth += (character == "{") - (character == "}")
+        assert depth >= 0
+    assert depth == 0
+    for environment in set(re.findall(r"\\begin\{(\w+)\}", source)):
+        assert source.count(rf"\begin{{{environment}}}") == source.count(rf"\end{{{environment}}}")
+    assert bare.count(r"\left(") == bare.count(r"\right)") and bare.count(r"\bigl(") == bare.count(r"\bigr)")
+    assert not re.search(r"frac\{[^{}]*\}\{1\}", source)  # no integer as a fraction
+
+
+@pytest.mark.parametrize("which", WITH_ROWS)
+def test_prose_and_equations_stay_within_their_columns(which: str) -> None:
+    for line in equations_text(model_of(which)).splitlines():
+        if re.match(r" {8}\S|  (?!Φ )\S+ = |\S", line):
+            assert width(line) <= 100
+
+
+@pytest.mark.parametrize("which", WITH_ROWS)
+def test_every_symbol_has_a_name_of_its_own(which: str) -> None:
+    model = model_of(which)
+    notation = make_notation(model)
+    texts = [name.text for name in notation.names.values()]
+    assert len(set(texts)) == len(texts)
+    latex = [name.latex for name in notation.names.values()]
+    assert len(set(latex)) == len(latex)
+    for row in model.rows:
+        for value in (row.phi, row.nu, row.gamma, *row.phi_q.values()):
+            assert notation.expand(value).free_symbols <= set(notation.names)
+
+
+def test_letters() -> None:
+    assert letter("theta", "L7").latex == r"\theta_{\text{L7}}" and letter("theta", "L7").text == "θ_L7"
+    assert letter("x", "my_bar", dots=1).latex == r"\dot{x}_{\text{my\_bar}}"
+    assert [word(name).text for name in ("omega4", "l5", "v_max", "speed", "omega_in_2")] == [
+        "ω_4", "l_5", "v_max", "speed", "ω_in_2",
+    ]  # fmt: skip
+    assert [of_latex(sign).text for sign in ("c_e", r"\mu", r"\sigma_{0}", r"v_{\mathrm{s}}")] == [
+        "c_e", "μ", "σ_0", "v_s",
+    ]  # fmt: skip
+
+
+def test_the_same_bytes_under_another_hash_seed() -> None:
+    code = (
+        "import hashlib, importlib.resources as r\n"
+        "from gudgeon.generator.pipeline import derive\n"
+        "from gudgeon.generator.targets.latex import equations_tex, equations_text\n"
+        "data = r.files('gudgeon.mechanisms').joinpath('nine_bar_press.yaml').read_bytes()\n"
+        "m = derive(data, 'p.yaml', 'lubricated')\n"
+        "print(hashlib.sha256((equations_tex(m) + equations_text(m)).encode()).hexdigest())"
+    )
+    sums = {
+        subprocess.run(
+            [sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, check=True, capture_output=True
+        ).stdout
+        for seed in ("1", "2")
+    }
+    assert len(sums) == 1
+
+
+@pytest.mark.parametrize("which", ["press lubricated", "zoo"])
+def test_html_is_self_contained_mathml(which: str) -> None:
+    pytest.importorskip("latex2mathml")
+    page = equations_html(model_of(which))
+    formulas = re.findall(r"<math.*?</math>", page, re.S)
+    assert len(formulas) > 100
+    for formula in formulas:
+        assert len(ElementTree.fromstring(formula)) > 0
+        assert "\\" not in formula  # no LaTeX is left over
+    assert set(re.findall(r"https?://[^\"]*", page)) == {"http://www.w3.org/1998/Math/MathML"}
+    assert not re.search(r"<script|<link|<img|@import|url\(", page)
+
+
+def test_html_tells_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    from gudgeon.errors import GudgeonError
+
+    monkeypatch.setitem(sys.modules, "latex2mathml.converter", None)
+    with pytest.raises(GudgeonError, match=r"gudgeon\[docs\]"):
+        equations_html(model_of("press ideal"))
+
+
+def test_a_free_body_without_gravity() -> None:
+    """No joint, no drive, no gravity, no parameter."""
+    model = derive(b"format: gudgeon/1\nname: stone\nbodies: {b: {mass: 1 kg, inertia: 1 kg*m^2}}\n", "s.yaml", "ideal")
+    document = sections(equations_text(model))
+    text = equations_text(model)
+    assert "Constraints" not in document and "Jacobian" not in document and "Drives" not in document
+    assert "g is zero" in " ".join(document["Generalized forces"]) and "3 - 0 = 3" in text
+    assert "No gravity" in " ".join(document["Left out of this scene"])
+    assert r"M \ddot{q}" in equations_tex(model)
+
+
+def test_without_gravity_nothing_of_it_is_shown() -> None:
+    text = equations_text(derive(SLIDER.replace("gravity: [0, -9.81 m/s^2]\n", "").encode(), "s.yaml", "oiled"))
+    assert "g_y" not in text and "9.81" not in text and "No gravity" in text
+
+
+@pytest.mark.parametrize("name", sorted(p.name for p in SHIPPED.iterdir() if p.name.endswith(".yaml")))
+def test_every_shipped_mechanism_and_scene(name: str) -> None:
+    data = SHIPPED.joinpath(name).read_bytes()
+    first = derive(data, name, "ideal")
+    for scene in first.scene.mechanism.scenes:
+        model = derive(data, name, scene)
+        assert equations_text(model).count("Φ_1 = ") == bool(model.rows)
+        assert equations_tex(model).isascii()

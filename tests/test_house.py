@@ -1,0 +1,33 @@
+"""The house's own rules: short functions, short files, every room with its purpose."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = [*sorted((ROOT / "runtime").rglob("*.py")), *sorted((ROOT / "generator").rglob("*.py"))]
+LONGEST_FUNCTION, LONGEST_FILE = 40, 300  # lines; of a function those behind its docstring
+
+
+def functions(file: Path) -> Iterator[tuple[str, int]]:
+    """Name of each function and how many lines stand behind its docstring."""
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            body = node.body[1:] if ast.get_docstring(node) else node.body
+            yield node.name, (node.end_lineno or 0) - body[0].lineno + 1 if body else 0
+
+
+@pytest.mark.parametrize("file", PACKAGE, ids=lambda file: str(file.relative_to(ROOT)))
+def test_lengths(file: Path) -> None:
+    assert len(file.read_text(encoding="utf-8").splitlines()) <= LONGEST_FILE
+    assert [(name, lines) for name, lines in functions(file) if lines > LONGEST_FUNCTION] == []
+
+
+def test_every_room_says_its_purpose() -> None:
+    rooms = {file.parent for file in PACKAGE} - {ROOT / "runtime", ROOT / "generator"}
+    silent = [room for room in sorted(rooms) if not ast.get_docstring(ast.parse((room / "__init__.py").read_text()))]
+    assert silent == []
