@@ -152,7 +152,7 @@ def large(folder: Path) -> list[Activity]:
         run = partial(bars.simulate, 20.0, output=200, rtol=3e-11)
         found.append(Activity(f"N=40 {formulation}", run, lambda run: check(run) if run is not None else None, 8.0))
     found.append(Activity("N=40 start", partial(search, bars.compiled, bars.p), lambda _: None))
-    return [*found, Activity("N=200", algebra, lambda _: None)]
+    return [*found, Activity("N=200", algebra, lambda _: None, 2.0)]
 
 
 def activities(folder: Path) -> list[Activity]:
