@@ -15,13 +15,15 @@ from typing import Any
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import BadValueError
+from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.language.wanted import mapping, number_of, refuse, text
 from gudgeon.model.arrays import CODE, taken
+from gudgeon.model.assembly import mechanism_size
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import given_slots
 from gudgeon.results.results import State
 
+OPEN = 1e-6  # rad, or share of the mechanism's size: a row that is open further was not left so by a run
 FREE, AS_IT_WAS = 0, "the `final` of a run has both as they belong together"
 MOST_TOLD = 6  # numbers that a note names
 
@@ -111,6 +113,23 @@ def numbers(
             for k in changed[:MOST_TOLD]]  # fmt: skip
     more = f" and {len(changed) - MOST_TOLD} more" if len(changed) > MOST_TOLD else ""
     return both, mask, (f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(told)}{more}",)
+
+
+def check_fits(compiled: CompiledModel, start: State, p: Array) -> None:
+    """AssemblyError where the numbers p of a further run leave rows open at the state that it goes on from."""
+    open_by, size = compiled.phi(start.t, start.q, p), mechanism_size(compiled, p)
+    told = [
+        f"{row.name} ({x:.3g} {row.unit})"
+        for row, x in zip(compiled.source.rows, open_by.tolist(), strict=True)
+        if not abs(x) <= OPEN * (size if row.unit == "m" else 1.0)
+    ]
+    if told:
+        raise AssemblyError(
+            f"start: the state at t = {start.t:.9g} s does not fit the numbers given: rows"
+            f" {', '.join(told[:MOST_TOLD])} are open by so much\n"
+            "  other lengths close elsewhere, and a drive whose value hangs on t and a changed number stands elsewhere"
+            " at that time: write it so that it goes on from there, or run from the scene's own start"
+        )
 
 
 def _quantity(value: float, unit: str) -> str:

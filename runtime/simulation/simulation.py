@@ -26,7 +26,7 @@ from gudgeon.model.redundant_rows import check_start
 from gudgeon.simulation.arguments import MAX_STEPS, METHODS, method_of, output_times, step_of
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.hidden_jumps import up_to_a_jump
-from gudgeon.simulation.restart import numbers, own
+from gudgeon.simulation.restart import check_fits, numbers, own
 from gudgeon.waiting.ctrl_c import CtrlC
 from gudgeon.waiting.imports import GENERATOR, whole
 
@@ -194,6 +194,8 @@ class Simulation:
         h = step_of(self.compiled, step, chosen, p, float(times[-1] - t0))
         if (times[-1] - t0) / h > MAX_STEPS:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
+        if begin is not None and remarks:
+            check_fits(self.compiled, begin, p)
         q, v, memory = self._closed(p) if begin is None else (begin.q, begin.v, begin.memory)
         check_start(self.compiled, p, t0, q)
         problem = Problem(

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.errors import BadValueError, InputError
+from gudgeon.errors import AssemblyError, BadValueError, InputError
 from gudgeon.results.results import State
 from tests.pump import needs_compiler
 
@@ -62,6 +62,34 @@ def test_other_numbers_are_taken_and_told(options: dict[str, Any]) -> None:
     assert told in run.diagnostics.notes
     same = pendulum.simulate(1.0, output=1, start=state, parameters={"g": 1.62}, **options)
     assert not same.diagnostics.notes and same.parameters["g"] == 1.62
+
+
+@pytest.mark.parametrize("scene", ["ideal", "dry"])
+def test_numbers_that_the_state_does_not_fit_are_refused(scene: str) -> None:
+    """A crank driven by phi + omega t stands elsewhere at the same time with another omega."""
+    press = gudgeon.load("nine_bar_press", scene=scene)
+    state = press.simulate(0.01, output=1).final
+    with pytest.raises(AssemblyError, match=r"does not fit the numbers given: rows \S+ \(.*rad\)"):
+        press.simulate(0.02, output=1, start=state, parameters={"omega": "3*pi rad/s"})
+    with pytest.raises(AssemblyError, match="does not fit the numbers given"):
+        press.simulate(0.02, output=1, start=state, parameters={"l5": 0.31})
+    press.simulate(0.011, output=1, start=state, parameters={"gravity.y": -1.62})
+
+
+def test_an_event_on_the_seam_of_two_runs_without_freedom(tmp_path: Path) -> None:
+    """It belongs to the first of them, and only to it."""
+    text = (Path(gudgeon.__file__).resolve().parents[1] / "mechanisms" / "four_bar.yaml").read_text(encoding="utf-8")
+    text = text.replace("90 deg + omega * t", "omega * t").replace("omega: 60 rpm", "omega: 120 rpm")
+    file = tmp_path / "bar.yaml"
+    file.write_text(f"{text}\nevents: {{turn: {{zero: sin(crank.theta), direction: both}}}}\n", encoding="utf-8")
+    bar = gudgeon.load(file)
+    whole = bar.simulate(2.0, output=20).events_of("turn")
+    assert len(whole) >= 3
+    for seam in np.round(whole[:-1], 6):
+        first = bar.simulate(float(seam), output=10)
+        rest = bar.simulate(2.0, output=10, start=first.final)
+        times = [*first.events_of("turn"), *rest.events_of("turn")]
+        np.testing.assert_allclose(times, whole, rtol=0.0, atol=1e-12)
 
 
 def test_a_state_of_another_mechanism_of_the_same_size(swing: Path) -> None:
