@@ -24,10 +24,15 @@ class SideOf(sp.Function):
 
 
 class Pick(sp.Function):
-    """Pick(side, a, b): b on the side below zero, else a."""
+    """Pick(side, a, b): b on the side below zero, else a; of a side itself, not its negative: at zero all agree."""
 
     nargs = 3
     is_real = True
+
+    @classmethod
+    def eval(cls, side: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
+        """What is told by -side turns round: at zero both would pick their first, one branch each."""
+        return cls(-side, b, a) if (-side).is_Symbol else None
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         """The derivative of the branch that is picked: that of the other may be infinite."""

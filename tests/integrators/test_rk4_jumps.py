@@ -109,3 +109,23 @@ def test_only_scenes_whose_drives_jump_look_for_it(tmp_path: Path) -> None:
     for value, has in (("2 m/s * t", False), ("smooth_step(t, 0.1 s, 0.3 s) * 1 m", False), ("abs(t)*1 m/s", True)):
         files = scene(SLIDER + ON_SLIDER.format(value), tmp_path).source.files
         assert ("jumps.c" in files) == has == any("next_jump" in text for text in files.values())
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("value", ["min(late, t) * 1 m/s", "max(late, t) * 1 m/s"])
+def test_a_corner_at_a_parameter_exactly(value: str, formulation: str, tmp_path: Path) -> None:
+    """Value and rate of the drive picked a branch each at the zero of `late - t`: "the motion is no longer finite"."""
+    simulation = scene(SLIDER.replace("0.3 s", "0.2 s") + ON_SLIDER.format(value), tmp_path, formulation)
+    reference = simulation.simulate(0.6, output=2, rtol=1e-12)
+    run = simulation.simulate(0.6, output=2, method="rk4", step=1e-3)
+    np.testing.assert_allclose(run["arm.omega"][-1], reference["arm.omega"][-1], rtol=0, atol=1e-8)
+    assert run.diagnostics.energy_residual < 1e-7 * run.diagnostics.energy_turned_over
+
+
+def test_a_jump_right_behind_a_step_that_is_rounded_beyond_it(tmp_path: Path) -> None:
+    """0.28 + 0.02 is beyond 0.3: the last stage saw the other branch, and 0.47 J were missing from the work."""
+    simulation = scene(SLIDER + ON_SLIDER.format("max(late, t) * 1 m/s"), tmp_path, "full")
+    run = simulation.simulate(0.6, output=[0.0, 0.28, 0.6], method="rk4", step=0.02)
+    reference = simulation.simulate(0.6, output=[0.0, 0.28, 0.6], rtol=1e-12)
+    np.testing.assert_allclose(run.work[-1], reference.work[-1], rtol=0, atol=3e-3)
+    assert run.diagnostics.energy_residual < 3e-3
