@@ -114,7 +114,9 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
     if any(UNFINISHED in run.diagnostics.notes for run in session.runs.values()):
         told += "; the search for the horizon was not finished"
     ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in session.runs.items() if run.diagnostics.interrupted]
-    missing = [f"{name} was not begun" for name in names if name not in session.runs and name not in session.failures]
+    left = [name for name in names if name not in session.runs and name not in session.failures]
+    beside = {IDEAL: "was run as the reference alone"} if session.references else {}
+    missing = [f"{name} {beside.get(name, 'was not begun')}" for name in left]
     return "; ".join([told, *ended, *missing])
 
 
