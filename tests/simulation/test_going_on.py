@@ -92,6 +92,36 @@ def test_an_event_on_the_seam_of_two_runs_without_freedom(tmp_path: Path) -> Non
         np.testing.assert_allclose(times, whole, rtol=0.0, atol=1e-12)
 
 
+SWING = """format: gudgeon/1
+name: swing
+gravity: [0, -9.81 m/s^2]
+bodies:
+  a: {length: 0.1 m, mass: 0.3 kg, inertia: 1e-3 kg*m^2}
+  b: {length: 0.2 m, mass: 0.3 kg, inertia: 2e-3 kg*m^2}
+ground: {O: [0, 0]}
+joints: {O: {revolute: [ground.O, a.tail]}, A: {revolute: [a.head, b.tail]}}
+drives: {d: {angle: a, value: 120 rpm * t}}
+events: {turn: {zero: sin(a.theta), direction: both}}
+"""
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("options", METHODS[:4])  # the cross-checks know no events
+def test_an_event_on_the_seam_of_two_runs(options: dict[str, Any], formulation: str, tmp_path: Path) -> None:
+    """It is rounded to either side of the end; a batch finds what a run alone does."""
+    file = tmp_path / "swing.yaml"
+    file.write_text(SWING, encoding="utf-8")
+    swing = gudgeon.load(file, formulation=formulation)
+    for seam in (0.25, 0.5, 1.0):
+        first = swing.simulate(seam, output=4, **options)
+        rest = swing.simulate(1.3, output=4, start=first.final, **options)
+        times = [*first.events_of("turn"), *rest.events_of("turn")]
+        np.testing.assert_allclose(times, [0.25, 0.5, 0.75, 1.0, 1.25], rtol=0.0, atol=1e-10)
+        assert len(first.events_of("turn")) == round(seam / 0.25)
+        batch = swing.simulate_many({"gravity.y": np.array([-9.81] * 5)}, seam, output=4, **options)
+        assert all(run.events.tobytes() == first.events.tobytes() for run in (batch[i] for i in range(5)))
+
+
 def test_a_state_of_another_mechanism_of_the_same_size(swing: Path) -> None:
     state = gudgeon.load("pendulum").simulate(0.1, output=1).final
     simulation = gudgeon.load(swing)

@@ -244,29 +244,6 @@ void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const
     run->least[1] = least[1];
 }
 
-/*
- * Events whose zero is the end of the run: those that are zero there, or beyond it at once, as far as times are
- * located. Returns ENDED where one of them ends the run.
- */
-static int end_on_zeros(Run *run, const Parameters *p)
-{
-    int status = 0, zeros = 0;
-    double y[N_Y], dy[N_Y];
-    Aside aside;
-    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), run->tick);
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        zeros |= run->memory.event_side[i] != 0;
-    for (int k = 0; k < N_Y; k++)
-        y[k] = run->y[k] + h * run->dy[k];
-    if (!zeros || rates(run, run->t + h, y, p, dy, &aside))
-        return 0;
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        if (event_crosses(i, &run->memory.event_side[i], aside.event[i]) && fabs(aside.event[i]) >= fabs(run->aside.event[i])
-            && note_event(run, i, run->t))
-            status = ENDED;
-    return status;
-}
-
 /* Samples of the step before `t_new`, from its interpolant. */
 static int sample_step(Run *run, Step *step, double t_new, long n, const double *t, const Parameters *p,
     double *y, double *latched, signed char *state, long *done)
@@ -336,7 +313,7 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         if (!status)
             status = commit(run, step, share, t_new, event, p);
         if (!status && run->t == t_end)
-            status = end_on_zeros(run, p);
+            status = end_on_zeros(run, run->tick, p);
         run->asked.hold = 0;
     }
     return status;
