@@ -143,9 +143,7 @@ def make_model(scene: Scene) -> Model:
     elements = {e.name: apply_element(e, geometry, constraints.t) for e in mechanism.forces.values()}
     pairs = [(q, v) for body in geometry.bodies.values() for q, v in zip(body.q, body.v, strict=True)]
     frictions = tuple(
-        make_friction(name, e.loads.slip, pairs, constraints.t, symbols)
-        for name, e in elements.items()
-        if e.loads.slip
+        make_friction(name, e.loads.slip, pairs, constraints.t, symbols) for name, e in elements.items() if e.loads.slip
     )
     kept = tuple(row for row in rows if row.owner not in scene.play)
     events = tuple(make_event(event, geometry, constraints.t) for event in scene.events.values())

@@ -78,9 +78,7 @@ def count_operations(expression: sp.Expr) -> int:
     return sum(int(count) for kind, count in counts.items() if kind.is_Symbol and kind.name != "NEG")
 
 
-def hold_sides(
-    switches: Switches, owner: str, sections: Iterable[Section], only_known: bool = False
-) -> list[Section]:
+def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only_known: bool = False) -> list[Section]:
     """The sections with every corner (or only_known) as the side of its switch; told before it is first read."""
     known: dict[sp.Symbol, sp.Expr] = {}
     held = []

@@ -29,8 +29,6 @@ class Jumps:
     ranges: Kernel
 
 
-
-
 def jumps_of(dynamics: Kernel, model: Model) -> Jumps | None:
     """From what a right-hand side reads; None where no drive's rate may jump."""
     if not jumping_drives(model):

@@ -118,8 +118,6 @@ def _constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bo
     return rhs
 
 
-
-
 def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
     """Slip velocities; the force of slip goes to the coordinates, the right-hand side of stick is returned."""
     rhs: dict[int, sp.Expr] = {}

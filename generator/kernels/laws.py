@@ -18,9 +18,7 @@ def law_kernels(model: Model, clearance: Clearance) -> list[Kernel]:
     if clearance.normal is not None:
         kernels.append(_law_kernel(model, clearance, clearance.normal))
         kernels.append(
-            _no_friction(clearance)
-            if clearance.friction is None
-            else _law_kernel(model, clearance, clearance.friction)
+            _no_friction(clearance) if clearance.friction is None else _law_kernel(model, clearance, clearance.friction)
         )
     if clearance.film is not None:
         kernels.append(_law_kernel(model, clearance, clearance.film))

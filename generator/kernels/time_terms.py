@@ -160,4 +160,3 @@ def _unheld(statement: Statement) -> Statement:
     if isinstance(statement.value, SideOf):
         return replace(statement, value=sp.sign(statement.value.args[1]))
     return statement
-

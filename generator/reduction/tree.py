@@ -27,8 +27,6 @@ DEPTHS = (None, 5, 3, 2, 1)  # how many bodies a chain may have before it is cut
 SEARCHED = 24  # more coordinates than that: the tree is not improved by exchanges
 
 
-
-
 @dataclass(frozen=True)
 class Tree:
     """Angles of the bodies in free ones ("L7") and drives ("crank1"); links, parents before children."""
@@ -75,8 +73,6 @@ def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
         angles = {b: substitute(a, pivot, solved) for b, a in angles.items()}
         used[row.name] = pivot
     return angles, used
-
-
 
 
 def _linear(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | None:
@@ -178,8 +174,6 @@ def _exchange(model: Model, edges: Sequence[Joint], links: tuple[Link, ...], est
             if improved:
                 break
     return links
-
-
 
 
 def _loop(links: Sequence[Link], joint: Joint) -> list[Joint]:

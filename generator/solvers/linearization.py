@@ -222,4 +222,3 @@ class Linearization:
 
 
 _BY = ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j")
-

@@ -27,8 +27,6 @@ ZERO = sp.Integer(0)
 SHARE = sqrt(SINGULAR)
 
 
-
-
 @dataclass(frozen=True)
 class Solver:
     """What is known of a block at a state: the inverse of its pivot or determinant, or the name of its factors."""
@@ -146,7 +144,3 @@ class SquareRows:
             build.out(f"{name}[{k}]", value)
         build.line(f"solve_block({n}, {solver.name}_values, {solver.name}_order, {name});")
         return [f"{name}[{k}]" for k in range(n)]
-
-
-
-

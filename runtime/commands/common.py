@@ -42,10 +42,6 @@ def chosen_scenes(mechanism: str, wanted: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(wanted)) or names
 
 
-
-
-
-
 def settings(texts: Iterable[str]) -> dict[str, float | str]:
     """--set ADDRESS=VALUE, each number once. Raises BadValueError."""
     found: dict[str, float | str] = {}

@@ -151,9 +151,7 @@ def addresses(simulation: Simulation) -> list[str]:
     return [address.removeprefix("parameters.") for address in found] + found
 
 
-def _simulate(
-    request: Request, settings: Settings, simulations: Mapping[str, Simulation], session: Session
-) -> None:
+def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Simulation], session: Session) -> None:
     """All scenes, the ideal one last: it lasts as long as the longest, and is to be had cheaply."""
     t_end, step = (None if text is None else value(text) for text in (request.t_end, request.step))
     longest = max((scene_end(s.source) for n, s in simulations.items() if n != IDEAL), default=T_END)

@@ -76,6 +76,7 @@ class Runs:
     def __getstate__(self) -> dict[str, Any]:
         """What is over: arrays and lists, without what C worked on."""
         return self.__dict__ | {"struct": None, "lanes": None}
+
     @property
     def stopping(self) -> bool:
         """Whether all runs are to end where they are; C reads the same number."""
@@ -130,9 +131,7 @@ class Runs:
         self.arrays["started"][i] = 1
         return True
 
-    def _in_threads(
-        self, threads: int, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC
-    ) -> None:
+    def _in_threads(self, threads: int, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC) -> None:
         portion = max(1, min(PORTION, len(wanted) // (8 * threads)))
         if self.lanes:
             portion = math.ceil(portion / self.lanes.count) * self.lanes.count

@@ -73,12 +73,6 @@ def check_label(name: str, what: str, where: Location | None) -> None:
         )
 
 
-
-
-
-
-
-
 class Namespace:
     """Bodies, joints, drives, forces and outputs share one namespace: a result is indexed by their names."""
 

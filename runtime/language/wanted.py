@@ -136,8 +136,6 @@ def instance(value: Any, name: str, kind: type[One]) -> One:
     return value
 
 
-
-
 def optional(value: Any, name: str, kind: type[One]) -> One | None:
     """An object of a class, or None."""
     return None if value is None else instance(value, name, kind)

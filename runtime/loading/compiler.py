@@ -26,7 +26,13 @@ INSTALL_HEADERS = (
 # Never -ffast-math: it deletes the isnan tests. No contraction to fused multiply-adds, so that gcc and clang
 # round alike. Nobody reads errno after sqrt, and without it sqrt is one instruction.
 FLAGS = (
-    "-O1", "-fcaller-saves", "-fipa-ra", "-ftree-loop-vectorize", "-std=c11", "-fPIC", "-ffp-contract=off",
+    "-O1",
+    "-fcaller-saves",
+    "-fipa-ra",
+    "-ftree-loop-vectorize",
+    "-std=c11",
+    "-fPIC",
+    "-ffp-contract=off",
     "-fno-math-errno",
 )
 

@@ -41,10 +41,6 @@ class Loading:
     total: float
 
 
-
-
-
-
 def override_values(overrides: Overrides | None) -> dict[str, str | float | bool]:
     """Overrides as texts, numbers and flags. Raises BadValueError for anything else."""
     found = mapping(overrides, "overrides", "{address: a value as the file would have it}")

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 Array: TypeAlias = NDArray[Any]
 
 
-
 @dataclass(frozen=True, eq=False)
 class State:
     """Where a run ended: what a further run needs to go on from there."""

@@ -22,10 +22,6 @@ if TYPE_CHECKING:
 TIME = ("s", "end of the last step that the row tells of")
 
 
-
-
-
-
 def variables(run: Result) -> dict[str, tuple[Array, str, str]]:
     """Name -> (values (R,), unit, meaning): what a file stores; nothing where a run has no trace."""
     if run.trace is None:

@@ -73,8 +73,6 @@ class Simulation:
         if self.source.formulation == "full":
             return self
         if self._full is None:
-
-
             from gudgeon.simulation.from_file import load_bytes
 
             self._full = load_bytes(

@@ -428,29 +428,6 @@ static void note_no_number(Run *run, int i, double t)
     run->no_number[i] = 1;
 }
 
-/*
- * Events whose zero is the end of the run: those that are zero there, or beyond it at once, as far as times are
- * located (tick, s). Returns ENDED where one of them ends the run.
- */
-static int end_on_zeros(Run *run, double tick, const Parameters *p)
-{
-    int status = 0, zeros = 0;
-    double y[N_Y], dy[N_Y];
-    Aside aside;
-    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), tick);
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        zeros |= run->memory.event_side[i] != 0;
-    for (int k = 0; k < N_Y; k++)
-        y[k] = run->y[k] + h * run->dy[k];
-    if (!zeros || rates(run, run->t + h, y, p, dy, &aside))
-        return 0;
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        if (event_crosses(i, &run->memory.event_side[i], aside.event[i]) && fabs(aside.event[i]) >= fabs(run->aside.event[i])
-            && note_event(run, i, run->t))
-            status = ENDED;
-    return status;
-}
-
 /* Whether the next step may find more than the lists hold. */
 static int lists_full(const Run *run)
 {

@@ -312,8 +312,6 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         run->asked.hold = 1;
         if (!status)
             status = commit(run, step, share, t_new, event, p);
-        if (!status && run->t == t_end)
-            status = end_on_zeros(run, run->tick, p);
         run->asked.hold = 0;
     }
     return status;

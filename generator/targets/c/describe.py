@@ -169,8 +169,6 @@ def _simulate(model: Model) -> dict[str, float]:
     }
 
 
-
-
 def _exponents(dimension: Dimension) -> tuple[int, int, int]:
     """Whole exponents; a number with a broken one (N/m^1.5) takes bare numbers only."""
     exponents = (dimension.length, dimension.mass, dimension.time)

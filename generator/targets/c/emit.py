@@ -263,8 +263,13 @@ def _header(model: Model) -> dict[str, Any]:
 
 def _singular(model: Model, counts: Mapping[str, int]) -> str:
     place = {row.name: r for r, row in enumerate(model.all_rows)}
-    return render("scene/singular.c.jinja", kept=[place[row.name] for row in model.rows], singular=SINGULAR,
-        nearly=NEARLY_SINGULAR, **counts)
+    return render(
+        "scene/singular.c.jinja",
+        kept=[place[row.name] for row in model.rows],
+        singular=SINGULAR,
+        nearly=NEARLY_SINGULAR,
+        **counts,
+    )
 
 
 def _start(model: Model) -> str:

@@ -48,8 +48,10 @@ def clearance_code(model: Model, clearance: Clearance, render: Render) -> str:
         before, after = contact.before_film(clearance, film), contact.after_film(film)
         parts.append(
             render(
-                "play/film.c.jinja", joint=joint,
-                before=_lines(model, before, owner), after=_lines(model, after, owner),
+                "play/film.c.jinja",
+                joint=joint,
+                before=_lines(model, before, owner),
+                after=_lines(model, after, owner),
             )
         )
     share = [contact.blend(clearance, closed=True)] if has_transition(clearance) else []

@@ -96,4 +96,3 @@ def _ranged(item: Statement | str) -> Statement | str:
     if isinstance(item.value, str):
         return item if _READ.fullmatch(item.value) else replace(item, value=f"only({item.value})")
     return replace(item, value=_printer._range(item.value))
-

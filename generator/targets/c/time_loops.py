@@ -152,7 +152,11 @@ def integrator_loops(
         "step.c": render("methods/step.c.jinja", state=integrated.state("y"), **counts),
         **({"jumps.c": _jumps_code(jumps, render)} if jumps else {}),
         "rk4.c": render(
-            "methods/rk4.c.jinja", **common, friction_events=events, constraints=constraints, projection=projection,
+            "methods/rk4.c.jinja",
+            **common,
+            friction_events=events,
+            constraints=constraints,
+            projection=projection,
             inside=inside,
         ),
         "dop853.c": render("methods/dop853.c.jinja", **_dop853()),

@@ -43,9 +43,7 @@ def motion_sections(model: Model, notation: Notation) -> list[Section]:
 
 
 def _masses(model: Model, notation: Notation) -> list[Block]:
-    rows = [
-        cells(body.name, *map(notation.math, model.masses[body.index : body.index + 3])) for body in model.bodies
-    ]
+    rows = [cells(body.name, *map(notation.math, model.masses[body.index : body.index + 3])) for body in model.bodies]
     lead = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
     return [paragraph(lead), *table(cells("body", "x", "y", "angle"), rows)]
 
@@ -144,9 +142,7 @@ def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
         return [FREE, freedom]
     alpha, beta = model.baumgarte
     gains = [
-        part
-        for symbol in (alpha, beta)
-        for part in (notation.math(symbol), f" = {_default(model, symbol)} 1/s, ")
+        part for symbol in (alpha, beta) for part in (notation.math(symbol), f" = {_default(model, symbol)} 1/s, ")
     ]
     blocks: list[Block] = [
         KKT,

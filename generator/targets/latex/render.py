@@ -64,9 +64,7 @@ def _tex_terms(equation: Equation) -> str:
 def _tex_columns(table: Table) -> str:
     """Running text gets what the page leaves for it."""
     share = 0.34 / max(1, len(table.wide))
-    return "".join(
-        rf"p{{{share:.2f}\linewidth}}" if k in table.wide else "l" for k in range(len(table.header))
-    )
+    return "".join(rf"p{{{share:.2f}\linewidth}}" if k in table.wide else "l" for k in range(len(table.header)))
 
 
 def _tex_size(block: Sketch | Table) -> str:
@@ -105,9 +103,7 @@ def _plain_paragraph(paragraph: Paragraph) -> str:
 def _plain_equation(equation: Equation) -> str:
     """One line, or more of them, each behind the first indented further."""
     line = f"  {equation.left.text} = {''.join(term.text for term in equation.terms)}"
-    return textwrap.fill(
-        line, WIDTH, subsequent_indent=" " * 8, break_long_words=False, break_on_hyphens=False
-    )
+    return textwrap.fill(line, WIDTH, subsequent_indent=" " * 8, break_long_words=False, break_on_hyphens=False)
 
 
 def _plain_table(table: Table) -> str:

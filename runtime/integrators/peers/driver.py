@@ -34,10 +34,6 @@ MAX_STUCK = 200  # events at one time
 GROWN = 2.0  # times the speed for which the tolerances were made: they are made anew
 
 
-
-
-
-
 def unfit(source: KernelSource) -> str:
     """Why these methods do not fit a scene; "" if they do."""
     if source.degrees_of_freedom == 0:

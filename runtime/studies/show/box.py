@@ -24,9 +24,7 @@ WORST = 8  # points that are told with what runs them again; the rest is in the 
 _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 
 
-def show_box(
-    source: KernelSource, file: str, found: Sequence[StressBox], table: Path, as_json: bool = False
-) -> None:
+def show_box(source: KernelSource, file: str, found: Sequence[StressBox], table: Path, as_json: bool = False) -> None:
     """Print everything (or only JSON), write the table and beside it the picture."""
     rows = [row for box in found for row in stress_rows(box)]
 
@@ -41,9 +39,7 @@ def show_box(
         raise failed
 
 
-def _show(
-    source: KernelSource, file: str, found: Sequence[StressBox], written: Sequence[Path], as_json: bool
-) -> None:
+def _show(source: KernelSource, file: str, found: Sequence[StressBox], written: Sequence[Path], as_json: bool) -> None:
     """What was found, and what was written of it."""
     if as_json:
         rows = [row for one in found for row in stress_rows(one)]

@@ -31,7 +31,6 @@ SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", 
          Status.MISSING: "·"}  # fmt: skip
 
 
-
 def show_stress(
     source: KernelSource, file: str, found: Sequence[StressMap], table: Path, mark_step: float | None,
     as_json: bool = False,
@@ -84,8 +83,6 @@ def _show(
         out.print(f"wrote {path}")
 
 
-
-
 def _map_table(scene: StressMap) -> Table:
     """Rows down, columns across; each cell its verdict and the number behind it."""
     from rich.text import Text
@@ -131,8 +128,6 @@ def legend(found: Sequence[StressMap | StressBox]) -> Text:
 
     shown = [s for s in Status if s is not Status.MISSING or any(scene.interrupted for scene in found)]
     return Text("   ").join(Text(f"{SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
-
-
 
 
 def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False) -> str:
