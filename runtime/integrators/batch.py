@@ -192,7 +192,7 @@ class Runs:
         advice = adaptive.ADVICE if self.method != "rk4" else rk4.ADVICE.format(float(x["step"]))
         joints = len(self.compiled.source.clearances)
         numbers = (int(x["status"]), float(x["t_last"]), advice, x["last"], x["peaks"][:joints, 2], x["p_motion"])
-        return failure(self.compiled, self.method, *numbers)
+        return failure(self.compiled, self.method, *numbers, float(x["step"]) if self.method == "rk4" else 0.0)
 
     def impacts_of(self, i: int) -> NDArray[Any]:
         """IMPACT_DTYPE, the contacts of run i by their onset."""

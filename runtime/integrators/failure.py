@@ -25,16 +25,20 @@ NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
 
 
 def failure(
-    compiled: CompiledModel, method: str, status: int, t: float, advice: str, last: Array, e_max: Array, p: Array
-) -> SolverError:
-    """The error for a status at time t (s): `last` state, largest eccentricities (n_clearances,), parameters."""
+    compiled: CompiledModel, method: str, status: int, t: float, advice: str, last: Array, e_max: Array, p: Array,
+    ahead: float = 0.0,
+) -> SolverError:  # fmt: skip
+    """The error for a status at time t (s): `last` state, largest eccentricities (n_clearances,), parameters.
+
+    `ahead` (s): how far a step of fixed length looked beyond that state.
+    """
     if status in (UNBOUNDED, TOO_SMALL) and (drive := unbounded_drive(compiled, p, t)):
         told = f"the second rate of drive {drive} grows beyond all bounds there"
         return SolverError(f"no step leads beyond t = {t:.9g} s: {told}\n  {BOUNDED}", t)
     status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
         q, v = np.ravel(last)[: compiled.n], np.ravel(last)[compiled.n : 2 * compiled.n]
-        why = reason(compiled.source, p, t, q, v)
+        why = reason(compiled.source, p, t, q, v, ahead)
         if why or (why := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]):
             return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
         if method in NEED_SLOPES and (why := steep_force(compiled.source, p, t, q, v)):

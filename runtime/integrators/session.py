@@ -228,4 +228,5 @@ class Session:
             # a drive that still turns on in steps so short is what they are short for
             fast = drives_at(self.compiled, self.p, t, FELT * pace.steps / max(pace.gained, 1e-300))
             raise stalled(pace, ended, film(self.compiled, peaks[:, 2], self.p), fast)
-        raise failure(self.compiled, self.problem.method, status, t, advice, y, peaks[:, 2], self.p)
+        ahead = self.problem.step if self.problem.method == "rk4" else 0.0
+        raise failure(self.compiled, self.problem.method, status, t, advice, y, peaks[:, 2], self.p, ahead)

@@ -66,12 +66,13 @@ def trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[WrittenInfo,
     return [(info, from_json(json.loads(info.tree))) for info in source.written if info.address.split(".")[0] in kinds]
 
 
-def reason(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
-    """Which drive or force is no number at a state or just after it, where and why; "" where none is known to be."""
+def reason(source: KernelSource, p: Array, t: float, q: Array, v: Array, ahead: float = 0.0) -> str:
+    """Which drive or force is no number at a state, just after it or at most `ahead` s later, where and why; or ""."""
     found = trees(source, ("drives", "forces"))
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
         found = [(info, tree) for info, tree in found if all("." not in name.path for name in names(tree))]
-    for h in (0.0, *(reach * max(1.0, abs(t)) for reach in _REACH)):
+    later = (*(reach * max(1.0, abs(t)) for reach in _REACH), *(ahead * share for share in (0.01, 0.1, 0.5, 1.0)))
+    for h in (0.0, *later):
         with np.errstate(invalid="ignore"):  # a velocity may be infinite
             told = _told(source, found, p, t + h, q + h * v, v)
         if told:

@@ -109,10 +109,13 @@ def test_a_batch_tells_of_them_as_a_run_alone(value: str, method: str, tmp_path:
             assert np.isnan(batch.q[i, len(run.t) :]).all()
 
 
-ODD = PAIR_AT + """events: {e: {zero: "sqrt(0.7 - t/(1 s)) - 0.1"}}
+ODD = (
+    PAIR_AT
+    + """events: {e: {zero: "sqrt(0.7 - t/(1 s)) - 0.1"}}
 outputs:
   {root: sqrt(t0 - t), third: ((t - t0)/(1 s))**(1/3), pole: 1 s/(t - t0), fine: 2*t, force: log(A.F/(1 N) - 1e9)}
 """
+)
 
 
 @pytest.mark.parametrize("drives", ["", "drives: {d: {angle: a, value: 3 rad/s*t}, f: {angle: b, value: 1 rad/s*t}}"])

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
 from typer.testing import CliRunner
 
 import gudgeon
@@ -113,6 +115,30 @@ def test_power_of_a_magnitude_through_zero(load: Load, method: str, start: float
     run = simulation.simulate(1.0, output=10, method=method, rtol=1e-10)
     fixed = simulation.simulate(1.0, output=10, method="rk4", step=1e-4)
     assert run["a.x"] == pytest.approx(fixed["a.x"], abs=1e-8)
+
+
+@pytest.mark.parametrize("force", ["6 N - 5 N*exp(-0.1 m/abs(a.x))", '"6 N + 5 N*exp(1/min(a.x*10/(1 m), -a.x*10/(1 m)))"'])
+def test_a_branch_that_grows_beyond_all_bounds_behind_its_corner(load: Load, force: str) -> None:
+    """Held on its side, the exponent changes its sign at x = 0: steps shrank before it and never came through."""
+    simulation = load(BLOCK.format(x=-0.5, force=force))
+    sign = -1.0 if "6 N -" in force else 1.0
+
+    def rates(_: float, y: NDArray[np.float64]) -> list[float]:
+        return [y[1], 6.0 + sign * 5.0 * math.exp(-0.1 / abs(y[0])) if y[0] else 6.0]
+
+    exact = solve_ivp(rates, (0.0, 1.0), [-0.5, 0.0], method="DOP853", rtol=1e-12, atol=1e-12).y[:, -1]
+    for method in ("dop853", "rodas5p"):
+        run = simulation.simulate(1.0, output=9, rtol=1e-9, method=method)
+        np.testing.assert_allclose([run["a.x"][-1], run["a.vx"][-1]], exact, rtol=0, atol=2e-7)
+        assert run["a.x"][-1] > 0.0
+
+
+@pytest.mark.parametrize("method", ["dop853", "rk4"])
+def test_a_force_that_overflows_on_the_way_is_named(load: Load, method: str) -> None:
+    """rk4 said that its step was too long."""
+    simulation = load(BLOCK.format(x=0.3, force="1 N + 1 N*exp(a.x*1e3/(1 m))/(exp(a.x*1e3/(1 m)) + exp(400))"))
+    with pytest.raises(NonFiniteError, match=r"forces\.f\.value.* is not finite at t = .*exp of 7\d\d"):
+        simulation.simulate(2.0, method=method, step=0.01 if method == "rk4" else None)
 
 
 @pytest.mark.parametrize("method", ADAPTIVE)

@@ -99,7 +99,7 @@ def test_a_sample_at_a_jump_holds_what_follows(value: str, formulation: str, tmp
     [("max(t, -t)*1 m/s", "reduced"), ("abs(t)*1 m/s", "full"), ("t*1 m/s + max(0 s, -t)*1 m/s", "full")],
 )
 def test_a_start_at_a_jump_holds_what_follows(value: str, formulation: str, tmp_path: Path) -> None:
-    """From t = 0 on all of these are t. Written one way, the start was an impulse of 0.61 J, another way it was none."""
+    """From t = 0 on all of these are t. Written one way, the start was an impulse of 0.61 J."""
     plain = scene(CART.format("t*1 m/s"), tmp_path, formulation).simulate(0.4, output=9, rtol=1e-10)
     simulation = scene(CART.format(value), tmp_path, formulation)
     for method in METHODS:

@@ -191,9 +191,7 @@ def test_a_machine_is_as_good_in_any_unit_of_time(load: Load) -> None:
     """
     scene = load(text)
     for method, unit in itertools.product(METHODS, (1e-12, 1e-9, 1e6)):
-        run, exact = (
-            scene.simulate(2.0 * T, output=20, method=method, parameters={"T": T}) for T in (unit, 1.0)
-        )
+        run, exact = (scene.simulate(2.0 * T, output=20, method=method, parameters={"T": T}) for T in (unit, 1.0))
         assert run["a.theta"] == pytest.approx(exact["a.theta"], abs=1e-11)
         assert run.events_of("top") / unit == pytest.approx(exact.events_of("top"), abs=1e-10)
         assert run.diagnostics.steps == exact.diagnostics.steps

@@ -35,9 +35,7 @@ def scene_of(name: str, scene: str | None = None) -> Simulation:
     return gudgeon.load(file if file.exists() else name, scene=scene)
 
 
-def observed_order(
-    name: str, method: str, t_end: float, steps: tuple[int, int, int], inside: bool
-) -> float:
+def observed_order(name: str, method: str, t_end: float, steps: tuple[int, int, int], inside: bool) -> float:
     """Slope of the error over fixed steps, at the end or at 200 times between, over errors 1e-3 … 1e-12."""
     simulation = scene_of(name)
     between = np.sort(np.random.default_rng(1).uniform(0.0, t_end, 200 * inside))

@@ -10,7 +10,9 @@ import pytest
 import gudgeon
 
 HEAD = "format: gudgeon/1\nname: j\ngravity: [0, -9.81 m/s^2]\n"
-SLIDER = HEAD + """bodies:
+SLIDER = (
+    HEAD
+    + """bodies:
   slider: {mass: 1 kg, inertia: 1e-3 kg*m^2}
   arm: {length: 0.4 m, mass: 0.5 kg, inertia: 7e-3 kg*m^2}
 ground: {O: [0, 0]}
@@ -20,7 +22,10 @@ joints:
   T: {revolute: [slider.origin, arm.tail]}
 start: {set: {arm.theta: -60 deg}}
 """
-CRANK = HEAD + """bodies:
+)
+CRANK = (
+    HEAD
+    + """bodies:
   crank: {length: 0.2 m, mass: 1 kg, inertia: 1e-2 kg*m^2}
   arm: {length: 0.4 m, mass: 0.5 kg, inertia: 7e-3 kg*m^2}
 ground: {O: [0, 0]}
@@ -29,6 +34,7 @@ joints:
   T: {revolute: [crank.head, arm.tail]}
 start: {set: {arm.theta: -60 deg}}
 """
+)
 ON_SLIDER = "drives: {{d: {{coordinate: slider.x, value: {}}}}}\n"
 ON_CRANK = "drives: {{d: {{angle: crank, value: {}}}}}\n"
 JUMPING = {
