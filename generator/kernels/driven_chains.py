@@ -58,6 +58,7 @@ class ChainKernels:
         self.corners = bool(sides)
         held = [with_sides(kernel, HELD_SIDES) for kernel in raw]
         self.kernels = [*held, self._corners(sides)] if sides else held
+        self.size = self._extent() if any("." in name for name in chain.names) else ZERO
 
     def _all(self) -> list[Kernel]:
         return [self._directions(), self._step(), self._rates(), self._third()]
@@ -89,15 +90,16 @@ class ChainKernels:
             if d.turns
         ]
 
-    def shares(self) -> list[str]:
-        """What a step of each coordinate is multiplied by to be a number: an angle is one, a slide goes by the size."""
-        if not any("." in name for name in self.chain.names):
-            return ["1.0"] * len(self.chain.names)
+    def _extent(self) -> sp.Expr:
+        """The size that a step of a slide is measured by: of all points together."""
         geometry, slots = self.system.model.geometry, self.system.model.slots
         ground = map(geometry.ground_vector, self.system.model.scene.mechanism.ground.values())
         squares = [x**2 for point in (*geometry.local.values(), *ground) for x in point]
-        size = slots.derive("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
-        return ["1.0" if "." not in name else f"1.0 / (p->{size} + DBL_MIN)" for name in self.chain.names]
+        return slots.derive("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
+
+    def shares(self) -> list[str]:
+        """What a step of each coordinate is multiplied by to be a number: an angle is one, a slide goes by the size."""
+        return ["1.0" if "." not in name else f"1.0 / (p->{self.size} + DBL_MIN)" for name in self.chain.names]
 
     def _step(self) -> Kernel:
         """A step towards the closures at a position."""

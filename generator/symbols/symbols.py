@@ -63,6 +63,11 @@ class Symbols:
         self.switches = Switches()
         self._names: set[str] = set()
         self._shared: Symbols | None = None  # who else has the members of Parameters
+        self._frozen = False
+
+    def freeze(self, frozen: bool = True) -> None:
+        """From now on no name is new (a defect of the generator), nor any corner; or, thawed, they may be again."""
+        self._frozen = self.switches.frozen = frozen
 
     def beside(self) -> Symbols:
         """Other symbols for other functions of the same library: they share the members of Parameters only."""
@@ -83,6 +88,7 @@ class Symbols:
 
     def unique(self, wanted: str) -> str:
         """`wanted` as a C identifier that nothing else has."""
+        assert not self._frozen, f"{wanted}: derived after the program was made"
         name = re.sub(r"\W", "_", wanted)
         if name in _TAKEN or _MACRO.fullmatch(name) or _FUNCTION.fullmatch(name):
             name = f"par_{name}"

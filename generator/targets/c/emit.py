@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -12,24 +12,18 @@ import jinja2
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.events import SIGNS
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.system import absolute
-from gudgeon.generator.ir.kernels import Kernel, without_unused
+from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import closed_linkage, outputs
-from gudgeon.generator.kernels.drive_jumps import jumps_of
-from gudgeon.generator.kernels.dynamics import dynamics_kernel
-from gudgeon.generator.kernels.event_functions import watched_kernel
-from gudgeon.generator.kernels.laws import law_kernels
 from gudgeon.generator.kernels.ledger import tell
-from gudgeon.generator.kernels.projection import closing_kernel
-from gudgeon.generator.kernels.time_terms import time_terms_kernel
-from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR, SINGULAR
+from gudgeon.generator.kernels.program import Integrated, Program
+from gudgeon.generator.solvers.kkt import NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.targets.c import lanes as lanes_code
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.newton import jacobian_code, newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearance_code
-from gudgeon.generator.targets.c.reduced import ReducedCode, reduced_code
-from gudgeon.generator.targets.c.time_loops import Integrated, LoopCode, integrator_loops, kinematic_code
+from gudgeon.generator.targets.c.reduced import motion_code, reduced_cdef, reduced_code
+from gudgeon.generator.targets.c.time_loops import integrator_loops, kinematic_code
 
 COMMON_CDEF = """\
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p);
@@ -106,103 +100,70 @@ SINGLE_CDEF = "const void *gudgeon_single(void);\n"
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # of which each rate is the derivative
 
 
-def emit(model: Model, formulation: str = "reduced") -> KernelSource:
-    """The whole scene as C text with its description.
-
-    What is integrated, or followed where no freedom is left, is the reduced formulation, or with "full" the
-    absolute one. Outputs and starts are absolute in both.
-    """
-    integrates = bool(model.degrees_of_freedom or model.clearances or model.frictions)
-    system = absolute(model)
-    kkt = KKT(system)
-    dynamics = dynamics_kernel(system, kkt)
-    around = [
-        closed_linkage.mass_kernel(model), *closed_linkage.row_kernels(model), closed_linkage.start_kernel(model),
-        outputs.outputs_kernel(model),
-    ]  # fmt: skip
-    # rendered before `prepare`, which lists what the others derived
-    clearances = [clearance_code(model, clearance, render) for clearance in model.clearances]
-    reduced = reduced_code(model, kkt.pivots, render, _kernels) if formulation == "reduced" else None
-    watched = watched_kernel(dynamics, model)
-    right_hand_side = [dynamics, *([watched] if watched and formulation == "full" and integrates else [])]
-    plain = Integrated(system, kkt, _angles(model), False, lambda kernel: kernel, watched, jumps_of(dynamics, model),
-                       render("motion/motion_full.c.jinja"), kkt.pivots)  # fmt: skip
-    integrated = reduced.integrated if reduced else plain
-    counts, terms = _counts(model, integrated), time_terms_kernel(dynamics)
-    if integrates:
-        loops, beside = _loops(model, integrated, reduced, terms, counts)
-    else:
-        loops, beside = kinematic_code(model, kkt, integrated, terms, watched, counts, render), {}
+def emit(program: Program) -> KernelSource:
+    """The whole scene as C text with its description."""
+    model, tree, integrated = program.model, program.tree, program.integrated
+    counts = _counts(model, integrated)
     prepare = closed_linkage.prepare_kernel(model, printer.expression)
-    kernels = [*right_hand_side, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
-    files = _files(model, counts, prepare, around, right_hand_side, clearances)
-    files |= {**(reduced.files if reduced else {}), **loops.files}
+    files = _files(program, counts, prepare)
+    if tree:
+        files["reduced.c"] = reduced_code(model, tree, render, _kernels)
+    files |= _loops(program, counts) if program.methods else kinematic_code(program, counts, render)
+    beside = lanes_code.lanes_code(program, counts | _jumps(integrated), render) if program.has_lanes else {}
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
+    course = program.course
     return describe(
-        model, files=files | beside, main="scene.c", cdef=_cdef(reduced, integrates, files, beside),
-        methods=("rk4", "dop853", "rodas5p") if integrates else ("kinematic",),
-        pivots=kkt.pivots, start_pivots=loops.pivots, motion_pivots=integrated.pivots,
-        operations=_operations(model, kernels),
-        tree=reduced.system.unknowns if reduced else (), chain=integrated.chain,
-        closures=tuple(row.name for row in reduced.system.rows) if reduced else (), formulation=formulation,
-        story=tell(model, kkt, loops.solved, integrated.system, loops.groups),
+        model, files=files | beside, main="scene.c", cdef=_cdef(program, files),
+        methods=("rk4", "dop853", "rodas5p") if program.methods else ("kinematic",),
+        pivots=program.kkt.pivots, start_pivots=course.pivots if course else (), motion_pivots=integrated.pivots,
+        operations=_operations(program, prepare),
+        tree=tree.system.unknowns if tree else (), chain=integrated.chain,
+        closures=tuple(row.name for row in tree.system.rows) if tree else (), formulation=program.formulation,
+        story=tell(
+            model, program.kkt, course.solved if course else integrated.kkt, integrated.system,
+            course.groups if course else (),
+        ),
         lanes=lanes_code.MAIN if beside else "",
     )  # fmt: skip
 
 
-def _cdef(reduced: ReducedCode | None, integrates: bool, files: Collection[str], beside: Collection[str]) -> str:
+def _cdef(program: Program, files: Collection[str]) -> str:
     """What Python calls, as cffi reads it."""
-    cdef = COMMON_CDEF + (reduced.cdef if reduced else "") + (METHOD_CDEF if integrates else KINEMATIC_CDEF)
-    cdef += SINGLE_CDEF * bool(beside)
-    cdef += (TREE_NEWTON_CDEF if reduced else NEWTON_CDEF) * integrates
+    cdef = COMMON_CDEF + (reduced_cdef(program.tree) if program.tree else "")
+    cdef += (METHOD_CDEF if program.integrates else KINEMATIC_CDEF) + SINGLE_CDEF * program.has_lanes
+    cdef += (TREE_NEWTON_CDEF if program.tree else NEWTON_CDEF) * program.integrates
     return cdef + EVENTS_CDEF * ("kinematic_events.c" in files)
 
 
-def _files(
-    model: Model, counts: Mapping[str, int], prepare: Kernel, around: Iterable[Kernel],
-    right_hand_side: Iterable[Kernel], clearances: Sequence[str],
-) -> dict[str, str]:  # fmt: skip
+def _files(program: Program, counts: Mapping[str, int], prepare: Kernel) -> dict[str, str]:
     """What every scene has, in the order in which it is read."""
+    model = program.model
+    clearances = [clearance_code(pin, render) for pin in program.pins]
     return {
         "model.h": render("scene/model.h.jinja", **_header(model), **counts),
         "asked.c": render("scene/asked.c.jinja"),
         "trigonometry.c": render("scene/trigonometry.c.jinja", vector="Four", bits="FourBits", given="*angle"),
         "parameters.c": _kernels(prepare),
-        "constraints.c": _kernels(*around),
+        "constraints.c": _kernels(*program.closed),
         "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
         **({"singular.c": _singular(model, counts)} if model.rows and not model.frictions else {}),
-        "dynamics.c": _kernels(*right_hand_side),
+        "dynamics.c": _kernels(*program.right_hand_side),
         "system.c": render("scene/calls.c.jinja", **counts),
         "start.c": _start(model),
     }
 
 
-def _angles(model: Model) -> tuple[int, ...]:
-    return tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
+def _loops(program: Program, counts: Mapping[str, int]) -> dict[str, str]:
+    """The methods, with the linearized equations (Newton's matrix, Jacobian)."""
+    methods = program.methods
+    assert methods
+    linearized = tangent_code(program.pins, methods.slopes, render) + newton_code(methods.newton, render)
+    linearized += jacobian_code(program.integrated, methods.gains, render)
+    return integrator_loops(program, motion_code(program, render, _kernels), linearized, counts, render)
 
 
-def _loops(
-    model: Model, integrated: Integrated, reduced: ReducedCode | None, terms: Kernel | None, counts: Mapping[str, int]
-) -> tuple[LoopCode, dict[str, str]]:
-    """The methods, and the files of a library beside: runs side by side."""
-    linearized, kernels = _newton(model, integrated)
-    closing = closing_kernel(integrated.system)
-    lanes = reduced is not None and reduced.system.chain is None and lanes_code.has_lanes(model)
-    files = integrator_loops(model, integrated, linearized, closing, terms, counts, render, lanes)
-    beside = {}
-    if reduced is not None and lanes:
-        beside = lanes_code.lanes_code(
-            model, (*reduced.plain, without_unused(closing)),
-            {**counts, "n_corners": integrated.jumps.count if integrated.jumps else 0}, render,
-        )  # fmt: skip
-    return LoopCode(files, tuple(kernels), integrated.kkt), beside
-
-
-def _newton(model: Model, integrated: Integrated) -> tuple[str, list[Kernel]]:
-    """The linearized equations: Newton's matrix, Jacobian."""
-    tangents, slopes = tangent_code(model, render)
-    text, kernels = newton_code(integrated.system, render)
-    return tangents + text + jacobian_code(model, integrated, render), [*kernels, *slopes]
+def _jumps(integrated: Integrated) -> dict[str, int]:
+    return {"n_corners": integrated.jumps.count if integrated.jumps else 0}
 
 
 def render(name: str, /, **values: Any) -> str:
@@ -282,6 +243,9 @@ def _start(model: Model) -> str:
     )  # fmt: skip
 
 
-def _operations(model: Model, kernels: list[Kernel]) -> dict[str, int]:
-    laws = [kernel for clearance in model.clearances for kernel in law_kernels(model, clearance)]
-    return {kernel.name: kernel.operations for kernel in [*kernels, *laws]}
+def _operations(program: Program, prepare: Kernel) -> dict[str, int]:
+    """Of each function, as `check -v` tells them."""
+    tree, extra = program.tree, program.methods or program.course
+    kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ()), prepare]
+    kernels += [*(extra.kernels if extra else ()), *(kernel for pin in program.pins for kernel in pin.laws)]
+    return {kernel.name: kernel.operations for kernel in kernels}

@@ -2,37 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping
 
 from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.kernels.laws import law_kernels
-from gudgeon.generator.solvers.contact_slopes import in_place, unlatched
+from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.solvers.contact_slopes import in_place
 from gudgeon.generator.targets.c import lanes_printer
-from gudgeon.generator.targets.c.play import has_transition, lines
+from gudgeon.generator.targets.c.play import lines
 from gudgeon.generator.targets.c.time_loops import deepest
 
 MAIN = "lanes.c"
 _GUARDED = {
-    contact.n_x: "pick(e > 0.0, e_x * inverse_e, all_of(1.0))",
-    contact.n_y: "pick(e > 0.0, e_y * inverse_e, all_of(0.0))",
+    contact.n_x.name: "pick(e > 0.0, e_x * inverse_e, all_of(1.0))",
+    contact.n_y.name: "pick(e > 0.0, e_y * inverse_e, all_of(0.0))",
 }  # fmt: skip
 _WANTED = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
 
 
-def has_lanes(model: Model) -> bool:
-    """Where friction may stick, rows come and go by run: these scenes are run one by one."""
-    return not model.frictions
-
-
-def lanes_code(
-    model: Model, kernels: Sequence[Kernel], counts: Mapping[str, int], render: Callable[..., str]
-) -> dict[str, str]:
-    """The files; `kernels` as the single runs have them, before sines are put side by side."""
-    pins = [_pin(model, clearance, render) for clearance in model.clearances]
+def lanes_code(program: Program, counts: Mapping[str, int], render: Callable[..., str]) -> dict[str, str]:
+    """The files: kernels as the single runs have them, before sines are put side by side."""
+    assert program.tree and program.methods
+    model = program.model
+    pins = [_pin(pin, render) for pin in program.pins]
+    kernels = (*program.tree.plain, program.methods.plain_closing)
     motions = [lanes_printer.motion_kernel(kernel) for kernel in kernels if kernel.name in _WANTED]
     parameters = [entry.symbol.name for entry in model.slots.entries.values()]
     parameters += [symbol.name for symbol in model.slots.derived]
@@ -55,25 +49,13 @@ def _deepest(model: Model) -> list[str]:
     return [lanes_printer.expression(value) for value in values] or ["all_of(0.0)"]
 
 
-def _pin(model: Model, clearance: Clearance, render: Callable[..., str]) -> str:
+def _pin(pin: Pin, render: Callable[..., str]) -> str:
     """Law functions, then the joint's own."""
-    name, film, dry = clearance.name, clearance.film, clearance.normal is not None
-
-    def text(steps: Sequence[contact.Step]) -> str:
-        return lines(model, steps, name, _GUARDED, lanes_printer.statement)
-
-    parts: dict[str, Any] = {"before_dry": "", "after_dry": "", "before_film": "", "after_film": "", "share": ""}
-    if dry:
-        parts["before_dry"] = text([unlatched(step) for step in contact.before_dry(clearance)])
-        parts["after_dry"] = text(contact.after_dry())
-    if film is not None:
-        parts["before_film"] = text(contact.before_film(clearance, film))
-        parts["after_film"] = text(contact.after_film(film))
-    if has_transition(clearance):
-        parts["share"] = text([contact.blend(clearance, closed=True)])
-    laws = [lanes_printer.kernel(kernel) for kernel in law_kernels(model, clearance)]
-    pin = render(
-        "batch/lane_pin.c.jinja", joint=name, dry=dry, film=film is not None, gap=text(contact.gap(clearance)),
-        ratio_name="unclipped" if clearance.clip_ratio else "ratio", **parts,
+    clearance = pin.clearance
+    steps = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
+    parts = {name: lines(getattr(pin, name), _GUARDED, lanes_printer.statement) for name in steps}
+    own = render(
+        "batch/lane_pin.c.jinja", joint=clearance.name, dry=clearance.normal is not None,
+        film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio", **parts,
     )  # fmt: skip
-    return "\n".join([*laws, pin])
+    return "\n".join([*(lanes_printer.kernel(kernel) for kernel in pin.laws), own])

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 
-from gudgeon.generator.equations.model import Model, stick_gain
+import sympy as sp
+
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.solvers.contact_slopes import dry_slopes, film_slopes, share_slope
+from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.program import Integrated
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import printer
-from gudgeon.generator.targets.c.time_loops import Integrated
+from gudgeon.generator.targets.c.time_loops import state_of
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
@@ -32,53 +33,39 @@ static inline void blend_slopes(PinSlopes *F, const PinSlopes *film, const doubl
 }"""
 
 
-def newton_code(system: System, render: Render, prefix: str = "") -> tuple[str, list[Kernel]]:
+def newton_code(newton: Newton, render: Render) -> str:
     """Struct, kernels and tables of one system."""
-    newton = Newton(system, prefix)
-    kernels = [newton.linearize, newton.factor, newton.substitute, newton.solve]
+    kernels, prefix = [newton.linearize, newton.factor, newton.substitute, newton.solve], newton.prefix
     counts = [(f"{prefix}n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
     texts = "\n".join(map(printer.kernel, kernels))
-    text = render(
+    return render(
         "scene/newton.c.jinja", struct=f"{prefix.title()}Linear", prefix=prefix, n_values=newton.values.size,
         n_factors=newton.factors.size, kernels=texts, overflows="finite_slope(" in texts,
         tables=[(name, _table(entries)) for name, entries in newton.tables.items()],
         counts=[*counts, (f"{prefix}n_nodes".upper(), newton.nodes)],
     )  # fmt: skip
-    return text, kernels
 
 
-def jacobian_code(model: Model, integrated: Integrated, render: Render) -> str:
+def jacobian_code(integrated: Integrated, gains: Mapping[str, sp.Expr], render: Render) -> str:
     """The functions that Python calls; the reduced formulation has no Baumgarte's terms."""
-    stick = f"((const Parameters *)p)->{stick_gain(model)}" if model.frictions else "0.0"
-    chain = {"n_chain": len(integrated.system.known), "state": integrated.state("y")}
-    if integrated.reduced:
-        none = {"two_alpha": "0.0", "beta_squared": "0.0"}
-        return render("scene/jacobian.c.jinja", name="gudgeon_tree_jacobian", stick=stick, **chain, **none)
-    derive, (alpha, beta) = model.slots.derive, model.baumgarte
-    gains = {"two_alpha": derive("two_alpha", 2 * alpha), "beta_squared": derive("beta_squared", beta**2)}
-    read = {name: f"((const Parameters *)p)->{gain}" for name, gain in gains.items()}
-    return render("scene/jacobian.c.jinja", name="gudgeon_jacobian", stick=stick, **chain, **read)
+    name = "gudgeon_tree_jacobian" if integrated.reduced else "gudgeon_jacobian"
+    read = dict.fromkeys(("stick", "two_alpha", "beta_squared"), "0.0")
+    read |= {key: f"((const Parameters *)p)->{gain}" for key, gain in gains.items()}
+    state = state_of(integrated, "y")
+    return render("scene/jacobian.c.jinja", name=name, n_chain=len(integrated.system.known), state=state, **read)
 
 
-def tangent_code(model: Model, render: Render) -> tuple[str, list[Kernel]]:
+def tangent_code(pins: Sequence[Pin], slopes: Mapping[str, Sequence[Kernel]], render: Render) -> str:
     """`tangent_<joint>` of every joint with play."""
-    if not model.clearances:
-        return "", []
-    both = any(c.film is not None and c.normal is not None for c in model.clearances)
-    parts, kernels = [render("play/pin_slopes.c.jinja", blending=_BLENDING if both else "")], []
-    for clearance in model.clearances:
-        own = []
-        if clearance.film is not None:
-            own.append(film_slopes(model, clearance, clearance.film))
-        if clearance.normal is not None:
-            own.append(dry_slopes(model, clearance, clearance.normal))
-        if len(own) == 2:
-            own.append(share_slope(model, clearance))
+    if not pins:
+        return ""
+    blending = _BLENDING if any(pin.has_transition for pin in pins) else ""
+    parts = [render("play/pin_slopes.c.jinja", blending=blending)]
+    for clearance in (pin.clearance for pin in pins):
         c = f"p->{clearance.pair.c}"
-        parts += map(printer.kernel, own)
+        parts += map(printer.kernel, slopes[clearance.name])
         parts.append(render("play/tangent.c.jinja", joint=clearance.name, c=c, slopes=_slopes(clearance, c)))
-        kernels += own
-    return "\n".join(parts), kernels
+    return "\n".join(parts)
 
 
 def _slopes(clearance: Clearance, c: str) -> str:

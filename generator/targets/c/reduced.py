@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.kernels import Kernel, without_unused
-from gudgeon.generator.ir.sine_pairs import side_by_side
-from gudgeon.generator.kernels.drive_jumps import jumps_of
-from gudgeon.generator.kernels.driven_chains import ChainKernels
-from gudgeon.generator.kernels.event_functions import NAME as WATCHED
-from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued, motion_kernels, reduced_kernels
-from gudgeon.generator.reduction.reduction import TreeSystem, reduce
-from gudgeon.generator.targets.c.time_loops import Integrated
+from gudgeon.generator.kernels.program import Program, TreeFunctions
+from gudgeon.generator.reduction.reduction import TreeSystem
+
+Render = Callable[..., str]
 
 CDEF = """\
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v);
@@ -34,70 +29,41 @@ int gudgeon_reduced_rescue(double t, const double *q, const double *v, const dou
 """
 
 
-@dataclass(frozen=True)
-class ReducedCode:
-    """`files` go behind system.c; `plain` are the kernels of the motion before sines are put side by side."""
-
-    system: TreeSystem
-    files: Mapping[str, str]
-    cdef: str
-    kernels: tuple[Kernel, ...]
-    integrated: Integrated
-    plain: tuple[Kernel, ...]
+def reduced_cdef(tree: TreeFunctions) -> str:
+    """What Python calls, as cffi reads it."""
+    return CDEF + RESCUE_CDEF * tree.rescued + CHAIN_CDEF * bool(tree.chains)
 
 
-def reduced_code(
-    model: Model, pivots: tuple[str, ...], render: Callable[..., str], print_kernels: Callable[..., str]
-) -> ReducedCode:
-    """Derives the reduced formulation. Everything absolute must have been derived before: names of parameters.
+def reduced_code(model: Model, tree: TreeFunctions, render: Render, print_kernels: Render) -> str:
+    """The kernels in tree coordinates, the way there and back, and the calls from outside."""
+    parts = [print_kernels(*tree.around)]
+    if tree.rescued:
+        parts.append(render("motion/rescue.c.jinja", multipliers=_multipliers(model, tree.system)))
+    parts.append(print_kernels(*tree.kernels))
+    if tree.chains is None:
+        parts.append(render("motion/reduced_calls.c.jinja", rescued=tree.rescued))
+    return "\n".join(parts)
 
-    `pivots`: rows through which a status of the absolute formulation counts.
+
+def motion_code(program: Program, render: Render, print_kernels: Render) -> str:
+    """The motion that is integrated, and what evaluates driven chains with it.
+
+    These are followed from state to state, so that a status of theirs counts on behind the pivots.
     """
-    system = reduce(model)
-    around = [side_by_side(without_unused(kernel)) for kernel in motion_kernels(model, system)]
-    plain, kkt = reduced_kernels(system)
-    kernels = [side_by_side(kernel) for kernel in plain]
-    rescued = is_rescued(system)
-    parts = [print_kernels(*around)]
-    if rescued:
-        parts.append(render("motion/rescue.c.jinja", multipliers=_multipliers(model, system)))
-    parts.append(print_kernels(*kernels))
-    cdef = CDEF + (RESCUE_CDEF if rescued else "") + (CHAIN_CDEF if system.chain else "")
-    angles = tuple(int("." not in name) for name in system.unknowns)
-    if not rescued:
-        pivots = kkt.pivots
-    if system.chain is None:
-        parts.append(render("motion/reduced_calls.c.jinja", rescued=rescued))
-        motion, own = render("motion/motion_reduced.c.jinja"), []
-    else:
-        chains = ChainKernels(system, system.chain)
-        motion, own = _chain_code(chains, len(pivots), rescued, render, print_kernels), chains.kernels
-        pivots = (*pivots, *(row.name for row in system.chain.rows))
-    integrated = Integrated(
-        system, kkt, angles, True, lambda kernel: side_by_side(without_unused(kernel)),
-        next((kernel for kernel in plain if kernel.name == WATCHED), None),
-        next((jumps_of(kernel, model) for kernel in plain if kernel.name == DYNAMICS), None), motion, pivots,
-        system.chain,
-    )  # fmt: skip
-    every = (*around, *kernels, *own)
-    return ReducedCode(system, {"reduced.c": "\n".join(parts)}, cdef, every, integrated, tuple(plain))
-
-
-def _chain_code(
-    chains: ChainKernels, pivots: int, rescued: bool, render: Callable[..., str], print_kernels: Callable[..., str]
-) -> str:
-    """What evaluates driven chains, the motion with them, and its calls from outside; they are followed from state to
-
-    state, so that a status of theirs counts on behind the `pivots`.
-    """
+    tree = program.tree
+    if tree is None:
+        return render("motion/motion_full.c.jinja")
+    if (chains := tree.chains) is None:
+        return render("motion/motion_reduced.c.jinja")
     kernels = print_kernels(*chains.kernels)
     if chains.square.largest > 2:
         kernels = render("scene/block.c.jinja", most=chains.square.largest) + kernels
-    smooth = not chains.corners
+    smooth, pivots = not chains.corners, len(program.integrated.pivots) - len(chains.chain.rows)
     return "\n".join([
         render("motion/chain.c.jinja", kernels=kernels, shares=chains.shares(), smooth=smooth, pivots=pivots,
                turned=chains.turned()),
-        render("motion/motion_chain.c.jinja", smooth=smooth), render("motion/chain_calls.c.jinja", rescued=rescued),
+        render("motion/motion_chain.c.jinja", smooth=smooth),
+        render("motion/chain_calls.c.jinja", rescued=tree.rescued),
     ])  # fmt: skip
 
 

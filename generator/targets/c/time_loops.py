@@ -3,25 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels.drive_jumps import Jumps
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
-from gudgeon.generator.kernels.kinematic import kinematic_kernels
-from gudgeon.generator.kernels.projection import projection_kernel
+from gudgeon.generator.kernels.program import Integrated, Program
 from gudgeon.generator.kernels.time_terms import count_terms
 from gudgeon.generator.methods import dop853, rodas5p
-from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.solvers.square_rows import SquareRows
-from gudgeon.generator.sparsity.matching import Block
 from gudgeon.generator.targets.c import printer, ranges_printer
 
 Render = Callable[..., str]
@@ -58,81 +52,40 @@ _FROM_TREE = """\
 _STATES = {"run": "run->y, run->y + N_X", "y": "y, y + N_X", "chain": "at.q, at.v"}
 
 
-@dataclass(frozen=True)
-class Integrated:
-    """What the loops move forward: a system, with the order of its pivots and its angles (1) and lengths (0)."""
-
-    system: System
-    kkt: KKT
-    angles: tuple[int, ...]
-    reduced: bool
-    finish: Callable[[Kernel], Kernel]  # a last pass over kernels
-    watched: Kernel | None  # of what is watched, if it hangs on no forces (generator/kernels/event_functions.py)
-    jumps: Jumps | None  # where a drive's rate may jump
-    motion: str  # the text of motion.c
-    pivots: tuple[str, ...]  # rows that a status of motion() counts through
-    chain: Chain | None = None
-
-    @property
-    def corners(self) -> list[int]:
-        """The scene's own switches."""
-        return sorted(switch.index for switch in self.system.model.symbols.switches.of(""))
-
-    def state(self, where: str) -> str:
-        """The arguments q and v of the system's kernels."""
-        return _STATES["chain" if self.system.known else where]
+def state_of(integrated: Integrated, where: str) -> str:
+    """The arguments q and v of the kernels of what is integrated."""
+    return _STATES["chain" if integrated.system.known else where]
 
 
-@dataclass(frozen=True)
-class LoopCode:
-    """The time loops of a scene, their kernels; without freedom the rows that a status counts through.
-
-    `solved` is what is factored at a state, unless rows are solved in `groups`.
-    """
-
-    files: Mapping[str, str]
-    kernels: tuple[Kernel, ...]
-    solved: KKT | None
-    pivots: tuple[str, ...] = ()
-    groups: tuple[Block, ...] = ()
-
-
-def kinematic_code(
-    model: Model, kkt: KKT, integrated: Integrated, terms: Kernel | None, watched: Kernel | None,
-    counts: Mapping[str, int], render: Render,
-) -> LoopCode:  # fmt: skip
-    """Positions by Newton: in tree coordinates, unless the closures' pattern leaves one of them open.
-
-    `watched`: what is watched, in absolute coordinates.
-    """
-    rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
-    tree = integrated.reduced and rows.fits
-    if tree:
-        kernels: tuple[Kernel, ...] = tuple(kinematic_kernels(integrated.system, rows))
-        blocks = render("scene/block.c.jinja", most=rows.largest) if rows.largest > 2 else ""
-        text = blocks + "\n".join(printer.kernel(kernel) for kernel in kernels)
-        closing = render("kinematic/kinematic_tree.c.jinja", kernels=text, angles=integrated.angles or (1,))
-        pivots: tuple[str, ...] = (*(row.name for row in integrated.system.rows), *kkt.pivots)
-        solved = None
+def kinematic_code(program: Program, counts: Mapping[str, int], render: Render) -> dict[str, str]:
+    """Positions by Newton, and events on the way."""
+    course, model, terms = program.course, program.model, program.terms
+    assert course
+    text = "\n".join(map(printer.kernel, course.kernels))
+    if course.rows:
+        text = render("scene/block.c.jinja", most=course.rows.largest) * (course.rows.largest > 2) + text
+        angles = program.integrated.angles or (1,)
+        closing = render("kinematic/kinematic_tree.c.jinja", kernels=text, angles=angles)
     else:
-        projection, of_projection = projection_kernel(kkt.system, model.rows, "project")
-        kernels, pivots, solved = (projection,), (*of_projection.pivots, *kkt.pivots), of_projection
-        closing = printer.kernel(projection) + "\n" + render("kinematic/kinematic_full.c.jinja", **counts)
-    looked = watched if model.events else None
-    files = _range_code(terms, looked, render)
-    files["kinematic.c"] = render("kinematic/kinematic.c.jinja", closing=closing, tree=tree, n_terms=count_terms(terms))
+        closing = text + "\n" + render("kinematic/kinematic_full.c.jinja", **counts)
+    watched = program.watched if model.events else None
+    files = _range_code(terms, watched, render)
+    files["kinematic.c"] = render(
+        "kinematic/kinematic.c.jinja", closing=closing, tree=bool(course.rows), n_terms=count_terms(terms)
+    )
     if model.events:
         corners = sorted(switch.index for switch in model.symbols.switches.of(""))
         text = ranges_printer.kernel(ranges_kernel(watched, corners)) if watched else ""
         files["kinematic_events.c"] = render("kinematic/kinematic_events.c.jinja", kernel=text, first=len(corners))
-    return LoopCode(files, kernels, solved, pivots, rows.blocks or () if tree else ())
+    return files
 
 
 def integrator_loops(
-    model: Model, integrated: Integrated, linearized: str, closing: Kernel, terms: Kernel | None,
-    counts: Mapping[str, int], render: Render, lanes: bool,
-) -> dict[str, str]:  # fmt: skip
-    """All methods, in the order in which they call each other. `terms`: of time (generator/kernels/time_terms.py)."""
+    program: Program, motion: str, linearized: str, counts: Mapping[str, int], render: Render
+) -> dict[str, str]:
+    """All methods, in the order in which they call each other."""
+    model, integrated, terms, lanes = program.model, program.integrated, program.terms, program.has_lanes
+    assert program.methods
     pivots = _friction_pivots(integrated.kkt)
     kind = "friction" if pivots else "no_friction"
     modes, events = (render(f"run/{name}.c.jinja", pivots=pivots).strip() for name in (kind, f"{kind}_events"))
@@ -142,14 +95,14 @@ def integrator_loops(
     residuals = _FROM_TREE if integrated.system.known else residuals
     chain = {"n_chain": counts["n_chain"]}
     return {
-        "motion.c": integrated.motion,
+        "motion.c": motion,
         **_range_code(terms, integrated.watched or jumps, render),
-        "projection.c": printer.kernel(integrated.finish(closing)),
+        "projection.c": printer.kernel(program.methods.closing),
         "newton.c": linearized,
         "run.c": render(
             "run/run.c.jinja", **common, friction_modes=modes, angles=integrated.angles or (0,), residuals=residuals
         ),
-        "step.c": render("methods/step.c.jinja", state=integrated.state("y"), **counts),
+        "step.c": render("methods/step.c.jinja", state=state_of(integrated, "y"), **counts),
         **({"jumps.c": _jumps_code(jumps, render)} if jumps else {}),
         "rk4.c": render(
             "methods/rk4.c.jinja",
@@ -160,7 +113,7 @@ def integrator_loops(
             inside=inside,
         ),
         "dop853.c": render("methods/dop853.c.jinja", **_dop853()),
-        "rodas5p.c": render("methods/rodas5p.c.jinja", state=integrated.state("run"), **chain, **_rodas5p()),
+        "rodas5p.c": render("methods/rodas5p.c.jinja", state=state_of(integrated, "run"), **chain, **_rodas5p()),
         "roots.c": render("watch/roots.c.jinja", **common),
         "pulses.c": render("watch/pulses.c.jinja", n_terms=count_terms(terms), **_places()),
         "watched.c": _watched_code(integrated, counts, render),

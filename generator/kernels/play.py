@@ -1,0 +1,84 @@
+"""A joint with play as functions: its laws, the steps round them, their slopes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from gudgeon.generator.equations import contact_steps as contact
+from gudgeon.generator.equations.contact_steps import Step
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.ir.kernels import Kernel, Section, Statement, hold_sides
+from gudgeon.generator.kernels.laws import law_kernels
+from gudgeon.generator.solvers.contact_slopes import dry_slopes, film_slopes, in_place, share_slope, unlatched
+
+Statements = tuple[Statement, ...]
+
+
+@dataclass(frozen=True)
+class Pin:
+    """One joint with play: statements before and after the calls of its laws, in the order of contact_steps.py.
+
+    The direction (n_x, n_y) of e is e/|e|; at e = 0, where any will do, a target takes (1, 0).
+    """
+
+    clearance: Clearance
+    laws: tuple[Kernel, ...]  # normal, friction, film, as far as it has them
+    gap: Statements
+    before_dry: Statements = ()
+    after_dry: Statements = ()
+    before_film: Statements = ()
+    after_film: Statements = ()
+    share: Statements = ()  # of the dry contact in the transition from film to contact
+    corners: range = range(0)  # numbers of its switches
+
+    @property
+    def has_transition(self) -> bool:
+        """Film and dry contact, blended."""
+        return self.clearance.film is not None and self.clearance.normal is not None
+
+
+def make_pin(model: Model, clearance: Clearance) -> Pin:
+    """Derives the laws and the steps, and with them the corners of the joint."""
+    name, film = clearance.name, clearance.film
+
+    def held(steps: Sequence[Step]) -> Statements:
+        return _statements(model, steps, name)
+
+    laws, parts = tuple(law_kernels(model, clearance)), {}
+    if clearance.normal is not None:
+        parts["before_dry"] = held([unlatched(step) for step in contact.before_dry(clearance)])
+        parts["after_dry"] = held(contact.after_dry())
+    if film is not None:
+        parts["before_film"] = held(contact.before_film(clearance, film))
+        parts["after_film"] = held(contact.after_film(film))
+    gap = held(contact.gap(clearance))
+    if film is not None and clearance.normal is not None:
+        parts["share"] = held([contact.blend(clearance, closed=True)])
+    numbers = [switch.index for switch in model.symbols.switches.of(name)]
+    corners = range(min(numbers, default=0), max(numbers, default=-1) + 1)
+    return Pin(clearance, laws, gap, corners=corners, **parts)
+
+
+def _statements(model: Model, steps: Sequence[Step], owner: str) -> Statements:
+    """Steps with parameters read in place and corners as sides of switches."""
+    statements = []
+    for step in steps:
+        statements.append(Statement(step.symbol.name, in_place(model, step.value)))
+        if step.symbol == contact.e:
+            statements.append(Statement("inverse_e", 1 / contact.e))
+    (section,) = hold_sides(model.symbols.switches, owner, [Section("", tuple(statements))])
+    return tuple(item for item in section.statements if isinstance(item, Statement))
+
+
+def pin_slopes(model: Model, clearance: Clearance) -> tuple[Kernel, ...]:
+    """Derivatives of the film's part, of the dry one and of their blend, as far as the joint has them."""
+    own = []
+    if clearance.film is not None:
+        own.append(film_slopes(model, clearance, clearance.film))
+    if clearance.normal is not None:
+        own.append(dry_slopes(model, clearance, clearance.normal))
+    if len(own) == 2:
+        own.append(share_slope(model, clearance))
+    return tuple(own)

@@ -1,0 +1,227 @@
+"""Every function of a scene before any text: `make_program` derives them, targets print them.
+
+The order here decides names and the numbers that `prepare` computes, so all of it is in one place: first the absolute
+formulation and what the closed linkage needs, then the joints with play, the tree, and last what the methods read.
+When `make_program` returns, symbols, slots and corners of the scene are frozen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import sympy as sp
+
+from gudgeon.generator.equations.model import Model, stick_gain
+from gudgeon.generator.equations.system import System, absolute
+from gudgeon.generator.ir.kernels import Kernel, without_unused
+from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.kernels import closed_linkage, outputs
+from gudgeon.generator.kernels.drive_jumps import Jumps, jumps_of
+from gudgeon.generator.kernels.driven_chains import ChainKernels
+from gudgeon.generator.kernels.dynamics import dynamics_kernel
+from gudgeon.generator.kernels.event_functions import NAME as WATCHED
+from gudgeon.generator.kernels.event_functions import watched_kernel
+from gudgeon.generator.kernels.kinematic import kinematic_kernels
+from gudgeon.generator.kernels.play import Pin, make_pin, pin_slopes
+from gudgeon.generator.kernels.projection import closing_kernel, projection_kernel
+from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued, motion_kernels, reduced_kernels
+from gudgeon.generator.kernels.time_terms import time_terms_kernel
+from gudgeon.generator.reduction.driven_chains import Chain
+from gudgeon.generator.reduction.reduction import TreeSystem, reduce
+from gudgeon.generator.solvers.kkt import KKT
+from gudgeon.generator.solvers.newton import Newton
+from gudgeon.generator.solvers.square_rows import SquareRows
+from gudgeon.generator.sparsity.matching import Block
+
+Formulation = Literal["reduced", "full"]
+
+
+@dataclass(frozen=True)
+class Integrated:
+    """What the loops move forward: a system, with the order of its pivots and its angles (1) and lengths (0)."""
+
+    system: System
+    kkt: KKT
+    angles: tuple[int, ...]
+    reduced: bool
+    watched: Kernel | None  # of what is watched, if it hangs on no forces (event_functions.py)
+    jumps: Jumps | None  # where a drive's rate may jump
+    pivots: tuple[str, ...]  # rows that a status of motion() counts through
+    chain: Chain | None = None
+
+    @property
+    def corners(self) -> list[int]:
+        """The scene's own switches."""
+        return sorted(switch.index for switch in self.system.model.symbols.switches.of(""))
+
+
+@dataclass(frozen=True)
+class TreeFunctions:
+    """The reduced formulation: `around` leads to tree coordinates and back.
+
+    `plain` are the kernels of the motion before sines are put side by side, `kernels` after. `rescued`: where a pivot
+    vanishes the absolute formulation solves.
+    """
+
+    system: TreeSystem
+    around: tuple[Kernel, ...]
+    plain: tuple[Kernel, ...]
+    kernels: tuple[Kernel, ...]
+    rescued: bool
+    chains: ChainKernels | None
+
+    @property
+    def every(self) -> tuple[Kernel, ...]:
+        """All of them."""
+        return (*self.around, *self.kernels, *(self.chains.kernels if self.chains else ()))
+
+
+@dataclass(frozen=True)
+class Methods:
+    """What the integrators need beside the motion.
+
+    `slopes` by joint with play; `closing` projects onto the rows, `plain_closing` before sines are put side by side;
+    `gains` by name: 2α and β² of Baumgarte's terms, 2α of a stick, as far as there are any.
+    """
+
+    newton: Newton
+    slopes: Mapping[str, tuple[Kernel, ...]]
+    closing: Kernel
+    plain_closing: Kernel
+    gains: Mapping[str, sp.Expr]
+
+    @property
+    def kernels(self) -> tuple[Kernel, ...]:
+        """Newton's, then the slopes."""
+        newton = self.newton
+        own = (newton.linearize, newton.factor, newton.substitute, newton.solve)
+        return (*own, *(kernel for kernels in self.slopes.values() for kernel in kernels))
+
+
+@dataclass(frozen=True)
+class Course:
+    """What a scene without freedom needs: its positions, by Newton's method.
+
+    `rows`: in tree coordinates, by blocks; None: in absolute ones, by the pivots of `solved`. `pivots`: the rows that
+    a status counts through.
+    """
+
+    kernels: tuple[Kernel, ...]
+    pivots: tuple[str, ...]
+    rows: SquareRows | None
+    solved: KKT | None
+
+    @property
+    def groups(self) -> tuple[Block, ...]:
+        """Rows that are solved one group after the other."""
+        return tuple(self.rows.blocks or ()) if self.rows else ()
+
+
+@dataclass(frozen=True)
+class Program:
+    """The functions of one scene in one formulation.
+
+    `closed`: of the closed linkage, and the outputs; `dynamics` and `watched` in absolute coordinates, which both
+    formulations have. `methods` where something is integrated, else `course`.
+    """
+
+    model: Model
+    formulation: str
+    kkt: KKT
+    closed: tuple[Kernel, ...]
+    dynamics: Kernel
+    watched: Kernel | None
+    pins: tuple[Pin, ...]
+    tree: TreeFunctions | None
+    integrated: Integrated
+    terms: Kernel | None  # of time alone, which may hide within a step
+    methods: Methods | None
+    course: Course | None
+
+    @property
+    def integrates(self) -> bool:
+        """Whether anything is left to be integrated."""
+        return self.methods is not None
+
+    @property
+    def right_hand_side(self) -> list[Kernel]:
+        """In absolute coordinates; what is watched beside it where that is what is integrated."""
+        watches = self.watched is not None and self.formulation == "full" and self.integrates
+        return [self.dynamics, self.watched] if watches and self.watched else [self.dynamics]
+
+    @property
+    def has_lanes(self) -> bool:
+        """Whether runs go side by side: where friction may stick, rows come and go by run."""
+        return self.methods is not None and self.tree is not None and not (self.tree.chains or self.model.frictions)
+
+
+def make_program(model: Model, formulation: str = "reduced") -> Program:
+    """Derives every function of a scene: what is integrated, or followed where no freedom is left, is the reduced
+
+    formulation, or with "full" the absolute one. Outputs and starts are absolute in both.
+    """
+    model.symbols.freeze(False)
+    integrates = bool(model.degrees_of_freedom or model.clearances or model.frictions)
+    system = absolute(model)
+    kkt = KKT(system)
+    dynamics = dynamics_kernel(system, kkt)
+    closed = (
+        closed_linkage.mass_kernel(model), *closed_linkage.row_kernels(model), closed_linkage.start_kernel(model),
+        outputs.outputs_kernel(model),
+    )  # fmt: skip
+    pins = tuple(make_pin(model, clearance) for clearance in model.clearances)
+    tree, in_tree = _tree(model, kkt.pivots) if formulation == "reduced" else (None, None)
+    watched = watched_kernel(dynamics, model)
+    angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
+    plain = Integrated(system, kkt, angles, False, watched, jumps_of(dynamics, model), kkt.pivots)
+    integrated = in_tree or plain
+    program = Program(
+        model, formulation, kkt, closed, dynamics, watched, pins, tree, integrated, time_terms_kernel(dynamics),
+        methods=_methods(model, integrated) if integrates else None,
+        course=None if integrates else _course(model, kkt, integrated),
+    )  # fmt: skip
+    for owner in (model, integrated.system.model):
+        owner.symbols.freeze()
+    return program
+
+
+def _tree(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integrated]:
+    """The reduced formulation; `pivots`: rows through which a status of the absolute one counts."""
+    system = reduce(model)
+    around = tuple(side_by_side(without_unused(kernel)) for kernel in motion_kernels(model, system))
+    plain, kkt = reduced_kernels(system)
+    kernels, rescued = tuple(side_by_side(kernel) for kernel in plain), is_rescued(system)
+    chains = ChainKernels(system, system.chain) if system.chain else None
+    tree = TreeFunctions(system, around, tuple(plain), kernels, rescued, chains)
+    pivots = pivots if rescued else kkt.pivots
+    if system.chain:
+        pivots = (*pivots, *(row.name for row in system.chain.rows))
+    angles = tuple(int("." not in name) for name in system.unknowns)
+    watched = next((kernel for kernel in plain if kernel.name == WATCHED), None)
+    jumps = next((jumps_of(kernel, model) for kernel in plain if kernel.name == DYNAMICS), None)
+    return tree, Integrated(system, kkt, angles, True, watched, jumps, pivots, system.chain)
+
+
+def _methods(model: Model, integrated: Integrated) -> Methods:
+    slopes = {clearance.name: pin_slopes(model, clearance) for clearance in model.clearances}
+    newton = Newton(integrated.system)
+    gains = {"stick": stick_gain(model)} if model.frictions else {}
+    if not integrated.reduced:
+        alpha, beta = model.baumgarte
+        gains["two_alpha"] = model.slots.derive("two_alpha", 2 * alpha)
+        gains["beta_squared"] = model.slots.derive("beta_squared", beta**2)
+    closing = closing_kernel(integrated.system)
+    finished = side_by_side(without_unused(closing)) if integrated.reduced else closing
+    return Methods(newton, slopes, finished, without_unused(closing), gains)
+
+
+def _course(model: Model, kkt: KKT, integrated: Integrated) -> Course:
+    """In tree coordinates, unless the closures' pattern leaves one of them open."""
+    rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
+    if integrated.reduced and rows.fits:
+        names = tuple(row.name for row in integrated.system.rows)
+        return Course(tuple(kinematic_kernels(integrated.system, rows)), (*names, *kkt.pivots), rows, None)
+    projection, solved = projection_kernel(kkt.system, model.rows, "project")
+    return Course((projection,), (*solved.pivots, *kkt.pivots), None, solved)
