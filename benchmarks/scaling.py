@@ -22,8 +22,7 @@ import numpy as np
 from sympy.core.cache import clear_cache
 
 import gudgeon
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.targets.c.emit import emit
+from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.find import FORMULATIONS
 from gudgeon.mechanisms.n_four_bar import text as yaml_text
@@ -60,8 +59,8 @@ def measure(n: int, formulation: str, folder: Path) -> tuple[float, ...]:
     repeats = 2 if n <= 16 else 1
     derived = least(lambda: derive(data, file.name, "ideal"), 3)
     model = derive(data, file.name, "ideal")
-    emitted = least(lambda: emit(model, formulation), repeats)
-    source = emit(model, formulation)
+    emitted = least(lambda: in_c(model, formulation), repeats)
+    source = in_c(model, formulation)
     compiled = least(lambda: compile_kernels(source, rebuild=True), repeats)
     simulation = Simulation(CompiledModel(source, compile_kernels(source)), file)
     kernel = "reduced_dynamics" if formulation == "reduced" else "dynamics"

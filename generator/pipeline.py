@@ -1,8 +1,13 @@
-"""The table of contents: YAML → Mechanism → Scene → Model → Program → KernelSource, a call each."""
+"""The table of contents: YAML → Mechanism → Scene → Model → Program → KernelSource, a call each.
+
+Where `seconds` is given, each stage notes there how long it took.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from time import perf_counter
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model, make_model
@@ -13,22 +18,41 @@ from gudgeon.generator.redundancy import find_redundancy
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import emit
 
+Overrides = Mapping[str, str | float | bool]
+Seconds = dict[str, float]
 
-def derive(data: bytes, file: str, scene: str, overrides: Mapping[str, str | float | bool] | None = None) -> Model:
+
+def derive(
+    data: bytes, file: str, scene: str, overrides: Overrides | None = None, seconds: Seconds | None = None
+) -> Model:
     """The equations of one scene of a mechanism file, without the rows that say nothing new."""
-    mechanism = read_mechanism(data, file, overrides)
-    model = make_model(make_scene(mechanism, scene))
-    return model.without(find_redundancy(model, describe(model)))
+    with _stage("reading", seconds):
+        mechanism = read_mechanism(data, file, overrides)
+    with _stage("equations", seconds):
+        model = make_model(make_scene(mechanism, scene))
+    with _stage("rank of the rows", seconds):
+        return model.without(find_redundancy(model, describe(model)))
 
 
-def in_c(model: Model, formulation: str = "reduced") -> KernelSource:
+def in_c(model: Model, formulation: str = "reduced", seconds: Seconds | None = None) -> KernelSource:
     """The C of a model, with the names of everything in it."""
-    return emit(make_program(model, formulation))
+    with _stage("functions", seconds):
+        program = make_program(model, formulation)
+    with _stage("C", seconds):
+        return emit(program)
 
 
 def generate(
-    data: bytes, file: str, scene: str, overrides: Mapping[str, str | float | bool] | None = None,
-    formulation: str = "reduced",
+    data: bytes, file: str, scene: str, overrides: Overrides | None = None, formulation: str = "reduced",
+    seconds: Seconds | None = None,
 ) -> KernelSource:  # fmt: skip
     """The C of one scene of a mechanism file."""
-    return in_c(derive(data, file, scene, overrides), formulation)
+    return in_c(derive(data, file, scene, overrides, seconds), formulation, seconds)
+
+
+@contextmanager
+def _stage(name: str, seconds: Seconds | None) -> Iterator[None]:
+    begun = perf_counter()
+    yield
+    if seconds is not None:
+        seconds[name] = perf_counter() - begun

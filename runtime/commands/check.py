@@ -1,7 +1,8 @@
 """`gudgeon check`: read a mechanism file and say whether it is valid; with -v, what each scene becomes.
 
-With -v a table of numbers, then the story of each scene (story.py): what went step by step and why, what is left and
-solved, operations before and after, which methods fit, and what was skipped. No line is longer than 100 columns.
+With -v each scene is derived anew: a table of numbers, then the story of each scene (reduction_story.py): what went
+step by step and why, what is left and solved, operations before and after, which methods fit, what was skipped, and
+how long each stage of the derivation took. No line is longer than 100 columns.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from gudgeon.commands.progress import status_line
 from gudgeon.commands.reduction_story import story_data, tell
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import InputError, InputErrors
-from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
+from gudgeon.loading.find import derived, find_mechanism, read_bytes
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -40,14 +41,17 @@ def check_file(name: str, verbose: bool, as_json: bool) -> int:
             raise
         print(json.dumps({"valid": False, "errors": _errors(error)}, ensure_ascii=False, indent=1))
         return error.exit_code
+    seconds: dict[str, dict[str, float]] = {scene: {} for scene in mechanism.scenes}
     with status_line(quiet=as_json):
-        scenes = {scene: kernel_source(data, file, scene)[0] for scene in mechanism.scenes} if verbose else {}
+        scenes = {
+            scene: derived(data, file, scene, seconds=seconds[scene]) for scene in mechanism.scenes if verbose
+        }  # fmt: skip
     if as_json:
-        print(json.dumps(_document(mechanism, scenes), ensure_ascii=False, indent=1))
+        print(json.dumps(_document(mechanism, scenes, seconds), ensure_ascii=False, indent=1))
         return 0
     print(_wrapped("valid", _counts(mechanism)))
     if scenes:
-        _print(mechanism, scenes)
+        _print(mechanism, scenes, seconds)
     return 0
 
 
@@ -118,13 +122,15 @@ def _reduction(source: KernelSource) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _rest(source: KernelSource) -> Iterator[tuple[str, str]]:
-    """Lines below the story: methods, what is watched, what this scene does without."""
+def _rest(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
+    """Lines below the story: methods, what is watched, what this scene does without, how long it took."""
     yield "methods", f"{', '.join(_reduction(source)['methods'])}; auto begins with {begins_with(source)}"
     if source.events:
         yield "events", ", ".join(_events(source))
     for note in source.notes:
         yield "", note
+    stages = ", ".join(f"{name} {took:.2f}" for name, took in seconds.items())
+    yield "seconds", f"{stages}; together {sum(seconds.values()):.2f}"
 
 
 def _events(source: KernelSource) -> list[str]:
@@ -137,7 +143,9 @@ def _label(kernel: str) -> str:
     return kernel if " " in kernel else f"operations in {kernel}"
 
 
-def _document(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> dict[str, Any]:
+def _document(
+    mechanism: Mechanism, scenes: Mapping[str, KernelSource], seconds: Mapping[str, Mapping[str, float]]
+) -> dict[str, Any]:
     return {
         "valid": True,
         "name": mechanism.name,
@@ -145,7 +153,10 @@ def _document(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> dict[
         "bodies": list(mechanism.bodies),
         "joints": list(mechanism.joints),
         "drives": list(mechanism.drives),
-        "scenes": {name: _of_scene(scenes[name]) if name in scenes else {} for name in mechanism.scenes},
+        "scenes": {
+            name: _of_scene(scenes[name]) | {"seconds": seconds[name]} if name in scenes else {}
+            for name in mechanism.scenes
+        },
     }
 
 
@@ -154,7 +165,9 @@ def _of_scene(source: KernelSource) -> dict[str, Any]:
     return {**_facts(source), **_reduction(source), **told}
 
 
-def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
+def _print(
+    mechanism: Mechanism, scenes: Mapping[str, KernelSource], seconds: Mapping[str, Mapping[str, float]]
+) -> None:
     from gudgeon.language.shown import one_line, plain_console
 
     facts = {scene: _facts(source) for scene, source in scenes.items()}
@@ -166,7 +179,7 @@ def _print(mechanism: Mechanism, scenes: Mapping[str, KernelSource]) -> None:
     console, title = plain_console(WIDTH), one_line(mechanism.title or mechanism.name)
     for some in _beside(scenes, max(map(len, names))):
         console.print(_table(title, names, {scene: facts[scene] for scene in some}))
-    for part in tell(scenes, _rest):
+    for part in tell(scenes, lambda source: _rest(source, seconds[source.scene])):
         console.print(part)
 
 

@@ -112,16 +112,24 @@ def kernel_source(
             source = committed(file.stem, scene, sha256(data).hexdigest())
         origin = "generated" if source else "derived"
         if source is None:
-            with working(f"deriving {file.stem}, scene {scene}"):
-                whole(*GENERATOR)
-                from gudgeon.generator.pipeline import generate
-
-                source = generate(data, str(file), scene, overrides, formulation)
+            source = derived(data, file, scene, overrides, formulation)
         source = replace(source, overrides=tuple(sorted(overrides.items())))
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
     entry = cache.fetch("models", key, make, renew=regenerate)
     return KernelSource.from_json((entry / SOURCE).read_bytes().decode()), origin
+
+
+def derived(
+    data: bytes, file: Path, scene: str, overrides: Overrides | None = None, formulation: str = "reduced",
+    seconds: dict[str, float] | None = None,
+) -> KernelSource:  # fmt: skip
+    """The C of a scene, derived now; each stage notes its seconds where somebody wants them."""
+    with working(f"deriving {file.stem}, scene {scene}"):
+        whole(*GENERATOR)
+        from gudgeon.generator.pipeline import generate
+
+        return generate(data, str(file), scene, overrides, formulation, seconds)
 
 
 def model_key(data: bytes, scene: str, overrides: Overrides, formulation: str) -> str:

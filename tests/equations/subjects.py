@@ -9,8 +9,7 @@ from functools import cache
 import numpy as np
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.targets.c.emit import emit
+from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.model.compiled import CompiledModel
@@ -58,7 +57,7 @@ def assert_columns(got: np.ndarray, want: np.ndarray, n: int, tolerance: float) 
 def make(data: bytes, name: str, scene: str, values: Mapping[str, float] | None = None, **options: object) -> Subject:
     """A scene; `values` by slot, `options` change the file itself."""
     model = derive(data, name, scene, {key.replace("__", "."): x for key, x in options.items()})  # type: ignore[misc]
-    source = emit(model, "full")
+    source = in_c(model, "full")
     library = CompiledModel(source, compile_kernels(source))
     given, mask = np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool)
     for k, slot in enumerate(source.slots):

@@ -117,7 +117,9 @@ def test_power_of_a_magnitude_through_zero(load: Load, method: str, start: float
     assert run["a.x"] == pytest.approx(fixed["a.x"], abs=1e-8)
 
 
-@pytest.mark.parametrize("force", ["6 N - 5 N*exp(-0.1 m/abs(a.x))", '"6 N + 5 N*exp(1/min(a.x*10/(1 m), -a.x*10/(1 m)))"'])
+@pytest.mark.parametrize(
+    "force", ["6 N - 5 N*exp(-0.1 m/abs(a.x))", '"6 N + 5 N*exp(1/min(a.x*10/(1 m), -a.x*10/(1 m)))"']
+)
 def test_a_branch_that_grows_beyond_all_bounds_behind_its_corner(load: Load, force: str) -> None:
     """Held on its side, the exponent changes its sign at x = 0: steps shrank before it and never came through."""
     simulation = load(BLOCK.format(x=-0.5, force=force))

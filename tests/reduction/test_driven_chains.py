@@ -11,9 +11,8 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import SingularError, SolverError
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.reduction.driven_chains import find_blocks
-from gudgeon.generator.targets.c.emit import emit
 from gudgeon.loading import compiler
 from gudgeon.loading.build import compile_kernels
 from gudgeon.model.compiled import CompiledModel
@@ -203,7 +202,7 @@ def test_random_mechanisms_beside_a_driven_chain(seed: int) -> None:
     """Accelerations, powers and remaining multipliers at the start and at states around it."""
     text = with_chain(to_yaml(random_mechanism(seed)), seed)
     model = derive(text.encode(), f"random_{seed}.yaml", "ideal")
-    source = emit(model)
+    source = in_c(model)
     simulation = Simulation(CompiledModel(source, compile_kernels(source)), Path("random.yaml"))
     start = simulation.start()
     reduced, numbers = Reduced(simulation.compiled, simulation.p), Numbers(model, simulation.p)

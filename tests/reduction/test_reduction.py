@@ -12,8 +12,7 @@ import pytest
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.targets.c.emit import emit
+from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.loading import compiler
 from gudgeon.loading.build import compile_kernels
 from gudgeon.model.compiled import CompiledModel
@@ -48,7 +47,7 @@ def not_optimised(monkeypatch: pytest.MonkeyPatch) -> None:
 def shipped(name: str, scene: str) -> tuple[Model, Simulation]:
     data = resources.files("gudgeon.mechanisms").joinpath(f"{name}.yaml").read_bytes()
     model = derive(data, f"{name}.yaml", scene)
-    source = emit(model)
+    source = in_c(model)
     return model, Simulation(CompiledModel(source, compile_kernels(source)), Path(f"{name}.yaml"))
 
 
@@ -110,7 +109,7 @@ def test_shipped_mechanisms(name: str, scene: str) -> None:
 
 def reduced_case(case: Case) -> tuple[Model, Reduced]:
     model = derive(to_yaml(case).encode(), f"random_{case.seed}.yaml", "ideal")
-    source = emit(model)
+    source = in_c(model)
     library = CompiledModel(source, compile_kernels(source))
     slots = len(source.slots)
     return model, Reduced(library, library.prepare(np.zeros(slots), np.zeros(slots, dtype=bool)))
@@ -179,7 +178,7 @@ def test_the_press_has_five_angles_and_one_closure() -> None:
 
 def test_a_chain_is_cut_where_that_is_cheaper() -> None:
     """M of a hanging chain is full in its angles: a long one is cut, so that operations grow with its length."""
-    operations = {n: emit(chain(n)).operations["reduced_dynamics"] for n in (16, 32)}
+    operations = {n: in_c(chain(n)).operations["reduced_dynamics"] for n in (16, 32)}
     assert operations[32] < 2.4 * operations[16]
 
 

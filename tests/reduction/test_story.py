@@ -9,10 +9,9 @@ from gudgeon.commands.reduction_story import outcome
 from gudgeon.contract import ledger as told
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.ledger import Story
-from gudgeon.generator.pipeline import derive
+from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.reduction.tree import choose_tree
 from gudgeon.generator.reduction.tree_cost import Estimate
-from gudgeon.generator.targets.c.emit import emit
 from gudgeon.model.rank import rank
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import numpy_linkage
@@ -86,7 +85,7 @@ def test_freedom_of_shipped_scenes(name: str, scene: str) -> None:
 def test_freedom_of_random_mechanisms(seed: int) -> None:
     """Every joint and drive; Φ_q is that of the NumPy linkage."""
     case = random_mechanism(seed)
-    source = emit(derive(to_yaml(case).encode(), f"random_{seed}.yaml", "ideal"))
+    source = in_c(derive(to_yaml(case).encode(), f"random_{seed}.yaml", "ideal"))
     check_ledger(source)
     phi_q = numpy_linkage.rows(case.linkage, 0.0, case.q, case.v).phi_q
     assert len(source.tree) - len(source.closures) == len(case.q) - rank(phi_q)
@@ -206,7 +205,7 @@ def test_groups_are_solved_one_after_the_other(name: str) -> None:
 
 def test_full_formulation_opens_what_has_play_and_takes_nothing_else() -> None:
     model, _ = shipped("nine_bar_press", "dry")
-    source = emit(model, "full")
+    source = in_c(model, "full")
     assert [step.kind for step in source.story.steps] == [told.PLAY]
     coordinates, rows = replay(source)
     assert coordinates == set(source.coordinates) and rows == {row.name for row in source.rows}
@@ -220,7 +219,7 @@ def test_redundant_rows_are_told() -> None:
         "ground: {O: [0, 0], P: [0, 0]}\n"
         "joints: {one: {revolute: [ground.O, a.tail]}, two: {revolute: [ground.P, a.tail]}}\n"
     )
-    source = emit(derive(text.encode(), "twice.yaml", "ideal"))
+    source = in_c(derive(text.encode(), "twice.yaml", "ideal"))
     check_ledger(source)
     (step,) = (step for step in source.story.steps if step.kind == told.REDUNDANT)
     assert step.rows_gone == ("two.x", "two.y") and step.owners == ("two",)
@@ -236,7 +235,7 @@ def test_contradictory_drives_are_followed_in_absolute_coordinates() -> None:
         "joints: {one: {revolute: [ground.O, a.tail]}, two: {revolute: [ground.P, b.head]}}\n"
         "drives: {m: {angle: a, value: 60 deg}, n: {coordinate: a.x, value: 0.1 m}}\n"
     )
-    source = emit(derive(text.encode(), "contrary.yaml", "ideal"))
+    source = in_c(derive(text.encode(), "contrary.yaml", "ideal"))
     story = source.story
     assert not story.groups and story.after is not None and story.after.coordinates == len(source.coordinates)
     lines = dict(outcome(source))

@@ -11,8 +11,7 @@ import pytest
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.laws.law import laws
-from gudgeon.generator.pipeline import derive
-from gudgeon.generator.targets.c.emit import emit
+from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.targets.latex import equations_tex, equations_text
 from gudgeon.loading.build import compile_kernels
 from gudgeon.model.compiled import CompiledModel
@@ -59,7 +58,7 @@ def read(variant: str, scene: str) -> dict[str, list[str]]:
 
 @cache
 def library_of(variant: str, scene: str) -> tuple[CompiledModel, np.ndarray]:
-    source = emit(model_of(variant, scene))
+    source = in_c(model_of(variant, scene))
     library = CompiledModel(source, compile_kernels(source))
     return library, library.prepare(np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool))
 
