@@ -1,0 +1,42 @@
+"""All is derived before any text: a program that is made gives the same text again and again, and nothing new."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gudgeon.generator.kernels.program import make_program
+from gudgeon.generator.pipeline import derive
+from gudgeon.generator.targets.c.emit import emit
+
+MECHANISMS = Path(__file__).parents[2] / "mechanisms"
+SCENES = [
+    ("nine_bar_press", "lubricated"), ("nine_bar_press", "ideal"), ("slider_crank", "dry"), ("shaker", "ideal"),
+    ("andrews_squeezer", "ideal"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize(("name", "scene"), SCENES)
+def test_printing_derives_nothing(name: str, scene: str, formulation: str) -> None:
+    """Slots and symbols are as many behind the print as before it, and the second print is the first one."""
+    file = MECHANISMS / f"{name}.yaml"
+    program = make_program(derive(file.read_bytes(), file.name, scene), formulation)
+    model, own = program.model, program.integrated.system.model
+    before = [len(x) for x in (model.slots.entries, model.slots.derived, model.symbols.info, own.symbols.info)]
+    first = emit(program)
+    assert before == [len(x) for x in (model.slots.entries, model.slots.derived, model.symbols.info, own.symbols.info)]
+    assert emit(program) == first
+
+
+def test_what_is_derived_too_late_is_told() -> None:
+    file = MECHANISMS / "slider_crank.yaml"
+    program = make_program(derive(file.read_bytes(), file.name, "dry"))
+    for model in (program.model, program.integrated.system.model):
+        with pytest.raises(AssertionError, match="late: derived after the program was made"):
+            model.symbols.new("late")
+        with pytest.raises(AssertionError, match="late"):
+            model.slots.derive("late", 1 / (model.masses[0] + 17))
+        with pytest.raises(AssertionError, match="a corner after the program"):
+            model.symbols.switches.side("", model.q[0] - 17)
