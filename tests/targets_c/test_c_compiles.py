@@ -24,6 +24,12 @@ COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 SCENES = [
     (name, scene) for name in shipped() for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
 ]
+# Each file of the engine at least once: play of every kind, friction, chains, a free motion, none; the others are slow.
+TYPICAL = {
+    ("nine_bar_press", "dry"), ("nine_bar_press", "lubricated"), ("andrews_squeezer", "ideal"), ("belt_block", "ideal"),
+    ("shaker", "ideal"), ("four_bar", "ideal"), ("bouncing_ball", "damped"),
+}  # fmt: skip
+MOST = [scene if scene in TYPICAL else pytest.param(*scene, marks=pytest.mark.slow) for scene in SCENES]
 
 # Reads p, then t, q, v of a start; prints how a short run went. The scene is included, not linked.
 INTEGRATE = r"""
@@ -93,7 +99,7 @@ def compile_c(compiler: str, file: Path, flags: Sequence[str], libraries: Sequen
 
 
 @pytest.mark.parametrize("compiler", COMPILERS)
-@pytest.mark.parametrize(("name", "scene"), SCENES)
+@pytest.mark.parametrize(("name", "scene"), MOST)
 def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> None:
     source = gudgeon.load(name, scene).source
     main = write(source, tmp_path)
@@ -140,7 +146,7 @@ def test_no_warning_under_any_option(option: str, tmp_path: Path) -> None:
     compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, "-c", "-o", "lanes.o"])
 
 
-@pytest.mark.parametrize(("name", "scene"), SCENES)
+@pytest.mark.parametrize(("name", "scene"), MOST)
 def test_clean_under_the_sanitizers(name: str, scene: str, tmp_path: Path) -> None:
     simulation = gudgeon.load(name, scene)
     start = simulation.start()
