@@ -45,17 +45,6 @@ static void cross(Run *run, int k, const Parameters *p)
         run->memory.side[k - N_CLEARANCES] *= -1.0;
 }
 
-/* Of all bodies, J. */
-static double kinetic_energy(const Run *run, const Parameters *p)
-{
-    double m[N_Q], all[N_S], sum = 0.0;
-    mass_matrix(p, m);
-    to_absolute(run->t, run->y, &run->memory, p, all);
-    for (int k = 0; k < N_Q; k++)
-        sum += 0.5 * m[k] * all[N_Q + k] * all[N_Q + k];
-    return sum;
-}
-
 /* What works are measured by at the start: the energy of the motion, at least that of the speeds that count, J. */
 static double energy_scale(const Run *run, const Parameters *p)
 {
@@ -89,14 +78,13 @@ static int change(Run *run, int event, const Parameters *p)
             cross(run, k, p);
     const int corner = event - N_CLEARANCES;
     const int is_corner = corner >= 0 && corner < N_SWITCHES;
+    int status = 0;
     if (is_corner) {
         pace_corner(run, corner);
-        /* a drive whose rate jumps moves the linkage by an impulse */
-        const double before = kinetic_energy(run, p);
-        project_state(run, run->t, run->y, p);
-        run->y[2 * N_X] += kinetic_energy(run, p) - before;
+        pass_impulse(run, p);
     }
-    int status = settle_sides(run, is_corner ? corner : -1, p);
+    if (!status)
+        status = settle_sides(run, is_corner ? corner : -1, p);
     const int friction = corner - N_SWITCHES, watched = friction - N_FRICTIONS;
     if (!status && friction >= 0 && watched < 0)
         status = switch_friction(run, p);

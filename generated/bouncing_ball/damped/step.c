@@ -109,6 +109,25 @@ static void project_state(Run *run, double t, double *y, const Parameters *p)
     }
 }
 
+/* Of all bodies, J. */
+static double kinetic_energy(const Run *run, const Parameters *p)
+{
+    double m[N_Q], all[N_S], sum = 0.0;
+    mass_matrix(p, m);
+    to_absolute(run->t, run->y, &run->memory, p, all);
+    for (int k = 0; k < N_Q; k++)
+        sum += 0.5 * m[k] * all[N_Q + k] * all[N_Q + k];
+    return sum;
+}
+
+/* A drive whose rate jumps moves the linkage by an impulse; its work is counted. */
+static void pass_impulse(Run *run, const Parameters *p)
+{
+    const double before = kinetic_energy(run, p);
+    project_state(run, run->t, run->y, p);
+    run->y[2 * N_X] += kinetic_energy(run, p) - before;
+}
+
 /* The end of a step: projected, with its right-hand side. */
 static int finish_step(Run *run, Step *step, const Parameters *p)
 {

@@ -141,6 +141,11 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
         h *= status ? 0.25 : min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -power)));
         if (h > least)
             continue;
+        if (N_SWITCHES > 0 && status == NOT_FINITE && run->memory.held) {
+            run->memory.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
+            h = longest;
+            continue;
+        }
         if (run->choice != AUTOMATIC || !run->stiff || given_up++)
             return status ? status : TOO_SMALL;
         change_method(run); /* its matrix is singular where rows depend on each other; the other one knows a way */
@@ -312,6 +317,7 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         run->asked.hold = 1;
         if (!status)
             status = commit(run, step, share, t_new, event, p);
+        run->memory.held = 1;
         run->asked.hold = 0;
     }
     return status;
