@@ -25,8 +25,16 @@ SAMPLES = 3
 REACH = 0.05  # rad or share of the size, how far from the start the other configurations are sought
 
 
+def _heaviside(x: float, at_zero: float = 1.0) -> float:
+    return 1.0 if x >= 0.0 else 0.0
+
+
+def _same(x: float) -> float:
+    return x
+
+
 # steps by name: SymPy would write each as a case distinction, simplified at great length
-MODULES = [{"Heaviside": lambda x, at_zero=1.0: 1.0 if x >= 0.0 else 0.0}, "math"]
+MODULES = [{"Heaviside": _heaviside, "Whole": _same}, "math"]
 
 
 class NumericModel:

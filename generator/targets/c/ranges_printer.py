@@ -43,6 +43,9 @@ class RangesPrinter(printer.CPrinter):
             return str(super()._print_Mul(expr))
         number, rest = expr.as_coeff_Mul()
         factors = rest.as_ordered_factors()
+        if not printer.is_normal(number):
+            first, last = printer.two_of(number)
+            return self._chained("times", (first, *factors, last))
         return self._chained("times", (number, *factors) if number != 1 else tuple(factors))
 
     def _print_Pow(self, expr: sp.Pow) -> str:
