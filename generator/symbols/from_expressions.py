@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator as operator_of
+import sys
 from collections.abc import Callable
 
 import numpy as np
@@ -10,6 +11,7 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.symbols.near_squares import near_square_root
 from gudgeon.generator.symbols.wholes import kept
 from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary
 
@@ -99,12 +101,17 @@ def root(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
     if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _LONG:
         return base**exponent
     atoms: dict[sp.Expr, sp.Dummy] = {}
+    polynomial = _polynomial(base, atoms)
     try:
-        factor, parts = sp.sqf_list(_polynomial(base, atoms))
+        factor, parts = sp.sqf_list(polynomial)
     except sp.PolynomialError:
         return base**exponent
     if all(count == 1 for _, count in parts):
-        return base**exponent
+        names = [atoms[atom] for atom in sorted(atoms, key=sp.default_sort_key)]
+        near = near_square_root(polynomial, names) if base.has(sp.Float) else None
+        if near is None:
+            return base**exponent
+        factor, parts = sp.Integer(1), [(near, 2)]
     meant = {dummy: atom for atom, dummy in atoms.items()}
     return sp.Mul(factor, *(sp.Pow(part.xreplace(meant), count) for part, count in parts)) ** exponent
 
@@ -115,7 +122,8 @@ def _polynomial(e: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
     Left to itself SymPy takes x^0.1 and x^0.0001 for powers of one generator, with as many terms as memory holds.
     """
     if e.is_Number:
-        return sp.nsimplify(e, rational=True)
+        simple = sp.nsimplify(e, rational=True)  # 0.2 as 1/5; it would have 0.11111111111122 as 1/9
+        return simple if abs(simple - e) <= 4 * sys.float_info.epsilon * abs(e) else sp.Rational(e)
     if e.is_Add or e.is_Mul:
         return e.func(*(_polynomial(a, atoms) for a in e.args))
     base, exponent = e.as_base_exp() if e.is_Pow else (e, sp.Integer(1))

@@ -71,7 +71,7 @@ def test_slopes_are_those_of_thirty_digits(scene: Simulation, x: float) -> None:
 @pytest.mark.parametrize("method", ["dop853", "rodas5p", "rk4", "auto"])
 def test_forces_have_all_their_digits(scene: Simulation, method: str) -> None:
     """That of `coefficient` was 1.2 % off, for 0.01^161 has no digits left; that of `large` ∞ · 0."""
-    run = scene.simulate(1e-9, output=1, method=method, **({"step": 1e-9} if method == "rk4" else {}))
+    run = scene.simulate(1e-9, output=1, method=method, step=1e-9 if method == "rk4" else None)
     for name, (_, form) in FORMS.items():
         with mp.workdps(40):
             assert run[f"of_{name}.Fx"][0] == pytest.approx(float(form(mp.mpf(X))), rel=1e-12), name
