@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from gudgeon.generator.ir.finite_slopes import as_written
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
 from gudgeon.generator.symbols.corners import Pick, SideOf
 from gudgeon.generator.symbols.wholes import Whole
@@ -58,6 +59,8 @@ class _Terms:
         self._names: dict[sp.Expr, frozenset[str]] = {}
 
     def read(self, statement: Statement) -> None:
+        if isinstance(statement.value, sp.Expr):
+            statement = replace(statement, value=as_written(statement.value))
         value = statement.value
         if isinstance(value, str):
             if statement.local and (value == "t" or value.startswith("p->")):

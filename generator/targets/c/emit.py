@@ -137,6 +137,8 @@ def emit(model: Model, formulation: str = "reduced") -> KernelSource:
     kernels = [*right_hand_side, *around, *(reduced.kernels if reduced else ()), prepare, *loops.kernels]
     files = _files(model, counts, prepare, around, right_hand_side, clearances)
     files |= {**(reduced.files if reduced else {}), **loops.files}
+    overflows = any("finite_slope(" in text for text in (*files.values(), *beside.values()))
+    files["model.h"] = render("scene/model.h.jinja", **_header(model), **counts, overflows=overflows)
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
     return describe(
         model, files=files | beside, main="scene.c", cdef=_cdef(reduced, integrates, files, beside),
@@ -164,7 +166,7 @@ def _files(
 ) -> dict[str, str]:  # fmt: skip
     """What every scene has, in the order in which it is read."""
     return {
-        "model.h": render("scene/model.h.jinja", **_header(model), **counts),
+        "model.h": "",  # when the others are known
         "asked.c": render("scene/asked.c.jinja"),
         "trigonometry.c": render("scene/trigonometry.c.jinja", vector="Four", bits="FourBits", given="*angle"),
         "parameters.c": _kernels(prepare),

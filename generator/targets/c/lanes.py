@@ -40,7 +40,7 @@ def lanes_code(
     return {
         "lanes.h": render(
             "batch/lanes.h.jinja", functions=functions, functions_of_two=of_two, vector="Lanes", bits="LaneBits",
-            given="angle",
+            given="angle", overflows=any("lanes_finite_slope(" in motion for motion in motions),
         ),
         MAIN: render(
             "batch/lanes.c.jinja", **counts, parameters=parameters, kernels="\n".join([*pins, *motions]),

@@ -37,10 +37,9 @@ def newton_code(system: System, render: Render, prefix: str = "") -> tuple[str, 
     newton = Newton(system, prefix)
     kernels = [newton.linearize, newton.factor, newton.substitute, newton.solve]
     counts = [(f"{prefix}n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
-    texts = "\n".join(map(printer.kernel, kernels))
     text = render(
         "scene/newton.c.jinja", struct=f"{prefix.title()}Linear", prefix=prefix, n_values=newton.values.size,
-        n_factors=newton.factors.size, kernels=texts, overflows="finite_slope(" in texts,
+        n_factors=newton.factors.size, kernels="\n".join(map(printer.kernel, kernels)),
         tables=[(name, _table(entries)) for name, entries in newton.tables.items()],
         counts=[*counts, (f"{prefix}n_nodes".upper(), newton.nodes)],
     )  # fmt: skip

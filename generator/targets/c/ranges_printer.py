@@ -76,6 +76,10 @@ class RangesPrinter(printer.CPrinter):
     def _print_SideOf(self, expr: sp.Expr) -> str:
         return f"range_side(side, {int(expr.args[0])}, {self._range(expr.args[1])})"
 
+    def _print_Slope(self, expr: sp.Expr) -> str:
+        """Of ranges 0 times infinity is 0: the derivative is enough."""
+        return self._range(expr.args[0])
+
     def _print_Magnitude(self, expr: sp.Expr) -> str:
         return self._call("magnitude", expr.args[0])
 
