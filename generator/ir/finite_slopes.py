@@ -92,5 +92,5 @@ def finite_slope(term: sp.Expr, by: sp.Symbol, derivative: sp.Expr) -> Slope:
 
 
 def as_written(expression: sp.Expr) -> sp.Expr:
-    """The expression with its slopes as their derivatives are written: for ranges, in which 0 · ∞ is 0."""
+    """The expression with its slopes as their derivatives are written: for readers, and ranges, in which 0 · ∞ is 0."""
     return expression.replace(Slope, lambda derivative, *_: derivative) if expression.has(Slope) else expression

@@ -70,9 +70,6 @@ class TextPrinter(_InOrder, StrPrinter):
     def _print_Abs(self, expr: sp.Expr) -> str:
         return f"|{self._print(expr.args[0])}|"
 
-    def _print_Slope(self, expr: sp.Expr) -> str:
-        return f"({self._print(expr.args[0])})"
-
     def _print_Whole(self, expr: sp.Expr) -> str:
         return f"({self._print(expr.args[0])})"
 
@@ -145,10 +142,6 @@ class TexPrinter(_InOrder, LatexPrinter):
 
     def _print_Whole(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function("", expr, None) + (f"^{{{exp}}}" if exp else "")
-
-    def _print_Slope(self, expr: sp.Expr, exp: str | None = None) -> str:
-        """The derivative as it is written."""
-        return rf"\left({self._print(expr.args[0])}\right){f'^{{{exp}}}' if exp else ''}"
 
     def _print_Max(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function(r"\operatorname{max}", expr, exp)
