@@ -25,8 +25,25 @@ SAMPLES = 3
 REACH = 0.05  # rad or share of the size, how far from the start the other configurations are sought
 
 
+def _heaviside(x: float, at_zero: float = 1.0) -> float:
+    return 1.0 if x >= 0.0 else 0.0
+
+
+def _finite(derivative: float, *_: float) -> float:
+    """A slope (finite_slopes.py); where there is none it is close enough to 0 for a rank."""
+    return derivative if math.isfinite(derivative) else 0.0
+
+
+def _same(x: float) -> float:
+    return x
+
+
 # steps by name: SymPy would write each as a case distinction, simplified at great length
-MODULES = [{"Heaviside": lambda x, at_zero=1.0: 1.0 if x >= 0.0 else 0.0}, "math"]
+MODULES = [
+    {"Heaviside": _heaviside, "Whole": _same, "Slope": _finite, "JustAhead": _same, "JustBehind": _same,
+     "exp": np.exp, "sinh": np.sinh, "cosh": np.cosh},  # what grows beyond all numbers is infinite, as in C
+    "math",
+]  # fmt: skip
 
 
 class NumericModel:

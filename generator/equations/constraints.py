@@ -10,6 +10,8 @@ import sympy as sp
 
 from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry, PointFrame
+from gudgeon.generator.ir.differentiation import partial
+from gudgeon.generator.ir.finite_slopes import Upon
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy, to_sympy
@@ -108,8 +110,9 @@ class Constraints:
 
         value = quantity_to_sympy(drive.value, symbol_of)
         f = define(f"{drive.name}_value", value, "", f"drive {drive.name}")
-        rate = define(f"{drive.name}_rate", _rate(value, self.t), "", "its rate")
-        second = define(f"{drive.name}_acceleration", _rate(_rate(value, self.t), self.t), "", "its second rate")
+        first = _rate(value, self.t)
+        rate = define(f"{drive.name}_rate", first, "", "its rate")
+        second = define(f"{drive.name}_acceleration", _rate(first, self.t), "", "its second rate")
         self.symbols.rules[f], self.symbols.rules[rate] = {self.t: rate}, {self.t: second}
         self.drive_angles[drive.name] = f, rate, second
         return f
@@ -142,19 +145,10 @@ def rate_jumps(drive: Drive) -> bool:
 
 def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
     """d/dt with the corners of min, max and abs taken from one side, at the corner from behind it: no impulse there."""
-    rate = sp.diff(value.replace(sp.Abs, _plain), t).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
-    return rate.replace(_Upon, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
-
-
-class _Upon(sp.Function):
-    """The sign of x as a factor that has no derivative."""
-
-    nargs = 1
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        return sp.Integer(0)
+    rate = partial(value.replace(sp.Abs, _plain), t).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
+    return rate.replace(Upon, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
 
 
 def _plain(x: sp.Expr) -> sp.Expr:
     """|x|; SymPy differentiates that of what may be complex, acos(t) beyond 1, by its real and imaginary parts."""
-    return sp.Abs(x) if x.is_real else x * _Upon(x)
+    return sp.Abs(x) if x.is_real else x * Upon(x)

@@ -10,6 +10,7 @@ import sympy as sp
 
 _SATURATING = (sp.exp, sp.tanh, sp.atan, sp.atan2)  # finite where their argument is not
 _GROWING = (sp.exp, sp.sinh, sp.cosh, sp.tan, sp.log)
+_ZERO = (sp.Integer(0), sp.Integer(0), sp.Integer(1))  # a rise, and a way
 _HIGH = 8  # a whole power that overflows for no number of a mechanism
 
 
@@ -22,6 +23,18 @@ class Slope(sp.Function):
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         """Where d is finite."""
         return sp.diff(self.args[0], s)
+
+
+class Upon(sp.Function):
+    """The sign of x as a factor that has no derivative."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        return sp.Integer(0)
+
+
+_CORNERS = (sp.Abs, sp.Max, sp.Min, sp.sign, sp.Heaviside, Upon)
 
 
 class JustAhead(sp.Function):
@@ -42,6 +55,8 @@ def overflowing(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:
     """The outermost terms of an expression that may be finite where their derivative by a symbol is not."""
     if not any(map(_saturates, expression.atoms(sp.Pow, *_SATURATING))) or by not in expression.free_symbols:
         return []
+    if isinstance(expression, Slope):
+        return [expression]
     if _saturates(expression):
         within = (part for argument in expression.args for part in sp.preorder_traversal(argument))
         if any(_grows(part, by) for part in within):
@@ -66,6 +81,16 @@ def _grows(part: sp.Basic, by: sp.Symbol) -> bool:
 
 
 def finite_slope(term: sp.Expr, by: sp.Symbol, derivative: sp.Expr) -> Slope:
-    """∂ term/∂ by, as the derivative has it where that is a number."""
+    """∂ term/∂ by, as the derivative has it where that is a number.
+
+    Elsewhere 0 of a term with corners, which are at their own places only, and of the slope of a slope's slope.
+    """
+    if term.has(*_CORNERS) or isinstance(term, Slope) and any(x.has(Slope) for x in term.args[1:3]):
+        return Slope(derivative, *_ZERO)
     ahead, behind = JustAhead(by), JustBehind(by)
     return Slope(derivative, term.xreplace({by: ahead}), term.xreplace({by: behind}), ahead - behind)
+
+
+def as_written(expression: sp.Expr) -> sp.Expr:
+    """The expression with its slopes as their derivatives are written: for readers, and ranges, in which 0 · ∞ is 0."""
+    return expression.replace(Slope, lambda derivative, *_: derivative) if expression.has(Slope) else expression

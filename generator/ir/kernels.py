@@ -72,6 +72,12 @@ class Kernel:
         )
 
 
+    def has(self, function: type[sp.Function]) -> bool:
+        """Whether a statement calls it."""
+        statements = (s for section in self.sections for s in section.statements if isinstance(s, Statement))
+        return any(isinstance(s.value, sp.Expr) and s.value.has(function) for s in statements)
+
+
 def count_operations(expression: sp.Expr) -> int:
     """SymPy's count, with a negation counted as nothing: it is folded into an addition."""
     counts = sp.sympify(sp.count_ops(expression, visual=True)).as_coefficients_dict()

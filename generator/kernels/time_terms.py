@@ -12,8 +12,10 @@ from dataclasses import replace
 
 import sympy as sp
 
+from gudgeon.generator.ir.finite_slopes import as_written
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
 from gudgeon.generator.symbols.corners import Pick, SideOf
+from gudgeon.generator.symbols.wholes import Whole
 
 NAME = "time_terms"
 MOST = 32  # terms of a scene
@@ -57,6 +59,8 @@ class _Terms:
         self._names: dict[sp.Expr, frozenset[str]] = {}
 
     def read(self, statement: Statement) -> None:
+        if isinstance(statement.value, sp.Expr):
+            statement = replace(statement, value=as_written(statement.value))
         value = statement.value
         if isinstance(value, str):
             if statement.local and (value == "t" or value.startswith("p->")):
@@ -104,8 +108,8 @@ class _Terms:
         if isinstance(value, SideOf):
             return self.collect(value.args[1])
         parts = [part for part in value.args if self.is_timed(part) and not self.is_tame(part)]
-        if isinstance(value, (sp.Add, sp.Mul, Pick)):
-            if len(parts) > 1 and not isinstance(value, Pick):
+        if isinstance(value, (sp.Add, sp.Mul, Pick, Whole)):
+            if len(parts) > 1 and not isinstance(value, (Pick, Whole)):
                 self.terms.setdefault(value.func(*parts))
         elif not value.is_Symbol:
             self.terms.setdefault(value)
@@ -127,7 +131,7 @@ class _Terms:
                 return True
             case SideOf():
                 return self.is_tame(value.args[1])
-            case sp.Add() | sp.Mul() | Pick():
+            case sp.Add() | sp.Mul() | Pick() | Whole():
                 return all(map(self.is_tame, value.args))
             case sp.Pow() if value.exp.is_Integer and int(value.exp) in _POWERS:
                 return self.is_tame(value.base)

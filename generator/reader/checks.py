@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+import sys
 from collections.abc import Callable, Iterator, Mapping
 
 from gudgeon.errors import BadValueError, InputError, Location
@@ -16,7 +17,6 @@ from gudgeon.language.units import si_unit
 RELATIONS: Mapping[str, Callable[[float, float], bool]] = {
     ">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le,
 }  # fmt: skip
-
 
 def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Mapping[str, SceneSpec]) -> None:
     """Collect a BadValueError at the place of each number that is not finite or breaks a condition."""
@@ -51,12 +51,16 @@ def _check_with(
         elif address.endswith(".simulate.output") and math.isfinite(value) and value != math.floor(value):
             complain(address, f"is {value:.6g}{context}", "expected a whole number of equal intervals")
     for address, quantity in reader.quantities.items():
-        if address not in values and not broken_is_told and ".parameters." not in address:
-            parts = (float(evaluate(part, known.__getitem__)) for part in _constant_parts(quantity.value, known))
-            wrong = next((part for part in parts if not math.isfinite(part)), None)
+        if not broken_is_told and (".parameters." not in address or address in values):
+            parts = () if address in values else _constant_parts(quantity.value, known)
+            numbers = (float(evaluate(part, known.__getitem__)) for part in parts)
+            wrong = next((number for number in numbers if not math.isfinite(number)), None)
             if wrong is not None:
                 hint = "expected finite numbers: is there a division by zero or a root of a negative number?"
                 complain(address, f"has a part that is {wrong}{context}", hint)
+            elif (small := _lost_factor(quantity.value, known)) is not None:
+                hint = "expected products and powers from 2.3e-308: (0.01*x)**161, not 0.01**161 * x**161"
+                complain(address, f"has a part that is {small:g}, too small for its digits{context}", hint)
     for condition in reader.conditions:
         broken = _broken(condition, values)
         if broken:
@@ -86,6 +90,31 @@ def _constant_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
             for argument in arguments:
                 for part in _constant_parts(argument, known):
                     yield Binary("/", Number(1.0), part) if part is divides else part
+
+
+def _lost_factor(expr: Expr, known: Mapping[str, float]) -> float | None:
+    """The value of a product of numbers, or a power in a product, that binary64 has without digits or not at all."""
+    match expr:
+        case Unary(operand=operand):
+            return _lost_factor(operand, known)
+        case Call(arguments=inner):
+            pass
+        case Binary(operator=operator, left=left, right=right):
+            inner = (left, right)
+            for part in (expr, left, right) if operator in ("*", "/") else ():
+                if (value := _lost(part, known)) is not None:
+                    return value
+        case _:
+            return None
+    return next((value for part in inner if (value := _lost_factor(part, known)) is not None), None)
+
+
+def _lost(part: Expr, known: Mapping[str, float]) -> float | None:
+    """The value of a product, quotient or power of numbers other than 0 if it is below what has all its digits."""
+    if not isinstance(part, Binary) or part.operator in ("+", "-") or any(n.path not in known for n in names(part)):
+        return None
+    value, left, right = (float(evaluate(x, known.__getitem__)) for x in (part, part.left, part.right))
+    return value if abs(value) < sys.float_info.min and all(math.isfinite(x) and x for x in (left, right)) else None
 
 
 def _values(reader: Reader, known: Mapping[str, float]) -> dict[str, float]:

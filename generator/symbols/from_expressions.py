@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import operator as operator_of
+import sys
 from collections.abc import Callable
 
 import numpy as np
@@ -9,6 +11,8 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.symbols.near_squares import near_square_root
+from gudgeon.generator.symbols.wholes import kept
 from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary
 
 
@@ -41,8 +45,8 @@ def _exact(number: sp.Expr) -> sp.Expr:
 _FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
     "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": exponential, "log": sp.log,
-    "sqrt": lambda a: root(a, _HALF), "hypot": lambda a, b: root(a**2 + b**2, _HALF), "abs": sp.Abs, "sign": sp.sign,
-    "min": sp.Min, "max": sp.Max, "smooth_step": smooth_step, "ramp": ramp,
+    "sqrt": lambda a: root(a, _HALF), "hypot": lambda a, b: root(_square(a) + _square(b), _HALF),
+    "abs": sp.Abs, "sign": sp.sign, "min": sp.Min, "max": sp.Max, "smooth_step": smooth_step, "ramp": ramp,
 }  # fmt: skip
 
 
@@ -59,7 +63,7 @@ def to_sympy(expr: Expr, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
         case Unary(operand=operand):
             return -to_sympy(operand, symbol_of)
         case Call(function=function, arguments=arguments):
-            return _FUNCTIONS[function](*(to_sympy(a, symbol_of) for a in arguments))
+            return kept(_FUNCTIONS[function], *(to_sympy(a, symbol_of) for a in arguments))
         case Binary(operator=operator, left=left, right=right):
             return _combine(operator, to_sympy(left, symbol_of), to_sympy(right, symbol_of))
 
@@ -71,12 +75,25 @@ def _combine(operator: str, a: sp.Expr, b: sp.Expr) -> sp.Expr:
         case "-":
             return a - b
         case "*":
-            return a * b
+            return _joined(kept(operator_of.mul, a, b))
         case "/":
-            return a / b
+            return _joined(kept(operator_of.truediv, a, b))
     if a.is_number and b.is_number:
         return _power(a, b)
-    return root(a, _exact(b) if a.has(sp.exp) else _halves(b))  # (e^(5000 − u))^0.3 as e^(1500 − 0.3 u)
+    return kept(root, a, _exact(b) if a.has(sp.exp) else _halves(b))  # (e^(5000 − u))^0.3 as e^(1500 − 0.3 u)
+
+
+def _joined(product: sp.Expr) -> sp.Expr:
+    """e^a e^b as e^(a + b): one may be ∞ where the other is 0."""
+    powers = [x for x in product.args if isinstance(x, sp.exp)] if product.is_Mul else []
+    if len(powers) < 2:
+        return product
+    rest = [x for x in product.args if not isinstance(x, sp.exp)]
+    return sp.Mul(exponential(sp.Add(*(x.exp for x in powers))), *rest)
+
+
+def _square(a: sp.Expr) -> sp.Expr:
+    return kept(sp.Pow, a, sp.Integer(2))
 
 
 def root(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
@@ -84,12 +101,17 @@ def root(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
     if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _LONG:
         return base**exponent
     atoms: dict[sp.Expr, sp.Dummy] = {}
+    polynomial = _polynomial(base, atoms)
     try:
-        factor, parts = sp.sqf_list(_polynomial(base, atoms))
+        factor, parts = sp.sqf_list(polynomial)
     except sp.PolynomialError:
         return base**exponent
     if all(count == 1 for _, count in parts):
-        return base**exponent
+        names = [atoms[atom] for atom in sorted(atoms, key=sp.default_sort_key)]
+        near = near_square_root(polynomial, names) if base.has(sp.Float) else None
+        if near is None:
+            return base**exponent
+        factor, parts = sp.Integer(1), [(near, 2)]
     meant = {dummy: atom for atom, dummy in atoms.items()}
     return sp.Mul(factor, *(sp.Pow(part.xreplace(meant), count) for part, count in parts)) ** exponent
 
@@ -100,7 +122,8 @@ def _polynomial(e: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
     Left to itself SymPy takes x^0.1 and x^0.0001 for powers of one generator, with as many terms as memory holds.
     """
     if e.is_Number:
-        return sp.nsimplify(e, rational=True)
+        simple = sp.nsimplify(e, rational=True)  # 0.2 as 1/5; it would have 0.11111111111122 as 1/9
+        return simple if abs(simple - e) <= 4 * sys.float_info.epsilon * abs(e) else sp.Rational(e)
     if e.is_Add or e.is_Mul:
         return e.func(*(_polynomial(a, atoms) for a in e.args))
     base, exponent = e.as_base_exp() if e.is_Pow else (e, sp.Integer(1))

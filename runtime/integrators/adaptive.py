@@ -22,6 +22,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import Slot
 from gudgeon.errors import BadValueError, InputError
+from gudgeon.integrators.failure import NOT_FINITE, failure
 from gudgeon.integrators.session import Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.assembly import mechanism_sizes
@@ -57,11 +58,27 @@ def _all(session: Session) -> None:
 def _chunk(session: Session) -> None:
     """Some steps in C."""
     problem, done = session.problem, session.pointer(session.rows_done, "long *")
+    first = session.done
     arguments = (session.pointer(session.p), len(problem.t), session.pointer(problem.t), CHUNK, *session.rows(0), done)
     before = perf_counter()
     status = session.lib.gudgeon_adaptive_run(session.run, *arguments)
     session.seconds += perf_counter() - before
+    _check_samples(session, first)
     session.back(status, session.report()[0], ADVICE)
+
+
+def _check_samples(session: Session, first: int) -> None:
+    """Raises NonFiniteError for a sample that is no number, and takes it back with those behind it."""
+    if k := first_odd(session.y[: session.done], session.n, first):
+        session.rows_done[0] = k
+        last, peaks, t = session.y[k - 1 : k], session.report()[3], float(session.problem.t[k])
+        raise failure(session.compiled, session.problem.method, NOT_FINITE, t, ADVICE, last, peaks[:, 2], session.p)
+
+
+def first_odd(y: Array, n: int, first: int = 0) -> int:
+    """Which sample (N, 2n + …) is no number, for a force was none between the stages of a step; 0: none is."""
+    odd = ~np.isfinite(y[first:, : 2 * n]).all(axis=1)
+    return first + int(odd.argmax()) if odd.any() else 0
 
 
 def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
-from gudgeon.integrators.failure import INTERRUPTED, STOPPED, failure
+from gudgeon.integrators.failure import INTERRUPTED, NOT_FINITE, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, told_apart
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Progress, Trajectory
@@ -104,6 +104,8 @@ class Runs:
     def _judge(self) -> None:
         """Lists the runs that did not come to their ends, and marks what was not reached."""
         self._not_closed()
+        for i in range(self.n) if self.method != "rk4" else ():
+            self._take_back(i)
         for i in np.flatnonzero(self.arrays["phase"] != OVER).tolist():
             self.failures[i] = SolverError(INTERRUPTED, float(self.arrays["t_last"][i]))
         for i in np.flatnonzero(~np.isin(self.arrays["status"], (0, ENDED))).tolist():
@@ -112,6 +114,14 @@ class Runs:
         for i, done in enumerate(self.arrays["done"].tolist()):
             if done < len(self.times):
                 self.arrays["y"][i, done:], self.arrays["latched"][i, done:] = np.nan, np.nan
+
+    def _take_back(self, i: int) -> None:
+        """Samples of run i from the first on that is no number, as a single run does it."""
+        x = self.arrays
+        k = adaptive.first_odd(x["y"][i, : x["done"][i]], self.compiled.n)
+        if k:
+            x["done"][i], x["status"][i], x["t_last"][i] = k, NOT_FINITE, self.times[k]
+            x["last"][i] = x["y"][i, k - 1]
 
     def _not_closed(self) -> list[int]:
         """Runs whose start C could not close: they are yet to begin."""

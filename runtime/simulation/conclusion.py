@@ -15,7 +15,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.redundant_rows import contradiction
 from gudgeon.model.written import with_odd_outputs
 from gudgeon.results.results import Result
-from gudgeon.simulation.diagnose import diagnose, energy_balance
+from gudgeon.simulation.diagnose import diagnose, energy_balance, unbalanced
 from gudgeon.waiting.asking import EVERY
 from gudgeon.waiting.ctrl_c import CtrlC
 
@@ -55,6 +55,9 @@ def conclude(
         diagnostics=diagnose(compiled, method, problem, x, balance, seconds), events=x.events, trace=x.trace,
     )  # fmt: skip
     if evaluation is not None:
+        if told := unbalanced(x.t, evaluation.energy, x.work, balance[0]):
+            notes = (*result.diagnostics.notes, *told)
+            result = replace(result, diagnostics=replace(result.diagnostics, notes=notes))
         result = with_odd_outputs(result, evaluation)
         if len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again

@@ -59,11 +59,24 @@ def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tu
     worst = turned = 0.0
     for first in range(0, len(energy), BLOCK):
         rows = slice(first, first + BLOCK)
-        residual = energy[rows].sum(axis=1) - energy[0].sum() - work[rows].sum(axis=1)
+        with np.errstate(invalid="ignore", over="ignore"):  # infinities: told by `unbalanced`
+            residual = energy[rows].sum(axis=1) - energy[0].sum() - work[rows].sum(axis=1)
         worst = float(np.maximum(worst, np.abs(residual).max()))  # NaN stays NaN
         turned += float(np.abs(np.diff(work[first : first + BLOCK + 1], axis=0)).sum())
         look()
-    return worst, turned + float(np.ptp(energy[:, 0]))
+    with np.errstate(invalid="ignore"):
+        return worst, turned + float(np.ptp(energy[:, 0]))
+
+
+def unbalanced(t: Array, energy: Array, work: Array, worst: float) -> tuple[str, ...]:
+    """What is told of samples whose balance of energy is no number; nothing where it is one."""
+    if math.isfinite(worst) or not len(t):
+        return ()
+    with np.errstate(invalid="ignore"):
+        known = np.isfinite(energy.sum(axis=1) + work.sum(axis=1))
+    k = int(known.argmin()) if not known.all() else 0
+    what = "the energy" if not np.isfinite(energy[k]).all() else "the work"
+    return (f"energy is not balanced: {what} is no finite number at t = {t[k]:.9g} s: the residual says nothing",)
 
 
 def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:

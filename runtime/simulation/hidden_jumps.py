@@ -24,6 +24,7 @@ VISIBLE = frozenset({"abs", "min", "max", "ramp", "sign"})
 _HIDING = frozenset({"sqrt", "hypot", "asin", "acos", "atan", "atan2", "tan", "log"})
 GRID, MOST = 4096, 16  # intervals, candidates
 POINTS, LEVELS = 16, 11  # intervals of a closer look; each is a quarter as wide as the one before
+EVERYWHERE = 6  # of them that stand out like the one that does most: it is no place
 
 
 @dataclass(frozen=True)
@@ -160,6 +161,8 @@ def _follow(source: KernelSource, p: Array, tree: Expr, drive: str, a: float, b:
         k = int(bent.argmax())
         if bent[k] < 1e-11 * np.abs(f).max(initial=0.0) or b - a < 1e-11 * max(abs(a), abs(b)):
             break
+        if np.count_nonzero(bent > 0.25 * bent[k]) >= EVERYWHERE:
+            break  # rounding, as of a square that is not quite one under its root
         logs.append(float(np.log(bent[k]) / np.log(4.0)))
         sizes.append(float(abs((f[-1] - f[-2]) - (f[1] - f[0])) / (times[1] - times[0])))
         value = float(bent[k])

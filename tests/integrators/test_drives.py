@@ -200,6 +200,15 @@ def test_without_freedom_too_a_rate_that_is_none_ends_the_run(
     assert run.diagnostics.energy_residual < 1e-6 * max(1.0, run.diagnostics.energy_turned_over)
 
 
+@pytest.mark.parametrize("value", ["sqrt((t/(1 s))**2 - 2*t/(1 s)*{c} + {c}**2)", "sqrt((t/(1 s) - {c})**2)"])
+@pytest.mark.parametrize("c", [0.4, 0.2202])
+def test_a_square_under_a_root_is_one_in_spite_of_rounding(c: float, value: str, tmp_path: Path) -> None:
+    """It was said to jump by 2.7e-13, or its rate by 2."""
+    run = driven(ONE, value.format(c=c), tmp_path).simulate(1.0, output=77)
+    assert run["a.theta"] == pytest.approx(abs(run.t - c), abs=1e-12)
+    assert run["a.omega"] == pytest.approx(np.where(run.t > c, 1.0, -1.0), abs=1e-12)
+
+
 @pytest.mark.parametrize("output", [10, 77])
 def test_a_drive_that_is_no_number_at_one_time_is_named(output: int, tmp_path: Path) -> None:
     with pytest.raises(NonFiniteError, match=r"drives\.d\.value .* at t = 0\.5 s, nan: 0 divided by 0"):

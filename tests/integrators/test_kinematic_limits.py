@@ -57,3 +57,18 @@ def test_a_limit_is_named_by_its_own_time(text: str, formulation: str, tmp_path:
             linkage.simulate(2.0, output=output)
         assert caught.value.time == pytest.approx(LIMITS[text], rel=1e-9)
         assert caught.value.partial.t[-1] <= caught.value.time
+
+
+def test_an_energy_beyond_all_numbers_is_told(tmp_path: Path) -> None:
+    """m v²/2 is ∞ from the start on, and the balance ∞ − ∞."""
+    file = tmp_path / "heavy.yaml"
+    file.write_text(
+        f"{HEAD}bodies: {{a: {{mass: 1e300 kg, inertia: 1 kg*m^2}}}}\nground: {{o: [0, 0]}}\n"
+        "joints: {g: {translational: [ground.o, a.origin], axis: [1, 0]}}\n"
+        "drives: {d: {coordinate: a.x, value: 1e5 m/s * t}}\n"
+    )
+    scene = gudgeon.load(file)
+    run, many = scene.simulate(1.0, output=4), scene.simulate_many([{}], 1.0, output=4)
+    assert math.isnan(run.diagnostics.energy_residual)
+    told = "energy is not balanced: the energy is no finite number at t = 0 s: the residual says nothing"
+    assert told in run.diagnostics.notes and told in many[0].diagnostics.notes

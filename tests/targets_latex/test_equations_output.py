@@ -178,3 +178,20 @@ def test_every_shipped_mechanism_and_scene(name: str) -> None:
         model = derive(data, name, scene)
         assert equations_text(model).count("Φ_1 = ") == bool(model.rows)
         assert equations_tex(model).isascii()
+
+
+def test_what_keeps_numbers_finite_is_not_shown() -> None:
+    """A product that stays together, and a rate that is taken from differences where it is no number."""
+    text = """format: gudgeon/1
+name: steep
+bodies: {a: {mass: 1 kg, inertia: 1 kg*m^2}}
+ground: {o: [0, 0]}
+joints: {g: {translational: [ground.o, a.origin], axis: [1, 0]}}
+drives: {d: {coordinate: a.x, value: 1 m/(1 + exp(5000 - 10000*t/(1 s)))}}
+forces: {f: {force: a.origin, value: ["1 N*(0.01*a.x/(1 m))**161", 0]}}
+"""
+    model = derive(text.encode(), "f", "ideal")
+    source, plain = equations_tex(model), equations_text(model)
+    assert r"\left(0.01 \, x_{a}\right)^{161}" in source and "= (0.01·x_a)^161" in plain
+    assert "10000·exp(5000 - 10000·t)/(exp(5000 - 10000·t) + 1)^2" in plain
+    assert not any(word in source + plain for word in ("Whole", "Slope", "Just"))

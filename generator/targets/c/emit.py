@@ -12,6 +12,7 @@ import jinja2
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.events import SIGNS
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.ir.finite_slopes import Slope
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.ledger import tell
@@ -140,7 +141,7 @@ def _files(program: Program, counts: Mapping[str, int], prepare: Kernel) -> dict
     model = program.model
     clearances = [clearance_code(pin, render) for pin in program.pins]
     return {
-        "model.h": render("scene/model.h.jinja", **_header(model), **counts),
+        "model.h": render("scene/model.h.jinja", **_header(model), **counts, overflows=_overflows(program)),
         "asked.c": render("scene/asked.c.jinja"),
         "trigonometry.c": render("scene/trigonometry.c.jinja", vector="Four", bits="FourBits", given="*angle"),
         "parameters.c": _kernels(prepare),
@@ -243,9 +244,18 @@ def _start(model: Model) -> str:
     )  # fmt: skip
 
 
+def _overflows(program: Program) -> bool:
+    """Whether any slope is finite where what it is made of is not."""
+    kernels = [*_all(program), *([program.methods.closing] if program.methods else ())]
+    return any(kernel.has(Slope) for kernel in kernels)
+
+
+def _all(program: Program) -> list[Kernel]:
+    tree, extra = program.tree, program.methods or program.course
+    kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ())]
+    return [*kernels, *(extra.kernels if extra else ()), *(kernel for pin in program.pins for kernel in pin.laws)]
+
+
 def _operations(program: Program, prepare: Kernel) -> dict[str, int]:
     """Of each function, as `check -v` tells them."""
-    tree, extra = program.tree, program.methods or program.course
-    kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ()), prepare]
-    kernels += [*(extra.kernels if extra else ()), *(kernel for pin in program.pins for kernel in pin.laws)]
-    return {kernel.name: kernel.operations for kernel in kernels}
+    return {kernel.name: kernel.operations for kernel in (*_all(program), prepare)}

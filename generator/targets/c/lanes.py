@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.ir.finite_slopes import Slope
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.solvers.contact_slopes import in_place
@@ -27,17 +28,17 @@ def lanes_code(program: Program, counts: Mapping[str, int], render: Callable[...
     model = program.model
     pins = [_pin(pin, render) for pin in program.pins]
     kernels = (*program.tree.plain, program.methods.plain_closing)
-    motions = [lanes_printer.motion_kernel(kernel) for kernel in kernels if kernel.name in _WANTED]
+    wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
     parameters = [entry.symbol.name for entry in model.slots.entries.values()]
     parameters += [symbol.name for symbol in model.slots.derived]
     functions, of_two = lanes_printer.FUNCTIONS, lanes_printer.FUNCTIONS_OF_TWO
     return {
         "lanes.h": render(
             "batch/lanes.h.jinja", functions=functions, functions_of_two=of_two, vector="Lanes", bits="LaneBits",
-            given="angle",
+            given="angle", overflows=any(kernel.has(Slope) for kernel in wanted),
         ),
         MAIN: render(
-            "batch/lanes.c.jinja", **counts, parameters=parameters, kernels="\n".join([*pins, *motions]),
+            "batch/lanes.c.jinja", **counts, parameters=parameters, kernels="\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)]),
             deepest=_deepest(model),
         ),
     }  # fmt: skip

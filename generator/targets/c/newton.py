@@ -37,10 +37,9 @@ def newton_code(newton: Newton, render: Render) -> str:
     """Struct, kernels and tables of one system."""
     kernels, prefix = [newton.linearize, newton.factor, newton.substitute, newton.solve], newton.prefix
     counts = [(f"{prefix}n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
-    texts = "\n".join(map(printer.kernel, kernels))
     return render(
         "scene/newton.c.jinja", struct=f"{prefix.title()}Linear", prefix=prefix, n_values=newton.values.size,
-        n_factors=newton.factors.size, kernels=texts, overflows="finite_slope(" in texts,
+        n_factors=newton.factors.size, kernels="\n".join(map(printer.kernel, kernels)),
         tables=[(name, _table(entries)) for name, entries in newton.tables.items()],
         counts=[*counts, (f"{prefix}n_nodes".upper(), newton.nodes)],
     )  # fmt: skip

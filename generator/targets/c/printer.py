@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 import textwrap
 
 import sympy as sp
@@ -37,6 +38,14 @@ class CPrinter(C99CodePrinter):
             return _double(expr)
         p, q = int(expr.p), int(expr.q)
         return repr(p / q) if q & (q - 1) == 0 else f"{p}.0/{q}.0"  # a power of two divides exactly
+
+    def _print_Mul(self, expr: sp.Mul) -> str:
+        """A coefficient that binary64 has not stands as two numbers, one on each side of what it is a factor of."""
+        number, rest = expr.as_coeff_Mul()
+        if is_normal(number):
+            return str(super()._print_Mul(expr))
+        first, last = two_of(number)
+        return f"{self._print(first)} * ({self._print(rest)}) * {self._print(last)}"
 
     def _print_Pow(self, expr: sp.Pow) -> str:
         base, exponent = expr.as_base_exp()
@@ -74,6 +83,10 @@ class CPrinter(C99CodePrinter):
 
     _print_Size = _print_Abs
 
+    def _print_Whole(self, expr: sp.Expr) -> str:
+        """From wholes.py."""
+        return f"({self._print(expr.args[0])})"
+
     def _print_sign(self, expr: sp.Expr) -> str:
         return self._call("sign_of", expr.args[0])
 
@@ -105,9 +118,24 @@ class CPrinter(C99CodePrinter):
         return self._call("just_behind", expr.args[0])
 
 
+def is_normal(number: sp.Expr) -> bool:
+    """Whether binary64 has a number with all its digits."""
+    return number.is_Integer and abs(int(number)) < 10**15 or sys.float_info.min <= abs(_value(number)) < math.inf
+
+
+def two_of(number: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Two numbers of about the same size, the second a power of two, whose product it is."""
+    last = sp.Integer(2) ** (int(sp.floor(sp.log(abs(number), 2).n())) // 2)
+    return sp.Float(number, 17) / last, last
+
+
+def _value(number: sp.Expr) -> float:
+    return float(sp.Float(number, 17))
+
+
 def _double(number: sp.Expr) -> str:
     """A number as binary64; one that is too large is what the arithmetic of C would make of it."""
-    value = float(sp.Float(number, 17))
+    value = _value(number)
     return repr(value) if math.isfinite(value) else f"{'-' if value < 0 else ''}INFINITY"
 
 

@@ -43,6 +43,9 @@ class RangesPrinter(printer.CPrinter):
             return str(super()._print_Mul(expr))
         number, rest = expr.as_coeff_Mul()
         factors = rest.as_ordered_factors()
+        if not printer.is_normal(number):
+            first, last = printer.two_of(number)
+            return self._chained("times", (first, *factors, last))
         return self._chained("times", (number, *factors) if number != 1 else tuple(factors))
 
     def _print_Pow(self, expr: sp.Pow) -> str:
@@ -72,6 +75,10 @@ class RangesPrinter(printer.CPrinter):
 
     def _print_SideOf(self, expr: sp.Expr) -> str:
         return f"range_side(side, {int(expr.args[0])}, {self._range(expr.args[1])})"
+
+    def _print_Slope(self, expr: sp.Expr) -> str:
+        """Of ranges 0 times infinity is 0: the derivative is enough."""
+        return self._range(expr.args[0])
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
         return self._call("magnitude", expr.args[0])

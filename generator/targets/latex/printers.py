@@ -70,6 +70,9 @@ class TextPrinter(_InOrder, StrPrinter):
     def _print_Abs(self, expr: sp.Expr) -> str:
         return f"|{self._print(expr.args[0])}|"
 
+    def _print_Whole(self, expr: sp.Expr) -> str:
+        return f"({self._print(expr.args[0])})"
+
     def _print_sign(self, expr: sp.Expr) -> str:
         return f"sgn({self._print(expr.args[0])})"
 
@@ -136,6 +139,9 @@ class TexPrinter(_InOrder, LatexPrinter):
 
     def _print_atan2(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function(r"\mathrm{atan2}", expr, exp)
+
+    def _print_Whole(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._function("", expr, None) + (f"^{{{exp}}}" if exp else "")
 
     def _print_Max(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function(r"\operatorname{max}", expr, exp)
