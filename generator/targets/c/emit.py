@@ -246,16 +246,16 @@ def _start(model: Model) -> str:
 
 def _overflows(program: Program) -> bool:
     """Whether any slope is finite where what it is made of is not."""
-    kernels = [*_all(program), *([program.methods.closing] if program.methods else ())]
-    return any(kernel.has(Slope) for kernel in kernels)
+    closing = [program.methods.closing] if program.methods else []
+    return any(kernel.has(Slope) for kernel in (*_all(program), *closing))
 
 
-def _all(program: Program) -> list[Kernel]:
+def _all(program: Program, *prepare: Kernel) -> list[Kernel]:
     tree, extra = program.tree, program.methods or program.course
-    kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ())]
+    kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ()), *prepare]
     return [*kernels, *(extra.kernels if extra else ()), *(kernel for pin in program.pins for kernel in pin.laws)]
 
 
 def _operations(program: Program, prepare: Kernel) -> dict[str, int]:
     """Of each function, as `check -v` tells them."""
-    return {kernel.name: kernel.operations for kernel in (*_all(program), prepare)}
+    return {kernel.name: kernel.operations for kernel in _all(program, prepare)}

@@ -38,8 +38,8 @@ def lanes_code(program: Program, counts: Mapping[str, int], render: Callable[...
             given="angle", overflows=any(kernel.has(Slope) for kernel in wanted),
         ),
         MAIN: render(
-            "batch/lanes.c.jinja", **counts, parameters=parameters, kernels="\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)]),
-            deepest=_deepest(model),
+            "batch/lanes.c.jinja", **counts, parameters=parameters, deepest=_deepest(model),
+            kernels="\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)]),
         ),
     }  # fmt: skip
 
