@@ -14,8 +14,9 @@ from collections.abc import Iterable, Mapping
 import sympy as sp
 
 from gudgeon.generator.ir.finite_slopes import finite_slope, overflowing
-from gudgeon.generator.ir.kernels import KernelBuilder, Statement
+from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.reciprocals import base_name, is_division
+from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.symbols.symbols import Symbols
 
 Tangent = Mapping[sp.Symbol, sp.Expr]  # base symbol -> derivative by it; absent: zero

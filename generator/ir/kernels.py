@@ -6,41 +6,20 @@ coordinates and parameters that they read and the definitions (cosines, arms, dr
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from gudgeon.generator.ir.statements import Line, Place, Rescue, Sides, Statement, Value, without_unread
 from gudgeon.generator.symbols.corners import SideOf, Switches
 from gudgeon.generator.symbols.symbols import Symbols
 
 
 @dataclass(frozen=True)
-class Statement:
-    """`target = value`; a `local` is declared there. `value` is SymPy, or text of the target language."""
-
-    target: str
-    value: sp.Expr | str
-    local: bool = True
-    comment: str = ""
-
-
-class Guard(str):
-    """A line of the target language that goes another way unless `condition` holds."""
-
-    condition: str
-
-    def __new__(cls, condition: str, otherwise: str) -> Guard:
-        line = super().__new__(cls, f"if (!({condition})) {otherwise};")
-        line.condition = condition
-        return line
-
-
-@dataclass(frozen=True)
 class Section:
     title: str
-    statements: tuple[Statement | str, ...]  # a str is a line of the target language
+    statements: tuple[Line, ...]
 
 
 @dataclass(frozen=True)
@@ -65,10 +44,11 @@ class Kernel:
     def operations(self) -> int:
         """Additions, multiplications, divisions and function calls that the statements perform."""
         return sum(
-            count_operations(s.value)
+            count_operations(value)
             for section in self.sections
-            for s in section.statements
-            if isinstance(s, Statement) and isinstance(s.value, sp.Expr)
+            for line in section.statements
+            if isinstance(line, Rescue) or (isinstance(line, Statement) and isinstance(line.value, sp.Basic))
+            for value in line.expressions
         )
 
 
@@ -89,7 +69,7 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only
     known: dict[sp.Symbol, sp.Expr] = {}
     held = []
     for section in sections:
-        statements: list[Statement | str] = []
+        statements: list[Line] = []
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
                 if isinstance(statement.value, SideOf):  # told by the author of the kernel: once is enough
@@ -109,31 +89,16 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only
 HELD = "corners: the sides that are held, if any"  # title of the lines from which a kernel reads sides
 
 
-def with_sides(kernel: Kernel, held: Sequence[str]) -> Kernel:
-    """The kernel behind the lines that say which sides are held and where the others are told, if it reads any."""
-    return replace(kernel, sections=(Section(HELD, tuple(held)), *kernel.sections)) if _reads_sides(kernel) else kernel
+def with_sides(kernel: Kernel, told: str = "nobody") -> Kernel:
+    """The kernel behind the line that says which sides are held and where the others are told, if it reads any."""
+    if not _reads_sides(kernel):
+        return kernel
+    return replace(kernel, sections=(Section(HELD, (Sides(told),)), *kernel.sections))
 
 
 def _reads_sides(kernel: Kernel) -> bool:
-    statements = [s for section in kernel.sections if section.title != HELD for s in section.statements]
-    texts = [s if isinstance(s, str) else s.value for s in statements]
-    return any(re.search(r"\bside\b", x) if isinstance(x, str) else x.has(SideOf) for x in texts)
-
-
-def without_unread(sections: Iterable[tuple[str, list[Statement | str]]]) -> list[tuple[str, list[Statement | str]]]:
-    """The sections without locals that nothing behind them reads."""
-    read: set[str] = set()
-    kept = []
-    for title, group in reversed(list(sections)):
-        statements: list[Statement | str] = []
-        for item in reversed(group):
-            if isinstance(item, Statement) and item.local and item.target not in read:
-                continue
-            value = item if isinstance(item, str) else item.value
-            read |= set(re.findall(r"\w+", value)) if isinstance(value, str) else {s.name for s in value.free_symbols}
-            statements.append(item)
-        kept.append((title, statements[::-1]))
-    return kept[::-1]
+    lines = (s for section in kernel.sections if section.title != HELD for s in section.statements)
+    return any("side" in line.reads for line in lines)
 
 
 class KernelBuilder:
@@ -141,18 +106,16 @@ class KernelBuilder:
 
     def __init__(self, symbols: Symbols, name: str, doc: Sequence[str]) -> None:
         self._symbols, self._name, self._doc = symbols, name, tuple(doc)
-        self._sections: list[tuple[str, list[Statement | str]]] = []
-        self._needed: list[sp.Expr] = []
+        self._sections: list[tuple[str, list[Line]]] = []
 
     def section(self, title: str) -> None:
         self._sections.append((title, []))
 
-    def line(self, text: str, reads: Iterable[sp.Expr] = ()) -> None:
-        """A line of C; `reads` are the symbols in it."""
-        self._sections[-1][1].append(text)
-        self._needed.extend(reads)
+    def line(self, line: Line) -> None:
+        """Anything but a local or a result."""
+        self._sections[-1][1].append(line)
 
-    def local(self, name: str, value: sp.Expr | str, comment: str = "") -> sp.Symbol:
+    def local(self, name: str, value: Value, comment: str = "") -> sp.Symbol:
         """`const double name = value;` and its symbol."""
         unique = self._symbols.unique(name)
         self._sections[-1][1].append(Statement(unique, value, True, comment))
@@ -162,7 +125,7 @@ class KernelBuilder:
         """A statement whose name is already known to be free."""
         self._sections[-1][1].append(statement)
 
-    def out(self, target: str, value: sp.Expr | str, comment: str = "") -> None:
+    def out(self, target: str, value: Value, comment: str = "") -> None:
         """`target = value;`"""
         self._sections[-1][1].append(Statement(target, value, False, comment))
 
@@ -176,16 +139,16 @@ class KernelBuilder:
         `side` and writes `g` (switches.py). `prune`: locals that nothing reads are left out.
         """
         if prune:
-            self._sections = without_unread(self._sections)
-        statements = [s for _, group in self._sections for s in group if isinstance(s, Statement)]
-        declared = {s.target for s in statements if s.local}
-        expressions = [s.value for s in statements if isinstance(s.value, sp.Expr)] + self._needed
+            self._sections = _pruned(self._sections)
+        lines = [s for _, group in self._sections for s in group]
+        declared = {line.defines for line in lines if line.defines}
+        expressions = [x for line in lines for x in line.expressions]
         definitions, inputs = self._resolve(expressions, declared)
         info = self._symbols.info
-        groups: dict[str, list[Statement | str]] = {"p->": [], "lin->": [], "": []}  # by the struct that holds them
+        groups: dict[str, list[Line]] = {"p->": [], "lin->": [], "": []}  # by the struct that holds them
         for s in inputs:
             group = next(start for start in groups if info[s].home.startswith(start))
-            groups[group].append(Statement(s.name, info[s].home))
+            groups[group].append(Statement(s.name, Place(info[s].home)))
         front = [
             Section("coordinates, velocities, time", tuple(groups[""])),
             Section("linearization", tuple(groups["lin->"])),
@@ -216,25 +179,15 @@ class KernelBuilder:
         return [s for s in ordered if not info[s].home], [s for s in ordered if info[s].home]
 
 
+def _pruned(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, list[Line]]]:
+    read: set[str] = set()
+    return [(title, without_unread(group, read)) for title, group in reversed(list(sections))][::-1]
+
+
 def without_unused(kernel: Kernel) -> Kernel:
     """The kernel without locals that nothing reads, such as pivots of coordinates that no row touches."""
-    used: set[str] = set()
-    sections: list[Section] = []
-    for section in reversed(kernel.sections):
-        kept: list[Statement | str] = []
-        for statement in reversed(section.statements):
-            if isinstance(statement, str):
-                used |= set(re.findall(r"\w+", statement))
-            elif statement.local and statement.target not in used:
-                continue
-            elif isinstance(statement.value, str):
-                used |= set(re.findall(r"\w+", statement.value))
-            else:
-                used |= {symbol.name for symbol in statement.value.free_symbols}
-            kept.append(statement)
-        if kept:
-            sections.append(Section(section.title, tuple(reversed(kept))))
-    left = replace(kernel, sections=tuple(reversed(sections)))
+    pruned = _pruned((section.title, section.statements) for section in kernel.sections)
+    left = replace(kernel, sections=tuple(Section(title, tuple(group)) for title, group in pruned if group))
     if _reads_sides(left):
         return left
     return replace(left, sections=tuple(section for section in left.sections if section.title != HELD))

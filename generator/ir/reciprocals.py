@@ -11,7 +11,8 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import Kernel, Section, Statement
+from gudgeon.generator.ir.kernels import Kernel, Section
+from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.symbols.numbers import Slots
 
 
@@ -55,7 +56,7 @@ def _divided(sections: tuple[Section, ...]) -> list[Section]:
 
     found = []
     for section in sections:
-        kept: list[Statement | str] = []
+        kept: list[Line] = []
         for item in section.statements:
             if isinstance(item, Statement) and isinstance(item.value, sp.Expr) and item.value.has(sp.Pow):
                 for part in sp.postorder_traversal(item.value):

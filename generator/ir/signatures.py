@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import Argument
+from gudgeon.generator.ir.statements import Place
 
 # Corners: the sides that are held over a step (NULL: none), and where the switching functions go.
 SIDES = (Argument("const double *", "side"), Argument("double *", "g"))
@@ -13,5 +14,8 @@ STATE = (Argument("const double", "t"), Argument("const double *", "q"), Argumen
 MEMORY = Argument("const Memory *", "memory")
 PARAMETERS = Argument("const Parameters *", "p")
 ZERO = sp.Integer(0)
-# Corners in functions that nobody asks for their switching functions.
-HELD_SIDES = ("const double *const side = memory->held ? memory->side : NULL;", "double g[N_SWITCHES + 1];")
+
+
+def acting_on(index: int) -> tuple[Place, ...]:
+    """What the function of a joint with play is given behind its motion."""
+    return tuple(map(Place, (f"memory->latch[{index}]", "p", "side", "g")))

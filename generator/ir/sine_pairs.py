@@ -12,11 +12,12 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import Kernel, Section, Statement
+from gudgeon.generator.ir.kernels import Kernel, Section
+from gudgeon.generator.ir.statements import Line, Place, Sines, Statement, changed
 
 MANY = 4  # groups, beyond which they are computed in a loop
 # Angles, statements that turn them, how many a kernel has numbered before: lines, how many it has numbered then.
-Written = Callable[[Sequence[sp.Symbol | None], Sequence[Statement], int], tuple[list[Statement | str], int]]
+Written = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[list[Line], int]]
 
 
 def side_by_side(kernel: Kernel) -> Kernel:
@@ -44,13 +45,11 @@ def _paired(kernel: Kernel, written: Written) -> Kernel:
     return replace(kernel, sections=tuple(sections))
 
 
-def _known(statement: Statement | str, known: Mapping[sp.Expr, sp.Symbol]) -> Statement | str:
-    if isinstance(statement, str) or isinstance(statement.value, str) or statement.value not in known:
-        return statement
-    return replace(statement, value=known[statement.value])
+def _known(line: Line, known: Mapping[sp.Expr, sp.Symbol]) -> Line:
+    return changed(line, lambda value: known.get(value, value))
 
 
-def _angle(statement: Statement | str) -> sp.Symbol | None:
+def _angle(statement: Line) -> sp.Symbol | None:
     """The symbol whose cosine or sine a statement is."""
     value = statement.value if isinstance(statement, Statement) else None
     return value.args[0] if isinstance(value, (sp.cos, sp.sin)) and value.args[0].is_Symbol else None
@@ -58,18 +57,18 @@ def _angle(statement: Statement | str) -> sp.Symbol | None:
 
 def _grouped(section: Section, written: Written, before: int) -> tuple[Section, int]:
     """First what the angles need, then these as they are `written`, then the rest; how many are numbered then."""
-    statements = [s for s in section.statements if isinstance(s, Statement) and isinstance(s.value, sp.Expr)]
+    statements = [s for s in section.statements if isinstance(s, Statement) and isinstance(s.value, sp.Basic)]
     if len(statements) < len(section.statements):
         return section, before
     places = {s.target: k for k, s in enumerate(statements)}
     needs: list[frozenset[int]] = []  # earlier statements that each one reads, directly or not
     for k, s in enumerate(statements):
-        reads = s.value.free_symbols if isinstance(s.value, sp.Expr) else set()
+        reads = s.value.free_symbols if isinstance(s.value, sp.Basic) else set()
         direct = [places[x.name] for x in reads if places.get(x.name, k) < k]
         needs.append(frozenset(direct).union(*(needs[j] for j in direct)))
     turned = [k for k, s in enumerate(statements) if _angle(s) is not None]
     turned = [k for k in turned if not needs[k] & set(turned)]
-    angles = list(dict.fromkeys(_angle(statements[k]) for k in turned))
+    angles = list(dict.fromkeys(a for k in turned if (a := _angle(statements[k])) is not None))
     if not angles:
         return section, before
     early = frozenset[int]().union(*(needs[k] for k in turned))
@@ -81,41 +80,31 @@ def _grouped(section: Section, written: Written, before: int) -> tuple[Section, 
 
 
 def _vectors(
-    angles: Sequence[sp.Symbol | None], taken: Sequence[Statement], before: int
-) -> tuple[list[Statement | str], int]:
+    angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int
+) -> tuple[list[Line], int]:
     """Groups of four angles, and the statements that read the results; many groups in a loop, which is shorter."""
-    lines: list[Statement | str] = []
-    named = [str(a) for a in angles] + [str(angles[-1])] * (-len(angles) % 4)
-    groups = [", ".join(named[g : g + 4]) for g in range(0, len(named), 4)]
-    count, many, of = len(groups), len(groups) > MANY, f"of_{before}" if before else "of"
+    named = [*angles, *[angles[-1]] * (-len(angles) % 4)]
+    count = len(named) // 4
+    many, of = count > MANY, f"of_{before}" if before else "of"
     if many:
-        lines.append(f"const Four angles_{of}[{count}] = {{{', '.join(f'{{{group}}}' for group in groups)}}};")
-        lines.append(f"Four sines_{of}[{count}], cosines_{of}[{count}];")
-        lines.append(f"many_sines_and_cosines({count}, angles_{of}, sines_{of}, cosines_{of});")
+        lines: list[Line] = [Sines(tuple(named), of, count)]
     else:
-        for n, group in enumerate(groups, before):
-            lines.append(f"const Four angles_{n} = {{{group}}};")
-            lines.append(f"Four sines_{n}, cosines_{n};")
-            lines.append(f"sines_and_cosines(&angles_{n}, &sines_{n}, &cosines_{n});")
+        lines = [Sines(tuple(named[4 * n : 4 * n + 4]), str(before + n)) for n in range(count)]
     places = {angle: k for k, angle in enumerate(angles)}
     for s in taken:
         n, lane = divmod(places[_angle(s)], 4)
         which = "cosines" if isinstance(s.value, sp.cos) else "sines"
-        value = f"{which}_{of}[{n}][{lane}]" if many else f"{which}_{before + n}[{lane}]"
-        lines.append(replace(s, value=value))
+        lines.append(replace(s, value=Place(f"{which}_{of}[{n}][{lane}]" if many else f"{which}_{before + n}[{lane}]")))
     return lines, before + count
 
 
 def _lanes(
-    angles: Sequence[sp.Symbol | None], taken: Sequence[Statement], before: int
-) -> tuple[list[Statement | str], int]:
+    angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int
+) -> tuple[list[Line], int]:
     """One call an angle, and the statements that read the results."""
-    lines: list[Statement | str] = []
     place = {angle: k for k, angle in enumerate(angles, before)}
-    for angle, k in place.items():
-        lines.append(f"Lanes sines_{k}, cosines_{k};")
-        lines.append(f"sines_and_cosines({angle}, &sines_{k}, &cosines_{k}, rare);")
+    lines: list[Line] = [Sines((angle,), str(k), lanes=True) for angle, k in place.items()]
     for s in taken:
         which = "cosines" if isinstance(s.value, sp.cos) else "sines"
-        lines.append(Statement(s.target, f"{which}_{place[_angle(s)]}", s.local, s.comment))
+        lines.append(Statement(s.target, Place(f"{which}_{place[_angle(s)]}"), s.local, s.comment))
     return lines, before + len(place)

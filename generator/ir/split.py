@@ -11,42 +11,42 @@ so does what reads names that only such lines know.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
-import sympy as sp
-
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section
 from gudgeon.generator.ir.order import nearby
-from gudgeon.generator.symbols.corners import SideOf
+from gudgeon.generator.ir.statements import (
+    Call,
+    Declare,
+    Ended,
+    Guard,
+    Jump,
+    Line,
+    Passed,
+    Place,
+    Return,
+    Sines,
+    Statement,
+)  # fmt: skip
 
 LONG, PART, SHORTEST = 850, 250, 60
-_NAME = re.compile(r"(?<![\w.>])[A-Za-z_]\w*")
-# A test that fails with its number: `return 3;`, or `{ pivot = 3; goto dependent; };`
-_TEST = re.compile(
-    r"if \((?P<test>.*)\)\s+"
-    r"(?:return (?P<number>\d+);|\{ (?P<set>\w+) = (?P<told>\d+); (?P<jump>goto \w+); \};)"
-)
-_JUMP = re.compile(r"goto \w+;")
-_SOURCE = re.compile(r"(\w+)(?:->\w+)?(?:\[\d+\]){0,2}")  # `q[3]`, `p->mass`, `sines[2][1]`
-_ARRAYS = re.compile(r"(?P<type>Four) (?P<names>\w+\[\d+\](?:, \w+\[\d+\])*);")
 
 
 @dataclass(frozen=True)
 class Item:
-    """A statement with its section's title; `movable`: it may stand in a part."""
+    """A line with its section's title; `movable`: it may stand in a part."""
 
     title: str
-    what: Statement | str
-    reads: frozenset[str]
+    what: Line
+    reads: frozenset[str]  # the array that is written to included
     movable: bool
 
     @property
     def defines(self) -> str:
         """The local that it declares, or ""."""
-        return self.what.target if isinstance(self.what, Statement) and self.what.local else ""
+        return self.what.defines
 
 
 def cut(kernel: Kernel) -> tuple[Kernel, ...]:
@@ -62,7 +62,7 @@ def cut(kernel: Kernel) -> tuple[Kernel, ...]:
     slots = _slots(pieces)
     cut_up = _Cut(replace(kernel, arguments=(*kernel.arguments, *shared)), slots, passed, sources)
     title = "values that pass between the parts"
-    main = [Item(title, f"double {passed}[{max(len(slots), 1)}];", frozenset(), False)]
+    main = [Item(title, Declare("double", passed, (max(len(slots), 1),)), frozenset(), False)]
     parts: list[Kernel] = []
     stored: set[str] = set()
     for k, piece in enumerate(pieces):
@@ -84,21 +84,18 @@ def cut(kernel: Kernel) -> tuple[Kernel, ...]:
 
 def _items(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
     """Everything in its order but for the sources, by name: what reads an argument is read again where it is needed."""
-    listed = [(section.title, what) for section in kernel.sections for what in _joined(section.statements)]
-    locals_ = {what.target for _, what in listed if isinstance(what, Statement) and what.local}
+    listed = [(section.title, what) for section in kernel.sections for what in section.statements]
     constant = {argument.name for argument in kernel.arguments if argument.type.startswith("const")}
     constant |= set(_arrays(kernel))
-    known = locals_ | {argument.name for argument in kernel.arguments} | set(_arrays(kernel))
-    plain = [what for _, what in listed if isinstance(what, str) and not _TEST.fullmatch(what)]
-    fixed = {name for line in plain for name in _NAME.findall(line)} - known
+    known = {what.defines for _, what in listed} | {argument.name for argument in kernel.arguments} | constant
+    fixed = {name for _, what in listed if not _is_plain(what) for name in what.reads | what.writes} - known
     items: list[Item] = []
     sources: dict[str, Item] = {}
     jumped = False
     for title, what in listed:
-        reads = _reads(what)
-        is_plain = isinstance(what, Statement) or _TEST.fullmatch(what) is not None
-        item = Item(title, what, reads, is_plain and not jumped and not reads & fixed)
-        jumped = jumped or (isinstance(what, str) and _JUMP.fullmatch(what) is not None)
+        reads = what.reads | what.writes
+        item = Item(title, what, reads, _is_plain(what) and not jumped and not reads & fixed)
+        jumped = jumped or isinstance(what, Jump)
         if _source_of(what) in constant:
             sources[item.defines] = item
         else:
@@ -106,46 +103,20 @@ def _items(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
     return items, sources
 
 
-def _source_of(what: Statement | str) -> str:
+def _is_plain(what: Line) -> bool:
+    """A statement, or a test that fails with its number: both may stand in a part."""
+    return isinstance(what, (Statement, Guard))
+
+
+def _source_of(what: Line) -> str:
     """The argument or array that a local is a copy from; "" where it is none."""
-    if isinstance(what, str) or not what.local or not isinstance(what.value, str):
-        return ""
-    copied = _SOURCE.fullmatch(what.value)
-    return copied[1] if copied else ""
+    return what.value.base if isinstance(what, Statement) and what.local and isinstance(what.value, Place) else ""
 
 
 def _arrays(kernel: Kernel) -> dict[str, str]:
     """Arrays of results that the function fills before its parts read them, with their type."""
-    lines = [what for section in kernel.sections for what in section.statements if isinstance(what, str)]
-    declared = [found for line in lines if (found := _ARRAYS.fullmatch(line))]
-    return {name: found["type"] for found in declared for name in _NAME.findall(re.sub(r"\[.*?\]", "", found["names"]))}
-
-
-def _joined(statements: Sequence[Statement | str]) -> list[Statement | str]:
-    """With a test and its `return` on the line below as one."""
-    found: list[Statement | str] = []
-    for what in statements:
-        if isinstance(what, str) and what.startswith("    return ") and found and isinstance(found[-1], str):
-            what = f"{found.pop()}\n    {what}"
-        found.append(what)
-    return found
-
-
-def _reads(what: Statement | str) -> frozenset[str]:
-    """Every name in it, the array that is written to included."""
-    if isinstance(what, str):
-        test = _TEST.fullmatch(what)
-        return frozenset(_NAME.findall(test["test"] if test else what))
-    found = {} if what.local else set(_NAME.findall(what.target))
-    if isinstance(what.value, sp.Expr):
-        sides = {"side", "g"} if what.value.has(SideOf) else set()  # as it is printed
-        return frozenset(found).union(sides, *(_NAME.findall(s.name) for s in what.value.free_symbols))
-    return frozenset(found).union(_NAME.findall(what.value))
-
-
-def _values(what: Statement | str) -> frozenset[str]:
-    """What a statement reads, not where it writes."""
-    return _reads(replace(what, local=True) if isinstance(what, Statement) else what)
+    lines = [what for section in kernel.sections for what in section.statements]
+    return {name: "Four" for what in lines if isinstance(what, Sines) and what.count for name in what.arrays}
 
 
 def _pieces(items: Sequence[Item]) -> list[list[Item]]:
@@ -188,22 +159,14 @@ def _unused_name(name: str, items: Sequence[Item]) -> str:
 
 def _near(run: list[Item]) -> list[Item]:
     """In the order of locality.py, unless something reads what is no local."""
-    results = [item.what.target for item in run if isinstance(item.what, Statement) and not item.what.local]
-    written = {_NAME.findall(target)[0] for target in results}
-    if any(written & _values(item.what) for item in run):
+    written = frozenset().union(*(item.what.writes for item in run))
+    if any(written & item.what.reads for item in run):
         return run
     return [run[k] for k in nearby([item.reads for item in run], [item.defines for item in run])]
 
 
-def _load(name: str, value: str) -> Item:
-    return Item("what comes back", Statement(name, value), frozenset(_NAME.findall(value)), False)
-
-
-def _failing(line: str) -> str:
-    """A test, answered by its number."""
-    found = _TEST.fullmatch(line)
-    assert found is not None  # nothing else moves
-    return f"if ({found['test']}) return {found['number'] or found['told']};"
+def _load(name: str, place: Place) -> Item:
+    return Item("what comes back", Statement(name, place), place.names, False)
 
 
 def _with_sources(main: Sequence[Item], sources: dict[str, Item]) -> list[Item]:
@@ -212,18 +175,17 @@ def _with_sources(main: Sequence[Item], sources: dict[str, Item]) -> list[Item]:
     Not where they are read: that may be in a block, or behind a label.
     """
     needed = [item for name, item in sources.items() if any(name in other.reads for other in main)]
-    filled = {name for item in main if isinstance(item.what, str) for name in _filled(item.what)}
+    filled = {name for item in main for name in _filled(item.what)}
     found = [item for item in needed if not item.reads & filled]
     for item in main:
         found.append(item)
-        if isinstance(item.what, str) and (names := _filled(item.what)):
-            found += [source for source in needed if source.reads & names]
+        found += [source for source in needed if source.reads & _filled(item.what)]
     return found
 
 
-def _filled(line: str) -> set[str]:
-    """The arrays that a line has a function fill."""
-    return set(_NAME.findall(line)) if line.startswith("many_") else set()
+def _filled(what: Line) -> set[str]:
+    """The arrays of sines that a line fills in a loop."""
+    return set(what.arrays) if isinstance(what, Sines) and what.count else set()
 
 
 @dataclass(frozen=True)
@@ -237,17 +199,17 @@ class _Cut:
 
     def store(self, name: str) -> Item:
         """For a part."""
-        statement = Statement(f"{self.passed}[{self.slots[name]}]", name, False)
+        statement = Statement(f"{self.passed}[{self.slots[name]}]", Place(name), False)
         return Item("what the next part reads", statement, frozenset({name}), False)
 
     def load(self, name: str) -> Item:
         """Of a part before."""
-        return _load(name, f"{self.passed}[{self.slots[name]}]")
+        return _load(name, Place(f"{self.passed}[{self.slots[name]}]"))
 
     def part(self, name: str, piece: list[Item]) -> Kernel:
         """One part: what it reads of others, its own statements, what others read of it."""
         own = {item.defines for item in piece}
-        tested = any(isinstance(item.what, str) for item in piece)
+        tested = any(isinstance(item.what, Guard) for item in piece)
         within: list[Item] = []
         known = set(own)
         for item in piece:
@@ -256,10 +218,10 @@ class _Cut:
                     read = self.sources[needed] if needed in self.sources else self.load(needed)
                     within.append(replace(read, title=item.title))
                     known.add(needed)
-            within.append(replace(item, what=_failing(item.what)) if isinstance(item.what, str) else item)
+            within.append(replace(item, what=replace(item.what, jumps=False)) if isinstance(item.what, Guard) else item)
             if item.defines in self.slots:
                 within.append(replace(self.store(item.defines), title=item.title))
-        end = [Item("", "return 0;", frozenset(), False)] if tested else []
+        end = [Item("", Return(), frozenset(), False)] if tested else []
         return Kernel(
             name, (f"A part of `{self.kernel.name}`, which calls it.",),
             (*self.kernel.arguments, Argument("double *", self.passed)), _sections([*within, *end]),
@@ -268,16 +230,16 @@ class _Cut:
 
     def call(self, name: str, piece: list[Item], rest: set[str]) -> list[Item]:
         """The call, what the function itself reads of the part, and what is done where a test failed."""
-        call = f"{name}({', '.join(argument.name for argument in self.kernel.arguments)}, {self.passed});"
-        tests = [found for item in piece if isinstance(item.what, str) and (found := _TEST.fullmatch(item.what))]
+        arguments = tuple(Place(argument.name) for argument in self.kernel.arguments)
+        call = Call(name, arguments, (Place(self.passed),))
+        tests = [item.what for item in piece if isinstance(item.what, Guard)]
         loads = [self.load(n) for n in self.slots if n in rest and n in {item.defines for item in piece}]
-        if not tests:
-            lines, after = [call], []
-        elif tests[0]["jump"]:
-            lines, after = [f"{tests[0]['set']} = {call}"], [f"if ({tests[0]['set']}) {tests[0]['jump']};"]
-        else:
-            status = f"status_{name.rpartition('_')[2]}"
-            lines, after = [f"const int {status} = {call}"], [f"if ({status}) return {status};"]
+        lines: list[Line] = [call]
+        after: list[Line] = []
+        if tests:
+            jumps = tests[0].jumps
+            status = "pivot" if jumps else f"status_{name.rpartition('_')[2]}"
+            lines, after = [Passed(call, status)], [Ended(status, jumps)]
         title = piece[0].title
         return [
             *(Item(title, line, frozenset(), False) for line in lines), *loads,

@@ -8,21 +8,22 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section, Statement
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
+from gudgeon.generator.ir.statements import Given, Statement
 
 
-def prepare_kernel(model: Model, print_c: Callable[[sp.Expr], str]) -> Kernel:
+def prepare_kernel(model: Model) -> Kernel:
     """Slots from what is given, the rest from their defaults; then everything derived from them."""
-    slots: list[Statement | str] = []
+    slots: list[Statement] = []
     for i, entry in enumerate(model.slots.entries.values()):
         name = entry.symbol.name
-        slots.append(Statement(name, f"is_given[{i}] ? given[{i}] : {print_c(entry.value)}", True, entry.address))
-        slots.append(f"p->{name} = {name};")
-    derived: list[Statement | str] = []
+        slots.append(Statement(name, Given(i, entry.value), True, entry.address))
+        slots.append(Statement(f"p->{name}", entry.symbol, False))
+    derived: list[Statement] = []
     for symbol, value in model.slots.derived.items():
         derived.append(Statement(symbol.name, value, True, model.symbols.info[symbol].meaning))
-        derived.append(f"p->{symbol.name} = {symbol.name};")
+        derived.append(Statement(f"p->{symbol.name}", symbol, False))
     return Kernel(
         "prepare",
         ("Every number of a run: slots given or by default, then what follows from them.",),

@@ -13,11 +13,11 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import jumping_drives
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section
+from gudgeon.generator.ir.statements import Place, Sides, Statement
 from gudgeon.generator.symbols.corners import SideOf
 
 _DOC = ("Switching functions that hang on time alone.",)
-_SIDES = ("const double *const side = NULL; /* of corners within corners: as they are */", "double g[N_SWITCHES + 1];")
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ def jumps_of(dynamics: Kernel, model: Model) -> Jumps | None:
     nested = any(isinstance(s.value, SideOf) for s in needed)
     outs = Section("corners", tuple(Statement(f"out[{k}]", g, local=False) for k, g in enumerate(corners)))
     time, p = Argument("const double", "t"), next(a for a in dynamics.arguments if a.name == "p")
-    front = ((_SIDES[:1] if nested else ()), (_SIDES if nested else ()))
+    front = ((Sides("", held=False),), (Sides("nobody", held=False),)) if nested else ((), ())
     ranges, values = (Section("parameters and time", (*lines, *needed)) for lines in front)
     own, bounds = (time, p, Argument("double *", "out")), (time, p, Argument("Aside *", "aside"))
     kernel = replace(dynamics, doc=_DOC, returns="void", inline=False)
@@ -64,10 +64,10 @@ def _of_time(dynamics: Kernel) -> tuple[dict[str, Statement], list[sp.Expr]]:
     timed: set[str] = set()
     corners: dict[sp.Expr, None] = {}
     for s in _statements(dynamics):
-        if isinstance(s.value, str):
-            if s.local and (s.value == "t" or s.value.startswith("p->")):
+        if not isinstance(s.value, sp.Basic):
+            if s.local and isinstance(s.value, Place) and s.value.base in ("t", "p"):
                 known[s.target] = s
-                timed |= {s.target} if s.value == "t" else set()
+                timed |= {s.target} if s.value.base == "t" else set()
             continue
         names = {symbol.name for symbol in s.value.free_symbols}
         if not names <= known.keys() or not s.local:

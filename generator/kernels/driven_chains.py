@@ -27,19 +27,19 @@ from gudgeon.generator.ir.kernels import (
     Kernel,
     KernelBuilder,
     Section,
-    Statement,
     with_sides,
     without_unused,
 )
-from gudgeon.generator.ir.signatures import HELD_SIDES, MEMORY, PARAMETERS, STATE
+from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
 from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.ir.statements import LargestRow, Return, Sides, Statement, Unread
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.solvers.square_rows import SquareRows
 from gudgeon.generator.symbols.corners import SideOf
 
 ZERO = sp.Integer(0)
 STEP, RATES, THIRD, DIRECTIONS = "chain_step", "chain_rates", "chain_third", "chain_directions"
-TOLD_SIDES = Section(HELD, HELD_SIDES[:1])
+TOLD_SIDES = Section(HELD, (Sides(""),))
 
 
 class ChainKernels:
@@ -56,7 +56,7 @@ class ChainKernels:
         sides = [s.value for kernel in raw for section in kernel.sections for s in section.statements
                  if isinstance(s, Statement) and isinstance(s.value, SideOf)]  # fmt: skip
         self.corners = bool(sides)
-        held = [with_sides(kernel, HELD_SIDES) for kernel in raw]
+        held = [with_sides(kernel) for kernel in raw]
         self.kernels = [*held, self._corners(sides)] if sides else held
         self.size = self._extent() if any("." in name for name in chain.names) else ZERO
 
@@ -112,14 +112,7 @@ class ChainKernels:
         named = zip(self.square.names, self.chain.rows, strict=True)
         phi = [build.local(f"phi_{name}", row.phi) for name, row in named]
         build.section("the largest")
-        build.line("*row = 1;")
-        if len(phi) > 1:
-            build.line(f"double most = fabs({phi[0]});")
-        for r, value in enumerate(phi[1:], 2):
-            build.line(f"if (fabs({value}) > most) {{")
-            build.line(f"    most = fabs({value});")
-            build.line(f"    *row = {r};")
-            build.line("}")
+        build.line(LargestRow(tuple(phi)))
         solvers = self.square.factorize(build)
         build.section("Newton's step")
         newton = self.square.solve(build, solvers, phi, "newton")
@@ -128,7 +121,7 @@ class ChainKernels:
         for k, (x, more) in enumerate(zip(newton, bend, strict=True)):
             build.out(f"step[{k}]", x + more)
             build.out(f"bend[{k}]", more)
-        build.line("return 0;")
+        build.line(Return())
         outs = (Argument("double *", "step"), Argument("double *", "bend"), Argument("int *", "row"))
         return build.build((*STATE[:2], MEMORY, PARAMETERS, *outs), "int", owner="", prune=True)
 
@@ -159,7 +152,7 @@ class ChainKernels:
         for at, (x, value) in enumerate(zip(known, second, strict=True), self.first):
             build.out(f"v[{at}]", x.rate)
             build.out(f"v[{at + len(known)}]", value)
-        build.line("return 0;")
+        build.line(Return())
         return build.build((*STATE[:2], MEMORY, PARAMETERS, Argument("double *", "v")), "int", owner="", prune=True)
 
     def _third(self) -> Kernel:
@@ -179,7 +172,7 @@ class ChainKernels:
         slopes = [tangents.gradient(value).get(t, ZERO) for value in left]
         for at, value in enumerate(self.square.solve(build, solvers, slopes, "third")):
             build.out(f"out[{at}]", value)
-        build.line("return 0;")
+        build.line(Return())
         return build.build((*STATE, MEMORY, PARAMETERS, Argument("double *", "out")), "int", owner="", prune=True)
 
     def _moving(self) -> list[sp.Symbol]:
@@ -204,6 +197,6 @@ class ChainKernels:
         for side in dict.fromkeys(sides):
             name = f"side_{side.args[0]}"
             build.line_statement(Statement(name, side))
-            build.line(f"(void){name};")
+            build.line(Unread(name))
         kernel = build.build((*STATE[:2], MEMORY, PARAMETERS, Argument("double *", "g")), owner="")
         return replace(kernel, sections=(TOLD_SIDES, *kernel.sections))

@@ -11,8 +11,20 @@ from gudgeon.generator.equations.model import Model, stick_gain
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
-from gudgeon.generator.ir.signatures import HELD_SIDES, MEMORY, PARAMETERS, STATE, ZERO
-from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR
+from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, ZERO, acting_on
+from gudgeon.generator.ir.statements import (
+    Call,
+    Jump,
+    Place,
+    Rescue,
+    Return,
+    Statement,
+    Status,
+    Sum,
+    Test,
+    When,
+)
+from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR, friction_mode
 
 _DOC = (
     "Accelerations a (n) and multipliers in `aside` at a state:",
@@ -20,12 +32,12 @@ _DOC = (
     "Returns 0, or the number of the pivot that vanished where the rows contradict each other.",
 )
 # What solves the system where a pivot vanishes: statements by the coordinates' forces and the rows' right-hand sides.
-Rescue = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
+OnDependence = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
 
 
 def dynamics_kernel(
     system: System, kkt: KKT, name: str = "dynamics", doc: Sequence[str] = _DOC, stabilised: bool = True,
-    rescue: Rescue | None = None,
+    rescue: OnDependence | None = None,
 ) -> Kernel:  # fmt: skip
     """q̈ and λ at a state, clearance forces included.
 
@@ -35,7 +47,7 @@ def dynamics_kernel(
     build = KernelBuilder(model.symbols, name, doc)
     if kkt.rows and not model.frictions:
         build.section("status")
-        build.line("int pivot = 0;")
+        build.line(Status())
     _events(model, build)
     loads = [load for element in model.elements.values() for load in element.on_points()]
     for index, clearance in enumerate(model.clearances):
@@ -47,10 +59,7 @@ def dynamics_kernel(
     b.update(_constraint_rhs(model, build, kkt, stabilised))
     b.update(slips)
     # where friction may stick, a vanishing pivot is told, not mended: rows come and go there
-    if model.frictions:
-        factor = kkt.factorize(build)
-    else:
-        factor = kkt.factorize(build, "{{ pivot = {}; goto dependent; }}", NEARLY_SINGULAR)
+    factor = kkt.factorize(build) if model.frictions else kkt.factorize(build, True, NEARLY_SINGULAR)
     x = kkt.solve(build, factor, b)
     build.section("results")
     for k, _ in enumerate(system.q):
@@ -61,10 +70,10 @@ def dynamics_kernel(
     if kkt.rows and not model.frictions:
         (rescue or _dependent_rows)(build, kkt, b)
     _powers(build, kkt, on_given)
-    build.line("return pivot;" if kkt.rows and not model.frictions else "return 0;")
+    build.line(Return(pivot=bool(kkt.rows and not model.frictions)))
     arguments = (*STATE, MEMORY, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
     kernel = build.build(arguments, "int", owner="")
-    return with_sides(kernel, (HELD_SIDES[0], "double *const g = aside->g;"))
+    return with_sides(kernel, "aside")
 
 
 def _events(model: Model, build: KernelBuilder) -> None:
@@ -84,11 +93,10 @@ def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> l
         build.local(f"edot_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
     ]
     omegas = (clearance.first.omega, clearance.second.omega)
-    arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in omegas)])
-    build.line(f"clearance_{name}({arguments}, &memory->latch[{index}], p, side, g, &{out});", omegas)
-    F = [build.local(f"F_{name}_{axis}", f"{out}.F{axis}") for axis in "xy"]
+    build.line(Call(f"clearance_{name}", (*e, *edot, *omegas, *acting_on(index)), (Place(out),)))
+    F = [build.local(f"F_{name}_{axis}", Place(f"{out}.F{axis}")) for axis in "xy"]
     moments = [
-        ZERO if point.body is None else build.local(f"M_{name}_{which}", f"{out}.moment_{which}")
+        ZERO if point.body is None else build.local(f"M_{name}_{which}", Place(f"{out}.moment_{which}"))
         for point, which in ((clearance.first, "first"), (clearance.second, "second"))
     ]
     build.out(f"{out}.power", clearance.power(F, edot, moments))
@@ -128,9 +136,7 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
     for r, friction in enumerate(kkt.frictions):
         name, node = friction.name, kkt.first_friction + r
         v = build.local(f"slip_{name}", friction.slip.v)
-        mode = build.local(f"mode_{name}", f"memory->mode[{r}]", "0 stick, 1 or -1 the sign of the slip, 2 held")
-        kkt.sticks[node] = build.local(f"stick_{name}", f"{mode.name} == 0.0 ? 1.0 : 0.0")
-        sign = build.local(f"sign_{name}", f"fabs({mode.name}) > 1.0 ? 0.0 : {mode.name}")
+        kkt.sticks[node], sign = friction_mode(build, name, r)
         force = build.local(f"kinetic_{name}", -sign * friction.slip.kinetic)
         for q, entry in friction.jacobian.items():
             forces[place[q]] += entry * force
@@ -148,23 +154,16 @@ def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> N
         rate = sum((entry * x[place[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
         build.out(f"aside->friction[{r}].rate", rate)
         stick = kkt.sticks[kkt.first_friction + r]
-        build.line(f"if ({stick.name} != 0.0)")
-        build.out(f"    aside->friction[{r}].force", -x[kkt.first_friction + r], f"stick of {friction.name}")
+        force = Statement(f"aside->friction[{r}].force", -x[kkt.first_friction + r], False, f"stick of {friction.name}")
+        build.line(When(Test(stick, "!=", (0.0,)), force))
 
 
 def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     """The way out when a pivot vanishes (templates/c/scene/singular.c.jinja)."""
-    build.line("goto powers;")
+    build.line(Jump())
     build.section("a pivot vanished: rows depend on each other here")
-    build.line("dependent: {")
-    build.line("    double force[N_Q], rhs[N_ROWS];")
-    for k in range(kkt.n):
-        build.out(f"    force[{k}]", b.get(k, ZERO))
-    for r in range(len(kkt.rows)):
-        build.out(f"    rhs[{r}]", b.get(kkt.n + r, ZERO))
-    build.line("    pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);")
-    build.line("}")
-    build.line("powers:")
+    force, rhs = (tuple(b.get(k, ZERO) for k in nodes) for nodes in (range(kkt.n), range(kkt.n, kkt.n + len(kkt.rows))))
+    build.line(Rescue(force, rhs))
 
 
 def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> None:
@@ -180,11 +179,11 @@ def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> 
         for r, friction in enumerate(kkt.frictions):
             needed -= model.symbols.written_out(friction.slip.v, given.rate) * sp.Symbol(f"aside->friction[{r}].force")
         drives += given.rate * (needed - on_given.get(given.name, ZERO))
-    clearances = " + ".join(f"aside->clearance[{i}].power" for i in range(len(model.clearances)))
+    clearances = tuple(Place(f"aside->clearance[{i}].power") for i in range(len(model.clearances)))
     build.out("aside->power[0]", drives)
     rubs = [f"aside->friction[{r}]" for r in range(len(kkt.frictions))]
     friction = sp.Add(
         *(sp.Symbol(f"{rub}.force") * (sp.Symbol(f"{rub}.v") + sp.Symbol(f"{rub}.speed")) for rub in rubs)
     )
     build.out("aside->power[1]", sp.Add(*(element.loads.power for element in model.elements.values())) + friction)
-    build.out("aside->power[2]", clearances or ZERO)
+    build.out("aside->power[2]", Sum(clearances) if clearances else ZERO)

@@ -7,14 +7,12 @@ right-hand side that they need: mostly no more than the positions in them.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
-import sympy as sp
-
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.kernels import Kernel, Section, Statement
+from gudgeon.generator.ir.kernels import Kernel, Section
+from gudgeon.generator.ir.statements import Line, Place, Sides, Statement
 from gudgeon.generator.symbols.corners import SideOf
 
 NAME, RANGES = "watched_functions", "watched_ranges"
@@ -22,8 +20,7 @@ _DOC = (
     "Switching functions of the scene's own corners, in aside->g, and what the user watches, in aside->event.",
 )  # fmt: skip
 _RANGES_DOC = ("Ranges of the scene's own corners and of what the user watches over ranges of t, q and v.",)
-_WRITES_CORNERS = "double *const g = aside->g;"
-_KNOWN_LATE = "aside->"  # what a text with this in it reads is known only once forces or accelerations are
+_KNOWN_LATE = "aside"  # what reads this is known only once forces or accelerations are
 
 
 def watched_kernel(dynamics: Kernel, model: Model) -> Kernel | None:
@@ -38,17 +35,15 @@ def watched_kernel(dynamics: Kernel, model: Model) -> Kernel | None:
     read: set[Statement] = set()
     waiting = list(outs.values())
     while waiting:
-        found = {by_target[name] for name in _reads(waiting.pop()) if name in by_target} - read
+        found = {by_target[name] for name in waiting.pop().reads if name in by_target} - read
         read |= found
         waiting += found
-    if any(isinstance(s.value, str) and _KNOWN_LATE in s.value for s in read):
+    if any(_KNOWN_LATE in s.reads for s in read):
         return None
     has_sides = any(isinstance(s.value, SideOf) for s in read)
     sections = []
     for section in dynamics.sections:
-        lines: list[Statement | str] = []
-        if has_sides and any("side =" in str(line) for line in section.statements):
-            lines = list(section.statements)  # the sides that are held
+        lines: list[Line] = [line for line in section.statements if has_sides and isinstance(line, Sides)]
         for s in section.statements:
             if isinstance(s, Statement):
                 lines += [line for line in (s if s in read else None, outs.get(s)) if line]
@@ -58,19 +53,17 @@ def watched_kernel(dynamics: Kernel, model: Model) -> Kernel | None:
     return replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=tuple(sections), returns="void")
 
 
-def ranges_kernel(watched: Kernel, corners: Sequence[int]) -> Kernel:
+def ranges_kernel(watched: Kernel, corners: Sequence[int], events: int) -> Kernel:
     """The same for ranges of t, q and v: what is watched goes to `out`, corners first, in this order."""
     place = {f"aside->g[{k}]": i for i, k in enumerate(corners)}
+    place |= {f"aside->event[{k}]": i for k, i in enumerate(range(len(corners), len(corners) + events))}
     sections = []
     for section in watched.sections:
-        kept: list[Statement | str] = []
+        kept: list[Line] = []
         for s in section.statements:
-            if isinstance(s, str) or s.local:
-                kept += [s] if s != _WRITES_CORNERS else []
-                continue
-            event = re.fullmatch(r"aside->event\[(\d+)\]", s.target)
-            index = len(corners) + int(event[1]) if event else place[s.target]
-            kept.append(replace(s, target=f"out[{index}]"))
+            if isinstance(s, Statement) and not s.local:
+                s = replace(s, target=f"out[{place[s.target]}]")
+            kept.append(Sides("") if isinstance(s, Sides) else s)
         sections.append(Section(section.title, tuple(kept)))
     return replace(watched, name=RANGES, doc=_RANGES_DOC, sections=tuple(s for s in sections if s.statements))
 
@@ -83,8 +76,8 @@ def reads_state(kernel: Kernel) -> bool:
 def reads_beyond(kernel: Kernel, count: int) -> bool:
     """Whether it reads a coordinate, or the rate of one, behind the first `count`."""
     values = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
-    read = [int(k) for value in values if isinstance(value, str) for k in re.findall(r"\b[qv]\[(\d+)\]", value)]
-    return max(read, default=-1) >= count
+    places = [value for value in values if isinstance(value, Place) and value.base in ("q", "v")]
+    return max((place.index for place in places), default=-1) >= count
 
 
 def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
@@ -93,9 +86,3 @@ def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
     if isinstance(value, SideOf) and int(value.args[0]) in corners:
         return Statement(f"aside->g[{int(value.args[0])}]", value.args[1], local=False)
     return statement if not statement.local and statement.target.startswith("aside->event") else None
-
-
-def _reads(statement: Statement) -> set[str]:
-    if isinstance(statement.value, sp.Expr):
-        return {symbol.name for symbol in statement.value.free_symbols}
-    return set(re.findall(r"\w+", statement.value))

@@ -8,6 +8,7 @@ from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, without_unused
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.square_rows import SquareRows
 
 
@@ -32,8 +33,8 @@ def _close_step(system: System, rows: SquareRows) -> Kernel:
     for k, (x, u) in enumerate(zip(step, rates, strict=True)):
         build.out(f"step[{k}]", x)
         build.out(f"rates[{k}]", u)
-    _largest(build, "worst", phi)
-    build.line("return 0;")
+    build.line(Largest("worst", tuple(phi)))
+    build.line(Return())
     outs = (Argument("double *", name) for name in ("step", "rates", "worst"))
     return build.build((*STATE[:2], PARAMETERS, *outs), "int")
 
@@ -51,9 +52,9 @@ def _arrive(system: System, rows: SquareRows) -> Kernel:
             build.out(f"all_q[{k}]", q)
             build.out(f"all_v[{k}]", v)
     build.section("rates of the closures")
-    _largest(build, "worst", [
-        build.local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in zip(rows.names, system.rows, strict=True)
-    ])  # fmt: skip
+    named = zip(rows.names, system.rows, strict=True)
+    phi_dot = [build.local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named]
+    build.line(Largest("worst", tuple(phi_dot)))
     solvers = rows.factorize(build)
     build.section("accelerations")
     a = rows.solve(build, solvers, [row.gamma for row in system.rows], "second")
@@ -63,13 +64,6 @@ def _arrive(system: System, rows: SquareRows) -> Kernel:
         motion = system.motions[body.name]
         for k, (line, bias) in enumerate(zip(motion.jacobian, motion.bias, strict=True), body.index):
             build.out(f"all_a[{k}]", sp.Add(bias, *(entry * a[j] for j, entry in line.items())))
-    build.line("return 0;")
+    build.line(Return())
     outs = (Argument("double *", name) for name in ("a", "all_q", "all_v", "all_a", "worst"))
     return build.build((*STATE, PARAMETERS, *outs), "int")
-
-
-def _largest(build: KernelBuilder, name: str, values: list[sp.Symbol]) -> None:
-    """*name = the largest magnitude; NaN counts as nothing here, steps and solutions tell it."""
-    build.line(f"*{name} = 0.0;")
-    for value in values:
-        build.line(f"*{name} = max_of(*{name}, fabs({value}));")

@@ -6,9 +6,10 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section, Statement
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section
 from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
 from gudgeon.generator.ir.signatures import PARAMETERS, SIDES
+from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kinds.laws.law import RESULTS
 
 

@@ -8,6 +8,7 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
+from gudgeon.generator.ir.statements import Place
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import Joint
 
@@ -21,7 +22,7 @@ def outputs_kernel(model: Model) -> Kernel:
     multiplier: dict[str, sp.Expr] = {}
     build.section("multipliers")
     for r, row in enumerate(model.rows):
-        multiplier[row.name] = build.local(f"multiplier_{row.name.replace('.', '_')}", f"lambda[{r}]")
+        multiplier[row.name] = build.local(f"multiplier_{row.name.replace('.', '_')}", Place(f"lambda[{r}]"))
     build.section("reactions")
     rows_of: dict[str, list[Row]] = {}
     for row in model.rows:

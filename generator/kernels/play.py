@@ -5,23 +5,29 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import sympy as sp
+
 from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.ir.kernels import Kernel, Section, Statement, hold_sides
+from gudgeon.generator.ir.kernels import Kernel, Section, hold_sides
+from gudgeon.generator.ir.statements import Chosen, Statement, Test
 from gudgeon.generator.kernels.laws import law_kernels
 from gudgeon.generator.solvers.contact_slopes import dry_slopes, film_slopes, in_place, share_slope, unlatched
 
 Statements = tuple[Statement, ...]
+# At e = 0 any direction will do for the normal: the force is isotropic there.
+_APART, _INVERSE = Test(contact.e, ">", (0.0,)), sp.Symbol("inverse_e", real=True)
+_GUARDED = {
+    contact.n_x: Chosen(_APART, contact.e_x * _INVERSE, sp.Integer(1)),
+    contact.n_y: Chosen(_APART, contact.e_y * _INVERSE, sp.Integer(0)),
+}
 
 
 @dataclass(frozen=True)
 class Pin:
-    """One joint with play: statements before and after the calls of its laws, in the order of contact_steps.py.
-
-    The direction (n_x, n_y) of e is e/|e|; at e = 0, where any will do, a target takes (1, 0).
-    """
+    """One joint with play: statements before and after the calls of its laws, in the order of contact_steps.py."""
 
     clearance: Clearance
     laws: tuple[Kernel, ...]  # normal, friction, film, as far as it has them
@@ -65,7 +71,7 @@ def _statements(model: Model, steps: Sequence[Step], owner: str) -> Statements:
     """Steps with parameters read in place and corners as sides of switches."""
     statements = []
     for step in steps:
-        statements.append(Statement(step.symbol.name, in_place(model, step.value)))
+        statements.append(Statement(step.symbol.name, _GUARDED.get(step.symbol) or in_place(model, step.value)))
         if step.symbol == contact.e:
             statements.append(Statement("inverse_e", 1 / contact.e))
     (section,) = hold_sides(model.symbols.switches, owner, [Section("", tuple(statements))])

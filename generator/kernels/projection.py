@@ -5,7 +5,8 @@ from __future__ import annotations
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
-from gudgeon.generator.ir.signatures import HELD_SIDES, MEMORY, PARAMETERS, STATE
+from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
+from gudgeon.generator.ir.statements import Largest, Place, Return
 from gudgeon.generator.solvers.kkt import KKT, VANISHING
 
 
@@ -20,14 +21,14 @@ def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple
     build.section("right-hand side")
     place = {row.name: k for k, row in enumerate(model.all_rows)}
     r = {
-        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", f"r[{place[row.name]}]")
+        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", Place(f"r[{place[row.name]}]"))
         for k, row in enumerate(kkt.rows)
     }
     x = kkt.solve(build, kkt.factorize(build), r, "step_")
     build.section("results")
     for k, _ in enumerate(system.q):
         build.out(f"x[{k}]", x[k])
-    build.line("return 0;")
+    build.line(Return())
     arguments = (*STATE[:2], Argument("const double *", "r"), PARAMETERS, Argument("double *", "x"))
     return build.build(arguments, "int"), kkt
 
@@ -51,11 +52,9 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     for k, _ in enumerate(system.q):
         build.out(f"dq[{k}]", x[k])
         build.out(f"dv[{k}]", u[k])
-    build.line("*worst = 0.0;")
-    for value in phi.values():  # text: this maximum is no corner of the motion
-        build.line(f"*worst = max_of(*worst, fabs({value}));")
-    build.line("return 0;")
+    build.line(Largest("worst", tuple(phi.values())))
+    build.line(Return())
     outs = (Argument("double *", name) for name in ("dq", "dv", "worst"))
     # a corner that no acceleration knows (in lengths and parameters alone) is watched by nobody, so not held
     kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), "int", owner="", only_known=True)
-    return with_sides(kernel, HELD_SIDES)
+    return with_sides(kernel)

@@ -11,6 +11,7 @@ from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, without_unused
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
+from gudgeon.generator.ir.statements import Jump, Rescue
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
 from gudgeon.generator.kernels.event_functions import reads_beyond, watched_kernel
 from gudgeon.generator.kernels.projection import projection_kernel
@@ -51,11 +52,9 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
 
 def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     """Where a pivot vanishes the absolute formulation solves, which finds out what is dependent."""
-    build.line("goto powers;")
+    build.line(Jump())
     build.section("a pivot vanished: rows depend on each other here")
-    build.line("dependent:")
-    build.line("pivot = solve_by_absolute(t, q, v, memory, p, a, aside);")
-    build.line("powers:")
+    build.line(Rescue())
 
 
 def _expand(system: TreeSystem) -> Kernel:

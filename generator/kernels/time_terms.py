@@ -13,7 +13,8 @@ from dataclasses import replace
 import sympy as sp
 
 from gudgeon.generator.ir.finite_slopes import as_written
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section
+from gudgeon.generator.ir.statements import Place, Statement
 from gudgeon.generator.symbols.corners import Pick, SideOf
 from gudgeon.generator.symbols.wholes import Whole
 
@@ -62,10 +63,10 @@ class _Terms:
         if isinstance(statement.value, sp.Expr):
             statement = replace(statement, value=as_written(statement.value))
         value = statement.value
-        if isinstance(value, str):
-            if statement.local and (value == "t" or value.startswith("p->")):
+        if not isinstance(value, sp.Basic):
+            if statement.local and isinstance(value, Place) and value.base in ("t", "p"):
                 self.known[statement.target] = statement
-            if value == "t":
+            if value == Place("t"):
                 self.time = statement.target
             return
         names = {symbol.name for symbol in value.free_symbols}

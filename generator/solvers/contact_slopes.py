@@ -15,14 +15,18 @@ from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Statement
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.ir.reciprocals import hoisted
 from gudgeon.generator.ir.signatures import PARAMETERS, SIDES, ZERO
+from gudgeon.generator.ir.statements import Chosen, Statement, Test
 from gudgeon.generator.kinds.laws.law import RESULTS
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
 DEPTH = sp.Symbol("depth", real=True)  # what the normal law is given for δ
 UNCLIPPED = sp.Symbol("unclipped", real=True)
+_DEEP = Test(contact.delta, ">", (0.0,))
+_CLOSED = Test(sp.Symbol("latch->closed", real=True))
+_STORED = sp.Symbol("latch->deltadot_minus", real=True)
 _ARGUMENTS = (
     *(Argument("double", symbol.name) for symbol in INPUTS), Argument("const Latch *", "latch"), PARAMETERS, *SIDES,
     Argument("PinSlopes *", "out"),
@@ -97,11 +101,11 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     build, tangents = slopes.build, slopes.tangents
     slopes.section("penetration, ratio of velocities, slip")
     slopes.step(contact.gap(clearance)[3])
-    build.line_statement(Statement(DEPTH.name, "max_of(delta, 0.0)"))
-    tangents.know(DEPTH, {contact.e: build.local("depth_by_e", "delta > 0.0 ? 1.0 : 0.0")})
+    build.line_statement(Statement(DEPTH.name, sp.Max(contact.delta, 0)))
+    tangents.know(DEPTH, {contact.e: build.local("depth_by_e", Chosen(_DEEP, sp.Integer(1), ZERO))})
     ratio = UNCLIPPED if clearance.clip_ratio else contact.ratio
-    build.line_statement(Statement(ratio.name, "latch->closed ? deltadot / latch->deltadot_minus : 1.0"))
-    slope = build.local("ratio_by_deltadot", "latch->closed ? 1.0 / latch->deltadot_minus : 0.0")
+    build.line_statement(Statement(ratio.name, Chosen(_CLOSED, contact.deltadot / _STORED, sp.Integer(1))))
+    slope = build.local("ratio_by_deltadot", Chosen(_CLOSED, 1 / _STORED, ZERO))
     tangents.know(ratio, {contact.deltadot: slope})
     for step in contact.before_dry(clearance):
         slopes.step(unlatched(step))

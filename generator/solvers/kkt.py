@@ -16,7 +16,8 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
-from gudgeon.generator.ir.kernels import Guard, KernelBuilder
+from gudgeon.generator.ir.kernels import KernelBuilder
+from gudgeon.generator.ir.statements import Chosen, Guard, Place, Test
 from gudgeon.generator.sparsity.elimination import Elimination, choose_elimination
 
 ZERO = sp.Integer(0)
@@ -98,8 +99,8 @@ class KKT:
                 blocks.append([k])
         return blocks
 
-    def factorize(self, build: KernelBuilder, failed: str = "return {}", share: float = SINGULAR) -> Factor:
-        """Statements for L and 1/D; `failed` is what a pivot below its `share` does, its number, from 1, for {}."""
+    def factorize(self, build: KernelBuilder, jumps: bool = False, share: float = SINGULAR) -> Factor:
+        """Statements for L and 1/D; a pivot below its `share` returns its number, from 1, or `jumps` to a rescue."""
         build.section("L D L^T of the KKT matrix")
         L: Entries = {}
         W: Entries = {}  # entries before the division by their pivot
@@ -107,7 +108,7 @@ class KKT:
         earlier: dict[int, list[int]] = {k: [] for k in self.elimination.order}  # columns with an entry in row k
         count = 0
         for block in self.blocks:
-            inverse |= self._pivots(build, block, earlier, (L, W), (failed, count), share)
+            inverse |= self._pivots(build, block, earlier, (L, W), (jumps, count), share)
             count += sum(k >= self.n for k in block)
             later = [i for i in self.elimination.structure[block[-1]]]
             for i in later:
@@ -125,20 +126,20 @@ class KKT:
 
     def _pivots(
         self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
-        made: tuple[Entries, Entries], failed: tuple[str, int], share: float,
+        made: tuple[Entries, Entries], failing: tuple[bool, int], share: float,
     ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
-        """D⁻¹ of a block; `made` are L and W, `failed` is what failing does and how many rows came before."""
-        (L, W), (what, count) = made, failed
+        """D⁻¹ of a block; `made` are L and W, `failing` is whether that jumps and how many rows came before."""
+        (L, W), (jumps, count) = made, failing
         if len(block) == 2:
-            return self._pair(build, block, earlier, made, [what.format(count + 1), what.format(count + 2)], share)
+            return self._pair(build, block, earlier, made, failing, share)
         (k,) = block
         if k < self.n:
             return {k: {k: self._coordinate_pivot(build, k, earlier[k], L, W)}}
-        return {k: {k: self._row_pivot(build, k, earlier[k], L, W, what.format(count + 1), share)}}
+        return {k: {k: self._row_pivot(build, k, earlier[k], L, W, (jumps, count + 1), share)}}
 
     def _pair(
         self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
-        made: tuple[Entries, Entries], failed: Sequence[str], share: float,
+        made: tuple[Entries, Entries], failing: tuple[bool, int], share: float,
     ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
         """The inverse of a 2 × 2 block by its determinant; of rows, D is negative."""
         L, W = made
@@ -163,9 +164,9 @@ class KKT:
         if rows:
             early = any(i < self.n for i in self.elimination.structure[second])
             share = max(share, EARLY) if early else share
-            build.line(Guard(f"{own[0]} > {share!r} * {scale[0]}", failed[0]))
-            build.line(Guard(f"{determinant} > {share!r} * {scale[1]} * {own[0]}", failed[1]))
-            self._look_for_vanishing(build, block, scale, (own[0], determinant), failed)
+            build.line(_guard(failing, 1, own[0], share, scale[0]))
+            build.line(_guard(failing, 2, determinant, share, scale[1], own[0]))
+            self._look_for_vanishing(build, block, scale, (own[0], determinant), failing)
         inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
         one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
         both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
@@ -173,7 +174,7 @@ class KKT:
 
     def _look_for_vanishing(
         self, build: KernelBuilder, block: Sequence[int], scale: Sequence[sp.Symbol],
-        found: tuple[sp.Expr, sp.Expr], failed: Sequence[str],
+        found: tuple[sp.Expr, sp.Expr], failing: tuple[bool, int],
     ) -> None:  # fmt: skip
         """The pivots of a joint's x and y, `found` and their determinant, against the sum of their scales.
 
@@ -184,8 +185,8 @@ class KKT:
         if not self.system.in_tree or one.owner != two.owner or one.unit != two.unit:
             return
         size = build.local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
-        build.line(Guard(f"{found[0]} > {VANISHING!r} * {size}", failed[0]))
-        build.line(Guard(f"{found[1]} > {VANISHING!r} * {size} * {found[0]}", failed[1]))
+        build.line(_guard(failing, 1, found[0], VANISHING, size))
+        build.line(_guard(failing, 2, found[1], VANISHING, size, found[0]))
 
     def _coordinate_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],
@@ -204,7 +205,7 @@ class KKT:
 
     def _row_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],
-        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr], failed: str,
+        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr], failed: tuple[bool, int],
         least: float,
     ) -> sp.Expr:  # fmt: skip
         """1/D of a row: D = −scale + what earlier rows explain; NaN fails the comparison with the scale too."""
@@ -216,13 +217,14 @@ class KKT:
         if others:
             value = scale + sum((L[k, j] * W[k, j] for j in others), sp.Integer(0))
             pivot = build.local(f"pivot_{name}", value)
-        test = f"{pivot.name} > {least!r} * {scale.name}"
+        test, (jumps, number) = Test(pivot, ">", (least, scale)), failed
         if k < self.first_friction:
-            build.line(Guard(test, failed))
+            build.line(Guard(test, number, jumps))
             return -build.local(f"inverse_pivot_{name}", 1 / pivot)
         stick = self.sticks[k]  # a row that slips is switched off: its multiplier is zero
-        build.line(f"if ({stick.name} != 0.0 && !({test})) {failed};")
-        return -build.local(f"inverse_pivot_{name}", f"{stick.name} != 0.0 ? 1.0 / {pivot.name} : 0.0")
+        sticks = Test(stick, "!=", (0.0,))
+        build.line(Guard(test, number, jumps, sticks))
+        return -build.local(f"inverse_pivot_{name}", Chosen(sticks, 1 / pivot, ZERO))
 
     @staticmethod
     def _named(build: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
@@ -250,6 +252,19 @@ class KKT:
             kind = "acceleration" if k < self.n else "lambda"
             x[k] = build.local(f"{prefix}{kind}_{self.names[k]}", value)
         return x
+
+
+def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
+    """1 in stick and 0 else, and the sign of a slip (0: none)."""
+    mode = build.local(f"mode_{name}", Place(f"memory->mode[{index}]"), "0 stick, 1 or -1 the sign of the slip, 2 held")
+    stick = build.local(f"stick_{name}", Chosen(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
+    return stick, build.local(f"sign_{name}", Chosen(Test(mode, ">", (1.0,), size=True), ZERO, mode))
+
+
+def _guard(failing: tuple[bool, int], which: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
+    """Pivot `which` of a block, behind so many rows, fails unless the value is above the bound."""
+    jumps, count = failing
+    return Guard(Test(value, ">", bound), count + which, jumps)
 
 
 def is_simple(value: sp.Expr) -> bool:

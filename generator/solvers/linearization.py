@@ -26,10 +26,13 @@ from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
 from gudgeon.generator.ir.kernels import KernelBuilder
+from gudgeon.generator.ir.signatures import acting_on
+from gudgeon.generator.ir.statements import Call, Chosen, Declare, Place, Test
+from gudgeon.generator.solvers.kkt import friction_mode
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
-Place = tuple[int, int]  # node (coordinates, then rows, then frictions), column (coordinate)
+Pair = tuple[int, int]  # node (coordinates, then rows, then frictions), column (coordinate)
 N_WORK = 3
 
 
@@ -37,14 +40,14 @@ N_WORK = 3
 class Parts:
     """Non-zeros by (node, coordinate); powers by (power, coordinate) or (power, node of a or λ)."""
 
-    mass: dict[Place, sp.Expr] = field(default_factory=dict)
-    phi_q: dict[Place, sp.Expr] = field(default_factory=dict)
-    by_q: dict[Place, sp.Expr] = field(default_factory=dict)  # R1_q, Q
-    by_v: dict[Place, sp.Expr] = field(default_factory=dict)  # R1_v, V
+    mass: dict[Pair, sp.Expr] = field(default_factory=dict)
+    phi_q: dict[Pair, sp.Expr] = field(default_factory=dict)
+    by_q: dict[Pair, sp.Expr] = field(default_factory=dict)  # R1_q, Q
+    by_v: dict[Pair, sp.Expr] = field(default_factory=dict)  # R1_v, V
     by_t: dict[int, sp.Expr] = field(default_factory=dict)
-    power_q: dict[Place, sp.Expr] = field(default_factory=dict)
-    power_v: dict[Place, sp.Expr] = field(default_factory=dict)
-    power_row: dict[Place, sp.Expr] = field(default_factory=dict)
+    power_q: dict[Pair, sp.Expr] = field(default_factory=dict)
+    power_v: dict[Pair, sp.Expr] = field(default_factory=dict)
+    power_row: dict[Pair, sp.Expr] = field(default_factory=dict)
     power_t: dict[int, sp.Expr] = field(default_factory=dict)
 
 
@@ -97,15 +100,15 @@ class Linearization:
         e = [build.local(f"e_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity, strict=True)]
         edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
         given = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
-        arguments = ", ".join([*(s.name for s in (*e, *edot)), *(str(omega) for omega in given[4:])])
         slopes = self.symbols.unique(f"change_{name}")
-        build.line(f"double {slopes}[4][6];")
-        build.line(f"tangent_{name}({arguments}, &memory->latch[{index}], p, side, g, {slopes});", given[4:])
+        build.line(Declare("double", slopes, (4, 6)))
+        build.line(Call(f"tangent_{name}", (*e, *edot, *given[4:], *acting_on(index)), (Place(slopes),)))
         inner = [self.tangents.gradient(x) for x in given]
         values = []
         for i, what in enumerate(("Fx", "Fy", "moment_first", "moment_second")):
             symbol = self._held(f"{name}_{what}", f"{out}.{what}")
-            by = [build.local(f"{name}_{what}_by_{k}", f"{slopes}[{i}][{j}]") for j, k in enumerate(_BY) if inner[j]]
+            places = {k: Place(f"{slopes}[{i}][{j}]") for j, k in enumerate(_BY) if inner[j]}
+            by = [build.local(f"{name}_{what}_by_{k}", place) for k, place in places.items()]
             known = iter(by)
             pairs = {next(known): tangent for tangent in inner if tangent}
             self.tangents.know(symbol, self.tangents.sum(pairs.items()))
@@ -163,10 +166,9 @@ class Linearization:
         two_alpha = stick_gain(self.model) if self.system.frictions else ZERO
         for r, friction in enumerate(self.system.frictions):
             node, name, build = self.n + self.m + r, friction.name, self.build
-            mode = build.local(f"mode_{name}", f"memory->mode[{r}]")
-            stick = build.local(f"stick_{name}", f"{mode.name} == 0.0 ? 1.0 : 0.0")
-            sign = build.local(f"sign_{name}", f"fabs({mode.name}) > 1.0 ? 0.0 : {mode.name}")
-            force = build.local(f"held_force_{name}", f"{stick.name} != 0.0 ? aside->friction[{r}].force : 0.0")
+            stick, sign = friction_mode(build, name, r)
+            held = Chosen(Test(stick, "!=", (0.0,)), sp.Symbol(f"aside->friction[{r}].force", real=True), ZERO)
+            force = build.local(f"held_force_{name}", held)
             self.sticks.append(stick)
             self._phi_q(node, friction.jacobian)
             row = sum((entry * self.a[self.q[q]] for q, entry in friction.jacobian.items()), -friction.gamma)

@@ -23,12 +23,14 @@ import sympy as sp
 from gudgeon.generator.equations.model import stick_gain
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangents
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section, Statement, with_sides
-from gudgeon.generator.ir.signatures import HELD_SIDES, MEMORY, PARAMETERS, STATE
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section, with_sides
+from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
+from gudgeon.generator.ir.statements import Call, Chosen, Declare, Guard, Place, Return, RunNumbers, Statement, Test
 from gudgeon.generator.ir.stored_values import Pool
 from gudgeon.generator.solvers.kkt import SINGULAR, is_simple
-from gudgeon.generator.solvers.linearization import N_WORK, Linearization, Parts, Place
+from gudgeon.generator.solvers.linearization import N_WORK, Linearization, Pair, Parts
 from gudgeon.generator.sparsity.elimination import choose_elimination
+from gudgeon.generator.symbols.corners import Size
 
 ZERO = sp.Integer(0)
 ETA, ETA_ROW, ETA_STICK = (sp.Symbol(name, real=True) for name in ("eta", "eta_row", "eta_stick"))
@@ -66,12 +68,12 @@ class Newton:
         self.parts = self._pooled(build, parts, work.tangents)
         self.sticks = [self.values.keep(build, stick, f"is_{stick.name}") for stick in work.sticks]
         self.tables = self._tables(build)
-        build.line("lin->p = p;")
+        build.out("lin->p", Place("p"))
         arguments = (
             *STATE, MEMORY, PARAMETERS, Argument("const double *", "a"), Argument("const Aside *", "aside"),
             self._own_lin(),
         )  # fmt: skip
-        return with_sides(build.build(arguments, owner="", prune=True), HELD_SIDES)
+        return with_sides(build.build(arguments, owner="", prune=True))
 
     def _pooled(self, build: KernelBuilder, parts: Parts, tangents: Tangents) -> Parts:
         """The parts with each value in the pool, once up to its sign."""
@@ -79,7 +81,7 @@ class Newton:
         def keep(value: sp.Expr, name: str) -> sp.Expr:
             return self.values.keep(build, tangents.shared(value), name)
 
-        def pooled(what: str, part: Mapping[Place, sp.Expr], rows: Sequence[str]) -> dict[Place, sp.Expr]:
+        def pooled(what: str, part: Mapping[Pair, sp.Expr], rows: Sequence[str]) -> dict[Pair, sp.Expr]:
             return {(i, j): keep(value, f"{what}_{rows[i]}_{self.names[j]}") for (i, j), value in part.items()}
 
         works = [str(w) for w in range(N_WORK)]
@@ -96,7 +98,7 @@ class Newton:
         """Where each part is in `lin->value`: (row, column, index, sign); columns of q, then of v."""
         parts, n = self.parts, self.n
 
-        def table(part: Mapping[Place, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
+        def table(part: Mapping[Pair, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
             return [(i, first + k, *self.values.place(build, value)) for (i, k), value in part.items()]
 
         return {
@@ -108,12 +110,12 @@ class Newton:
             "power_t": table({(w, 0): value for w, value in parts.power_t.items()}),
         }
 
-    def _entries(self, build: KernelBuilder) -> dict[Place, sp.Expr]:
+    def _entries(self, build: KernelBuilder) -> dict[Pair, sp.Expr]:
         """The matrix, by (row, column); both triangles."""
         parts = self.parts
         self._scales(build, {self._scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
         build.section("matrix")
-        entries: dict[Place, sp.Expr] = dict(parts.mass)
+        entries: dict[Pair, sp.Expr] = dict(parts.mass)
         for node, k in sorted({*parts.by_v, *parts.by_q, *parts.phi_q}):
             place = node, k
             change = parts.by_v.get(place, ZERO) + ETA * parts.by_q.get(place, ZERO)
@@ -155,7 +157,7 @@ class Newton:
         for k in self.elimination.order:
             factors.eliminate(k, self.elimination.structure[k])
         self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
-        build.line("return 0;")
+        build.line(Return())
         return self._build(build, (Argument("double", "eta"), self._own_lin()), "int")
 
     def _own_lin(self) -> Argument:
@@ -164,9 +166,8 @@ class Newton:
     def _build(self, build: KernelBuilder, arguments: Sequence[Argument], returns: str = "void") -> Kernel:
         """A kernel that reads the run's numbers through `lin`."""
         kernel = build.build(arguments, returns, prune=True)
-        numbers = Section("numbers of the run", ("const Parameters *const p = lin->p;",))
-        reads = any("p->" in str(s.value) for section in kernel.sections for s in section.statements
-                    if isinstance(s, Statement))  # fmt: skip
+        numbers = Section("numbers of the run", (RunNumbers(),))
+        reads = any("p" in s.reads for section in kernel.sections for s in section.statements)
         return replace(kernel, sections=(numbers, *kernel.sections)) if reads else kernel
 
     def _substitute(self) -> Kernel:
@@ -196,7 +197,7 @@ class Newton:
         ])  # fmt: skip
         self._scales(build, {self._scale(node) for node in range(self.nodes)})
         build.section("right-hand side")
-        build.line(f"double x[{self.nodes}];")
+        build.line(Declare("double", "x", (self.nodes,)))
         beta_squared = self.model.slots.derive("beta_squared", self.model.baumgarte[1] ** 2)
         r_q, r_v = ([sp.Symbol(f"r[{first + k}]") for k in range(n)] for first in (0, n))
         wanted = sorted({k for node, k in parts.phi_q if node < n + self.m})
@@ -212,7 +213,7 @@ class Newton:
             b[i].append(-sp.Symbol("s") * value)
         for i, terms in enumerate(b):
             build.out(f"x[{i}]", self._scale(i) * sp.Add(*terms))
-        build.line(f"{self.prefix}newton_substitute(lin, x);")
+        build.line(Call(f"{self.prefix}newton_substitute", (Place("lin"),), (Place("x"),)))
         build.section("solution")
         for k in range(n):
             build.out(f"u[{k}]", ETA * (r_q[k] + sp.Symbol(f"x[{k}]")))
@@ -239,10 +240,10 @@ class Newton:
 class _Factors:
     """L, U and inverse pivots as they come, column by column."""
 
-    def __init__(self, newton: Newton, build: KernelBuilder, entries: Mapping[Place, sp.Expr]) -> None:
+    def __init__(self, newton: Newton, build: KernelBuilder, entries: Mapping[Pair, sp.Expr]) -> None:
         self.newton, self.build, self.entries = newton, build, entries
-        self.lower: dict[Place, sp.Expr] = {}  # (later, earlier)
-        self.upper: dict[Place, sp.Expr] = {}  # (earlier, later)
+        self.lower: dict[Pair, sp.Expr] = {}  # (later, earlier)
+        self.upper: dict[Pair, sp.Expr] = {}  # (earlier, later)
         self.inverse: dict[int, sp.Expr] = {}
         self._before: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
 
@@ -271,15 +272,12 @@ class _Factors:
         others = [j for j in self._before[k] if j not in first]
         scale = build.local(f"scale_{name}", own - self._products(k, k, first))
         pivot = build.local(f"pivot_{name}", scale - self._products(k, k, others)) if others else scale
-        if k < newton.n:
-            test, size = f"!(fabs({pivot}) > {SINGULAR!r} * fabs({own}))", own
-        else:
-            test, size = f"!(fabs({pivot}) > {SINGULAR!r} * fabs({scale}))", scale
+        size = own if k < newton.n else scale
         stick = newton.sticks[k - newton.n - newton.m] if k >= newton.n + newton.m else None
-        build.line(f"if ({f'{stick} != 0.0 && ' if stick else ''}{test})", [size])
-        build.line(f"    return {k + 1};", [stick] if stick else [])
+        sticks = Test(stick, "!=", (0.0,)) if stick is not None else None
+        build.line(Guard(Test(pivot, ">", (SINGULAR, Size(size)), size=True), k + 1, only=sticks))
         # a row that slips is switched off: its multiplier is zero
-        value = 1 / pivot if stick is None else f"{stick} != 0.0 ? 1.0 / {pivot} : 0.0"
+        value = 1 / pivot if sticks is None else Chosen(sticks, 1 / pivot, ZERO)
         return newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", value))
 
     def _kept(self, name: str, value: sp.Expr) -> sp.Expr:

@@ -17,6 +17,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import KernelBuilder
+from gudgeon.generator.ir.statements import Call, Declare, Guard, Place, Test
 from gudgeon.generator.solvers.kkt import SINGULAR
 from gudgeon.generator.sparsity.matching import Block, triangular_blocks
 from gudgeon.generator.symbols.corners import Size
@@ -74,7 +75,7 @@ class SquareRows:
         if pivot.is_Number:
             return Solver(block, 1 / pivot)
         named = build.local(f"pivot_{self.names[row]}", pivot)
-        build.line(f"if (!(fabs({named}) > {SHARE!r} * {self._size(build, row, column, block)})) return {row + 1};")
+        build.line(Guard(Test(named, ">", (SHARE, self._size(build, row, column, block)), size=True), row + 1))
         return Solver(block, build.local(f"inverse_{self.names[row]}", 1 / named))
 
     def _pair(self, build: KernelBuilder, block: Block) -> Solver:
@@ -83,7 +84,7 @@ class SquareRows:
         determinant = build.local(f"determinant_{name}", a * d - b * c)
         (A, B), (C, D) = ([self._size(build, r, k, block) for k in block.columns] for r in block.rows)
         bound = build.local(f"bound_{name}", A * D + B * C)
-        build.line(f"if (!(fabs({determinant}) > {SHARE!r} * {bound})) return {block.rows[1] + 1};")
+        build.line(Guard(Test(determinant, ">", (SHARE, bound), size=True), block.rows[1] + 1))
         return Solver(block, build.local(f"inverse_{name}", 1 / determinant))
 
     def _size(self, build: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
@@ -103,11 +104,13 @@ class SquareRows:
 
     def _dense(self, build: KernelBuilder, block: Block) -> Solver:
         n, name = len(block.rows), self._symbols.unique(f"block_{self.names[block.rows[0]]}")
-        build.line(f"double {name}_values[{n * n}];")
-        build.line(f"int {name}_order[{n}];")
+        values, order = f"{name}_values", f"{name}_order"
+        build.line(Declare("double", values, (n * n,)))
+        build.line(Declare("int", order, (n,)))
         for k, value in enumerate(value for line in self._square(block) for value in line):
-            build.out(f"{name}_values[{k}]", value)
-        build.line(f"if (factor_block({n}, {name}_values, {name}_order)) return {block.rows[0] + 1};")
+            build.out(f"{values}[{k}]", value)
+        factored = Call("factor_block", (sp.Integer(n),), (Place(values), Place(order)))
+        build.line(Guard(factored, block.rows[0] + 1))
         return Solver(block, name=name)
 
     def _square(self, block: Block) -> list[list[sp.Expr]]:
@@ -132,15 +135,16 @@ class SquareRows:
 
     def _solve(
         self, build: KernelBuilder, solver: Solver, left: Sequence[sp.Expr], prefix: str
-    ) -> Sequence[sp.Expr | str]:  # fmt: skip
+    ) -> Sequence[sp.Expr | Place]:  # fmt: skip
         if len(left) == 1:
             return [left[0] * solver.inverse]
         if len(left) == 2:
             (a, b), (c, d) = self._square(solver.block)
             return [(d * left[0] - b * left[1]) * solver.inverse, (a * left[1] - c * left[0]) * solver.inverse]
         name, n = self._symbols.unique(f"{solver.name}_{prefix}"), len(left)
-        build.line(f"double {name}[{n}];")
+        build.line(Declare("double", name, (n,)))
         for k, value in enumerate(left):
             build.out(f"{name}[{k}]", value)
-        build.line(f"solve_block({n}, {solver.name}_values, {solver.name}_order, {name});")
-        return [f"{name}[{k}]" for k in range(n)]
+        given = (sp.Integer(n), Place(f"{solver.name}_values"), Place(f"{solver.name}_order"))
+        build.line(Call("solve_block", given, (Place(name),)))
+        return [Place(f"{name}[{k}]") for k in range(n)]

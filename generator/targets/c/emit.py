@@ -105,7 +105,7 @@ def emit(program: Program) -> KernelSource:
     """The whole scene as C text with its description."""
     model, tree, integrated = program.model, program.tree, program.integrated
     counts = _counts(model, integrated)
-    prepare = closed_linkage.prepare_kernel(model, printer.expression)
+    prepare = closed_linkage.prepare_kernel(model)
     files = _files(program, counts, prepare)
     if tree:
         files["reduced.c"] = reduced_code(model, tree, render, _kernels)

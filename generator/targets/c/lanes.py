@@ -4,21 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.finite_slopes import Slope
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.solvers.contact_slopes import in_place
 from gudgeon.generator.targets.c import lanes_printer
-from gudgeon.generator.targets.c.play import lines
 from gudgeon.generator.targets.c.time_loops import deepest
 
 MAIN = "lanes.c"
-_GUARDED = {
-    contact.n_x.name: "pick(e > 0.0, e_x * inverse_e, all_of(1.0))",
-    contact.n_y.name: "pick(e > 0.0, e_y * inverse_e, all_of(0.0))",
-}  # fmt: skip
 _WANTED = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
 
 
@@ -54,7 +48,7 @@ def _pin(pin: Pin, render: Callable[..., str]) -> str:
     """Law functions, then the joint's own."""
     clearance = pin.clearance
     steps = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
-    parts = {name: lines(getattr(pin, name), _GUARDED, lanes_printer.statement) for name in steps}
+    parts = {name: "\n".join(map(lanes_printer.line, getattr(pin, name))) for name in steps}
     own = render(
         "batch/lane_pin.c.jinja", joint=clearance.name, dry=clearance.normal is not None,
         film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio", **parts,

@@ -6,25 +6,42 @@ single run decides by branching is picked by masks; where it would go another wa
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import Argument, Guard, Kernel, Section, Statement
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section
 from gudgeon.generator.ir.signatures import SIDES
 from gudgeon.generator.ir.sine_pairs import lane_by_lane
+from gudgeon.generator.ir.statements import (
+    Call,
+    Chosen,
+    Guard,
+    Jump,
+    Largest,
+    Line,
+    Place,
+    Rescue,
+    Return,
+    Sides,
+    Sines,
+    Statement,
+    Status,
+    Test,
+    Value,
+)  # fmt: skip
 from gudgeon.generator.targets.c import printer
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")
 FUNCTIONS_OF_TWO = ("pow", "atan2")
-_TYPES = (("double", "Lanes"), ("Parameters", "LaneParameters"), ("Memory", "LaneRun"), ("Aside", "LaneAside"))
+_TYPES = {
+    "double": "Lanes", "const double": "const Lanes", "double *": "Lanes *", "const double *": "const Lanes *",
+    "const Parameters *": "const LaneParameters *", "const Memory *": "const LaneRun *", "Aside *": "LaneAside *",
+}  # fmt: skip
 _RARE = Argument("LaneBits *", "rare")
+_HELD = (Place("side"), Place("g"))  # rk4 holds no side
 # Lines of single runs that have no counterpart: what becomes of a vanished pivot, corners that are held.
-_LEFT_OUT = re.compile(
-    r"int pivot = 0;|goto powers;|dependent:|pivot = solve_by_absolute\(.*|powers:|return \w+;"
-    r"|const double \*const side = .*|double \*const g = .*|double g\[.*"
-)
+_LEFT_OUT = (Status, Jump, Rescue, Return, Sides)
 
 
 class LanesPrinter(printer.CPrinter):
@@ -72,55 +89,59 @@ class LanesPrinter(printer.CPrinter):
 _printer = LanesPrinter({"math_macros": {}})
 
 
-def expression(expr: sp.Expr | str) -> str:
-    """A vector; text passes unchanged."""
-    return expr if isinstance(expr, str) else _printer._vector(expr)
+def expression(value: Value) -> str:
+    """A vector."""
+    match value:
+        case sp.Basic():
+            return _printer._vector(value)
+        case Chosen():
+            return f"pick({_test(value.test)}, {expression(value.then)}, {expression(value.otherwise)})"
+        case _:
+            return printer.expression(value)
 
 
-def statement(item: Statement) -> str:
-    """One statement, wrapped at operators."""
-    return printer.statement(replace(item, value=expression(item.value)), "Lanes")
+def _test(item: Test) -> str:
+    """A mask."""
+    return printer.test(item)
+
+
+def line(item: Line) -> str:
+    """Any line that both have. Raises ValueError for one that nobody has thought of."""
+    match item:
+        case Statement():
+            return printer.assignment(item, expression(item.value), "Lanes")
+        case Guard(test=Test() as test, only=None):
+            return f"    *rare |= ~({_test(test)});"
+        case Call():
+            given = [_handed_over(x) for x in (*item.given, *item.results) if x not in _HELD]
+            return f"    {item.function}({', '.join(given)});"
+        case Largest():
+            name = f"*{item.target}"
+            texts = [f"{name} = lanes_max_of({name}, lanes_fabs({expression(x)}));" for x in item.values]
+            return "\n".join(f"    {text}" for text in (f"{name} = all_of(0.0);", *texts))
+        case Sines():
+            return printer.line(item)
+    raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")
+
+
+def _handed_over(x: sp.Basic | Place) -> str:
+    return expression(x) if isinstance(x, sp.Basic) else f"&{x.text}" if "->" in x.text else x.text
 
 
 def kernel(item: Kernel) -> str:
     """The function for vectors. It returns nothing and takes no sides; lanes that it cannot do are set in `rare`."""
     grouped = lane_by_lane(item)
-    sections = tuple(kept for section in grouped.sections if (kept := _section(section)).statements)
-    arguments = tuple(Argument(_type(a.type), a.name) for a in item.arguments if a not in SIDES)
-    return printer.kernel(replace(item, sections=sections, arguments=arguments, returns="void"), "Lanes")
+    kept = (
+        Section(section.title, tuple(x for x in section.statements if not isinstance(x, _LEFT_OUT)))
+        for section in grouped.sections
+    )
+    arguments = tuple(Argument(_TYPES.get(a.type, a.type), a.name) for a in item.arguments if a not in SIDES)
+    sections = tuple(section for section in kept if section.statements)
+    lanes = replace(item, sections=sections, arguments=arguments, returns="void")
+    told = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
+    return printer.function(lanes, line, frozenset([_RARE.name] if told else []))
 
 
 def motion_kernel(item: Kernel) -> str:
     """A kernel that may meet something rare."""
     return kernel(replace(item, arguments=(*item.arguments, _RARE)))
-
-
-def _type(name: str) -> str:
-    for single, lanes in _TYPES:
-        name = re.sub(rf"\b{single}\b", lanes, name)
-    return name
-
-
-def _section(section: Section) -> Section:
-    statements: list[Statement | str] = []
-    for item in section.statements:
-        if isinstance(item, Statement):
-            statements.append(replace(item, value=expression(item.value)))
-        elif isinstance(item, Guard):
-            statements.append(f"*rare |= ~({item.condition});")
-        elif not _LEFT_OUT.fullmatch(item):
-            statements.append(_line(item))
-    return replace(section, statements=tuple(statements))
-
-
-def _line(text: str) -> str:
-    """A line of C that both have. Raises ValueError for one that nobody has thought of."""
-    if re.match(r"Lanes |sines_and_cosines\(", text):
-        return text
-    if text.startswith("clearance_"):
-        text = text.replace(", p, side, g,", ", p,")
-        return re.sub(r"(?<=, )(-?[\d.]+)(?=,)", r"all_of(\1)", text)  # the ground's angular velocity
-    if text.startswith("*worst = "):
-        value = text.removeprefix("*worst = ").replace("max_of(*worst, fabs(", "lanes_max_of(*worst, lanes_fabs(")
-        return f"*worst = {'all_of(0.0);' if value == '0.0;' else value}"
-    raise ValueError(f"a line of a kernel that has no counterpart for vectors: {text}")

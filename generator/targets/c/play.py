@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 
-from gudgeon.generator.equations import contact_steps as contact
-from gudgeon.generator.ir.kernels import Statement
+from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.targets.c import printer
 
@@ -16,11 +14,6 @@ _ARGUMENTS = (
     "double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,\n"
     "    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out"
 )
-# At e = 0 any direction will do for the normal: the force is isotropic there.
-_GUARDED = {
-    contact.n_x.name: "e > 0.0 ? e_x * inverse_e : 1.0",
-    contact.n_y.name: "e > 0.0 ? e_y * inverse_e : 0.0",
-}
 _STORE = """\
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
@@ -49,12 +42,7 @@ def clearance_code(pin: Pin, render: Render) -> str:
 
 
 def _lines(statements: Sequence[Statement]) -> str:
-    return lines(statements, _GUARDED, printer.statement)
-
-
-def lines(statements: Sequence[Statement], guarded: Mapping[str, str], written: Callable[[Statement], str]) -> str:
-    """As text; what is `guarded` has its own."""
-    return "\n".join(written(replace(s, value=guarded.get(s.target, s.value))) for s in statements)
+    return "\n".join(map(printer.line, statements))
 
 
 def _template(pin: Pin) -> str:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import Argument, Kernel, Statement
+from gudgeon.generator.ir.kernels import Argument, Kernel
+from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.targets.c import printer
 
 _TYPES = {"const double": "const Range", "const double *": "const Range *", "Aside *": "Range *"}
 _NAMES = {"aside": "out"}
-_READ = re.compile(r"[qv]\[\d+\]|t")  # what a range is handed over for; everything else is a number
+_RANGES = {"q", "v", "t"}  # what a range is handed over for; everything else is a number
 
 
 class RangesPrinter(printer.CPrinter):
@@ -92,14 +92,16 @@ _printer = RangesPrinter({"math_macros": {}})
 
 def kernel(item: Kernel) -> str:
     """The function with ranges for its time, coordinates and velocities, and numbers for its parameters."""
-    sections = tuple(replace(section, statements=tuple(map(_ranged, section.statements))) for section in item.sections)
     arguments = tuple(Argument(_TYPES.get(a.type, a.type), _NAMES.get(a.name, a.name)) for a in item.arguments)
-    return printer.kernel(replace(item, sections=sections, arguments=arguments), "Range")
+    return printer.function(replace(item, arguments=arguments), _line)
 
 
-def _ranged(item: Statement | str) -> Statement | str:
-    if isinstance(item, str):
-        return item
-    if isinstance(item.value, str):
-        return item if _READ.fullmatch(item.value) else replace(item, value=f"only({item.value})")
-    return replace(item, value=_printer._range(item.value))
+def _line(item: Line) -> str:
+    if not isinstance(item, Statement):
+        return printer.line(item)
+    if isinstance(item.value, sp.Basic):
+        text = _printer._range(item.value)
+    else:
+        text = printer.expression(item.value)
+        text = text if item.value.names & _RANGES else f"only({text})"
+    return printer.assignment(item, text, "Range")

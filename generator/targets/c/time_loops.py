@@ -75,7 +75,7 @@ def kinematic_code(program: Program, counts: Mapping[str, int], render: Render) 
     )
     if model.events:
         corners = sorted(switch.index for switch in model.symbols.switches.of(""))
-        text = ranges_printer.kernel(ranges_kernel(watched, corners)) if watched else ""
+        text = ranges_printer.kernel(ranges_kernel(watched, corners, len(model.events))) if watched else ""
         files["kinematic_events.c"] = render("kinematic/kinematic_events.c.jinja", kernel=text, first=len(corners))
     return files
 
@@ -186,7 +186,7 @@ def _watched_code(integrated: Integrated, counts: Mapping[str, int], render: Ren
     margins = _watched(integrated, counts)
     if integrated.watched is None or not margins["watched"]:
         return render("watch/looks.c.jinja" if margins["watched"] else "watch/no_watched.c.jinja", **margins)
-    kernel = ranges_kernel(integrated.watched, integrated.corners)
+    kernel = ranges_kernel(integrated.watched, integrated.corners, counts["n_events"])
     text = ranges_printer.kernel(kernel)
     return render("watch/watched.c.jinja", kernel=text, reads_state=reads_state(kernel), **margins)
 
