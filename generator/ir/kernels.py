@@ -6,12 +6,13 @@ coordinates and parameters that they read and the definitions (cosines, arms, dr
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.statements import Line, Place, Rescue, Sides, Statement, Value, without_unread
+from gudgeon.generator.ir.statements import Line, Rescue, Sides, Statement
+from gudgeon.generator.ir.values import Place, Value
 from gudgeon.generator.symbols.corners import SideOf, Switches
 from gudgeon.generator.symbols.symbols import Symbols
 
@@ -51,7 +52,6 @@ class Kernel:
             for value in line.expressions
         )
 
-
     def has(self, function: type[sp.Function]) -> bool:
         """Whether a statement calls it."""
         statements = (s for section in self.sections for s in section.statements if isinstance(s, Statement))
@@ -84,6 +84,24 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only
             statements.append(statement)
         held.append(Section(section.title, tuple(statements)))
     return held
+
+
+def without_unread(lines: Sequence[Line], read: set[str]) -> list[Line]:
+    """Without locals that nothing behind them reads; `read` is what is read behind, and becomes all that is."""
+    kept: list[Line] = []
+    for line in reversed(lines):
+        if line.defines and line.defines not in read:
+            continue
+        read |= line.reads
+        kept.append(line)
+    return kept[::-1]
+
+
+def changed(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
+    """A statement with its expression changed; other lines as they are."""
+    if isinstance(line, Statement) and isinstance(line.value, sp.Basic):
+        return replace(line, value=change(line.value))
+    return line
 
 
 HELD = "corners: the sides that are held, if any"  # title of the lines from which a kernel reads sides

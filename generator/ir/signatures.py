@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import Argument
-from gudgeon.generator.ir.statements import Place
+from gudgeon.generator.ir.values import Place
 
 # Corners: the sides that are held over a step (NULL: none), and where the switching functions go.
 SIDES = (Argument("const double *", "side"), Argument("double *", "g"))

@@ -12,8 +12,9 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.statements import Line, Place, Sines, Statement, changed
+from gudgeon.generator.ir.kernels import Kernel, Section, changed
+from gudgeon.generator.ir.statements import Line, Sines, Statement
+from gudgeon.generator.ir.values import Place
 
 MANY = 4  # groups, beyond which they are computed in a loop
 # Angles, statements that turn them, how many a kernel has numbered before: lines, how many it has numbered then.
@@ -79,9 +80,7 @@ def _grouped(section: Section, written: Written, before: int) -> tuple[Section, 
     return Section(section.title, (*first, *lines, *rest)), after
 
 
-def _vectors(
-    angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int
-) -> tuple[list[Line], int]:
+def _vectors(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int) -> tuple[list[Line], int]:
     """Groups of four angles, and the statements that read the results; many groups in a loop, which is shorter."""
     named = [*angles, *[angles[-1]] * (-len(angles) % 4)]
     count = len(named) // 4
@@ -98,9 +97,7 @@ def _vectors(
     return lines, before + count
 
 
-def _lanes(
-    angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int
-) -> tuple[list[Line], int]:
+def _lanes(angles: Sequence[sp.Symbol], taken: Sequence[Statement], before: int) -> tuple[list[Line], int]:
     """One call an angle, and the statements that read the results."""
     place = {angle: k for k, angle in enumerate(angles, before)}
     lines: list[Line] = [Sines((angle,), str(k), lanes=True) for angle, k in place.items()]

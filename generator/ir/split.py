@@ -17,19 +17,8 @@ from itertools import groupby
 
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section
 from gudgeon.generator.ir.order import nearby
-from gudgeon.generator.ir.statements import (
-    Call,
-    Declare,
-    Ended,
-    Guard,
-    Jump,
-    Line,
-    Passed,
-    Place,
-    Return,
-    Sines,
-    Statement,
-)  # fmt: skip
+from gudgeon.generator.ir.statements import Call, Declare, Ended, Guard, Jump, Line, Passed, Return, Sines, Statement
+from gudgeon.generator.ir.values import Place
 
 LONG, PART, SHORTEST = 850, 250, 60
 

@@ -10,7 +10,8 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
-from gudgeon.generator.ir.statements import Given, Statement
+from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.ir.values import Given
 
 
 def prepare_kernel(model: Model) -> Kernel:

@@ -14,7 +14,8 @@ import sympy as sp
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import jumping_drives
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section
-from gudgeon.generator.ir.statements import Place, Sides, Statement
+from gudgeon.generator.ir.statements import Sides, Statement
+from gudgeon.generator.ir.values import Place
 from gudgeon.generator.symbols.corners import SideOf
 
 _DOC = ("Switching functions that hang on time alone.",)

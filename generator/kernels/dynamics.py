@@ -12,18 +12,8 @@ from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, ZERO, acting_on
-from gudgeon.generator.ir.statements import (
-    Call,
-    Jump,
-    Place,
-    Rescue,
-    Return,
-    Statement,
-    Status,
-    Sum,
-    Test,
-    When,
-)
+from gudgeon.generator.ir.statements import Call, Jump, Rescue, Return, Statement, Status, When
+from gudgeon.generator.ir.values import Place, Sum, Test
 from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR, friction_mode
 
 _DOC = (

@@ -12,7 +12,8 @@ from dataclasses import replace
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.statements import Line, Place, Sides, Statement
+from gudgeon.generator.ir.statements import Line, Sides, Statement
+from gudgeon.generator.ir.values import Place
 from gudgeon.generator.symbols.corners import SideOf
 
 NAME, RANGES = "watched_functions", "watched_ranges"

@@ -8,7 +8,7 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
-from gudgeon.generator.ir.statements import Place
+from gudgeon.generator.ir.values import Place
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import Joint
 

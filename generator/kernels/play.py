@@ -12,7 +12,8 @@ from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.kernels import Kernel, Section, hold_sides
-from gudgeon.generator.ir.statements import Chosen, Statement, Test
+from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.kernels.laws import law_kernels
 from gudgeon.generator.solvers.contact_slopes import dry_slopes, film_slopes, in_place, share_slope, unlatched
 

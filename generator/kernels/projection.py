@@ -6,7 +6,8 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
-from gudgeon.generator.ir.statements import Largest, Place, Return
+from gudgeon.generator.ir.statements import Largest, Return
+from gudgeon.generator.ir.values import Place
 from gudgeon.generator.solvers.kkt import KKT, VANISHING
 
 

@@ -14,7 +14,8 @@ import sympy as sp
 
 from gudgeon.generator.ir.finite_slopes import as_written
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section
-from gudgeon.generator.ir.statements import Place, Statement
+from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.ir.values import Place
 from gudgeon.generator.symbols.corners import Pick, SideOf
 from gudgeon.generator.symbols.wholes import Whole
 

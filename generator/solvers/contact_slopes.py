@@ -18,7 +18,8 @@ from gudgeon.generator.ir.differentiation import Tangent, Tangents
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.ir.reciprocals import hoisted
 from gudgeon.generator.ir.signatures import PARAMETERS, SIDES, ZERO
-from gudgeon.generator.ir.statements import Chosen, Statement, Test
+from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.kinds.laws.law import RESULTS
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)

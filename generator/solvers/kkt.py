@@ -17,7 +17,8 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import KernelBuilder
-from gudgeon.generator.ir.statements import Chosen, Guard, Place, Test
+from gudgeon.generator.ir.statements import Guard
+from gudgeon.generator.ir.values import Chosen, Place, Test
 from gudgeon.generator.sparsity.elimination import Elimination, choose_elimination
 
 ZERO = sp.Integer(0)

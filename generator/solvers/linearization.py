@@ -27,7 +27,8 @@ from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.signatures import acting_on
-from gudgeon.generator.ir.statements import Call, Chosen, Declare, Place, Test
+from gudgeon.generator.ir.statements import Call, Declare
+from gudgeon.generator.ir.values import Chosen, Place, Test
 from gudgeon.generator.solvers.kkt import friction_mode
 from gudgeon.generator.symbols.symbols import Symbols
 

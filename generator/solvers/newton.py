@@ -25,8 +25,9 @@ from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangents
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section, with_sides
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
-from gudgeon.generator.ir.statements import Call, Chosen, Declare, Guard, Place, Return, RunNumbers, Statement, Test
+from gudgeon.generator.ir.statements import Call, Declare, Guard, Return, RunNumbers, Statement
 from gudgeon.generator.ir.stored_values import Pool
+from gudgeon.generator.ir.values import Chosen, Place, Test
 from gudgeon.generator.solvers.kkt import SINGULAR, is_simple
 from gudgeon.generator.solvers.linearization import N_WORK, Linearization, Pair, Parts
 from gudgeon.generator.sparsity.elimination import choose_elimination

@@ -6,12 +6,16 @@ import shutil
 
 import numpy as np
 import pytest
+import sympy as sp
 
 from gudgeon.generator.ir import sine_pairs
 from gudgeon.generator.ir import split as parts
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section, Statement
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section
 from gudgeon.generator.ir.order import nearby
+from gudgeon.generator.ir.statements import Call, Declare, Line, Statement
+from gudgeon.generator.ir.values import Place
 from gudgeon.generator.pipeline import generate
+from gudgeon.generator.targets.c import functions
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.mechanisms.n_four_bar import text
@@ -92,20 +96,25 @@ def test_every_statement_comes_once_and_behind_what_it_reads(seed: int) -> None:
 
 
 def test_a_short_kernel_is_its_only_part() -> None:
-    kernel = Kernel("f", (), (Argument("double *", "x"),), (Section("", (Statement("x[0]", "1.0", False),)),))
+    kernel = Kernel("f", (), (Argument("double *", "x"),), (Section("", (Statement("x[0]", sp.Float(1), False),)),))
     assert parts.cut(kernel) == (kernel,)
 
 
 def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     shorten(monkeypatch)
-    plain = [Statement(f"a{k}", f"x[{k}]" if k == 0 else f"a{k - 1} + b[{k % 2}]") for k in range(40)]
-    lines: tuple[Statement | str, ...] = ("double b[2];", "fill(b);", *plain, Statement("y[0]", "a39 + a3", False))
-    kernel = Kernel("f", (), (Argument("const double *", "x"), Argument("double *", "y")), (Section("", lines),))
-    # every statement but the first reads b, which only a line of C knows: nothing may move
+    a, b = [sp.Symbol(f"a{k}", real=True) for k in range(40)], [sp.Symbol(f"b[{k}]", real=True) for k in range(2)]
+    first = Statement("a0", Place("x[0]"))
+    plain = [first, *(Statement(f"a{k}", a[k - 1] + b[k % 2]) for k in range(1, 40))]
+    front: tuple[Line, ...] = (Declare("double", "b", (2,)), Call("fill", (), (Place("b"),)))
+    last = Statement("y[0]", a[39] + a[3], False)
+    kernel = Kernel("f", (), (Argument("const double *", "x"), Argument("double *", "y")),
+                    (Section("", (*front, *plain, last)),))  # fmt: skip
+    # every statement but the first reads b, which only the call knows: nothing may move
     assert parts.cut(kernel) == (kernel,)
-    free = [Statement(f"a{k}", f"x[{k}]" if k == 0 else f"a{k - 1} + 1.0") for k in range(40)]
-    *pieces, main = parts.cut(Kernel("f", (), kernel.arguments, (Section("", (*lines[:2], *free, lines[-1])),)))
+    free = [first, *(Statement(f"a{k}", a[k - 1] + 1) for k in range(1, 40))]
+    *pieces, main = parts.cut(Kernel("f", (), kernel.arguments, (Section("", (*front, *free, last)),)))
     assert [piece.name for piece in pieces] == ["f_part_1", "f_part_2", "f_part_3"]
-    assert [line for section in main.sections for line in section.statements if isinstance(line, str)] == [
+    kept = [line for section in main.sections for line in section.statements if not isinstance(line, Statement)]
+    assert [functions.line(line).strip() for line in kept] == [
         "double passed[3];", "double b[2];", "fill(b);", *(f"f_part_{k}(x, y, passed);" for k in (1, 2, 3)),
     ]  # fmt: skip

@@ -377,8 +377,7 @@ static int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_AG_theta = n_AG_theta__AG_theta;
-    if (!(fabs(scale_AG_theta) > 1e-13 * fabs(n_AG_theta__AG_theta)))
-        return 3;
+    if (!(fabs(scale_AG_theta) > 1e-13 * fabs(n_AG_theta__AG_theta))) return 3;
     const double inverse_pivot_AG_theta = 1.0/scale_AG_theta;
     lin->lu[0] = inverse_pivot_AG_theta;
     const double l_G_x__AG_theta_3 = inverse_pivot_AG_theta*n_G_x__AG_theta;
@@ -386,8 +385,7 @@ static int newton_factor(double eta, Linear *lin)
     const double l_G_y__AG_theta_3 = inverse_pivot_AG_theta*n_G_y__AG_theta;
     lin->lu[2] = l_G_y__AG_theta_3;
     const double scale_AH_theta = n_AH_theta__AH_theta;
-    if (!(fabs(scale_AH_theta) > 1e-13 * fabs(n_AH_theta__AH_theta)))
-        return 4;
+    if (!(fabs(scale_AH_theta) > 1e-13 * fabs(n_AH_theta__AH_theta))) return 4;
     const double inverse_pivot_AH_theta = 1.0/scale_AH_theta;
     lin->lu[3] = inverse_pivot_AH_theta;
     const double l_H_x__AH_theta_3 = inverse_pivot_AH_theta*n_H_x__AH_theta;
@@ -395,8 +393,7 @@ static int newton_factor(double eta, Linear *lin)
     const double l_H_y__AH_theta_3 = inverse_pivot_AH_theta*n_H_y__AH_theta;
     lin->lu[5] = l_H_y__AH_theta_3;
     const double scale_HE_theta = n_HE_theta__HE_theta;
-    if (!(fabs(scale_HE_theta) > 1e-13 * fabs(n_HE_theta__HE_theta)))
-        return 6;
+    if (!(fabs(scale_HE_theta) > 1e-13 * fabs(n_HE_theta__HE_theta))) return 6;
     const double inverse_pivot_HE_theta = 1.0/scale_HE_theta;
     lin->lu[6] = inverse_pivot_HE_theta;
     const double l_BDE_theta__HE_theta_3 = inverse_pivot_HE_theta*n_BDE_theta__HE_theta;
@@ -407,8 +404,7 @@ static int newton_factor(double eta, Linear *lin)
     const double l_H_y__HE_theta_3 = inverse_pivot_HE_theta*n_H_y__HE_theta;
     lin->lu[10] = l_H_y__HE_theta_3;
     const double scale_BDE_theta = -l_BDE_theta__HE_theta_3*n_HE_theta__BDE_theta + n_BDE_theta__BDE_theta;
-    if (!(fabs(scale_BDE_theta) > 1e-13 * fabs(n_BDE_theta__BDE_theta)))
-        return 2;
+    if (!(fabs(scale_BDE_theta) > 1e-13 * fabs(n_BDE_theta__BDE_theta))) return 2;
     const double inverse_pivot_BDE_theta_3 = 1.0/scale_BDE_theta;
     lin->lu[11] = inverse_pivot_BDE_theta_3;
     const double l_H_x__BDE_theta_2 = inverse_pivot_BDE_theta_3*(-l_H_x__HE_theta_3*n_HE_theta__BDE_theta +
@@ -427,8 +423,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[17] = l_E3_y__BDE_theta_3;
     const double scale_H_x_3 = -l_H_x__AH_theta_3*phi_H_x_AH_theta - l_H_x__BDE_theta_2*u_BDE_theta__H_x -
         l_H_x__HE_theta_3*phi_H_x_HE_theta;
-    if (!(fabs(scale_H_x_3) > 1e-13 * fabs(scale_H_x_3)))
-        return 10;
+    if (!(fabs(scale_H_x_3) > 1e-13 * fabs(scale_H_x_3))) return 10;
     const double inverse_pivot_H_x_3 = 1.0/scale_H_x_3;
     lin->lu[18] = inverse_pivot_H_x_3;
     const double l_H_y__H_x = inverse_pivot_H_x_3*(-l_H_y__AH_theta_3*phi_H_x_AH_theta -
@@ -448,8 +443,7 @@ static int newton_factor(double eta, Linear *lin)
     const double scale_H_y_3 = -l_H_y__AH_theta_3*phi_H_y_AH_theta - l_H_y__BDE_theta_2*u_BDE_theta__H_y -
         l_H_y__HE_theta_3*phi_H_y_HE_theta;
     const double pivot_H_y = -l_H_y__H_x*u_H_x__H_y + scale_H_y_3;
-    if (!(fabs(pivot_H_y) > 1e-13 * fabs(scale_H_y_3)))
-        return 11;
+    if (!(fabs(pivot_H_y) > 1e-13 * fabs(scale_H_y_3))) return 11;
     const double inverse_pivot_H_y_3 = 1.0/pivot_H_y;
     lin->lu[25] = inverse_pivot_H_y_3;
     const double l_E3_x__H_y_2 = inverse_pivot_H_y_3*(-l_E3_x__BDE_theta_3*u_BDE_theta__H_y -
@@ -463,8 +457,7 @@ static int newton_factor(double eta, Linear *lin)
     const double u_H_y__E3_y = l_H_y__BDE_theta_2*phi_H_y_BDE_theta - l_H_y__H_x*u_H_x__E3_y;
     lin->lu[29] = u_H_y__E3_y;
     const double scale_EG_theta = n_EG_theta__EG_theta;
-    if (!(fabs(scale_EG_theta) > 1e-13 * fabs(n_EG_theta__EG_theta)))
-        return 7;
+    if (!(fabs(scale_EG_theta) > 1e-13 * fabs(n_EG_theta__EG_theta))) return 7;
     const double inverse_pivot_EG_theta = 1.0/scale_EG_theta;
     lin->lu[30] = inverse_pivot_EG_theta;
     const double l_OF_theta__EG_theta_3 = inverse_pivot_EG_theta*n_OF_theta__EG_theta;
@@ -478,8 +471,7 @@ static int newton_factor(double eta, Linear *lin)
     const double l_G_y__EG_theta_3 = inverse_pivot_EG_theta*n_G_y__EG_theta;
     lin->lu[36] = l_G_y__EG_theta_3;
     const double scale_OF_theta = -l_OF_theta__EG_theta_3*n_EG_theta__OF_theta + n_OF_theta__OF_theta;
-    if (!(fabs(scale_OF_theta) > 1e-13 * fabs(n_OF_theta__OF_theta)))
-        return 1;
+    if (!(fabs(scale_OF_theta) > 1e-13 * fabs(n_OF_theta__OF_theta))) return 1;
     const double inverse_pivot_OF_theta_3 = 1.0/scale_OF_theta;
     lin->lu[37] = inverse_pivot_OF_theta_3;
     const double l_FE_theta__OF_theta = inverse_pivot_OF_theta_3*(-l_FE_theta__EG_theta_3*n_EG_theta__OF_theta
@@ -503,8 +495,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[45] = l_E3_y__OF_theta_3;
     const double scale_FE_theta = -l_FE_theta__EG_theta_3*n_EG_theta__FE_theta -
         l_FE_theta__OF_theta*u_OF_theta__FE_theta + n_FE_theta__FE_theta;
-    if (!(fabs(scale_FE_theta) > 1e-13 * fabs(n_FE_theta__FE_theta)))
-        return 5;
+    if (!(fabs(scale_FE_theta) > 1e-13 * fabs(n_FE_theta__FE_theta))) return 5;
     const double inverse_pivot_FE_theta_3 = 1.0/scale_FE_theta;
     lin->lu[46] = inverse_pivot_FE_theta_3;
     const double l_G_x__FE_theta_2 = inverse_pivot_FE_theta_3*(-l_G_x__EG_theta_3*n_EG_theta__FE_theta -
@@ -531,8 +522,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[54] = u_FE_theta__E3_y;
     const double scale_G_x_3 = -l_G_x__AG_theta_3*phi_G_x_AG_theta - l_G_x__EG_theta_3*phi_G_x_EG_theta -
         l_G_x__FE_theta_2*u_FE_theta__G_x - l_G_x__OF_theta_2*u_OF_theta__G_x;
-    if (!(fabs(scale_G_x_3) > 1e-13 * fabs(scale_G_x_3)))
-        return 8;
+    if (!(fabs(scale_G_x_3) > 1e-13 * fabs(scale_G_x_3))) return 8;
     const double inverse_pivot_G_x_3 = 1.0/scale_G_x_3;
     lin->lu[55] = inverse_pivot_G_x_3;
     const double l_G_y__G_x = inverse_pivot_G_x_3*(-l_G_y__AG_theta_3*phi_G_x_AG_theta -
@@ -555,8 +545,7 @@ static int newton_factor(double eta, Linear *lin)
     const double scale_G_y_3 = -l_G_y__AG_theta_3*phi_G_y_AG_theta - l_G_y__EG_theta_3*phi_G_y_EG_theta -
         l_G_y__FE_theta_2*u_FE_theta__G_y - l_G_y__OF_theta_2*u_OF_theta__G_y;
     const double pivot_G_y = -l_G_y__G_x*u_G_x__G_y + scale_G_y_3;
-    if (!(fabs(pivot_G_y) > 1e-13 * fabs(scale_G_y_3)))
-        return 9;
+    if (!(fabs(pivot_G_y) > 1e-13 * fabs(scale_G_y_3))) return 9;
     const double inverse_pivot_G_y_3 = 1.0/pivot_G_y;
     lin->lu[62] = inverse_pivot_G_y_3;
     const double l_E3_x__G_y_2 = inverse_pivot_G_y_3*(-l_E3_x__FE_theta_3*u_FE_theta__G_y -
@@ -575,8 +564,7 @@ static int newton_factor(double eta, Linear *lin)
         l_E3_x__OF_theta_3*phi_G_x_OF_theta;
     const double pivot_E3_x_2 = -l_E3_x__G_x_2*u_G_x__E3_x - l_E3_x__G_y_2*u_G_y__E3_x -
         l_E3_x__H_x_2*u_H_x__E3_x - l_E3_x__H_y_2*u_H_y__E3_x + scale_E3_x_3;
-    if (!(fabs(pivot_E3_x_2) > 1e-13 * fabs(scale_E3_x_3)))
-        return 12;
+    if (!(fabs(pivot_E3_x_2) > 1e-13 * fabs(scale_E3_x_3))) return 12;
     const double inverse_pivot_E3_x_3 = 1.0/pivot_E3_x_2;
     lin->lu[67] = inverse_pivot_E3_x_3;
     const double l_E3_y__E3_x = inverse_pivot_E3_x_3*(l_E3_y__BDE_theta_3*phi_H_x_BDE_theta -
@@ -591,8 +579,7 @@ static int newton_factor(double eta, Linear *lin)
         l_E3_y__OF_theta_3*phi_G_y_OF_theta;
     const double pivot_E3_y_2 = -l_E3_y__E3_x*u_E3_x__E3_y - l_E3_y__G_x_2*u_G_x__E3_y -
         l_E3_y__G_y_2*u_G_y__E3_y - l_E3_y__H_x_2*u_H_x__E3_y - l_E3_y__H_y_2*u_H_y__E3_y + scale_E3_y_3;
-    if (!(fabs(pivot_E3_y_2) > 1e-13 * fabs(scale_E3_y_3)))
-        return 13;
+    if (!(fabs(pivot_E3_y_2) > 1e-13 * fabs(scale_E3_y_3))) return 13;
     const double inverse_pivot_E3_y_3 = 1.0/pivot_E3_y_2;
     lin->lu[70] = inverse_pivot_E3_y_3;
     return 0;

@@ -67,7 +67,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double inverse_pivot_guide_angle = 1.0/scale_guide_angle;
     const double scale_rub = inverse_block_mass;
     if (stick_rub != 0.0 && !(scale_rub > 1e-13 * scale_rub)) return 3;
-    const double inverse_pivot_rub = stick_rub != 0.0 ? 1.0 / scale_rub : 0.0;
+    const double inverse_pivot_rub = stick_rub != 0.0 ? 1.0/scale_rub : 0.0;
 
     /* forward substitution */
     const double z_block_x = kinetic_rub - spring_pull*spring_span_x;

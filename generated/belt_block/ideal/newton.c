@@ -36,7 +36,7 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double spring_pull = spring_force/spring_length;
 
     /* friction: slip, or stick as a row */
-    const double mode_rub_2 = memory->mode[0];
+    const double mode_rub_2 = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
     const double stick_rub_2 = mode_rub_2 == 0.0 ? 1.0 : 0.0;
     const double sign_rub_2 = fabs(mode_rub_2) > 1.0 ? 0.0 : mode_rub_2;
     const double held_force_rub = stick_rub_2 != 0.0 ? aside->friction[0].force : 0.0;
@@ -77,14 +77,12 @@ static int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_guide_slide = n_guide_slide__guide_slide;
-    if (!(fabs(scale_guide_slide) > 1e-13 * fabs(n_guide_slide__guide_slide)))
-        return 1;
+    if (!(fabs(scale_guide_slide) > 1e-13 * fabs(n_guide_slide__guide_slide))) return 1;
     const double inverse_pivot_guide_slide = 1.0/scale_guide_slide;
     lin->lu[0] = inverse_pivot_guide_slide;
     const double scale_rub_2 = -inverse_pivot_guide_slide;
-    if (is_stick_rub_2 != 0.0 && !(fabs(scale_rub_2) > 1e-13 * fabs(scale_rub_2)))
-        return 2;
-    const double inverse_pivot_rub_2 = is_stick_rub_2 != 0.0 ? 1.0 / scale_rub_2 : 0.0;
+    if (is_stick_rub_2 != 0.0 && !(fabs(scale_rub_2) > 1e-13 * fabs(scale_rub_2))) return 2;
+    const double inverse_pivot_rub_2 = is_stick_rub_2 != 0.0 ? 1.0/scale_rub_2 : 0.0;
     lin->lu[1] = inverse_pivot_rub_2;
     return 0;
 }

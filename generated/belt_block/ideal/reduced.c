@@ -114,7 +114,7 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     /* L D L^T of the KKT matrix */
     const double scale_rub = inverse_block_mass;
     if (stick_rub != 0.0 && !(scale_rub > 1e-13 * scale_rub)) return 1;
-    const double inverse_pivot_rub = stick_rub != 0.0 ? 1.0 / scale_rub : 0.0;
+    const double inverse_pivot_rub = stick_rub != 0.0 ? 1.0/scale_rub : 0.0;
 
     /* forward substitution */
     const double z_guide_slide = kinetic_rub - spring_pull*spring_span_x;

@@ -61,8 +61,8 @@ static void clearance_fall(double e_x, double e_y, double de_x, double de_y, dou
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
-    const double n_x = e > 0.0 ? e_x * inverse_e : 1.0;
-    const double n_y = e > 0.0 ? e_y * inverse_e : 0.0;
+    const double n_x = e > 0.0 ? e_x*inverse_e : 1.0;
+    const double n_y = e > 0.0 ? e_y*inverse_e : 0.0;
     const double delta = e - p->floor_clearance;
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;

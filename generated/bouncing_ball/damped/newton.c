@@ -60,8 +60,8 @@ static inline void dry_slopes_fall(double e, double deltadot, double de_t, doubl
     const double delta = e - p->floor_clearance;
     const double depth = max_of(delta, 0.0);
     const double depth_by_e = delta > 0.0 ? 1.0 : 0.0;
-    const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double ratio_by_deltadot = latch->closed ? 1.0 / latch->deltadot_minus : 0.0;
+    const double ratio = latch->closed ? deltadot/latch->deltadot_minus : 1.0;
+    const double ratio_by_deltadot = latch->closed ? 1.0/latch->deltadot_minus : 0.0;
     const double a_i = (0.5)*delta + p->floor_radius;
     const double a_j = -0.5*delta + p->R_j_floor;
 
@@ -179,7 +179,7 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double edot_fall_x_2 = ball_x_rate;
     const double edot_fall_y_2 = ball_y_rate;
     double change_fall[4][6];
-    tangent_fall(e_fall_x_2, e_fall_y_2, edot_fall_x_2, edot_fall_y_2, 0, ball_omega, &memory->latch[0], p, side, g, change_fall);
+    tangent_fall(e_fall_x_2, e_fall_y_2, edot_fall_x_2, edot_fall_y_2, 0.0, ball_omega, &memory->latch[0], p, side, g, change_fall);
     const double fall_Fx_by_e_x = change_fall[0][0];
     const double fall_Fx_by_e_y = change_fall[0][1];
     const double fall_Fx_by_de_x = change_fall[0][2];
@@ -268,8 +268,7 @@ static int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_ball_x = n_ball_x__ball_x;
-    if (!(fabs(scale_ball_x) > 1e-13 * fabs(n_ball_x__ball_x)))
-        return 1;
+    if (!(fabs(scale_ball_x) > 1e-13 * fabs(n_ball_x__ball_x))) return 1;
     const double inverse_pivot_ball_x = 1.0/scale_ball_x;
     lin->lu[0] = inverse_pivot_ball_x;
     const double l_ball_y__ball_x = inverse_pivot_ball_x*n_ball_y__ball_x;
@@ -279,8 +278,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[3] = l_ball_theta__ball_x;
     lin->lu[4] = n_ball_x__ball_theta;
     const double scale_ball_y = -l_ball_y__ball_x*n_ball_x__ball_y + n_ball_y__ball_y;
-    if (!(fabs(scale_ball_y) > 1e-13 * fabs(n_ball_y__ball_y)))
-        return 2;
+    if (!(fabs(scale_ball_y) > 1e-13 * fabs(n_ball_y__ball_y))) return 2;
     const double inverse_pivot_ball_y = 1.0/scale_ball_y;
     lin->lu[5] = inverse_pivot_ball_y;
     const double l_ball_theta__ball_y = inverse_pivot_ball_y*(-l_ball_theta__ball_x*n_ball_x__ball_y +
@@ -290,8 +288,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[7] = u_ball_y__ball_theta;
     const double scale_ball_theta = -l_ball_theta__ball_x*n_ball_x__ball_theta -
         l_ball_theta__ball_y*u_ball_y__ball_theta + n_ball_theta__ball_theta;
-    if (!(fabs(scale_ball_theta) > 1e-13 * fabs(n_ball_theta__ball_theta)))
-        return 3;
+    if (!(fabs(scale_ball_theta) > 1e-13 * fabs(n_ball_theta__ball_theta))) return 3;
     const double inverse_pivot_ball_theta = 1.0/scale_ball_theta;
     lin->lu[8] = inverse_pivot_ball_theta;
     return 0;

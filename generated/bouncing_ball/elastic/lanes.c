@@ -114,8 +114,8 @@ static void clearance_fall(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes o
 {
     const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
     const Lanes inverse_e = 1.0/e;
-    const Lanes n_x = pick(e > 0.0, e_x * inverse_e, all_of(1.0));
-    const Lanes n_y = pick(e > 0.0, e_y * inverse_e, all_of(0.0));
+    const Lanes n_x = pick(e > 0.0, e_x*inverse_e, all_of(1.0));
+    const Lanes n_y = pick(e > 0.0, e_y*inverse_e, all_of(0.0));
     const Lanes delta = e - p->floor_clearance;
     const Lanes deltadot = de_x*n_x + de_y*n_y;
     const Lanes de_t = -de_x*n_y + de_y*n_x;
@@ -187,7 +187,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes e_fall_y = ball_y;
     const Lanes edot_fall_x = ball_x_rate;
     const Lanes edot_fall_y = ball_y_rate;
-    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, all_of(0), ball_omega, &memory->latch[0], p, &aside->clearance[0]);
+    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, all_of(0.0), ball_omega, &memory->latch[0], p, &aside->clearance[0]);
     const Lanes F_fall_x = aside->clearance[0].Fx;
     const Lanes F_fall_y = aside->clearance[0].Fy;
     const Lanes M_fall_second = aside->clearance[0].moment_second;

@@ -281,8 +281,7 @@ static int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_axle_x = n_axle_x__axle_x;
-    if (!(fabs(scale_axle_x) > 1e-13 * fabs(n_axle_x__axle_x)))
-        return 1;
+    if (!(fabs(scale_axle_x) > 1e-13 * fabs(n_axle_x__axle_x))) return 1;
     const double inverse_pivot_axle_x = 1.0/scale_axle_x;
     lin->lu[0] = inverse_pivot_axle_x;
     const double l_axle_y__axle_x = inverse_pivot_axle_x*n_axle_y__axle_x;
@@ -294,8 +293,7 @@ static int newton_factor(double eta, Linear *lin)
     const double l_slot_offset__axle_x_3 = inverse_pivot_axle_x*n_slot_offset__axle_x;
     lin->lu[5] = l_slot_offset__axle_x_3;
     const double scale_axle_y = -l_axle_y__axle_x*n_axle_x__axle_y + n_axle_y__axle_y;
-    if (!(fabs(scale_axle_y) > 1e-13 * fabs(n_axle_y__axle_y)))
-        return 2;
+    if (!(fabs(scale_axle_y) > 1e-13 * fabs(n_axle_y__axle_y))) return 2;
     const double inverse_pivot_axle_y = 1.0/scale_axle_y;
     lin->lu[6] = inverse_pivot_axle_y;
     const double l_axle_theta__axle_y = inverse_pivot_axle_y*(-l_axle_theta__axle_x*n_axle_x__axle_y +
@@ -310,8 +308,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[10] = u_axle_y__slot_offset;
     const double scale_axle_theta = -l_axle_theta__axle_x*n_axle_x__axle_theta -
         l_axle_theta__axle_y*u_axle_y__axle_theta + n_axle_theta__axle_theta;
-    if (!(fabs(scale_axle_theta) > 1e-13 * fabs(n_axle_theta__axle_theta)))
-        return 3;
+    if (!(fabs(scale_axle_theta) > 1e-13 * fabs(n_axle_theta__axle_theta))) return 3;
     const double inverse_pivot_axle_theta = 1.0/scale_axle_theta;
     lin->lu[11] = inverse_pivot_axle_theta;
     const double l_slot_offset__axle_theta_3 =
@@ -323,8 +320,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[13] = u_axle_theta__slot_offset;
     const double scale_slot_offset_3 = -l_slot_offset__axle_theta_3*u_axle_theta__slot_offset -
         l_slot_offset__axle_x_3*phi_slot_offset_axle_x - l_slot_offset__axle_y_3*u_axle_y__slot_offset;
-    if (!(fabs(scale_slot_offset_3) > 1e-13 * fabs(scale_slot_offset_3)))
-        return 4;
+    if (!(fabs(scale_slot_offset_3) > 1e-13 * fabs(scale_slot_offset_3))) return 4;
     const double inverse_pivot_slot_offset_3 = 1.0/scale_slot_offset_3;
     lin->lu[14] = inverse_pivot_slot_offset_3;
     return 0;

@@ -269,8 +269,7 @@ static int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_crank2_theta = n_crank2_theta__crank2_theta;
-    if (!(fabs(scale_crank2_theta) > 1e-13 * fabs(n_crank2_theta__crank2_theta)))
-        return 3;
+    if (!(fabs(scale_crank2_theta) > 1e-13 * fabs(n_crank2_theta__crank2_theta))) return 3;
     const double inverse_pivot_crank2_theta = 1.0/scale_crank2_theta;
     lin->lu[0] = inverse_pivot_crank2_theta;
     const double l_B2_x__crank2_theta_3 = inverse_pivot_crank2_theta*n_B2_x__crank2_theta;
@@ -278,8 +277,7 @@ static int newton_factor(double eta, Linear *lin)
     const double l_B2_y__crank2_theta_3 = inverse_pivot_crank2_theta*n_B2_y__crank2_theta;
     lin->lu[2] = l_B2_y__crank2_theta_3;
     const double scale_crank0_theta = n_crank0_theta__crank0_theta;
-    if (!(fabs(scale_crank0_theta) > 1e-13 * fabs(n_crank0_theta__crank0_theta)))
-        return 1;
+    if (!(fabs(scale_crank0_theta) > 1e-13 * fabs(n_crank0_theta__crank0_theta))) return 1;
     const double inverse_pivot_crank0_theta = 1.0/scale_crank0_theta;
     lin->lu[3] = inverse_pivot_crank0_theta;
     const double l_coupler1_theta__crank0_theta_3 = inverse_pivot_crank0_theta*n_coupler1_theta__crank0_theta;
@@ -291,8 +289,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[7] = l_B1_y__crank0_theta_3;
     const double scale_coupler1_theta = -l_coupler1_theta__crank0_theta_3*n_crank0_theta__coupler1_theta +
         n_coupler1_theta__coupler1_theta;
-    if (!(fabs(scale_coupler1_theta) > 1e-13 * fabs(n_coupler1_theta__coupler1_theta)))
-        return 4;
+    if (!(fabs(scale_coupler1_theta) > 1e-13 * fabs(n_coupler1_theta__coupler1_theta))) return 4;
     const double inverse_pivot_coupler1_theta_3 = 1.0/scale_coupler1_theta;
     lin->lu[8] = inverse_pivot_coupler1_theta_3;
     const double l_B1_x__coupler1_theta_3 =
@@ -310,8 +307,7 @@ static int newton_factor(double eta, Linear *lin)
         phi_B1_y_coupler1_theta;
     lin->lu[12] = u_coupler1_theta__B1_y;
     const double scale_coupler2_theta = n_coupler2_theta__coupler2_theta;
-    if (!(fabs(scale_coupler2_theta) > 1e-13 * fabs(n_coupler2_theta__coupler2_theta)))
-        return 5;
+    if (!(fabs(scale_coupler2_theta) > 1e-13 * fabs(n_coupler2_theta__coupler2_theta))) return 5;
     const double inverse_pivot_coupler2_theta = 1.0/scale_coupler2_theta;
     lin->lu[13] = inverse_pivot_coupler2_theta;
     const double l_crank1_theta__coupler2_theta_3 =
@@ -324,8 +320,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[17] = l_B2_y__coupler2_theta_3;
     const double scale_crank1_theta = -l_crank1_theta__coupler2_theta_3*n_coupler2_theta__crank1_theta +
         n_crank1_theta__crank1_theta;
-    if (!(fabs(scale_crank1_theta) > 1e-13 * fabs(n_crank1_theta__crank1_theta)))
-        return 2;
+    if (!(fabs(scale_crank1_theta) > 1e-13 * fabs(n_crank1_theta__crank1_theta))) return 2;
     const double inverse_pivot_crank1_theta_3 = 1.0/scale_crank1_theta;
     lin->lu[18] = inverse_pivot_crank1_theta_3;
     const double l_B2_x__crank1_theta_2 =
@@ -348,8 +343,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[24] = l_B1_y__crank1_theta_3;
     const double scale_B2_x_3 = -l_B2_x__coupler2_theta_3*phi_B2_x_coupler2_theta -
         l_B2_x__crank1_theta_2*u_crank1_theta__B2_x - l_B2_x__crank2_theta_3*phi_B2_x_crank2_theta;
-    if (!(fabs(scale_B2_x_3) > 1e-13 * fabs(scale_B2_x_3)))
-        return 6;
+    if (!(fabs(scale_B2_x_3) > 1e-13 * fabs(scale_B2_x_3))) return 6;
     const double inverse_pivot_B2_x_3 = 1.0/scale_B2_x_3;
     lin->lu[25] = inverse_pivot_B2_x_3;
     const double l_B2_y__B2_x = inverse_pivot_B2_x_3*(-l_B2_y__coupler2_theta_3*phi_B2_x_coupler2_theta -
@@ -369,8 +363,7 @@ static int newton_factor(double eta, Linear *lin)
     const double scale_B2_y_3 = -l_B2_y__coupler2_theta_3*phi_B2_y_coupler2_theta -
         l_B2_y__crank1_theta_2*u_crank1_theta__B2_y - l_B2_y__crank2_theta_3*phi_B2_y_crank2_theta;
     const double pivot_B2_y = -l_B2_y__B2_x*u_B2_x__B2_y + scale_B2_y_3;
-    if (!(fabs(pivot_B2_y) > 1e-13 * fabs(scale_B2_y_3)))
-        return 7;
+    if (!(fabs(pivot_B2_y) > 1e-13 * fabs(scale_B2_y_3))) return 7;
     const double inverse_pivot_B2_y_3 = 1.0/pivot_B2_y;
     lin->lu[32] = inverse_pivot_B2_y_3;
     const double l_B1_x__B2_y_2 = inverse_pivot_B2_y_3*(-l_B1_x__B2_x_2*u_B2_x__B2_y -
@@ -386,8 +379,7 @@ static int newton_factor(double eta, Linear *lin)
     const double scale_B1_x_3 = -l_B1_x__coupler1_theta_3*u_coupler1_theta__B1_x -
         l_B1_x__crank0_theta_3*phi_B1_x_crank0_theta + l_B1_x__crank1_theta_3*phi_B2_x_crank1_theta;
     const double pivot_B1_x_2 = -l_B1_x__B2_x_2*u_B2_x__B1_x - l_B1_x__B2_y_2*u_B2_y__B1_x + scale_B1_x_3;
-    if (!(fabs(pivot_B1_x_2) > 1e-13 * fabs(scale_B1_x_3)))
-        return 8;
+    if (!(fabs(pivot_B1_x_2) > 1e-13 * fabs(scale_B1_x_3))) return 8;
     const double inverse_pivot_B1_x_3 = 1.0/pivot_B1_x_2;
     lin->lu[37] = inverse_pivot_B1_x_3;
     const double l_B1_y__B1_x = inverse_pivot_B1_x_3*(-l_B1_y__B2_x_2*u_B2_x__B1_x -
@@ -402,8 +394,7 @@ static int newton_factor(double eta, Linear *lin)
         l_B1_y__crank0_theta_3*phi_B1_y_crank0_theta + l_B1_y__crank1_theta_3*phi_B2_y_crank1_theta;
     const double pivot_B1_y_2 = -l_B1_y__B1_x*u_B1_x__B1_y - l_B1_y__B2_x_2*u_B2_x__B1_y -
         l_B1_y__B2_y_2*u_B2_y__B1_y + scale_B1_y_3;
-    if (!(fabs(pivot_B1_y_2) > 1e-13 * fabs(scale_B1_y_3)))
-        return 9;
+    if (!(fabs(pivot_B1_y_2) > 1e-13 * fabs(scale_B1_y_3))) return 9;
     const double inverse_pivot_B1_y_3 = 1.0/pivot_B1_y_2;
     lin->lu[40] = inverse_pivot_B1_y_3;
     return 0;

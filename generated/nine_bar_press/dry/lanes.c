@@ -232,8 +232,8 @@ static void clearance_A(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omeg
 {
     const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
     const Lanes inverse_e = 1.0/e;
-    const Lanes n_x = pick(e > 0.0, e_x * inverse_e, all_of(1.0));
-    const Lanes n_y = pick(e > 0.0, e_y * inverse_e, all_of(0.0));
+    const Lanes n_x = pick(e > 0.0, e_x*inverse_e, all_of(1.0));
+    const Lanes n_y = pick(e > 0.0, e_y*inverse_e, all_of(0.0));
     const Lanes delta = e - p->pin_clearance;
     const Lanes deltadot = de_x*n_x + de_y*n_y;
     const Lanes de_t = -de_x*n_y + de_y*n_x;
@@ -315,8 +315,8 @@ static void clearance_B(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omeg
 {
     const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
     const Lanes inverse_e = 1.0/e;
-    const Lanes n_x = pick(e > 0.0, e_x * inverse_e, all_of(1.0));
-    const Lanes n_y = pick(e > 0.0, e_y * inverse_e, all_of(0.0));
+    const Lanes n_x = pick(e > 0.0, e_x*inverse_e, all_of(1.0));
+    const Lanes n_y = pick(e > 0.0, e_y*inverse_e, all_of(0.0));
     const Lanes delta = e - p->pin_clearance;
     const Lanes deltadot = de_x*n_x + de_y*n_y;
     const Lanes de_t = -de_x*n_y + de_y*n_x;

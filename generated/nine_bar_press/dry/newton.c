@@ -60,8 +60,8 @@ static inline void dry_slopes_A(double e, double deltadot, double de_t, double o
     const double delta = e - p->pin_clearance;
     const double depth = max_of(delta, 0.0);
     const double depth_by_e = delta > 0.0 ? 1.0 : 0.0;
-    const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double ratio_by_deltadot = latch->closed ? 1.0 / latch->deltadot_minus : 0.0;
+    const double ratio = latch->closed ? deltadot/latch->deltadot_minus : 1.0;
+    const double ratio_by_deltadot = latch->closed ? 1.0/latch->deltadot_minus : 0.0;
     const double a_i = (0.5)*delta + p->pin_radius;
     const double a_j = -0.5*delta + p->R_j_pin;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
@@ -189,8 +189,8 @@ static inline void dry_slopes_B(double e, double deltadot, double de_t, double o
     const double delta = e - p->pin_clearance;
     const double depth = max_of(delta, 0.0);
     const double depth_by_e_2 = delta > 0.0 ? 1.0 : 0.0;
-    const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double ratio_by_deltadot_2 = latch->closed ? 1.0 / latch->deltadot_minus : 0.0;
+    const double ratio = latch->closed ? deltadot/latch->deltadot_minus : 1.0;
+    const double ratio_by_deltadot_2 = latch->closed ? 1.0/latch->deltadot_minus : 0.0;
     const double a_i = (0.5)*delta + p->pin_radius;
     const double a_j = -0.5*delta + p->R_j_pin;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
@@ -952,8 +952,7 @@ static int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_L8_theta = n_L8_theta__L8_theta;
-    if (!(fabs(scale_L8_theta) > 1e-13 * fabs(n_L8_theta__L8_theta)))
-        return 3;
+    if (!(fabs(scale_L8_theta) > 1e-13 * fabs(n_L8_theta__L8_theta))) return 3;
     const double inverse_pivot_L8_theta = 1.0/scale_L8_theta;
     lin->lu[0] = inverse_pivot_L8_theta;
     const double l_L6_theta__L8_theta_3 = inverse_pivot_L8_theta*n_L6_theta__L8_theta;
@@ -962,8 +961,7 @@ static int newton_factor(double eta, Linear *lin)
     const double l_guide_offset__L8_theta_3 = inverse_pivot_L8_theta*n_guide_offset__L8_theta;
     lin->lu[3] = l_guide_offset__L8_theta_3;
     const double scale_L2_theta = n_L2_theta__L2_theta;
-    if (!(fabs(scale_L2_theta) > 1e-13 * fabs(n_L2_theta__L2_theta)))
-        return 4;
+    if (!(fabs(scale_L2_theta) > 1e-13 * fabs(n_L2_theta__L2_theta))) return 4;
     const double inverse_pivot_L2_theta = 1.0/scale_L2_theta;
     lin->lu[4] = inverse_pivot_L2_theta;
     const double l_L7_theta__L2_theta_3 = inverse_pivot_L2_theta*n_L7_theta__L2_theta;
@@ -973,8 +971,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[7] = l_L6_theta__L2_theta_3;
     lin->lu[8] = n_L2_theta__L6_theta;
     const double scale_L7_theta = -l_L7_theta__L2_theta_3*n_L2_theta__L7_theta + n_L7_theta__L7_theta;
-    if (!(fabs(scale_L7_theta) > 1e-13 * fabs(n_L7_theta__L7_theta)))
-        return 2;
+    if (!(fabs(scale_L7_theta) > 1e-13 * fabs(n_L7_theta__L7_theta))) return 2;
     const double inverse_pivot_L7_theta_3 = 1.0/scale_L7_theta;
     lin->lu[9] = inverse_pivot_L7_theta_3;
     const double l_L3_theta__L7_theta = inverse_pivot_L7_theta_3*n_L3_theta__L7_theta;
@@ -986,8 +983,7 @@ static int newton_factor(double eta, Linear *lin)
     const double u_L7_theta__L6_theta = -l_L7_theta__L2_theta_3*n_L2_theta__L6_theta + n_L7_theta__L6_theta;
     lin->lu[13] = u_L7_theta__L6_theta;
     const double scale_L3_theta = -l_L3_theta__L7_theta*n_L7_theta__L3_theta + n_L3_theta__L3_theta;
-    if (!(fabs(scale_L3_theta) > 1e-13 * fabs(n_L3_theta__L3_theta)))
-        return 5;
+    if (!(fabs(scale_L3_theta) > 1e-13 * fabs(n_L3_theta__L3_theta))) return 5;
     const double inverse_pivot_L3_theta_3 = 1.0/scale_L3_theta;
     lin->lu[14] = inverse_pivot_L3_theta_3;
     const double l_L6_theta__L3_theta_3 =
@@ -998,8 +994,7 @@ static int newton_factor(double eta, Linear *lin)
     const double scale_L6_theta = -l_L6_theta__L2_theta_3*n_L2_theta__L6_theta -
         l_L6_theta__L3_theta_3*u_L3_theta__L6_theta - l_L6_theta__L7_theta_3*u_L7_theta__L6_theta -
         l_L6_theta__L8_theta_3*n_L8_theta__L6_theta + n_L6_theta__L6_theta;
-    if (!(fabs(scale_L6_theta) > 1e-13 * fabs(n_L6_theta__L6_theta)))
-        return 1;
+    if (!(fabs(scale_L6_theta) > 1e-13 * fabs(n_L6_theta__L6_theta))) return 1;
     const double inverse_pivot_L6_theta_3 = 1.0/scale_L6_theta;
     lin->lu[17] = inverse_pivot_L6_theta_3;
     const double l_guide_offset__L6_theta_3 =
@@ -1011,8 +1006,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[19] = u_L6_theta__guide_offset;
     const double scale_guide_offset_3 = -l_guide_offset__L6_theta_3*u_L6_theta__guide_offset -
         l_guide_offset__L8_theta_3*phi_guide_offset_L8_theta;
-    if (!(fabs(scale_guide_offset_3) > 1e-13 * fabs(scale_guide_offset_3)))
-        return 6;
+    if (!(fabs(scale_guide_offset_3) > 1e-13 * fabs(scale_guide_offset_3))) return 6;
     const double inverse_pivot_guide_offset_3 = 1.0/scale_guide_offset_3;
     lin->lu[20] = inverse_pivot_guide_offset_3;
     return 0;

@@ -118,8 +118,8 @@ static void clearance_A(double e_x, double e_y, double de_x, double de_y, double
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
-    const double n_x = e > 0.0 ? e_x * inverse_e : 1.0;
-    const double n_y = e > 0.0 ? e_y * inverse_e : 0.0;
+    const double n_x = e > 0.0 ? e_x*inverse_e : 1.0;
+    const double n_y = e > 0.0 ? e_y*inverse_e : 0.0;
     const double delta = e - p->pin_clearance;
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
@@ -267,8 +267,8 @@ static void clearance_B(double e_x, double e_y, double de_x, double de_y, double
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
-    const double n_x = e > 0.0 ? e_x * inverse_e : 1.0;
-    const double n_y = e > 0.0 ? e_y * inverse_e : 0.0;
+    const double n_x = e > 0.0 ? e_x*inverse_e : 1.0;
+    const double n_y = e > 0.0 ? e_y*inverse_e : 0.0;
     const double delta = e - p->pin_clearance;
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;

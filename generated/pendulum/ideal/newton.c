@@ -74,23 +74,20 @@ static int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_bob_x = n_bob_x__bob_x;
-    if (!(fabs(scale_bob_x) > 1e-13 * fabs(n_bob_x__bob_x)))
-        return 1;
+    if (!(fabs(scale_bob_x) > 1e-13 * fabs(n_bob_x__bob_x))) return 1;
     const double inverse_pivot_bob_x = 1.0/scale_bob_x;
     lin->lu[0] = inverse_pivot_bob_x;
     const double l_rod_length__bob_x_3 = inverse_pivot_bob_x*n_rod_length__bob_x;
     lin->lu[1] = l_rod_length__bob_x_3;
     const double scale_bob_y = n_bob_y__bob_y;
-    if (!(fabs(scale_bob_y) > 1e-13 * fabs(n_bob_y__bob_y)))
-        return 2;
+    if (!(fabs(scale_bob_y) > 1e-13 * fabs(n_bob_y__bob_y))) return 2;
     const double inverse_pivot_bob_y = 1.0/scale_bob_y;
     lin->lu[2] = inverse_pivot_bob_y;
     const double l_rod_length__bob_y_3 = inverse_pivot_bob_y*n_rod_length__bob_y;
     lin->lu[3] = l_rod_length__bob_y_3;
     const double scale_rod_length_3 = -l_rod_length__bob_x_3*phi_rod_length_bob_x -
         l_rod_length__bob_y_3*phi_rod_length_bob_y;
-    if (!(fabs(scale_rod_length_3) > 1e-13 * fabs(scale_rod_length_3)))
-        return 4;
+    if (!(fabs(scale_rod_length_3) > 1e-13 * fabs(scale_rod_length_3))) return 4;
     const double inverse_pivot_rod_length_3 = 1.0/scale_rod_length_3;
     lin->lu[4] = inverse_pivot_rod_length_3;
     return 0;

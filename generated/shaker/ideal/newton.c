@@ -116,8 +116,7 @@ static int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_arm_theta = n_arm_theta__arm_theta;
-    if (!(fabs(scale_arm_theta) > 1e-13 * fabs(n_arm_theta__arm_theta)))
-        return 1;
+    if (!(fabs(scale_arm_theta) > 1e-13 * fabs(n_arm_theta__arm_theta))) return 1;
     const double inverse_pivot_arm_theta = 1.0/scale_arm_theta;
     lin->lu[0] = inverse_pivot_arm_theta;
     return 0;

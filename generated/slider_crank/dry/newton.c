@@ -60,8 +60,8 @@ static inline void dry_slopes_wristpin(double e, double deltadot, double de_t, d
     const double delta = e - p->pin_clearance;
     const double depth = max_of(delta, 0.0);
     const double depth_by_e = delta > 0.0 ? 1.0 : 0.0;
-    const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double ratio_by_deltadot = latch->closed ? 1.0 / latch->deltadot_minus : 0.0;
+    const double ratio = latch->closed ? deltadot/latch->deltadot_minus : 1.0;
+    const double ratio_by_deltadot = latch->closed ? 1.0/latch->deltadot_minus : 0.0;
     const double a_i = (0.5)*delta + p->pin_radius;
     const double a_j = -0.5*delta + p->R_j_pin;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
@@ -396,8 +396,7 @@ static int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_cylinder_slide = n_cylinder_slide__cylinder_slide;
-    if (!(fabs(scale_cylinder_slide) > 1e-13 * fabs(n_cylinder_slide__cylinder_slide)))
-        return 1;
+    if (!(fabs(scale_cylinder_slide) > 1e-13 * fabs(n_cylinder_slide__cylinder_slide))) return 1;
     const double inverse_pivot_cylinder_slide = 1.0/scale_cylinder_slide;
     lin->lu[0] = inverse_pivot_cylinder_slide;
     const double l_rod_theta__cylinder_slide = inverse_pivot_cylinder_slide*n_rod_theta__cylinder_slide;
@@ -405,8 +404,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[2] = n_cylinder_slide__rod_theta;
     const double scale_rod_theta = -l_rod_theta__cylinder_slide*n_cylinder_slide__rod_theta +
         n_rod_theta__rod_theta;
-    if (!(fabs(scale_rod_theta) > 1e-13 * fabs(n_rod_theta__rod_theta)))
-        return 2;
+    if (!(fabs(scale_rod_theta) > 1e-13 * fabs(n_rod_theta__rod_theta))) return 2;
     const double inverse_pivot_rod_theta = 1.0/scale_rod_theta;
     lin->lu[3] = inverse_pivot_rod_theta;
     return 0;

@@ -228,8 +228,7 @@ static int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_crank_theta = n_crank_theta__crank_theta;
-    if (!(fabs(scale_crank_theta) > 1e-13 * fabs(n_crank_theta__crank_theta)))
-        return 1;
+    if (!(fabs(scale_crank_theta) > 1e-13 * fabs(n_crank_theta__crank_theta))) return 1;
     const double inverse_pivot_crank_theta = 1.0/scale_crank_theta;
     lin->lu[0] = inverse_pivot_crank_theta;
     const double l_rod_theta__crank_theta_3 = inverse_pivot_crank_theta*n_rod_theta__crank_theta;
@@ -239,8 +238,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[3] = l_slider_offset__crank_theta_3;
     const double scale_rod_theta = -l_rod_theta__crank_theta_3*n_crank_theta__rod_theta +
         n_rod_theta__rod_theta;
-    if (!(fabs(scale_rod_theta) > 1e-13 * fabs(n_rod_theta__rod_theta)))
-        return 2;
+    if (!(fabs(scale_rod_theta) > 1e-13 * fabs(n_rod_theta__rod_theta))) return 2;
     const double inverse_pivot_rod_theta_3 = 1.0/scale_rod_theta;
     lin->lu[4] = inverse_pivot_rod_theta_3;
     const double l_slider_offset__rod_theta_3 =
@@ -252,8 +250,7 @@ static int newton_factor(double eta, Linear *lin)
     lin->lu[6] = u_rod_theta__slider_offset;
     const double scale_slider_offset_3 = -l_slider_offset__crank_theta_3*phi_slider_offset_crank_theta -
         l_slider_offset__rod_theta_3*u_rod_theta__slider_offset;
-    if (!(fabs(scale_slider_offset_3) > 1e-13 * fabs(scale_slider_offset_3)))
-        return 3;
+    if (!(fabs(scale_slider_offset_3) > 1e-13 * fabs(scale_slider_offset_3))) return 3;
     const double inverse_pivot_slider_offset_3 = 1.0/scale_slider_offset_3;
     lin->lu[7] = inverse_pivot_slider_offset_3;
     return 0;

@@ -18,8 +18,8 @@ from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.ledger import tell
 from gudgeon.generator.kernels.program import Integrated, Program
 from gudgeon.generator.solvers.kkt import NEARLY_SINGULAR, SINGULAR
+from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.c import lanes as lanes_code
-from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.newton import jacobian_code, newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearance_code
@@ -185,7 +185,7 @@ def _environment() -> jinja2.Environment:
 
 
 def _kernels(*kernels: Kernel) -> str:
-    return render("scene/kernels.c.jinja", kernels=[printer.kernel(kernel) for kernel in kernels])
+    return render("scene/kernels.c.jinja", kernels=[functions.kernel(kernel) for kernel in kernels])
 
 
 def _counts(model: Model, integrated: Integrated) -> dict[str, int]:

@@ -15,22 +15,19 @@ from gudgeon.generator.ir.signatures import SIDES
 from gudgeon.generator.ir.sine_pairs import lane_by_lane
 from gudgeon.generator.ir.statements import (
     Call,
-    Chosen,
     Guard,
     Jump,
     Largest,
     Line,
-    Place,
     Rescue,
     Return,
     Sides,
     Sines,
     Statement,
     Status,
-    Test,
-    Value,
-)  # fmt: skip
-from gudgeon.generator.targets.c import printer
+)
+from gudgeon.generator.ir.values import Chosen, Place, Test, Value
+from gudgeon.generator.targets.c import functions, printer
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")
 FUNCTIONS_OF_TWO = ("pow", "atan2")
@@ -109,7 +106,7 @@ def line(item: Line) -> str:
     """Any line that both have. Raises ValueError for one that nobody has thought of."""
     match item:
         case Statement():
-            return printer.assignment(item, expression(item.value), "Lanes")
+            return functions.assignment(item, expression(item.value), "Lanes")
         case Guard(test=Test() as test, only=None):
             return f"    *rare |= ~({_test(test)});"
         case Call():
@@ -120,7 +117,7 @@ def line(item: Line) -> str:
             texts = [f"{name} = lanes_max_of({name}, lanes_fabs({expression(x)}));" for x in item.values]
             return "\n".join(f"    {text}" for text in (f"{name} = all_of(0.0);", *texts))
         case Sines():
-            return printer.line(item)
+            return functions.line(item)
     raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")
 
 
@@ -139,7 +136,7 @@ def kernel(item: Kernel) -> str:
     sections = tuple(section for section in kept if section.statements)
     lanes = replace(item, sections=sections, arguments=arguments, returns="void")
     told = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
-    return printer.function(lanes, line, frozenset([_RARE.name] if told else []))
+    return functions.function(lanes, line, frozenset([_RARE.name] if told else []))
 
 
 def motion_kernel(item: Kernel) -> str:

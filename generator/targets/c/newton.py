@@ -12,7 +12,7 @@ from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Integrated
 from gudgeon.generator.solvers.newton import Newton
-from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.time_loops import state_of
 
 Render = Callable[..., str]  # template name, substitutions -> text
@@ -39,7 +39,7 @@ def newton_code(newton: Newton, render: Render) -> str:
     counts = [(f"{prefix}n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
     return render(
         "scene/newton.c.jinja", struct=f"{prefix.title()}Linear", prefix=prefix, n_values=newton.values.size,
-        n_factors=newton.factors.size, kernels="\n".join(map(printer.kernel, kernels)),
+        n_factors=newton.factors.size, kernels="\n".join(map(functions.kernel, kernels)),
         tables=[(name, _table(entries)) for name, entries in newton.tables.items()],
         counts=[*counts, (f"{prefix}n_nodes".upper(), newton.nodes)],
     )  # fmt: skip
@@ -62,7 +62,7 @@ def tangent_code(pins: Sequence[Pin], slopes: Mapping[str, Sequence[Kernel]], re
     parts = [render("play/pin_slopes.c.jinja", blending=blending)]
     for clearance in (pin.clearance for pin in pins):
         c = f"p->{clearance.pair.c}"
-        parts += map(printer.kernel, slopes[clearance.name])
+        parts += map(functions.kernel, slopes[clearance.name])
         parts.append(render("play/tangent.c.jinja", joint=clearance.name, c=c, slopes=_slopes(clearance, c)))
     return "\n".join(parts)
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.play import Pin
-from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.c import functions
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
@@ -24,7 +24,7 @@ _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
 def clearance_code(pin: Pin, render: Render) -> str:
     """Law functions, then the joint's own function."""
     joint, clearance = pin.clearance.name, pin.clearance
-    parts = [printer.kernel(kernel) for kernel in pin.laws]
+    parts = [functions.kernel(kernel) for kernel in pin.laws]
     if clearance.normal is not None:
         ratio = {"ratio": _RATIO, "ratio_name": "unclipped" if clearance.clip_ratio else "ratio"}
         steps = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
@@ -42,7 +42,7 @@ def clearance_code(pin: Pin, render: Render) -> str:
 
 
 def _lines(statements: Sequence[Statement]) -> str:
-    return "\n".join(map(printer.line, statements))
+    return "\n".join(map(functions.line, statements))
 
 
 def _template(pin: Pin) -> str:

@@ -8,7 +8,7 @@ import sympy as sp
 
 from gudgeon.generator.ir.kernels import Argument, Kernel
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.c import functions, printer
 
 _TYPES = {"const double": "const Range", "const double *": "const Range *", "Aside *": "Range *"}
 _NAMES = {"aside": "out"}
@@ -93,15 +93,15 @@ _printer = RangesPrinter({"math_macros": {}})
 def kernel(item: Kernel) -> str:
     """The function with ranges for its time, coordinates and velocities, and numbers for its parameters."""
     arguments = tuple(Argument(_TYPES.get(a.type, a.type), _NAMES.get(a.name, a.name)) for a in item.arguments)
-    return printer.function(replace(item, arguments=arguments), _line)
+    return functions.function(replace(item, arguments=arguments), _line)
 
 
 def _line(item: Line) -> str:
     if not isinstance(item, Statement):
-        return printer.line(item)
+        return functions.line(item)
     if isinstance(item.value, sp.Basic):
         text = _printer._range(item.value)
     else:
         text = printer.expression(item.value)
         text = text if item.value.names & _RANGES else f"only({text})"
-    return printer.assignment(item, text, "Range")
+    return functions.assignment(item, text, "Range")

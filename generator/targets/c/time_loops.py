@@ -16,7 +16,7 @@ from gudgeon.generator.kernels.program import Integrated, Program
 from gudgeon.generator.kernels.time_terms import count_terms
 from gudgeon.generator.methods import dop853, rodas5p
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.targets.c import printer, ranges_printer
+from gudgeon.generator.targets.c import functions, printer, ranges_printer
 
 Render = Callable[..., str]
 
@@ -61,7 +61,7 @@ def kinematic_code(program: Program, counts: Mapping[str, int], render: Render) 
     """Positions by Newton, and events on the way."""
     course, model, terms = program.course, program.model, program.terms
     assert course
-    text = "\n".join(map(printer.kernel, course.kernels))
+    text = "\n".join(map(functions.kernel, course.kernels))
     if course.rows:
         text = render("scene/block.c.jinja", most=course.rows.largest) * (course.rows.largest > 2) + text
         angles = program.integrated.angles or (1,)
@@ -97,7 +97,7 @@ def integrator_loops(
     return {
         "motion.c": motion,
         **_range_code(terms, integrated.watched or jumps, render),
-        "projection.c": printer.kernel(program.methods.closing),
+        "projection.c": functions.kernel(program.methods.closing),
         "newton.c": linearized,
         "run.c": render(
             "run/run.c.jinja", **common, friction_modes=modes, angles=integrated.angles or (0,), residuals=residuals
@@ -192,7 +192,7 @@ def _watched_code(integrated: Integrated, counts: Mapping[str, int], render: Ren
 
 
 def _jumps_code(jumps: Jumps, render: Render) -> str:
-    kernels = printer.kernel(jumps.values) + "\n" + ranges_printer.kernel(jumps.ranges)
+    kernels = functions.kernel(jumps.values) + "\n" + ranges_printer.kernel(jumps.ranges)
     return render("watch/jumps.c.jinja", kernels=kernels, n_corners=jumps.count)
 
 

@@ -1,0 +1,113 @@
+"""Values that statements assign: SymPy expressions, and the few forms that SymPy has no word for.
+
+Names are those of locals and arguments; a symbol may also stand for a place, `p->mass` or `x[3]`, and then reads the
+argument in front.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, TypeAlias
+
+import sympy as sp
+
+from gudgeon.generator.symbols.corners import SideOf
+
+Names = frozenset[str]
+NONE: Names = frozenset()
+
+
+def base_of(text: str) -> str:
+    """The name in front of a place: `aside` of `aside->lambda[3]`, `F_t_out` of `*F_t_out`."""
+    text = text.lstrip("*-")
+    return text[: next((k for k, c in enumerate(text) if not (c.isalnum() or c == "_")), len(text))]
+
+
+def names_in(value: sp.Basic) -> Names:
+    """What an expression reads: locals, arguments in front of places; of a side what holds it and is told it."""
+    return frozenset(base_of(s.name) for s in value.free_symbols) | ({"side", "g"} if value.has(SideOf) else NONE)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a number lives that is no local: `q[3]`, `p->mass`, `aside->clearance[0].F_x`, an argument."""
+
+    text: str
+    expressions: ClassVar[tuple[sp.Basic, ...]] = ()
+
+    @property
+    def base(self) -> str:
+        """The argument or array."""
+        return base_of(self.text)
+
+    @property
+    def index(self) -> int:
+        """k of `base[k]`; −1 of everything else."""
+        inner = self.text.removeprefix(f"{self.base}[").removesuffix("]")
+        return int(inner) if self.text == f"{self.base}[{inner}]" and inner.isdecimal() else -1
+
+    @property
+    def names(self) -> Names:
+        """The base."""
+        return frozenset([self.base])
+
+
+@dataclass(frozen=True)
+class Test:
+    """`value relation bound`, the bound a product, or a flag alone; `size`: of the value's magnitude."""
+
+    value: sp.Basic
+    relation: str = ""  # ">", "!=", "=="; of ">" NaN fails
+    bound: tuple[sp.Basic | float, ...] = ()
+    size: bool = False
+    names: ClassVar[Names] = NONE
+
+    @property
+    def expressions(self) -> tuple[sp.Basic, ...]:
+        """On both sides."""
+        return (self.value, *(x for x in self.bound if isinstance(x, sp.Basic)))
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """`then` where the test holds, else `otherwise`."""
+
+    test: Test
+    then: sp.Basic
+    otherwise: sp.Basic
+    names: ClassVar[Names] = NONE
+
+    @property
+    def expressions(self) -> tuple[sp.Basic, ...]:
+        """All of them."""
+        return (*self.test.expressions, self.then, self.otherwise)
+
+
+@dataclass(frozen=True)
+class Sum:
+    """Of places, in their order."""
+
+    places: tuple[Place, ...]
+    expressions: ClassVar[tuple[sp.Basic, ...]] = ()
+
+    @property
+    def names(self) -> Names:
+        """The arguments in front of them."""
+        return frozenset(place.base for place in self.places)
+
+
+@dataclass(frozen=True)
+class Given:
+    """Slot k as it is given, or else its default."""
+
+    k: int
+    default: sp.Expr
+    names: ClassVar[Names] = frozenset(["given", "is_given"])
+
+    @property
+    def expressions(self) -> tuple[sp.Basic, ...]:
+        """The default."""
+        return (self.default,)
+
+
+Value: TypeAlias = sp.Basic | Place | Chosen | Sum | Given
