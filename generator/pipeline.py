@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from time import perf_counter
 
 from gudgeon.contract.kernel_source import KernelSource
@@ -17,6 +18,7 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.redundancy import find_redundancy
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import emit
+from gudgeon.generator.targets.numpy.module import NumPyModel
 
 Overrides = Mapping[str, str | float | bool]
 Seconds = dict[str, float]
@@ -29,9 +31,13 @@ def derive(
     with _stage("reading", seconds):
         mechanism = read_mechanism(data, file, overrides)
     with _stage("equations", seconds):
-        model = make_model(make_scene(mechanism, scene))
+        model = replace(make_model(make_scene(mechanism, scene)), to_numpy=_in_numpy)
     with _stage("rank of the rows", seconds):
         return model.without(find_redundancy(model, describe(model)))
+
+
+def _in_numpy(model: Model) -> NumPyModel:
+    return NumPyModel(make_program(model, "full"))
 
 
 def in_c(model: Model, formulation: str = "reduced", seconds: Seconds | None = None) -> KernelSource:

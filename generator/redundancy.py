@@ -7,16 +7,15 @@ same branch; the largest counts. Contradictory rows do not assemble: the run tel
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
-import sympy as sp
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model, Redundancy
+from gudgeon.generator.targets.numpy.module import ClosedLinkage
 from gudgeon.model.assembly import search
 from gudgeon.model.compiled import Array
 from gudgeon.model.rank import RANK, rank, tied
@@ -25,102 +24,35 @@ SAMPLES = 3
 REACH = 0.05  # rad or share of the size, how far from the start the other configurations are sought
 
 
-def _heaviside(x: float, at_zero: float = 1.0) -> float:
-    return 1.0 if x >= 0.0 else 0.0
-
-
-def _finite(derivative: float, *_: float) -> float:
-    """A slope (finite_slopes.py); where there is none it is close enough to 0 for a rank."""
-    return derivative if math.isfinite(derivative) else 0.0
-
-
-def _same(x: float) -> float:
-    return x
-
-
-# steps by name: SymPy would write each as a case distinction, simplified at great length
-MODULES = [
-    {"Heaviside": _heaviside, "Whole": _same, "Slope": _finite, "JustAhead": _same, "JustBehind": _same,
-     "exp": np.exp, "sinh": np.sinh, "cosh": np.cosh},  # what grows beyond all numbers is infinite, as in C
-    "math",
-]  # fmt: skip
-
-
-class NumericModel:
-    """The closed linkage in NumPy, in the words of CompiledModel: just what `search` asks for."""
+class Numeric:
+    """The closed linkage in the words of CompiledModel, at its default numbers: just what `search` asks for."""
 
     def __init__(self, model: Model, source: KernelSource) -> None:
-        self.source, self.n = source, len(model.q)
-        symbols, start = model.symbols, model.scene.mechanism.start
-        groups = [[model.slots.use(x) for x in group.values()] for group in (start.guess, start.set, start.rates)]
-        entries = list(model.slots.entries.values())
-        slots, derived = [e.symbol for e in entries], list(model.slots.derived)
-        self.p = np.array([e.default for e in entries] + [0.0] * len(derived))
-        values = sp.lambdify([slots], [symbols.explicit(e) for e in model.slots.derived.values()], MODULES)
-        self.p[len(slots) :] = real(values(self.p[: len(slots)]))
-        local = [s for s in symbols.definitions if not symbols.info[s].home]
-        arguments = [[model.t], list(model.q), slots + derived]
-        self._entries = [
-            (r, model.q.index(q), value) for r, row in enumerate(model.all_rows) for q, value in row.phi_q.items()
-        ]
-        wanted = [row.phi for row in model.all_rows] + [row.nu for row in model.all_rows]
-        wanted += [value for *_, value in self._entries]
-        needed = _needed(wanted, local, symbols.definitions)
-        steps = [(symbol, symbols.definitions[symbol]) for symbol in needed]
-        self._rows = sp.lambdify(arguments, wanted, MODULES, cse=lambda expressions: (steps, list(expressions)))
-        self._masses = sp.lambdify([slots + derived], list(model.masses), MODULES)
-        self._start = [sp.lambdify([slots + derived], group, MODULES) for group in groups]
-
-    def _values(self, t: float, q: Array, p: Array) -> Array:
-        return real(self._rows([t], q, p))
+        self.source, self.n, self.linkage = source, len(model.q), ClosedLinkage(model)
+        self.numbers = self.linkage.prepare()
+        self.p = np.array(list(vars(self.numbers).values()))
 
     def closed_phi(self, t: float, q: Array, p: Array) -> Array:
-        return self._values(t, q, p)[: len(self.source.start_rows)]
+        return self.linkage.phi(t, q, self.numbers)
 
     def closed_nu(self, t: float, q: Array, p: Array) -> Array:
-        m = len(self.source.start_rows)
-        return self._values(t, q, p)[m : 2 * m]
+        return self.linkage.nu(t, q, self.numbers)
 
     def closed_phi_q(self, t: float, q: Array, p: Array) -> Array:
-        m = len(self.source.start_rows)
-        out = np.zeros((m, self.n))
-        for (r, c, _), value in zip(self._entries, self._values(t, q, p)[2 * m :], strict=True):
-            out[r, c] = value
-        return out
+        return self.linkage.phi_q(t, q, self.numbers)
 
     def mass(self, p: Array) -> Array:
-        return real(self._masses(p))
+        return self.linkage.mass(self.numbers)
 
     def start_values(self, p: Array) -> tuple[Array, Array, Array]:
-        guess, fixed, rates = (real(values(p)) for values in self._start)
-        return guess, fixed, rates
-
-
-def real(values: Sequence[complex]) -> Array:
-    """Numbers that turned complex, the root of a negative one, are none: as C has them."""
-    return np.array([math.nan if isinstance(x, complex) else x for x in values], dtype=float)
-
-
-def _needed(
-    wanted: Sequence[sp.Expr], local: Sequence[sp.Symbol], definitions: dict[sp.Symbol, sp.Expr]
-) -> list[sp.Symbol]:
-    """The local symbols that the wanted expressions use, directly or not, in order of definition."""
-    found: set[sp.Symbol] = set()
-    waiting = [s for e in wanted for s in e.free_symbols]
-    known = set(local)
-    while waiting:
-        symbol = waiting.pop()
-        if symbol in known and symbol not in found:
-            found.add(symbol)
-            waiting.extend(definitions[symbol].free_symbols)
-    return [symbol for symbol in local if symbol in found]
+        return self.linkage.start_values(self.numbers)
 
 
 def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     """Rows of the scene (joints with play open) that depend on the others at every configuration."""
     if not model.rows:
         return Redundancy()
-    numeric = NumericModel(model, source)
+    numeric = Numeric(model, source)
     names = {row.name for row in model.rows}
     kept = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
@@ -136,7 +68,7 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     return _name_rows([model.all_rows[r] for r in kept], matrices[best], ranks[best])
 
 
-def _configurations(numeric: NumericModel, q: Array, kept: list[int]) -> list[Array]:
+def _configurations(numeric: Numeric, q: Array, kept: list[int]) -> list[Array]:
     """The start, and configurations near it: a random step along the motion, closed again by Newton."""
     rng = np.random.default_rng(0)
     found = [q]

@@ -6,9 +6,10 @@ properties Phi, Phi_q, nu, gamma, M and g, which write everything out in q, q̇,
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import sympy as sp
 
@@ -53,6 +54,7 @@ class Model:
     gravity: tuple[sp.Expr, sp.Expr]
     baumgarte: tuple[sp.Symbol, sp.Symbol]
     events: tuple[Event, ...] = ()  # what the user watches
+    to_numpy: Callable[[Model], Any] | None = None  # of generator/targets, which no equation knows
 
     def without(self, redundancy: Redundancy) -> Model:
         """The same scene without the rows that say nothing new."""
@@ -85,6 +87,20 @@ class Model:
     def masses(self) -> tuple[sp.Expr, ...]:
         """The diagonal of M, in the order of q."""
         return tuple(m for body in self.bodies for m in (body.mass, body.mass, body.inertia))
+
+    def numpy(self) -> Any:
+        """The same equations as functions in NumPy, with their text as `source`: Φ, Φ_q, ν, γ, M, right-hand side.
+
+        A NumPyModel (generator/targets/numpy/module.py says shapes and units): the plainest form of all that the
+        emitted C computes at a state.
+        """
+        return self._in_numpy
+
+    @cached_property
+    def _in_numpy(self) -> Any:
+        if self.to_numpy is None:
+            raise ValueError("this model was not derived by the pipeline, which knows the targets")
+        return self.to_numpy(self)
 
     def _column(self, expressions: Iterable[sp.Expr]) -> sp.Matrix:
         return sp.Matrix([self.symbols.explicit(e) for e in expressions])

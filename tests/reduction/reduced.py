@@ -10,8 +10,10 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.reduction.reduction import TreeSystem, reduce
-from gudgeon.generator.redundancy import MODULES
 from gudgeon.model.compiled import Array, CompiledModel
+
+# steps by name: SymPy would write each as a case distinction, simplified at great length
+MODULES = [{"Heaviside": lambda x, at_zero=1.0: 1.0 if x >= 0.0 else at_zero * 0.0}, "math"]
 
 
 @dataclass(frozen=True)

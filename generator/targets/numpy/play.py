@@ -1,0 +1,45 @@
+"""A joint with play in Python: its laws, and the force that it exerts where it is."""
+
+from __future__ import annotations
+
+from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.targets.numpy.printer import docstring, function, indented, lines
+
+_DRY = ("F_n", "F_along_t_dry", "M_i_dry", "M_j_dry")
+_FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
+
+
+def pin(own: Pin) -> str:
+    """`clearance_<joint>`, behind its laws. A contact is closed where the journal is deeper than the bearing."""
+    joint, clearance = own.clearance.name, own.clearance
+    body = [*docstring([f"Force of joint {joint} on the journal, from the eccentricity e and its rate."])]
+    body += lines(own.gap)
+    if clearance.normal is None:
+        body += [*_film(own), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]
+    elif clearance.film is None:
+        body += ["F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0", "if delta > 0:", *indented(_dry(own))]
+    else:
+        body += [*_film(own), "F, v_t = (F_r, F_along_t_film, M_i_film, M_j_film), 0.0", "if delta > 0:"]
+        body += indented([*_dry(own), *lines(own.share), "if share < 1:", f"    film = {', '.join(_FILM)}",
+                          "    F = tuple(b + share*(a - b) for a, b in zip(F, film))"])  # fmt: skip
+    body += ["out.Fx, out.Fy = F[0]*n_x - F[1]*n_y, F[0]*n_y + F[1]*n_x", "out.F_n, out.F_t, out.v_t = F[0], F[1], v_t",
+             "out.ex, out.ey, out.e, out.deltadot, out.delta = e_x, e_y, e, deltadot, delta",
+             "out.moment_first, out.moment_second, out.power = F[2], F[3], 0.0"]  # fmt: skip
+    head = f"def clearance_{joint}(e_x, e_y, de_x, de_y, omega_i, omega_j, latch, p, out):"
+    return "\n\n\n".join([*map(function, own.laws), "\n".join([head, *indented(body)])])
+
+
+def _dry(own: Pin) -> list[str]:
+    """At δ > 0; before an onset is accepted the impact velocity is that of the moment: ratio 1."""
+    joint, ratio = own.clearance.name, "unclipped" if own.clearance.clip_ratio else "ratio"
+    return [
+        f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0", *lines(own.before_dry),
+        f"F_n = normal_{joint}_force(delta, ratio, p)", f"F_along_t_dry = friction_{joint}_force(F_n, v_t, p)",
+        *lines(own.after_dry), f"F = -F_n, {', '.join(_DRY[1:])}",
+    ]  # fmt: skip
+
+
+def _film(own: Pin) -> list[str]:
+    joint = own.clearance.name
+    called = f"F_r, F_along_t_film, T0 = film_{joint}_force(epsilon, w_n, w_t, p)"
+    return [*lines(own.before_film), called, *lines(own.after_film)]

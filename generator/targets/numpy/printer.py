@@ -1,0 +1,179 @@
+"""SymPy expressions, lines and functions as Python with NumPy: no corner is held, no pivot that vanishes is mended."""
+
+from __future__ import annotations
+
+import keyword
+from collections.abc import Iterable, Sequence
+
+import sympy as sp
+from sympy.printing.pycode import PythonCodePrinter
+
+from gudgeon.generator.ir.kernels import Kernel
+from gudgeon.generator.ir.statements import (
+    Call,
+    Guard,
+    Jump,
+    Largest,
+    Line,
+    Rescue,
+    Return,
+    Sides,
+    Statement,
+    Status,
+    When,
+)
+from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Value
+
+_NAMES = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "Max": "maximum", "Min": "minimum",
+          "Abs": "abs", "Size": "abs"}  # fmt: skip
+_NOWHERE = (Status, Jump, Rescue, Sides)  # what deals with vanished pivots and held corners
+_HELD = (Place("side"), Place("g"))
+
+
+def name(text: str) -> str:
+    """A local or place of C in Python: `aside->lambda[3]` is `aside.lambda_[3]`."""
+    head, bracket, index = text.replace("->", ".").partition("[")
+    inner, closing, tail = index.partition("]")
+    words = [f"{word}_" if keyword.iskeyword(word) else word for word in head.lstrip("*").split(".")]
+    return ".".join(words) + bracket + inner + closing + (name(tail) if tail else "")
+
+
+class NumPyPrinter(PythonCodePrinter):
+    """Numbers and arrays alike: what C decides by a condition is chosen by np.where."""
+
+    def _print_Symbol(self, expr: sp.Symbol) -> str:
+        return name(expr.name)
+
+    def _print_Float(self, expr: sp.Float) -> str:
+        return repr(float(expr))
+
+    def _print_Rational(self, expr: sp.Rational) -> str:
+        return f"{int(expr.p)}/{int(expr.q)}"
+
+    def _print_NumberSymbol(self, expr: sp.NumberSymbol) -> str:
+        return repr(float(expr))
+
+    _print_Pi = _print_Exp1 = _print_NumberSymbol
+
+    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        base, exponent = expr.as_base_exp()
+        if exponent in (sp.Rational(1, 2), sp.Rational(-1, 2)):
+            return f"{'' if exponent > 0 else '1/'}np.sqrt({self._print(base)})"
+        return f"{self.parenthesize(base, 70)}**{self.parenthesize(exponent, 70)}"
+
+    def _call(self, expr: sp.Expr) -> str:
+        function = type(expr).__name__
+        return f"np.{_NAMES.get(function, function)}({', '.join(map(self._print, expr.args))})"
+
+    _print_sin = _print_cos = _print_tan = _print_asin = _print_acos = _print_atan = _print_atan2 = _call
+    _print_sinh = _print_cosh = _print_tanh = _print_exp = _print_log = _print_sign = _print_Abs = _print_Size = _call
+
+    def _print_Max(self, expr: sp.Expr) -> str:
+        """Two by two."""
+        first, *others = map(self._print, expr.args)
+        for other in others:
+            first = f"np.{_NAMES[type(expr).__name__]}({first}, {other})"
+        return first
+
+    _print_Min = _print_Max
+
+    def _print_Heaviside(self, expr: sp.Expr) -> str:
+        return f"np.where({self._print(expr.args[0])} >= 0, 1.0, 0.0)"
+
+    def _print_SideOf(self, expr: sp.Expr) -> str:
+        return f"np.sign({self._print(expr.args[1])})"
+
+    def _print_Magnitude(self, expr: sp.Expr) -> str:
+        return f"(np.abs({self._print(expr.args[0])}) + 1e-150)"
+
+    def _print_Pick(self, expr: sp.Expr) -> str:
+        side, a, b = map(self._print, expr.args)
+        return f"np.where({side} < 0, {b}, {a})"
+
+    def _print_Whole(self, expr: sp.Expr) -> str:
+        return f"({self._print(expr.args[0])})"
+
+    def _print_Slope(self, expr: sp.Expr) -> str:
+        slope, ahead, behind, way = map(self._print, expr.args)
+        return f"np.where(np.isfinite({slope}), {slope}, ({ahead} - ({behind}))/({way}))"
+
+    def _print_JustAhead(self, expr: sp.Expr) -> str:
+        x = self._print(expr.args[0])
+        return f"({x} + 1e-9*(1 + np.abs({x})))"
+
+    def _print_JustBehind(self, expr: sp.Expr) -> str:
+        x = self._print(expr.args[0])
+        return f"({x} - 1e-9*(1 + np.abs({x})))"
+
+
+_printer = NumPyPrinter({"fully_qualified_modules": False})
+
+
+def expression(value: Value) -> str:
+    """A value."""
+    match value:
+        case Place():
+            return name(value.text)
+        case Chosen():
+            then, otherwise = expression(value.then), expression(value.otherwise)
+            return f"np.where({_test(value.test)}, {then}, {otherwise})"
+        case Sum():
+            return " + ".join(name(place.text) for place in value.places)
+        case Given():
+            return f"given[{value.k}] if is_given[{value.k}] else {expression(value.default)}"
+        case _:
+            return str(_printer.doprint(value))
+
+
+def _test(item: Test) -> str:
+    left = f"np.abs({expression(item.value)})" if item.size else expression(item.value)
+    bound = " * ".join(repr(x) if isinstance(x, float) else expression(x) for x in item.bound)
+    return f"{left} {item.relation} {bound}" if item.relation else left
+
+
+def lines(items: Iterable[Line]) -> list[str]:
+    """As text, without an indent. Raises ValueError for a line that nobody has thought of."""
+    return [text for item in items if not isinstance(item, _NOWHERE) for text in _lines(item)]
+
+
+def _lines(item: Line) -> list[str]:
+    match item:
+        case Statement():
+            return [f"{name(item.target)} = {expression(item.value)}"]
+        case When():
+            return [f"if {_test(item.test)}:", *(f"    {text}" for text in _lines(item.statement))]
+        case Call():
+            given = [expression(x) for x in (*item.given, *item.results) if x not in _HELD]
+            return [f"{item.function}({', '.join(given)})"]
+        case Guard(test=Test() as test):
+            only = f"{_test(item.only)} and " if item.only else ""
+            return [f"if {only}not ({_test(test)}):", f"    return {item.number}"]
+        case Largest():
+            inner = ", ".join(f"np.abs({expression(x)})" for x in item.values)
+            return [f"{item.target}[0] = max({inner}, 0.0)"] if item.values else [f"{item.target}[0] = 0.0"]
+        case Return():
+            return ["return 0"]
+    raise ValueError(f"a line of a function that has no counterpart in Python: {item}")
+
+
+def function(kernel: Kernel) -> str:
+    """A whole one; numbers that C hands back through pointers are returned."""
+    stored = [line.target for section in kernel.sections for line in section.statements if isinstance(line, Statement)]
+    returned = [a.name for a in kernel.arguments if f"*{a.name}" in stored]
+    given = [name(a.name) for a in kernel.arguments if Place(a.name) not in _HELD and a.name not in returned]
+    text = [f"def {kernel.name}({', '.join(given)}):", *indented(docstring(kernel.doc))]
+    for section in kernel.sections:
+        body = lines(section.statements)
+        text += indented([f"# {section.title}", *body]) if body else []
+    return "\n".join([*text, *([f"    return {', '.join(returned)}"] if returned else [])])
+
+
+def docstring(doc: Sequence[str]) -> list[str]:
+    """Lines of one."""
+    first, *others = [line.replace("\\", "/").replace('"', "'") for line in doc]
+    return [f'"""{first}"""'] if not others else [f'"""{first}', *others, '"""']
+
+
+def indented(text: Iterable[str]) -> list[str]:
+    """Four columns to the right."""
+    return [f"    {line}" for line in text]
