@@ -14,6 +14,7 @@ from gudgeon.generator.ir.differentiation import partial
 from gudgeon.generator.ir.finite_slopes import Upon
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import GROUND, Drive, Joint, PointRef
+from gudgeon.generator.symbols.corners import Apart, Largest, Pick, Smallest
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy, to_sympy
 from gudgeon.language.tree import functions
 
@@ -144,9 +145,15 @@ def rate_jumps(drive: Drive) -> bool:
 
 
 def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
-    """d/dt with the corners of min, max and abs taken from one side, at the corner from behind it: no impulse there."""
-    rate = partial(value.replace(sp.Abs, _plain), t).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
-    return rate.replace(Upon, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
+    """d/dt with the corners of min, max and abs taken from one side, at the corner from behind it: no impulse there.
+
+    Of max and min the rate is that of one of their arguments, also where several are equal.
+    """
+    chosen = value.replace(Pick, lambda side, a, b: Pick(side.replace(sp.sign, Apart), a, b))
+    chosen = chosen.replace(sp.Abs, _plain).replace(sp.Max, Largest).replace(sp.Min, Smallest)
+    rate = partial(chosen, t).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
+    rate = rate.replace(Upon, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
+    return rate.replace(Apart, sp.sign).replace(Largest, sp.Max).replace(Smallest, sp.Min)
 
 
 def _plain(x: sp.Expr) -> sp.Expr:

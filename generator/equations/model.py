@@ -19,6 +19,7 @@ from gudgeon.generator.equations.friction import Friction, make_friction
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry
 from gudgeon.generator.equations.loads import AppliedElement, apply_element
 from gudgeon.generator.equations.play import Clearance, make_clearance
+from gudgeon.generator.ir.finite_slopes import as_written
 from gudgeon.generator.mechanism.scene import Scene
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.symbols import Symbols
@@ -103,7 +104,7 @@ class Model:
         return self.to_numpy(self)
 
     def _column(self, expressions: Iterable[sp.Expr]) -> sp.Matrix:
-        return sp.Matrix([self.symbols.explicit(e) for e in expressions])
+        return sp.Matrix([as_written(self.symbols.explicit(e)) for e in expressions])
 
     @cached_property
     def Phi(self) -> sp.Matrix:

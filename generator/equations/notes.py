@@ -35,6 +35,11 @@ def scene_notes(model: Model) -> tuple[str, ...]:
     return tuple(notes)
 
 
+def has_jumps(model: Model) -> bool:
+    """Whether any drive's rate may jump, whatever is free to move."""
+    return any(map(rate_jumps, model.scene.mechanism.drives.values()))
+
+
 def jumping_drives(model: Model) -> tuple[str, ...]:
     """Drives whose rate may jump before something that is free to move."""
     drives = model.scene.mechanism.drives.values() if model.degrees_of_freedom else ()

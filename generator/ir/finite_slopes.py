@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import sympy as sp
 
+from gudgeon.generator.symbols.corners import Largest, Pick, Smallest
+
 _SATURATING = (sp.exp, sp.tanh, sp.atan, sp.atan2)  # finite where their argument is not
 _GROWING = (sp.exp, sp.sinh, sp.cosh, sp.tan, sp.log)
 _ZERO = (sp.Integer(0), sp.Integer(0), sp.Integer(1))  # a rise, and a way
@@ -34,7 +36,7 @@ class Upon(sp.Function):
         return sp.Integer(0)
 
 
-_CORNERS = (sp.Abs, sp.Max, sp.Min, sp.sign, sp.Heaviside, Upon)
+_CORNERS = (sp.Abs, sp.Max, sp.Min, sp.sign, sp.Heaviside, Upon, Pick, Largest, Smallest)
 
 
 class JustAhead(sp.Function):
@@ -93,4 +95,13 @@ def finite_slope(term: sp.Expr, by: sp.Symbol, derivative: sp.Expr) -> Slope:
 
 def as_written(expression: sp.Expr) -> sp.Expr:
     """The expression with its slopes as their derivatives are written: for readers, and ranges, in which 0 · ∞ is 0."""
-    return expression.replace(Slope, lambda derivative, *_: derivative) if expression.has(Slope) else expression
+    if expression.has(Slope):
+        expression = expression.replace(Slope, lambda derivative, *_: derivative)
+    return expression.replace(Pick, _stepped) if expression.has(Pick) else expression
+
+
+def _stepped(side: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    """A branch picked by a sign, by the step function that readers know; by a held side as it is."""
+    if not side.has(sp.sign):
+        return Pick(side, a, b)
+    return b + sp.Heaviside(side.replace(sp.sign, lambda x: x)) * (a - b)

@@ -7,6 +7,7 @@ side, and its Jacobian the same branch; a zero of g then ends the step.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import sympy as sp
@@ -32,6 +33,8 @@ class Pick(sp.Function):
     @classmethod
     def eval(cls, side: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
         """What is told by -side turns round: at zero both would pick their first, one branch each."""
+        if side.is_Number:
+            return b if side < 0 else a
         return cls(-side, b, a) if (-side).is_Symbol else None
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
@@ -39,6 +42,57 @@ class Pick(sp.Function):
         side, a, b = self.args
         da, db = sp.diff(a, s), sp.diff(b, s)
         return da if da == db else Pick(side, da, db)
+
+
+def picked(arguments: Sequence[sp.Expr], side: Callable[[sp.Expr], sp.Expr], up: bool) -> sp.Expr:
+    """max (`up`) or min of some arguments, two by two, each time by the side of their difference."""
+    ordered = sorted(arguments, key=lambda a: (a.is_Number, str(a)))
+    value = ordered[0]
+    for other in ordered[1:]:
+        value = Pick(side(value - other if up else other - value), value, other)
+    return value
+
+
+class Apart(sp.Function):
+    """The sign of a difference by which a branch is picked: no part of a value, and without a rate."""
+
+    nargs = 1
+    is_real = True
+
+
+class _Extreme(sp.Function):
+    """max or min while it is differentiated: its rate is that of one argument, also where several are equal."""
+
+    is_real = True
+    as_it_is: type[sp.Expr]
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        slopes = {x: sp.diff(x, s) for x in self.args}
+        ordered = sorted(self.args, key=lambda a: (a.is_Number, str(a)))
+        value, slope = ordered[0], slopes[ordered[0]]
+        for other in ordered[1:]:
+            more = value - other if self.as_it_is is sp.Max else other - value
+            slope = slope if slope == slopes[other] else Pick(Apart(more), slope, slopes[other])
+            value = type(self)(value, other)
+        return slope
+
+    def _eval_is_nonnegative(self) -> bool | None:
+        return self.as_it_is(*self.args).is_nonnegative
+
+    def _eval_is_positive(self) -> bool | None:
+        return self.as_it_is(*self.args).is_positive
+
+
+class Largest(_Extreme):
+    """max."""
+
+    as_it_is = sp.Max
+
+
+class Smallest(_Extreme):
+    """min."""
+
+    as_it_is = sp.Min
 
 
 class Magnitude(sp.Function):
@@ -137,11 +191,7 @@ class Switches:
             case sp.Heaviside():
                 return Pick(side(arguments[0]), sp.Integer(1), sp.Integer(0))
             case sp.Max() | sp.Min():
-                ordered = sorted(arguments, key=lambda a: (a.is_Number, str(a)))
-                value, up = ordered[0], isinstance(expression, sp.Max)
-                for other in ordered[1:]:
-                    value = Pick(side(value - other if up else other - value), value, other)
-                return value
+                return picked(arguments, side, up=isinstance(expression, sp.Max))
             case sp.Pow() if not expression.exp.is_integer and arguments[0] != expression.base:
                 # what is not known to stay above zero is no number below it, and must not become one
                 base = Magnitude(arguments[0]) if expression.base.is_nonnegative else arguments[0]

@@ -131,7 +131,7 @@ def drives_at(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) ->
     told = [
         f"drive {row.owner} is at {values[row.owner]:.9g} {row.unit}, its rate {rate:.9g} {row.unit}/s"
         for row, rate in zip(source.start_rows, rates, strict=True)
-        if row.kind == "drive" and not abs(rate) < fast
+        if row.kind == "drive" and row.owner in values and not abs(rate) < fast  # a number alone stays where it is
     ]
     return "".join(f"; {text}" for text in told)
 

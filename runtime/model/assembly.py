@@ -168,6 +168,11 @@ class _Assembly:
             q[self.is_angle] += solution / self.weight[self.is_angle]
         return q
 
+    def _ahead(self) -> float:
+        """s, when the drives' rates are looked at: a rate that jumps at the start is what follows (model.h.jinja)."""
+        more = max(32 * np.finfo(float).eps * abs(self.t), 1e-100)
+        return self.t + more if self.compiled.source.rate_jumps else self.t
+
     def velocities(self, q: Array) -> Array:
         """q̇ with Φ_q q̇ = ν and the start's rates; what nothing determines is least in the metric of M."""
         names = {"x": "vx", "y": "vy", "theta": "omega"}
@@ -176,7 +181,7 @@ class _Assembly:
         extra = np.zeros((len(index), len(q)))
         extra[np.arange(len(index)), index] = 1.0
         matrix = np.concatenate([self.compiled.closed_phi_q(self.t, q, self.p), extra])
-        target = np.concatenate([self.compiled.closed_nu(self.t, q, self.p), self.rates])
+        target = np.concatenate([self.compiled.closed_nu(self._ahead(), q, self.p), self.rates])
         if not (np.isfinite(target).all() and np.isfinite(matrix).all()):
             source = self.compiled.source
             rows = [row.name for row, x in zip(source.start_rows, target, strict=False) if not np.isfinite(x)]

@@ -41,6 +41,13 @@ drives:
   along: {coordinate: low.x, value: "max(0 s, t - 0.3 s)*1 m/s"}
   up: {coordinate: cart.y, value: "min(late, t)*2 m/s"}
 """
+CRANK = """format: gudgeon/1
+name: j
+bodies: {{crank: {{length: 0.2 m, mass: 1 kg, inertia: 1e-2 kg*m^2}}}}
+ground: {{O: [0, 0]}}
+joints: {{O: {{revolute: [ground.O, crank.tail]}}}}
+drives: {{turn: {{angle: crank, value: "1 rad*({})"}}}}
+"""
 JUMP = 0.3  # s
 VALUES = (
     "max(0 s, t - 0.3 s)*1 m/s", "max(0 s, 0.3 s - t)*1 m/s", "abs(t - 0.3 s)*1 m/s", "max(t, 0.1 s*3)*1 m/s",
@@ -142,3 +149,75 @@ def test_a_batch_whose_runs_end_at_their_jumps_is_that_of_single_runs(tmp_path: 
             run = simulation.simulate(JUMP, output=[0.0, 0.1, 0.2, JUMP], **kind)
             for name in ("q", "v", "work"):
                 assert getattr(batch[i], name).tobytes() == getattr(run, name).tobytes()
+
+
+T, U = "(t/(1 s))", "(t/(1 s) - 0.3)"
+# Corners within corners, which lie at the same time: U is 0 at 0.3 s, T at the start; the rate behind it.
+NESTED = {
+    "max(max(U, 2*U), 3*U)": 3.0, "max(0, max(U, 2*U))": 2.0, "abs(abs(U) - abs(2*U))": 1.0,
+    "max(abs(U), abs(2*U))": 2.0, "max(U, 0) + max(max(U, 0), 2*U)": 3.0, "max(abs(U), 0.6*U)": 1.0,
+    "min(abs(U), 0.6*U)": 0.6, "max(abs(U), 0.5*U + abs(0.1*U))": 1.0,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("value", NESTED)
+def test_corners_within_corners_at_one_time(value: str, tmp_path: Path) -> None:
+    """The rate of max was the sum of its arguments' where they meet; a sample held a branch that is neither."""
+    formulation = "full" if len(value) % 2 else "reduced"
+    simulation = scene(CART.format(f"1 m*({value.replace('U', U)})"), tmp_path, formulation)
+    for method in METHODS:
+        whole = simulation.simulate(0.6, output=[0.0, JUMP, 0.6], **by(method, 1e-3))
+        first = simulation.simulate(JUMP, output=2, **by(method, 1e-3))
+        then = simulation.simulate(0.6, start=first.final, output=2, **by(method, 1e-3))
+        for found in (whole["cart.vx"][1], first["cart.vx"][-1], then["cart.vx"][0]):
+            assert found == pytest.approx(NESTED[value], abs=1e-9)
+        np.testing.assert_allclose(first.work[-1] + then.work[-1], whole.work[-1], rtol=0, atol=1e-6)
+        assert max(run.diagnostics.phi_dot_max for run in (whole, first, then)) < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("value", "rate"),
+    [("max(T, 0.5*T)", 1.0), ("max(ramp(T, 0, 0.5), ramp(T, 0, 0.4))", 2.5), ("min(ramp(T, 0, 0.5), 2*T)", 2.0),
+     ("max(sin(T), T)", 1.0), ("max(sqrt(T**2), 0.6*T)", 1.0), ("max(T, -T)", 1.0), ("abs(T - T*T)", 1.0),
+     ("min(T, 20000*T**2)", 0.0), ("0.4 - 2*min(T, 0)", 0.0)],
+)  # fmt: skip
+def test_a_start_at_a_tie_has_the_rates_that_follow(value: str, rate: float, tmp_path: Path) -> None:
+    """And the file's own: an impulse out of nothing changed them, and the sum of both branches tore the start."""
+    given = ("-60 deg}}", "-60 deg}, rates: {bob.omega: 0.7 rad/s}}")
+    text = CART.format(f"1 m*({value.replace('T', T)})").replace(*given)
+    assert given[1] in text
+    simulation = scene(text, tmp_path, "full" if len(value) % 2 else "reduced")
+    for method in METHODS:
+        run = simulation.simulate(0.05, output=3, **by(method, 1e-4))
+        assert run["cart.vx"][0] == pytest.approx(rate, abs=1e-9)
+        assert run["bob.omega"][0] == pytest.approx(0.7, abs=1e-9)
+        assert run.diagnostics.energy_residual < 1e-6 and run.diagnostics.phi_dot_max < 1e-4
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize(
+    ("value", "rate"),
+    [("min(2*T, T + 0.5)", 1.0), ("max(2*T, T + 0.5)", 2.0), ("max(sin(3*T - 1.5), 2*T - 1)", 3.0),
+     ("abs(T - 0.5) + min(T, 1 - T)", 0.0), ("min(T, 0.5)", 0.0), ("ramp(T, 0.25, 0.25)", 0.0), ("abs(T - 0.5)", 1.0)],
+)  # fmt: skip
+def test_without_freedom_too(value: str, rate: float, formulation: str, tmp_path: Path) -> None:
+    text = CRANK.format(value.replace("T", T))
+    simulation = scene(text, tmp_path, formulation)
+    whole = simulation.simulate(1.0, output=[0.0, 0.5, 1.0])
+    first = simulation.simulate(0.5, output=2)
+    then = simulation.simulate(1.0, start=first.final, output=2)
+    for found in (whole["crank.omega"][1], first["crank.omega"][-1], then["crank.omega"][0]):
+        assert found == pytest.approx(rate, abs=1e-9)
+    np.testing.assert_allclose(first.work[-1] + then.work[-1], whole.work[-1], rtol=0, atol=1e-9)
+    assert whole.diagnostics.energy_residual < 1e-9 and whole.diagnostics.phi_dot_max < 1e-9
+
+
+@pytest.mark.parametrize("jump", [0.33, 0.17, 0.41])
+def test_an_event_of_the_impulse_and_the_one_after_it_are_found(jump: float, tmp_path: Path) -> None:
+    """Between two ends of steps the expression went over its zero by the impulse and back: both were lost."""
+    text = CART.format(f"1 m*(0.5*T + 0.5*max(T - {jump}, 0))".replace("T", T))
+    simulation = scene(text + "events: {slow: {zero: bob.omega + 3 rad/s}}\n", tmp_path)
+    expected = simulation.simulate(0.6, output=2, method="rk4", step=5e-4).events_of("slow")
+    for method in ("dop853", "rodas5p"):
+        found = simulation.simulate(0.6, output=2, rtol=1e-9, method=method).events_of("slow")
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6)

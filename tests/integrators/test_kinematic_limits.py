@@ -72,3 +72,16 @@ def test_an_energy_beyond_all_numbers_is_told(tmp_path: Path) -> None:
     assert math.isnan(run.diagnostics.energy_residual)
     told = "energy is not balanced: the energy is no finite number at t = 0 s: the residual says nothing"
     assert told in run.diagnostics.notes and told in many[0].diagnostics.notes
+
+
+def test_a_drive_that_is_a_number_stands_beside(tmp_path: Path) -> None:
+    """It has no value of time to be told: a KeyError, and nothing of the run was kept."""
+    file = tmp_path / "table.yaml"
+    text = SHORT_ROD.replace("  block: {", "  table: {" + BODY + "}\n  block: {").replace(
+        "drives: {", "  lift: {translational: [ground.G, table.origin], axis: [0, 1]}\n"
+        "drives: {hold: {coordinate: table.y, value: 50 mm}, "
+    )  # fmt: skip
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(SolverError, match="beyond t = ") as caught:
+        gudgeon.load(file).simulate(2.0)
+    assert caught.value.partial.t[-1] == pytest.approx((math.asin(0.8) - math.radians(10)) / 2, abs=2e-3)

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon.cli import app
-from gudgeon.errors import GudgeonError, InputError
+from gudgeon.errors import BadValueError, GudgeonError, InputError
 from gudgeon.results.plots import Plot
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
@@ -313,3 +313,14 @@ def test_odd_options(arguments: list[str], told: str) -> None:
     assert shown.exit_code == 2
     assert told in " ".join(shown.output.split())
     assert not list(Path().iterdir())
+
+
+@pytest.mark.parametrize("number", [np.complex128(1 + 2j), np.complex64(1 + 2j), np.array(1 + 2j)])
+def test_an_imaginary_part_is_not_dropped(pendulum: Simulation, number: Any) -> None:
+    """NumPy's own complex numbers become real ones with a warning: a run to 1 s, or with g = 1, was made of them."""
+    with pytest.raises(BadValueError, match="t_end"):
+        pendulum.simulate(number)
+    with pytest.raises(BadValueError, match="g"):
+        pendulum.simulate(0.01, parameters={"g": number})
+    with pytest.raises(BadValueError, match="g"):
+        pendulum.simulate_many({"g": [number, 9.81]}, 0.01)

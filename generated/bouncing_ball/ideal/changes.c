@@ -78,13 +78,11 @@ static int change(Run *run, int event, const Parameters *p)
             cross(run, k, p);
     const int corner = event - N_CLEARANCES;
     const int is_corner = corner >= 0 && corner < N_SWITCHES;
-    int status = 0;
     if (is_corner) {
         pace_corner(run, corner);
         pass_impulse(run, p);
     }
-    if (!status)
-        status = settle_sides(run, is_corner ? corner : -1, p);
+    int status = settle_sides(run, is_corner ? corner : -1, p);
     const int friction = corner - N_SWITCHES, watched = friction - N_FRICTIONS;
     if (!status && friction >= 0 && watched < 0)
         status = switch_friction(run, p);

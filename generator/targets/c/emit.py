@@ -12,6 +12,7 @@ import jinja2
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.events import SIGNS
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.notes import has_jumps
 from gudgeon.generator.ir.finite_slopes import Slope
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import closed_linkage, outputs
@@ -220,6 +221,7 @@ def _header(model: Model) -> dict[str, Any]:
         "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived,
         "event_directions": [SIGNS[event.direction] for event in model.events] or [0],
         "event_stops": [int(event.action == "stop") for event in model.events] or [0],
+        "jumps": has_jumps(model),
     }  # fmt: skip
 
 
@@ -240,7 +242,7 @@ def _start(model: Model) -> str:
     return render(
         "scene/start.c.jinja", guess=[place[name] for name in start.guess], fixed=[place[name] for name in start.set],
         rates=[place[f"{name.partition('.')[0]}.{_POSITION[name.partition('.')[2]]}"] for name in start.rates],
-        lengths=[int(row.unit == "m") for row in model.all_rows],
+        lengths=[int(row.unit == "m") for row in model.all_rows], jumps=has_jumps(model),
     )  # fmt: skip
 
 

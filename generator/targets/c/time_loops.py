@@ -8,6 +8,7 @@ from typing import Any
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.notes import has_jumps
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels.drive_jumps import Jumps
@@ -61,13 +62,14 @@ def kinematic_code(program: Program, counts: Mapping[str, int], render: Render) 
     """Positions by Newton, and events on the way."""
     course, model, terms = program.course, program.model, program.terms
     assert course
+    jumps = has_jumps(model)
     text = "\n".join(map(functions.kernel, course.kernels))
     if course.rows:
         text = render("scene/block.c.jinja", most=course.rows.largest) * (course.rows.largest > 2) + text
         angles = program.integrated.angles or (1,)
-        closing = render("kinematic/kinematic_tree.c.jinja", kernels=text, angles=angles)
+        closing = render("kinematic/kinematic_tree.c.jinja", kernels=text, angles=angles, jumps=jumps)
     else:
-        closing = text + "\n" + render("kinematic/kinematic_full.c.jinja", **counts)
+        closing = text + "\n" + render("kinematic/kinematic_full.c.jinja", **counts, jumps=jumps)
     watched = program.watched if model.events else None
     files = _range_code(terms, watched, render)
     files["kinematic.c"] = render(

@@ -59,6 +59,8 @@ class NumPyPrinter(PythonCodePrinter):
         base, exponent = expr.as_base_exp()
         if exponent in (sp.Rational(1, 2), sp.Rational(-1, 2)):
             return f"{'' if exponent > 0 else '1/'}np.sqrt({self._print(base)})"
+        if not exponent.is_integer:  # of a negative number it is none
+            return f"np.power({self._print(base)}, {self._print(exponent)})"
         return f"{self.parenthesize(base, 70)}**{self.parenthesize(exponent, 70)}"
 
     def _call(self, expr: sp.Expr) -> str:
