@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
+from time import perf_counter
 from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
@@ -126,9 +127,12 @@ def derived(
 ) -> KernelSource:  # fmt: skip
     """The C of a scene, derived now; each stage notes its seconds where somebody wants them."""
     with working(f"deriving {file.stem}, scene {scene}"):
+        begun = perf_counter()
         whole(*GENERATOR)
         from gudgeon.generator.pipeline import generate
 
+        if seconds is not None and (took := perf_counter() - begun) > 0.01:
+            seconds["loading SymPy"] = took
         return generate(data, str(file), scene, overrides, formulation, seconds)
 
 

@@ -33,6 +33,9 @@ def test_check_counts_and_verbose_tells_of_each_scene(call: Gudgeon, pump: str) 
     assert (found["ideal"]["non-zeros of Φ_q"], found["worn"]["non-zeros of Φ_q"]) == (4 + 8 + 6 + 2 + 1, 4 + 8 + 2 + 1)
     shown = call("check", pump, "-v").stdout
     assert "degrees of freedom" in shown and "operations" in shown
+    stages = ("reading", "equations", "rank of the rows", "functions", "C")
+    assert all(scene["seconds"][name] > 0 for scene in found.values() for name in stages)
+    assert re.search(r"seconds +(loading SymPy [\d.]+, )?reading [\d.]+, equations [\d.]+, rank of the rows", shown)
 
 
 @needs_compiler
@@ -194,8 +197,8 @@ def test_a_terminal_is_told_what_is_derived_and_compiled(
 
     tasks: list[tuple[Callable[[], object], list[str]]] = [
         (lambda: emit_c(pump, tmp_path / "c", ("worn",)), ["deriving pump, scene worn"]),
-        (lambda: check_file(pump, True, False), ["deriving pump, scene ideal"]),
-        (lambda: load_scenes(Request(pump, ("ideal",))), ["compiling pump, scene ideal"]),
+        (lambda: load_scenes(Request(pump, ("ideal",))),
+         ["deriving pump, scene ideal", "compiling pump, scene ideal"]),
     ]
     for task, told in tasks:
         cold = shown(task, Screen())
@@ -204,5 +207,6 @@ def test_a_terminal_is_told_what_is_derived_and_compiled(
         assert "\x1b[2K" in cold and not re.search(r"\x1b\[[0-9;]*m", cold)
         assert shown(task, Screen()) == ""
     equations = partial(write_equations, pump, tmp_path / "x.txt", "worn")
-    assert "deriving pump, scene worn" in shown(equations, Screen())
-    assert shown(equations, io.StringIO()) == ""
+    for anew, scene in ((equations, "worn"), (lambda: check_file(pump, True, False), "ideal")):
+        assert f"deriving pump, scene {scene}" in shown(anew, Screen())
+        assert shown(anew, io.StringIO()) == ""
