@@ -38,10 +38,11 @@ def _same(x: float) -> float:
     return x
 
 
+# what grows beyond all numbers is infinite, as in C;
 # steps by name: SymPy would write each as a case distinction, simplified at great length
 MODULES = [
-    {"Heaviside": _heaviside, "Whole": _same, "Slope": _finite, "JustAhead": _same, "JustBehind": _same,
-     "exp": np.exp, "sinh": np.sinh, "cosh": np.cosh},  # what grows beyond all numbers is infinite, as in C
+    {"Heaviside": _heaviside, "Whole": _same, "Share": _same, "Slope": _finite, "JustAhead": _same,
+     "JustBehind": _same, "exp": np.exp, "sinh": np.sinh, "cosh": np.cosh},
     "math",
 ]  # fmt: skip
 
