@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping
 
 import sympy as sp
 
+from gudgeon.generator.ir.far_quotients import written
 from gudgeon.generator.ir.finite_slopes import finite_slope, overflowing
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.reciprocals import base_name, is_division
@@ -130,15 +131,7 @@ def partial(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
     terms = {term: sp.Dummy(real=True) for term in overflowing(expression, by)}
     if terms and expression not in terms:
         named, back = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
-        inner = (sp.diff(named, dummy) * partial(term, by) for term, dummy in terms.items())
+        inner = (written(named, dummy) * partial(term, by) for term, dummy in terms.items())
         return sp.Add(partial(named, by), *inner).xreplace(back)
-    derivative = _written(expression, by)
+    derivative = written(expression, by)
     return finite_slope(expression, by, derivative) if terms else derivative
-
-
-def _written(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """∂/∂by of smooth pieces as their forms say it."""
-    derivative = sp.diff(expression, by)
-    if any(power.exp.free_symbols and power.base.has(by) for power in expression.atoms(sp.Pow)):
-        derivative = sp.powsimp(derivative, combine="exp")
-    return derivative

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import operator as operator_of
-import sys
 from collections.abc import Callable
 
 import numpy as np
@@ -11,7 +10,7 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.mechanism.mechanism import Quantity
-from gudgeon.generator.symbols.near_squares import near_square_root
+from gudgeon.generator.symbols.squares import DEGREE, decimal, root
 from gudgeon.generator.symbols.wholes import kept
 from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary
 
@@ -28,7 +27,7 @@ def ramp(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
 
 
 _HALF = sp.Rational(1, 2)
-_LONG, _DEGREE = 60, 8  # operations under a root, and a power there, beyond which nobody wrote a square
+_BITS = 4096  # of a number that was not written, at most
 
 
 def exponential(exponent: sp.Expr) -> sp.Expr:
@@ -45,7 +44,6 @@ def _exact(number: sp.Expr) -> sp.Expr:
 _FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
     "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": exponential, "log": sp.log,
-    "sqrt": lambda a: root(a, _HALF), "hypot": lambda a, b: root(_square(a) + _square(b), _HALF),
     "abs": sp.Abs, "sign": sp.sign, "min": sp.Min, "max": sp.Max, "smooth_step": smooth_step, "ramp": ramp,
 }  # fmt: skip
 
@@ -55,17 +53,70 @@ def to_sympy(expr: Expr, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
 
     A number stays the binary64 value that the user wrote; integers stay exact, so that they fold.
     """
-    match expr:
-        case Number(value=value):
-            return sp.Integer(int(value)) if value == int(value) and abs(value) < 1e15 else sp.Float(value, 17)
-        case Name(path=path):
-            return symbol_of(path)
-        case Unary(operand=operand):
-            return -to_sympy(operand, symbol_of)
-        case Call(function=function, arguments=arguments):
-            return kept(_FUNCTIONS[function], *(to_sympy(a, symbol_of) for a in arguments))
-        case Binary(operator=operator, left=left, right=right):
-            return _combine(operator, to_sympy(left, symbol_of), to_sympy(right, symbol_of))
+    return _Reading(symbol_of).value(expr)
+
+
+class _Reading:
+    """An expression's parts in SymPy, each read once."""
+
+    def __init__(self, symbol_of: Callable[[str], sp.Expr]) -> None:
+        self._symbol_of = symbol_of
+        self._known: dict[int, sp.Expr] = {}  # by the part's id
+
+    def value(self, expr: Expr) -> sp.Expr:
+        if id(expr) not in self._known:
+            self._known[id(expr)] = self._read(expr)
+        return self._known[id(expr)]
+
+    def _read(self, expr: Expr) -> sp.Expr:
+        match expr:
+            case Number(value=value):
+                return sp.Integer(int(value)) if value == int(value) and abs(value) < 1e15 else sp.Float(value, 17)
+            case Name(path=path):
+                return self._symbol_of(path)
+            case Unary(operand=operand):
+                return -self.value(operand)
+            case Call(function="sqrt", arguments=(of,)):
+                return kept(lambda a: self._root(a, _HALF, of), self.value(of))
+            case Call(function="hypot", arguments=sides):
+                return kept(lambda a, b: self._root(_square(a) + _square(b), _HALF, *sides), *map(self.value, sides))
+            case Call(function=function, arguments=arguments):
+                return kept(_FUNCTIONS[function], *map(self.value, arguments))
+            case Binary(operator="**", left=left, right=right):
+                return self._power(left, self.value(left), self.value(right))
+            case Binary(operator=operator, left=left, right=right):
+                return _combine(operator, self.value(left), self.value(right))
+
+    def _power(self, left: Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
+        if a.is_number and b.is_number:
+            return _power(a, b)
+        exponent = _exact(b) if a.has(sp.exp) else _halves(b)  # (e^(5000 − u))^0.3 as e^(1500 − 0.3 u)
+        return kept(lambda a, b: self._root(a, b, left), a, exponent)
+
+    def _root(self, base: sp.Expr, exponent: sp.Expr, *of: Expr) -> sp.Expr:
+        """A root of an expression, or of the sum of the squares of two."""
+        if not (base.is_Add and exponent.is_Rational and exponent.q == 2):
+            return base**exponent
+        written = [self._decimals(x) for x in of]
+        return root(base, exponent, written[0] if len(of) == 1 else sp.Add(*(x**2 for x in written)))
+
+    def _decimals(self, expr: Expr) -> sp.Expr:
+        """The expression with the numbers of its sums, products and small powers exactly as they were written."""
+        match expr:
+            case Unary(operand=operand):
+                return -self._decimals(operand)
+            case Binary(operator="**", left=left, right=right):
+                exponent, base = self.value(right), self._decimals(left)
+                if exponent.is_Integer and 1 < exponent <= DEGREE and exponent * _bits(base) < _BITS:
+                    return base**exponent
+            case Binary(operator=operator, left=left, right=right):
+                return _combine(operator, self._decimals(left), self._decimals(right))
+        return decimal(self.value(expr))
+
+
+def _bits(e: sp.Expr) -> int:
+    """Of the longest number in an expression."""
+    return max((max(int(x.p).bit_length(), int(x.q).bit_length()) for x in e.atoms(sp.Rational)), default=0)
 
 
 def _combine(operator: str, a: sp.Expr, b: sp.Expr) -> sp.Expr:
@@ -76,11 +127,7 @@ def _combine(operator: str, a: sp.Expr, b: sp.Expr) -> sp.Expr:
             return a - b
         case "*":
             return _joined(kept(operator_of.mul, a, b))
-        case "/":
-            return _joined(kept(operator_of.truediv, a, b))
-    if a.is_number and b.is_number:
-        return _power(a, b)
-    return kept(root, a, _exact(b) if a.has(sp.exp) else _halves(b))  # (e^(5000 − u))^0.3 as e^(1500 − 0.3 u)
+    return _joined(kept(operator_of.truediv, a, b))
 
 
 def _joined(product: sp.Expr) -> sp.Expr:
@@ -94,48 +141,6 @@ def _joined(product: sp.Expr) -> sp.Expr:
 
 def _square(a: sp.Expr) -> sp.Expr:
     return kept(sp.Pow, a, sp.Integer(2))
-
-
-def root(base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
-    """A power; of a sum under a root its squares are taken out: sqrt(t**2 - 2*t + 1) is |t - 1|, a corner and all."""
-    if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _LONG:
-        return base**exponent
-    atoms: dict[sp.Expr, sp.Dummy] = {}
-    polynomial = _polynomial(base, atoms)
-    try:
-        factor, parts = sp.sqf_list(polynomial)
-    except sp.PolynomialError:
-        return base**exponent
-    if all(count == 1 for _, count in parts):
-        names = [atoms[atom] for atom in sorted(atoms, key=sp.default_sort_key)]
-        near = near_square_root(polynomial, names) if base.has(sp.Float) else None
-        if near is None:
-            return base**exponent
-        factor, parts = sp.Integer(1), [(near, 2)]
-    meant = {dummy: atom for atom, dummy in atoms.items()}
-    return sp.Mul(factor, *(sp.Pow(part.xreplace(meant), count) for part, count in parts)) ** exponent
-
-
-def _polynomial(e: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
-    """`e` with a name for all in it that is no sum, product or small power, so that its degree is the one written.
-
-    Left to itself SymPy takes x^0.1 and x^0.0001 for powers of one generator, with as many terms as memory holds.
-    """
-    if e.is_Number:
-        simple = sp.nsimplify(e, rational=True)  # 0.2 as 1/5; it would have 0.11111111111122 as 1/9
-        return simple if abs(simple - e) <= 4 * sys.float_info.epsilon * abs(e) else sp.Rational(e)
-    if e.is_Add or e.is_Mul:
-        return e.func(*(_polynomial(a, atoms) for a in e.args))
-    base, exponent = e.as_base_exp() if e.is_Pow else (e, sp.Integer(1))
-    if exponent.is_Integer and 1 < exponent <= _DEGREE:
-        return _polynomial(base, atoms) ** exponent
-    if exponent.is_Rational and 1 < abs(exponent.p) <= _DEGREE:
-        return _polynomial(base ** (exponent / abs(exponent.p)), atoms) ** abs(exponent.p)
-    if isinstance(e, sp.exp):
-        count, rest = e.exp.as_coeff_Mul()
-        if count.is_Rational and 1 < abs(count.p) <= _DEGREE:
-            return _polynomial(sp.exp(rest * count / abs(count.p)), atoms) ** abs(count.p)
-    return atoms.setdefault(e, sp.Dummy(real=True))
 
 
 def _halves(exponent: sp.Expr) -> sp.Expr:

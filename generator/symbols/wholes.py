@@ -46,6 +46,10 @@ class Whole(sp.Function):
         return self.args[0].is_zero
 
 
+class Share(Whole):
+    """v′/v, whose derivative too stays together: SymPy would make v² of two of them, which may be no number of C."""
+
+
 def kept(make: Callable[..., sp.Expr], *operands: sp.Expr) -> sp.Expr:
     """What an operation makes of its operands; of wholes where it would take them apart to numbers that C has not."""
     made = make(*operands)

@@ -11,6 +11,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import AssemblyError, NonFiniteError, SolverError
 from tests import pump
+from tests.scenes import loader
 
 PAIR = """format: gudgeon/1
 name: n
@@ -207,6 +208,27 @@ def test_a_square_under_a_root_is_one_in_spite_of_rounding(c: float, value: str,
     run = driven(ONE, value.format(c=c), tmp_path).simulate(1.0, output=77)
     assert run["a.theta"] == pytest.approx(abs(run.t - c), abs=1e-12)
     assert run["a.omega"] == pytest.approx(np.where(run.t > c, 1.0, -1.0), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("square", "at", "force"),
+    [
+        ("X**2 - 20*X + 100.0000000000002", 10.0, 4.4604e-7),
+        ("X**2 - 1.8e8*X + 8100000000000001", 9e7, 1.0),
+        ("X**2 - 20*X + 100", 10.5, 0.5),
+    ],
+)
+def test_a_force_is_a_root_where_binary64_has_no_square(square: str, at: float, force: float, tmp_path: Path) -> None:
+    """The first two were 0."""
+    block = f"""
+    bodies: {{a: {{mass: 1 kg, inertia: 1 kg*m^2}}}}
+    ground: {{o: [0, 0]}}
+    joints: {{g: {{translational: [ground.o, a.origin], axis: [1, 0]}}}}
+    parameters: {{X: {at!r}}}
+    forces: {{f: {{force: a.origin, value: ["1 N*sqrt({square})", 0]}}}}
+    """
+    run = loader(tmp_path)(block).simulate(1e-9, output=1, method="dop853")
+    assert run["f.Fx"] == pytest.approx(force, rel=1e-4)
 
 
 @pytest.mark.parametrize("output", [10, 77])

@@ -83,6 +83,8 @@ class CPrinter(C99CodePrinter):
         """From wholes.py."""
         return f"({self._print(expr.args[0])})"
 
+    _print_Share = _print_Whole
+
     def _print_sign(self, expr: sp.Expr) -> str:
         return self._call("sign_of", expr.args[0])
 

@@ -73,6 +73,8 @@ class TextPrinter(_InOrder, StrPrinter):
     def _print_Whole(self, expr: sp.Expr) -> str:
         return f"({self._print(expr.args[0])})"
 
+    _print_Share = _print_Whole
+
     def _print_sign(self, expr: sp.Expr) -> str:
         return f"sgn({self._print(expr.args[0])})"
 
@@ -142,6 +144,8 @@ class TexPrinter(_InOrder, LatexPrinter):
 
     def _print_Whole(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function("", expr, None) + (f"^{{{exp}}}" if exp else "")
+
+    _print_Share = _print_Whole
 
     def _print_Max(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function(r"\operatorname{max}", expr, exp)

@@ -95,6 +95,8 @@ class NumPyPrinter(PythonCodePrinter):
     def _print_Whole(self, expr: sp.Expr) -> str:
         return f"({self._print(expr.args[0])})"
 
+    _print_Share = _print_Whole
+
     def _print_Slope(self, expr: sp.Expr) -> str:
         slope, ahead, behind, way = map(self._print, expr.args)
         return f"np.where(np.isfinite({slope}), {slope}, ({ahead} - ({behind}))/({way}))"

@@ -1,0 +1,69 @@
+"""Squares under roots, by the decimals that were written: t² − 2·0.2202 t + 0.2202² is (t − 0.2202)².
+
+There is no tolerance: what is not exactly a square of these decimals stays a root, however near to one it is.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+_LONG, DEGREE = 60, 8  # operations under a root, and a power there, beyond which nobody wrote a square
+_DIGITS = 10**15  # a whole number that binary64 has
+
+
+def root(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None = None) -> sp.Expr:
+    """A power; of a sum under a root its squares are taken out: sqrt(t**2 - 2*t + 1) is |t - 1|, a corner and all.
+
+    decimals: the base with its numbers as they were written; else they are the shortest that tell binary64's apart.
+    """
+    if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _LONG:
+        return base**exponent
+    atoms: dict[sp.Expr, sp.Dummy] = {}
+    polynomial = _polynomial(base if decimals is None else decimals, atoms)
+    if not polynomial.is_finite and polynomial.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
+        return base**exponent
+    try:
+        factor, parts = sp.sqf_list(polynomial)
+    except sp.PolynomialError:
+        return base**exponent
+    if all(count == 1 for _, count in parts):
+        return base**exponent
+    meant = {dummy: atom for atom, dummy in atoms.items()}
+    powers = []
+    for part, count in parts:
+        size = _size(part)
+        factor *= size**count
+        powers.append(sp.Pow((part / size).expand().xreplace(meant), count))
+    return sp.Mul(factor, *powers) ** exponent
+
+
+def decimal(number: sp.Expr) -> sp.Expr:
+    """A number of binary64 as the shortest decimal that is read as it."""
+    return sp.Rational(repr(float(number))) if number.is_Float and number.is_finite else number
+
+
+def _size(part: sp.Expr) -> sp.Expr:
+    """What a polynomial with whole coefficients is divided by, so that they are numbers of C."""
+    sizes = [abs(c) for c in sp.Poly(part).coeffs()]
+    return sp.Integer(1) if max(sizes) < _DIGITS else sizes[0]
+
+
+def _polynomial(e: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
+    """`e` with a name for all in it that is no sum, product or small power, so that its degree is the one written.
+
+    Left to itself SymPy takes x^0.1 and x^0.0001 for powers of one generator, with as many terms as memory holds.
+    """
+    if e.is_Number:
+        return decimal(e)
+    if e.is_Add or e.is_Mul:
+        return e.func(*(_polynomial(a, atoms) for a in e.args))
+    base, exponent = e.as_base_exp() if e.is_Pow else (e, sp.Integer(1))
+    if exponent.is_Integer and 1 < exponent <= DEGREE:
+        return _polynomial(base, atoms) ** exponent
+    if exponent.is_Rational and 1 < abs(exponent.p) <= DEGREE:
+        return _polynomial(base ** (exponent / abs(exponent.p)), atoms) ** abs(exponent.p)
+    if isinstance(e, sp.exp):
+        count, rest = e.exp.as_coeff_Mul()
+        if count.is_Rational and 1 < abs(count.p) <= DEGREE:
+            return _polynomial(sp.exp(rest * count / abs(count.p)), atoms) ** abs(count.p)
+    return atoms.setdefault(e, sp.Dummy(real=True))
