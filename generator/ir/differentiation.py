@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 import sympy as sp
 
 from gudgeon.generator.ir.far_quotients import written
-from gudgeon.generator.ir.finite_slopes import finite_slope, overflowing
+from gudgeon.generator.ir.finite_slopes import finite_slope, flat_at_zero, has_distance, overflowing
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.reciprocals import base_name, is_division
 from gudgeon.generator.ir.statements import Statement
@@ -134,4 +134,6 @@ def partial(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
         inner = (written(named, dummy) * partial(term, by) for term, dummy in terms.items())
         return sp.Add(partial(named, by), *inner).xreplace(back)
     derivative = written(expression, by)
-    return finite_slope(expression, by, derivative) if terms else derivative
+    if terms:
+        return finite_slope(expression, by, derivative)
+    return flat_at_zero(derivative) if has_distance(expression, by) else derivative

@@ -93,6 +93,25 @@ def finite_slope(term: sp.Expr, by: sp.Symbol, derivative: sp.Expr) -> Slope:
     return Slope(derivative, term.xreplace({by: ahead}), term.xreplace({by: behind}), ahead - behind)
 
 
+def has_distance(expression: sp.Expr, by: sp.Symbol) -> bool:
+    """Whether a root of a sum of squares is in it, a distance or speed: at 0 its slope is 0/0, of products mostly 0."""
+    return any(
+        power.exp.is_number and power.exp > 0 and not power.exp.is_integer and power.base.is_Add
+        and by in power.base.free_symbols and all(map(_is_square, power.base.args))
+        for power in expression.atoms(sp.Pow)
+    )  # fmt: skip
+
+
+def _is_square(term: sp.Expr) -> bool:
+    number, rest = term.as_coeff_Mul()
+    return bool(number > 0 and all(factor.is_Pow and factor.exp.is_even for factor in sp.Mul.make_args(rest)))
+
+
+def flat_at_zero(derivative: sp.Expr) -> Slope:
+    """The derivative, and 0 where it is no number."""
+    return Slope(derivative, *_ZERO)
+
+
 def as_written(expression: sp.Expr) -> sp.Expr:
     """The expression with its slopes as their derivatives are written: for readers, and ranges, in which 0 · ∞ is 0."""
     if expression.has(Slope):

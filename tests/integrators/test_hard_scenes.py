@@ -135,6 +135,20 @@ def test_a_branch_that_grows_beyond_all_bounds_behind_its_corner(load: Load, for
         assert run["a.x"][-1] > 0.0
 
 
+@pytest.mark.parametrize("speed", ["hypot(b.vx, b.vy)", "sqrt(b.vx**2 + b.vy**2)"])
+def test_quadratic_drag_from_rest(load: Load, speed: str) -> None:
+    """1 kg falls: y = -10 m ln cosh(t sqrt(g 0.1 1/m)). The slope of the drag was 0/0 at rest, and rodas5p no start."""
+    drag = f'"-0.1 N*s^2/m^2*{speed}*b.vx", "-0.1 N*s^2/m^2*{speed}*b.vy"'
+    fall = load(
+        "gravity: [0, -9.81 m/s^2]\nbodies: {b: {mass: 1 kg, inertia: 1 kg*m^2}}\n"
+        f"forces: {{drag: {{force: b.origin, value: [{drag}]}}}}\n"
+    )
+    exact = -10.0 * math.log(math.cosh(math.sqrt(0.981)))
+    for method in ("dop853", "rodas5p"):
+        run = fall.simulate(1.0, output=2, rtol=1e-9, method=method)
+        assert run["b.y"][-1] == pytest.approx(exact, abs=1e-8)
+
+
 @pytest.mark.parametrize("method", ["dop853", "rk4"])
 def test_a_force_that_overflows_on_the_way_is_named(load: Load, method: str) -> None:
     """rk4 said that its step was too long."""
