@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from gudgeon.generator.ir.finite_slopes import Slope
+from gudgeon.generator.ir.finite_slopes import Slope, as_written
 from gudgeon.generator.symbols.wholes import Share
 
 _GROWING = (sp.exp, sp.sinh, sp.cosh)
@@ -43,6 +43,12 @@ def written(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
     named, back = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
     inner = (sp.diff(named, dummy) * written(term, by) for term, dummy in terms.items())
     return sp.Add(_plain(named, by), *inner).xreplace(back)
+
+
+def for_readers(expression: sp.Expr) -> sp.Expr:
+    """The expression without what keeps its numbers finite."""
+    shown = as_written(expression)
+    return shown.replace(Share, lambda x: x) if shown.has(Share) else shown
 
 
 def _plain(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:

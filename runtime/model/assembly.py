@@ -22,8 +22,9 @@ MAX_STEPS = 60
 FAR = 1.0  # rad: where a guessed angle turns further, a nearer configuration is sought
 TRIES, MANY = 24, 60  # from as many other angles; fewer with more coordinates than these
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
-AWAY = 1e3  # of the mechanism's size: a body so far from the origin is lost
-CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly
+AWAY = 1e3  # of how far drives and the start ask for: a body so far from the origin is lost
+CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly,
+ROUNDING = 1e-14  # with this share of how far from the origin it is
 
 # Weights of a coordinate in the norm of a Newton step: a guess is held most firmly.
 GUESSED, FREE_ANGLE, FREE_POSITION = 1.0, 1e-2, 1e-4
@@ -71,6 +72,7 @@ class _Assembly:
         self.row_scale = np.array([self.size if unit == "m" else 1.0 for unit in units])
         self.weight = np.where(self.is_angle, FREE_ANGLE, FREE_POSITION / self.size)
         guessed = [self.place[name] for name in source.start_guess]
+        self.reach = self.size
         self.weight[guessed] = np.where(self.is_angle[guessed], GUESSED, GUESSED / self.size)
 
     def residual(self, q: Array) -> Array:
@@ -100,23 +102,33 @@ class _Assembly:
         guess[[self.place[name] for name in self.compiled.source.start_guess]] = self.guess
         guess[self.set_index] = self.set
         guess = self._place_angles(guess)
+        self.reach = self._farthest_place(guess)
         first = self._newton(guess)
-        if self._norm(first) < CLOSED and self._turned(first, guess) < FAR and self._is_near(first):
+        if self._is_closed(first) and self._turned(first, guess) < FAR and self._is_near(first):
             return first
         found = [first]
         for spread in (1.0, np.pi) if self.compiled.source.start_guess else (np.pi,):
             found += [self._newton(other) for other in self._others(guess, spread)]
             near = [q for q in found if self._is_near(q)]
-            closed = [self._unwound(q, guess) for q in near if self._norm(q) < CLOSED]
+            closed = [self._unwound(q, guess) for q in near if self._is_closed(q)]
             if closed:
                 break
         else:
             raise self._failure(min(near, key=self._norm, default=guess))
         return min(closed, key=lambda q: float(np.linalg.norm((q - guess) * self.weight)))
 
+    def _farthest_place(self, guess: Array) -> float:
+        """How far from the origin (m) drives, the start's set and its guess ask bodies to be: the size, at least."""
+        asked = np.abs(self.residual(guess))[: len(self.compiled.source.start_rows)]
+        lengths = [row.unit == "m" for row in self.compiled.source.start_rows]
+        return float(max(self.size, asked[lengths].max(initial=0.0), np.abs(guess[~self.is_angle]).max(initial=0.0)))
+
+    def _is_closed(self, q: Array) -> bool:
+        return self._norm(q) < CLOSED + ROUNDING * self.reach / self.size
+
     def _is_near(self, q: Array) -> bool:
         """Not run off to where parallel lines meet, and every row seems to close."""
-        return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.size)
+        return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.reach)
 
     def _turned(self, q: Array, guess: Array) -> float:
         """The largest turn (rad) of a guessed angle."""
@@ -142,7 +154,7 @@ class _Assembly:
         for k in np.flatnonzero(self.is_angle & (np.abs(q - guess) > np.pi)):
             other = q.copy()
             other[k] -= 2.0 * np.pi * np.round((q[k] - guess[k]) / (2.0 * np.pi))
-            q = other if self._norm(other) < CLOSED else q
+            q = other if self._is_closed(other) else q
         return q
 
     def _newton(self, q: Array) -> Array:

@@ -14,10 +14,14 @@ import pytest
 import sympy as sp
 
 from gudgeon.generator.ir.differentiation import partial
+from gudgeon.generator.symbols.wholes import Share
+from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from tests.scenes import loader
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 AT = 0.25
+x, a = sp.symbols("x a", real=True)
 FORMS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "powers": ("(T + 60)**90/(T + 61)**90", lambda x: (x + 60) ** 90 / (x + 61) ** 90),
     "hyperbolic": ("cosh(400)/cosh(400 + T)", lambda x: mp.cosh(400) / mp.cosh(400 + x)),
@@ -81,6 +85,12 @@ def test_forces_have_their_slopes(tmp_path: Path) -> None:
 
 
 def test_ordinary_quotients_are_differentiated_as_they_were() -> None:
-    x, a = sp.symbols("x a", real=True)
     for value in (1 / (a + x**2), sp.sin(x) / (1 + x) ** 2, 1 / sp.sqrt(1 + x**2), sp.atan(a * x)):
         assert partial(value, x) == sp.diff(value, x)
+
+
+def test_how_a_share_is_written() -> None:
+    value = Share(sp.sin(x) / (1 + x)) ** 2
+    assert printer.expression(value) == "((sin(x)/(x + 1.0)) * (sin(x)/(x + 1.0)))"
+    assert TextPrinter({}, {}).doprint(value).startswith("(sin(")
+    assert TexPrinter({}, {}).doprint(value).endswith(r"\right)^{2}")

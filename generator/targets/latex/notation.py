@@ -10,7 +10,7 @@ from functools import cached_property
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.finite_slopes import as_written
+from gudgeon.generator.ir.far_quotients import for_readers
 from gudgeon.generator.symbols.symbols import Symbols
 from gudgeon.generator.targets.latex.letters import Name, letter, word
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
@@ -52,12 +52,12 @@ class Notation:
 
     def math(self, expression: sp.Expr) -> Name:
         """An expression as a formula."""
-        expression = as_written(sp.sympify(expression))
+        expression = for_readers(sp.sympify(expression))
         return Name(self._latex.doprint(expression), self._text.doprint(expression))
 
     def terms(self, expression: sp.Expr) -> tuple[Name, ...]:
         """The terms of a sum, each with its sign: a line may break between them."""
-        expression = as_written(sp.sympify(expression))
+        expression = for_readers(sp.sympify(expression))
         signs = self._text.signed_terms(expression)
         return tuple(
             Name(sign + self._latex.long(term), sign.replace("{}", "") + self._text.doprint(term))
