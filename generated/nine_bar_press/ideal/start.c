@@ -16,7 +16,7 @@ static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1
 
 /* Rows of the linearized system with what each must still give, columns over their weights; a normal matrix. */
 typedef struct {
-    double size, weight[N_Q], step[N_Q], placed[N_Q];
+    double size, reach, weight[N_Q], step[N_Q], placed[N_Q];
     double guess[N_GUESS + 1], set[N_SET + 1], rates[N_RATES + 1];
     double row[N_START_ROWS + 1][N_Q], rest[N_START_ROWS + 1];
     double normal[N_NORMAL + 1][N_NORMAL + 1], right[N_NORMAL + 1];
@@ -129,6 +129,20 @@ static void linearized_rows(Closing *w, double t, const double *q, const Paramet
     open_rows(w, t, q, p);
 }
 
+/* How far from the origin (m) drives, the start's set and its guess ask bodies to be: the size, at least. */
+static double farthest_place(Closing *w, double t, const Parameters *p, const double *q)
+{
+    double reach = w->size;
+    open_rows(w, t, q, p);
+    for (int r = 0; r < N_ALL_ROWS; r++)
+        if (row_is_length[r])
+            reach = max_of(reach, fabs(w->rest[r] * w->size));
+    for (int k = 0; k < N_Q; k++)
+        if (k % 3 != 2)
+            reach = max_of(reach, fabs(q[k]));
+    return reach;
+}
+
 /* Coordinates weigh as in the runtime; the guess, with angles that rows alone determine (drives, sliders). */
 static int first_guess(Closing *w, double t, const Parameters *p, double *q)
 {
@@ -159,6 +173,7 @@ static int first_guess(Closing *w, double t, const Parameters *p, double *q)
         return 1;
     for (int k = 0; k < N_Q; k++)
         w->placed[k] = q[k] += w->step[k] / w->weight[k];
+    w->reach = farthest_place(w, t, p, q);
     return 0;
 }
 
@@ -191,7 +206,7 @@ static int close_rows(Closing *w, double t, const Parameters *p, double *q)
             }
         }
     }
-    return !(norm < 1e-10);
+    return !(norm < 1e-10 + 1e-14 * w->reach / w->size);
 }
 
 /* Phi_q v = nu and the start's rates, least in the metric of M; refined twice. */
@@ -246,7 +261,7 @@ static int close_start(double t, const double *parameters, double size, double *
         if (guess_place[i] % 3 == 2 && !(fabs(q[guess_place[i]] - w->placed[guess_place[i]]) < 1.0))
             status = 1;
     for (int k = 0; k < N_Q; k++)
-        if (k % 3 != 2 && !(fabs(q[k]) < 1e3 * size))
+        if (k % 3 != 2 && !(fabs(q[k]) < 1e3 * w->reach))
             status = 1;
     status = status || first_velocities(w, t, p, q, v);
     open_rows(w, t, q, p);
