@@ -34,7 +34,9 @@ def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Ma
     """Stands in for the generator: what it was asked for is kept, the answer is tiny()."""
     asked: list[tuple[bytes, str, str, Mapping[str, object]]] = []
 
-    def generate(data: bytes, file: str, scene: str, overrides: Mapping[str, object], formulation: str) -> KernelSource:
+    def generate(
+        data: bytes, file: str, scene: str, overrides: Mapping[str, object], formulation: str, seconds: object
+    ) -> KernelSource:
         asked.append((data, file, scene, overrides))
         return tiny(scene=scene, sha256=sha256(data).hexdigest())
 

@@ -28,7 +28,7 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     const double e_fall_y = ball_y;
     const double edot_fall_x = ball_vx;
     const double edot_fall_y = ball_vy;
-    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, 0.0, ball_omega, &memory->latch[0], p, side, g, &aside->clearance[0]);
+    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, 0, ball_omega, &memory->latch[0], p, side, g, &aside->clearance[0]);
     const double F_fall_x = aside->clearance[0].Fx;
     const double F_fall_y = aside->clearance[0].Fy;
     const double M_fall_second = aside->clearance[0].moment_second;

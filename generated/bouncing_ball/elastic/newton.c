@@ -174,7 +174,7 @@ static void linearize(const double t, const double *q, const double *v, const Me
     const double edot_fall_x_2 = ball_x_rate;
     const double edot_fall_y_2 = ball_y_rate;
     double change_fall[4][6];
-    tangent_fall(e_fall_x_2, e_fall_y_2, edot_fall_x_2, edot_fall_y_2, 0.0, ball_omega, &memory->latch[0], p, side, g, change_fall);
+    tangent_fall(e_fall_x_2, e_fall_y_2, edot_fall_x_2, edot_fall_y_2, 0, ball_omega, &memory->latch[0], p, side, g, change_fall);
     const double fall_Fx_by_e_x = change_fall[0][0];
     const double fall_Fx_by_e_y = change_fall[0][1];
     const double fall_Fx_by_de_x = change_fall[0][2];

@@ -5,6 +5,8 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Sequence
 
+import sympy as sp
+
 from gudgeon.generator.ir.kernels import Argument, Kernel
 from gudgeon.generator.ir.split import cut
 from gudgeon.generator.ir.statements import (
@@ -77,8 +79,13 @@ _PLAIN: dict[type, str] = {
 
 
 def _call(item: Call) -> str:
-    given = [_handed_over(x) if isinstance(x, Place) else expression(x) for x in item.given]
+    given = [_handed_over(x) if isinstance(x, Place) else _number(x) for x in item.given]
     return f"{item.function}({', '.join([*given, *map(_handed_over, item.results)])})"
+
+
+def _number(value: sp.Basic) -> str:
+    """A count, or 0, is no double."""
+    return str(value) if isinstance(value, sp.Integer) else expression(value)
 
 
 def _handed_over(place: Place) -> str:
