@@ -74,7 +74,7 @@ def test_every_shipped_scene(name: str, scene: str, gains: float) -> None:
         subject.compare(0.1 + seed, y, memory[: max(subject.library.n_memory, 1)])
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", [*range(6), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(6, 12))])
 def test_random_linkages(seed: int) -> None:
     """Every joint, drive and element; states on the constraints, and near them."""
     case = random_mechanism(seed)

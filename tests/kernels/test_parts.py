@@ -24,8 +24,9 @@ from gudgeon.simulation.simulation import Simulation
 
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 WORKS = [
-    ("n_four_bar", "ideal", "reduced"), ("n_four_bar", "ideal", "full"), ("nine_bar_press", "lubricated", "reduced"),
-    ("andrews_squeezer", "ideal", "reduced"), ("belt_block", "ideal", "reduced"),
+    ("n_four_bar", "ideal", "reduced"), ("nine_bar_press", "lubricated", "reduced"), ("belt_block", "ideal", "reduced"),
+    pytest.param("n_four_bar", "ideal", "full", marks=pytest.mark.slow),
+    pytest.param("andrews_squeezer", "ideal", "reduced", marks=pytest.mark.slow),
 ]  # fmt: skip
 
 

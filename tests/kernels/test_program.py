@@ -12,13 +12,12 @@ from gudgeon.generator.targets.c.emit import emit
 
 MECHANISMS = Path(__file__).parents[2] / "mechanisms"
 SCENES = [
-    ("nine_bar_press", "lubricated"), ("nine_bar_press", "ideal"), ("slider_crank", "dry"), ("shaker", "ideal"),
-    ("andrews_squeezer", "ideal"),
+    ("nine_bar_press", "lubricated", "reduced"), ("nine_bar_press", "ideal", "full"), ("slider_crank", "dry", "full"),
+    ("shaker", "ideal", "reduced"), ("four_bar", "ideal", "reduced"),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
-@pytest.mark.parametrize(("name", "scene"), SCENES)
+@pytest.mark.parametrize(("name", "scene", "formulation"), SCENES)
 def test_printing_derives_nothing(name: str, scene: str, formulation: str) -> None:
     """Slots and symbols are as many behind the print as before it, and the second print is the first one."""
     file = MECHANISMS / f"{name}.yaml"

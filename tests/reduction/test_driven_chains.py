@@ -197,7 +197,7 @@ def with_chain(text: str, seed: int) -> str:
     return text.replace("start: {guess: {", "start: {guess: {" + guess)
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(4, 8))])
 def test_random_mechanisms_beside_a_driven_chain(seed: int) -> None:
     """Accelerations, powers and remaining multipliers at the start and at states around it."""
     text = with_chain(to_yaml(random_mechanism(seed)), seed)
