@@ -1,20 +1,46 @@
-"""Packages that are imported late, each wholly: one that Ctrl-C left half imported would fail until Python ends."""
+"""Packages that are imported late, each wholly: one that Ctrl-C left half imported would fail until Python ends.
+
+They take a second and more, so they are imported in a thread of their own: Ctrl-C is raised at once in the main thread,
+and what is being imported comes to its end beside it.
+"""
 
 from __future__ import annotations
 
+import sys
+import threading
 from importlib import import_module
-
-from gudgeon.waiting.ctrl_c import CtrlC
 
 RUNTIME = ("numpy", "gudgeon.simulation.simulation")
 GENERATOR = ("numpy", "mpmath", "sympy", "pydantic", "jinja2", "ruamel.yaml", "gudgeon.generator.pipeline")
 CFFI = ("cffi", "pycparser", "cffi.cparser", "cffi.recompiler")
+LOOK = 0.05  # s, after which a signal is looked for
 SPARSE = ("numpy", "scipy.sparse", "scipy.sparse.linalg")
 
 
 def whole(*names: str) -> None:
-    """Import modules; Ctrl-C is raised between two of them."""
-    for name in names:
-        with CtrlC() as ctrl_c:
+    """Import modules; Ctrl-C is raised while they are, and leaves none half imported."""
+    if all(map(_is_imported, names)):
+        return
+    failed: list[BaseException] = []
+    done = threading.Event()
+    threading.Thread(target=_import, args=(names, failed, done), name="imports", daemon=True).start()
+    while not done.wait(LOOK):  # a signal may wake the other thread and not this one
+        pass
+    if failed:
+        raise failed[0]
+
+
+def _import(names: tuple[str, ...], failed: list[BaseException], done: threading.Event) -> None:
+    try:
+        for name in names:
             import_module(name)
-        ctrl_c.take()
+    except BaseException as error:
+        failed.append(error)
+    finally:
+        done.set()
+
+
+def _is_imported(name: str) -> bool:
+    """To its end: not while another thread is still at it."""
+    module = sys.modules.get(name)
+    return module is not None and not getattr(getattr(module, "__spec__", None), "_initializing", False)
