@@ -72,7 +72,7 @@ class Tangents:
         before = len(self._sides)
         held = self._symbols.switches.hold(expression, self._owner, self._sides)
         for side, value in list(self._sides.items())[before:]:
-            self._build.line_statement(Statement(side.name, value.xreplace(self._renamed)))
+            self._build.line(Statement(side.name, value.xreplace(self._renamed)))
         return held.xreplace(self._renamed)
 
     def gradient(self, expression: sp.Expr, known_as: sp.Symbol | None = None) -> Tangent:

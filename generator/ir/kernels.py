@@ -130,7 +130,7 @@ class KernelBuilder:
         self._sections.append((title, []))
 
     def line(self, line: Line) -> None:
-        """Anything but a local or a result."""
+        """Anything; a local whose name is already known to be free."""
         self._sections[-1][1].append(line)
 
     def local(self, name: str, value: Value, comment: str = "") -> sp.Symbol:
@@ -138,10 +138,6 @@ class KernelBuilder:
         unique = self._symbols.unique(name)
         self._sections[-1][1].append(Statement(unique, value, True, comment))
         return sp.Symbol(unique, real=True)
-
-    def line_statement(self, statement: Statement) -> None:
-        """A statement whose name is already known to be free."""
-        self._sections[-1][1].append(statement)
 
     def out(self, target: str, value: Value, comment: str = "") -> None:
         """`target = value;`"""

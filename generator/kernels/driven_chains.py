@@ -143,9 +143,9 @@ class ChainKernels:
         build.section("rates")
         rates = self.square.solve(build, solvers, [row.nu for row in rows], "rate")
         for k, value in zip(known, rates, strict=True):  # by the name under which all expressions know it
-            build.line_statement(Statement(k.rate.name, value))
+            build.line(Statement(k.rate.name, value))
         for symbol in self._moving():
-            build.line_statement(Statement(symbol.name, self.symbols.definitions[symbol]))
+            build.line(Statement(symbol.name, self.symbols.definitions[symbol]))
         build.section("second rates")
         second = self.square.solve(build, solvers, [row.gamma for row in rows], "second")
         build.section("results")
@@ -196,7 +196,7 @@ class ChainKernels:
         build.section("corners")
         for side in dict.fromkeys(sides):
             name = f"side_{side.args[0]}"
-            build.line_statement(Statement(name, side))
+            build.line(Statement(name, side))
             build.line(Unread(name))
         kernel = build.build((*STATE[:2], MEMORY, PARAMETERS, Argument("double *", "g")), owner="")
         return replace(kernel, sections=(TOLD_SIDES, *kernel.sections))

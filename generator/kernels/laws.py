@@ -42,7 +42,7 @@ def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> 
             build.out(f"*{name}_out", value)
         else:
             # the law's own letters are reserved (symbols.py), so the local keeps its name
-            build.line_statement(Statement(name, value))
+            build.line(Statement(name, value))
     variables = (Argument("double", symbol.name) for symbol in equations.variables)
     outs = (Argument("double *", f"{name}_out") for name in results)
     kernel = build.build((*variables, PARAMETERS, *SIDES, *outs), inline=True, owner=clearance.name)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
 
 import sympy as sp
 
@@ -34,8 +33,6 @@ from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.solvers.square_rows import SquareRows
 from gudgeon.generator.sparsity.matching import Block
-
-Formulation = Literal["reduced", "full"]
 
 
 @dataclass(frozen=True)

@@ -52,7 +52,7 @@ class _Slopes:
         """symbol = value of contact.py, and its tangent."""
         value = in_place(self.model, step.value)
         held = self.tangents.shared(self.tangents.held(value))
-        self.build.line_statement(Statement(step.symbol.name, held))
+        self.build.line(Statement(step.symbol.name, held))
         self.tangents.know(step.symbol, self.tangents.gradient(value, step.symbol))
 
     def law(self, equations: LawEquations, given: Sequence[sp.Symbol]) -> dict[str, sp.Symbol]:
@@ -61,7 +61,7 @@ class _Slopes:
         results = {}
         for name, equation in equations.steps.items():
             symbol, value = sp.Symbol(name, real=True), hoisted(self.model.slots, sp.sympify(equation))
-            self.build.line_statement(Statement(name, inner.shared(inner.held(value))))
+            self.build.line(Statement(name, inner.shared(inner.held(value))))
             inner.know(symbol, inner.gradient(value, symbol))
             if name in RESULTS[equations.law.role]:
                 results[name] = symbol
@@ -102,10 +102,10 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     build, tangents = slopes.build, slopes.tangents
     slopes.section("penetration, ratio of velocities, slip")
     slopes.step(contact.gap(clearance)[3])
-    build.line_statement(Statement(DEPTH.name, sp.Max(contact.delta, 0)))
+    build.line(Statement(DEPTH.name, sp.Max(contact.delta, 0)))
     tangents.know(DEPTH, {contact.e: build.local("depth_by_e", Chosen(_DEEP, sp.Integer(1), ZERO))})
     ratio = UNCLIPPED if clearance.clip_ratio else contact.ratio
-    build.line_statement(Statement(ratio.name, Chosen(_CLOSED, contact.deltadot / _STORED, sp.Integer(1))))
+    build.line(Statement(ratio.name, Chosen(_CLOSED, contact.deltadot / _STORED, sp.Integer(1))))
     slope = build.local("ratio_by_deltadot", Chosen(_CLOSED, 1 / _STORED, ZERO))
     tangents.know(ratio, {contact.deltadot: slope})
     for step in contact.before_dry(clearance):

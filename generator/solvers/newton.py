@@ -139,9 +139,9 @@ class Newton:
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
         build.section("eta/kappa")
         if ETA_ROW in wanted:
-            build.line_statement(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
+            build.line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
         if ETA_STICK in wanted:
-            build.line_statement(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
+            build.line(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
 
     def _factor(self) -> Kernel:
         """L U of the matrix, L with unit diagonal; what is neither number nor known is stored in `lin->lu`."""

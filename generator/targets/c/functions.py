@@ -79,8 +79,8 @@ _PLAIN: dict[type, str] = {
 
 
 def _call(item: Call) -> str:
-    given = [_handed_over(x) if isinstance(x, Place) else _number(x) for x in item.given]
-    return f"{item.function}({', '.join([*given, *map(_handed_over, item.results)])})"
+    given = [handed_over(x) if isinstance(x, Place) else _number(x) for x in item.given]
+    return f"{item.function}({', '.join([*given, *map(handed_over, item.results)])})"
 
 
 def _number(value: sp.Basic) -> str:
@@ -88,7 +88,7 @@ def _number(value: sp.Basic) -> str:
     return str(value) if isinstance(value, sp.Integer) else expression(value)
 
 
-def _handed_over(place: Place) -> str:
+def handed_over(place: Place) -> str:
     """A struct within another one by its address, all else as it is."""
     return f"&{place.text}" if "->" in place.text else place.text
 

@@ -92,14 +92,9 @@ def expression(value: Value) -> str:
         case sp.Basic():
             return _printer._vector(value)
         case Chosen():
-            return f"pick({_test(value.test)}, {expression(value.then)}, {expression(value.otherwise)})"
+            return f"pick({printer.test(value.test)}, {expression(value.then)}, {expression(value.otherwise)})"
         case _:
             return printer.expression(value)
-
-
-def _test(item: Test) -> str:
-    """A mask."""
-    return printer.test(item)
 
 
 def line(item: Line) -> str:
@@ -108,9 +103,10 @@ def line(item: Line) -> str:
         case Statement():
             return functions.assignment(item, expression(item.value), "Lanes")
         case Guard(test=Test() as test, only=None):
-            return f"    *rare |= ~({_test(test)});"
+            return f"    *rare |= ~({printer.test(test)});"
         case Call():
-            given = [_handed_over(x) for x in (*item.given, *item.results) if x not in _HELD]
+            passed = (x for x in (*item.given, *item.results) if x not in _HELD)
+            given = [functions.handed_over(x) if isinstance(x, Place) else expression(x) for x in passed]
             return f"    {item.function}({', '.join(given)});"
         case Largest():
             name = f"*{item.target}"
@@ -119,10 +115,6 @@ def line(item: Line) -> str:
         case Sines():
             return functions.line(item)
     raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")
-
-
-def _handed_over(x: sp.Basic | Place) -> str:
-    return expression(x) if isinstance(x, sp.Basic) else f"&{x.text}" if "->" in x.text else x.text
 
 
 def kernel(item: Kernel) -> str:
