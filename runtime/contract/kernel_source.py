@@ -137,7 +137,6 @@ class KernelSource:
     sha256: str  # of the YAML bytes
     files: Mapping[str, str]
     main: str
-    cdef: str
     coordinates: tuple[str, ...]  # "L1.x", "L1.y", "L1.theta", …
     bodies: tuple[BodyInfo, ...]
     points: tuple[PointInfo, ...]
@@ -174,6 +173,7 @@ class KernelSource:
     story: Story = Story()  # how the equations became what is integrated (check -v)
     written: tuple[WrittenInfo, ...] = ()
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
+    cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
 
     @property
@@ -184,8 +184,9 @@ class KernelSource:
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""
         data = asdict(self)
-        if not self.overrides:  # nothing is said of what is rare
-            del data["overrides"]
+        for rare in ("overrides", "cdef"):  # nothing is said of what is rare
+            if not data[rare]:
+                del data[rare]
         return json.dumps(data, indent=1, ensure_ascii=False)
 
     @staticmethod

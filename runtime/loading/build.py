@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
+from gudgeon.loading.engine import UNIT, declarations, engine_digest, include_flags
 from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.waiting.imports import CFFI, whole
 from gudgeon.waiting.programs import Programs
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     import subprocess
 
 LIBRARY = "kernels.so"
-SCENE, WRAPPER = "scene.o", "wrapper.o"
+SCENE, LOOPS, WRAPPER = "scene.o", "engine.o", "wrapper.o"
 ASKS = 'extern "Python" int gudgeon_python_asks(void *);\n'  # what C calls to ask Python (integrators/asking.py)
 FULL = {
     "No space left on device": errno.ENOSPC, "Disk quota exceeded": errno.EDQUOT, "File too large": errno.EFBIG,
@@ -72,7 +73,7 @@ def library_key(
     """Everything that decides the library's bytes or whether this machine can run them."""
     texts = [part for name in sorted(source.files) for part in (name, source.files[name])]
     cpu = "" if portable else compiler.cpu()
-    return digest(["library/3", source.main, source.cdef, ASKS, *command, *flags, identity, cpu, *texts])
+    return digest(["library/4", source.main, source.cdef, ASKS, *command, *flags, identity, cpu, engine_digest(), *texts])
 
 
 def _name(key: str) -> str:
@@ -123,33 +124,36 @@ def _copy(entry: Path, folder: Path) -> None:
 def _build(source: KernelSource, key: str, portable: bool, folder: Path) -> None:
     """Write the C files and the wrapper into the folder, compile them there, each on its own, and link them.
 
-    The scene is under way while cffi is imported and writes its wrapper: on two cores that is a third of a cold
-    start's compiling. What the wrapper does is to convert arguments, which no optimizer makes faster.
+    The scene and the engine are under way while cffi is imported and writes its wrapper. What the wrapper does is to
+    convert arguments, which no optimizer makes faster.
     """
     command, includes = compiler.find_compiler(), compiler.include_folders()
     flags = [*command, *compiler.flags(portable)]
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
     with Programs() as programs:
-        scene = _begin(programs, [*flags, "-c", source.main, "-o", SCENE], folder)
+        units = {SCENE: source.main} if source.cdef else {SCENE: source.main, LOOPS: str(UNIT)}
+        hidden = [*flags, "-fvisibility=hidden", *include_flags()]
+        made = [(_begin(programs, [*hidden, "-c", unit, "-o", name], folder), name) for name, unit in units.items()]
         whole(*CFFI)
         from cffi import FFI
 
         ffi = FFI()
-        ffi.cdef(source.cdef + ASKS)
-        ffi.set_source(_name(key), f"#include <stddef.h>\n{source.cdef}", compiler_verbose=0)
+        calls = declarations(source)
+        ffi.cdef(calls + ASKS)
+        ffi.set_source(_name(key), f"#include <stddef.h>\n{calls}", compiler_verbose=0)
         ffi.emit_c_code(str(folder / "wrapper.c"))
         paths = (f"-I{path}" for path in includes)
         wrapper = _begin(programs, [*flags, "-O0", *paths, "-c", "wrapper.c", "-o", WRAPPER], folder)
-        made = ((scene, SCENE), (wrapper, WRAPPER))
+        made.append((wrapper, WRAPPER))
         failed = [finished for process, name in made if (finished := _finish(programs, process, folder / name))]
-        link = [*command, *compiler.link_flags(), SCENE, WRAPPER, "-o", LIBRARY, "-lm"]
+        link = [*command, *compiler.link_flags(), *units, WRAPPER, "-o", LIBRARY, "-lm"]
         if not failed and (finished := _finish(programs, _begin(programs, link, folder), folder / LIBRARY)):
             failed = [finished]
         if failed:
             raise failed[0]
-    (folder / SCENE).unlink()
-    (folder / WRAPPER).unlink()
+    for name in (*units, WRAPPER):
+        (folder / name).unlink()
 
 
 def _begin(programs: Programs, line: list[str], folder: Path) -> subprocess.Popen[str]:

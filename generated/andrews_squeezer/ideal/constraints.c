@@ -1,7 +1,7 @@
 /*
  * The diagonal of M (n).
  */
-static void mass_matrix(const Parameters *p, double *m)
+void mass_matrix(const Parameters *p, double *m)
 {
     /* parameters */
     const double OF_mass = p->OF_mass;
@@ -42,10 +42,11 @@ static void mass_matrix(const Parameters *p, double *m)
     m[19] = AH_mass;
     m[20] = AH_inertia;
 }
+
 /*
  * Phi(q, t) of the closed linkage; m and rad.
  */
-static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -163,10 +164,11 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     phi[18] = -AH_x + HE_x - arm_AH_H_x + arm_HE_H_x;  /* H.x */
     phi[19] = -AH_y + HE_y - arm_AH_H_y + arm_HE_H_y;  /* H.y */
 }
+
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
  */
-static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -310,10 +312,11 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     phi_q[418] = -1.0;  /* d H.y / d AH_y */
     phi_q[419] = -arm_AH_H_x;  /* d H.y / d AH_theta */
 }
+
 /*
  * nu = -Phi_t: Phi_q v = nu.
  */
-static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)t;
     (void)q;
@@ -340,10 +343,11 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
     nu[18] = 0.0;  /* H.x */
     nu[19] = 0.0;  /* H.y */
 }
+
 /*
  * gamma: Phi_q a = gamma.
  */
-static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
     double *gamma_rows)
 {
     (void)t;
@@ -451,10 +455,11 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     gamma_rows[18] = -(AH_omega * AH_omega)*arm_AH_H_x + (HE_omega * HE_omega)*arm_HE_H_x;  /* H.x */
     gamma_rows[19] = -(AH_omega * AH_omega)*arm_AH_H_y + (HE_omega * HE_omega)*arm_HE_H_y;  /* H.y */
 }
+
 /*
  * Values of the start's guess, set and rates.
  */
-static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)rates;
     /* parameters */
@@ -475,12 +480,13 @@ static void start_values(const Parameters *p, double *guess, double *set, double
     guess[5] = guess_AH_theta;  /* start.guess.AH.theta */
     set[0] = set_OF_theta;  /* start.set.OF.theta */
 }
+
 /*
  * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
-static void outputs(const double t, const double *q, const double *v, const Parameters *p, const
-    double *lambda, double *reactions, double *torques, double *series, double *energy)
+void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
+    double *reactions, double *torques, double *series, double *energy)
 {
     (void)t;
     (void)torques;
@@ -612,4 +618,3 @@ static void outputs(const double t, const double *q, const double *v, const Para
     energy[1] = (0.5)*spring_stiffness*((-spring_free_length + spring_length) * (-spring_free_length +
         spring_length));
 }
-

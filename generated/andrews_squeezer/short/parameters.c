@@ -1,7 +1,7 @@
 /*
  * Every number of a run: slots given or by default, then what follows from them.
  */
-static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
     const double OF_mass = is_given[0] ? given[0] : 0.04325;  /* bodies.OF.mass */
@@ -243,4 +243,3 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double inverse_mass_EG_EG = 1.0/mass_EG_EG;  /* 1/M */
     p->inverse_mass_EG_EG = inverse_mass_EG_EG;
 }
-

@@ -1,7 +1,7 @@
 /*
  * The diagonal of M (n).
  */
-static void mass_matrix(const Parameters *p, double *m)
+void mass_matrix(const Parameters *p, double *m)
 {
     /* parameters */
     const double block_mass = p->block_mass;
@@ -12,10 +12,11 @@ static void mass_matrix(const Parameters *p, double *m)
     m[1] = block_mass;
     m[2] = block_inertia;
 }
+
 /*
  * Phi(q, t) of the closed linkage; m and rad.
  */
-static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     (void)t;
     (void)p;
@@ -27,10 +28,11 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     phi[0] = block_y;  /* guide.offset */
     phi[1] = block_theta;  /* guide.angle */
 }
+
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
  */
-static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
     (void)t;
     (void)q;
@@ -39,10 +41,11 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     phi_q[1] = 1.0;  /* d guide.offset / d block_y */
     phi_q[5] = 1.0;  /* d guide.angle / d block_theta */
 }
+
 /*
  * nu = -Phi_t: Phi_q v = nu.
  */
-static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)t;
     (void)q;
@@ -51,10 +54,11 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
     nu[0] = 0.0;  /* guide.offset */
     nu[1] = 0.0;  /* guide.angle */
 }
+
 /*
  * gamma: Phi_q a = gamma.
  */
-static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
     double *gamma_rows)
 {
     (void)t;
@@ -65,10 +69,11 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     gamma_rows[0] = 0.0;  /* guide.offset */
     gamma_rows[1] = 0.0;  /* guide.angle */
 }
+
 /*
  * Values of the start's guess, set and rates.
  */
-static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)guess;
     (void)rates;
@@ -78,12 +83,13 @@ static void start_values(const Parameters *p, double *guess, double *set, double
     /* start */
     set[0] = set_block_x;  /* start.set.block.x */
 }
+
 /*
  * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
-static void outputs(const double t, const double *q, const double *v, const Parameters *p, const
-    double *lambda, double *reactions, double *torques, double *series, double *energy)
+void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
+    double *reactions, double *torques, double *series, double *energy)
 {
     (void)t;
     (void)torques;
@@ -123,4 +129,3 @@ static void outputs(const double t, const double *q, const double *v, const Para
     energy[1] = (0.5)*spring_stiffness*((-spring_free_length + spring_length) * (-spring_free_length +
         spring_length));
 }
-

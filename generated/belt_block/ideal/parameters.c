@@ -1,7 +1,7 @@
 /*
  * Every number of a run: slots given or by default, then what follows from them.
  */
-static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
     const double belt_speed = is_given[0] ? given[0] : 0.1;  /* parameters.belt_speed */
@@ -49,4 +49,3 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double inverse_block_inertia = 1.0/block_inertia;  /* 1/M */
     p->inverse_block_inertia = inverse_block_inertia;
 }
-

@@ -2,137 +2,99 @@
  * Bouncing ball, Hertz contact with hysteresis damping
  * mechanism bouncing_ball, scene ideal, from the YAML with sha256 ddbbdb569d27e2af35adb5d783bcae0a9ce6a8f16cf6d94e2fb65a4b9090f7b4
  *
- * Sizes, and the structs that the functions of this scene pass to each other.
+ * What the engine must know of this scene: sizes, parameters, small tables.
  */
-#include <float.h>
-#include <math.h>
-#include <stddef.h>
-#include <stdlib.h>
+#ifndef GUDGEON_MODEL_H
+#define GUDGEON_MODEL_H
 
-enum {
-    N_Q = 3,                 /* coordinates */
-    N_ROWS = 2,              /* constraint rows of the motion */
-    N_ALL_ROWS = 2,          /* rows of the closed linkage */
-    N_JOINTS = 1,            /* joints without play */
-    N_DRIVES = 0,
-    N_CLEARANCES = 0,        /* joints with play */
-    N_FRICTIONS = 0,         /* slips that friction may hold */
-    N_SWITCHES = 0,          /* corners of min, max, abs and sign */
-    N_USER_EVENTS = 0,      /* expressions whose zeros are watched */
-    N_SERIES = 0,            /* results of force elements */
-    N_WORK = 3,               /* work of drives, of force elements, of clearance forces */
-    N_S = 2 * N_Q + N_WORK,   /* state of all bodies: q, v, works */
-    N_X = 1,                  /* coordinates that are integrated */
-    N_LOOPS = 0,              /* constraint rows of these */
-    N_Y = 2 * N_X + N_WORK
-};
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same of what is not integrated */
+#define N_Q 3                 /* coordinates of all bodies */
+#define N_ROWS 2              /* constraint rows of the motion */
+#define N_ALL_ROWS 2          /* rows of the closed linkage */
+#define N_JOINTS 1            /* joints without play */
+#define N_DRIVES 0            /* drives */
+#define N_CLEARANCES 0        /* joints with play */
+#define N_FRICTIONS 0         /* slips that friction may hold */
+#define N_SWITCHES 0          /* corners of min, max, abs and sign */
+#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
+#define N_SERIES 0            /* results of force elements */
+#define N_X 1                 /* coordinates that are integrated */
+#define N_LOOPS 0             /* constraint rows of these */
+#define N_CHAIN 0             /* coordinates that drives determine through loops */
+#define N_LED 0               /* these, cosines and sines of angles */
+#define SMOOTH_CHAINS 0       /* no corners in what drives them */
+#define TREE_PIVOTS 0         /* statuses of chains follow these */
+#define RESCUED 0             /* pivots may vanish: all bodies' equations help */
+#define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_CORNERS 0           /* corners of drives, whose rate jumps there */
+#define RATE_JUMPS 0          /* the rate of some drive may jump */
+#define N_WATCHED 0           /* corners of expressions, and events */
+#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
+#define WATCHES_STATE 0       /* they hang on more than time */
+#define N_TERMS 0             /* terms of time alone, which may hide within a step */
+#define N_GUESS 0             /* coordinates that the start guesses */
+#define N_SET 0               /* those that it sets */
+#define N_RATES 0             /* velocities that it sets */
+#define N_VALUES 0            /* of the linearized equations */
+#define N_FACTORS 0           /* of their factors L and U */
+#define HAS_LANES 1           /* runs go side by side */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {    double height;  /* parameters.height */    double ball_mass;  /* bodies.ball.mass */    double ball_inertia;  /* bodies.ball.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double par_y;  /* gravity.y */    double weight_ball_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_ball_inertia;  /* 1/M */    double inverse_ball_mass;  /* 1/M */} Parameters;
 
-enum { STOPPED = -10, STALLED = -11 }; /* statuses: no longer wanted; no longer advances */
+#include "engine/scene/types.h"
+#include "engine/scene/numbers.h"
 
-/*
- * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
- * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
- */
-typedef struct {
-    int (*ask)(void *whom); /* nonzero: stop */
-    void *whom;
-    double every, last, next; /* s; when the clock was read, when the next question is due */
-    long count, look;
-    int stop, hold; /* not wanted any more; what is under way comes to its end first */
-} Asked;
-
-/* What a joint with play remembers: the impact velocity of its last onset. */
-typedef struct {
-    int closed;
-    double deltadot_minus;
-} Latch;
-
-/*
- * What the right-hand side remembers beside the state: latches, and each friction's mode: 0 stick, 1 or -1 the
- * sign of its slip, 2 no force at all, where others hold the slip at zero. While it is `held`, contacts and the
- * sides of all corners stay as they are here, whatever the state says.
- */
-typedef struct {
-    Latch latch[1];
-    double mode[1];
-    double side[1];
-    signed char event_side[1]; /* of zero, where each watched expression was last; 0: nowhere yet */
-    int held;
-    Asked *asked; /* NULL: nobody */
-} Memory;
-
-/* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
-typedef struct {
-    double v, rate, speed, force, static_limit;
-} Friction;
-
-/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
-typedef struct {
-    double Fx, Fy;                       /* N */
-    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
-    double ex, ey, e, deltadot, v_t;     /* m, m/s */
-    double moment_first, moment_second;  /* about each body's pin centre, N*m */
-    double delta, power;                 /* m, W */
-} Clearance;
-
-/* The force of a joint with play along n and t on the journal, moments about both pin centres, slip. */
-typedef struct {
-    double n, t, M_i, M_j, v_t;
-} PinForce;
-
-/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
-typedef struct {
-    double lambda[2];
-    double phi[2], phi_dot[2];
-    double power[N_WORK];
-    Clearance clearance[1];
-    Friction friction[1];
-    double g[1]; /* switching functions; NaN: does not act */
-    double event[1]; /* values of the expressions that are watched */
-} Aside;
-
-/* The expressions that are watched: which way they are to cross zero (1 rising, -1 falling, 0 both), and what then. */
 static const signed char event_direction[] = {0};
 static const unsigned char event_stops[] = {0};
+static const int guess_place[] = {0};
+static const int set_place[] = {0};
+static const int rate_place[] = {0};
+static const unsigned char row_is_length[] = {1, 1};
+static const int kept_row[] = {0, 1};
+static const unsigned char is_angle[] = {1};
+static const short watched[] = {0};
+static const short watched_as[] = {0};
+static const unsigned char meets[] = {0};
+static const int friction_of_pivot[] = {0};
 
-/*
- * Whether expression i, seen last on `side` of zero (1 or -1; 0: nowhere yet), has crossed to `value`; `side` is
- * where it is then. A zero itself lies on neither side.
- */
-static inline int event_crosses(int i, signed char *side, double value)
+/* Radial clearance of joint i with play, m. */
+static inline double radial_clearance(const Parameters *p, int i)
 {
-    const int from = *side, to = (value > 0.0) - (value < 0.0);
-    if (to)
-        *side = (signed char)to;
-    return from * to < 0 && event_direction[i] * to >= 0;
+    (void)p;
+    switch (i) {
+    default:
+        return 0.0;
+    }
 }
 
-/* min, max, sign that keep a NaN in x. */
-static inline double max_of(double x, double y) { return x < y ? y : x; }
-static inline double min_of(double x, double y) { return x > y ? y : x; }
-static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
-static inline double total_force(const Clearance *joint) { return sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t); }
-/* How close (s) to the end t of a step of length h a sample is the end's own: both are sums of rounded numbers. */
-static inline double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
-/*
- * Time at which step i (0, 1, ...) of a fixed length ends, from t0 towards t_end; `h` is its length. The last one ends
- * at t_end and is the shorter for it. Steps from a multiple of their length end at multiples, so that a run that goes
- * on from the end of one takes the same ones, to the bit.
- */
-static inline double step_end(double t0, double t_end, double step, double i, double *h)
+/* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
+static inline double deepest(const Parameters *p, int i)
 {
-    const double total = max_of(ceil((t_end - t0) / step * (1.0 - 1e-12)), 1.0);
-    const double rest = t_end - t0 - (total - 1.0) * step, count = rint(t0 / step);
-    const int multiple = fabs(count * step - t0) <= rounded(t0, step);
-    *h = i < total || fabs(rest - step) < 1e-9 * step ? step : rest;
-    return i < total ? (multiple ? (count + i) * step : t0 + i * step) : t_end;
+    (void)p;
+    switch (i) {
+    default:
+        return 0.0;
+    }
 }
-/* The side of corner k: as it is held, or where g is. */
-static inline double side_of(const double *side, double *g, int k, double value)
+
+/* The least velocity that counts as that of an impact, m/s. */
+static inline double slowest_impact(const Parameters *p, int i)
 {
-    g[k] = value;
-    return side ? side[k] : sign_of(value);
+    (void)p;
+    switch (i) {
+    default:
+        return 0.0;
+    }
 }
+
+/* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */
+static inline double baumgarte_two_alpha(const Parameters *p) { (void)p; return 0.0; }
+static inline double baumgarte_beta_squared(const Parameters *p) { (void)p; return 0.0; }
+static inline double stick_gain(const Parameters *p) { (void)p; return 0.0; }
+
+#endif

@@ -1,7 +1,7 @@
 /*
  * Every number of a run: slots given or by default, then what follows from them.
  */
-static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
     const double height = is_given[0] ? given[0] : 1.0;  /* parameters.height */
@@ -29,4 +29,3 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double inverse_ball_mass = 1.0/ball_mass;  /* 1/M */
     p->inverse_ball_mass = inverse_ball_mass;
 }
-

@@ -1,7 +1,7 @@
 /*
  * The diagonal of M (n).
  */
-static void mass_matrix(const Parameters *p, double *m)
+void mass_matrix(const Parameters *p, double *m)
 {
     /* parameters */
     const double axle_mass = p->axle_mass;
@@ -17,10 +17,11 @@ static void mass_matrix(const Parameters *p, double *m)
     m[4] = road_mass;
     m[5] = road_inertia;
 }
+
 /*
  * Phi(q, t) of the closed linkage; m and rad.
  */
-static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     /* coordinates, velocities, time */
     const double axle_x = q[0];
@@ -57,10 +58,11 @@ static void constraints(const double t, const double *q, const Parameters *p, do
         cos_theta_road*road_x + road_y*sin_theta_road;  /* slot.offset */
     phi[3] = -bump_value + road_theta;  /* bump */
 }
+
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
  */
-static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -99,10 +101,11 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
         axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road;  /* d slot.offset / d road_theta */
     phi_q[23] = 1.0;  /* d bump / d road_theta */
 }
+
 /*
  * nu = -Phi_t: Phi_q v = nu.
  */
-static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)q;
     /* coordinates, velocities, time */
@@ -123,10 +126,11 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
     nu[2] = 0.0;  /* slot.offset */
     nu[3] = bump_rate;  /* bump */
 }
+
 /*
  * gamma: Phi_q a = gamma.
  */
-static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
     double *gamma_rows)
 {
     /* coordinates, velocities, time */
@@ -177,10 +181,11 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
         road_omega*(arm_axle_head_y - axle_y + road_y) + road_vx));  /* slot.offset */
     gamma_rows[3] = bump_acceleration;  /* bump */
 }
+
 /*
  * Values of the start's guess, set and rates.
  */
-static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)guess;
     /* parameters */
@@ -192,12 +197,13 @@ static void start_values(const Parameters *p, double *guess, double *set, double
     rates[0] = 0.0;  /* start.rates.axle.vy */
     rates[1] = 0.0;  /* start.rates.axle.omega */
 }
+
 /*
  * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
-static void outputs(const double t, const double *q, const double *v, const Parameters *p, const
-    double *lambda, double *reactions, double *torques, double *series, double *energy)
+void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
+    double *reactions, double *torques, double *series, double *energy)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -272,4 +278,3 @@ static void outputs(const double t, const double *q, const double *v, const Para
         (-left_free_length + left_length)) - par_y*road_mass*road_y +
         (0.5)*right_stiffness*((-right_free_length + right_length) * (-right_free_length + right_length));
 }
-

@@ -1,7 +1,7 @@
 /*
  * Every number of a run: slots given or by default, then what follows from them.
  */
-static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
     const double length = is_given[0] ? given[0] : 1.0;  /* parameters.length */
@@ -75,4 +75,3 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double weight_road__across = par_y*road_head_x*road_mass;  /* weight */
     p->weight_road__across = weight_road__across;
 }
-

@@ -1,7 +1,7 @@
 /*
  * The diagonal of M (n).
  */
-static void mass_matrix(const Parameters *p, double *m)
+void mass_matrix(const Parameters *p, double *m)
 {
     /* parameters */
     const double crank_mass = p->crank_mass;
@@ -22,10 +22,11 @@ static void mass_matrix(const Parameters *p, double *m)
     m[7] = rocker_mass;
     m[8] = rocker_inertia;
 }
+
 /*
  * Phi(q, t) of the closed linkage; m and rad.
  */
-static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     /* coordinates, velocities, time */
     const double crank_x = q[0];
@@ -72,10 +73,11 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     phi[7] = arm_rocker_head_y - rocker_y;  /* B0.y */
     phi[8] = crank_theta - motor_value;  /* motor */
 }
+
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
  */
-static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -129,10 +131,11 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     phi_q[71] = arm_rocker_head_x;  /* d B0.y / d rocker_theta */
     phi_q[74] = 1.0;  /* d motor / d crank_theta */
 }
+
 /*
  * nu = -Phi_t: Phi_q v = nu.
  */
-static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)t;
     (void)q;
@@ -153,10 +156,11 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
     nu[7] = 0.0;  /* B0.y */
     nu[8] = motor_rate;  /* motor */
 }
+
 /*
  * gamma: Phi_q a = gamma.
  */
-static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
     double *gamma_rows)
 {
     (void)t;
@@ -203,10 +207,11 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     gamma_rows[7] = arm_rocker_head_y*(rocker_omega * rocker_omega);  /* B0.y */
     gamma_rows[8] = motor_acceleration;  /* motor */
 }
+
 /*
  * Values of the start's guess, set and rates.
  */
-static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)set;
     (void)rates;
@@ -218,12 +223,13 @@ static void start_values(const Parameters *p, double *guess, double *set, double
     guess[0] = guess_coupler_theta;  /* start.guess.coupler.theta */
     guess[1] = guess_rocker_theta;  /* start.guess.rocker.theta */
 }
+
 /*
  * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
-static void outputs(const double t, const double *q, const double *v, const Parameters *p, const
-    double *lambda, double *reactions, double *torques, double *series, double *energy)
+void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
+    double *reactions, double *torques, double *series, double *energy)
 {
     (void)t;
     (void)series;
@@ -284,4 +290,3 @@ static void outputs(const double t, const double *q, const double *v, const Para
         (0.5)*rocker_mass*(rocker_vy * rocker_vy);
     energy[1] = -coupler_mass*coupler_y*par_y - crank_mass*crank_y*par_y - par_y*rocker_mass*rocker_y;
 }
-

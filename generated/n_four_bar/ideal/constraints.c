@@ -1,7 +1,7 @@
 /*
  * The diagonal of M (n).
  */
-static void mass_matrix(const Parameters *p, double *m)
+void mass_matrix(const Parameters *p, double *m)
 {
     /* parameters */
     const double crank0_mass = p->crank0_mass;
@@ -32,10 +32,11 @@ static void mass_matrix(const Parameters *p, double *m)
     m[13] = coupler2_mass;
     m[14] = coupler2_inertia;
 }
+
 /*
  * Phi(q, t) of the closed linkage; m and rad.
  */
-static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -102,10 +103,11 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     phi[12] = arm_coupler2_head_x - arm_crank2_head_x + coupler2_x - crank2_x;  /* B2.x */
     phi[13] = arm_coupler2_head_y - arm_crank2_head_y + coupler2_y - crank2_y;  /* B2.y */
 }
+
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
  */
-static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -190,10 +192,11 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     phi_q[202] = -1.0;  /* d B2.y / d crank2_y */
     phi_q[203] = -arm_crank2_head_x;  /* d B2.y / d crank2_theta */
 }
+
 /*
  * nu = -Phi_t: Phi_q v = nu.
  */
-static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)t;
     (void)q;
@@ -214,10 +217,11 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
     nu[12] = 0.0;  /* B2.x */
     nu[13] = 0.0;  /* B2.y */
 }
+
 /*
  * gamma: Phi_q a = gamma.
  */
-static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
     double *gamma_rows)
 {
     (void)t;
@@ -286,10 +290,11 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     gamma_rows[13] = arm_coupler2_head_y*(coupler2_omega * coupler2_omega) - arm_crank2_head_y*(crank2_omega *
         crank2_omega);  /* B2.y */
 }
+
 /*
  * Values of the start's guess, set and rates.
  */
-static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     /* parameters */
     const double guess_crank1_theta = p->guess_crank1_theta;
@@ -305,12 +310,13 @@ static void start_values(const Parameters *p, double *guess, double *set, double
     set[0] = set_crank0_theta;  /* start.set.crank0.theta */
     rates[0] = rates_crank0_omega;  /* start.rates.crank0.omega */
 }
+
 /*
  * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
-static void outputs(const double t, const double *q, const double *v, const Parameters *p, const
-    double *lambda, double *reactions, double *torques, double *series, double *energy)
+void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
+    double *reactions, double *torques, double *series, double *energy)
 {
     (void)t;
     (void)torques;
@@ -401,4 +407,3 @@ static void outputs(const double t, const double *q, const double *v, const Para
     energy[1] = -coupler1_mass*coupler1_y*par_y - coupler2_mass*coupler2_y*par_y - crank0_mass*crank0_y*par_y
         - crank1_mass*crank1_y*par_y - crank2_mass*crank2_y*par_y;
 }
-

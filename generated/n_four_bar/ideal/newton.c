@@ -1,16 +1,9 @@
-/* The equations of motion linearized at a state, and Newton's matrix factorized. */
-typedef struct {
-    const Parameters *p;
-    double value[45]; /* what linearize() found */
-    double lu[41];    /* L, U and inverse pivots */
-} Linear;
-
 /*
  * The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:
  * non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.
  */
-static void linearize(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, const double *a, const Aside *aside, Linear *lin)
+void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    const double *a, const Aside *aside, Linear *lin)
 {
     (void)t;
     (void)memory;
@@ -159,7 +152,7 @@ static void linearize(const double t, const double *q, const double *v, const Me
  * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
  * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
  */
-static int newton_factor(double eta, Linear *lin)
+int newton_factor(double eta, Linear *lin)
 {
     /* numbers of the run */
     const Parameters *const p = lin->p;
@@ -403,7 +396,7 @@ static int newton_factor(double eta, Linear *lin)
 /*
  * x (all nodes) holds b and becomes the solution of N x = b.
  */
-static void newton_substitute(const Linear *lin, double *x)
+void newton_substitute(const Linear *lin, double *x)
 {
     /* linearization */
     const double phi_B2_x_crank1_theta = lin->value[2];
@@ -505,7 +498,7 @@ static void newton_substitute(const Linear *lin, double *x)
 /*
  * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
  */
-static void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u)
+void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u)
 {
     (void)s;
     /* numbers of the run */
@@ -602,11 +595,7 @@ static void newton_solve(const Linear *lin, double eta, double s, const double *
     u[12] = eta*r[12];
 }
 
-/* Where a part of the linearization is in `value`. */
-typedef struct {
-    int row, column, value, sign;
-} LinearEntry;
-static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
     {5, 1, 2, 1}, {5, 2, 3, 1}, {5, 4, 4, 1}, {6, 1, 5, 1}, {6, 2, 6, 1}, {6, 4, 7, 1}, {7, 0, 8, 1}, {7, 1,
     2, -1}, {7, 3, 9, 1}, {8, 0, 10, 1}, {8, 1, 5, -1}, {8, 3, 11, 1}
 };
@@ -640,100 +629,230 @@ enum {
     N_NODES = 9,
 };
 /*
- * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_X - 1) or of R1_t, R2_t (2 N_X); 0 if all
- * are zero.
+ * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
+ * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
-static int residual_column(const Linear *lin, int column, const double *gain, double stick, double *x)
+int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *dq, double *dv, double *worst)
 {
-    int found = 0;
-    for (int i = 0; i < N_NODES; i++)
-        x[i] = 0.0;
-    for (int i = 0; i < N_RESIDUAL && column < 2 * N_X; i++) {
-        const LinearEntry *at = &residual_entries[i];
-        if (at->column == column) {
-            x[at->row] -= at->sign * lin->value[at->value];
-            found = 1;
-        }
-    }
-    for (int i = 0; i < N_PHI_Q && column < 2 * N_X; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
-        const LinearEntry *at = &phi_q_entries[i];
-        if (at->column == column % N_X && (column >= N_X || at->row < N_X + N_LOOPS)) {
-            x[at->row] -= (at->row < N_X + N_LOOPS ? gain[column / N_X] : stick) * at->sign * lin->value[at->value];
-            found = 1;
-        }
-    }
-    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_X; i++) {
-        x[residual_t_entries[i].row] -= residual_t_entries[i].sign * lin->value[residual_t_entries[i].value];
-        found = 1;
-    }
-    return found;
-}
+    (void)t;
+    (void)memory;
+    /* coordinates, velocities, time */
+    const double crank0_theta = q[0];
+    const double crank0_omega = v[0];
+    const double crank1_theta = q[1];
+    const double crank1_omega = v[1];
+    const double crank2_theta = q[2];
+    const double crank2_omega = v[2];
+    const double coupler1_theta = q[3];
+    const double coupler1_omega = v[3];
+    const double coupler2_theta = q[4];
+    const double coupler2_omega = v[4];
 
-/* The column of the Jacobian that follows from x, the change of accelerations and multipliers; `out` has a stride. */
-static void jacobian_column(const Linear *lin, int column, const double *x, double *out, size_t stride)
-{
-    for (int k = 0; k < N_X; k++) {
-        out[k * stride] = column == N_X + k ? 1.0 : 0.0;
-        out[(N_X + k) * stride] = x[k];
-    }
-    for (int w = 0; w < N_WORK; w++)
-        out[(2 * N_X + w) * stride] = 0.0;
-    for (int i = 0; i < N_POWER_ROW; i++) {
-        const LinearEntry *at = &power_row_entries[i];
-        out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
-    }
-    for (int i = 0; i < N_POWER; i++)
-        if (power_entries[i].column == column)
-            out[(2 * N_X + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
-    for (int i = 0; i < N_POWER_T && column == 2 * N_X; i++)
-        out[(2 * N_X + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
-}
+    /* parameters */
+    const double O1_x = p->O1_x;
+    const double O2_x = p->O2_x;
+    const double crank0_head_span_x = p->crank0_head_span_x;
+    const double crank1_head_span_x = p->crank1_head_span_x;
+    const double coupler2_head_span_x = p->coupler2_head_span_x;
+    const double crank2_head_span_x = p->crank2_head_span_x;
+    const double coupler1_head_span_x = p->coupler1_head_span_x;
+    const double inertia_crank0_coupler1 = p->inertia_crank0_coupler1;
+    const double inertia_crank1_coupler2 = p->inertia_crank1_coupler2;
+    const double mass_crank1_crank1 = p->mass_crank1_crank1;
+    const double mass_coupler1_coupler1 = p->mass_coupler1_coupler1;
+    const double inverse_mass_crank2_crank2 = p->inverse_mass_crank2_crank2;
+    const double inverse_mass_coupler2_coupler2 = p->inverse_mass_coupler2_coupler2;
+    const double inverse_mass_crank0_crank0 = p->inverse_mass_crank0_crank0;
 
-/* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
-static int linearized(double t, const double *y, const double *memory, const Parameters *p, double eta, Linear *lin)
-{
-    Memory now = {0};
-    Aside aside;
-    double dy[N_Y];
-    read_memory(memory, &now);
-    const int status = motion(t, y, &now, p, dy, &aside);
-    if (status)
-        return status;
-    linearize(t, y, y + N_X, &now, p, dy + N_X, &aside, lin);
-    return -newton_factor(eta, lin);
-}
+    /* directions, arms, drives */
+    const Four angles_0 = {crank0_theta, crank1_theta, crank2_theta, coupler1_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const Four angles_1 = {coupler2_theta, coupler2_theta, coupler2_theta, coupler2_theta};
+    Four sines_1, cosines_1;
+    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    const double cos_theta_crank0 = cosines_0[0];
+    const double sin_theta_crank0 = sines_0[0];
+    const double cos_theta_crank1 = cosines_0[1];
+    const double sin_theta_crank1 = sines_0[1];
+    const double cos_theta_crank2 = cosines_0[2];
+    const double sin_theta_crank2 = sines_0[2];
+    const double cos_theta_coupler1 = cosines_0[3];
+    const double sin_theta_coupler1 = sines_0[3];
+    const double cos_theta_coupler2 = cosines_1[0];
+    const double sin_theta_coupler2 = sines_1[0];
+    const double span_crank0_head_x = cos_theta_crank0*crank0_head_span_x;
+    const double span_crank0_head_y = crank0_head_span_x*sin_theta_crank0;
+    const double span_crank1_head_x = cos_theta_crank1*crank1_head_span_x;
+    const double span_crank1_head_y = crank1_head_span_x*sin_theta_crank1;
+    const double span_coupler2_head_x = cos_theta_coupler2*coupler2_head_span_x;
+    const double span_coupler2_head_y = coupler2_head_span_x*sin_theta_coupler2;
+    const double span_crank2_head_x = cos_theta_crank2*crank2_head_span_x;
+    const double span_crank2_head_y = crank2_head_span_x*sin_theta_crank2;
+    const double span_coupler1_head_x = cos_theta_coupler1*coupler1_head_span_x;
+    const double span_coupler1_head_y = coupler1_head_span_x*sin_theta_coupler1;
+    const double cos_coupler1_less_crank0 = cos_theta_coupler1*cos_theta_crank0 +
+        sin_theta_coupler1*sin_theta_crank0;
+    const double dot_crank0_coupler1 = cos_coupler1_less_crank0*inertia_crank0_coupler1;
+    const double cos_coupler2_less_crank1 = cos_theta_coupler2*cos_theta_crank1 +
+        sin_theta_coupler2*sin_theta_crank1;
+    const double dot_crank1_coupler2 = cos_coupler2_less_crank1*inertia_crank1_coupler2;
 
-/*
- * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
- * KKT matrix. Contacts, corners and modes of friction stay as they are.
- */
-int gudgeon_tree_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
-{
-    Linear lin;
-    const double gain[2] = {0.0, 0.0};
-    const int status = linearized(t, y, memory, (const Parameters *)p, 0.0, &lin);
-    if (status)
-        return status;
-    for (int column = 0; column <= 2 * N_X; column++) {
-        double x[N_NODES];
-        if (residual_column(&lin, column, gain, 0.0, x))
-            newton_substitute(&lin, x);
-        jacobian_column(&lin, column, x, column < 2 * N_X ? J + column : f_t, column < 2 * N_X ? N_Y : 1);
-    }
-    for (int k = 0; k < N_Y; k++) /* nothing depends on the works */
-        for (int w = 0; w < N_WORK; w++)
-            J[k * N_Y + 2 * N_X + w] = 0.0;
-    return 0;
-}
+    /* Phi and Phi_dot */
+    const double phi_B2_x = O1_x - O2_x + span_coupler2_head_x + span_crank1_head_x - span_crank2_head_x;
+    const double phi_dot_B2_x = -coupler2_omega*span_coupler2_head_y - crank1_omega*span_crank1_head_y +
+        crank2_omega*span_crank2_head_y;
+    const double phi_B2_y = span_coupler2_head_y + span_crank1_head_y - span_crank2_head_y;
+    const double phi_dot_B2_y = coupler2_omega*span_coupler2_head_x + crank1_omega*span_crank1_head_x -
+        crank2_omega*span_crank2_head_x;
+    const double phi_B1_x = -O1_x + span_coupler1_head_x + span_crank0_head_x - span_crank1_head_x;
+    const double phi_dot_B1_x = -coupler1_omega*span_coupler1_head_y - crank0_omega*span_crank0_head_y +
+        crank1_omega*span_crank1_head_y;
+    const double phi_B1_y = span_coupler1_head_y + span_crank0_head_y - span_crank1_head_y;
+    const double phi_dot_B1_y = coupler1_omega*span_coupler1_head_x + crank0_omega*span_crank0_head_x -
+        crank1_omega*span_crank1_head_x;
 
-/* (1/eta - J) u = r + s f_t at a state. */
-int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
-    const double *r, double *u)
-{
-    Linear lin;
-    const int status = linearized(t, y, memory, (const Parameters *)p, eta, &lin);
-    if (status)
-        return status;
-    newton_solve(&lin, eta, s, r, u);
+    /* L D L^T of the KKT matrix */
+    const double l_B2_x__crank2_theta_4 = inverse_mass_crank2_crank2*span_crank2_head_y;
+    const double l_B2_y__crank2_theta_4 = -inverse_mass_crank2_crank2*span_crank2_head_x;
+    const double l_coupler1_theta__crank0_theta_4 = dot_crank0_coupler1*inverse_mass_crank0_crank0;
+    const double l_B1_x__crank0_theta_4 = -inverse_mass_crank0_crank0*span_crank0_head_y;
+    const double l_B1_y__crank0_theta_4 = inverse_mass_crank0_crank0*span_crank0_head_x;
+    const double inverse_pivot_coupler1_theta_4 = 1.0/(-dot_crank0_coupler1*l_coupler1_theta__crank0_theta_4 +
+        mass_coupler1_coupler1);
+    const double w_B1_x__coupler1_theta_3 = -dot_crank0_coupler1*l_B1_x__crank0_theta_4 -
+        span_coupler1_head_y;
+    const double l_B1_x__coupler1_theta_4 = inverse_pivot_coupler1_theta_4*w_B1_x__coupler1_theta_3;
+    const double w_B1_y__coupler1_theta_3 = -dot_crank0_coupler1*l_B1_y__crank0_theta_4 +
+        span_coupler1_head_x;
+    const double l_B1_y__coupler1_theta_4 = inverse_pivot_coupler1_theta_4*w_B1_y__coupler1_theta_3;
+    const double l_crank1_theta__coupler2_theta_4 = dot_crank1_coupler2*inverse_mass_coupler2_coupler2;
+    const double l_B2_x__coupler2_theta_4 = -inverse_mass_coupler2_coupler2*span_coupler2_head_y;
+    const double l_B2_y__coupler2_theta_4 = inverse_mass_coupler2_coupler2*span_coupler2_head_x;
+    const double inverse_pivot_crank1_theta_4 = 1.0/(-dot_crank1_coupler2*l_crank1_theta__coupler2_theta_4 +
+        mass_crank1_crank1);
+    const double w_B2_x__crank1_theta_2 = -dot_crank1_coupler2*l_B2_x__coupler2_theta_4 - span_crank1_head_y;
+    const double l_B2_x__crank1_theta_3 = inverse_pivot_crank1_theta_4*w_B2_x__crank1_theta_2;
+    const double w_B2_y__crank1_theta_2 = -dot_crank1_coupler2*l_B2_y__coupler2_theta_4 + span_crank1_head_x;
+    const double l_B2_y__crank1_theta_3 = inverse_pivot_crank1_theta_4*w_B2_y__crank1_theta_2;
+    const double l_B1_x__crank1_theta_4 = inverse_pivot_crank1_theta_4*span_crank1_head_y;
+    const double l_B1_y__crank1_theta_4 = -inverse_pivot_crank1_theta_4*span_crank1_head_x;
+    const double scale_B2_x_4 = -l_B2_x__coupler2_theta_4*span_coupler2_head_y +
+        l_B2_x__crank1_theta_3*w_B2_x__crank1_theta_2 + l_B2_x__crank2_theta_4*span_crank2_head_y;
+    const double scale_B2_y_4 = l_B2_y__coupler2_theta_4*span_coupler2_head_x +
+        l_B2_y__crank1_theta_3*w_B2_y__crank1_theta_2 - l_B2_y__crank2_theta_4*span_crank2_head_x;
+    const double pivot_B2_x__B2_y_3 = -l_B2_y__coupler2_theta_4*span_coupler2_head_y +
+        l_B2_y__crank1_theta_3*w_B2_x__crank1_theta_2 + l_B2_y__crank2_theta_4*span_crank2_head_y;
+    const double determinant_B2_x__B2_y_3 = -(pivot_B2_x__B2_y_3 * pivot_B2_x__B2_y_3) +
+        scale_B2_x_4*scale_B2_y_4;
+    if (!(scale_B2_x_4 > 1e-10 * scale_B2_x_4)) return 1;
+    if (!(determinant_B2_x__B2_y_3 > 1e-10 * scale_B2_y_4 * scale_B2_x_4)) return 2;
+    const double size_B2_x_3 = scale_B2_x_4 + scale_B2_y_4;
+    if (!(scale_B2_x_4 > 1e-10 * size_B2_x_3)) return 1;
+    if (!(determinant_B2_x__B2_y_3 > 1e-10 * size_B2_x_3 * scale_B2_x_4)) return 2;
+    const double inverse_B2_x__B2_y_3 = -1.0/determinant_B2_x__B2_y_3;
+    const double inverse_pivot_B2_x_4 = inverse_B2_x__B2_y_3*scale_B2_y_4;
+    const double inverse_pivot_B2_y_4 = inverse_B2_x__B2_y_3*scale_B2_x_4;
+    const double inverse_cross_B2_x__B2_y_3 = -inverse_B2_x__B2_y_3*pivot_B2_x__B2_y_3;
+    const double w_B1_x__B2_x_2 = -l_B1_x__crank1_theta_4*w_B2_x__crank1_theta_2;
+    const double w_B1_x__B2_y_2 = -l_B1_x__crank1_theta_4*w_B2_y__crank1_theta_2;
+    const double l_B1_x__B2_x_3 = inverse_cross_B2_x__B2_y_3*w_B1_x__B2_y_2 +
+        inverse_pivot_B2_x_4*w_B1_x__B2_x_2;
+    const double l_B1_x__B2_y_3 = inverse_cross_B2_x__B2_y_3*w_B1_x__B2_x_2 +
+        inverse_pivot_B2_y_4*w_B1_x__B2_y_2;
+    const double w_B1_y__B2_x_2 = -l_B1_y__crank1_theta_4*w_B2_x__crank1_theta_2;
+    const double w_B1_y__B2_y_2 = -l_B1_y__crank1_theta_4*w_B2_y__crank1_theta_2;
+    const double l_B1_y__B2_x_3 = inverse_cross_B2_x__B2_y_3*w_B1_y__B2_y_2 +
+        inverse_pivot_B2_x_4*w_B1_y__B2_x_2;
+    const double l_B1_y__B2_y_3 = inverse_cross_B2_x__B2_y_3*w_B1_y__B2_x_2 +
+        inverse_pivot_B2_y_4*w_B1_y__B2_y_2;
+    const double scale_B1_x_4 = l_B1_x__coupler1_theta_4*w_B1_x__coupler1_theta_3 -
+        l_B1_x__crank0_theta_4*span_crank0_head_y + l_B1_x__crank1_theta_4*span_crank1_head_y;
+    const double scale_B1_y_4 = l_B1_y__coupler1_theta_4*w_B1_y__coupler1_theta_3 +
+        l_B1_y__crank0_theta_4*span_crank0_head_x - l_B1_y__crank1_theta_4*span_crank1_head_x;
+    const double pivot_B1_x_3 = l_B1_x__B2_x_3*w_B1_x__B2_x_2 + l_B1_x__B2_y_3*w_B1_x__B2_y_2 + scale_B1_x_4;
+    const double pivot_B1_y_3 = l_B1_y__B2_x_3*w_B1_y__B2_x_2 + l_B1_y__B2_y_3*w_B1_y__B2_y_2 + scale_B1_y_4;
+    const double pivot_B1_x__B1_y_3 = l_B1_y__B2_x_3*w_B1_x__B2_x_2 + l_B1_y__B2_y_3*w_B1_x__B2_y_2 +
+        l_B1_y__coupler1_theta_4*w_B1_x__coupler1_theta_3 - l_B1_y__crank0_theta_4*span_crank0_head_y +
+        l_B1_y__crank1_theta_4*span_crank1_head_y;
+    const double determinant_B1_x__B1_y_3 = pivot_B1_x_3*pivot_B1_y_3 - (pivot_B1_x__B1_y_3 *
+        pivot_B1_x__B1_y_3);
+    if (!(pivot_B1_x_3 > 1e-10 * scale_B1_x_4)) return 3;
+    if (!(determinant_B1_x__B1_y_3 > 1e-10 * scale_B1_y_4 * pivot_B1_x_3)) return 4;
+    const double size_B1_x_3 = scale_B1_x_4 + scale_B1_y_4;
+    if (!(pivot_B1_x_3 > 1e-10 * size_B1_x_3)) return 3;
+    if (!(determinant_B1_x__B1_y_3 > 1e-10 * size_B1_x_3 * pivot_B1_x_3)) return 4;
+    const double inverse_B1_x__B1_y_3 = -1.0/determinant_B1_x__B1_y_3;
+    const double inverse_pivot_B1_x_4 = inverse_B1_x__B1_y_3*pivot_B1_y_3;
+    const double inverse_pivot_B1_y_4 = inverse_B1_x__B1_y_3*pivot_B1_x_3;
+    const double inverse_cross_B1_x__B1_y_3 = -inverse_B1_x__B1_y_3*pivot_B1_x__B1_y_3;
+
+    /* forward substitution */
+    const double dq_z_B1_x = -l_B1_x__B2_x_3*phi_B2_x - l_B1_x__B2_y_3*phi_B2_y + phi_B1_x;
+    const double dq_z_B1_y = -l_B1_y__B2_x_3*phi_B2_x - l_B1_y__B2_y_3*phi_B2_y + phi_B1_y;
+
+    /* backward substitution */
+    const double dq_lambda_B1_y = dq_z_B1_x*inverse_cross_B1_x__B1_y_3 + dq_z_B1_y*inverse_pivot_B1_y_4;
+    const double dq_lambda_B1_x = dq_z_B1_x*inverse_pivot_B1_x_4 + dq_z_B1_y*inverse_cross_B1_x__B1_y_3;
+    const double dq_lambda_B2_y = -dq_lambda_B1_x*l_B1_x__B2_y_3 - dq_lambda_B1_y*l_B1_y__B2_y_3 +
+        inverse_cross_B2_x__B2_y_3*phi_B2_x + inverse_pivot_B2_y_4*phi_B2_y;
+    const double dq_lambda_B2_x = -dq_lambda_B1_x*l_B1_x__B2_x_3 - dq_lambda_B1_y*l_B1_y__B2_x_3 +
+        inverse_cross_B2_x__B2_y_3*phi_B2_y + inverse_pivot_B2_x_4*phi_B2_x;
+    const double dq_acceleration_crank1_theta = -dq_lambda_B1_x*l_B1_x__crank1_theta_4 -
+        dq_lambda_B1_y*l_B1_y__crank1_theta_4 - dq_lambda_B2_x*l_B2_x__crank1_theta_3 -
+        dq_lambda_B2_y*l_B2_y__crank1_theta_3;
+    const double dq_acceleration_coupler2_theta =
+        -dq_acceleration_crank1_theta*l_crank1_theta__coupler2_theta_4 -
+        dq_lambda_B2_x*l_B2_x__coupler2_theta_4 - dq_lambda_B2_y*l_B2_y__coupler2_theta_4;
+    const double dq_acceleration_coupler1_theta = -dq_lambda_B1_x*l_B1_x__coupler1_theta_4 -
+        dq_lambda_B1_y*l_B1_y__coupler1_theta_4;
+    const double dq_acceleration_crank0_theta =
+        -dq_acceleration_coupler1_theta*l_coupler1_theta__crank0_theta_4 -
+        dq_lambda_B1_x*l_B1_x__crank0_theta_4 - dq_lambda_B1_y*l_B1_y__crank0_theta_4;
+    const double dq_acceleration_crank2_theta = -dq_lambda_B2_x*l_B2_x__crank2_theta_4 -
+        dq_lambda_B2_y*l_B2_y__crank2_theta_4;
+
+    /* forward substitution */
+    const double dv_z_B1_x = -l_B1_x__B2_x_3*phi_dot_B2_x - l_B1_x__B2_y_3*phi_dot_B2_y + phi_dot_B1_x;
+    const double dv_z_B1_y = -l_B1_y__B2_x_3*phi_dot_B2_x - l_B1_y__B2_y_3*phi_dot_B2_y + phi_dot_B1_y;
+
+    /* backward substitution */
+    const double dv_lambda_B1_y = dv_z_B1_x*inverse_cross_B1_x__B1_y_3 + dv_z_B1_y*inverse_pivot_B1_y_4;
+    const double dv_lambda_B1_x = dv_z_B1_x*inverse_pivot_B1_x_4 + dv_z_B1_y*inverse_cross_B1_x__B1_y_3;
+    const double dv_lambda_B2_y = -dv_lambda_B1_x*l_B1_x__B2_y_3 - dv_lambda_B1_y*l_B1_y__B2_y_3 +
+        inverse_cross_B2_x__B2_y_3*phi_dot_B2_x + inverse_pivot_B2_y_4*phi_dot_B2_y;
+    const double dv_lambda_B2_x = -dv_lambda_B1_x*l_B1_x__B2_x_3 - dv_lambda_B1_y*l_B1_y__B2_x_3 +
+        inverse_cross_B2_x__B2_y_3*phi_dot_B2_y + inverse_pivot_B2_x_4*phi_dot_B2_x;
+    const double dv_acceleration_crank1_theta = -dv_lambda_B1_x*l_B1_x__crank1_theta_4 -
+        dv_lambda_B1_y*l_B1_y__crank1_theta_4 - dv_lambda_B2_x*l_B2_x__crank1_theta_3 -
+        dv_lambda_B2_y*l_B2_y__crank1_theta_3;
+    const double dv_acceleration_coupler2_theta =
+        -dv_acceleration_crank1_theta*l_crank1_theta__coupler2_theta_4 -
+        dv_lambda_B2_x*l_B2_x__coupler2_theta_4 - dv_lambda_B2_y*l_B2_y__coupler2_theta_4;
+    const double dv_acceleration_coupler1_theta = -dv_lambda_B1_x*l_B1_x__coupler1_theta_4 -
+        dv_lambda_B1_y*l_B1_y__coupler1_theta_4;
+    const double dv_acceleration_crank0_theta =
+        -dv_acceleration_coupler1_theta*l_coupler1_theta__crank0_theta_4 -
+        dv_lambda_B1_x*l_B1_x__crank0_theta_4 - dv_lambda_B1_y*l_B1_y__crank0_theta_4;
+    const double dv_acceleration_crank2_theta = -dv_lambda_B2_x*l_B2_x__crank2_theta_4 -
+        dv_lambda_B2_y*l_B2_y__crank2_theta_4;
+
+    /* results */
+    dq[0] = dq_acceleration_crank0_theta;
+    dv[0] = dv_acceleration_crank0_theta;
+    dq[1] = dq_acceleration_crank1_theta;
+    dv[1] = dv_acceleration_crank1_theta;
+    dq[2] = dq_acceleration_crank2_theta;
+    dv[2] = dv_acceleration_crank2_theta;
+    dq[3] = dq_acceleration_coupler1_theta;
+    dv[3] = dv_acceleration_coupler1_theta;
+    dq[4] = dq_acceleration_coupler2_theta;
+    dv[4] = dv_acceleration_coupler2_theta;
+    *worst = 0.0;
+    *worst = max_of(*worst, fabs(phi_B2_x));
+    *worst = max_of(*worst, fabs(phi_B2_y));
+    *worst = max_of(*worst, fabs(phi_B1_x));
+    *worst = max_of(*worst, fabs(phi_B1_y));
     return 0;
 }

@@ -1,7 +1,7 @@
 /*
  * Every number of a run: slots given or by default, then what follows from them.
  */
-static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
     const double length = is_given[0] ? given[0] : 1.0;  /* parameters.length */
@@ -159,4 +159,3 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double inverse_mass_crank0_crank0 = 1.0/mass_crank0_crank0;  /* 1/M */
     p->inverse_mass_crank0_crank0 = inverse_mass_crank0_crank0;
 }
-

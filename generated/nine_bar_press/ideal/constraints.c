@@ -1,7 +1,7 @@
 /*
  * The diagonal of M (n).
  */
-static void mass_matrix(const Parameters *p, double *m)
+void mass_matrix(const Parameters *p, double *m)
 {
     /* parameters */
     const double L1_mass = p->L1_mass;
@@ -47,10 +47,11 @@ static void mass_matrix(const Parameters *p, double *m)
     m[22] = S9_mass;
     m[23] = S9_inertia;
 }
+
 /*
  * Phi(q, t) of the closed linkage; m and rad.
  */
-static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     /* coordinates, velocities, time */
     const double L1_x = q[0];
@@ -150,10 +151,11 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     phi[22] = L1_theta - crank1_value;  /* crank1 */
     phi[23] = L4_theta - crank4_value;  /* crank4 */
 }
+
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
  */
-static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -276,10 +278,11 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     phi_q[530] = 1.0;  /* d crank1 / d L1_theta */
     phi_q[563] = 1.0;  /* d crank4 / d L4_theta */
 }
+
 /*
  * nu = -Phi_t: Phi_q v = nu.
  */
-static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)t;
     (void)q;
@@ -317,10 +320,11 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
     nu[22] = crank1_rate;  /* crank1 */
     nu[23] = crank4_rate;  /* crank4 */
 }
+
 /*
  * gamma: Phi_q a = gamma.
  */
-static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
     double *gamma_rows)
 {
     (void)t;
@@ -407,10 +411,11 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     gamma_rows[22] = crank1_acceleration;  /* crank1 */
     gamma_rows[23] = crank4_acceleration;  /* crank4 */
 }
+
 /*
  * Values of the start's guess, set and rates.
  */
-static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)set;
     (void)rates;
@@ -428,12 +433,13 @@ static void start_values(const Parameters *p, double *guess, double *set, double
     guess[3] = guess_L7_theta;  /* start.guess.L7.theta */
     guess[4] = guess_L8_theta;  /* start.guess.L8.theta */
 }
+
 /*
  * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
-static void outputs(const double t, const double *q, const double *v, const Parameters *p, const
-    double *lambda, double *reactions, double *torques, double *series, double *energy)
+void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
+    double *reactions, double *torques, double *series, double *energy)
 {
     (void)t;
     (void)series;
@@ -566,4 +572,3 @@ static void outputs(const double t, const double *q, const double *v, const Para
     energy[1] = -L1_mass*L1_y*par_y - L2_mass*L2_y*par_y - L3_mass*L3_y*par_y - L4_mass*L4_y*par_y -
         L6_mass*L6_y*par_y - L7_mass*L7_y*par_y - L8_mass*L8_y*par_y - S9_mass*S9_y*par_y;
 }
-

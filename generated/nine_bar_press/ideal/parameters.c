@@ -1,7 +1,7 @@
 /*
  * Every number of a run: slots given or by default, then what follows from them.
  */
-static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
     const double omega = is_given[0] ? given[0] : 6.283185307179586;  /* parameters.omega */
@@ -225,4 +225,3 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double inverse_mass_L2_L2 = 1.0/mass_L2_L2;  /* 1/M */
     p->inverse_mass_L2_L2 = inverse_mass_L2_L2;
 }
-

@@ -570,19 +570,12 @@ static void tangent_B(double e_x, double e_y, double de_x, double de_y, double o
     dF[2][1] = F.slope[2][0];
     dF[3][1] = F.slope[3][0];
 }
-/* The equations of motion linearized at a state, and Newton's matrix factorized. */
-typedef struct {
-    const Parameters *p;
-    double value[67]; /* what linearize() found */
-    double lu[21];    /* L, U and inverse pivots */
-} Linear;
-
 /*
  * The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:
  * non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.
  */
-static void linearize(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, const double *a, const Aside *aside, Linear *lin)
+void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    const double *a, const Aside *aside, Linear *lin)
 {
     /* corners: the sides that are held, if any */
     const double *const side = memory->held ? memory->side : NULL;
@@ -1119,7 +1112,7 @@ static void linearize(const double t, const double *q, const double *v, const Me
  * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
  * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
  */
-static int newton_factor(double eta, Linear *lin)
+int newton_factor(double eta, Linear *lin)
 {
     /* numbers of the run */
     const Parameters *const p = lin->p;
@@ -1287,7 +1280,7 @@ static int newton_factor(double eta, Linear *lin)
 /*
  * x (all nodes) holds b and becomes the solution of N x = b.
  */
-static void newton_substitute(const Linear *lin, double *x)
+void newton_substitute(const Linear *lin, double *x)
 {
     /* linearization */
     const double phi_guide_offset_L8_theta = lin->value[7];
@@ -1344,7 +1337,7 @@ static void newton_substitute(const Linear *lin, double *x)
 /*
  * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
  */
-static void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u)
+void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u)
 {
     /* numbers of the run */
     const Parameters *const p = lin->p;
@@ -1456,11 +1449,7 @@ static void newton_solve(const Linear *lin, double eta, double s, const double *
         power_v_2_L6_theta*u[5] + power_v_2_L7_theta*u[6] + r[12]);
 }
 
-/* Where a part of the linearization is in `value`. */
-typedef struct {
-    int row, column, value, sign;
-} LinearEntry;
-static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
     {5, 0, 6, 1}, {5, 2, 7, 1}
 };
 static const LinearEntry residual_entries[] = {
@@ -1495,100 +1484,134 @@ enum {
     N_NODES = 6,
 };
 /*
- * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_X - 1) or of R1_t, R2_t (2 N_X); 0 if all
- * are zero.
+ * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
+ * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
-static int residual_column(const Linear *lin, int column, const double *gain, double stick, double *x)
+int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *dq, double *dv, double *worst)
 {
-    int found = 0;
-    for (int i = 0; i < N_NODES; i++)
-        x[i] = 0.0;
-    for (int i = 0; i < N_RESIDUAL && column < 2 * N_X; i++) {
-        const LinearEntry *at = &residual_entries[i];
-        if (at->column == column) {
-            x[at->row] -= at->sign * lin->value[at->value];
-            found = 1;
-        }
-    }
-    for (int i = 0; i < N_PHI_Q && column < 2 * N_X; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
-        const LinearEntry *at = &phi_q_entries[i];
-        if (at->column == column % N_X && (column >= N_X || at->row < N_X + N_LOOPS)) {
-            x[at->row] -= (at->row < N_X + N_LOOPS ? gain[column / N_X] : stick) * at->sign * lin->value[at->value];
-            found = 1;
-        }
-    }
-    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_X; i++) {
-        x[residual_t_entries[i].row] -= residual_t_entries[i].sign * lin->value[residual_t_entries[i].value];
-        found = 1;
-    }
-    return found;
-}
+    (void)t;
+    (void)memory;
+    /* coordinates, velocities, time */
+    const double L6_theta = q[0];
+    const double L6_omega = v[0];
+    const double L7_theta = q[1];
+    const double L8_theta = q[2];
+    const double L8_omega = v[2];
+    const double L2_theta = q[3];
+    const double L3_theta = q[4];
 
-/* The column of the Jacobian that follows from x, the change of accelerations and multipliers; `out` has a stride. */
-static void jacobian_column(const Linear *lin, int column, const double *x, double *out, size_t stride)
-{
-    for (int k = 0; k < N_X; k++) {
-        out[k * stride] = column == N_X + k ? 1.0 : 0.0;
-        out[(N_X + k) * stride] = x[k];
-    }
-    for (int w = 0; w < N_WORK; w++)
-        out[(2 * N_X + w) * stride] = 0.0;
-    for (int i = 0; i < N_POWER_ROW; i++) {
-        const LinearEntry *at = &power_row_entries[i];
-        out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
-    }
-    for (int i = 0; i < N_POWER; i++)
-        if (power_entries[i].column == column)
-            out[(2 * N_X + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
-    for (int i = 0; i < N_POWER_T && column == 2 * N_X; i++)
-        out[(2 * N_X + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
-}
+    /* parameters */
+    const double L6_head_span_x = p->L6_head_span_x;
+    const double L8_head_span_x = p->L8_head_span_x;
+    const double inertia_L6_L7 = p->inertia_L6_L7;
+    const double inertia_L6_L2 = p->inertia_L6_L2;
+    const double inertia_L7_L2 = p->inertia_L7_L2;
+    const double inertia_L6_L3 = p->inertia_L6_L3;
+    const double inertia_L7_L3 = p->inertia_L7_L3;
+    const double inertia_L6_L8 = p->inertia_L6_L8;
+    const double mass_L6_L6 = p->mass_L6_L6;
+    const double mass_L7_L7 = p->mass_L7_L7;
+    const double mass_L3_L3 = p->mass_L3_L3;
+    const double inverse_mass_L8_L8 = p->inverse_mass_L8_L8;
+    const double inverse_mass_L2_L2 = p->inverse_mass_L2_L2;
 
-/* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
-static int linearized(double t, const double *y, const double *memory, const Parameters *p, double eta, Linear *lin)
-{
-    Memory now = {0};
-    Aside aside;
-    double dy[N_Y];
-    read_memory(memory, &now);
-    const int status = motion(t, y, &now, p, dy, &aside);
-    if (status)
-        return status;
-    linearize(t, y, y + N_X, &now, p, dy + N_X, &aside, lin);
-    return -newton_factor(eta, lin);
-}
+    /* directions, arms, drives */
+    const Four angles_0 = {L6_theta, L7_theta, L8_theta, L2_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    const Four angles_1 = {L3_theta, L3_theta, L3_theta, L3_theta};
+    Four sines_1, cosines_1;
+    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    const double cos_theta_L6 = cosines_0[0];
+    const double sin_theta_L6 = sines_0[0];
+    const double cos_theta_L7 = cosines_0[1];
+    const double sin_theta_L7 = sines_0[1];
+    const double cos_theta_L8 = cosines_0[2];
+    const double sin_theta_L8 = sines_0[2];
+    const double cos_theta_L2 = cosines_0[3];
+    const double sin_theta_L2 = sines_0[3];
+    const double cos_theta_L3 = cosines_1[0];
+    const double sin_theta_L3 = sines_1[0];
+    const double span_L6_head_x = L6_head_span_x*cos_theta_L6;
+    const double span_L6_head_y = L6_head_span_x*sin_theta_L6;
+    const double span_L8_head_x = L8_head_span_x*cos_theta_L8;
+    const double span_L8_head_y = L8_head_span_x*sin_theta_L8;
+    const double cos_L7_less_L6 = cos_theta_L6*cos_theta_L7 + sin_theta_L6*sin_theta_L7;
+    const double dot_L6_L7 = cos_L7_less_L6*inertia_L6_L7;
+    const double cos_L2_less_L6 = cos_theta_L2*cos_theta_L6 + sin_theta_L2*sin_theta_L6;
+    const double dot_L6_L2 = cos_L2_less_L6*inertia_L6_L2;
+    const double cos_L2_less_L7 = cos_theta_L2*cos_theta_L7 + sin_theta_L2*sin_theta_L7;
+    const double dot_L7_L2 = cos_L2_less_L7*inertia_L7_L2;
+    const double cos_L3_less_L6 = cos_theta_L3*cos_theta_L6 + sin_theta_L3*sin_theta_L6;
+    const double dot_L6_L3 = cos_L3_less_L6*inertia_L6_L3;
+    const double cos_L3_less_L7 = cos_theta_L3*cos_theta_L7 + sin_theta_L3*sin_theta_L7;
+    const double dot_L7_L3 = cos_L3_less_L7*inertia_L7_L3;
+    const double cos_L8_less_L6 = cos_theta_L6*cos_theta_L8 + sin_theta_L6*sin_theta_L8;
+    const double dot_L6_L8 = cos_L8_less_L6*inertia_L6_L8;
 
-/*
- * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
- * KKT matrix. Contacts, corners and modes of friction stay as they are.
- */
-int gudgeon_tree_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
-{
-    Linear lin;
-    const double gain[2] = {0.0, 0.0};
-    const int status = linearized(t, y, memory, (const Parameters *)p, 0.0, &lin);
-    if (status)
-        return status;
-    for (int column = 0; column <= 2 * N_X; column++) {
-        double x[N_NODES];
-        if (residual_column(&lin, column, gain, 0.0, x))
-            newton_substitute(&lin, x);
-        jacobian_column(&lin, column, x, column < 2 * N_X ? J + column : f_t, column < 2 * N_X ? N_Y : 1);
-    }
-    for (int k = 0; k < N_Y; k++) /* nothing depends on the works */
-        for (int w = 0; w < N_WORK; w++)
-            J[k * N_Y + 2 * N_X + w] = 0.0;
-    return 0;
-}
+    /* Phi and Phi_dot */
+    const double phi_guide_offset = -span_L6_head_x - span_L8_head_x;
+    const double phi_dot_guide_offset = L6_omega*span_L6_head_y + L8_omega*span_L8_head_y;
 
-/* (1/eta - J) u = r + s f_t at a state. */
-int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
-    const double *r, double *u)
-{
-    Linear lin;
-    const int status = linearized(t, y, memory, (const Parameters *)p, eta, &lin);
-    if (status)
-        return status;
-    newton_solve(&lin, eta, s, r, u);
+    /* L D L^T of the KKT matrix */
+    const double l_L6_theta__L8_theta_4 = dot_L6_L8*inverse_mass_L8_L8;
+    const double l_guide_offset__L8_theta_4 = inverse_mass_L8_L8*span_L8_head_y;
+    const double l_L7_theta__L2_theta_4 = dot_L7_L2*inverse_mass_L2_L2;
+    const double l_L6_theta__L2_theta_4 = dot_L6_L2*inverse_mass_L2_L2;
+    const double pivot_L7_theta_3 = -dot_L7_L2*l_L7_theta__L2_theta_4 + mass_L7_L7;
+    const double determinant_L7_theta__L3_theta_3 = -(dot_L7_L3 * dot_L7_L3) + mass_L3_L3*pivot_L7_theta_3;
+    const double inverse_L7_theta__L3_theta_3 = 1.0/determinant_L7_theta__L3_theta_3;
+    const double inverse_pivot_L7_theta_4 = inverse_L7_theta__L3_theta_3*mass_L3_L3;
+    const double inverse_pivot_L3_theta_4 = inverse_L7_theta__L3_theta_3*pivot_L7_theta_3;
+    const double inverse_cross_L7_theta__L3_theta_3 = -dot_L7_L3*inverse_L7_theta__L3_theta_3;
+    const double w_L6_theta__L7_theta_3 = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta_4;
+    const double l_L6_theta__L7_theta_4 = dot_L6_L3*inverse_cross_L7_theta__L3_theta_3 +
+        inverse_pivot_L7_theta_4*w_L6_theta__L7_theta_3;
+    const double l_L6_theta__L3_theta_4 = dot_L6_L3*inverse_pivot_L3_theta_4 +
+        inverse_cross_L7_theta__L3_theta_3*w_L6_theta__L7_theta_3;
+    const double inverse_pivot_L6_theta_4 = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta_4 -
+        dot_L6_L3*l_L6_theta__L3_theta_4 - dot_L6_L8*l_L6_theta__L8_theta_4 -
+        l_L6_theta__L7_theta_4*w_L6_theta__L7_theta_3 + mass_L6_L6);
+    const double w_guide_offset__L6_theta_3 = -dot_L6_L8*l_guide_offset__L8_theta_4 + span_L6_head_y;
+    const double l_guide_offset__L6_theta_4 = inverse_pivot_L6_theta_4*w_guide_offset__L6_theta_3;
+    const double scale_guide_offset_4 = l_guide_offset__L6_theta_4*w_guide_offset__L6_theta_3 +
+        l_guide_offset__L8_theta_4*span_L8_head_y;
+    if (!(scale_guide_offset_4 > 1e-10 * scale_guide_offset_4)) return 1;
+    const double inverse_pivot_guide_offset_4 = 1.0/scale_guide_offset_4;
+
+    /* backward substitution */
+    const double dq_lambda_guide_offset = -inverse_pivot_guide_offset_4*phi_guide_offset;
+    const double dq_acceleration_L6_theta = -dq_lambda_guide_offset*l_guide_offset__L6_theta_4;
+    const double dq_acceleration_L3_theta = -dq_acceleration_L6_theta*l_L6_theta__L3_theta_4;
+    const double dq_acceleration_L7_theta = -dq_acceleration_L6_theta*l_L6_theta__L7_theta_4;
+    const double dq_acceleration_L2_theta = -dq_acceleration_L6_theta*l_L6_theta__L2_theta_4 -
+        dq_acceleration_L7_theta*l_L7_theta__L2_theta_4;
+    const double dq_acceleration_L8_theta = -dq_acceleration_L6_theta*l_L6_theta__L8_theta_4 -
+        dq_lambda_guide_offset*l_guide_offset__L8_theta_4;
+
+    /* backward substitution */
+    const double dv_lambda_guide_offset = -inverse_pivot_guide_offset_4*phi_dot_guide_offset;
+    const double dv_acceleration_L6_theta = -dv_lambda_guide_offset*l_guide_offset__L6_theta_4;
+    const double dv_acceleration_L3_theta = -dv_acceleration_L6_theta*l_L6_theta__L3_theta_4;
+    const double dv_acceleration_L7_theta = -dv_acceleration_L6_theta*l_L6_theta__L7_theta_4;
+    const double dv_acceleration_L2_theta = -dv_acceleration_L6_theta*l_L6_theta__L2_theta_4 -
+        dv_acceleration_L7_theta*l_L7_theta__L2_theta_4;
+    const double dv_acceleration_L8_theta = -dv_acceleration_L6_theta*l_L6_theta__L8_theta_4 -
+        dv_lambda_guide_offset*l_guide_offset__L8_theta_4;
+
+    /* results */
+    dq[0] = dq_acceleration_L6_theta;
+    dv[0] = dv_acceleration_L6_theta;
+    dq[1] = dq_acceleration_L7_theta;
+    dv[1] = dv_acceleration_L7_theta;
+    dq[2] = dq_acceleration_L8_theta;
+    dv[2] = dv_acceleration_L8_theta;
+    dq[3] = dq_acceleration_L2_theta;
+    dv[3] = dv_acceleration_L2_theta;
+    dq[4] = dq_acceleration_L3_theta;
+    dv[4] = dv_acceleration_L3_theta;
+    *worst = 0.0;
+    *worst = max_of(*worst, fabs(phi_guide_offset));
     return 0;
 }

@@ -1,7 +1,7 @@
 /*
  * The diagonal of M (n).
  */
-static void mass_matrix(const Parameters *p, double *m)
+void mass_matrix(const Parameters *p, double *m)
 {
     /* parameters */
     const double bob_mass = p->bob_mass;
@@ -12,10 +12,11 @@ static void mass_matrix(const Parameters *p, double *m)
     m[1] = bob_mass;
     m[2] = bob_inertia;
 }
+
 /*
  * Phi(q, t) of the closed linkage; m and rad.
  */
-static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -30,10 +31,11 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     phi[0] = (bob_x * bob_x)*rod_half_inverse_length + (bob_y * bob_y)*rod_half_inverse_length -
         0.5*rod_length;  /* rod.length */
 }
+
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
  */
-static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -47,10 +49,11 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     phi_q[0] = 2.0*bob_x*rod_half_inverse_length;  /* d rod.length / d bob_x */
     phi_q[1] = 2.0*bob_y*rod_half_inverse_length;  /* d rod.length / d bob_y */
 }
+
 /*
  * nu = -Phi_t: Phi_q v = nu.
  */
-static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)t;
     (void)q;
@@ -58,10 +61,11 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
     /* rows */
     nu[0] = 0.0;  /* rod.length */
 }
+
 /*
  * gamma: Phi_q a = gamma.
  */
-static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
     double *gamma_rows)
 {
     (void)t;
@@ -77,10 +81,11 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     gamma_rows[0] = -2.0*(bob_vx * bob_vx)*rod_half_inverse_length - 2.0*(bob_vy *
         bob_vy)*rod_half_inverse_length;  /* rod.length */
 }
+
 /*
  * Values of the start's guess, set and rates.
  */
-static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)guess;
     /* parameters */
@@ -91,12 +96,13 @@ static void start_values(const Parameters *p, double *guess, double *set, double
     set[1] = 0.0;  /* start.set.bob.theta */
     rates[0] = 0.0;  /* start.rates.bob.omega */
 }
+
 /*
  * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
-static void outputs(const double t, const double *q, const double *v, const Parameters *p, const
-    double *lambda, double *reactions, double *torques, double *series, double *energy)
+void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
+    double *reactions, double *torques, double *series, double *energy)
 {
     (void)t;
     (void)torques;
@@ -127,4 +133,3 @@ static void outputs(const double t, const double *q, const double *v, const Para
         (0.5)*bob_mass*(bob_vy * bob_vy);
     energy[1] = -bob_mass*bob_y*par_y;
 }
-

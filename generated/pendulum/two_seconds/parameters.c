@@ -1,7 +1,7 @@
 /*
  * Every number of a run: slots given or by default, then what follows from them.
  */
-static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
     const double par_g = is_given[0] ? given[0] : 13.750371636040745;  /* parameters.g */
@@ -37,4 +37,3 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double inverse_bob_mass = 1.0/bob_mass;  /* 1/M */
     p->inverse_bob_mass = inverse_bob_mass;
 }
-

@@ -1,7 +1,7 @@
 /*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
-static void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
+void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
     double *all_v)
 {
     (void)t;
@@ -22,10 +22,11 @@ static void expand(const double t, const double *q, const double *v, const Param
     all_q[2] = bob_theta;
     all_v[2] = bob_omega;
 }
+
 /*
  * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
  */
-static void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
+void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
     double *s_rate)
 {
     (void)t;
@@ -46,10 +47,11 @@ static void reduce_state(const double t, const double *q, const double *v, const
     s[2] = bob_theta;  /* bob */
     s_rate[2] = bob_omega;
 }
+
 /*
  * Their second rates a, from absolute all_a.
  */
-static void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const
+void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const
     Parameters *p, double *a)
 {
     (void)t;
@@ -62,29 +64,10 @@ static void reduce_accelerations(const double t, const double *q, const double *
     a[2] = all_a[2];  /* bob */
 }
 
-
-/*
- * Where a pivot vanishes: the accelerations of the absolute formulation, which finds out which rows depend on
- * others, and of them those of the tree. Rare and out of the way of the fast path.
- */
-static int solve_by_absolute(double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
-{
-    double all_q[N_Q], all_v[N_Q], all_a[N_Q];
-    Aside whole;
-    Memory now = *memory;
-    now.held = 0; /* corners of the scene have other numbers there */
-    expand(t, q, v, p, all_q, all_v);
-    const int status = dynamics(t, all_q, all_v, &now, p, all_a, &whole);
-    reduce_accelerations(t, all_q, all_v, all_a, p, a);
-    aside->lambda[0] = + whole.lambda[0];
-    return status;
-}
-
 /*
  * Phi of the loop closures in tree coordinates; m and rad.
  */
-static void closures(const double t, const double *q, const Parameters *p, double *out)
+void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -99,10 +82,11 @@ static void closures(const double t, const double *q, const Parameters *p, doubl
     out[0] = (bob_x * bob_x)*rod_half_inverse_length + (bob_y * bob_y)*rod_half_inverse_length -
         0.5*rod_length;  /* rod.length */
 }
+
 /*
  * Its rate Phi_q v - nu.
  */
-static void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
+void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -117,12 +101,13 @@ static void closure_rates(const double t, const double *q, const double *v, cons
     /* rows */
     out[0] = 2.0*bob_x*bob_x_rate*rod_half_inverse_length + 2.0*bob_y*bob_y_rate*rod_half_inverse_length;  /* rod.length */
 }
+
 /*
  * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
@@ -178,12 +163,13 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     aside->power[2] = 0.0;
     return pivot;
 }
+
 /*
  * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
  * the closed linkage, redundant ones are not looked at.
  * Returns 0, or the number of the pivot that vanished.
  */
-static int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -220,65 +206,9 @@ static int reduced_project(const double t, const double *q, const double *r, con
     return 0;
 }
 
-
-/* Calls from outside into the reduced formulation; q and v are tree coordinates here. */
-void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
+/* Multipliers of the closures from those of the absolute rows. */
+void tree_multipliers(const double *lambda, double *closing)
 {
-    expand(t, q, v, (const Parameters *)p, all_q, all_v);
-}
-
-void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
-{
-    reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
-}
-
-int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
-    double *lambda, double *power)
-{
-    Memory now = {0};
-    Aside aside;
-    read_memory(memory, &now);
-    const int status = reduced_dynamics(t, q, v, &now, (const Parameters *)p, a, &aside);
-    for (int r = 0; r < N_LOOPS; r++)
-        lambda[r] = aside.lambda[r];
-    for (int k = 0; k < N_WORK; k++)
-        power[k] = aside.power[k];
-    return status;
-}
-
-void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
-{
-    closures(t, q, (const Parameters *)p, phi);
-    closure_rates(t, q, v, (const Parameters *)p, phi_dot);
-}
-
-int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
-{
-    return reduced_project(t, q, r, (const Parameters *)p, x);
-}
-
-/* What is done where a pivot vanishes, at any state: for tests. */
-int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *memory, const double *p, double *a)
-{
-    Memory now = {0};
-    Aside aside;
-    read_memory(memory, &now);
-    return solve_by_absolute(t, q, v, &now, (const Parameters *)p, a, &aside);
-}
-
-/* The reduced right-hand side many times over, for benchmarks; each call waits for the one before. */
-double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory, const double *p)
-{
-    double a[N_X + 1] = {0.0}, moved[N_X + 1], sum = 0.0;
-    Memory now = {0};
-    Aside aside;
-    read_memory(memory, &now);
-    for (int k = 0; k < N_X; k++)
-        moved[k] = q[k];
-    for (long i = 0; i < count; i++) {
-        reduced_dynamics(t, moved, v, &now, (const Parameters *)p, a, &aside);
-        sum += a[0];
-        moved[0] = q[0] + 1e-300 * sum;
-    }
-    return sum;
+    (void)lambda, (void)closing;
+    closing[0] = + lambda[0];
 }

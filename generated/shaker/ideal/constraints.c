@@ -1,7 +1,7 @@
 /*
  * The diagonal of M (n).
  */
-static void mass_matrix(const Parameters *p, double *m)
+void mass_matrix(const Parameters *p, double *m)
 {
     /* parameters */
     const double crank_mass = p->crank_mass;
@@ -27,10 +27,11 @@ static void mass_matrix(const Parameters *p, double *m)
     m[10] = arm_mass;
     m[11] = arm_inertia;
 }
+
 /*
  * Phi(q, t) of the closed linkage; m and rad.
  */
-static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     /* coordinates, velocities, time */
     const double crank_x = q[0];
@@ -86,10 +87,11 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     phi[9] = arm_arm_head_y + arm_table_top_y - arm_y + table_y;  /* pivot.y */
     phi[10] = crank_theta - motor_value;  /* motor */
 }
+
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
  */
-static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -153,10 +155,11 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     phi_q[119] = arm_arm_head_x;  /* d pivot.y / d arm_theta */
     phi_q[122] = 1.0;  /* d motor / d crank_theta */
 }
+
 /*
  * nu = -Phi_t: Phi_q v = nu.
  */
-static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)t;
     (void)q;
@@ -179,10 +182,11 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
     nu[9] = 0.0;  /* pivot.y */
     nu[10] = motor_rate;  /* motor */
 }
+
 /*
  * gamma: Phi_q a = gamma.
  */
-static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
     double *gamma_rows)
 {
     (void)t;
@@ -234,10 +238,11 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     gamma_rows[9] = arm_arm_head_y*(arm_omega * arm_omega) + arm_table_top_y*(table_omega * table_omega);  /* pivot.y */
     gamma_rows[10] = motor_acceleration;  /* motor */
 }
+
 /*
  * Values of the start's guess, set and rates.
  */
-static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)rates;
     /* parameters */
@@ -248,12 +253,13 @@ static void start_values(const Parameters *p, double *guess, double *set, double
     guess[0] = guess_rod_theta;  /* start.guess.rod.theta */
     set[0] = set_arm_theta;  /* start.set.arm.theta */
 }
+
 /*
  * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
-static void outputs(const double t, const double *q, const double *v, const Parameters *p, const
-    double *lambda, double *reactions, double *torques, double *series, double *energy)
+void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
+    double *reactions, double *torques, double *series, double *energy)
 {
     (void)t;
     (void)series;
@@ -327,4 +333,3 @@ static void outputs(const double t, const double *q, const double *v, const Para
     energy[1] = -arm_mass*arm_y*par_y - crank_mass*crank_y*par_y - par_y*rod_mass*rod_y -
         par_y*table_mass*table_y;
 }
-

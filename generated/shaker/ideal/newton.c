@@ -1,16 +1,9 @@
-/* The equations of motion linearized at a state, and Newton's matrix factorized. */
-typedef struct {
-    const Parameters *p;
-    double value[6]; /* what linearize() found */
-    double lu[1];    /* L, U and inverse pivots */
-} Linear;
-
 /*
  * The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:
  * non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.
  */
-static void linearize(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, const double *a, const Aside *aside, Linear *lin)
+void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    const double *a, const Aside *aside, Linear *lin)
 {
     (void)t;
     (void)memory;
@@ -100,7 +93,7 @@ static void linearize(const double t, const double *q, const double *v, const Me
  * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
  * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
  */
-static int newton_factor(double eta, Linear *lin)
+int newton_factor(double eta, Linear *lin)
 {
     /* numbers of the run */
     const Parameters *const p = lin->p;
@@ -125,7 +118,7 @@ static int newton_factor(double eta, Linear *lin)
 /*
  * x (all nodes) holds b and becomes the solution of N x = b.
  */
-static void newton_substitute(const Linear *lin, double *x)
+void newton_substitute(const Linear *lin, double *x)
 {
     /* linearization */
     const double inverse_pivot_arm_theta = lin->lu[0];
@@ -141,7 +134,7 @@ static void newton_substitute(const Linear *lin, double *x)
 /*
  * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
  */
-static void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u)
+void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u)
 {
     /* numbers of the run */
     const Parameters *const p = lin->p;
@@ -171,11 +164,7 @@ static void newton_solve(const Linear *lin, double eta, double s, const double *
     u[4] = eta*r[4];
 }
 
-/* Where a part of the linearization is in `value`. */
-typedef struct {
-    int row, column, value, sign;
-} LinearEntry;
-static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
     {0, 0, 0, 0}
 };
 static const LinearEntry residual_entries[] = {
@@ -203,104 +192,26 @@ enum {
     N_NODES = 1,
 };
 /*
- * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_X - 1) or of R1_t, R2_t (2 N_X); 0 if all
- * are zero.
+ * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
+ * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
-static int residual_column(const Linear *lin, int column, const double *gain, double stick, double *x)
+int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *dq, double *dv, double *worst)
 {
-    int found = 0;
-    for (int i = 0; i < N_NODES; i++)
-        x[i] = 0.0;
-    for (int i = 0; i < N_RESIDUAL && column < 2 * N_X; i++) {
-        const LinearEntry *at = &residual_entries[i];
-        if (at->column == column) {
-            x[at->row] -= at->sign * lin->value[at->value];
-            found = 1;
-        }
-    }
-    for (int i = 0; i < N_PHI_Q && column < 2 * N_X; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
-        const LinearEntry *at = &phi_q_entries[i];
-        if (at->column == column % N_X && (column >= N_X || at->row < N_X + N_LOOPS)) {
-            x[at->row] -= (at->row < N_X + N_LOOPS ? gain[column / N_X] : stick) * at->sign * lin->value[at->value];
-            found = 1;
-        }
-    }
-    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_X; i++) {
-        x[residual_t_entries[i].row] -= residual_t_entries[i].sign * lin->value[residual_t_entries[i].value];
-        found = 1;
-    }
-    return found;
-}
+    (void)t;
+    (void)q;
+    (void)v;
+    (void)memory;
+    (void)p;
+    /* backward substitution */
+    const double dq_acceleration_arm_theta = 0.0;
 
-/* The column of the Jacobian that follows from x, the change of accelerations and multipliers; `out` has a stride. */
-static void jacobian_column(const Linear *lin, int column, const double *x, double *out, size_t stride)
-{
-    for (int k = 0; k < N_X; k++) {
-        out[k * stride] = column == N_X + k ? 1.0 : 0.0;
-        out[(N_X + k) * stride] = x[k];
-    }
-    for (int w = 0; w < N_WORK; w++)
-        out[(2 * N_X + w) * stride] = 0.0;
-    for (int i = 0; i < N_POWER_ROW; i++) {
-        const LinearEntry *at = &power_row_entries[i];
-        out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
-    }
-    for (int i = 0; i < N_POWER; i++)
-        if (power_entries[i].column == column)
-            out[(2 * N_X + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
-    for (int i = 0; i < N_POWER_T && column == 2 * N_X; i++)
-        out[(2 * N_X + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
-}
+    /* backward substitution */
+    const double dv_acceleration_arm_theta = 0.0;
 
-/* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */
-static int linearized(double t, const double *y, const double *memory, const Parameters *p, double eta, Linear *lin)
-{
-    Memory now = {0};
-    Aside aside;
-    double dy[N_Y];
-    read_memory(memory, &now);
-    TreeState at;
-    seat_chains(t, y + N_Y, &now, p); /* what lies behind the state is where to look for them */
-    const int status = motion(t, y, &now, p, dy, &aside);
-    if (status)
-        return status;
-    tree_state(t, y, &now, p, &at);
-    chain_third(t, at.q, at.v, &now, p, at.v + N_X + 2 * N_CHAIN);
-    linearize(t, at.q, at.v, &now, p, dy + N_X, &aside, lin);
-    return -newton_factor(eta, lin);
-}
-
-/*
- * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
- * KKT matrix. Contacts, corners and modes of friction stay as they are.
- */
-int gudgeon_tree_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
-{
-    Linear lin;
-    const double gain[2] = {0.0, 0.0};
-    const int status = linearized(t, y, memory, (const Parameters *)p, 0.0, &lin);
-    if (status)
-        return status;
-    for (int column = 0; column <= 2 * N_X; column++) {
-        double x[N_NODES];
-        if (residual_column(&lin, column, gain, 0.0, x))
-            newton_substitute(&lin, x);
-        jacobian_column(&lin, column, x, column < 2 * N_X ? J + column : f_t, column < 2 * N_X ? N_Y : 1);
-    }
-    for (int k = 0; k < N_Y; k++) /* nothing depends on the works */
-        for (int w = 0; w < N_WORK; w++)
-            J[k * N_Y + 2 * N_X + w] = 0.0;
-    return 0;
-}
-
-/* (1/eta - J) u = r + s f_t at a state. */
-int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
-    const double *r, double *u)
-{
-    Linear lin;
-    const int status = linearized(t, y, memory, (const Parameters *)p, eta, &lin);
-    if (status)
-        return status;
-    newton_solve(&lin, eta, s, r, u);
+    /* results */
+    dq[0] = dq_acceleration_arm_theta;
+    dv[0] = dv_acceleration_arm_theta;
+    *worst = 0.0;
     return 0;
 }

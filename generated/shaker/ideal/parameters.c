@@ -1,7 +1,7 @@
 /*
  * Every number of a run: slots given or by default, then what follows from them.
  */
-static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
     const double omega = is_given[0] ? given[0] : 188.49555921538757;  /* parameters.omega */
@@ -119,4 +119,3 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double inverse_mass_arm_arm = 1.0/mass_arm_arm;  /* 1/M */
     p->inverse_mass_arm_arm = inverse_mass_arm_arm;
 }
-

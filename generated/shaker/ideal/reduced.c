@@ -1,7 +1,7 @@
 /*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
-static void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
+void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
     double *all_v)
 {
     /* coordinates, velocities, time */
@@ -88,10 +88,11 @@ static void expand(const double t, const double *q, const double *v, const Param
     all_q[11] = arm_theta;
     all_v[11] = arm_omega;
 }
+
 /*
  * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
  */
-static void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
+void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
     double *s_rate)
 {
     (void)t;
@@ -109,11 +110,10 @@ static void reduce_state(const double t, const double *q, const double *v, const
     s_rate[1] = rod_omega;
 }
 
-
 /*
  * Phi of the loop closures in tree coordinates; m and rad.
  */
-static void closures(const double t, const double *q, const Parameters *p, double *out)
+void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     (void)t;
     (void)q;
@@ -121,10 +121,11 @@ static void closures(const double t, const double *q, const Parameters *p, doubl
     (void)out;
 
 }
+
 /*
  * Its rate Phi_q v - nu.
  */
-static void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
+void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
     (void)t;
     (void)q;
@@ -133,12 +134,13 @@ static void closure_rates(const double t, const double *q, const double *v, cons
     (void)out;
 
 }
+
 /*
  * Accelerations a of the tree's coordinates q, and the closures' multipliers in `aside`:
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
+int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
     Parameters *p, double *a, Aside *aside)
 {
     (void)t;
@@ -205,12 +207,13 @@ static int reduced_dynamics(const double t, const double *q, const double *v, co
     aside->power[2] = 0.0;
     return 0;
 }
+
 /*
  * The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of
  * the closed linkage, redundant ones are not looked at.
  * Returns 0, or the number of the pivot that vanished.
  */
-static int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
+int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
 {
     (void)t;
     (void)q;
@@ -224,3 +227,192 @@ static int reduced_project(const double t, const double *q, const double *r, con
     return 0;
 }
 
+/*
+ * Cosines and sines of all angles in the chains' closures, behind the coordinates in q.
+ */
+void chain_directions(const double t, const double *q, const Memory *memory, const Parameters *p, double *out)
+{
+    (void)memory;
+    /* coordinates, velocities, time */
+    const double time = t;
+    const double rod_theta = q[1];
+
+    /* parameters */
+    const double omega = p->omega;
+
+    /* directions, arms, drives */
+    const double motor_value = omega*time;
+
+    /* directions */
+    const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
+    Four sines_0, cosines_0;
+    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    out[2] = cosines_0[0];  /* cos_theta_crank */
+    out[3] = sines_0[0];  /* sin_theta_crank */
+    out[4] = cosines_0[1];  /* cos_theta_rod */
+    out[5] = sines_0[1];  /* sin_theta_rod */
+}
+
+/*
+ * Newton's step of the driven chains' coordinates, Phi_c newton = Phi, and with it Chebyshev's of order 3,
+ * step = newton + bend, Phi_c bend = Phi_cc[newton, newton]/2. `row`: the number, from 1, of the row with
+ * the largest |Phi|. Returns 0, or the number of a row that depends on others here.
+ */
+int chain_step(const double t, const double *q, const Memory *memory, const Parameters *p, double *step,
+    double *bend, int *row)
+{
+    (void)t;
+    (void)memory;
+    /* coordinates, velocities, time */
+    const double cos_theta_crank = q[2];
+    const double cos_theta_rod = q[4];
+    const double sin_theta_rod = q[5];
+
+    /* parameters */
+    const double crank_head_span_x = p->crank_head_span_x;
+    const double rod_head_span_x = p->rod_head_span_x;
+
+    /* directions, arms, drives */
+    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
+    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
+    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
+
+    /* closures of the chains */
+    const double phi_guide_offset = -span_crank_head_x - span_rod_head_x;
+
+    /* the largest */
+    *row = 1;
+
+    /* groups of rows that are solved one after the other */
+    const double pivot_guide_offset = span_rod_head_y;
+    const double size_guide_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
+    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__rod_theta)) return 1;
+    const double inverse_guide_offset = 1.0/pivot_guide_offset;
+
+    /* Newton's step */
+    const double newton_rod_theta = inverse_guide_offset*phi_guide_offset;
+
+    /* what the rows' curvature adds */
+    const double bend_rod_theta = (0.5)*inverse_guide_offset*(newton_rod_theta *
+        newton_rod_theta)*span_rod_head_x;
+    step[0] = bend_rod_theta + newton_rod_theta;
+    bend[0] = bend_rod_theta;
+    return 0;
+}
+
+/*
+ * First and second rates of the driven chains' coordinates, where these close their loops: Phi_c c' = nu,
+ * Phi_c c'' = gamma. They go behind those of the other coordinates in v.
+ * Returns 0, or the number of a row that depends on others here.
+ */
+int chain_rates(const double t, const double *q, const Memory *memory, const Parameters *p, double *v)
+{
+    (void)t;
+    (void)memory;
+    /* coordinates, velocities, time */
+    const double cos_theta_crank = q[2];
+    const double sin_theta_crank = q[3];
+    const double cos_theta_rod = q[4];
+    const double sin_theta_rod = q[5];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_head_span_x = p->crank_head_span_x;
+    const double rod_head_span_x = p->rod_head_span_x;
+
+    /* directions, arms, drives */
+    const double motor_rate = omega;
+    const double motor_acceleration = 0.0;
+    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
+    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
+    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
+
+    /* groups of rows that are solved one after the other */
+    const double pivot_guide_offset_2 = span_rod_head_y;
+    const double size_guide_offset__rod_theta_2 = fabs(span_rod_head_x) + fabs(span_rod_head_y);
+    if (!(fabs(pivot_guide_offset_2) > 3.162277660168379e-07 * size_guide_offset__rod_theta_2)) return 1;
+    const double inverse_guide_offset_2 = 1.0/pivot_guide_offset_2;
+
+    /* rates */
+    const double rate_rod_theta = -inverse_guide_offset_2*motor_rate*span_crank_head_y;
+    const double rod_omega = rate_rod_theta;
+
+    /* second rates */
+    const double second_rod_theta = inverse_guide_offset_2*(-motor_acceleration*span_crank_head_y -
+        (motor_rate * motor_rate)*span_crank_head_x - (rod_omega * rod_omega)*span_rod_head_x);
+
+    /* results */
+    v[1] = rod_omega;
+    v[2] = second_rod_theta;
+    return 0;
+}
+
+/*
+ * Third rates of the driven chains' coordinates: Phi_c c''' = d/dt (gamma - Phi_c c'') at the same c''.
+ * Returns 0, or the number of a row that depends on others here.
+ */
+int chain_third(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *out)
+{
+    (void)t;
+    (void)memory;
+    /* coordinates, velocities, time */
+    const double rod_omega = v[1];
+    const double cos_theta_crank = q[2];
+    const double sin_theta_crank = q[3];
+    const double cos_theta_rod = q[4];
+    const double sin_theta_rod = q[5];
+    const double rod_theta_second = v[2];
+
+    /* parameters */
+    const double omega = p->omega;
+    const double crank_head_span_x = p->crank_head_span_x;
+    const double rod_head_span_x = p->rod_head_span_x;
+
+    /* directions, arms, drives */
+    const double motor_rate = omega;
+    const double motor_acceleration = 0.0;
+    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
+    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
+    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
+
+    /* groups of rows that are solved one after the other */
+    const double pivot_guide_offset_3 = span_rod_head_y;
+    const double size_guide_offset__rod_theta_3 = fabs(span_rod_head_x) + fabs(span_rod_head_y);
+    if (!(fabs(pivot_guide_offset_3) > 3.162277660168379e-07 * size_guide_offset__rod_theta_3)) return 1;
+    const double inverse_guide_offset_3 = 1.0/pivot_guide_offset_3;
+
+    /* third rates */
+    const double span_crank_head_x_by_time = -motor_rate*span_crank_head_y;
+    const double span_crank_head_y_by_time = motor_rate*span_crank_head_x;
+    const double span_rod_head_x_by_time = -rod_omega*span_rod_head_y;
+    const double span_rod_head_y_by_time = rod_omega*span_rod_head_x;
+    const double third_rod_theta =
+        inverse_guide_offset_3*(-2.0*motor_acceleration*motor_rate*span_crank_head_x -
+        motor_acceleration*span_crank_head_y_by_time - (motor_rate * motor_rate)*span_crank_head_x_by_time -
+        (rod_omega * rod_omega)*span_rod_head_x_by_time - 2.0*rod_omega*rod_theta_second*span_rod_head_x -
+        rod_theta_second*span_rod_head_y_by_time);
+    out[0] = third_rod_theta;
+    return 0;
+}
+
+/* What a step of coordinate k is multiplied by to be a number. */
+double chain_share(const Parameters *p, int k)
+{
+    (void)p;
+    switch (k) {
+    case 0:
+        return 1.0;
+    default:
+        return 1.0;
+    }
+}
+
+/* Directions in q turned by a step of the coordinates. */
+void turn_directions(double *q, const double *step, const Parameters *p)
+{
+    (void)p;
+    turn_back(q + 4, step[0]);
+}

@@ -3,8 +3,8 @@
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static int dynamics(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, double *a, Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
 {
     /* corners: the sides that are held, if any */
     const double *const side = memory->held ? memory->side : NULL;
@@ -273,4 +273,3 @@ static int dynamics(const double t, const double *q, const double *v, const Memo
     aside->power[2] = aside->clearance[0].power;
     return pivot;
 }
-

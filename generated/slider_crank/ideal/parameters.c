@@ -1,7 +1,7 @@
 /*
  * Every number of a run: slots given or by default, then what follows from them.
  */
-static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
     const double omega = is_given[0] ? given[0] : 62.83185307179586;  /* parameters.omega */
@@ -74,4 +74,3 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double inverse_mass_rod_rod = 1.0/mass_rod_rod;  /* 1/M */
     p->inverse_mass_rod_rod = inverse_mass_rod_rod;
 }
-

@@ -1,7 +1,7 @@
 /*
  * The diagonal of M (n).
  */
-static void mass_matrix(const Parameters *p, double *m)
+void mass_matrix(const Parameters *p, double *m)
 {
     /* parameters */
     const double crank_mass = p->crank_mass;
@@ -17,10 +17,11 @@ static void mass_matrix(const Parameters *p, double *m)
     m[4] = rod_mass;
     m[5] = rod_inertia;
 }
+
 /*
  * Phi(q, t) of the closed linkage; m and rad.
  */
-static void constraints(const double t, const double *q, const Parameters *p, double *phi)
+void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -52,10 +53,11 @@ static void constraints(const double t, const double *q, const Parameters *p, do
     phi[3] = arm_crank_head_y - arm_rod_crankpin_y + crank_y - rod_y;  /* pin.y */
     phi[4] = rod_y;  /* slider.offset */
 }
+
 /*
  * Phi_q of the closed linkage, dense, row by row; zeros kept.
  */
-static void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
+void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -89,10 +91,11 @@ static void jacobian(const double t, const double *q, const Parameters *p, doubl
     phi_q[23] = -arm_rod_crankpin_x;  /* d pin.y / d rod_theta */
     phi_q[28] = 1.0;  /* d slider.offset / d rod_y */
 }
+
 /*
  * nu = -Phi_t: Phi_q v = nu.
  */
-static void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
+void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)t;
     (void)q;
@@ -104,10 +107,11 @@ static void velocity_rhs(const double t, const double *q, const Parameters *p, d
     nu[3] = 0.0;  /* pin.y */
     nu[4] = 0.0;  /* slider.offset */
 }
+
 /*
  * gamma: Phi_q a = gamma.
  */
-static void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
     double *gamma_rows)
 {
     (void)t;
@@ -138,10 +142,11 @@ static void acceleration_rhs(const double t, const double *q, const double *v, c
     gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) - arm_rod_crankpin_y*(rod_omega * rod_omega);  /* pin.y */
     gamma_rows[4] = 0.0;  /* slider.offset */
 }
+
 /*
  * Values of the start's guess, set and rates.
  */
-static void start_values(const Parameters *p, double *guess, double *set, double *rates)
+void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     /* parameters */
     const double guess_rod_theta = p->guess_rod_theta;
@@ -154,12 +159,13 @@ static void start_values(const Parameters *p, double *guess, double *set, double
     set[0] = set_crank_theta;  /* start.set.crank.theta */
     rates[0] = 0.0;  /* start.rates.crank.omega */
 }
+
 /*
  * Reactions (Fx, Fy, M on the second body at the joint's point: its share of -Phi_q^T lambda),
  * drive torques on the driven body, kinetic and potential energy.
  */
-static void outputs(const double t, const double *q, const double *v, const Parameters *p, const
-    double *lambda, double *reactions, double *torques, double *series, double *energy)
+void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
+    double *reactions, double *torques, double *series, double *energy)
 {
     (void)t;
     (void)torques;
@@ -238,4 +244,3 @@ static void outputs(const double t, const double *q, const double *v, const Para
         (0.5)*rod_mass*(rod_vx * rod_vx) + (0.5)*rod_mass*(rod_vy * rod_vy);
     energy[1] = (0.5)*coil_stiffness*((-coil_free_length + coil_length) * (-coil_free_length + coil_length));
 }
-

@@ -1,7 +1,7 @@
 /*
  * Every number of a run: slots given or by default, then what follows from them.
  */
-static void prepare(const double *given, const unsigned char *is_given, Parameters *p)
+void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
     const double crank_mass = is_given[0] ? given[0] : 1.0;  /* bodies.crank.mass */
@@ -75,4 +75,3 @@ static void prepare(const double *given, const unsigned char *is_given, Paramete
     const double inverse_mass_crank_crank = 1.0/mass_crank_crank;  /* 1/M */
     p->inverse_mass_crank_crank = inverse_mass_crank_crank;
 }
-

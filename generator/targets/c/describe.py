@@ -36,7 +36,7 @@ UNTOLD = Story()
 
 
 def describe(
-    model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "", cdef: str = "",
+    model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "",
     methods: tuple[str, ...] = (), pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
     operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
     motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = UNTOLD, lanes: str = "",
@@ -51,7 +51,7 @@ def describe(
     start = mechanism.start
     return KernelSource(
         mechanism=mechanism.name, scene=scene.name, title=mechanism.title, sha256=mechanism.sha256,
-        files=files, main=main, cdef=cdef,
+        files=files, main=main,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
         points=_points(model, place, body_of),

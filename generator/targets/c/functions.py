@@ -33,6 +33,14 @@ from gudgeon.generator.ir.values import NONE, Place
 from gudgeon.generator.targets.c.printer import comment_text, expression, test
 
 WIDTH = 110
+# Functions that engine/scene/kernels.h declares: the engine calls them from a unit of its own.
+CALLED_BY_ENGINE = frozenset({
+    "prepare", "mass_matrix", "constraints", "jacobian", "velocity_rhs", "acceleration_rhs", "start_values", "dynamics",
+    "outputs", "expand", "reduce_state", "reduce_accelerations", "reduced_dynamics", "closures", "closure_rates",
+    "reduced_project", "closing_step", "linearize", "newton_factor", "newton_substitute", "newton_solve",
+    "chain_directions", "chain_step", "chain_rates", "chain_third", "chain_corners", "close_step", "arrive", "project",
+    "watched_functions", "watched_ranges", "time_terms", "drive_corners", "drive_corner_ranges",
+})  # fmt: skip
 
 
 def line(item: Line, number: str = "double") -> str:
@@ -153,11 +161,13 @@ def assignment(item: Statement, value: str, number: str) -> str:
     head = f"const {number} {item.target}" if item.local else item.target
     comment = f"  /* {comment_text(item.comment)} */" if item.comment else ""
     text = f"    {head} = {value};"
-    if len(text) > WIDTH:
-        text = "\n".join(
-            textwrap.wrap(text, WIDTH, subsequent_indent=" " * 8, break_long_words=False, break_on_hyphens=False)
-        )
-    return text + comment
+    return wrapped(text, " " * 8) + comment
+
+
+def wrapped(text: str, indent: str = "    ") -> str:
+    """Lines no longer than WIDTH, broken at spaces."""
+    lines = textwrap.wrap(text, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+    return "\n".join(lines) if len(text) > WIDTH else text
 
 
 def arguments(items: tuple[Argument, ...]) -> str:
@@ -166,11 +176,13 @@ def arguments(items: tuple[Argument, ...]) -> str:
 
 def kernel(item: Kernel) -> str:
     """A whole function, a long one behind its parts."""
-    return "\n".join(function(part, line) for part in cut(item))
+    return "\n".join(function(part, line, called=part.name in CALLED_BY_ENGINE) for part in cut(item))
 
 
-def function(item: Kernel, written: Callable[[Line], str], touched: frozenset[str] = NONE) -> str:
-    """Its doc comment in front; arguments that it does not touch are voided."""
+def function(
+    item: Kernel, written: Callable[[Line], str], touched: frozenset[str] = NONE, *, called: bool = False
+) -> str:
+    """Its doc comment in front; arguments that it does not touch are voided. `called`: from another unit."""
     body = "\n\n".join(
         "\n".join([f"    /* {comment_text(section.title)} */", *map(written, section.statements)])
         for section in item.sections
@@ -180,7 +192,8 @@ def function(item: Kernel, written: Callable[[Line], str], touched: frozenset[st
     doc = "\n".join(f" * {comment_text(text)}" for text in item.doc)
     attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""
     inline = "inline " if item.inline else ""
-    head = f"{attribute}static {inline}{item.returns} {item.name}({arguments(item.arguments)})"
+    static = "" if called else "static "
+    head = f"{attribute}{static}{inline}{item.returns} {item.name}({arguments(item.arguments)})"
     wrapped = textwrap.wrap(head.replace(" *", "\0*"), WIDTH, subsequent_indent="    ")  # no break inside a type
     head = "\n".join(wrapped).replace("\0*", " *")
     return f"/*\n{doc}\n */\n{head}\n{{\n{voids}{body}\n}}\n"

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.finite_slopes import Slope
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.solvers.contact_slopes import in_place
 from gudgeon.generator.targets.c import lanes_printer
-from gudgeon.generator.targets.c.time_loops import deepest
+from gudgeon.generator.targets.c.model_header import deepest
 
 MAIN = "lanes.c"
 _WANTED = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
 
 
-def lanes_code(program: Program, counts: Mapping[str, int], render: Callable[..., str]) -> dict[str, str]:
-    """The files: kernels as the single runs have them, before sines are put side by side."""
+def lanes_code(program: Program, render: Callable[..., str]) -> dict[str, str]:
+    """The file: kernels as the single runs have them, before sines are put side by side."""
     assert program.tree and program.methods
     model = program.model
     pins = [_pin(pin, render) for pin in program.pins]
@@ -25,23 +24,13 @@ def lanes_code(program: Program, counts: Mapping[str, int], render: Callable[...
     wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
     parameters = [entry.symbol.name for entry in model.slots.entries.values()]
     parameters += [symbol.name for symbol in model.slots.derived]
-    functions, of_two = lanes_printer.FUNCTIONS, lanes_printer.FUNCTIONS_OF_TWO
-    return {
-        "lanes.h": render(
-            "batch/lanes.h.jinja", functions=functions, functions_of_two=of_two, vector="Lanes", bits="LaneBits",
-            given="angle", overflows=any(kernel.has(Slope) for kernel in wanted),
-        ),
-        MAIN: render(
-            "batch/lanes.c.jinja", **counts, parameters=parameters, deepest=_deepest(model),
-            kernels="\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)]),
-        ),
-    }  # fmt: skip
+    text = "\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)])
+    return {MAIN: render("lanes.c.jinja", parameters=parameters, deepest=_deepest(model), kernels=text)}
 
 
 def _deepest(model: Model) -> list[str]:
-    """As run.c has it: a tenth of each bearing's radius."""
-    values = [in_place(model, deepest(clearance)) for clearance in model.clearances]
-    return [lanes_printer.expression(value) for value in values] or ["all_of(0.0)"]
+    """As model.h has it."""
+    return [lanes_printer.expression(in_place(model, deepest(clearance))) for clearance in model.clearances]
 
 
 def _pin(pin: Pin, render: Callable[..., str]) -> str:
@@ -50,7 +39,7 @@ def _pin(pin: Pin, render: Callable[..., str]) -> str:
     steps = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
     parts = {name: "\n".join(map(lanes_printer.line, getattr(pin, name))) for name in steps}
     own = render(
-        "batch/lane_pin.c.jinja", joint=clearance.name, dry=clearance.normal is not None,
+        "play/lane_pin.c.jinja", joint=clearance.name, dry=clearance.normal is not None,
         film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio", **parts,
     )  # fmt: skip
     return "\n".join([*(lanes_printer.kernel(kernel) for kernel in pin.laws), own])

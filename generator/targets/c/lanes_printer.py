@@ -29,11 +29,9 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.ir.values import Chosen, Place, Test, Value
 from gudgeon.generator.targets.c import functions, printer
 
-FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")
-FUNCTIONS_OF_TWO = ("pow", "atan2")
 _TYPES = {
     "double": "Lanes", "const double": "const Lanes", "double *": "Lanes *", "const double *": "const Lanes *",
-    "const Parameters *": "const LaneParameters *", "const Memory *": "const LaneRun *", "Aside *": "LaneAside *",
+    "const Parameters *": "const LaneParameters *", "const Memory *": "const LaneMemory *", "Aside *": "LaneAside *",
 }  # fmt: skip
 _RARE = Argument("LaneBits *", "rare")
 _HELD = (Place("side"), Place("g"))  # rk4 holds no side

@@ -5,15 +5,11 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
 
-import sympy as sp
-
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels.play import Pin
-from gudgeon.generator.kernels.program import Integrated
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import functions
-from gudgeon.generator.targets.c.time_loops import state_of
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
@@ -34,24 +30,14 @@ static inline void blend_slopes(PinSlopes *F, const PinSlopes *film, const doubl
 
 
 def newton_code(newton: Newton, render: Render) -> str:
-    """Struct, kernels and tables of one system."""
-    kernels, prefix = [newton.linearize, newton.factor, newton.substitute, newton.solve], newton.prefix
-    counts = [(f"{prefix}n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
+    """Kernels and tables of one system."""
+    kernels = [newton.linearize, newton.factor, newton.substitute, newton.solve]
+    counts = [(f"n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
     return render(
-        "scene/newton.c.jinja", struct=f"{prefix.title()}Linear", prefix=prefix, n_values=newton.values.size,
-        n_factors=newton.factors.size, kernels="\n".join(map(functions.kernel, kernels)),
+        "newton.c.jinja", kernels="\n".join(map(functions.kernel, kernels)),
         tables=[(name, _table(entries)) for name, entries in newton.tables.items()],
-        counts=[*counts, (f"{prefix}n_nodes".upper(), newton.nodes)],
+        counts=[*counts, ("n_nodes".upper(), newton.nodes)],
     )  # fmt: skip
-
-
-def jacobian_code(integrated: Integrated, gains: Mapping[str, sp.Expr], render: Render) -> str:
-    """The functions that Python calls; the reduced formulation has no Baumgarte's terms."""
-    name = "gudgeon_tree_jacobian" if integrated.reduced else "gudgeon_jacobian"
-    read = dict.fromkeys(("stick", "two_alpha", "beta_squared"), "0.0")
-    read |= {key: f"((const Parameters *)p)->{gain}" for key, gain in gains.items()}
-    state = state_of(integrated, "y")
-    return render("scene/jacobian.c.jinja", name=name, n_chain=len(integrated.system.known), state=state, **read)
 
 
 def tangent_code(pins: Sequence[Pin], slopes: Mapping[str, Sequence[Kernel]], render: Render) -> str:

@@ -93,7 +93,7 @@ _printer = RangesPrinter({"math_macros": {}})
 def kernel(item: Kernel) -> str:
     """The function with ranges for its time, coordinates and velocities, and numbers for its parameters."""
     arguments = tuple(Argument(_TYPES.get(a.type, a.type), _NAMES.get(a.name, a.name)) for a in item.arguments)
-    return functions.function(replace(item, arguments=arguments), _line)
+    return functions.function(replace(item, arguments=arguments), _line, called=True)
 
 
 def _line(item: Line) -> str:

@@ -1,0 +1,43 @@
+/* A batch of runs, as many.c and Python know it. */
+#ifndef GUDGEON_BATCH_H
+#define GUDGEON_BATCH_H
+#include "../scene/calls.h"
+
+enum {
+    NOT_CLOSED = -9,                      /* status, beside those of run.c: the start is left to Python */
+    NEW = 0, BEGUN = 1, OVER = 2,         /* phase of a run */
+    ALL_OVER = 0, LISTS = 1, RUN_OVER = 2, GOES_ON = 3
+};
+
+#define GLANCE 0.02 /* s between two looks at whether the batch is ending */
+
+/* A joint's latch (closed: 0 or 1), the sides of events: what the kernels and rk4 remember. */
+typedef struct {
+    double closed, deltadot_minus;
+} MovingLatch;
+
+/* What is carried from one step of rk4 to the next, of one run; of several side by side it is batch/lanes.h's LaneRun. */
+#define Number double
+#define Flag long long
+typedef struct {
+#include "moving.h"
+    struct {
+        MovingLatch latch[AT_LEAST_ONE(N_CLEARANCES)];
+        double event_side[AT_LEAST_ONE(N_USER_EVENTS)];
+    } memory;
+} Moving;
+#undef Number
+#undef Flag
+
+/* What one run does by itself, for those who move several at once. */
+typedef struct {
+    int (*begin)(const Batch *b, long i, void *run);
+    int (*steps)(const Batch *b, long i, long limit, void *run);
+    void (*samples)(const Batch *b, long i, const Moving *before, void *run); /* of a step that is made */
+    void (*end)(const Batch *b, long i, int status, void *run);
+    void (*give)(const void *run, Moving *state);
+    void (*take)(void *run, const Moving *state);
+    int (*jumps)(const Batch *b, long i, double t0, double t1); /* whether a drive's rate does so between two times */
+} Single;
+
+#endif

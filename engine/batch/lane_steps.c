@@ -1,0 +1,99 @@
+/*
+ * Steps of rk4 for several runs: those on which nothing happens but motion. One on which in any lane a contact begins
+ * or ends, a watched expression crosses zero, a pivot vanishes or a number ceases to be finite is made by the single
+ * runs themselves (methods/rk4.c), each for its own.
+ */
+static inline int lane_dynamics(Lanes t, const Lanes *q, const Lanes *v, LaneMemory *memory, const LaneParameters *p,
+    Lanes *a, LaneAside *aside)
+{
+    reduced_dynamics(t, q, v, memory, p, a, aside, &memory->rare);
+    return 0;
+}
+
+#define IN_BOTH static inline
+#define REDUCED_DYNAMICS lane_dynamics
+#define CLOSURES(t, q, memory, p, phi) closures(t, q, p, phi, &(memory)->rare)
+#define CLOSURE_RATES(t, q, v, memory, p, phi_dot) closure_rates(t, q, v, p, phi_dot, &(memory)->rare)
+#include "../both/motion.h"
+
+static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
+{
+    Lanes sum = all_of(0.0);
+    for (int k = 0; k < n; k++)
+        sum += b ? a[k] + b[k] : a[k];
+    return ~(lanes_fabs(sum) <= DBL_MAX);
+}
+
+static int rates(LaneRun *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneAside *aside)
+{
+    run->evaluations += 1.0;
+    return motion(t, y, &run->memory, p, dy, aside);
+}
+
+static LaneBits can_close(LaneRun *run, LaneBits open, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dq,
+    Lanes *dv, Lanes *worst)
+{
+    closing_step(t, y, y + N_X, &run->memory, p, dq, dv, worst, &run->memory.rare);
+    run->memory.rare |= open & (not_finite(dq, NULL, N_X) | not_finite(dv, NULL, N_X));
+    return open;
+}
+
+#include "../both/project.h"
+
+static void close_state(LaneRun *run, Lanes t, Lanes *y, const LaneParameters *p) { project_state(run, t, y, p); }
+
+#define TrialOf LaneTrial
+#define Touched LaneBits
+#include "../both/rk4_trial.h"
+#include "../both/watch.h"
+
+/*
+ * Lanes in which a contact begins, ends or is touched within the step or goes too deep, or an event's expression
+ * changes its side, is zero or no number.
+ */
+static LaneBits happens(const LaneRun *run, const LaneTrial *trial, const LaneParameters *p)
+{
+    LaneBits some = {0};
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Lanes delta = trial->aside.clearance[i].delta;
+        const LaneBits closed = is_closed(&run->memory.latch[i]);
+        some |= (closed & (delta < 0.0)) | (~closed & (trial->touched[i] | (delta >= 0.0))) | (delta > lane_deepest(p, i));
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        const Lanes value = trial->aside.event[i], side = run->memory.event_side[i];
+        some |= ~(((value > 0.0) & (side > 0.0)) | ((value < 0.0) & (side < 0.0)));
+    }
+    return some;
+}
+
+/*
+ * One step of all lanes. Returns the lanes in which something rare is met; where there are any, or it is to be kept,
+ * `before` is the run as it was.
+ */
+static LaneBits lane_step(LaneRun *run, double h, double t_new, const LaneParameters *p, int keep, LaneRun *before)
+{
+    LaneTrial trial;
+    const Lanes evaluations = run->evaluations;
+    run->memory.rare = (LaneBits){0};
+    rk4_trial(run, h, p, &trial);
+    run->memory.rare |= not_finite(trial.dy, trial.y, N_Y) | happens(run, &trial, p);
+    if (keep || any_of(run->memory.rare)) {
+        *before = *run;
+        before->evaluations = evaluations;
+    }
+    for (int j = 0; j < N_Y; j++) {
+        run->y[j] = trial.y[j];
+        run->dy[j] = trial.dy[j];
+    }
+    run->t = all_of(t_new);
+    run->steps += 1.0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        watch_turn(run, i, h, &run->aside.clearance[i], &trial.aside.clearance[i]);
+        note_turn(run, i, trial.aside.clearance[i].deltadot);
+    }
+    run->aside = trial.aside;
+    accept_state(run->t, run->y, &run->memory, p, &run->aside, &run->phi_max, &run->phi_dot_max);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        watch_joint(run, i);
+    return run->memory.rare;
+}

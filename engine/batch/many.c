@@ -1,0 +1,212 @@
+/*
+ * Many runs, one after the other: start, time loop and report of each without Python. Several threads may work on
+ * one Batch, each on runs of its own and with a Run of its own; a run is the same as if it were alone.
+ */
+#include "batch.h"
+#include "../scene/start.h"
+
+static int is_ending(void *batch) { return *((const Batch *)batch)->ending; }
+
+static int start_run(const Batch *b, long i, Run *run)
+{
+    double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0}, latched[AT_LEAST_ONE(N_MEMORY)], residual;
+    Asked asked;
+    set_asked(&asked, is_ending, (void *)b, GLANCE);
+    if (!b->started[i] && close_start(b->t[0], b->p + i * b->numbers, b->size[i], start, start + N_Q, &residual, &asked))
+        return asked.stop ? STOPPED : NOT_CLOSED;
+    for (int k = 0; k < 2 * N_Q; k++)
+        y[k] = start[k];
+    for (int k = 0; k < AT_LEAST_ONE(N_MEMORY); k++)
+        latched[k] = NAN;
+    gudgeon_run_start(run, b->p_motion + i * b->numbers, b->t[0], y, latched);
+    gudgeon_run_stop(run, b->stop);
+    gudgeon_run_asks(run, is_ending, (void *)b, GLANCE);
+    if (b->choice >= 0)
+        gudgeon_adaptive_setup(run, b->choice, b->scale + i * 2 * N_X, b->least + 2 * i, b->fixed);
+    return 0;
+}
+
+/* Row k of run i's samples is the present state. */
+static void take_sample(const Batch *b, long i, long k, Run *run)
+{
+    const long row = i * b->samples + k;
+    store_sample(run, run->t, run->y, (const Parameters *)(b->p_motion + i * b->numbers), 0, b->y + row * N_S,
+        b->latched + row * AT_LEAST_ONE(N_MEMORY), b->state + row * AT_LEAST_ONE(N_CLEARANCES));
+}
+
+/* Steps of run i, at most `limit`, with their samples. */
+static int advance(const Batch *b, long i, long limit, Run *run)
+{
+    const double *p = b->p_motion + i * b->numbers;
+    const long row = i * b->samples;
+    double *y = b->y + row * N_S, *latched = b->latched + row * AT_LEAST_ONE(N_MEMORY);
+    signed char *state = b->state + row * AT_LEAST_ONE(N_CLEARANCES);
+    const int status = b->choice < 0
+        ? gudgeon_rk4_run(run, p, b->step[i], b->samples, b->t, limit, y, latched, state, b->done + i)
+        : gudgeon_adaptive_run(run, p, b->samples, b->t, limit, y, latched, state, b->done + i);
+    b->t_last[i] = run->t;
+    return status;
+}
+
+/* Run i is over: its report; where an event or Ctrl-C ended it, a last sample in place of those that are as late. */
+static void end_run(const Batch *b, long i, int status, Run *run)
+{
+    double t, *last = b->last + i * N_S, latched[AT_LEAST_ONE(N_MEMORY)];
+    signed char state[AT_LEAST_ONE(N_CLEARANCES)];
+    const double apart = status == STOPPED ? 0.0
+        : max_of(32.0 * DBL_EPSILON * max_of(fabs(b->t[0]), fabs(b->t[b->samples - 1])),
+            min_of(1e-11, 1e-10 * (b->t[b->samples - 1] - b->t[0]))); /* as Python's Session has it */
+    if (status == ENDED || (status == STOPPED && b->done[i] > 0)) {
+        b->t_last[i] = run->t;
+        while (b->done[i] > 0 && b->t[b->done[i] - 1] >= run->t - apart)
+            b->done[i]--;
+        take_sample(b, i, b->done[i]++, run);
+    }
+    b->status[i] = status;
+    b->phase[i] = OVER;
+    gudgeon_run_sample(run, b->p_motion + i * b->numbers, last, latched, state);
+    gudgeon_run_report(run, &t, b->counts + 9 * i, b->residuals + 4 * i, b->peaks + 3 * AT_LEAST_ONE(N_CLEARANCES) * i);
+}
+
+static int has_lists(const Run *run)
+{
+    int some = run->n_impacts > 0 || run->n_events > 0;
+    for (int k = 0; k < N_CLEARANCES; k++)
+        some = some || run->memory.latch[k].closed;
+    return some;
+}
+
+/*
+ * Runs *current to end - 1. Returns ALL_OVER; LISTS or RUN_OVER: contacts or events of run *current wait to be
+ * fetched, and it goes on or is over; GOES_ON: `limit` steps were made. To be called again, after RUN_OVER with
+ * the next run. Once the batch is ending, runs that have begun are over where they are, and none begins.
+ */
+int gudgeon_many(const void *batch, void *memory, long *current, long end)
+{
+    const Batch *b = batch;
+    Run *run = memory;
+    for (; *current < end; ++*current) {
+        const long i = *current;
+        if (b->phase[i] == NEW && !*b->ending) {
+            b->status[i] = start_run(b, i, run);
+            b->phase[i] = b->status[i] ? OVER : BEGUN;
+        }
+        if (b->phase[i] != BEGUN)
+            continue;
+        const double before = seconds_now();
+        const int status = *b->ending && b->done[i] < b->samples ? STOPPED : advance(b, i, b->limit, run);
+        b->seconds[i] += seconds_now() - before;
+        if (status == EVENTS_FULL)
+            return LISTS;
+        if (!status && b->done[i] < b->samples)
+            return GOES_ON;
+        end_run(b, i, status, run);
+        if (has_lists(run))
+            return RUN_OVER;
+    }
+    return ALL_OVER;
+}
+#if HAS_LANES
+
+static int begin_single(const Batch *b, long i, void *run) { return start_run(b, i, run); }
+static int steps_single(const Batch *b, long i, long limit, void *run) { return advance(b, i, limit, run); }
+
+static void end_single(const Batch *b, long i, int status, void *run) { end_run(b, i, status, run); }
+
+static void give_state(const void *memory, Moving *state)
+{
+    const Run *run = memory;
+    *state = (Moving){.t = run->t, .steps = (double)run->steps, .evaluations = (double)run->evaluations,
+        .phi_max = run->phi_max, .phi_dot_max = run->phi_dot_max, .ratio_min = run->ratio_min,
+        .ratio_max = run->ratio_max, .ratio_outside = run->ratio_outside};
+    for (int k = 0; k < N_Y; k++) {
+        state->y[k] = run->y[k];
+        state->dy[k] = run->dy[k];
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *joint = &run->aside.clearance[i];
+        state->memory.latch[i].closed = run->memory.latch[i].closed;
+        state->memory.latch[i].deltadot_minus = run->memory.latch[i].deltadot_minus;
+        state->compressing[i] = -run->compressing[i];
+        state->journal[i].e = joint->e;
+        state->journal[i].delta = joint->delta;
+        state->journal[i].deltadot = joint->deltadot;
+        state->F_peak[i] = run->F_peak[i];
+        state->t_peak[i] = run->t_peak[i];
+        state->e_max[i] = run->e_max[i];
+        state->open[i].F_peak = run->open[i].F_peak;
+        state->open[i].t_peak = run->open[i].t_peak;
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        state->memory.event_side[i] = run->memory.event_side[i];
+}
+
+static void take_state(void *memory, const Moving *state)
+{
+    Run *run = memory;
+    run->t = state->t;
+    run->steps = (long)state->steps;
+    run->evaluations = (long)state->evaluations;
+    run->phi_max = state->phi_max;
+    run->phi_dot_max = state->phi_dot_max;
+    run->ratio_min = state->ratio_min;
+    run->ratio_max = state->ratio_max;
+    run->ratio_outside = state->ratio_outside;
+    for (int k = 0; k < N_Y; k++) {
+        run->y[k] = state->y[k];
+        run->dy[k] = state->dy[k];
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) { /* neither an onset nor a separation was among these steps */
+        run->compressing[i] = state->compressing[i] != 0;
+        run->aside.clearance[i].e = state->journal[i].e;
+        run->aside.clearance[i].delta = state->journal[i].delta;
+        run->aside.clearance[i].deltadot = state->journal[i].deltadot;
+        run->F_peak[i] = state->F_peak[i];
+        run->t_peak[i] = state->t_peak[i];
+        run->e_max[i] = state->e_max[i];
+        run->open[i].F_peak = state->open[i].F_peak;
+        run->open[i].t_peak = state->open[i].t_peak;
+    }
+}
+
+/* Samples of the step that led from `before` to the present state; neither a contact nor an event was on the way. */
+static void samples_single(const Batch *b, long i, const Moving *before, void *memory)
+{
+    Run *run = memory;
+    const Parameters *p = (const Parameters *)(b->p_motion + i * b->numbers);
+    const long row = i * b->samples;
+    const Samples out = {
+        .n = b->samples, .done = b->done + i, .t = b->t, .y = b->y + row * N_S,
+        .latched = b->latched + row * AT_LEAST_ONE(N_MEMORY), .state = b->state + row * AT_LEAST_ONE(N_CLEARANCES)
+    };
+    Beginning from = {.t = before->t};
+    for (int k = 0; k < N_Y; k++) {
+        from.y[k] = before->y[k];
+        from.dy[k] = before->dy[k];
+    }
+    for (int k = 0; k < N_CLEARANCES; k++) {
+        from.closed[k] = before->memory.latch[k].closed > 0.0;
+        from.compressing[k] = before->compressing[k] != 0;
+    }
+    sample_inside(run, &from, p, &out);
+    sample_here(run, run->t - before->t, p, &out);
+}
+
+static int jumps_single(const Batch *b, long i, double t0, double t1)
+{
+#if N_CORNERS
+    double before, after;
+    return next_jump(t0, ahead_of(t1), (const Parameters *)(b->p_motion + i * b->numbers), &before, &after);
+#else
+    (void)b, (void)i, (void)t0, (void)t1;
+    return 0;
+#endif
+}
+
+const void *gudgeon_single(void)
+{
+    static const Single single = {begin_single, steps_single, samples_single, end_single, give_state, take_state,
+        jumps_single};
+    return &single;
+}
+#endif

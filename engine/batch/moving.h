@@ -1,0 +1,11 @@
+/* Text of a struct: what is carried from one step of rk4 to the next, by the names that a run has for it. */
+Number t, steps, evaluations, y[N_Y], dy[N_Y];
+Number phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
+Number F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
+struct {
+    Number F_peak, t_peak; /* of the contact that goes on */
+} open[AT_LEAST_ONE(N_CLEARANCES)];
+struct {
+    Number e, delta, deltadot; /* at the end of the last step */
+} journal[AT_LEAST_ONE(N_CLEARANCES)];
+Flag compressing[AT_LEAST_ONE(N_CLEARANCES)]; /* 0 or -1 */

@@ -1,0 +1,26 @@
+/*
+ * Text in this folder is compiled twice: for one run, where it is made of these, and for several runs side by side
+ * (batch/lanes.h), where a number is a vector of theirs and a truth a mask. Lane by lane the operations are the same,
+ * in the same order, so that a run is the same, to the last bit, alone and among others.
+ */
+#ifndef GUDGEON_ONE_H
+#define GUDGEON_ONE_H
+
+#define Real double
+#define Truth int
+#define RunOf Run
+#define MemoryOf Memory
+#define AsideOf Aside
+#define ClearanceOf Clearance
+#define ParametersOf Parameters
+
+/* a where it is true, else b. */
+static inline double pick(int truth, double a, double b) { return truth ? a : b; }
+static inline int is_not(int truth) { return !truth; }
+static inline int any_of(int truth) { return truth != 0; }
+static inline int is_closed(const Latch *latch) { return latch->closed; }
+static inline double real_max(double x, double y) { return max_of(x, y); }
+static inline double real_abs(double x) { return fabs(x); }
+static inline double real_sqrt(double x) { return sqrt(x); }
+
+#endif

@@ -1,0 +1,21 @@
+/*
+ * Back onto Phi = 0 and Phi_dot = 0 by the smallest changes of q and v, measured by M. The second time for the
+ * velocities at the mended positions. A pivot that vanishes (links in line) leaves the state as it is.
+ */
+static void project_state(RunOf *run, Real t, Real *y, const ParametersOf *p)
+{
+    Truth open = is_not((Truth){0});
+    for (int pass = 0; pass < 3 && N_LOOPS > 0; pass++) {
+        Real dq[N_X], dv[N_X], worst;
+        open = can_close(run, open, t, y, p, dq, dv, &worst);
+        if (!any_of(open))
+            return;
+        for (int k = 0; k < N_X; k++) {
+            y[k] = pick(open, y[k] - dq[k], y[k]);
+            y[N_X + k] = pick(open, y[N_X + k] - dv[k], y[N_X + k]);
+        }
+        open &= is_not(worst < 1e-15);
+        if (!any_of(open))
+            return;
+    }
+}

@@ -1,0 +1,47 @@
+static inline Real total_force(const ClearanceOf *joint) { return real_sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t); }
+
+/* Place in (0, 1) and height of the top of the cubic through (d0, r0) and (d1, r1), slopes r0 > 0 > r1. */
+static inline Real cubic_top(Real d0, Real r0, Real d1, Real r1, Real *height)
+{
+    const Real b = 3.0 * (d1 - d0) - 2.0 * r0 - r1, c = r0 + r1 - 2.0 * (d1 - d0);
+    const Real s = r0 / (real_sqrt(b * b - 3.0 * c * r0) - b);
+    *height = d0 + s * (r0 + s * (b + s * c));
+    return s;
+}
+
+/* The largest eccentricity of joint i within a step of length h, where the journal turned back in it. */
+static inline void watch_turn(RunOf *run, int i, double h, const ClearanceOf *before, const ClearanceOf *after)
+{
+    const Truth turned = (before->deltadot > 0.0) & (after->deltadot < 0.0);
+    Real top;
+    if (!any_of(turned))
+        return;
+    cubic_top(before->e, h * before->deltadot, after->e, h * after->deltadot, &top);
+    run->e_max[i] = real_max(pick(turned, top, run->e_max[i]), run->e_max[i]);
+}
+
+/* From an onset until the penetration first stops growing a contact is compressed. */
+static inline void note_turn(RunOf *run, int i, Real deltadot)
+{
+    run->compressing[i] &= is_not(is_closed(&run->memory.latch[i]) & (deltadot <= 0.0));
+}
+
+/* Peaks of joint i at an accepted state, and the ratio deltadot/deltadot_minus of a contact. */
+static inline void watch_joint(RunOf *run, int i)
+{
+    const ClearanceOf *joint = &run->aside.clearance[i];
+    const Real F = total_force(joint);
+    const Truth closed = is_closed(&run->memory.latch[i]), higher = F > run->F_peak[i];
+    run->e_max[i] = real_max(joint->e, run->e_max[i]);
+    run->F_peak[i] = pick(higher, F, run->F_peak[i]);
+    run->t_peak[i] = pick(higher, run->t, run->t_peak[i]);
+    if (!any_of(closed))
+        return;
+    const Real ratio = joint->deltadot / run->memory.latch[i].deltadot_minus;
+    const Truth outside = (ratio < -1.0) | (ratio > 1.0), highest = closed & (F > run->open[i].F_peak);
+    run->ratio_min = pick(closed & (ratio < run->ratio_min), ratio, run->ratio_min);
+    run->ratio_max = pick(closed & (ratio > run->ratio_max), ratio, run->ratio_max);
+    run->ratio_outside = pick(closed & outside, run->ratio_outside + 1.0, run->ratio_outside);
+    run->open[i].F_peak = pick(highest, F, run->open[i].F_peak);
+    run->open[i].t_peak = pick(highest, run->t, run->open[i].t_peak);
+}

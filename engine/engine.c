@@ -1,0 +1,41 @@
+/*
+ * The time loops of a scene, as one translation unit; the other one is scene.c, which holds what was derived. Read
+ * run/run.h first, then methods/adaptive.c or methods/rk4.c; what a scene does not have is left out.
+ */
+#include "model.h"
+#include "scene/kernels.h"
+#include "run/asked.c"
+#include "scene/start.c"
+#if N_TERMS
+#include "watch/time_terms.c"
+#endif
+#if INTEGRATES
+#include "run/run.c"
+#include "run/report.c"
+#include "methods/step.c"
+#if N_CORNERS
+#include "watch/jumps.c"
+#endif
+#include "methods/rk4.c"
+#include "methods/dop853.c"
+#include "methods/rodas5p.c"
+#include "watch/roots.c"
+#include "watch/pulses.c"
+#if !N_WATCHED
+#include "watch/no_watched.c"
+#elif KNOWN_BOUNDS
+#include "watch/watched.c"
+#else
+#include "watch/looks.c"
+#endif
+#include "watch/events.c"
+#include "run/peaks.c"
+#include "run/changes.c"
+#include "methods/adaptive.c"
+#include "batch/many.c"
+#else
+#include "kinematic/kinematic.c"
+#if N_USER_EVENTS
+#include "kinematic/events.c"
+#endif
+#endif

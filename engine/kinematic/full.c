@@ -1,0 +1,99 @@
+/* The closed linkage in absolute coordinates. */
+
+/* Accelerations and powers: those of the equations of motion. A status counts on behind the rows of `project`. */
+static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
+{
+    const int status = dynamics(beyond_jump(here->t), here->q, here->v, &(Memory){.asked = here->asked}, p, a, aside);
+    return status > 0 ? N_ROWS + status : status;
+}
+
+/* A change of q, as the angle that it is worth: positions as shares of the mechanism's size. */
+static double turn_of(const double *x, double extent)
+{
+    double most = 0.0;
+    for (int k = 0; k < N_Q; k++)
+        most = larger(most, fabs(x[k]) / (k % 3 == 2 ? 1.0 : extent));
+    return most;
+}
+
+/* Newton on Phi(q, t) = 0 until the step no longer shrinks; `moved` is the way from the first guess. */
+static int close_linkage(double t, const Parameters *p, double extent, double *q, double *moved)
+{
+    double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q], before = INFINITY;
+    for (int i = 0; i < MAX_NEWTON; i++) {
+        constraints(t, q, p, phi);
+        const int status = project(t, q, phi, p, step);
+        if (status)
+            return status;
+        const double size = turn_of(step, extent);
+        for (int k = 0; k < N_Q; k++)
+            q[k] -= step[k];
+        *moved += size;
+        if (isnan(size))
+            return NEWTON_FAILED;
+        if (size < 1e-9 && (size >= 0.5 * before || size < 1e-15))
+            return 0;
+        before = size;
+    }
+    return before < 1e-9 ? 0 : NEWTON_FAILED;
+}
+
+/* Phi_q v = nu by projection, with one step of refinement. */
+static int velocities(double t, const double *q, const Parameters *p, double *v)
+{
+    double r[AT_LEAST_ONE(N_ALL_ROWS)], phi_q[AT_LEAST_ONE(N_ALL_ROWS) * N_Q], step[N_Q];
+    for (int k = 0; k < N_Q; k++)
+        v[k] = 0.0;
+    gudgeon_phi_q(t, q, (const double *)p, phi_q);
+    for (int pass = 0; pass < 2; pass++) {
+        velocity_rhs(t, q, p, r);
+        for (int row = 0; row < N_ALL_ROWS; row++)
+            for (int k = 0; k < N_Q; k++)
+                r[row] -= phi_q[(size_t)row * N_Q + k] * v[k];
+        const int status = project(t, q, r, p, step);
+        if (status)
+            return status;
+        for (int k = 0; k < N_Q; k++)
+            v[k] += step[k];
+    }
+    return 0;
+}
+
+/* From one place to another near by; accelerations come with `settle`. */
+static int place_at(double t, const Parameters *p, double extent, const Place *from, Place *to, double *moved)
+{
+    *moved = 0.0;
+    to->asked = from->asked;
+    to->t = t;
+    for (int k = 0; k < N_Q; k++)
+        to->q[k] = from->q[k] + (t - from->t) * from->v[k];
+    const int status = close_linkage(beyond_jump(t), p, extent, to->q, moved);
+    return status ? status : velocities(beyond_jump(t), to->q, p, to->v);
+}
+
+/* What a sample has beside positions and velocities. */
+static int settle(const Parameters *p, Place *here)
+{
+    double phi[AT_LEAST_ONE(N_ALL_ROWS)];
+    Aside aside;
+    const int status = solve_motion(p, here, here->a, &aside);
+    if (status)
+        return status;
+    constraints(beyond_jump(here->t), here->q, p, phi);
+    here->phi = here->phi_dot = 0.0;
+    for (int r = 0; r < N_ALL_ROWS; r++)
+        here->phi = larger(here->phi, fabs(phi[r]));
+    for (int r = 0; r < N_ROWS; r++)
+        here->phi_dot = larger(here->phi_dot, fabs(aside.phi_dot[r]));
+    return 0;
+}
+
+static int begin(double t, const double *q, const double *v, const Parameters *p, Place *here)
+{
+    here->t = t;
+    for (int k = 0; k < N_Q; k++) {
+        here->q[k] = q[k];
+        here->v[k] = v[k];
+    }
+    return settle(p, here);
+}

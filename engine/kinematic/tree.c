@@ -1,0 +1,76 @@
+/* The closed linkage in tree coordinates. */
+
+/* Powers, and accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
+static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
+{
+    const int status = reduced_dynamics(beyond_jump(here->t), here->s, here->s_rate, &(Memory){.asked = here->asked}, p, a, aside);
+    return status > 0 ? N_LOOPS + status : status;
+}
+
+/*
+ * Newton on the closures until the step is rounding or no longer shrinks; the rates belong to the positions. Steps
+ * are measured in rad, slides as shares of the mechanism's size; `moved` is the way from the first guess.
+ */
+static int close_linkage(double t, const Parameters *p, double extent, Place *at, double *moved)
+{
+    double step[N_X + 1], before = INFINITY;
+    for (int i = 0; i < MAX_NEWTON; i++) {
+        double size = 0.0;
+        const int status = close_step(t, at->s, p, step, at->s_rate, &at->phi);
+        if (status)
+            return status;
+        for (int k = 0; k < N_X; k++)
+            size = larger(size, fabs(step[k]) / (is_angle[k] ? 1.0 : extent));
+        if (isnan(size))
+            return NEWTON_FAILED;
+        if (size < 4e-15 || (size < 1e-9 && size >= 0.5 * before))
+            return 0;
+        for (int k = 0; k < N_X; k++)
+            at->s[k] -= step[k];
+        *moved += size;
+        before = size;
+    }
+    return before < 1e-9 ? 0 : NEWTON_FAILED;
+}
+
+/* From one place to another near by: first guess s + h s' + h^2 s''/2. */
+static int place_at(double t, const Parameters *p, double extent, const Place *from, Place *to, double *moved)
+{
+    const double h = t - from->t;
+    *moved = 0.0;
+    to->asked = from->asked;
+    to->t = t;
+    for (int k = 0; k < N_X; k++)
+        to->s[k] = from->s[k] + h * (from->s_rate[k] + 0.5 * h * from->s_second[k]);
+    const int status = close_linkage(beyond_jump(t), p, extent, to, moved);
+    return status ? status : arrive(beyond_jump(t), to->s, to->s_rate, p, to->s_second, to->q, to->v, to->a, &to->phi_dot);
+}
+
+/* A place has all that a sample needs. */
+static int settle(const Parameters *p, Place *here)
+{
+    (void)p;
+    (void)here;
+    return 0;
+}
+
+/* A given position; where closures depend on each other the equations of motion may still tell its accelerations. */
+static int begin(double t, const double *q, const double *v, const Parameters *p, Place *here)
+{
+    double step[N_X + 1], rates[N_X + 1];
+    here->t = t;
+    reduce_state(t, q, v, p, here->s, here->s_rate);
+    if (!close_step(beyond_jump(t), here->s, p, step, rates, &here->phi)
+        && !arrive(beyond_jump(t), here->s, here->s_rate, p, here->s_second, here->q, here->v, here->a, &here->phi_dot))
+        return 0;
+    Aside aside;
+    for (int k = 0; k < N_Q; k++) {
+        here->q[k] = q[k];
+        here->v[k] = v[k];
+    }
+    for (int k = 0; k < N_X; k++)
+        here->s_second[k] = 0.0;
+    here->phi = here->phi_dot = 0.0;
+    const int status = dynamics(t, q, v, &(Memory){.asked = here->asked}, p, here->a, &aside);
+    return status > 0 ? N_LOOPS + status : status;
+}

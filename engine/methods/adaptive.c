@@ -1,0 +1,348 @@
+/*
+ * Methods that choose their step: error control by component, projection, events, samples from the interpolant,
+ * and the choice between the explicit and the stiff method from what the steps themselves measure.
+ */
+enum { STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
+    SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
+/* h rho beyond which an explicit step is not taken: at h rho = 5.65 the estimate of order 5 vanishes for a decaying
+ * mode, at 6.4 the mode grows (both are zeros of polynomials that follow from the coefficients) */
+#define UNSTABLE 4.8
+#define LONG_RUN 1e4  /* s: an end further away than this says nothing about the shortest step that makes sense */
+#define BOUNDED 4.0   /* h rho at which stability bounds its steps */
+#define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
+#define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
+#define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
+
+/* Takes a step, or its part up to an event, as the new state. */
+static int commit(Run *run, Step *step, double share, double t_new, int event, const Parameters *p)
+{
+    /* the interpolant is made already where the step ends early: its end may be replaced */
+    int status = share < 1.0 ? state_at(run, step, share, p, step->y, step->dy, &step->aside) : 0;
+    if (status)
+        return status;
+    inner_peaks(run, step, share, p);
+    turn_passed(run, step);
+    for (int k = 2 * N_X; k < N_Y; k++)
+        run->turned_over += fabs(step->y[k] - run->y[k]);
+    for (int k = 0; k < N_Y; k++) {
+        run->y[k] = step->y[k];
+        run->dy[k] = step->dy[k];
+    }
+    run->aside = step->aside;
+    run->stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->stuck + 1 : 0;
+    run->t = t_new;
+    run->steps++;
+    run->stiff_steps += step->stiff;
+    run->ended[event < 0 ? N_MARGINS : event]++;
+    run->linear_ready = 0;
+    note_speed(run);
+    weigh(run);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (run->memory.latch[i].closed && run->aside.clearance[i].deltadot <= 0.0)
+            run->compressing[i] = 0;
+#if N_CORNERS
+    const double drift = run->phi_dot_max; /* at the corner of a drive rates are those before the impulse */
+    status = watch(run, p);
+    if (event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
+        run->phi_dot_max = drift;
+#else
+    status = watch(run, p);
+#endif
+    if (!status && event < 0 && run->skip >= 0) { /* away from the corner, on whichever side */
+        run->skip = -1;
+        status = settle_sides(run, -1, p);
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++) /* begun on a zero: wherever it went */
+        if (run->memory.event_side[i] == 0)
+            event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
+    if (!status && event >= 0)
+        status = run->stuck > MAX_STUCK + 2 * N_MARGINS ? CHATTERING : change(run, event, p);
+    return status ? status : check_contacts(run, p);
+}
+
+/* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
+static void change_method(Run *run)
+{
+    if (!run->stiff)
+        run->patience = run->since > 400 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
+    run->h_stiff = run->stiff ? run->h : 0.0;
+    run->stiff = !run->stiff;
+    run->votes = 0;
+    run->since = 0;
+}
+
+/* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
+static void choose(Run *run)
+{
+    /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
+    const int slower = run->since > 8 && run->since < 200 && run->h < WORTH * run->h_stiff;
+    const int against = run->stiff ? run->stability < SLACK : run->stability > BOUNDED || slower;
+    run->votes = against ? run->votes + 1 : 0;
+    run->since++;
+    if (run->choice == AUTOMATIC && run->votes >= (run->stiff ? run->patience : 3))
+        change_method(run);
+}
+
+/* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
+static void next_length(Run *run, const Step *step, double power, int again, int whole)
+{
+    const double error = max_of(1e-12, step->error);
+    double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
+    if (!run->stiff && run->stability > 1.0)
+        factor = min_of(factor, 1.1 * BOUNDED / run->stability);
+    factor = min_of(again ? 1.0 : step->looked ? 2.0 : 6.0, max_of(0.3, factor));
+    run->error_before = max_of(1e-4, error);
+    if (run->first)
+        *run->first = step->h;
+    run->first = NULL;
+    if (step->h * factor > run->h || (whole && run->skip < 0) || factor < 1.0)
+        run->h = step->h * factor;
+}
+
+/* One accepted step towards t_end; the next step's length in run->h. Events are not looked for here. */
+static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step)
+{
+    const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
+    double h = run->fixed > 0.0 ? run->fixed : run->h;
+    int again = 0, shortened = 0, given_up = 0;
+    if (run->skip >= 0 && run->fixed <= 0.0)
+        h = min_of(h, run->pace);
+    if (h > left * (1.0 - 1e-9))
+        h = left;
+    const double longest = h;
+    for (;;) {
+        const double power = run->stiff ? 0.2 : 0.125;
+        const int status = run->stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
+        if (status == STOPPED || (status && run->fixed > 0.0))
+            return status;
+        if (!status && step->error <= run->accept && !run->stiff && run->fixed <= 0.0 && run->stability > UNSTABLE) {
+            run->rejected++;
+            if (run->choice == AUTOMATIC && !given_up)
+                change_method(run);
+            else
+                h *= BOUNDED / run->stability;
+            continue;
+        }
+        if (!status && step->error <= run->accept && is_unresolved(run, step, p) && run->fixed <= 0.0
+            && shortened++ < SHORTENED) {
+            again = 1;
+            run->rejected++;
+            h *= 0.25;
+            continue;
+        }
+        const double pulse = !status && step->error <= run->accept && run->fixed <= 0.0 ? missed_pulse(run, step, p) : 0.0;
+        if (pulse > 0.0 && shortened++ < SHORTENED) {
+            again = 1;
+            run->rejected++;
+            h *= max_of(0.25, 0.5 * pulse);
+            continue;
+        }
+        if (!status && step->error <= run->accept) {
+            next_length(run, step, power, again, h < left);
+            /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
+            run->crawl = h < 256.0 * least ? run->crawl + 1 : 0;
+            return run->crawl > MAX_CRAWL ? TOO_SMALL : 0;
+        }
+        again = 1;
+        run->rejected++;
+        h *= status ? 0.25 : min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -power)));
+        if (h > least)
+            continue;
+        if (N_SWITCHES > 0 && status == NOT_FINITE && run->memory.held) {
+            run->memory.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
+            h = longest;
+            continue;
+        }
+        if (run->choice != AUTOMATIC || !run->stiff || given_up++)
+            return status ? status : TOO_SMALL;
+        change_method(run); /* its matrix is singular where rows depend on each other; the other one knows a way */
+        h = longest;
+    }
+}
+
+/* A first step from the size of the motion's first two rates. */
+static int first_size(Run *run, double left, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
+    Aside aside;
+    for (int k = 0; k < 2 * N_X; k++)
+        one = max_of(one, fabs(run->dy[k]) * run->weight[k]);
+    double h = min_of(one > 0.0 ? 1.0 / one : INFINITY, 1e-2 * left);
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    if (status)
+        return status;
+    for (int k = 0; k < 2 * N_X; k++)
+        two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
+    const double most = max_of(sqrt(two), one);
+    run->h = min_of(1e-2 * left, max_of(most > 0.0 ? pow(0.01, 0.125) / most : left, h));
+    return 0;
+}
+
+/* The side of what is watched and begins on a zero: that to which it goes. */
+static int leave_zeros(Run *run, const Parameters *p)
+{
+    int zeros = 0;
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        zeros |= run->memory.event_side[i] == 0;
+    if (!zeros)
+        return 0;
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    const double h = 1e-6 * run->h;
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        if (run->memory.event_side[i] == 0)
+            event_crosses(i, &run->memory.event_side[i], aside.event[i]);
+    return status;
+}
+
+/*
+ * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
+ * that the start's speeds and accelerations take for it. Only where these lead nowhere (a pulse is yet to come) the
+ * run's own time has to tell.
+ */
+static void floor_speeds(Run *run, double left)
+{
+    double rate = 0.0;
+    for (int k = 0; k < N_X; k++) {
+        const double least = run->least[is_angle[k]], a = fabs(run->dy[N_X + k]);
+        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
+    }
+    for (int kind = 0; kind < 2; kind++)
+        run->speed_floor[kind] = run->least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
+}
+
+/* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
+static int begin_adaptive(Run *run, double left, const Parameters *p)
+{
+    int status = run->ready ? 0 : begin_run(run, p);
+    run->tick = min_of(1e-12, 1e-11 * left);
+    for (int k = 0; k < N_SWITCHES; k++)
+        run->memory.side[k] = run->aside.g[k] < 0.0 ? -1.0 : 1.0;
+    run->memory.held = 1;
+    if (!status)
+        status = settle_sides(run, -1, p);
+    floor_speeds(run, left);
+    note_speed(run);
+    run->turned_over = energy_scale(run, p);
+    weigh(run);
+#if N_CORNERS
+    if (!status)
+        status = pass_jumps_here(run, p); /* to the sides that hold there */
+#endif
+    if (!status && !(run->h > 0.0))
+        status = first_size(run, left, p);
+    return status ? status : leave_zeros(run, p);
+}
+
+/*
+ * choice: 0 explicit, 1 stiff, 2 automatic, 3 automatic from stiff; scale (2 N_X): tolerances, those of velocities a
+ * unit of speed; least: the smallest length (m) and angle (rad) that matter.
+ */
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *least, double fixed)
+{
+    Run *run = memory;
+    run->choice = choice == BEGIN_STIFF ? AUTOMATIC : choice;
+    run->stiff = choice == STIFF || choice == BEGIN_STIFF;
+    run->patience = choice == BEGIN_STIFF ? 4 * PATIENCE : PATIENCE;
+    run->fixed = fixed;
+    run->error_before = 1e-4;
+    run->crossed = run->skip = -1;
+    run->accept = fixed > 0.0 ? INFINITY : 1.0;
+    for (int k = 0; k < 2 * N_X; k++)
+        run->inverse_scale[k] = 1.0 / scale[k];
+    run->work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */
+    run->least[0] = least[0];
+    run->least[1] = least[1];
+}
+
+/* Samples of the step before `t_new`, from its interpolant. */
+static int sample_step(Run *run, Step *step, double t_new, long n, const double *t, const Parameters *p,
+    double *y, double *latched, signed char *state, long *done)
+{
+    const long evaluations = run->evaluations;
+    while (*done < n && t[*done] < t_new) {
+        double now[N_Y];
+        const int status = make_dense(run, p, step);
+        if (status)
+            return status;
+        interpolate(run, step, (t[*done] - step->t) / step->h, now);
+        project_state(run, t[*done], now, p);
+        store_sample(run, t[*done], now, p, *done, y, latched, state);
+        ++*done;
+    }
+    run->evaluations = evaluations; /* samples are output, not integration */
+    return 0;
+}
+
+/* Whether the run no longer advances; what ends its steps is counted anew with each look at its pace. */
+static int stalls(Run *run, double t_end)
+{
+    const int stalled = creeps(&run->advance, run->t, t_end);
+    for (int k = 0; k < N_MARGINS && !stalled && run->advance.steps % PACE_STEPS == 1; k++)
+        run->ended[k] = 0;
+    return stalled;
+}
+
+/*
+ * Towards the last of n output times, at most `limit` steps: samples go to row `done` and on. Returns 0 (at the end,
+ * or to be called again), EVENTS_FULL, STOPPED, or what went wrong. Whatever it returns, the run is at the end of a
+ * whole step, with what changes there.
+ */
+int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
+    double *y, double *latched, signed char *state, long *done)
+{
+    Run *run = memory;
+    const Parameters *p = (const Parameters *)parameters;
+    const double t_end = t[n - 1];
+    int status = run->memory.held ? 0 : begin_adaptive(run, t_end - run->t, p);
+    for (long i = 0; !status; i++) {
+        while (*done < n && t[*done] <= run->t) {
+            store_sample(run, run->t, run->y, p, *done, y, latched, state);
+            ++*done;
+        }
+        if (*done == n || i == limit)
+            return 0;
+        if (run->asked.stop)
+            return STOPPED;
+        if (lists_full(run))
+            return EVENTS_FULL;
+        if (run->fixed <= 0.0 && stalls(run, t_end))
+            return STALLED;
+        Step *step = &run->step;
+        status = accepted_step(run, t_end, p, step);
+        if (status)
+            break;
+        choose(run);
+        int event;
+        const double share = first_event(run, step, p, &event);
+        if (run->asked.stop)
+            return STOPPED; /* what was found meanwhile means nothing */
+        const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
+        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->tick); /* is at the event */
+        status = sample_step(run, step, t_new - close, n, t, p, y, latched, state, done);
+        run->asked.hold = 1;
+#if N_CORNERS
+        const double drift = run->phi_dot_max;
+#endif
+        if (!status)
+            status = commit(run, step, share, t_new, event, p);
+        run->memory.held = 1;
+#if N_CORNERS
+        if (!status && run->t == t_end) {
+            run->phi_dot_max = drift; /* which branch a rate has at a jump's own time says nothing */
+            status = pass_jumps_here(run, p);
+        }
+#endif
+#if N_USER_EVENTS
+        if (!status && run->t == t_end)
+            status = end_on_zeros(run, run->tick, p);
+#endif
+        run->asked.hold = 0;
+    }
+    return status;
+}

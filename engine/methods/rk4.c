@@ -1,0 +1,258 @@
+/*
+ * The classical Runge-Kutta method of order 4 with fixed step (W. Kutta, Z. Math. Phys. 46, 1901).
+ * Constraints are closed after every step, or, in absolute coordinates, stabilised by Baumgarte's terms.
+ */
+
+#define TrialOf Trial
+#define Touched unsigned char
+#include "../both/rk4_trial.h"
+
+#if N_FRICTIONS
+#include "friction_events.c"
+#else
+#include "no_friction_events.c"
+#endif
+
+/* Where samples go: their times, their rows, and how many are stored. */
+typedef struct {
+    long n, *done;
+    const double *t;
+    double *y, *latched;
+    signed char *state;
+} Samples;
+
+
+static void begin_step(Run *run)
+{
+    Beginning *from = &run->from;
+    from->t = run->t;
+    for (int k = 0; k < N_Y; k++) {
+        from->y[k] = run->y[k];
+        from->dy[k] = run->dy[k];
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        from->closed[i] = run->memory.latch[i].closed;
+        from->compressing[i] = run->compressing[i];
+    }
+}
+
+/* Latches and codes at time t within the step that began as `from` and led to the present state. */
+static void latches_at(const Run *run, const Beginning *from, double t, double *latched, signed char *state)
+{
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Latch *latch = &run->memory.latch[i];
+        const int changed = !latch->closed != !from->closed[i];
+        const int since = latch->closed ? t >= run->open[i].t_on : !(t < run->open[i].t_off);
+        const int closed = changed && !since ? from->closed[i] : latch->closed;
+        const int compressing = changed && since ? run->compressing[i] : from->compressing[i];
+        latched[i] = closed ? latch->deltadot_minus : NAN;
+        state[i] = (signed char)(closed ? 2 - compressing : 0);
+    }
+}
+
+/*
+ * Samples inside the step that began as `from` and led to the present state: the cubic through both ends with their
+ * rates (C. Hermite, J. reine angew. Math. 84, 1878), which errs by O(h^4), on the constraints as ends of steps are.
+ */
+static void sample_inside(Run *run, const Beginning *from, const Parameters *p, const Samples *out)
+{
+    enum { MEMORY = AT_LEAST_ONE(N_MEMORY), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
+    const double h = run->t - from->t, close = rounded(run->t, h);
+    for (; *out->done < out->n && out->t[*out->done] < run->t - close; ++*out->done) {
+        const double t = out->t[*out->done], s = (t - from->t) / h, u = 1.0 - s;
+        double now[N_Y];
+        for (int k = 0; k < N_Y; k++)
+            now[k] = u * u * ((1.0 + 2.0 * s) * from->y[k] + s * h * from->dy[k])
+                + s * s * ((3.0 - 2.0 * s) * run->y[k] - u * h * run->dy[k]);
+        close_state(run, t, now, p);
+        store_sample(run, t, now, p, *out->done, out->y, out->latched, out->state);
+        latches_at(run, from, t, out->latched + *out->done * MEMORY, out->state + *out->done * JOINTS);
+    }
+}
+
+/* Samples at the present state. */
+static void sample_here(const Run *run, double h, const Parameters *p, const Samples *out)
+{
+    for (; *out->done < out->n && out->t[*out->done] <= run->t + rounded(run->t, h); ++*out->done)
+        store_sample(run, run->t, run->y, p, *out->done, out->y, out->latched, out->state);
+}
+
+/* Takes a trial as the new state, whole, if it is a number; latches follow from the gaps at both of its ends. Samples on the way are stored. */
+static int accept(Run *run, double h, double t_new, const Trial *trial, const Parameters *p,
+    const Samples *out)
+{
+    if (!all_finite(trial->y, N_Y) || !all_finite(trial->dy, N_Y))
+        return NOT_FINITE;
+    const double t = run->t;
+    const int sampled = *out->done < out->n && out->t[*out->done] < t_new;
+    if (sampled)
+        begin_step(run);
+    const Aside before = run->aside;
+    run->t = t_new;
+    for (int j = 0; j < N_Y; j++) {
+        run->y[j] = trial->y[j];
+        run->dy[j] = trial->dy[j];
+    }
+    run->aside = trial->aside;
+    int status = 0;
+    run->asked.hold = 1;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        watch_turn(run, i, h, &before.clearance[i], &run->aside.clearance[i]);
+    if (update_latches(run, t, h, before.clearance, run->aside.clearance, trial->touched, p))
+        status = rates(run, t_new, run->y, p, run->dy, &run->aside);
+    if (!status)
+        status = watch(run, p);
+    if (!status && sampled)
+        sample_inside(run, &run->from, p, out);
+    run->asked.hold = 0;
+    return status;
+}
+
+/* Share of h at which watched expression i first lies beyond zero, by halving: the step is tried again up to there. */
+static double rk4_crossing(Run *run, int i, double h, const Parameters *p)
+{
+    const double close = max_of(4.0 * DBL_EPSILON * fabs(run->t) / h, 1e-12);
+    double low = 0.0, high = 1.0;
+    Trial trial, far;
+    while (high - low > close) {
+        const double share = 0.5 * (low + high);
+        if (rk4_trial(run, share * h, p, &trial) || run->memory.event_side[i] * trial.aside.event[i] < 0.0)
+            high = share;
+        else
+            low = share;
+    }
+    /* a pole, where it grows towards the place, is no zero */
+    const int failed = rk4_trial(run, high * h, p, &trial) || rk4_trial(run, (high + 64.0 * close) * h, p, &far);
+    return !failed && fabs(trial.aside.event[i]) > 2.0 * fabs(far.aside.event[i]) ? INFINITY : high;
+}
+
+/* Whether expression i, zero at the end of a trial, is beyond it at once: the end of a run counts as the way to it. */
+static int rk4_leaves_zero(Run *run, int i, double h, const Trial *trial, const Parameters *p)
+{
+    signed char side = run->memory.event_side[i];
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    if (trial->aside.event[i] != 0.0)
+        return 0;
+    for (int j = 0; j < N_Y; j++)
+        y[j] = trial->y[j] + 1e-6 * h * trial->dy[j];
+    return !rates(run, run->t + (1.0 + 1e-6) * h, y, p, dy, &aside) && event_crosses(i, &side, aside.event[i]);
+}
+
+/* User events on the way of a step; one that ends the run takes the step up to there. */
+static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *p, const Samples *out)
+{
+    double share[AT_LEAST_ONE(N_USER_EVENTS)], end = INFINITY;
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        signed char side = run->memory.event_side[i];
+        share[i] = event_crosses(i, &side, trial->aside.event[i]) ? rk4_crossing(run, i, h, p) : INFINITY;
+        if (rk4_leaves_zero(run, i, h, trial, p)) {
+            share[i] = 1.0;
+            run->memory.event_side[i] *= -1;
+        }
+        if (isnan(trial->aside.event[i]))
+            note_no_number(run, i, run->t + h);
+        if (run->stop && event_stops[i])
+            end = min_of(end, share[i]);
+    }
+    if (run->asked.stop)
+        return STOPPED; /* what was found meanwhile means nothing */
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        event_crosses(i, &run->memory.event_side[i], trial->aside.event[i]);
+        if (share[i] <= end && isfinite(share[i]))
+            note_event(run, i, run->t + share[i] * h);
+    }
+    if (!isfinite(end))
+        return 0;
+    Trial last;
+    const int status = rk4_trial(run, end * h, p, &last);
+    const int failed = status ? status : accept(run, end * h, run->t + end * h, &last, p, out);
+    return failed ? failed : ENDED;
+}
+
+/* From t to `end` and, rounded as a stage's time is, not beyond it: there another branch begins. */
+static inline double way_to(double t, double end)
+{
+    double h = end - t;
+    while (t + h > end)
+        h = nextafter(h, 0.0);
+    return h;
+}
+
+#if N_CORNERS
+/* Part of a step, to t_new; where friction changes on the way, in parts that end there. */
+static int rk4_part(Run *run, double h, double t_new, const Parameters *p, const Samples *out)
+{
+    Trial trial;
+#else
+/* One step to t_new; where friction changes on the way, in parts that end there. */
+static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const Samples *out)
+{
+    Trial trial;
+    run->steps++;
+#endif
+    for (int part = 0; part < MAX_PARTS; part++) {
+        const int status = rk4_trial(run, h, p, &trial);
+        if (status)
+            return status;
+        const double share = friction_event(run, h, p, &trial);
+        if (run->asked.stop)
+            return STOPPED;
+        if (share >= 1.0) {
+            const int ended = rk4_events(run, h, &trial, p, out);
+            return ended ? ended : accept(run, h, t_new, &trial, p, out);
+        }
+        int failed = share < 0.0 ? NOT_FINITE : accept(run, share * h, run->t + share * h, &trial, p, out);
+        run->asked.hold = 1;
+        if (!failed)
+            failed = switch_friction(run, p);
+        run->asked.hold = 0;
+        if (failed)
+            return failed;
+        h = N_CORNERS ? way_to(run->t, t_new) : t_new - run->t;
+        if (!(h > 0.0))
+            return 0;
+    }
+    return CHATTERING;
+}
+
+#if N_CORNERS
+#include "rk4_jumps.c"
+
+#endif
+/*
+ * Steps of length `step` from t[0] towards the last of n output times, at most `limit`; samples go to row `done` and
+ * on, and no step is made shorter for them. Returns 0 (at the end, or to be called again), EVENTS_FULL, or what went
+ * wrong.
+ */
+int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n, const double *t, long limit,
+    double *y, double *latched, signed char *state, long *done)
+{
+    Run *run = memory;
+    const Parameters *p = (const Parameters *)parameters;
+    const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
+    double h;
+#if N_CORNERS
+    int status = run->ready ? 0 : begin_run(run, p); /* at t[0], not the grid's number: a jump may lie between */
+#else
+    if (!run->ready)
+        run->t = step_end(t[0], t[n - 1], step, 0.0, &h);
+    int status = run->ready ? 0 : begin(run, p);
+#endif
+    for (long i = 0; !status; i++) {
+        sample_here(run, step, p, &out);
+        if (*done == n || i == limit)
+            return 0;
+        const double t_new = step_end(t[0], t[n - 1], step, (double)run->steps + 1.0, &h);
+        if (run->asked.stop)
+            return STOPPED;
+        if (lists_full(run))
+            return EVENTS_FULL;
+        status = rk4_step(run, h, t_new, p, &out);
+#if N_USER_EVENTS
+        if (!status && t_new >= t[n - 1])
+            status = end_on_zeros(run, min_of(1e-12, 1e-11 * (t[n - 1] - t[0])), p);
+#endif
+    }
+    return status;
+}

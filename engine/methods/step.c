@@ -1,0 +1,136 @@
+/*
+ * One attempted step of a method that looks ahead: how near it came to what may end it, its tolerances, and its
+ * end, brought back onto the constraints.
+ */
+/* Not negative while things go on as they are; NaN: does not act. */
+static double margin(const Memory *memory, const Aside *aside, int k)
+{
+    if (k < N_CLEARANCES)
+        return memory->latch[k].closed ? aside->clearance[k].delta : -aside->clearance[k].delta;
+    k -= N_CLEARANCES;
+    if (k < N_SWITCHES)
+        return memory->side[k] * aside->g[k];
+    k -= N_SWITCHES;
+    if (k < N_FRICTIONS)
+        return indicator(memory, aside, k);
+    return memory->event_side[k - N_FRICTIONS] * aside->event[k - N_FRICTIONS];
+}
+
+/* All of them. */
+static void margins_of(const Memory *memory, const Aside *aside, double *out)
+{
+    for (int i = 0; i < N_CLEARANCES; i++)
+        out[i] = memory->latch[i].closed ? aside->clearance[i].delta : -aside->clearance[i].delta;
+    for (int k = 0; k < N_SWITCHES; k++)
+        out[N_CLEARANCES + k] = memory->side[k] * aside->g[k];
+    for (int k = N_CLEARANCES + N_SWITCHES; k < N_MARGINS; k++)
+        out[k] = margin(memory, aside, k);
+}
+
+static void forget_stages(Step *step)
+{
+    step->n_seen = 0;
+    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+        step->least[k] = INFINITY;
+        step->most[k] = -INFINITY;
+    }
+    for (int k = 0; k < N_SWITCHES; k++)
+        step->passed[k] = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        step->rate[i][0] = INFINITY;
+        step->rate[i][1] = -INFINITY;
+    }
+}
+
+/* What a stage at `node` saw. */
+static void note_stage(const Run *run, Step *step, const Aside *aside, double node)
+{
+    margins_of(&run->memory, aside, step->seen[step->n_seen]);
+    step->node[step->n_seen++] = node;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *joint = &aside->clearance[i];
+        step->rate[i][0] = min_of(step->rate[i][0], joint->deltadot);
+        step->rate[i][1] = max_of(step->rate[i][1], joint->deltadot);
+    }
+}
+
+/* Where a stage was, if something is watched. */
+static void note_state(Step *step, const double *y)
+{
+    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+        step->least[k] = min_of(step->least[k], y[k]);
+        step->most[k] = max_of(step->most[k], y[k]);
+    }
+}
+
+static void note_speed(Run *run)
+{
+    for (int k = 0; k < N_X; k++)
+        run->speed[is_angle[k]] = max_of(run->speed[is_angle[k]], fabs(run->y[N_X + k]));
+}
+
+/*
+ * Tolerances of coordinates are given; those of velocities grow with the largest speed so far, those of works with
+ * the energy that was turned over: nothing in the motion feels them, but a balance of energy does.
+ */
+static void weigh(Run *run)
+{
+    const double of_speed[2] = {1.0 / (run->speed[0] + run->speed_floor[0]), 1.0 / (run->speed[1] + run->speed_floor[1])};
+    for (int k = 0; k < 2 * N_X; k++)
+        run->weight[k] = run->inverse_scale[k] * (k < N_X ? 1.0 : of_speed[is_angle[k - N_X]]);
+    for (int k = 2 * N_X; k < N_Y; k++)
+        run->weight[k] = 1.0 / (run->work_scale * run->turned_over);
+}
+
+static int all_finite(const double *x, int n)
+{
+    int bad = 0;
+    for (int k = 0; k < n; k++)
+        bad |= !(fabs(x[k]) <= DBL_MAX);
+    return !bad;
+}
+
+/* The step that closes the rows at a state, if there is one. */
+static int can_close(Run *run, int open, double t, const double *y, const Parameters *p, double *dq, double *dv,
+    double *worst)
+{
+    return open && !closing_of_state(t, y, &run->memory, p, dq, dv, worst) && all_finite(dq, N_X) && all_finite(dv, N_X);
+}
+
+#include "../both/project.h"
+
+/* The same after a step of rk4: in absolute coordinates Baumgarte's terms keep the rows instead. */
+static void close_state(Run *run, double t, double *y, const Parameters *p)
+{
+    if (TREE)
+        project_state(run, t, y, p);
+}
+
+/* Of all bodies, J. */
+static double kinetic_energy(const Run *run, const Parameters *p)
+{
+    double m[N_Q], all[N_S], sum = 0.0;
+    mass_matrix(p, m);
+    to_absolute(run->t, run->y, &run->memory, p, all);
+    for (int k = 0; k < N_Q; k++)
+        sum += 0.5 * m[k] * all[N_Q + k] * all[N_Q + k];
+    return sum;
+}
+
+/* A drive whose rate jumps moves the linkage by an impulse; its work is counted. */
+static void pass_impulse(Run *run, const Parameters *p)
+{
+    const double before = kinetic_energy(run, p);
+    project_state(run, run->t, run->y, p);
+    run->y[2 * N_X] += kinetic_energy(run, p) - before;
+}
+
+/* The end of a step: projected, with its right-hand side. */
+static int finish_step(Run *run, Step *step, const Parameters *p)
+{
+    if (!all_finite(step->y, N_Y))
+        return NOT_FINITE;
+    project_state(run, step->t + step->h, step->y, p);
+    const int status = rates(run, step->t + step->h, step->y, p, step->dy, &step->aside);
+    return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;
+}

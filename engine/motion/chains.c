@@ -1,0 +1,177 @@
+/*
+ * Driven chains: coordinates that the drives determine through loops of their own. At every time Chebyshev's
+ * method closes these loops, from where they were at the last state that was accepted: so the motion keeps its
+ * branch, and the right-hand side stays a function of time and state.
+ */
+enum { MAX_CHAIN_STEPS = 8, MAX_CHAIN_PARTS = 60 };
+#define CHAIN_REACH 0.1    /* rad, or share of the mechanism's size: a longer way to the root is made in parts */
+#define CHAIN_STRAIGHT 1e-3 /* the same, that positions may differ from what rates at both ends of a part tell */
+
+/*
+ * Chebyshev's method on the chains' closures. Of two steps that Newton would make the second is the bend, and what is
+ * left behind it some bend^2/step; a bend that is not much smaller than its step belongs to no root near by
+ * (L. V. Kantorovich). Returns 0, or the number of a closure; `moved` is the way.
+ */
+static int close_chains(double t, double *q, const Memory *memory, const Parameters *p, double *moved)
+{
+    double step[N_CHAIN], bend[N_CHAIN];
+    int row = 1;
+    *moved = 0.0;
+    chain_directions(t, q, memory, p, q);
+    for (int i = 0; i < MAX_CHAIN_STEPS; i++) {
+        double size = 0.0, bent = 0.0, sum = 0.0;
+        const int status = chain_step(t, q, memory, p, step, bend, &row);
+        if (status)
+            return status;
+        for (int k = 0; k < N_CHAIN; k++) {
+            size = max_of(size, fabs(step[k]) * chain_share(p, k));
+            bent = max_of(bent, fabs(bend[k]) * chain_share(p, k));
+            sum += step[k];
+            q[N_X + k] -= step[k];
+        }
+        *moved += size;
+        if (size > TURN_SMALL) {
+            chain_directions(t, q, memory, p, q);
+        } else {
+            turn_directions(q, step, p);
+        }
+        if (!isfinite(sum) || bent > 0.25 * size)
+            return row;
+        /* the bend may vanish where the cube of the step still counts */
+        if ((4.0 * bent * bent < 1e-17 * size && size * size * size < 1e-17) || size < 1e-15)
+            return 0;
+    }
+    return *moved < 1e-9 ? 0 : row;
+}
+
+/* A place of the chains, for the next time that it is asked for. */
+static inline void note_chains(double t, const TreeState *at, Chain *place)
+{
+    place->t = t;
+    for (int k = 0; k < N_LED; k++)
+        place->q[k] = at->q[N_X + k];
+    for (int k = 0; k < 2 * N_CHAIN; k++)
+        place->v[k] = at->v[N_X + k];
+}
+
+/* The place of the chains from which they are followed, with third rates. */
+static int keep_chains(double t, const TreeState *at, Memory *memory, const Parameters *p)
+{
+    note_chains(t, at, &memory->chain);
+    const int status = chain_third(t, at->q, at->v, memory, p, memory->chain.v + 2 * N_CHAIN);
+    memory->chain.failed = status;
+    memory->recent = memory->chain;
+    return status;
+}
+
+/* Such a place again; its third rates are asked for where they are needed. */
+static void recall_chains(const Chain *from, TreeState *at)
+{
+    for (int k = 0; k < N_LED; k++)
+        at->q[N_X + k] = from->q[k];
+    for (int k = 0; k < 2 * N_CHAIN; k++)
+        at->v[N_X + k] = from->v[k];
+}
+
+/* What Euler and Maclaurin's rule leaves over between two places, the most; lengths by the size. */
+static double chain_bend(double h, const Chain *a, const TreeState *b, const Parameters *p)
+{
+    const double *q = b->q + N_X, *rate = b->v + N_X, *second = rate + N_CHAIN;
+    double most = 0.0;
+    for (int k = 0; k < N_CHAIN; k++) {
+        const double way = 0.5 * h * (a->v[k] + rate[k] + (1.0 / 6.0) * h * (a->v[N_CHAIN + k] - second[k]));
+        most = max_of(most, chain_share(p, k) * fabs(q[k] - a->q[k] - way));
+    }
+    return most;
+}
+
+/* From one place of the chains to another near by; 0, or the number of a closure where the way is not certain. */
+static int move_chains(double t, const Chain *from, const Memory *memory, const Parameters *p, TreeState *at)
+{
+    const double h = t - from->t, *rate = from->v, *second = rate + N_CHAIN, *third = second + N_CHAIN;
+    double moved;
+    for (int k = 0; k < N_CHAIN; k++)
+        at->q[N_X + k] = from->q[k] + h * (rate[k] + 0.5 * h * (second[k] + (1.0 / 3.0) * h * third[k]));
+    int status = close_chains(t, at->q, memory, p, &moved);
+    if (!status)
+        status = chain_rates(t, at->q, memory, p, at->v);
+    if (status)
+        return status;
+    return moved <= CHAIN_REACH && chain_bend(h, from, at, p) <= CHAIN_STRAIGHT ? 0 : 1;
+}
+
+/* The chains at time t where one step there is too long: in parts; 0, or the number of a closure that cannot follow. */
+static int follow_in_parts(double t, const Memory *memory, const Parameters *p, TreeState *at)
+{
+    Chain here = memory->chain;
+    double h = 0.5 * (t - here.t);
+    int status = 1;
+    for (int part = 0; part < MAX_CHAIN_PARTS; part++) {
+        const int last = fabs(h) >= fabs(t - here.t);
+        const double next = last ? t : here.t + h;
+        status = move_chains(next, &here, memory, p, at);
+        if (!status && last)
+            return 0;
+        if (status) {
+            h *= 0.5;
+            continue;
+        }
+        here.t = next;
+        for (int k = 0; k < N_CHAIN; k++)
+            here.q[k] = at->q[N_X + k];
+        for (int k = 0; k < 2 * N_CHAIN; k++)
+            here.v[k] = at->v[N_X + k];
+        chain_third(next, at->q, at->v, memory, p, here.v + 2 * N_CHAIN);
+        h *= 2.0;
+    }
+    return status ? status : 1;
+}
+
+/*
+ * The chains at time t, as they were found there the last time, or from the last state that was accepted. Returns 0,
+ * or the number of a closure that cannot follow.
+ */
+static inline int follow_chains(double t, const Memory *memory, const Parameters *p, TreeState *at)
+{
+    if (memory->chain.failed)
+        return memory->chain.failed;
+#if SMOOTH_CHAINS
+    if (memory->recent.t == t) {
+        recall_chains(&memory->recent, at);
+        return 0;
+    }
+#endif
+    return move_chains(t, &memory->chain, memory, p, at) ? follow_in_parts(t, memory, p, at) : 0;
+}
+
+/*
+ * All that the tree's kernels read at (t, y); several stages of a method lie at one time. A status counts on behind
+ * the pivots.
+ */
+static inline int tree_state(double t, const double *y, Memory *memory, const Parameters *p, TreeState *at)
+{
+    const int status = follow_chains(t, memory, p, at);
+#if SMOOTH_CHAINS
+    if (!status && memory->recent.t != t)
+        note_chains(t, at, &memory->recent);
+#endif
+    for (int k = 0; k < N_X; k++) {
+        at->q[k] = y[k];
+        at->v[k] = y[N_X + k];
+    }
+    return status ? TREE_PIVOTS + status : 0;
+}
+
+/* The chains at t from a first guess (N_CHAIN) of their coordinates, as those from where they are followed. */
+static void seat_chains(double t, const double *guess, Memory *memory, const Parameters *p)
+{
+    TreeState at = {0};
+    double moved;
+    for (int k = 0; k < N_CHAIN; k++)
+        at.q[N_X + k] = guess[k];
+    int status = close_chains(t, at.q, memory, p, &moved);
+    if (!status)
+        status = chain_rates(t, at.q, memory, p, at.v);
+    const int last = keep_chains(t, &at, memory, p);
+    memory->chain.failed = status ? status : last;
+}

@@ -1,0 +1,107 @@
+/* What is integrated: coordinates of the tree that are free, their rates, works. Driven chains are evaluated. */
+int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+{
+    TreeState at;
+    int status = tree_state(t, y, memory, p, &at);
+    if (status)
+        return status;
+#if !SMOOTH_CHAINS
+    chain_corners(t, at.q, memory, p, aside->g);
+#endif
+    status = reduced_dynamics(t, at.q, at.v, memory, p, dy + N_X, aside);
+    for (int k = 0; k < N_X; k++)
+        dy[k] = y[N_X + k];
+    for (int k = 0; k < N_WORK; k++)
+        dy[2 * N_X + k] = aside->power[k];
+    return status;
+}
+
+/*
+ * The chains where they lie flat and nothing closes them: from a place so near that its rates tell the way to there.
+ * If there is none, where they were a moment ago.
+ */
+static void beside_flat(double t, const double *y, const Memory *memory, const Parameters *p, TreeState *at)
+{
+    double fastest = 1e-300;
+    for (int k = 0; k < N_CHAIN; k++)
+        fastest = max_of(fastest, fabs(memory->chain.v[k]));
+    for (double e = 1e-7; e < 0.05; e *= 10.0)
+        for (int side = -1; side <= 1; side += 2) {
+            const double h = side * e / fastest;
+            Memory now = *memory;
+            if (tree_state(t - h, y, &now, p, at))
+                continue;
+            for (int k = 0; k < N_CHAIN; k++) {
+                at->q[N_X + k] += h * (at->v[N_X + k] + 0.5 * h * at->v[N_X + N_CHAIN + k]);
+                at->v[N_X + k] += h * at->v[N_X + N_CHAIN + k];
+            }
+            chain_directions(t, at->q, memory, p, at->q);
+            return;
+        }
+    recall_chains(&memory->chain, at);
+}
+
+/* The state of all bodies, (q, v, work). */
+void to_absolute(double t, const double *y, const Memory *memory, const Parameters *p, double *all)
+{
+    TreeState at;
+    Memory now = *memory;
+    if (tree_state(t, y, &now, p, &at))
+        beside_flat(t, y, memory, p, &at);
+    expand(t, at.q, at.v, p, all, all + N_Q);
+    for (int k = 0; k < N_WORK; k++)
+        all[2 * N_Q + k] = y[2 * N_X + k];
+}
+
+void from_absolute(double t, const double *all, Memory *memory, const Parameters *p, double *y)
+{
+    TreeState at;
+    reduce_state(t, all, all + N_Q, p, at.q, at.v);
+    seat_chains(t, at.q + N_X, memory, p);
+    for (int k = 0; k < N_X; k++) {
+        y[k] = at.q[k];
+        y[N_X + k] = at.v[k];
+    }
+    for (int k = 0; k < N_WORK; k++)
+        y[2 * N_X + k] = all[2 * N_Q + k];
+}
+
+int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
+    double *worst)
+{
+    TreeState at;
+    const int status = tree_state(t, y, memory, p, &at);
+    return status ? status : closing_step(t, at.q, at.v, memory, p, dq, dv, worst);
+}
+
+int linearize_state(double t, const double *y, Memory *memory, const Parameters *p, const double *a,
+    const Aside *aside, Linear *lin)
+{
+    TreeState at;
+    const int status = tree_state(t, y, memory, p, &at);
+    if (status)
+        return status;
+    chain_third(t, at.q, at.v, memory, p, at.v + N_X + 2 * N_CHAIN);
+    linearize(t, at.q, at.v, memory, p, a, aside, lin);
+    return 0;
+}
+
+int accept_state(double t, const double *y, Memory *memory, const Parameters *p, const Aside *aside, double *phi_max,
+    double *phi_dot_max)
+{
+    TreeState at; /* from here on the driven chains are followed */
+    (void)aside;
+    int status = tree_state(t, y, memory, p, &at);
+    if (!status)
+        status = keep_chains(t, &at, memory, p);
+    if (status)
+        return status;
+    double phi[N_LOOPS + 1], phi_dot[N_LOOPS + 1];
+    closures(t, at.q, p, phi);
+    closure_rates(t, at.q, at.v, p, phi_dot);
+    for (int r = 0; r < N_LOOPS; r++) {
+        *phi_max = max_of(fabs(phi[r]), *phi_max);
+        *phi_dot_max = max_of(fabs(phi_dot[r]), *phi_dot_max);
+    }
+    return 0;
+}

@@ -1,0 +1,17 @@
+/*
+ * Where a pivot vanishes: the accelerations of the absolute formulation, which finds out which rows depend on
+ * others, and of them those of the tree. Rare and out of the way of the fast path.
+ */
+int solve_by_absolute(double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
+{
+    double all_q[N_Q], all_v[N_Q], all_a[N_Q];
+    Aside whole;
+    Memory now = *memory;
+    now.held = 0; /* corners of the scene have other numbers there */
+    expand(t, q, v, p, all_q, all_v);
+    const int status = dynamics(t, all_q, all_v, &now, p, all_a, &whole);
+    reduce_accelerations(t, all_q, all_v, all_a, p, a);
+    tree_multipliers(whole.lambda, aside->lambda);
+    return status;
+}

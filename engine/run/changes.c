@@ -1,0 +1,171 @@
+/*
+ * What changes at an event: contacts begin and end, corners of laws and expressions change their side, friction its
+ * mode; a drive whose rate jumps moves the linkage by an impulse.
+ */
+/* Sides of all corners that act from their functions; the one that was just crossed keeps what it was given. */
+static int settle_sides(Run *run, int crossed, const Parameters *p)
+{
+    for (int pass = 0; pass < 6; pass++) {
+        int changed = 0;
+        const int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+        if (status)
+            return status;
+        for (int k = 0; k < N_SWITCHES; k++)
+            if (k != crossed && run->memory.side[k] * run->aside.g[k] < 0.0) {
+                run->memory.side[k] = -run->memory.side[k];
+                changed = 1;
+            }
+        if (!changed)
+            return 0;
+    }
+    return 0;
+}
+
+/* A contact begins with no longer a step than the last one could begin with, free flight likewise. */
+static void cross_contact(Run *run, int i, double floor)
+{
+    const int opens = run->memory.latch[i].closed;
+    if (opens)
+        open_joint(run, i, run->t);
+    else
+        close_joint(run, i, run->t, run->aside.clearance[i].deltadot, floor);
+    if (run->h_first[opens] > 0.0)
+        run->h = min_of(run->h, 2.0 * run->h_first[opens]);
+    run->first = &run->h_first[opens];
+    run->h_stiff = 0.0;
+}
+
+static void cross(Run *run, int k, const Parameters *p)
+{
+    if (k < N_CLEARANCES)
+        cross_contact(run, k, slowest_impact(p, k));
+    else if (k < N_CLEARANCES + N_SWITCHES)
+        run->memory.side[k - N_CLEARANCES] *= -1.0;
+}
+
+/* What works are measured by at the start: the energy of the motion, at least that of the speeds that count, J. */
+static double energy_scale(const Run *run, const Parameters *p)
+{
+    double m[N_Q], sum = kinetic_energy(run, p);
+    mass_matrix(p, m);
+    for (int k = 0; k < N_Q; k++)
+        sum += 0.5 * m[k] * run->speed_floor[k % 3 == 2] * run->speed_floor[k % 3 == 2];
+    return sum;
+}
+
+/*
+ * A motion that stays by a corner (a journal that hardly moves in its film) may cross it again and again. One that
+ * comes back at once is not looked for in the next step, which is as short as the way between the crossings and
+ * grows from there: the corner's branches meet, so that little is wrong with the held one so near.
+ */
+static void pace_corner(Run *run, int corner)
+{
+    const double way = run->t - run->t_crossed;
+    const int again = meets[corner] && run->crossed == corner && way < 1e-3 * run->h;
+    run->skip = again ? corner : -1;
+    run->pace = again ? 20.0 * max_of(100.0 * run->tick, max_of(run->pace, way)) : 0.0;
+    run->crossed = corner;
+    run->t_crossed = run->t;
+}
+
+#if N_CORNERS
+/*
+ * Sides of all corners as they are at `ahead`, right behind this time; the one that was just crossed keeps its own,
+ * unless it hangs on others that change.
+ */
+static int settle_beyond(Run *run, double ahead, int crossed, const Parameters *p)
+{
+    double dy[N_Y];
+    for (int pass = 0; pass < 6; pass++) {
+        int changed = 0;
+        Aside aside;
+        const int status = rates(run, ahead, run->y, p, dy, &aside);
+        if (status)
+            return status;
+        for (int k = 0; k < N_SWITCHES; k++)
+            if ((k != crossed || pass > 0) && !isnan(aside.g[k]) && (run->memory.side[k] < 0.0) != (aside.g[k] < 0.0)) {
+                run->memory.side[k] = -run->memory.side[k];
+                changed = 1;
+            }
+        if (!changed)
+            break;
+    }
+    return 0;
+}
+
+/* What the corner of a drive changes, and all others that lie at the same time: first sides, then velocities. */
+static int change_drives(Run *run, int corner, const Parameters *p)
+{
+    const double t = run->t, ahead = t + max_of(32.0 * DBL_EPSILON * fabs(t), 2.0 * run->tick);
+    int status = settle_beyond(run, ahead, corner, p);
+    if (status)
+        return status;
+    const double before = kinetic_energy(run, p);
+    pass_impulse(run, p);
+    if (kinetic_energy(run, p) == before)
+        return settle_sides(run, corner, p);
+    status = settle_beyond(run, ahead, corner, p); /* those of speeds, which are others now */
+    if (!status)
+        status = rates(run, t, run->y, p, run->dy, &run->aside);
+    return status ? status : note_leaps(run, t);
+}
+
+#endif
+/* At an event: everything whose margin is used up changes, then the right-hand side is that of what follows. */
+static int change(Run *run, int event, const Parameters *p)
+{
+    for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
+        if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < shallow(p, k)))
+            cross(run, k, p);
+    const int corner = event - N_CLEARANCES;
+    const int is_corner = corner >= 0 && corner < N_SWITCHES;
+    if (is_corner) {
+        pace_corner(run, corner);
+#if N_CORNERS
+        return change_drives(run, corner, p);
+#else
+        pass_impulse(run, p);
+#endif
+    }
+    int status = settle_sides(run, is_corner ? corner : -1, p);
+    const int friction = corner - N_SWITCHES, watched = friction - N_FRICTIONS;
+    if (!status && friction >= 0 && watched < 0)
+        status = switch_friction(run, p);
+    if (!status && watched >= 0 && event_crosses(watched, &run->memory.event_side[watched], run->aside.event[watched])
+        && !run->pole && note_event(run, watched, run->t))
+        status = ENDED;
+    return status;
+}
+
+#if N_CORNERS
+/*
+ * A start, or an end, at the jump of a drive's rate, or right before it, is beyond that: it holds what follows. User
+ * events that the impulse leads across their zeros are noted.
+ */
+static int pass_jumps_here(Run *run, const Parameters *p)
+{
+    double before[N_SWITCHES + 1];
+    int some = 0;
+    for (int k = 0; k < N_SWITCHES; k++)
+        before[k] = run->memory.side[k];
+    int status = settle_beyond(run, ahead_of(run->t), -1, p);
+    for (int k = 0; k < N_SWITCHES; k++)
+        some |= before[k] != run->memory.side[k];
+    if (status || !some)
+        return status;
+    pass_impulse(run, p);
+    status = settle_beyond(run, ahead_of(run->t), -1, p);
+    if (!status)
+        status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    return status ? status : note_leaps(run, run->t);
+}
+
+#endif
+/* A free journal never lies outside its bearing, whatever the method thought of its contact. */
+static int check_contacts(const Run *run, const Parameters *p)
+{
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (!run->memory.latch[i].closed && run->aside.clearance[i].delta > min_of(1e-9, 1e-6 * deepest(p, i)) + 1e-3 * radial_clearance(p, i))
+            return LOST;
+    return 0;
+}

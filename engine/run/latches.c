@@ -1,0 +1,63 @@
+/*
+ * Onsets and separations of joints with play, from gap and approach at both ends of a step.
+ */
+/* Parameter s in [0, 1] at which the cubic through (d0, h r0) and (d1, h r1) crosses zero; its slope in `rate`. */
+static double crossing(double d0, double r0, double d1, double r1, double h, double *rate)
+{
+    double low = 0.0, high = 1.0, s = 0.5;
+    for (int i = 0; i < 60; i++) {
+        s = 0.5 * (low + high);
+        const double u = 1.0 - s;
+        const double d = u * u * (1.0 + 2.0 * s) * d0 + s * u * u * h * r0 + s * s * (3.0 - 2.0 * s) * d1 - s * s * u * h * r1;
+        if ((d >= 0.0) == (d1 >= 0.0))
+            high = s;
+        else
+            low = s;
+    }
+    *rate = 6.0 * s * (1.0 - s) * (d1 - d0) / h + (1.0 - s) * (1.0 - 3.0 * s) * r0 + s * (3.0 * s - 2.0) * r1;
+    return s;
+}
+
+/* Onset: remember the impact velocity, not below its floor. */
+static void close_joint(Run *run, int i, double t, double deltadot, double floor)
+{
+    run->memory.latch[i].closed = 1;
+    run->memory.latch[i].deltadot_minus = max_of(deltadot, floor);
+    run->compressing[i] = 1;
+    run->rising[i] = 1;
+    run->onsets++;
+    run->open[i] = (Impact){t, NAN, run->memory.latch[i].deltadot_minus, 0.0, t, i};
+}
+
+/* Separation: the contact goes into the list that Python fetches. */
+static void open_joint(Run *run, int i, double t)
+{
+    run->memory.latch[i].closed = 0;
+    run->open[i].t_off = t;
+    if (run->n_impacts < N_IMPACTS) /* more in one step than the list holds: only where friction cuts it in parts */
+        run->impacts[run->n_impacts++] = run->open[i];
+}
+
+/* Free, impact, contact from gap and approach at both ends of a step; 1 if any joint changed. */
+static int update_latches(Run *run, double t, double h, const Clearance *before, const Clearance *after,
+    const unsigned char *touched, const Parameters *p)
+{
+    int changed = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const double d0 = before[i].delta, d1 = after[i].delta;
+        double rate;
+        if (!run->memory.latch[i].closed && d1 >= 0.0) {
+            const double s = d0 < 0.0 ? crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate) : 0.0;
+            close_joint(run, i, t + s * h, d0 < 0.0 ? rate : before[i].deltadot, slowest_impact(p, i));
+            changed = 1;
+        } else if (run->memory.latch[i].closed && d1 < 0.0) {
+            open_joint(run, i, t + h * crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate));
+            changed = 1;
+        } else if (!run->memory.latch[i].closed && touched[i]) {
+            run->grazes++; /* in and out again within one step */
+        }
+        note_turn(run, i, after[i].deltadot);
+    }
+    return changed;
+}
+

@@ -1,0 +1,108 @@
+/*
+ * Peaks of the forces in joints with play between the ends of a step, from the interpolant.
+ */
+static void peak(Run *run, int i, double t, double F)
+{
+    if (run->trace)
+        trace_force(run, i, t, F);
+    if (F > run->F_peak[i]) {
+        run->F_peak[i] = F;
+        run->t_peak[i] = t;
+    }
+    if (run->memory.latch[i].closed && F > run->open[i].F_peak) {
+        run->open[i].F_peak = F;
+        run->open[i].t_peak = t;
+    }
+}
+
+static double force_at(Run *run, const Step *step, double s, int i, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    if (state_at(run, step, s, p, y, dy, &aside))
+        return 0.0;
+    const double F = total_force(&aside.clearance[i]);
+    peak(run, i, step->t + s * step->h, F);
+    run->e_max[i] = max_of(aside.clearance[i].e, run->e_max[i]);
+    return F;
+}
+
+/* The top of joint i's force inside a step up to `share`, by parabolas through three of its points. */
+static void inner_peak(Run *run, const Step *step, double share, int i, const Parameters *p)
+{
+    double s = 0.5 * share, best = force_at(run, step, s, i, p);
+    for (double width = 0.5 * share; width > 0.002 && best > 0.0; width *= 0.2) {
+        const double low = max_of(0.0, s - width), high = min_of(share, s + width), x = s - low, z = high - s;
+        const double left = force_at(run, step, low, i, p) - best, right = force_at(run, step, high, i, p) - best;
+        const double bend = right * x + left * z;
+        double top = left > right ? low : high;
+        if (bend < 0.0)
+            top = min_of(high, max_of(low, s - 0.5 * (right * x * x - left * z * z) / bend));
+        const double found = force_at(run, step, top, i, p);
+        if (found > best || max_of(right, left) > 0.0) {
+            best = max_of(best, found);
+            s = found >= best ? top : left > right ? low : high;
+        }
+    }
+}
+
+/* The largest eccentricity of joint i inside a step up to `share`, where the journal turns round in it. */
+static void outermost(Run *run, Step *step, double share, int i, const Parameters *p)
+{
+    Clearance low = run->aside.clearance[i], high = step->aside.clearance[i];
+    double from = 0.0, to = share;
+    for (int n = 0; n < 6 && low.deltadot > 0.0 && high.deltadot < 0.0; n++) {
+        const double h = (to - from) * step->h;
+        double top, y[N_Y], dy[N_Y];
+        const double s = from + (to - from) * cubic_top(low.e, h * low.deltadot, high.e, h * high.deltadot, &top);
+        Aside aside;
+        if (top < 0.99 * run->e_max[i] || make_dense(run, p, step) || state_at(run, step, s, p, y, dy, &aside))
+            return;
+        const Clearance *now = &aside.clearance[i];
+        if (run->trace)
+            trace_place(run, i, step->t + s * step->h, now);
+        run->e_max[i] = max_of(now->e, run->e_max[i]);
+        if (fabs(now->e - top) < 1e-9 * top)
+            return;
+        if (now->deltadot > 0.0)
+            from = s, low = *now;
+        else
+            to = s, high = *now;
+    }
+}
+
+/*
+ * Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end.
+ * The slope at the end is told by a very short way along the motion.
+ */
+static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
+{
+    double before[AT_LEAST_ONE(N_CLEARANCES)], after[AT_LEAST_ONE(N_CLEARANCES)];
+    int near = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        outermost(run, step, share, i, p);
+        const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
+        const double known = run->memory.latch[i].closed ? run->open[i].F_peak : run->F_peak[i];
+        before[i] = total_force(a), after[i] = total_force(b);
+        /* a contact's force may double in a step, a film's grows by some percent */
+        const double share_of = run->memory.latch[i].closed ? 0.9 : 0.97;
+        const int looked = max_of(before[i], after[i]) > share_of * known && after[i] > 0.0;
+        run->rising[i] = looked ? run->rising[i] : 1;
+        near |= looked << i % 16;
+    }
+    if (!near)
+        return;
+    double x[N_Y], dx[N_Y];
+    Aside aside;
+    const double e = 1e-4 * share * step->h;
+    for (int k = 0; k < N_Y; k++)
+        x[k] = step->y[k] + e * step->dy[k];
+    if (rates(run, step->t + share * step->h + e, x, p, dx, &aside))
+        return;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const double slope = total_force(&aside.clearance[i]) - after[i];
+        if ((near >> i % 16 & 1) && run->rising[i] && slope < 0.0 && make_dense(run, p, step) == 0)
+            inner_peak(run, step, share, i, p);
+        run->rising[i] = slope > 0.0;
+    }
+}

@@ -1,0 +1,100 @@
+/*
+ * A run: the right-hand side with its questions, what is watched at accepted states, its begin.
+ */
+#include "run.h"
+
+static int rates(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
+{
+    run->evaluations++;
+    if (given_up(&run->asked))
+        return STOPPED;
+    return motion(t, y, &run->memory, p, dy, aside);
+}
+
+#include "../both/watch.h"
+#include "latches.c"
+#include "trace.c"
+
+/* A journal deeper in its bearing than a tenth of the radius: contact laws mean nothing there. */
+static int outside_model(const Run *run, const Parameters *p)
+{
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (run->aside.clearance[i].delta > deepest(p, i))
+            return 1;
+    return 0;
+}
+
+/* Peaks, residuals and the ratio deltadot/deltadot_minus at an accepted state. */
+static int watch(Run *run, const Parameters *p)
+{
+    const Aside *aside = &run->aside;
+    double sum = 0.0;
+    for (int k = 0; k < N_Y; k++)
+        sum += run->dy[k] + run->y[k];
+    const int lost = accept_state(run->t, run->y, &run->memory, p, aside, &run->phi_max, &run->phi_dot_max);
+    if (lost)
+        return lost;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        watch_joint(run, i);
+    if (run->trace)
+        trace_step(run);
+    return !isfinite(sum) ? NOT_FINITE : outside_model(run, p) ? OUTSIDE : 0;
+}
+
+#include "user_events.c"
+#if N_FRICTIONS
+#include "friction.c"
+#else
+#include "no_friction.c"
+#endif
+
+/* Whether the next step may find more than the lists hold. */
+static int lists_full(const Run *run)
+{
+    return run->n_impacts > N_IMPACTS - AT_LEAST_ONE(N_CLEARANCES) || run->n_events > N_IMPACTS - AT_LEAST_ONE(3 * N_USER_EVENTS);
+}
+
+/* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
+static int begin(Run *run, const Parameters *p)
+{
+    const unsigned char touched[AT_LEAST_ONE(N_CLEARANCES)] = {0};
+    int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    if (!status)
+        status = begin_friction(run, p);
+    if (!status && update_latches(run, run->t, 0.0, run->aside.clearance, run->aside.clearance, touched, p))
+        status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
+        if (isnan(run->aside.event[i]) && !status)
+            note_no_number(run, i, run->t);
+    }
+    run->ready = 1;
+    return status ? status : watch(run, p);
+}
+
+#if !N_CORNERS
+static int begin_run(Run *run, const Parameters *p) { return begin(run, p); }
+#endif
+
+size_t gudgeon_run_size(void) { return sizeof(Run); }
+
+/* `y` is a state of all bodies. */
+void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched)
+{
+    Run *run = memory;
+    *run = (Run){.t = t, .ratio_min = INFINITY, .ratio_max = -INFINITY};
+    from_absolute(t, y, &run->memory, (const Parameters *)p, run->y);
+    read_memory(latched, &run->memory);
+    run->memory.asked = &run->asked;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        run->open[i] = (Impact){t, NAN, latched[i], 0.0, t, i};
+}
+
+/* The codes with which an earlier run ended: whether a contact that goes on is still being compressed. */
+void gudgeon_run_codes(void *memory, const signed char *state)
+{
+    Run *run = memory;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        run->compressing[i] = state[i] == 1;
+}
+

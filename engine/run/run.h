@@ -1,0 +1,95 @@
+/*
+ * A run: the state that a method moves forward, and what is watched on the way: onsets and separations of
+ * joints with play, peaks, residuals.
+ */
+#ifndef GUDGEON_RUN_H
+#define GUDGEON_RUN_H
+#include "asked.h"
+#include "../scene/events.h"
+#include "../both/one.h"
+
+enum {
+    N_IMPACTS = 256, MAX_PARTS = 50
+};
+
+typedef struct {
+    double t_on, t_off, deltadot, F_peak, t_peak;
+    int joint;
+} Impact;
+
+/*
+ * What a picture needs of every step, in bounded room: a row tells of `stride` steps in a row; where the room is used
+ * up, two rows become one. Of each joint with play the least and the largest force and when, where the journal was
+ * furthest out and when, and where it was at the end of the row.
+ */
+typedef struct {
+    double F_low, t_low, F_high, t_high, x_out, y_out, t_out, x, y; /* N, s, m: in this order for Python's Trace */
+} Trail;
+
+typedef struct {
+    double t; /* end of the row's last step */
+    Trail joint[AT_LEAST_ONE(N_CLEARANCES)];
+} TraceRow;
+
+/* A step that was tried: contacts and the sides of corners are held while it is made. */
+enum {
+    N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
+    N_STAGES = 16, N_DENSE = 7, N_LOOKS = 16
+};
+
+typedef struct {
+    double t, h, error;
+    double y[N_Y], dy[N_Y];                  /* at the end */
+    Aside aside;
+    double k[N_STAGES][N_Y];                 /* rates or increments of the stages */
+    double dense[N_DENSE][N_Y];
+    int dense_ready, stiff;
+    int n_seen;                              /* stages so far, their nodes and margins */
+    double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_MARGINS)];
+    double look[AT_LEAST_ONE(N_WATCHED)][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (watched.c) */
+    unsigned char passed[AT_LEAST_ONE(N_SWITCHES)]; /* corners that this step crosses without harm */
+    double from[AT_LEAST_ONE(N_WATCHED)], to[AT_LEAST_ONE(N_WATCHED)], below[AT_LEAST_ONE(N_WATCHED)]; /* where a zero of it was found */
+    double least[2 * N_X + 1], most[2 * N_X + 1];   /* of the state at stages, where something is watched */
+    unsigned char near[AT_LEAST_ONE(N_WATCHED)], looked;
+    double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
+} Step;
+
+/* What a step began with. */
+typedef struct {
+    double t, y[N_Y], dy[N_Y];
+    int closed[AT_LEAST_ONE(N_CLEARANCES)], compressing[AT_LEAST_ONE(N_CLEARANCES)];
+} Beginning;
+
+typedef struct {
+    double t, y[N_Y], dy[N_Y];
+    Aside aside;
+    Memory memory;
+    Asked asked;
+    Impact open[AT_LEAST_ONE(N_CLEARANCES)];      /* the contact going on in each joint */
+    int compressing[AT_LEAST_ONE(N_CLEARANCES)];  /* from onset until the penetration first stops growing */
+    double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
+    Impact impacts[N_IMPACTS];
+    double event_t[N_IMPACTS];
+    unsigned char no_number[AT_LEAST_ONE(N_USER_EVENTS)];  /* whether an event was told to be none */
+    double tick; /* s, to which times of events are told apart; less where the whole run is short */
+    int pole; /* whether the event that ends a step is no zero but a pole */
+    int event[N_IMPACTS], n_events, stop; /* user events found; whether they may end the run */
+    int n_impacts, ready;
+    TraceRow *trace; /* nobody wants one: NULL; the row that is being filled, of `trace_rows`, and steps in it */
+    long trace_row, trace_rows, trace_steps, trace_stride;
+    Beginning from; /* of rk4's step, where samples lie within it */
+    long steps, evaluations, onsets, grazes, switches, rejected, jacobians, stiff_steps;
+    double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
+    /* of methods that choose their step (adaptive.c) */
+    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace, inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2];
+    double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
+    double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
+    int rising[AT_LEAST_ONE(N_CLEARANCES)]; /* whether a joint's force rose at the end of the last step */
+    Pace advance;
+    long ended[N_MARGINS + 1]; /* steps that each margin ended, since the pace was taken */
+    int crossed, skip, choice, stiff, votes, patience, since, stuck, crawl, linear_ready;
+    Linear linear;
+    Step step;
+} Run;
+
+#endif

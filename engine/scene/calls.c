@@ -1,0 +1,132 @@
+/*
+ * The state equation y' = f(t, y) with y = (q, v, work), and everything that is computed from a state.
+ */
+static int state_equation(double t, const double *y, const Memory *memory, const Parameters *p, double *dy, Aside *aside)
+{
+    const int status = dynamics(t, y, y + N_Q, memory, p, dy + N_Q, aside);
+    for (int k = 0; k < N_Q; k++)
+        dy[k] = y[N_Q + k];
+    for (int k = 0; k < N_WORK; k++)
+        dy[2 * N_Q + k] = aside->power[k];
+    return status;
+}
+
+/* The memory of a sample: impact velocities, NaN where a joint is open; then the modes of friction. */
+void read_memory(const double *sample, Memory *memory)
+{
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        memory->latch[i].closed = !isnan(sample[i]);
+        memory->latch[i].deltadot_minus = sample[i];
+    }
+    for (int i = 0; i < N_FRICTIONS; i++)
+        memory->mode[i] = sample[N_CLEARANCES + i];
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        memory->event_side[i] = 0;
+    memory->held = 0;
+    memory->asked = NULL;
+}
+
+void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
+{
+    prepare(given, is_given, (Parameters *)p);
+}
+
+void gudgeon_mass(const double *p, double *m) { mass_matrix((const Parameters *)p, m); }
+
+void gudgeon_phi(double t, const double *q, const double *p, double *phi)
+{
+    constraints(t, q, (const Parameters *)p, phi);
+}
+
+void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q)
+{
+    for (long k = 0; k < (long)N_ALL_ROWS * N_Q; k++)
+        phi_q[k] = 0.0;
+    jacobian(t, q, (const Parameters *)p, phi_q);
+}
+
+void gudgeon_nu(double t, const double *q, const double *p, double *nu)
+{
+    velocity_rhs(t, q, (const Parameters *)p, nu);
+}
+
+void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_rows)
+{
+    acceleration_rhs(t, q, v, (const Parameters *)p, gamma_rows);
+}
+
+void gudgeon_start_values(const double *p, double *guess, double *set, double *rates)
+{
+    start_values((const Parameters *)p, guess, set, rates);
+}
+
+int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy)
+{
+    Memory now = {0};
+    Aside aside;
+    read_memory(memory, &now);
+    return state_equation(t, y, &now, (const Parameters *)p, dy, &aside);
+}
+
+/* The same right-hand side many times over, for benchmarks; the sum keeps the calls alive. */
+double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p)
+{
+    double dy[N_S], moved[N_S], sum = 0.0;
+    for (int k = 0; k < N_S; k++)
+        moved[k] = y[k];
+    for (long i = 0; i < count; i++) {
+        gudgeon_rhs(t, moved, memory, p, dy);
+        sum += dy[N_Q];
+        moved[0] = y[0] + 1e-300 * sum; /* the next call waits for this one */
+    }
+    return sum;
+}
+
+/* Everything at n samples; returns 0 or the pivot that vanished, with the sample in `failed`. */
+int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
+    const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
+    double *series, double *friction, double *energy, double *power, long *failed)
+{
+    const Parameters *p = (const Parameters *)parameters;
+    for (long i = 0; i < n; i++) {
+        Memory now = {0};
+        Aside aside;
+        double y[N_S] = {0.0}, dy[N_S];
+        for (int k = 0; k < N_Q; k++) {
+            y[k] = q[i * N_Q + k];
+            y[N_Q + k] = v[i * N_Q + k];
+        }
+        read_memory(memory + i * (N_CLEARANCES + N_FRICTIONS), &now);
+        const int status = state_equation(t[i], y, &now, p, dy, &aside);
+        if (status) {
+            *failed = i;
+            return status;
+        }
+        for (int k = 0; k < N_Q; k++)
+            a[i * N_Q + k] = dy[N_Q + k];
+        for (int k = 0; k < N_ROWS; k++)
+            lambda[i * N_ROWS + k] = aside.lambda[k];
+        for (int k = 0; k < N_WORK; k++)
+            power[i * N_WORK + k] = aside.power[k];
+        outputs(t[i], y, y + N_Q, p, aside.lambda, reactions + i * 3 * N_JOINTS, torques + i * N_DRIVES,
+            series + i * N_SERIES, energy + 2 * i);
+        for (int k = 0; k < N_FRICTIONS; k++) {
+            friction[(i * N_FRICTIONS + k) * 2] = aside.friction[k].force;
+            friction[(i * N_FRICTIONS + k) * 2 + 1] = aside.friction[k].v;
+        }
+        for (int k = 0; k < N_CLEARANCES; k++) {
+            const Clearance *joint = &aside.clearance[k];
+            double *out = clearance + (i * N_CLEARANCES + k) * 9;
+            out[0] = joint->Fx;
+            out[1] = joint->Fy;
+            out[2] = -joint->F_n; /* positive: pushes the journal back to the centre */
+            out[3] = joint->F_t;
+            out[4] = joint->ex;
+            out[5] = joint->ey;
+            out[6] = joint->e;
+            out[7] = joint->deltadot;
+            out[8] = joint->v_t;
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,101 @@
+/*
+ * What is called from outside: Python reads these declarations too. Arrays are C-contiguous and of the lengths that
+ * model.h has; parameters `p` are those that gudgeon_prepare makes; all numbers are SI.
+ */
+#ifndef GUDGEON_CALLS_H
+#define GUDGEON_CALLS_H
+
+void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p);
+void gudgeon_mass(const double *p, double *m);
+void gudgeon_phi(double t, const double *q, const double *p, double *phi);
+void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q);
+void gudgeon_nu(double t, const double *q, const double *p, double *nu);
+void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_rows);
+void gudgeon_start_values(const double *p, double *guess, double *set, double *rates);
+int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual);
+int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy);
+double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p);
+int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
+    const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
+    double *series, double *friction, double *energy, double *power, long *failed);
+#if TREE
+void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v);
+void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v);
+int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *memory, const double *p, double *a,
+    double *lambda, double *power);
+void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot);
+int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x);
+double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory,
+    const double *p);
+#endif
+#if RESCUED
+int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *memory, const double *p,
+    double *a);
+#endif
+#if N_CHAIN
+int gudgeon_chains(double t, double *q, const double *p, double *v);
+#endif
+#if INTEGRATES
+int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t);
+int gudgeon_newton(double t, const double *y, const double *memory, const double *p, double eta, double s,
+    const double *r, double *u);
+size_t gudgeon_run_size(void);
+void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched);
+void gudgeon_run_trace(void *memory, double *trace, long rows);
+long gudgeon_run_traced(const void *memory);
+void gudgeon_run_codes(void *memory, const signed char *state);
+int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n, const double *t, long limit,
+    double *y, double *latched, signed char *state, long *done);
+void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state);
+void gudgeon_run_stop(void *memory, int stop);
+void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every);
+void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended);
+int gudgeon_run_events(void *memory, double *t, int *event);
+int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
+void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *least, double fixed);
+int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
+    double *y, double *latched, signed char *state, long *done);
+void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
+
+/* Arrays with a row for each run; `numbers` are the doubles of Parameters, `samples` the times of t. */
+typedef struct {
+    long samples, numbers, limit;         /* steps after which a call returns */
+    int choice, stop;                     /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
+    double fixed, *t;
+    double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
+    double *step, *scale, *least;         /* rk4's step; tolerances as gudgeon_adaptive_setup takes them */
+    double *start;                        /* (q, v) where `started`, else filled here */
+    unsigned char *started, *phase;
+    double *y, *latched;                  /* samples */
+    signed char *state;
+    long *done;                           /* samples stored */
+    int *status;
+    double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
+    long *counts;                         /* as gudgeon_run_report has them */
+    double *residuals, *peaks;
+    const volatile int *ending;           /* not 0: all runs end where they are */
+} Batch;
+
+int gudgeon_many(const void *batch, void *memory, long *current, long end);
+#endif
+#if HAS_LANES
+const void *gudgeon_single(void);
+#endif
+#if !INTEGRATES
+size_t gudgeon_course_size(void);
+void gudgeon_course_begin(void *memory, double reach, double extent, double t_end, int (*ask)(void *), void *whom,
+    double every);
+void gudgeon_course_again(void *memory);
+void gudgeon_course_pace(const void *memory, double *t, double *gained, long *steps);
+int gudgeon_kinematic(void *memory, long n, const double *t, const double *p, double *q, double *v, double *a,
+    double *phi_max, double *phi_dot_max, long *steps, long *done);
+int gudgeon_kinematic_works(void *memory, long n, const double *t, const double *p, const double *q, const double *v,
+    double *work, long *done);
+#endif
+#if !INTEGRATES && N_USER_EVENTS
+int gudgeon_kinematic_events(void *memory, long n, const double *t, const double *parameters, const double *q,
+    const double *v, double start, int stop, signed char *side, long capacity, double *at, int *event, long *found,
+    long *done);
+#endif
+
+#endif

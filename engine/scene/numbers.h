@@ -1,0 +1,64 @@
+/*
+ * Arithmetic that all parts share.
+ */
+#ifndef GUDGEON_NUMBERS_H
+#define GUDGEON_NUMBERS_H
+
+/* min, max, sign that keep a NaN in x. */
+static inline double max_of(double x, double y) { return x < y ? y : x; }
+static inline double min_of(double x, double y) { return x > y ? y : x; }
+static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
+
+/* How close (s) to the end t of a step of length h a sample is the end's own: both are sums of rounded numbers. */
+static inline double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
+
+/*
+ * Time at which step i (0, 1, ...) of a fixed length ends, from t0 towards t_end; `h` is its length. The last one ends
+ * at t_end and is the shorter for it. Steps from a multiple of their length end at multiples, so that a run that goes
+ * on from the end of one takes the same ones, to the bit.
+ */
+static inline double step_end(double t0, double t_end, double step, double i, double *h)
+{
+    const double total = max_of(ceil((t_end - t0) / step * (1.0 - 1e-12)), 1.0);
+    const double rest = t_end - t0 - (total - 1.0) * step, count = rint(t0 / step);
+    const int multiple = fabs(count * step - t0) <= rounded(t0, step);
+    *h = i < total || fabs(rest - step) < 1e-9 * step ? step : rest;
+    return i < total ? (multiple ? (count + i) * step : t0 + i * step) : t_end;
+}
+
+/*
+ * Places beside x, and a slope: the derivative as it is written, or the rise between them where that is no number. A
+ * term that is finite while its derivative overflows is saturated.
+ */
+static inline double just_ahead(double x) { return x + 1e-9 * (1.0 + fabs(x)); }
+static inline double just_behind(double x) { return x - 1e-9 * (1.0 + fabs(x)); }
+static inline double finite_slope(double derivative, double ahead, double behind, double way)
+{
+    return isfinite(derivative) ? derivative : (ahead - behind) / way;
+}
+
+/* So little behind t that rounding no longer hides on which side of a corner a drive goes on. */
+static inline double ahead_of(double t) { return t + max_of(32.0 * DBL_EPSILON * fabs(t), 1e-100); }
+/* The time at which the rate of a drive is asked for: beyond a jump, if it may jump. */
+static inline double beyond_jump(double t) { return RATE_JUMPS ? ahead_of(t) : t; }
+
+/* The side of corner k: as it is held, or where g is. */
+static inline double side_of(const double *side, double *g, int k, double value)
+{
+    g[k] = value;
+    return side ? side[k] : sign_of(value);
+}
+
+#define TURN_SMALL 0.01 /* rad: below it the series of turn_back are exact to rounding */
+
+/* Cosine and sine of an angle that became smaller by x. */
+static inline void turn_back(double *direction, double x)
+{
+    const double z = x * x, c = direction[0], s = direction[1];
+    const double sine = x * (1.0 - (1.0 / 6.0) * z * (1.0 - 0.05 * z));
+    const double less = 0.5 * z * (1.0 - (1.0 / 12.0) * z * (1.0 - (1.0 / 30.0) * z));
+    direction[0] = c + (s * sine - c * less);
+    direction[1] = s - (c * sine + s * less);
+}
+
+#endif

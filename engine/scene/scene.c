@@ -1,0 +1,32 @@
+/*
+ * What is compiled together with the functions that were derived for a scene: scene.c includes it behind them.
+ */
+#include "calls.h"
+#include "calls.c"
+#if N_ROWS && !N_FRICTIONS
+#include "singular.c"
+#endif
+#if LARGEST_BLOCK > 2
+#include "block.c"
+#endif
+#if TREE && RESCUED
+#include "../motion/rescue.c"
+#endif
+#if N_CHAIN
+#include "../motion/chains.c"
+#endif
+#if INTEGRATES && !TREE
+#include "../motion/full.c"
+#elif INTEGRATES && N_CHAIN
+#include "../motion/driven.c"
+#elif INTEGRATES
+#include "../motion/tree.c"
+#endif
+#if N_CHAIN
+#include "../motion/driven_calls.c"
+#elif TREE
+#include "../motion/tree_calls.c"
+#endif
+#if INTEGRATES
+#include "jacobian.c"
+#endif

@@ -1,0 +1,148 @@
+/*
+ * The same system where a pivot (nearly) vanishes: at a singular position (links in one line) rows of
+ * Phi_q depend on each other for a moment, and beside it any drift would be blown up. Gram-Schmidt with
+ * pivoting on the rows of Phi_q M^(-1/2), twice over, keeps the independent ones; the others must agree
+ * with them. If they do not, only what is dependent to rounding is left out; if that does not agree
+ * either, the constraints contradict each other and the pivot's number is returned. Rare, dense, and
+ * out of the way of the fast path.
+ */
+typedef struct {
+    double basis[AT_LEAST_ONE(N_ROWS)][N_Q];             /* orthonormal rows found so far */
+    double row[AT_LEAST_ONE(N_ROWS)][N_Q];               /* rows of Phi_q M^(-1/2), what is left of them */
+    double lower[AT_LEAST_ONE(N_ROWS)][AT_LEAST_ONE(N_ROWS)];          /* row i = sum over k of lower[i][k] basis[k] */
+    double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[AT_LEAST_ONE(N_ROWS)], rest[AT_LEAST_ONE(N_ROWS)];
+    double norm[AT_LEAST_ONE(N_ROWS)];
+    int order[AT_LEAST_ONE(N_ROWS)];
+    Asked *asked;
+} Workspace;
+
+static double dot(const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (int k = 0; k < N_Q; k++)
+        sum += a[k] * b[k];
+    return sum;
+}
+
+/* Takes the component along the newest basis vector from every row not yet used, twice for its rounding. */
+static void remove_component(Workspace *w, int rank, int first)
+{
+    for (int i = first; i < N_ROWS; i++) {
+        double *row = w->row[w->order[i]];
+        for (int pass = 0; pass < 2; pass++) {
+            const double along = dot(row, w->basis[rank]);
+            w->lower[w->order[i]][rank] += along;
+            for (int k = 0; k < N_Q; k++)
+                row[k] -= along * w->basis[rank][k];
+        }
+    }
+}
+
+/* Orders the rows, the largest remainder first; returns how many are independent, -1: it is no longer wanted. */
+static int independent_rows(Workspace *w, double least)
+{
+    int rank = 0;
+    for (; rank < N_ROWS; rank++) {
+        if (w->asked && ask_now(w->asked))
+            return -1;
+        int best = rank;
+        double most = 0.0;
+        for (int i = rank; i < N_ROWS; i++) {
+            const double left = dot(w->row[w->order[i]], w->row[w->order[i]]) / w->norm[w->order[i]];
+            if (left > most) {
+                most = left;
+                best = i;
+            }
+        }
+        if (!(most > least))
+            break;
+        const int chosen = w->order[best];
+        w->order[best] = w->order[rank];
+        w->order[rank] = chosen;
+        const double length = sqrt(dot(w->row[chosen], w->row[chosen]));
+        for (int k = 0; k < N_Q; k++)
+            w->basis[rank][k] = w->row[chosen][k] / length;
+        w->lower[chosen][rank] = length;
+        remove_component(w, rank, rank + 1);
+    }
+    return rank;
+}
+
+/* Rows scaled by M^(-1/2), and what each must still give: rhs - Phi_q M^-1 g. */
+static void fill_workspace(Workspace *w, double t, const double *q, const Parameters *p, const double *force, const double *rhs)
+{
+    *w = (Workspace){0};
+    mass_matrix(p, w->root);
+    jacobian(t, q, p, &w->all[0][0]);
+    for (int k = 0; k < N_Q; k++) {
+        w->root[k] = sqrt(w->root[k]);
+        w->y[k] = force[k] / w->root[k];
+    }
+    for (int i = 0; i < N_ROWS; i++) {
+        w->order[i] = i;
+        for (int k = 0; k < N_Q; k++)
+            w->row[i][k] = w->all[kept_row[i]][k] / w->root[k];
+        w->norm[i] = dot(w->row[i], w->row[i]) + 1e-300;
+        w->rest[i] = rhs[i] - dot(w->row[i], w->y);
+        w->along[i] = fabs(rhs[i]) + sqrt(w->norm[i] * dot(w->y, w->y)); /* its size, for the comparison below */
+    }
+}
+
+/* y and lambda by the rows that are independent to `least`; 1 if the others agree to `tolerance`, else 0 or STOPPED. */
+static int solve_independent(Workspace *w, double least, double tolerance, double *lambda)
+{
+    const int rank = independent_rows(w, least);
+    if (rank < 0)
+        return STOPPED;
+    for (int k = 0; k < rank; k++) { /* forward: coordinates along the basis */
+        const int row = w->order[k];
+        const double along = w->rest[row] / w->lower[row][k];
+        for (int i = 0; i < N_ROWS; i++) {
+            w->along[i] += fabs(w->lower[i][k] * along);
+            w->rest[i] -= i == row ? 0.0 : w->lower[i][k] * along;
+        }
+        w->rest[row] = along;
+        for (int j = 0; j < N_Q; j++)
+            w->y[j] += along * w->basis[k][j];
+    }
+    for (int i = 0; i < N_ROWS; i++)
+        lambda[i] = 0.0;
+    for (int k = rank - 1; k >= 0; k--) { /* backward: multipliers of the independent rows */
+        double value = w->rest[w->order[k]];
+        for (int i = k + 1; i < rank; i++)
+            value += w->lower[w->order[i]][k] * lambda[w->order[i]];
+        lambda[w->order[k]] = -value / w->lower[w->order[k]][k];
+    }
+    int agree = 1;
+    for (int i = rank; i < N_ROWS; i++)
+        agree = agree && fabs(w->rest[w->order[i]]) <= tolerance * w->along[w->order[i]];
+    return agree;
+}
+
+/* a and lambda; `rhs` holds gamma - 2 alpha Phi_dot - beta^2 Phi, `force` is g. */
+int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
+    double *a, double *lambda, int pivot, const Memory *memory)
+{
+    static const double least[] = {NEARLY_SINGULAR, SINGULAR}, tolerance[] = {1e-3, 1e-6};
+    Workspace *w = malloc(sizeof(Workspace));
+    int status = pivot;
+    for (int pass = 0; w && status && pass < 2; pass++) {
+        fill_workspace(w, t, q, p, force, rhs);
+        w->asked = memory->asked;
+        status = solve_independent(w, least[pass], tolerance[pass], lambda);
+        if (status == STOPPED)
+            break;
+        if (!status) {
+            status = pivot;
+            continue;
+        }
+        status = 0;
+        for (int k = 0; k < N_Q; k++) {
+            a[k] = w->y[k] / w->root[k];
+            if (!isfinite(a[k]))
+                status = pivot;
+        }
+    }
+    free(w);
+    return status;
+}

@@ -1,0 +1,117 @@
+/*
+ * What functions of a scene and of the engine hand to each other. Sizes are those of model.h, which is read first.
+ */
+#ifndef GUDGEON_TYPES_H
+#define GUDGEON_TYPES_H
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1) /* an array's length: C knows none of 0 */
+
+enum {
+    N_MEMORY = N_CLEARANCES + N_FRICTIONS,
+    N_WORK = 3,             /* work of drives, of force elements, of clearance forces */
+    N_S = 2 * N_Q + N_WORK, /* state of all bodies: q, v, works */
+    N_Y = 2 * N_X + N_WORK  /* state that is integrated */
+};
+
+/* Statuses of a run that is no longer wanted, or no longer advances, ...; positive ones are pivots, 0 is well. */
+enum {
+    NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7, OUTSIDE = -8,
+    STOPPED = -10, STALLED = -11, UNBOUNDED = -12
+};
+
+/*
+ * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
+ * nobody. The clock is read once in `look` right-hand sides, and within a dense system.
+ */
+typedef struct {
+    int (*ask)(void *whom); /* nonzero: stop */
+    void *whom;
+    double every, last, next; /* s; when the clock was read, when the next question is due */
+    long count, look;
+    int stop, hold; /* not wanted any more; what is under way comes to its end first */
+} Asked;
+
+/* What a joint with play remembers: the impact velocity of its last onset. */
+typedef struct {
+    int closed;
+    double deltadot_minus;
+} Latch;
+
+#if N_CHAIN
+/* Coordinates that the drives determine through loops, and three rates of each, at a time. */
+typedef struct {
+    double t, q[N_LED], v[3 * N_CHAIN];
+    int failed; /* 0, or a closure that was at a dead centre there */
+} Chain;
+
+/* Everything that the tree's kernels read at one time: of driven chains directions, second and third rates too. */
+typedef struct {
+    double q[N_X + N_LED], v[N_X + 3 * N_CHAIN];
+} TreeState;
+
+#endif
+/*
+ * What the right-hand side remembers beside the state: latches, and each friction's mode: 0 stick, 1 or -1 the
+ * sign of its slip, 2 no force at all, where others hold the slip at zero. While it is `held`, contacts and the
+ * sides of all corners stay as they are here, whatever the state says.
+ */
+typedef struct {
+    Latch latch[AT_LEAST_ONE(N_CLEARANCES)];
+    double mode[AT_LEAST_ONE(N_FRICTIONS)];
+    double side[AT_LEAST_ONE(N_SWITCHES)];
+    signed char event_side[AT_LEAST_ONE(N_USER_EVENTS)]; /* of zero, where each watched expression was last; 0: nowhere yet */
+    int held;
+    Asked *asked; /* NULL: nobody */
+#if N_CHAIN
+    Chain chain, recent; /* at the last state that was accepted; where they were found last */
+#endif
+} Memory;
+
+/* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
+typedef struct {
+    double v, rate, speed, force, static_limit;
+} Friction;
+
+/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+typedef struct {
+    double Fx, Fy;                       /* N */
+    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double ex, ey, e, deltadot, v_t;     /* m, m/s */
+    double moment_first, moment_second;  /* about each body's pin centre, N*m */
+    double delta, power;                 /* m, W */
+} Clearance;
+
+/* The force of a joint with play along n and t on the journal, moments about both pin centres, slip. */
+typedef struct {
+    double n, t, M_i, M_j, v_t;
+} PinForce;
+
+/* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */
+typedef struct {
+    double lambda[AT_LEAST_ONE(N_ROWS)];
+    double phi[AT_LEAST_ONE(N_ROWS)], phi_dot[AT_LEAST_ONE(N_ROWS)];
+    double power[N_WORK];
+    Clearance clearance[AT_LEAST_ONE(N_CLEARANCES)];
+    Friction friction[AT_LEAST_ONE(N_FRICTIONS)];
+    double g[AT_LEAST_ONE(N_SWITCHES)]; /* switching functions; NaN: does not act */
+    double event[AT_LEAST_ONE(N_USER_EVENTS)]; /* values of the expressions that are watched */
+} Aside;
+
+/* The equations of motion linearized at a state, and Newton's matrix factorized. */
+typedef struct {
+    const Parameters *p;
+    double value[AT_LEAST_ONE(N_VALUES)]; /* what linearize() found */
+    double lu[AT_LEAST_ONE(N_FACTORS)];   /* L, U and inverse pivots */
+} Linear;
+
+/* Where a part of the linearization is in `value`. */
+typedef struct {
+    int row, column, value, sign;
+} LinearEntry;
+
+#endif

@@ -1,0 +1,179 @@
+/*
+ * Events: contacts, corners of laws and expressions, and friction that may stick end a step where their margin
+ * crosses zero. What is looked at is a range of signs, not a crossing alone, so that a contact that starts again on
+ * the wrong side of zero is not lost.
+ */
+
+#define HARMLESS 0.1 /* of the tolerance, that the wrong branch of a corner may change a step */
+
+/* To the other side with the corners that are passed, or back. */
+static void turn_passed(Run *run, const Step *step)
+{
+    for (int k = 0; k < N_SWITCHES; k++)
+        if (step->passed[k])
+            run->memory.side[k] *= -1.0;
+}
+
+/*
+ * Corners of contact laws that the step crossed for good, near enough to its end: their branches meet, so that what
+ * the held one did wrong is at most the step times what the rates differ by at its end. Where that is harmless the
+ * step stays as it is, and what follows begins on the other side.
+ */
+static int pass_corners(Run *run, Step *step, const Parameters *p)
+{
+    double dy[N_Y], most = 0.0;
+    int crossed = 0;
+    Aside aside;
+    for (int k = 0; k < N_SWITCHES; k++) {
+        const int margin_of = N_CLEARANCES + k;
+        step->passed[k] = meets[k] && watched_as[margin_of] < 0 && margin(&run->memory, &step->aside, margin_of) < 0.0;
+        crossed |= step->passed[k];
+    }
+    if (!crossed)
+        return 0;
+    turn_passed(run, step);
+    const int status = rates(run, step->t + step->h, step->y, p, dy, &aside);
+    turn_passed(run, step); /* held until the step is taken: what lies inside it is on this side */
+    for (int k = 0; k < 2 * N_X && !status; k++)
+        most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->weight[k]);
+    if (!status && most < HARMLESS) {
+        for (int k = 0; k < N_Y; k++)
+            step->dy[k] = dy[k];
+        step->aside = aside;
+        return 1;
+    }
+    for (int k = 0; k < N_SWITCHES; k++)
+        step->passed[k] = 0;
+    return 0;
+}
+
+/* Whether margin k is not looked at: a corner left alone, or passed without harm. */
+static int is_passed(const Run *run, const Step *step, int k)
+{
+    const int corner = k - N_CLEARANCES;
+    return corner >= 0 && corner < N_SWITCHES && (corner == run->skip || step->passed[corner]);
+}
+
+/* The stage at which margin k was smallest; -1: none was. */
+static int nearest_stage(const Step *step, int k)
+{
+    int nearest = -1;
+    double least = INFINITY;
+    for (int i = 0; i < step->n_seen; i++)
+        if (step->seen[i][k] < least) {
+            least = step->seen[i][k];
+            nearest = i;
+        }
+    return nearest;
+}
+
+/* The bracket's upper end for margin k: a share at which it is below zero; 0 if there is none. */
+static double violated(Run *run, Step *step, int k, const Parameters *p, double *value)
+{
+    if (watched_as[k] >= 0)
+        return first_look(run, step, watched_as[k], p, value);
+    const double end = margin(&run->memory, &step->aside, k);
+    const int nearest = nearest_stage(step, k);
+    const double least = nearest < 0 ? INFINITY : step->seen[nearest][k], s = nearest < 0 ? 1.0 : step->node[nearest];
+    if (k < N_CLEARANCES && may_graze(run, step, k, least) && make_dense(run, p, step) == 0)
+        return look_along(run, step, k, p, value);
+    if (least < 0.0 && s < 1.0 && make_dense(run, p, step) == 0) {
+        *value = margin_at(run, step, s, k, p);
+        if (*value < 0.0)
+            return s;
+    }
+    *value = end;
+    return end < 0.0 ? 1.0 : 0.0;
+}
+
+/* What was not seen at the stages but shows where an event was found crossed before it: the first of all. */
+static double earlier_event(Run *run, const Step *step, double first, const Parameters *p, int *event)
+{
+    for (int again = 0; again < N_MARGINS && first > 0.0; again++) {
+        double y[N_Y], dy[N_Y], at_high = 0.0;
+        Aside aside;
+        int found = -1;
+        if (state_at(run, step, first, p, y, dy, &aside))
+            return first;
+        for (int k = 0; k < N_MARGINS; k++) {
+            const double now = margin(&run->memory, &aside, k);
+            if (k != *event && !is_passed(run, step, k) && now < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0) {
+                found = k;
+                at_high = now;
+            }
+        }
+        if (found < 0)
+            return first;
+        const double s = root(run, step, found, 0.0, margin(&run->memory, &run->aside, found), first, at_high, p);
+        if (!(s < first))
+            return first;
+        first = s;
+        *event = found;
+    }
+    return first;
+}
+
+/* The first share of the step at which one of the margins that count ends it, and which (-1: nothing, share 1). */
+static double first_counting(Run *run, Step *step, const Parameters *p, int *event)
+{
+    double first = 1.0, least[AT_LEAST_ONE(N_MARGINS)];
+    *event = -1;
+    margins_of(&run->memory, &step->aside, least);
+    for (int i = 0; i < step->n_seen; i++)
+        for (int k = 0; k < N_MARGINS; k++)
+            least[k] = step->seen[i][k] < least[k] ? step->seen[i][k] : least[k];
+    for (int k = 0; k < N_MARGINS; k++) {
+        const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !(least[k] < 0.0);
+        if (quiet || is_passed(run, step, k))
+            continue;
+        double at_high, at_low = margin(&run->memory, &run->aside, k), low = 0.0;
+        double high = violated(run, step, k, p, &at_high);
+        if (high == 0.0 || make_dense(run, p, step))
+            continue;
+        if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
+            const double from = step->from[watched_as[k]], now = margin_at(run, step, from, k, p);
+            if (now >= 0.0)
+                low = from, at_low = now;
+        }
+        if (*event >= 0 && high > first && margin_at(run, step, first, k, p) >= 0.0)
+            continue; /* later than what was found */
+        for (int j = 1; j < 4 && !(at_low >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
+            const double s = 0.25 * j * high, now = margin_at(run, step, s, k, p);
+            if (now >= 0.0)
+                low = s, at_low = now;
+        }
+        const double s = at_low >= 0.0 ? root(run, step, k, low, at_low, high, at_high, p) : 0.0;
+        if (*event < 0 || s < first) {
+            first = s;
+            *event = k;
+        }
+    }
+    return *event < 0 ? first : earlier_event(run, step, first, p, event);
+}
+
+/*
+ * Whether margin k changes its sign at a pole and not at a zero: it grows towards the place where it was located.
+ * One that jumps from one finite value to another is as large near it as far from it.
+ */
+static int is_pole(Run *run, const Step *step, double share, int k, const Parameters *p)
+{
+    const double near = margin_at(run, step, share, k, p);
+    const double far = margin_at(run, step, share + 64.0 * root_width(run, step), k, p);
+    return isinf(near) || fabs(near) > 2.0 * fabs(far);
+}
+
+/* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
+static double first_event(Run *run, Step *step, const Parameters *p, int *event)
+{
+    const int passed = pass_corners(run, step, p);
+    look_inside(run, step, p);
+    double share = first_counting(run, step, p, event);
+    if (*event >= 0 && passed) {
+        /* something else ends the step: what was passed may lie behind it */
+        for (int k = 0; k < N_SWITCHES; k++)
+            step->passed[k] = 0;
+        share = first_counting(run, step, p, event);
+    }
+    run->pole = *event >= N_MARGINS - N_USER_EVENTS && is_pole(run, step, share, *event, p);
+    return share;
+}

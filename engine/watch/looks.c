@@ -1,0 +1,114 @@
+/*
+ * Corners of the user's expressions and user events along a step, where they hang on forces or on driven chains, so
+ * that no bounds of theirs are at hand (watched.c.jinja). The stages of a long step see next to nothing of a
+ * function that swings or dips meanwhile: where it may have a zero it is looked at on the interpolant, and a step in
+ * which that does not resolve it is taken again, shorter.
+ */
+
+static void look_at(Run *run, double t, const double *y, const Parameters *p, Aside *aside)
+{
+    double dy[N_Y];
+    (void)rates(run, t, y, p, dy, aside);
+}
+
+/* Whether a margin may vanish in the step: its least is less than how far it goes. */
+static int may_vanish(const Run *run, const Step *step, int k, double *range)
+{
+    const double start = margin(&run->memory, &run->aside, k), end = margin(&run->memory, &step->aside, k);
+    double least = min_of(start, end), most = max_of(start, end); /* the end may lie outside of an expression's domain */
+    for (int i = 0; i < step->n_seen; i++) {
+        least = min_of(least, step->seen[i][k]);
+        most = max_of(most, step->seen[i][k]);
+    }
+    *range = most - least;
+    return least < *range;
+}
+
+/* What an error of the tolerance in the state changes: no function is known better. */
+static void noise(Run *run, const Step *step, const Parameters *p, double *change)
+{
+    double y[N_Y];
+    Aside aside;
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + (k < 2 * N_X ? 1.0 / run->weight[k] : 0.0);
+    look_at(run, step->t, y, p, &aside);
+    for (int i = 0; i < N_WATCHED; i++)
+        change[i] = fabs(margin(&run->memory, &aside, watched[i]) - margin(&run->memory, &run->aside, watched[i]));
+}
+
+/* How far cubics through every other look miss the looks between. */
+static double misfit(const double *f)
+{
+    double worst = 0.0;
+    for (int j = 3; j + 3 <= N_LOOKS; j += 2)
+        worst = max_of(worst, fabs(f[j] - (9.0 * (f[j - 1] + f[j + 1]) - f[j - 3] - f[j + 3]) / 16.0));
+    return worst;
+}
+
+/* Looks along the step wherever something may vanish; whether the step is too long to tell. */
+static int is_unresolved(Run *run, Step *step, const Parameters *p)
+{
+    double range[N_WATCHED], change[N_WATCHED];
+    step->looked = 0;
+    for (int i = 0; i < N_WATCHED; i++) {
+        step->near[i] = (unsigned char)may_vanish(run, step, watched[i], &range[i]);
+        step->looked |= step->near[i];
+    }
+    if (!step->looked || make_dense(run, p, step))
+        return 0;
+    for (int j = 0; j <= N_LOOKS; j++) {
+        double y[N_Y];
+        Aside aside = j < N_LOOKS ? run->aside : step->aside;
+        if (j > 0 && j < N_LOOKS) {
+            interpolate(run, step, (double)j / N_LOOKS, y);
+            look_at(run, step->t + (double)j / N_LOOKS * step->h, y, p, &aside);
+        }
+        for (int i = 0; i < N_WATCHED; i++)
+            step->look[i][j] = margin(&run->memory, &aside, watched[i]);
+    }
+    noise(run, step, p, change);
+    for (int i = 0; i < N_WATCHED; i++) {
+        double least = INFINITY, most = -INFINITY;
+        for (int j = 0; j <= N_LOOKS; j++) {
+            least = min_of(least, step->look[i][j]);
+            most = max_of(most, step->look[i][j]);
+        }
+        const double missed = misfit(step->look[i]), enough = max_of(0.05 * (most - least), 10.0 * change[i]);
+        /* stages that see far more than the looks: these keep time with what they look at */
+        const int beats = range[i] > 2.0 * (most - least) + 10.0 * change[i] && !step->stiff;
+        if (step->near[i] && (missed > enough || beats) && least - missed < 0.0)
+            return 1;
+    }
+    return 0;
+}
+
+/* The first look, or dip between looks, at which watched margin i is below zero; 0: none. */
+static double first_look(Run *run, const Step *step, int i, const Parameters *p, double *value)
+{
+    const double *f = step->look[i];
+    for (int j = 1; j <= N_LOOKS && step->near[i]; j++) {
+        const double bend = j > 1 ? f[j - 2] - 2.0 * f[j - 1] + f[j] : 0.0;
+        if (bend > 0.0 && f[j - 2] > f[j - 1] && f[j - 1] <= f[j]) {
+            const double way = 0.5 * (f[j - 2] - f[j]) / bend, lowest = f[j - 1] - 0.5 * bend * way * way;
+            double at = (j - 1 + way) / N_LOOKS;
+            if (lowest < 0.1 * f[j - 1]) {
+                *value = margin_at(run, step, at, watched[i], p);
+                *value = dip(run, step, watched[i], &at, 0.5 / N_LOOKS, *value, p);
+                if (*value < 0.0)
+                    return at;
+            }
+        }
+        if (f[j] < 0.0) {
+            *value = f[j];
+            return (double)j / N_LOOKS;
+        }
+    }
+    return 0.0;
+}
+
+static void look_inside(const Run *run, Step *step, const Parameters *p)
+{
+    (void)run, (void)p;
+    for (int i = 0; i < N_WATCHED; i++)
+        step->from[i] = 0.0;
+}

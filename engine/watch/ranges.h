@@ -1,0 +1,230 @@
+/*
+ * Ranges: the bounds within which an expression stays while its arguments stay within theirs, and those of its slope
+ * along a step, whose whole length is the unit. Interval arithmetic with first derivatives: R. E. Moore,
+ * R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis (2009), chapters 5 and 6; roundings are not counted.
+ */
+#ifndef GUDGEON_RANGES_H
+#define GUDGEON_RANGES_H
+
+typedef struct {
+    double lo, hi;   /* NaN: no number anywhere */
+    double down, up; /* least and largest slope */
+    int partly;      /* it may be no number somewhere */
+} Range;
+
+static inline Range only(double x) { return (Range){x, x, 0.0, 0.0, 0}; }
+static inline int is_empty(Range x) { return !(x.lo <= x.hi); }
+
+/* Zero times a bound that is infinite is zero. */
+static inline double scaled(double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : x * y; }
+
+/* Bounds of x y for x in [a, b] and y in [c, d]; NaN stays. */
+static inline void product_bounds(double a, double b, double c, double d, double *lo, double *hi)
+{
+    const double ac = scaled(a, c), ad = scaled(a, d), bc = scaled(b, c), bd = scaled(b, d);
+    *lo = min_of(min_of(ac, ad), min_of(bc, bd));
+    *hi = max_of(max_of(ac, ad), max_of(bc, bd));
+}
+
+/* What goes through [lo, hi], with its derivative by x in [least, most]. */
+static inline Range through(Range x, double lo, double hi, double least, double most)
+{
+    Range y = {lo, hi, 0.0, 0.0, x.partly};
+    product_bounds(least, most, x.down, x.up, &y.down, &y.up);
+    return y;
+}
+
+/* One of both. */
+static inline Range range_union(Range x, Range y)
+{
+    if (is_empty(x) || is_empty(y))
+        return is_empty(x) ? y : x;
+    return (Range){min_of(x.lo, y.lo), max_of(x.hi, y.hi), min_of(x.down, y.down), max_of(x.up, y.up), x.partly | y.partly};
+}
+
+static inline Range range_add(Range x, Range y)
+{
+    return (Range){x.lo + y.lo, x.hi + y.hi, x.down + y.down, x.up + y.up, x.partly | y.partly};
+}
+
+static inline Range range_times(Range x, Range y)
+{
+    Range z = {0.0, 0.0, 0.0, 0.0, x.partly | y.partly};
+    double down, up;
+    if (is_empty(x) || is_empty(y))
+        return only(NAN);
+    product_bounds(x.lo, x.hi, y.lo, y.hi, &z.lo, &z.hi);
+    product_bounds(x.lo, x.hi, y.down, y.up, &z.down, &z.up);
+    product_bounds(x.down, x.up, y.lo, y.hi, &down, &up);
+    z.down += down;
+    z.up += up;
+    return z;
+}
+
+/* x^n for an integer n, a pole at zero where n is negative. */
+static inline Range range_power_of(Range x, double n)
+{
+    const int even = fmod(n, 2.0) == 0.0, zero = x.lo <= 0.0 && x.hi >= 0.0;
+    if (is_empty(x) || n == 0.0)
+        return is_empty(x) ? only(NAN) : only(1.0);
+    if (zero && n < 0.0)
+        return (Range){even ? pow(max_of(-x.lo, x.hi), n) : x.lo < 0.0 ? -INFINITY : pow(x.hi, n),
+            even || x.hi > 0.0 ? INFINITY : pow(x.lo, n), -INFINITY, INFINITY, x.partly};
+    const double a = pow(x.lo, n), b = pow(x.hi, n);
+    const double slope_a = n * pow(x.lo, n - 1.0), slope_b = n * pow(x.hi, n - 1.0);
+    double least = min_of(slope_a, slope_b), most = max_of(slope_a, slope_b);
+    if (zero && !even) /* the slope is least, or zero, at zero */
+        least = n == 1.0 ? 1.0 : 0.0;
+    return through(x, zero && even ? 0.0 : min_of(a, b), max_of(a, b), least, most);
+}
+
+static inline Range range_inverse(Range x) { return range_power_of(x, -1.0); }
+static inline Range range_square(Range x) { return range_power_of(x, 2.0); }
+
+static inline Range range_exp(Range x)
+{
+    const double a = exp(x.lo), b = exp(x.hi);
+    return through(x, a, b, a, b);
+}
+
+static inline Range range_log(Range x)
+{
+    if (!(x.hi > 0.0))
+        return only(NAN);
+    Range y = through(x, log(max_of(x.lo, 0.0)), log(x.hi), 1.0 / x.hi, 1.0 / max_of(x.lo, 0.0));
+    y.partly |= x.lo < 0.0;
+    return y;
+}
+
+/* x^c for a c that is no integer: no number below zero. */
+static inline Range range_broken_power(Range x, double c)
+{
+    if (!(x.hi >= 0.0))
+        return only(NAN);
+    const double low = max_of(x.lo, 0.0), a = pow(low, c), b = pow(x.hi, c);
+    const double slope_a = c * pow(low, c - 1.0), slope_b = c * pow(x.hi, c - 1.0);
+    Range y = through(x, min_of(a, b), max_of(a, b), min_of(slope_a, slope_b), max_of(slope_a, slope_b));
+    y.partly |= x.lo < 0.0;
+    return y;
+}
+
+static inline Range range_sqrt(Range x) { return range_broken_power(x, 0.5); }
+
+static inline Range range_pow(Range x, Range c)
+{
+    if (c.lo == c.hi && c.down == 0.0 && c.up == 0.0)
+        return c.lo == rint(c.lo) ? range_power_of(x, c.lo) : range_broken_power(x, c.lo);
+    return range_exp(range_times(c, range_log(x)));
+}
+
+/* Bounds of sin(x + quarter) over [lo, hi]. */
+static inline void sine_bounds(double lo, double hi, double quarter, double *least, double *most)
+{
+    const double turn = 6.283185307179586, right = 1.5707963267948966, a = sin(lo + quarter), b = sin(hi + quarter);
+    *most = floor((hi + quarter - right) / turn) >= ceil((lo + quarter - right) / turn) ? 1.0 : max_of(a, b);
+    *least = floor((hi + quarter + right) / turn) >= ceil((lo + quarter + right) / turn) ? -1.0 : min_of(a, b);
+    if (!(hi - lo < turn) && !isnan(hi - lo))
+        *least = -1.0, *most = 1.0;
+}
+
+static inline Range range_turned(Range x, double quarter)
+{
+    double lo, hi, least, most;
+    sine_bounds(x.lo, x.hi, quarter, &lo, &hi);
+    sine_bounds(x.lo, x.hi, quarter + 1.5707963267948966, &least, &most);
+    return through(x, lo, hi, least, most);
+}
+
+static inline Range range_sin(Range x) { return range_turned(x, 0.0); }
+static inline Range range_cos(Range x) { return range_turned(x, 1.5707963267948966); }
+static inline Range range_tan(Range x) { return range_times(range_sin(x), range_inverse(range_cos(x))); }
+
+/* An odd function that rises, with its slope at both ends: least or largest there, or at zero, where it is 1. */
+static inline Range range_rising(Range x, double a, double b, double slope_a, double slope_b)
+{
+    const double at_zero = x.lo <= 0.0 && x.hi >= 0.0 ? 1.0 : slope_a;
+    return through(x, a, b, min_of(at_zero, min_of(slope_a, slope_b)), max_of(at_zero, max_of(slope_a, slope_b)));
+}
+
+static inline Range range_asin(Range x)
+{
+    if (!(x.lo <= 1.0 && x.hi >= -1.0))
+        return only(NAN);
+    const double a = max_of(x.lo, -1.0), b = min_of(x.hi, 1.0);
+    Range y = range_rising(x, asin(a), asin(b), 1.0 / sqrt(1.0 - a * a), 1.0 / sqrt(1.0 - b * b));
+    y.partly |= x.lo < -1.0 || x.hi > 1.0;
+    return y;
+}
+
+static inline Range range_acos(Range x) { return range_add(only(1.5707963267948966), range_times(only(-1.0), range_asin(x))); }
+
+static inline Range range_atan(Range x)
+{
+    return range_rising(x, atan(x.lo), atan(x.hi), 1.0 / (1.0 + x.lo * x.lo), 1.0 / (1.0 + x.hi * x.hi));
+}
+
+static inline Range range_sinh(Range x) { return range_rising(x, sinh(x.lo), sinh(x.hi), cosh(x.lo), cosh(x.hi)); }
+
+static inline Range range_cosh(Range x)
+{
+    const double a = cosh(x.lo), b = cosh(x.hi), least = x.lo <= 0.0 && x.hi >= 0.0 ? 1.0 : min_of(a, b);
+    return through(x, least, max_of(a, b), sinh(x.lo), sinh(x.hi));
+}
+
+static inline Range range_tanh(Range x)
+{
+    return range_rising(x, tanh(x.lo), tanh(x.hi), 1.0 / pow(cosh(x.lo), 2.0), 1.0 / pow(cosh(x.hi), 2.0));
+}
+
+/* The angle of (x, y); all of them where that turns from -pi to pi, or has no direction. */
+static inline Range range_atan2(Range y, Range x)
+{
+    if (is_empty(x) || is_empty(y))
+        return only(NAN);
+    if (y.lo <= 0.0 && y.hi >= 0.0 && x.lo <= 0.0)
+        return (Range){-3.141592653589793, 3.141592653589793, -INFINITY, INFINITY, x.partly | y.partly};
+    const double a = atan2(y.lo, x.lo), b = atan2(y.lo, x.hi), c = atan2(y.hi, x.lo), d = atan2(y.hi, x.hi);
+    const Range square = range_add(range_square(x), range_square(y));
+    const Range by_x = range_times(x, range_inverse(square)), by_y = range_times(y, range_inverse(square));
+    Range z = {min_of(min_of(a, b), min_of(c, d)), max_of(max_of(a, b), max_of(c, d)), 0.0, 0.0, x.partly | y.partly};
+    double down, up;
+    product_bounds(by_x.lo, by_x.hi, y.down, y.up, &z.down, &z.up);
+    product_bounds(by_y.lo, by_y.hi, x.down, x.up, &down, &up);
+    z.down -= up;
+    z.up -= down;
+    return z;
+}
+
+/* The side of a corner: as it is held, or wherever its function may be. */
+static inline Range range_side(const double *side, int k, Range g)
+{
+    const double least = g.lo < 0.0 ? -1.0 : g.lo > 0.0 ? 1.0 : 0.0, most = g.hi > 0.0 ? 1.0 : g.hi < 0.0 ? -1.0 : 0.0;
+    return side ? only(side[k]) : (Range){least, most, least < most ? -INFINITY : 0.0, least < most ? INFINITY : 0.0, g.partly};
+}
+
+/* The second below the corner, else the first. */
+static inline Range range_pick(Range side, Range a, Range b)
+{
+    return side.hi < 0.0 ? b : side.lo >= 0.0 ? a : range_union(a, b);
+}
+
+static inline Range range_max_of(Range x, Range y)
+{
+    return x.lo >= y.hi ? x : y.lo >= x.hi ? y : (Range){max_of(x.lo, y.lo), max_of(x.hi, y.hi), min_of(x.down, y.down),
+        max_of(x.up, y.up), x.partly | y.partly};
+}
+
+static inline Range range_min_of(Range x, Range y)
+{
+    return range_times(only(-1.0), range_max_of(range_times(only(-1.0), x), range_times(only(-1.0), y)));
+}
+
+static inline Range range_fabs(Range x) { return range_max_of(x, range_times(only(-1.0), x)); }
+static inline Range range_sign_of(Range x) { return range_side(NULL, 0, x); }
+static inline Range range_magnitude(Range x) { return range_add(range_fabs(x), only(1e-150)); }
+static inline Range range_heaviside(Range x)
+{
+    return range_pick(range_sign_of(x), only(1.0), only(0.0));
+}
+
+#endif

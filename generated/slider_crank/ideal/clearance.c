@@ -1,1 +1,0 @@
-/* No joint has play. */

@@ -1,1 +1,0 @@
-"""Coefficients of the integrators: facts, with their sources; the steps are in templates/c."""

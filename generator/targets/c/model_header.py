@@ -1,0 +1,200 @@
+"""model.h: what the engine must know of a scene, as sizes, parameters and small tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import sympy as sp
+
+from gudgeon.generator.equations.events import SIGNS
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.notes import has_jumps
+from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.kernels import outputs
+from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
+from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.kernels.time_terms import count_terms
+from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR, SINGULAR
+from gudgeon.generator.targets.c import functions, printer
+
+_POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # of which each rate is the derivative
+_OF_JOINTS = {
+    "radial_clearance": "Radial clearance of joint i with play, m.",
+    "deepest": "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
+    "slowest_impact": "The least velocity that counts as that of an impact, m/s.",
+}
+_GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_squared", "stick": "stick_gain"}
+
+
+def header_values(program: Program) -> dict[str, Any]:
+    """What the template of model.h is filled with."""
+    model = program.model
+    mechanism, info = model.scene.mechanism, model.symbols.info
+    slots = [(entry.symbol.name, printer.comment_text(entry.address)) for entry in model.slots.entries.values()]
+    derived = [(symbol.name, printer.comment_text(info[symbol].meaning)) for symbol in model.slots.derived]
+    return {
+        "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
+        "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived,
+        "sizes": _defines(sizes(program)), "tables": _tables(program), "of_joints": _of_joints(model),
+        "gains": _gains(program),
+    }  # fmt: skip
+
+
+def sizes(program: Program) -> dict[str, tuple[int | float, str]]:
+    """Numbers by name, with what they count: those that are 0 leave out what they count."""
+    model, integrated, chain, start = program.model, program.integrated, program.integrated.chain, _start(program.model)
+    system, methods, course, tree = integrated.system, program.methods, program.course, program.tree
+    switches = max(model.symbols.switches.count, system.model.symbols.switches.count)
+    newton, bounds = methods.newton if methods else None, known_bounds(program)
+    return {
+        "INTEGRATES": (int(program.integrates), "1; 0: no freedom is left, positions follow from the drives"),
+        "TREE": (int(tree is not None), "1: in coordinates of a tree of bodies; 0: in those of all bodies"),
+        "POSITIONS_IN_TREE": (int(course is not None and course.rows is not None), "the same of what is not integrated"),
+        "N_Q": (len(model.q), "coordinates of all bodies"),
+        "N_ROWS": (len(model.rows), "constraint rows of the motion"),
+        "N_ALL_ROWS": (len(model.all_rows), "rows of the closed linkage"),
+        "N_JOINTS": (len(outputs.kept_joints(model)), "joints without play"),
+        "N_DRIVES": (len(model.scene.mechanism.drives), "drives"),
+        "N_CLEARANCES": (len(model.clearances), "joints with play"),
+        "N_FRICTIONS": (len(model.frictions), "slips that friction may hold"),
+        "N_SWITCHES": (switches, "corners of min, max, abs and sign"),
+        "N_USER_EVENTS": (len(model.events), "expressions whose zeros are watched"),
+        "N_SERIES": (len(outputs.element_series(model)), "results of force elements"),
+        "N_X": (len(system.q), "coordinates that are integrated"),
+        "N_LOOPS": (len(system.rows), "constraint rows of these"),
+        "N_CHAIN": (len(system.known), "coordinates that drives determine through loops"),
+        "N_LED": (len(system.known) + 2 * len(chain.directions) if chain else 0, "these, cosines and sines of angles"),
+        "SMOOTH_CHAINS": (int(bool(tree and tree.chains and not tree.chains.corners)), "no corners in what drives them"),
+        "TREE_PIVOTS": (len(integrated.pivots) - len(chain.rows) if chain else 0, "statuses of chains follow these"),
+        "RESCUED": (int(tree is not None and tree.rescued), "pivots may vanish: all bodies' equations help"),
+        "LARGEST_BLOCK": (_largest_block(program), "rows that are solved together"),
+        "N_CORNERS": (integrated.jumps.count if integrated.jumps else 0, "corners of drives, whose rate jumps there"),
+        "RATE_JUMPS": (int(has_jumps(model)), "the rate of some drive may jump"),
+        "N_WATCHED": (len(watched_corners(program)) + len(model.events), "corners of expressions, and events"),
+        "KNOWN_BOUNDS": (int(bounds is not None), "bounds of what is watched are known over ranges of the state"),
+        "WATCHES_STATE": (int(bounds is not None and reads_state(bounds)), "they hang on more than time"),
+        "N_TERMS": (count_terms(program.terms), "terms of time alone, which may hide within a step"),
+        "N_GUESS": (len(start["guess_place"]), "coordinates that the start guesses"),
+        "N_SET": (len(start["set_place"]), "those that it sets"),
+        "N_RATES": (len(start["rate_place"]), "velocities that it sets"),
+        "N_VALUES": (newton.values.size if newton else 0, "of the linearized equations"),
+        "N_FACTORS": (newton.factors.size if newton else 0, "of their factors L and U"),
+        "HAS_LANES": (int(program.has_lanes), "runs go side by side"),
+        "SINGULAR": (SINGULAR, "share of a row that is left where it depends on others"),
+        "NEARLY_SINGULAR": (NEARLY_SINGULAR, "the same, where it nearly does"),
+    }  # fmt: skip
+
+
+def known_bounds(program: Program) -> Any:
+    """The kernel that bounds what is watched, if it hangs on neither forces nor driven chains."""
+    model, corners = program.model, watched_corners(program)
+    watched = program.integrated.watched if program.integrates else program.watched if model.events else None
+    if watched is None or not (corners or model.events):
+        return None
+    return ranges_kernel(watched, corners, len(model.events))
+
+
+def watched_corners(program: Program) -> list[int]:
+    """The scene's own switches."""
+    if program.integrates:
+        return program.integrated.corners
+    return sorted(switch.index for switch in program.model.symbols.switches.of(""))
+
+
+def deepest(clearance: Clearance) -> sp.Expr:
+    """The penetration beyond which contact laws mean nothing: a tenth of the bearing's radius."""
+    return sp.sympify(clearance.pair.R_i) / 10
+
+
+def _largest_block(program: Program) -> int:
+    rows = program.course.rows if program.course else None
+    chains = program.tree.chains if program.tree else None
+    return max(rows.largest if rows else 0, chains.square.largest if chains else 0)
+
+
+def _defines(values: Mapping[str, tuple[int | float, str]]) -> list[str]:
+    width = max(len(f"{name} {value}") for name, (value, _) in values.items())
+    return [f"#define {f'{name} {value}':<{width}} /* {meaning} */" for name, (value, meaning) in values.items()]
+
+
+def _tables(program: Program) -> list[str]:
+    model, start = program.model, _start(program.model)
+    place = {row.name: r for r, row in enumerate(model.all_rows)}
+    tables: dict[tuple[str, str], Sequence[int]] = {
+        ("signed char", "event_direction"): [SIGNS[event.direction] for event in model.events],
+        ("unsigned char", "event_stops"): [int(event.action == "stop") for event in model.events],
+        ("int", "guess_place"): start["guess_place"], ("int", "set_place"): start["set_place"],
+        ("int", "rate_place"): start["rate_place"],
+        ("unsigned char", "row_is_length"): [int(row.unit == "m") for row in model.all_rows],
+        ("int", "kept_row"): [place[row.name] for row in model.rows],
+        ("unsigned char", "is_angle"): program.integrated.angles,
+    }  # fmt: skip
+    if program.integrates:
+        tables |= _watched(program) | {("int", "friction_of_pivot"): _friction_pivots(program.integrated.kkt)}
+    return [_table(kind, name, values) for (kind, name), values in tables.items()]
+
+
+def _table(kind: str, name: str, values: Iterable[int]) -> str:
+    """An empty one holds a number that nobody reads."""
+    return functions.wrapped(f"static const {kind} {name}[] = {{{', '.join(map(str, values)) or 0}}};")
+
+
+def _watched(program: Program) -> dict[tuple[str, str], Sequence[int]]:
+    """Margins of the scene's own corners and of user events, in C's order of margins; which corners' branches meet."""
+    count = {name: value for name, (value, _) in sizes(program).items()}
+    first = int(count["N_CLEARANCES"] + count["N_SWITCHES"] + count["N_FRICTIONS"])
+    margins = [int(count["N_CLEARANCES"]) + k for k in program.integrated.corners]
+    margins += range(first, first + int(count["N_USER_EVENTS"]))
+    place = {k: i for i, k in enumerate(margins)}
+    return {
+        ("short", "watched"): margins,
+        ("short", "watched_as"): [place.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
+        ("unsigned char", "meets"): _meeting(program.model, int(count["N_SWITCHES"])),
+    }
+
+
+def _meeting(model: Model, count: int) -> list[int]:
+    """1 for the corners of contact laws, which are continuous; a user's expression, or a law as printed, may jump."""
+    printed = {c.name for c in model.clearances if c.film is not None and c.film.options.get("as_printed")}
+    owners = {switch.index: switch.owner for switch in model.symbols.switches.found.values()}
+    return [int(bool(owners.get(k)) and owners[k] not in printed) for k in range(count)]
+
+
+def _friction_pivots(kkt: KKT) -> list[int]:
+    """Which friction each pivot behind those of the rows belongs to."""
+    names = [friction.name for friction in kkt.frictions]
+    return [names.index(pivot) for pivot in kkt.pivots[len(kkt.rows) :]]
+
+
+def _start(model: Model) -> dict[str, list[int]]:
+    """Places in q of what the start guesses and sets."""
+    place = {model.symbols.info[q].meaning: k for k, q in enumerate(model.q)}
+    start = model.scene.mechanism.start
+    rates = (name.partition(".") for name in start.rates)
+    return {
+        "guess_place": [place[name] for name in start.guess], "set_place": [place[name] for name in start.set],
+        "rate_place": [place[f"{body}.{_POSITION[rate]}"] for body, _, rate in rates],
+    }  # fmt: skip
+
+
+def _of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
+    """Numbers of joints with play."""
+    values = {
+        "radial_clearance": [c.pair.c for c in model.clearances],
+        "deepest": [deepest(c) for c in model.clearances],
+        "slowest_impact": [c.velocity_floor for c in model.clearances],
+    }
+    read = {s: sp.Symbol(f"p->{s.name}") for s in model.symbols.info}
+    return [
+        (_OF_JOINTS[name], name, [printer.expression(sp.sympify(x).xreplace(read)) for x in some])
+        for name, some in values.items()
+    ]
+
+
+def _gains(program: Program) -> list[tuple[str, str]]:
+    """Of Newton's matrix; the reduced formulation has no Baumgarte's terms."""
+    if program.methods is None:
+        return []
+    gains = program.methods.gains
+    return [(name, f"p->{gains[key]}" if key in gains else "0.0") for key, name in _GAINS.items()]

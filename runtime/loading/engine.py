@@ -1,0 +1,60 @@
+"""The engine: the C that all scenes share (engine/), beside which a scene's own is compiled.
+
+What of it a scene needs is decided by the sizes in its model.h, here as in C.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.loading.cache import digest
+from gudgeon.loading.shipped import PACKAGE
+
+ENGINE = PACKAGE / "engine"
+UNIT = ENGINE / "engine.c"
+CALLS = ENGINE / "scene" / "calls.h"
+_SIZE = re.compile(r"^#define (\w+) (\d+)\b", re.MULTILINE)
+
+
+def engine_files() -> dict[str, str]:
+    """Its texts by their paths from the folder that holds `engine`, sorted."""
+    paths = sorted((*ENGINE.rglob("*.c"), *ENGINE.rglob("*.h")))
+    return {path.relative_to(PACKAGE).as_posix(): path.read_text(encoding="utf-8") for path in paths}
+
+
+@cache
+def engine_digest() -> str:
+    """Of all its texts."""
+    return digest([part for item in engine_files().items() for part in item])
+
+
+def include_flags() -> tuple[str, ...]:
+    """The compiler's, for files that include "model.h" beside them and "engine/..."."""
+    return ("-I.", f"-I{PACKAGE}")
+
+
+def declarations(source: KernelSource) -> str:
+    """What of the library is called from outside, as cffi reads it."""
+    return source.cdef or _with_sizes(CALLS.read_text(encoding="utf-8"), sizes(source))
+
+
+def sizes(source: KernelSource) -> dict[str, int]:
+    """The whole numbers of model.h by name."""
+    return {name: int(value) for name, value in _SIZE.findall(source.files["model.h"])}
+
+
+def _with_sizes(text: str, values: dict[str, int]) -> str:
+    """The lines of a header whose `#if NAME && !NAME` hold; no more of the preprocessor is needed, nor nested ones."""
+    kept, holds = [], True
+    for line in text.splitlines():
+        if line.startswith("#if "):
+            names = line.removeprefix("#if ").split(" && ")
+            holds = all(bool(values[name.lstrip("!")]) != name.startswith("!") for name in names)
+        elif line.startswith("#endif"):
+            holds = True
+        elif holds and not line.startswith("#"):
+            kept.append(line)
+    return "\n".join(kept) + "\n"
