@@ -16,7 +16,7 @@ typedef struct {
     double closed, deltadot_minus;
 } MovingLatch;
 
-/* What is carried from one step of rk4 to the next, of one run; of several side by side it is batch/lanes.h's LaneRun. */
+/* What is carried from one step of rk4 to the next, of one run; of several side by side: LaneRun of lanes.h. */
 #define Number double
 #define Flag long long
 typedef struct {

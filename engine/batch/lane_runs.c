@@ -2,6 +2,9 @@
  * Runs side by side: run[k] is the memory of number[k], which is -1 once that run has left. The lane of one that has
  * left mirrors another: what fills it must not be rare.
  */
+#include "lane_calls.h"
+#include <time.h>
+
 typedef struct {
     const Batch *b;
     const Single *one;

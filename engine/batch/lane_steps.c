@@ -57,7 +57,8 @@ static LaneBits happens(const LaneRun *run, const LaneTrial *trial, const LanePa
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Lanes delta = trial->aside.clearance[i].delta;
         const LaneBits closed = is_closed(&run->memory.latch[i]);
-        some |= (closed & (delta < 0.0)) | (~closed & (trial->touched[i] | (delta >= 0.0))) | (delta > lane_deepest(p, i));
+        some |= (closed & (delta < 0.0)) | (~closed & (trial->touched[i] | (delta >= 0.0)));
+        some |= delta > lane_deepest(p, i);
     }
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Lanes value = trial->aside.event[i], side = run->memory.event_side[i];

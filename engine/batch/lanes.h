@@ -51,7 +51,7 @@ static inline Lanes lanes_finite_slope(Lanes derivative, Lanes ahead, Lanes behi
 static inline Lanes lanes_sqrt(Lanes x)
 {
 #if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512F__)
-    return (Lanes)__builtin_ia32_sqrtpd512_mask(x, x, (unsigned char)-1, 4);
+    return (Lanes)__builtin_ia32_sqrtpd512_mask(x, x, (char)-1, 4);
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__AVX__)
     return (Lanes)__builtin_ia32_sqrtpd256(x);
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)

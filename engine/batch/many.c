@@ -12,7 +12,8 @@ static int start_run(const Batch *b, long i, Run *run)
     double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0}, latched[AT_LEAST_ONE(N_MEMORY)], residual;
     Asked asked;
     set_asked(&asked, is_ending, (void *)b, GLANCE);
-    if (!b->started[i] && close_start(b->t[0], b->p + i * b->numbers, b->size[i], start, start + N_Q, &residual, &asked))
+    const double *p = b->p + i * b->numbers;
+    if (!b->started[i] && close_start(b->t[0], p, b->size[i], start, start + N_Q, &residual, &asked))
         return asked.stop ? STOPPED : NOT_CLOSED;
     for (int k = 0; k < 2 * N_Q; k++)
         y[k] = start[k];

@@ -1,4 +1,7 @@
-static inline Real total_force(const ClearanceOf *joint) { return real_sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t); }
+static inline Real total_force(const ClearanceOf *joint)
+{
+    return real_sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t);
+}
 
 /* Place in (0, 1) and height of the top of the cubic through (d0, r0) and (d1, r1), slopes r0 > 0 > r1. */
 static inline Real cubic_top(Real d0, Real r0, Real d1, Real r1, Real *height)

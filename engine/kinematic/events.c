@@ -134,7 +134,8 @@ static int is_plain(const Place *a, const Place *b, const Parameters *p)
     Range q[N_Q], v[N_Q], out[N_WATCHED];
     for (int k = 0; k < N_Q; k++) {
         const double way = b->q[k] - a->q[k], from = h * a->v[k], to = h * b->v[k];
-        const double two = 3.0 * way - 2.0 * from - to, three = from + to - 2.0 * way; /* q = q0 + s from + s^2 two + s^3 three */
+        /* q = q0 + s from + s^2 two + s^3 three */
+        const double two = 3.0 * way - 2.0 * from - to, three = from + to - 2.0 * way;
         const double end = 2.0 * two + 6.0 * three, turn = -two / (3.0 * three);
         const double top = turn > 0.0 && turn < 1.0 ? from + turn * (2.0 * two + 3.0 * turn * three) : from;
         const double least = min_of(top, min_of(from, to)), most = max_of(top, max_of(from, to));

@@ -49,7 +49,7 @@ static int velocities(double t, const double *q, const Parameters *p, double *v)
         velocity_rhs(t, q, p, r);
         for (int row = 0; row < N_ALL_ROWS; row++)
             for (int k = 0; k < N_Q; k++)
-                r[row] -= phi_q[(size_t)row * N_Q + k] * v[k];
+                r[row] -= phi_q[(long)row * N_Q + k] * v[k];
         const int status = project(t, q, r, p, step);
         if (status)
             return status;

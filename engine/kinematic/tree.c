@@ -1,9 +1,10 @@
 /* The closed linkage in tree coordinates. */
 
-/* Powers, and accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
+/* Powers, accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
 static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
 {
-    const int status = reduced_dynamics(beyond_jump(here->t), here->s, here->s_rate, &(Memory){.asked = here->asked}, p, a, aside);
+    const Memory memory = {.asked = here->asked};
+    const int status = reduced_dynamics(beyond_jump(here->t), here->s, here->s_rate, &memory, p, a, aside);
     return status > 0 ? N_LOOPS + status : status;
 }
 
@@ -42,8 +43,9 @@ static int place_at(double t, const Parameters *p, double extent, const Place *f
     to->t = t;
     for (int k = 0; k < N_X; k++)
         to->s[k] = from->s[k] + h * (from->s_rate[k] + 0.5 * h * from->s_second[k]);
-    const int status = close_linkage(beyond_jump(t), p, extent, to, moved);
-    return status ? status : arrive(beyond_jump(t), to->s, to->s_rate, p, to->s_second, to->q, to->v, to->a, &to->phi_dot);
+    const double then = beyond_jump(t);
+    const int status = close_linkage(then, p, extent, to, moved);
+    return status ? status : arrive(then, to->s, to->s_rate, p, to->s_second, to->q, to->v, to->a, &to->phi_dot);
 }
 
 /* A place has all that a sample needs. */

@@ -102,7 +102,8 @@ static void next_length(Run *run, const Step *step, double power, int again, int
 /* One accepted step towards t_end; the next step's length in run->h. Events are not looked for here. */
 static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step)
 {
-    const double left = t_end - run->t, least = 16.0 * DBL_EPSILON * max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
+    const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
+    const double least = 16.0 * DBL_EPSILON * far;
     double h = run->fixed > 0.0 ? run->fixed : run->h;
     int again = 0, shortened = 0, given_up = 0;
     if (run->skip >= 0 && run->fixed <= 0.0)
@@ -130,7 +131,8 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
             h *= 0.25;
             continue;
         }
-        const double pulse = !status && step->error <= run->accept && run->fixed <= 0.0 ? missed_pulse(run, step, p) : 0.0;
+        const int wanted = !status && step->error <= run->accept && run->fixed <= 0.0;
+        const double pulse = wanted ? missed_pulse(run, step, p) : 0.0;
         if (pulse > 0.0 && shortened++ < SHORTENED) {
             again = 1;
             run->rejected++;
@@ -322,8 +324,10 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         const double share = first_event(run, step, p, &event);
         if (run->asked.stop)
             return STOPPED; /* what was found meanwhile means nothing */
-        const double t_new = share < 1.0 ? run->t + share * step->h : step->h == t_end - run->t ? t_end : run->t + step->h;
-        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->tick); /* is at the event */
+        const double t_whole = step->h == t_end - run->t ? t_end : run->t + step->h;
+        const double t_new = share < 1.0 ? run->t + share * step->h : t_whole;
+        /* what is so near is at the event */
+        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->tick);
         status = sample_step(run, step, t_new - close, n, t, p, y, latched, state, done);
         run->asked.hold = 1;
 #if N_CORNERS

@@ -77,9 +77,11 @@ static void sample_here(const Run *run, double h, const Parameters *p, const Sam
         store_sample(run, run->t, run->y, p, *out->done, out->y, out->latched, out->state);
 }
 
-/* Takes a trial as the new state, whole, if it is a number; latches follow from the gaps at both of its ends. Samples on the way are stored. */
-static int accept(Run *run, double h, double t_new, const Trial *trial, const Parameters *p,
-    const Samples *out)
+/*
+ * Takes a trial as the new state, whole, if it is a number; latches follow from the gaps at both of its ends. Samples
+ * on the way are stored.
+ */
+static int accept(Run *run, double h, double t_new, const Trial *trial, const Parameters *p, const Samples *out)
 {
     if (!all_finite(trial->y, N_Y) || !all_finite(trial->dy, N_Y))
         return NOT_FINITE;

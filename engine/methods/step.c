@@ -75,7 +75,8 @@ static void note_speed(Run *run)
  */
 static void weigh(Run *run)
 {
-    const double of_speed[2] = {1.0 / (run->speed[0] + run->speed_floor[0]), 1.0 / (run->speed[1] + run->speed_floor[1])};
+    const double lengths = run->speed[0] + run->speed_floor[0], angles = run->speed[1] + run->speed_floor[1];
+    const double of_speed[2] = {1.0 / lengths, 1.0 / angles};
     for (int k = 0; k < 2 * N_X; k++)
         run->weight[k] = run->inverse_scale[k] * (k < N_X ? 1.0 : of_speed[is_angle[k - N_X]]);
     for (int k = 2 * N_X; k < N_Y; k++)
@@ -94,7 +95,8 @@ static int all_finite(const double *x, int n)
 static int can_close(Run *run, int open, double t, const double *y, const Parameters *p, double *dq, double *dv,
     double *worst)
 {
-    return open && !closing_of_state(t, y, &run->memory, p, dq, dv, worst) && all_finite(dq, N_X) && all_finite(dv, N_X);
+    return open && !closing_of_state(t, y, &run->memory, p, dq, dv, worst) && all_finite(dq, N_X)
+        && all_finite(dv, N_X);
 }
 
 #include "../both/project.h"

@@ -46,7 +46,8 @@ int gudgeon_reduced_rescue(double t, const double *q, const double *v, const dou
 
 #endif
 /* The reduced right-hand side many times over, for benchmarks; each call waits for the one before. */
-double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory, const double *p)
+double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *memory,
+    const double *p)
 {
     double a[N_X + 1] = {0.0}, moved[N_X + 1], sum = 0.0;
     Memory now = {0};

@@ -19,7 +19,7 @@ typedef struct {
 typedef struct {
     double t, gain, sum; /* s: where these steps began; what the last ones gained, and the good ones together */
     long steps, good;
-    int slow, crawls;    /* how often in a row it was too slow; whether that is far slower than it was before, or OUTRUN */
+    int slow, crawls;    /* how often in a row it was too slow; whether far slower than it was before, or OUTRUN */
     Doubling doubling;
 } Pace;
 

@@ -128,11 +128,12 @@ static int change(Run *run, int event, const Parameters *p)
 #endif
     }
     int status = settle_sides(run, is_corner ? corner : -1, p);
-    const int friction = corner - N_SWITCHES, watched = friction - N_FRICTIONS;
-    if (!status && friction >= 0 && watched < 0)
+    const int friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
+    if (!status && friction >= 0 && user_event < 0)
         status = switch_friction(run, p);
-    if (!status && watched >= 0 && event_crosses(watched, &run->memory.event_side[watched], run->aside.event[watched])
-        && !run->pole && note_event(run, watched, run->t))
+    if (!status && user_event >= 0
+        && event_crosses(user_event, &run->memory.event_side[user_event], run->aside.event[user_event])
+        && !run->pole && note_event(run, user_event, run->t))
         status = ENDED;
     return status;
 }
@@ -165,7 +166,8 @@ static int pass_jumps_here(Run *run, const Parameters *p)
 static int check_contacts(const Run *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (!run->memory.latch[i].closed && run->aside.clearance[i].delta > min_of(1e-9, 1e-6 * deepest(p, i)) + 1e-3 * radial_clearance(p, i))
+        if (!run->memory.latch[i].closed
+            && run->aside.clearance[i].delta > min_of(1e-9, 1e-6 * deepest(p, i)) + 1e-3 * radial_clearance(p, i))
             return LOST;
     return 0;
 }

@@ -8,7 +8,8 @@ static double crossing(double d0, double r0, double d1, double r1, double h, dou
     for (int i = 0; i < 60; i++) {
         s = 0.5 * (low + high);
         const double u = 1.0 - s;
-        const double d = u * u * (1.0 + 2.0 * s) * d0 + s * u * u * h * r0 + s * s * (3.0 - 2.0 * s) * d1 - s * s * u * h * r1;
+        const double d = u * u * (1.0 + 2.0 * s) * d0 + s * u * u * h * r0 + s * s * (3.0 - 2.0 * s) * d1
+            - s * s * u * h * r1;
         if ((d >= 0.0) == (d1 >= 0.0))
             high = s;
         else

@@ -41,9 +41,10 @@ void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *end
     steps[1] = run->advance.crawls;
     for (int k = 0; k < 4; k++)
         ended[k] = 0;
-    for (int k = 0; k < N_MARGINS; k++)
-        ended[(k >= N_CLEARANCES) + (k >= N_CLEARANCES + N_SWITCHES) + (k >= N_CLEARANCES + N_SWITCHES + N_FRICTIONS)] +=
-            run->ended[k];
+    for (int k = 0; k < N_MARGINS; k++) {
+        const int corner = k - N_CLEARANCES, friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
+        ended[(corner >= 0) + (friction >= 0) + (user_event >= 0)] += run->ended[k];
+    }
 }
 
 /* Fetches and empties the list of user events. */

@@ -51,7 +51,8 @@ static int watch(Run *run, const Parameters *p)
 /* Whether the next step may find more than the lists hold. */
 static int lists_full(const Run *run)
 {
-    return run->n_impacts > N_IMPACTS - AT_LEAST_ONE(N_CLEARANCES) || run->n_events > N_IMPACTS - AT_LEAST_ONE(3 * N_USER_EVENTS);
+    return run->n_impacts > N_IMPACTS - AT_LEAST_ONE(N_CLEARANCES)
+        || run->n_events > N_IMPACTS - AT_LEAST_ONE(3 * N_USER_EVENTS);
 }
 
 /* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */

@@ -46,9 +46,10 @@ typedef struct {
     int dense_ready, stiff;
     int n_seen;                              /* stages so far, their nodes and margins */
     double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_MARGINS)];
-    double look[AT_LEAST_ONE(N_WATCHED)][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (watched.c) */
+    double look[AT_LEAST_ONE(N_WATCHED)][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (looks.c) */
     unsigned char passed[AT_LEAST_ONE(N_SWITCHES)]; /* corners that this step crosses without harm */
-    double from[AT_LEAST_ONE(N_WATCHED)], to[AT_LEAST_ONE(N_WATCHED)], below[AT_LEAST_ONE(N_WATCHED)]; /* where a zero of it was found */
+    /* where a zero of what is watched was found, and its value behind it */
+    double from[AT_LEAST_ONE(N_WATCHED)], to[AT_LEAST_ONE(N_WATCHED)], below[AT_LEAST_ONE(N_WATCHED)];
     double least[2 * N_X + 1], most[2 * N_X + 1];   /* of the state at stages, where something is watched */
     unsigned char near[AT_LEAST_ONE(N_WATCHED)], looked;
     double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
@@ -81,7 +82,8 @@ typedef struct {
     long steps, evaluations, onsets, grazes, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
     /* of methods that choose their step (adaptive.c) */
-    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace, inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2];
+    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace;
+    double inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2];
     double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
     double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
     int rising[AT_LEAST_ONE(N_CLEARANCES)]; /* whether a joint's force rose at the end of the last step */

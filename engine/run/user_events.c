@@ -37,7 +37,8 @@ static int end_on_zeros(Run *run, double tick, const Parameters *p)
     if (!zeros || rates(run, run->t + h, y, p, dy, &aside))
         return 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
-        if (event_crosses(i, &run->memory.event_side[i], aside.event[i]) && fabs(aside.event[i]) >= fabs(run->aside.event[i])
+        if (event_crosses(i, &run->memory.event_side[i], aside.event[i])
+            && fabs(aside.event[i]) >= fabs(run->aside.event[i])
             && note_event(run, i, run->t))
             status = ENDED;
     return status;

@@ -1,7 +1,8 @@
 /*
  * The state equation y' = f(t, y) with y = (q, v, work), and everything that is computed from a state.
  */
-static int state_equation(double t, const double *y, const Memory *memory, const Parameters *p, double *dy, Aside *aside)
+static int state_equation(double t, const double *y, const Memory *memory, const Parameters *p, double *dy,
+    Aside *aside)
 {
     const int status = dynamics(t, y, y + N_Q, memory, p, dy + N_Q, aside);
     for (int k = 0; k < N_Q; k++)

@@ -14,7 +14,8 @@ static int residual_column(const Linear *lin, int column, const double *gain, do
             found = 1;
         }
     }
-    for (int i = 0; i < N_PHI_Q && column < 2 * N_X; i++) { /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
+    /* Baumgarte: beta^2 Phi_q, 2 alpha Phi_q; a stick has no beta */
+    for (int i = 0; i < N_PHI_Q && column < 2 * N_X; i++) {
         const LinearEntry *at = &phi_q_entries[i];
         if (at->column == column % N_X && (column >= N_X || at->row < N_X + N_LOOPS)) {
             x[at->row] -= (at->row < N_X + N_LOOPS ? gain[column / N_X] : stick) * at->sign * lin->value[at->value];
@@ -29,7 +30,7 @@ static int residual_column(const Linear *lin, int column, const double *gain, do
 }
 
 /* The column of the Jacobian that follows from x, the change of accelerations and multipliers; `out` has a stride. */
-static void jacobian_column(const Linear *lin, int column, const double *x, double *out, size_t stride)
+static void jacobian_column(const Linear *lin, int column, const double *x, double *out, long stride)
 {
     for (int k = 0; k < N_X; k++) {
         out[k * stride] = column == N_X + k ? 1.0 : 0.0;
@@ -41,11 +42,15 @@ static void jacobian_column(const Linear *lin, int column, const double *x, doub
         const LinearEntry *at = &power_row_entries[i];
         out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
     }
-    for (int i = 0; i < N_POWER; i++)
-        if (power_entries[i].column == column)
-            out[(2 * N_X + power_entries[i].row) * stride] += power_entries[i].sign * lin->value[power_entries[i].value];
-    for (int i = 0; i < N_POWER_T && column == 2 * N_X; i++)
-        out[(2 * N_X + power_t_entries[i].row) * stride] += power_t_entries[i].sign * lin->value[power_t_entries[i].value];
+    for (int i = 0; i < N_POWER; i++) {
+        const LinearEntry *at = &power_entries[i];
+        if (at->column == column)
+            out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value];
+    }
+    for (int i = 0; i < N_POWER_T && column == 2 * N_X; i++) {
+        const LinearEntry *at = &power_t_entries[i];
+        out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value];
+    }
 }
 
 /* A state linearized and Newton's matrix factorized: 0, a pivot of dynamics(), or -1 - a node of newton_factor(). */

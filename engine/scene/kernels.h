@@ -1,6 +1,6 @@
 /*
- * Functions that are derived for each scene (in files beside model.h), as the engine calls them, and those of the engine
- * that are compiled together with them. Statuses: 0, or the number (from 1) of a row whose pivot vanished.
+ * Functions that are derived for each scene (in files beside model.h), as the engine calls them, and those of the
+ * engine that are compiled together with them. Statuses: 0, or the number (from 1) of a row whose pivot vanished.
  */
 #ifndef GUDGEON_KERNELS_H
 #define GUDGEON_KERNELS_H
@@ -90,7 +90,7 @@ void solve_block(int n, const double *A, const int *order, double *x);
 #if N_TERMS || N_CORNERS || KNOWN_BOUNDS
 #include "../watch/ranges.h"
 
-/* What is watched along a step, and bounds over ranges of time and state: of it, of drives' corners, of terms of time. */
+/* What is watched along a step; bounds over ranges of time and state: of it, of drives' corners, of terms of time. */
 void watched_functions(double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     Aside *aside);
 void watched_ranges(Range t, const Range *q, const Range *v, const Memory *memory, const Parameters *p, Range *out);

@@ -1,18 +1,21 @@
-/* Text of a function: sine and cosine of `angle` (a vector SINES_OF, as integers SINES_BITS), `small` where they hold. */
+/* Text of a function: sine, cosine of `angle` (a vector SINES_OF, as integers SINES_BITS), `small` where they hold. */
     const double shift = 6755399441055744.0;
-    const double half_1 = 1.57079632673412561417, half_2 = 6.07710050630396597660e-11, half_3 = 2.02226624879595063154e-21;
+    const double half_1 = 1.57079632673412561417, half_2 = 6.07710050630396597660e-11;
+    const double half_3 = 2.02226624879595063154e-21;
     const SINES_OF x = angle, shifted = x * 0.63661977236758134308 + shift, turns = shifted - shift;
     const SINES_BITS quarter = (SINES_BITS)shifted, small = (x < TURN_LIMIT) & (x > -TURN_LIMIT);
     const SINES_OF r = ((x - turns * half_1) - turns * half_2) - turns * half_3;
     const SINES_OF z = r * r, w = z * z;
-    const SINES_OF s_high = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 + z * 2.75573137070700676789e-06)
+    const SINES_OF s_high = 8.33333333332248946124e-03
+        + z * (-1.98412698298579493134e-04 + z * 2.75573137070700676789e-06)
         + z * w * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10);
     const SINES_OF s = r + z * r * (-1.66666666666666324348e-01 + z * s_high);
-    const SINES_OF c_high = z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03 + z * 2.48015872894767294178e-05))
+    const SINES_OF c_high =
+        z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03 + z * 2.48015872894767294178e-05))
         + w * w * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11));
     const SINES_OF half = 0.5 * z, rest = 1.0 - half;
     const SINES_OF c = rest + (((1.0 - rest) - half) + z * c_high);
-    /* odd quarters exchange sine and cosine; the sign of the sine is that of the half turn, and of the next quarter's */
+    /* odd quarters exchange sine and cosine; the sine has the sign of the half turn, the cosine the next quarter's */
     const SINES_BITS odd = -(quarter & 1), s_bits = (SINES_BITS)s, c_bits = (SINES_BITS)c;
     *sine = (SINES_OF)(((c_bits & odd) | (s_bits & ~odd)) ^ ((quarter & 2) << 62));
     *cosine = (SINES_OF)(((s_bits & odd) | (c_bits & ~odd)) ^ (((quarter + 1) & 2) << 62));

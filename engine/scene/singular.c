@@ -69,7 +69,8 @@ static int independent_rows(Workspace *w, double least)
 }
 
 /* Rows scaled by M^(-1/2), and what each must still give: rhs - Phi_q M^-1 g. */
-static void fill_workspace(Workspace *w, double t, const double *q, const Parameters *p, const double *force, const double *rhs)
+static void fill_workspace(Workspace *w, double t, const double *q, const Parameters *p, const double *force,
+    const double *rhs)
 {
     *w = (Workspace){0};
     mass_matrix(p, w->root);

@@ -64,7 +64,7 @@ typedef struct {
     Latch latch[AT_LEAST_ONE(N_CLEARANCES)];
     double mode[AT_LEAST_ONE(N_FRICTIONS)];
     double side[AT_LEAST_ONE(N_SWITCHES)];
-    signed char event_side[AT_LEAST_ONE(N_USER_EVENTS)]; /* of zero, where each watched expression was last; 0: nowhere yet */
+    signed char event_side[AT_LEAST_ONE(N_USER_EVENTS)]; /* of zero, where each expression was; 0: nowhere yet */
     int held;
     Asked *asked; /* NULL: nobody */
 #if N_CHAIN

@@ -39,7 +39,8 @@ static inline Range range_union(Range x, Range y)
 {
     if (is_empty(x) || is_empty(y))
         return is_empty(x) ? y : x;
-    return (Range){min_of(x.lo, y.lo), max_of(x.hi, y.hi), min_of(x.down, y.down), max_of(x.up, y.up), x.partly | y.partly};
+    return (Range){min_of(x.lo, y.lo), max_of(x.hi, y.hi), min_of(x.down, y.down), max_of(x.up, y.up),
+        x.partly | y.partly};
 }
 
 static inline Range range_add(Range x, Range y)
@@ -156,7 +157,10 @@ static inline Range range_asin(Range x)
     return y;
 }
 
-static inline Range range_acos(Range x) { return range_add(only(1.5707963267948966), range_times(only(-1.0), range_asin(x))); }
+static inline Range range_acos(Range x)
+{
+    return range_add(only(1.5707963267948966), range_times(only(-1.0), range_asin(x)));
+}
 
 static inline Range range_atan(Range x)
 {
@@ -199,7 +203,8 @@ static inline Range range_atan2(Range y, Range x)
 static inline Range range_side(const double *side, int k, Range g)
 {
     const double least = g.lo < 0.0 ? -1.0 : g.lo > 0.0 ? 1.0 : 0.0, most = g.hi > 0.0 ? 1.0 : g.hi < 0.0 ? -1.0 : 0.0;
-    return side ? only(side[k]) : (Range){least, most, least < most ? -INFINITY : 0.0, least < most ? INFINITY : 0.0, g.partly};
+    const double slope = least < most ? INFINITY : 0.0;
+    return side ? only(side[k]) : (Range){least, most, -slope, slope, g.partly};
 }
 
 /* The second below the corner, else the first. */

@@ -2,7 +2,7 @@
  * Where along a step a margin crosses zero: the step's interpolant, its roots, and dips that touch zero in between.
  */
 enum { ROOT_STEPS = 100, LOOKS = 16 };
-#define SHALLOW 1e-13 /* m, or as a share of the depth that ends the model 1e-10: a graze without a force worth the name */
+#define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
 /* How far below zero margin k lies without a meaning: m of a joint with play. */
 static double shallow(const Parameters *p, int k)

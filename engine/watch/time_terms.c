@@ -81,7 +81,7 @@ static double unseen_in_gap(double t, double h, double a, double b, const Range 
     return 0.0;
 }
 
-/* The first share of the time from t on, h long, where a term acts unseen by looks at `place` (from 0 to 1); 0: none. */
+/* The first share of the time h from t on where a term acts unseen by looks at `place` (from 0 to 1); 0: none. */
 static double unseen_term(double t, double h, const double *place, int n, Harmless *harmless, void *context,
     const Parameters *p)
 {

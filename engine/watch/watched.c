@@ -162,7 +162,7 @@ static int is_clear(const Run *run, const Step *step, const Parameters *p)
 }
 
 #endif
-/* Looks for the first zero of what is watched along an accepted step: `from` where it is not yet, `to` where it is over. */
+/* The first zero of what is watched along an accepted step: `from` where it is not yet, `to` where it is over. */
 static void look_inside(Run *run, Step *step, const Parameters *p)
 {
     Course course = {.t = step->t, .h = step->h};

@@ -1,4 +1,4 @@
-"""Runs of a batch side by side in vector registers (templates/c/batch/lanes.c.jinja): rk4 with one step for all.
+"""Runs of a batch side by side in vector registers (engine/batch/lanes.h): rk4 with one step for all.
 
 Their library is compiled when a batch first asks for it. It moves runs on as far as they go together; what is then
 not over goes on alone, from where it is.
@@ -18,10 +18,6 @@ from gudgeon.model.compiled import Array, CompiledModel
 if TYPE_CHECKING:
     from gudgeon.integrators.batch import Runs
 
-CDEF = """\
-int gudgeon_lane_count(void);
-int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number);
-"""
 NEW, OVER = 0, 2  # phases of a run
 NOT_CLOSED = -9  # status: the start is left to the search in Python
 NONE = -1  # in place of the number of a run
@@ -33,8 +29,9 @@ class Lanes:
 
     def __init__(self, compiled: CompiledModel) -> None:
         from gudgeon.loading.build import compile_kernels
+        from gudgeon.loading.engine import lane_declarations
 
-        source = replace(compiled.source, main=compiled.source.lanes, cdef=CDEF)
+        source = replace(compiled.source, main=compiled.source.lanes, cdef=lane_declarations())
         module: Any = compile_kernels(source, portable=compiled.portable)
         self.lib, self.ffi = module.lib, module.ffi
         self.count = int(self.lib.gudgeon_lane_count())

@@ -15,7 +15,7 @@ from gudgeon.loading.shipped import PACKAGE
 
 ENGINE = PACKAGE / "engine"
 UNIT = ENGINE / "engine.c"
-CALLS = ENGINE / "scene" / "calls.h"
+CALLS, LANE_CALLS = ENGINE / "scene" / "calls.h", ENGINE / "batch" / "lane_calls.h"
 _SIZE = re.compile(r"^#define (\w+) (\d+)\b", re.MULTILINE)
 
 
@@ -39,6 +39,11 @@ def include_flags() -> tuple[str, ...]:
 def declarations(source: KernelSource) -> str:
     """What of the library is called from outside, as cffi reads it."""
     return source.cdef or _with_sizes(CALLS.read_text(encoding="utf-8"), sizes(source))
+
+
+def lane_declarations() -> str:
+    """Of a library of runs side by side."""
+    return _with_sizes(LANE_CALLS.read_text(encoding="utf-8"), {})
 
 
 def sizes(source: KernelSource) -> dict[str, int]:

@@ -5,7 +5,6 @@
 #include "model.h"
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
-#include <time.h>
 
 typedef struct {
     Lanes omega;

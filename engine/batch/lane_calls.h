@@ -1,0 +1,8 @@
+/* What is called from outside of a library of lanes: Python reads these declarations too. */
+#ifndef GUDGEON_LANE_CALLS_H
+#define GUDGEON_LANE_CALLS_H
+
+int gudgeon_lane_count(void);
+int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number);
+
+#endif
