@@ -23,6 +23,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.loading import compiler
+from gudgeon.loading.engine import UNIT, declarations, include_flags
 
 COUNTS = (100, 1100)
 PORTABLE = ("-march=x86-64-v3",) if os.uname().machine == "x86_64" else ()
@@ -47,7 +48,7 @@ class Call:
     """`call` is an expression of type double that makes `count` calls, on `arrays` of doubles by name."""
 
     files: Mapping[str, str]
-    main: str
+    units: tuple[str, ...]
     declarations: str
     call: str
     arrays: Mapping[str, np.ndarray]
@@ -56,7 +57,7 @@ class Call:
 
 def of_scene(source: KernelSource, call: str, arrays: Mapping[str, np.ndarray]) -> Call:
     """A call of a scene's library."""
-    return Call(source.files, source.main, source.cdef, call, arrays)
+    return Call(source.files, (source.main, str(UNIT)), declarations(source), call, arrays, (*FLAGS, *include_flags()))
 
 
 def available() -> bool:
@@ -75,7 +76,7 @@ def instructions(call: Call, counts: tuple[int, int] = COUNTS) -> float:
         arrays = "\n".join(_array(*item) for item in call.arrays.items())
         driver = DRIVER.format(declarations=call.declarations, arrays=arrays, call=call.call)
         (folder / "driver.c").write_text(driver, encoding="utf-8")
-        command = [*compiler.find_compiler(), *call.flags, "driver.c", call.main, "-o", "driver", "-lm"]
+        command = [*compiler.find_compiler(), *call.flags, "driver.c", *call.units, "-o", "driver", "-lm"]
         _run(command, folder)
         few, many = (_total(folder, count) for count in counts)
     return (many - few) / (counts[1] - counts[0])

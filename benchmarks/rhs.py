@@ -177,7 +177,7 @@ def _dense(peer: Press, work: Work) -> callgrind.Call:
     files = {press_dense.SOURCE.name: press_dense.SOURCE.read_text(encoding="utf-8")}
     native = ("-march=native", "-shared", "-fPIC")
     flags = (*(flag for flag in press_dense.FLAGS if flag not in native), *callgrind.PORTABLE)
-    return callgrind.Call(files, press_dense.SOURCE.name, DENSE, call, arrays, flags)
+    return callgrind.Call(files, (press_dense.SOURCE.name,), DENSE, call, arrays, flags)
 
 
 def machine() -> str:

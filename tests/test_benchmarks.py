@@ -115,7 +115,7 @@ def test_callgrind_counts_a_call_and_nothing_else() -> None:
         text = f"f(count, x, {times})"
         arrays = {"x": np.array([0.1, math.nan])}
         declaration = "double f(long n, const double *x, int m);"
-        return callgrind.instructions(callgrind.Call({"f.c": code}, "f.c", declaration, text, arrays, flags), counts)
+        return callgrind.instructions(callgrind.Call({"f.c": code}, ("f.c",), declaration, text, arrays, flags), counts)
 
     hundred = counted(100, (10, 20))
     assert hundred == counted(100, (10, 110))  # start and end of the process are gone

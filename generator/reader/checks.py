@@ -18,6 +18,7 @@ RELATIONS: Mapping[str, Callable[[float, float], bool]] = {
     ">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le,
 }  # fmt: skip
 
+
 def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Mapping[str, SceneSpec]) -> None:
     """Collect a BadValueError at the place of each number that is not finite or breaks a condition."""
     before = len(reader.errors)

@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
-from gudgeon.loading.engine import UNIT, declarations, engine_digest, include_flags
 from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
+from gudgeon.loading.engine import UNIT, declarations, engine_digest, include_flags
 from gudgeon.waiting.imports import CFFI, whole
 from gudgeon.waiting.programs import Programs
 from gudgeon.waiting.working import working
@@ -73,7 +73,9 @@ def library_key(
     """Everything that decides the library's bytes or whether this machine can run them."""
     texts = [part for name in sorted(source.files) for part in (name, source.files[name])]
     cpu = "" if portable else compiler.cpu()
-    return digest(["library/4", source.main, source.cdef, ASKS, *command, *flags, identity, cpu, engine_digest(), *texts])
+    return digest(
+        ["library/4", source.main, source.cdef, ASKS, *command, *flags, identity, cpu, engine_digest(), *texts]
+    )
 
 
 def _name(key: str) -> str:

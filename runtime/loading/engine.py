@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from pathlib import Path
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.loading.cache import digest

@@ -17,6 +17,7 @@ from gudgeon.generator.pipeline import derive, generate
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.latex import equations_text
 from gudgeon.loading.compiler import find_compiler
+from gudgeon.loading.engine import include_flags, sizes
 
 SLIDER = resources.files("gudgeon.mechanisms").joinpath("slider_crank.yaml").read_text(encoding="utf-8")
 EVENTS = """
@@ -75,14 +76,15 @@ def test_terms_that_cancel_are_refused_at_their_place() -> None:
 
 
 def test_a_scene_without_events_has_no_code_for_them() -> None:
-    files = generate(file(""), "slider.yaml", "ideal").files
-    assert "kinematic_events.c" not in files
-    assert "event" not in files["dynamics.c"] and "event" not in files["kinematic.c"]
+    source = generate(file(""), "slider.yaml", "ideal")
+    assert sizes(source)["N_USER_EVENTS"] == 0 and "watched.c" not in source.files
+    assert not any("event[" in text for text in source.files.values())
 
 
 DRIVER = """\
 #include <stdio.h>
 #include "scene.c"
+#include "engine/engine.c"
 int main(void)
 {
     static double given[1000];
@@ -108,7 +110,7 @@ def values(source: KernelSource, driver: str, states: np.ndarray, folder: Path) 
     """What a driver prints of states (N, …) that it reads."""
     for name, text in {**source.files, "driver.c": driver}.items():
         (folder / name).write_text(text, encoding="utf-8")
-    command = [*find_compiler(), "-std=c11", "-O1", "driver.c", "-o", "driver", "-lm"]
+    command = [*find_compiler(), "-std=c11", "-O1", *include_flags(), "driver.c", "-o", "driver", "-lm"]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
     text = "\n".join(" ".join(f"{x:.17g}" for x in state) for state in states)
     done = subprocess.run(["./driver"], cwd=folder, input=text, check=True, capture_output=True, text=True)

@@ -26,6 +26,7 @@ from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import Expr, evaluate
 from gudgeon.loading.compiler import find_compiler
+from gudgeon.loading.engine import UNIT, declarations, include_flags
 from gudgeon.model.assembly import assemble
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.simulation.simulation import Simulation
@@ -135,8 +136,8 @@ def write(source: KernelSource, folder: Path) -> None:
 def check_syntax(source: KernelSource, folder: Path) -> None:
     """No error, no warning."""
     write(source, folder)
-    files = [source.main, *([source.lanes] if source.lanes else [])]
-    _compile([*WARNINGS, "-fsyntax-only", *files], folder)
+    files = [source.main, str(UNIT), *([source.lanes] if source.lanes else [])]
+    _compile([*WARNINGS, "-fsyntax-only", *include_flags(), *files], folder)
 
 
 def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
@@ -144,18 +145,18 @@ def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
     from cffi import FFI
 
     write(source, folder)
-    text, told = f'#include "{source.main}"\n', source.cdef
+    text, told = f'#include "{source.main}"\n#include "engine/engine.c"\n', declarations(source)
     if source.formulation == "reduced":
         chained = bool(source.chain)
         state = "at.q, at.v" if chained else "s, rate"
         seat = "TreeState at;\n    if (outside_state(t, s, rate, &now, p, &at))\n        return 1;" if chained else ""
         rescue = "reduce_accelerations(t, q, v, all_a, p, rescued);"
-        has_rescue = "gudgeon_reduced_rescue" in source.cdef
+        has_rescue = "gudgeon_reduced_rescue" in told
         text += BOTH % (seat, state, state, rescue if has_rescue else "(void)rescued;")
         told += TOLD
     (folder / "library.c").write_text(text, encoding="utf-8")
     file = folder / f"{name}.so"
-    _compile([*WARNINGS, "-O1", "-fPIC", "-shared", "library.c", "-o", file.name, "-lm"], folder)
+    _compile([*WARNINGS, "-O1", "-fPIC", "-shared", *include_flags(), "library.c", "-o", file.name, "-lm"], folder)
     ffi = FFI()
     ffi.cdef(told)
     return CompiledModel(source, cast(Any, SimpleNamespace(ffi=_Ffi(ffi), lib=_Library(ffi, ffi.dlopen(str(file))))))

@@ -114,5 +114,5 @@ def test_groups_of_rows() -> None:
 
 def test_a_plate_on_three_rods_is_one_block(tmp_path: Path) -> None:
     files = scene("plate", tmp_path).source.files
-    assert "factor_block(4, " in files["kinematic.c"]
-    assert "factor_block" not in gudgeon.load("nine_bar_press", "ideal").source.files["kinematic.c"]
+    assert "factor_block(4, " in files["positions.c"]
+    assert "factor_block" not in gudgeon.load("nine_bar_press", "ideal").source.files["positions.c"]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import gudgeon
+from gudgeon.loading.engine import sizes
 
 HEAD = "format: gudgeon/1\nname: j\ngravity: [0, -9.81 m/s^2]\n"
 SLIDER = (
@@ -113,8 +114,8 @@ forces: {rub: {dry_friction: [cart.origin, plate.origin], direction: [1, 0], sta
 
 def test_only_scenes_whose_drives_jump_look_for_it(tmp_path: Path) -> None:
     for value, has in (("2 m/s * t", False), ("smooth_step(t, 0.1 s, 0.3 s) * 1 m", False), ("abs(t)*1 m/s", True)):
-        files = scene(SLIDER + ON_SLIDER.format(value), tmp_path).source.files
-        assert ("jumps.c" in files) == has == any("next_jump" in text for text in files.values())
+        source = scene(SLIDER + ON_SLIDER.format(value), tmp_path).source
+        assert (sizes(source)["N_CORNERS"] > 0) == has == ("drive_corners" in source.files.get("watched.c", ""))
 
 
 @pytest.mark.parametrize("formulation", ["reduced", "full"])

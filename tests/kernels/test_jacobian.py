@@ -51,7 +51,7 @@ INTEGRATED = [
     (name, scene)
     for name in shipped()
     for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
-    if "rk4.c" in gudgeon.load(name, scene).source.files
+    if "rk4" in gudgeon.load(name, scene).source.methods
 ]
 
 

@@ -54,7 +54,7 @@ class Tree:
         size = 2 * self.n + 3
         J, f_t = np.zeros((size, size)), np.zeros(size)
         arrays = (np.concatenate([self.y, self.chain]), self.memory, self.p, J, f_t)
-        assert self.lib.gudgeon_tree_jacobian(self.t, *map(self.pointer, arrays)) == 0
+        assert self.lib.gudgeon_jacobian(self.t, *map(self.pointer, arrays)) == 0
         return J, f_t
 
     def solve(self, eta: float, s: float, r: np.ndarray) -> np.ndarray:

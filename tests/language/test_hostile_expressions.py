@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import subprocess
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import gudgeon
 from gudgeon.errors import BadValueError, InputError, LimitError
 from gudgeon.generator.pipeline import derive, generate
 from gudgeon.loading.compiler import find_compiler
+from gudgeon.loading.engine import include_flags
 
 FILE = """format: gudgeon/1
 name: n
@@ -82,30 +82,23 @@ COMPILED = [
 ]
 
 
-def _without_includes(texts: dict[str, str]) -> str:
-    return re.sub(r'^#include ".*"$', "", "\n".join(texts.values()), flags=re.M)
-
-
-def _in_place(texts: dict[str, str]) -> str:
-    """lanes.c with what it includes; a declaration where a scene has no lanes."""
-    main = texts.get("lanes.c", "extern int none;\n")
-    return re.sub(r'^#include "(.*)"$', lambda found: texts[found[1]], main, flags=re.M)
-
-
 def test_compiled(tmp_path: Path) -> None:
+    units = []
     for number, text in enumerate(COMPILED):
         source = generate(text.encode(), "f", "ideal")
-        lanes = {name: part for name, part in source.files.items() if name.startswith("lanes.")}
-        parts = {name: part for name, part in source.files.items() if name not in (source.main, *lanes)}
-        headers = {name: parts[name] for name in ("model.h", "batch.h")} if lanes else {}
-        for kind, texts in (("scene", parts), ("lanes", headers | lanes)):
-            path = tmp_path / f"{number}_{kind}.c"
-            path.write_text(_without_includes(texts) if kind == "scene" else _in_place(texts))
-    command = [*find_compiler(), "-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"]
-    done = subprocess.run(
-        [*command, *map(str, sorted(tmp_path.glob("*.c")))], capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr[:2000]
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        for name, part in source.files.items():
+            (folder / name).write_text(part)
+        mains = [source.main, "engine/engine.c", *([source.lanes] if source.lanes else [])]
+        for kind, name in enumerate(mains):
+            units.append(f"{number}/unit_{kind}.c")
+            (tmp_path / units[-1]).write_text(f'#include "{name}"\n')
+    flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", include_flags()[-1]]
+    for unit in units:
+        command = [*find_compiler(), *flags, "-I", str(Path(unit).parent), unit]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr[:2000]
 
 
 def test_thousands_of_parameters_may_be_defined_through_each_other() -> None:

@@ -11,6 +11,7 @@ import pytest
 import gudgeon
 from gudgeon.generator.pipeline import generate
 from gudgeon.loading.compiler import find_compiler
+from gudgeon.loading.engine import include_flags
 
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
 SCENES = [("every_kind", "ideal"), ("press_as_designed", "ideal"), ("press_as_designed", "fast"),
@@ -22,7 +23,7 @@ def test_emits_without_warnings(name: str, scene: str, tmp_path: Path) -> None:
     source = generate((VALID / f"{name}.yaml").read_bytes(), name, scene)
     for file, text in source.files.items():
         (tmp_path / file).write_text(text, encoding="utf-8")
-    flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"]
+    flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *include_flags()]
     done = subprocess.run(
         [*find_compiler(), *flags, source.main], cwd=tmp_path, capture_output=True, text=True, check=False
     )

@@ -16,9 +16,10 @@ import gudgeon
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.loading.engine import declarations, include_flags, sizes
 from gudgeon.loading.shipped import shipped, shipped_file
 
-FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror"]
+FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", *include_flags()]
 WIDTHS = ([], ["-mavx2"], ["-mavx512f"]) if platform.machine() in ("x86_64", "AMD64") else ([],)  # 2, 4, 8 lanes
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 SCENES = [
@@ -87,6 +88,9 @@ int main(int argc, char **argv)
 """
 
 
+WHOLE = '#include "scene.c"\n#include "engine/engine.c"\n'
+
+
 def write(source: KernelSource, folder: Path) -> Path:
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
@@ -104,6 +108,9 @@ def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> Non
     source = gudgeon.load(name, scene).source
     main = write(source, tmp_path)
     compile_c(compiler, main, [*FLAGS, "-c", "-o", "scene.o"])
+    engine = ["-Wshadow", "-Wconversion", "-Wmissing-prototypes"]
+    (tmp_path / "loops.c").write_text('#include "engine/engine.c"\n', encoding="utf-8")
+    compile_c(compiler, tmp_path / "loops.c", [*FLAGS, *engine, "-c", "-o", "loops.o"])
     if source.lanes:
         for width in WIDTHS:
             compile_c(compiler, tmp_path / source.lanes, [*FLAGS, *width, "-c", "-o", "lanes.o"])
@@ -113,17 +120,18 @@ def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> Non
                                              ("andrews_squeezer", "ideal"), ("belt_block", "ideal")])  # fmt: skip
 @pytest.mark.parametrize("formulation", ["reduced", "full"])
 def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulation: str, tmp_path: Path) -> None:
-    """The wrapper is compiled apart and sees only what cffi is told: prototypes and structs must be the scene's."""
+    """The wrapper is compiled apart and sees only what cffi is told: prototypes and structs must be the library's."""
     file = shipped_file(name)
     source = generate(file.read_bytes(), file.name, scene, None, formulation)
     write(source, tmp_path)
     ffi = FFI()
-    ffi.cdef(source.cdef)
-    fields = [field for field, _ in ffi.typeof("Batch").fields] if "} Batch;" in source.cdef else []
+    calls = declarations(source)
+    ffi.cdef(calls)
+    fields = [field for field, _ in ffi.typeof("Batch").fields] if "} Batch;" in calls else []
     same = [f"_Static_assert(offsetof(Batch, {f}) == offsetof(Told, {f}), \"{f}\");" for f in fields]
     same += ['_Static_assert(sizeof(Batch) == sizeof(Told), "Batch");'] * bool(fields)
-    told = f"#define Batch Told\n{source.cdef}#undef Batch\n"
-    (tmp_path / "both.c").write_text('#include "scene.c"\n' + told + "\n".join(same) + "\n", encoding="utf-8")
+    told = f"#define Batch Told\n{calls}#undef Batch\n"
+    (tmp_path / "both.c").write_text(WHOLE + told + "\n".join(same) + "\n", encoding="utf-8")
     compile_c(COMPILERS[0], tmp_path / "both.c", [*FLAGS, "-fsyntax-only"])
 
 
@@ -153,9 +161,9 @@ def test_clean_under_the_sanitizers(name: str, scene: str, tmp_path: Path) -> No
     state = np.concatenate([simulation.p, start.q, start.v, np.zeros(3)])
     (tmp_path / "start.bin").write_bytes(state.tobytes())
     write(simulation.source, tmp_path)
-    go = FOLLOW if "kinematic.c" in simulation.source.files else INTEGRATE
+    go = INTEGRATE if sizes(simulation.source)["INTEGRATES"] else FOLLOW
     driver = tmp_path / "driver.c"
-    driver.write_text(f'#include "scene.c"\n#define STEP 2e-6\n{go}{MAIN}', encoding="utf-8")
+    driver.write_text(f'{WHOLE}#define STEP 2e-6\n{go}{MAIN}', encoding="utf-8")
     sanitize = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"]
     probe = tmp_path / "probe.c"
     probe.write_text("int main(void) { return 0; }\n")

@@ -23,6 +23,7 @@ from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES
 from gudgeon.generator.pipeline import generate
 from gudgeon.language.names import check_name
 from gudgeon.loading.compiler import find_compiler
+from gudgeon.loading.engine import engine_files, include_flags
 
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
 HEADERS = ("Python.h", "math.h", "float.h", "limits.h", "stddef.h", "stdint.h", "stdlib.h", "string.h", "errno.h")
@@ -54,18 +55,15 @@ def own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Monk
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path_factory.getbasetemp() / "cache"))
 
 
-def text_of(source: KernelSource) -> str:
-    """All of a scene's C in one text."""
-    parts = [text for name, text in source.files.items() if name != source.main and not name.startswith("lanes.")]
-    return re.sub(r'^#include ".*"$', "", "\n".join(parts), flags=re.M)
-
-
-def check_c(text: str, folder: Path) -> None:
-    """Compile without output, behind the headers that the wrapper includes."""
-    path = folder / "names.c"
-    path.write_text(INCLUDES + text, encoding="utf-8")
+def check_c(source: KernelSource, folder: Path) -> None:
+    """Compile all of a scene's C without output, behind the headers that the wrapper includes."""
+    for name, text in source.files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    units = "".join(f'#include "{name}"\n' for name in (source.main, "engine/engine.c"))
+    (folder / "names.c").write_text(INCLUDES + units, encoding="utf-8")
     flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"-I{sysconfig.get_paths()['include']}"]
-    done = subprocess.run([*find_compiler(), *flags, str(path)], capture_output=True, text=True, check=False)
+    command = [*find_compiler(), *flags, *include_flags(), "names.c"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     errors = [line for line in done.stderr.splitlines() if "error:" in line]
     assert done.returncode == 0, "\n".join(errors[:20])
 
@@ -74,7 +72,9 @@ def check_c(text: str, folder: Path) -> None:
 def vocabulary() -> frozenset[str]:
     """Every identifier in the C of scenes that have everything."""
     scenes = [("slider_crank", "oiled"), ("slider_crank", "ideal"), ("double_pendulum", "dry"), ("every_kind", "ideal")]
-    texts = [text_of(generate((VALID / f"{f}.yaml").read_bytes(), "f", scene)) for f, scene in scenes]
+    sources = [generate((VALID / f"{f}.yaml").read_bytes(), "f", scene) for f, scene in scenes]
+    texts = [text for source in sources for text in source.files.values()]
+    texts += engine_files().values()
     words = re.findall(r"[A-Za-z]\w*", re.sub(r"/\*.*?\*/", " ", "\n".join(texts), flags=re.S))
     return frozenset(filter(accepted, words))
 
@@ -115,13 +115,13 @@ def with_parameters(names: Iterable[str]) -> bytes:
 @pytest.mark.parametrize("scene", ["ideal", "oiled"])
 def test_parameters_named_as_emitted_code_and_macros(scene: str, tmp_path: Path) -> None:
     names = vocabulary() | {name for name in TRIED if accepted(name)}
-    assert {"aside", "max_of", "Parameters", "N_ROWS"} <= names
-    check_c(text_of(generate(with_parameters(names), "f", scene)), tmp_path)
+    assert {"aside", "max_of", "Parameters", "N_ROWS", "TREE", "Real", "UNSTABLE"} <= names
+    check_c(generate(with_parameters(names), "f", scene), tmp_path)
 
 
 def test_parameters_named_as_macros_of_the_headers(tmp_path: Path) -> None:
     assert {"DBL_MAX", "FP_NAN", "INT_MAX", "Py_None"} <= macros()
-    check_c(text_of(generate(with_parameters(macros()), "f", "ideal")), tmp_path)
+    check_c(generate(with_parameters(macros()), "f", "ideal"), tmp_path)
 
 
 def test_parameters_named_as_symbols_of_the_equations_do_not_change_a_number(tmp_path: Path) -> None:
@@ -187,7 +187,7 @@ def test_names_that_meet_when_joined(
 ) -> None:
     points = [f"{point}_" if point in COORDINATES else point for point in points]
     source = generate(clashing(names, points), "f", "ideal")
-    check_c(text_of(source), tmp_path_factory.mktemp("clash"))
+    check_c(source, tmp_path_factory.mktemp("clash"))
 
 
 def test_hostile_names_do_not_change_a_number(tmp_path: Path) -> None:

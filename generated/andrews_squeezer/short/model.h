@@ -9,7 +9,7 @@
 
 #define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
 #define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same of what is not integrated */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 21                /* coordinates of all bodies */
 #define N_ROWS 20             /* constraint rows of the motion */
 #define N_ALL_ROWS 20         /* rows of the closed linkage */
@@ -24,7 +24,7 @@
 #define N_LOOPS 6             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
 #define N_LED 0               /* these, cosines and sines of angles */
-#define SMOOTH_CHAINS 0       /* no corners in what drives them */
+#define SMOOTH_CHAINS 0       /* their drives have no corners */
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 1             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 0       /* rows that are solved together */

@@ -23,6 +23,7 @@ from gudgeon.generator.targets.c.reduced import reduced_code
 
 MAIN = "scene.c"
 
+
 def emit(program: Program) -> KernelSource:
     """The whole scene as C text with its description."""
     model, tree, integrated = program.model, program.tree, program.integrated

@@ -50,7 +50,7 @@ def sizes(program: Program) -> dict[str, tuple[int | float, str]]:
     return {
         "INTEGRATES": (int(program.integrates), "1; 0: no freedom is left, positions follow from the drives"),
         "TREE": (int(tree is not None), "1: in coordinates of a tree of bodies; 0: in those of all bodies"),
-        "POSITIONS_IN_TREE": (int(course is not None and course.rows is not None), "the same of what is not integrated"),
+        "POSITIONS_IN_TREE": (int(course is not None and course.rows is not None), "the same, where they follow"),
         "N_Q": (len(model.q), "coordinates of all bodies"),
         "N_ROWS": (len(model.rows), "constraint rows of the motion"),
         "N_ALL_ROWS": (len(model.all_rows), "rows of the closed linkage"),
@@ -65,7 +65,7 @@ def sizes(program: Program) -> dict[str, tuple[int | float, str]]:
         "N_LOOPS": (len(system.rows), "constraint rows of these"),
         "N_CHAIN": (len(system.known), "coordinates that drives determine through loops"),
         "N_LED": (len(system.known) + 2 * len(chain.directions) if chain else 0, "these, cosines and sines of angles"),
-        "SMOOTH_CHAINS": (int(bool(tree and tree.chains and not tree.chains.corners)), "no corners in what drives them"),
+        "SMOOTH_CHAINS": (int(bool(tree and tree.chains and not tree.chains.corners)), "their drives have no corners"),
         "TREE_PIVOTS": (len(integrated.pivots) - len(chain.rows) if chain else 0, "statuses of chains follow these"),
         "RESCUED": (int(tree is not None and tree.rescued), "pivots may vanish: all bodies' equations help"),
         "LARGEST_BLOCK": (_largest_block(program), "rows that are solved together"),
