@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import MISSING, asdict, dataclass, fields
 from typing import Any
 
 from gudgeon.contract.ledger import Story
+from gudgeon.contract.stored import as_text, complete, shorten
 
 
 @dataclass(frozen=True)
@@ -183,16 +184,12 @@ class KernelSource:
 
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""
-        data = asdict(self)
-        for rare in ("overrides", "cdef"):  # nothing is said of what is rare
-            if not data[rare]:
-                del data[rare]
-        return json.dumps(data, indent=1, ensure_ascii=False)
+        return as_text(shorten(asdict(self), _defaults()))
 
     @staticmethod
     def from_json(text: str) -> KernelSource:
         """The source that `to_json` wrote."""
-        data = json.loads(text)
+        data = complete(json.loads(text), _defaults())
         kinds = {
             "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
@@ -205,6 +202,15 @@ class KernelSource:
             if isinstance(value, list) and key not in kinds:
                 data[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)
         return KernelSource(**data | {"story": Story.from_data(data.get("story", {}))})
+
+
+def _defaults() -> dict[str, Any]:
+    """What is not said where it is as usual: nothing, mostly."""
+    usual = {field.name: field.default for field in fields(KernelSource) if field.default is not MISSING}
+    plain = {name: list(value) if isinstance(value, tuple) else value for name, value in usual.items()}
+    nothing = ("series", "start_guess", "start_set", "start_rates", "frictions", "start_pivots", "rate_jumps",
+               "indeterminate", "clearances", "notes", "conditions", "derived")  # fmt: skip
+    return {"main": "scene.c", "files": {}, **dict.fromkeys(nothing, []), **plain, "story": {}}
 
 
 def _tuples(item: dict[str, Any]) -> dict[str, Any]:

@@ -23,6 +23,7 @@ from gudgeon.contract.kernel_source import (
     WrittenInfo,
 )
 from gudgeon.contract.ledger import Story
+from gudgeon.contract.stored import base_units
 from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes
@@ -66,7 +67,7 @@ def describe(
         start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
         slots=tuple(
-            Slot(e.address, _unit(e.dimension), e.default, e.follows, _exponents(e.dimension))
+            Slot(e.address, base_units(_exponents(e.dimension)), e.default, e.follows, _exponents(e.dimension))
             for e in model.slots.entries.values()
         ),
         derived=tuple(symbol.name for symbol in model.slots.derived),
@@ -176,10 +177,3 @@ def _exponents(dimension: Dimension) -> tuple[int, int, int]:
     return (int(exponents[0]), int(exponents[1]), int(exponents[2])) if whole else (0, 0, 0)
 
 
-def _unit(dimension: Dimension) -> str:
-    """SI base units, "kg*m^2/s^2"."""
-    length, mass, time = _exponents(dimension)
-    pairs = [("kg", mass), ("m", length), ("s", time)]
-    above = "*".join(u if n == 1 else f"{u}^{n}" for u, n in pairs if n > 0)
-    below = "".join(f"/{u}" if n == -1 else f"/{u}^{-n}" for u, n in pairs if n < 0)
-    return (above or ("1" if below else "")) + below
