@@ -208,9 +208,11 @@ def _defaults() -> dict[str, Any]:
     """What is not said where it is as usual: nothing, mostly."""
     usual = {field.name: field.default for field in fields(KernelSource) if field.default is not MISSING}
     plain = {name: list(value) if isinstance(value, tuple) else value for name, value in usual.items()}
-    nothing = ("series", "start_guess", "start_set", "start_rates", "frictions", "start_pivots", "rate_jumps",
-               "indeterminate", "clearances", "notes", "conditions", "derived")  # fmt: skip
-    return {"main": "scene.c", "files": {}, **dict.fromkeys(nothing, []), **plain, "story": {}}
+    lists = ("rows", "joints", "drives", "clearances", "series", "start_rows", "start_guess", "start_set",
+             "start_rates", "frictions", "pivots", "start_pivots", "rate_jumps", "indeterminate", "derived", "conditions",
+             "notes")  # fmt: skip
+    nothing = {**dict.fromkeys(lists, []), **dict.fromkeys(("files", "outputs", "simulate"), {})}
+    return {"main": "scene.c", **nothing, **plain, "story": {}}
 
 
 def _tuples(item: dict[str, Any]) -> dict[str, Any]:
