@@ -71,6 +71,7 @@ class Field:
     otherwise: str = ""  # what holds where nothing is written and nothing is filled in
     bounds: tuple[Bound, ...] = ()
     varies: str = ""  # what its expression may use besides parameters
+    whole: bool = False  # of a number: 1, 2, 3
     nonzero: bool = False  # of a vector: not both components zero
     values: tuple[str | bool, ...] = ()  # of a word; a flag has (False, True)
     symbol: str = ""  # as in the literature, in LaTeX

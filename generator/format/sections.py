@@ -143,7 +143,7 @@ SIMULATE = record(
         bounds=(Bound(">", 0.0, "a time span is positive"),),
     ),
     number(
-        "output", "number of equal intervals of output", DIMENSIONLESS, otherwise="1000",
+        "output", "number of equal intervals of output", DIMENSIONLESS, otherwise="1000", whole=True,
         bounds=(Bound(">=", 1.0, "a run has at least one interval of output"),),
     ),
     number(
@@ -174,6 +174,8 @@ START = record(
     mapping("rates", "velocities that drives leave free", number("value", "how fast", None), keys=RATES),
 )  # fmt: skip
 
+OUTPUT = number("value", "what it is at each time", None, varies=OF_RESULTS)
+
 FILE = record(
     "file", "a mechanism",
     Field("format", WORD, "the version of this format", values=(FORMAT,), required=True),
@@ -192,8 +194,6 @@ FILE = record(
     mapping("contacts", "contacts by name", CONTACT),
     mapping("events", "events of every scene by name", EVENT),
     mapping("scenes", "scenes by name; ideal, without play, is always there", SCENE, given=(IDEAL,)),
-    mapping(
-        "outputs", "further results by name", number("value", "what it is at each time", None, varies=OF_RESULTS)
-    ),
+    mapping("outputs", "further results by name", OUTPUT),
 )  # fmt: skip
 SECTIONS: Mapping[str, Field] = {field.name: field for field in FILE.fields}

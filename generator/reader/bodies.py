@@ -7,7 +7,7 @@ from gudgeon.generator.field import Field
 from gudgeon.generator.format.sections import BODY, POINT, POINT_OF_GROUND, SECTIONS, START
 from gudgeon.generator.mechanism.mechanism import Body, Quantity, Start, Vector
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import Around, read_fields
+from gudgeon.generator.reader.fields import Around, read_fields, read_vector
 from gudgeon.generator.reader.places import IMPLIED_POINTS, Places, coordinate_of
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.names import Namespace, check_name
@@ -20,7 +20,7 @@ def read_gravity(reader: Reader, root: Map) -> Vector | None:
     """Gravity in ground axes; None if the file has none."""
     if "gravity" not in root:
         return None
-    return reader.vector(root["gravity"], "gravity", SECTIONS["gravity"].dimension)
+    return read_vector(reader, root["gravity"], root.key("gravity"), SECTIONS["gravity"], "gravity")
 
 
 def read_bodies(reader: Reader, root: Map, namespace: Namespace) -> dict[str, Body]:
@@ -45,7 +45,7 @@ def _body(reader: Reader, name: Text, node: Map) -> Body:
             if point in IMPLIED_POINTS or point in _COORDINATES:
                 what = "every body has it" if point in IMPLIED_POINTS else f"{name}.{point} is a coordinate"
                 raise BadNameError(f"{str(point)!r} cannot name a point: {what}", point.where, "expected another name")
-        points[str(point)] = reader.vector(pair, f"{address}.points.{point}", POINT.dimension)
+        points[str(point)] = read_vector(reader, pair, point, POINT, f"{address}.points.{point}")
     numbers = own.quantities
     return Body(
         str(name), numbers["mass"], numbers["inertia"], numbers.get("length"), own.vectors.get("com"), points,
@@ -61,7 +61,7 @@ def read_ground(reader: Reader, root: Map) -> dict[str, Vector]:
             check_name(point, "point", point.where)
             if point in _COORDINATES:
                 raise BadNameError(f"{str(point)!r} cannot name a point: it names a coordinate", point.where)
-        points[str(point)] = reader.vector(pair, f"ground.{point}", POINT_OF_GROUND.dimension)
+        points[str(point)] = read_vector(reader, pair, point, POINT_OF_GROUND, f"ground.{point}")
     return points
 
 

@@ -35,6 +35,7 @@ class Reader:
         self.quantities: dict[str, Quantity] = {}  # by address
         self.conditions: list[Condition] = []
         self.vectors_not_zero: list[Vector] = []
+        self.wholes: dict[str, str] = {}  # address -> what is counted
         self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
         self.uses: dict[str, set[Dimension]] = {}  # of those: what they were used as
         self.left_out: frozenset[str] = frozenset()  # names of entries whose shape is wrong
@@ -140,10 +141,6 @@ class Reader:
             expr = expr.operand
         if isinstance(expr, Name) and expected is not None and self.parameters.get(expr.path, TIME) is None:
             self.uses.setdefault(expr.path, set()).add(expected)
-
-    def vector(self, pair: list[Text], address: str, expected: Dimension | None) -> Vector:
-        """Two components `address`.x and `address`.y."""
-        return self.quantity(pair[0], f"{address}.x", expected), self.quantity(pair[1], f"{address}.y", expected)
 
     def require(self, quantity: Quantity, relation: str, bound: float | Quantity, message: str) -> None:
         """Note a condition, for now and for every override at run time."""

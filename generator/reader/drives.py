@@ -24,7 +24,7 @@ from gudgeon.generator.reader.places import Places, coordinate_of
 from gudgeon.generator.yaml.tree import Map, Text, kind_of
 from gudgeon.language.names import Namespace
 from gudgeon.language.tree import functions
-from gudgeon.language.units import DIMENSIONLESS, LENGTH, Dimension
+from gudgeon.language.units import Dimension
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class _Target:
     reference: str | None
     coordinate: str
     points: tuple[PointRef, ...]
-    dimension: Dimension
+    dimension: Dimension | None  # of its value, where the kind alone does not say it
     key: tuple[str, frozenset[str]]
 
 
@@ -61,7 +61,7 @@ def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive
     kind = kind_key(node, DRIVES, all_names({k: of.fields for k, of in DRIVES.items()}), owner)
     mistyped = check_keys(reader, node, [kind, *field_names(DRIVES[kind].fields)], owner)
     target = _TARGETS[kind](reader, node, kind, places)
-    fields = [replace(field, dimension=target.dimension) for field in DRIVES[kind].fields]
+    fields = [replace(f, dimension=target.dimension) if f.any_dimension else f for f in DRIVES[kind].fields]
     own = read_fields(reader, node, fields, Around(owner, mistyped=mistyped)).quantities
     if "value" not in own:
         raise reader.errors.pop()
@@ -87,7 +87,7 @@ def _angle(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
     if body == reference:
         raise JoinError(f"{body} cannot be driven against itself", refs[-1].where, hint)
     key = ("theta", frozenset((body, reference)))
-    return _Target(body, None if reference == GROUND else reference, "theta", (), DIMENSIONLESS, key)
+    return _Target(body, None if reference == GROUND else reference, "theta", (), None, key)
 
 
 def _coordinate(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
@@ -107,7 +107,7 @@ def _distance(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
     refuse_same_body("a driven distance", refs)
     body = next(ref.body for ref in refs if ref.body != GROUND)
     key = ("distance", frozenset(f"{ref.body}.{ref.point}" for ref in refs))
-    return _Target(body, None, "", refs, LENGTH, key)
+    return _Target(body, None, "", refs, None, key)
 
 
 def _place(node: object, kind: Text) -> Location:

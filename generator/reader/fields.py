@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from gudgeon.errors import BadValueError, InputError, JoinError, Location, MissingKeyError, UnknownKeyError
-from gudgeon.generator.field import BODY, FLAG, NUMBER, VECTOR, WORD, Bound, Field
+from gudgeon.generator.field import BODY, FLAG, NUMBER, OF_MOTION, OF_RESULTS, VECTOR, WORD, Bound, Field
 from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.mechanism.mechanism import GROUND, PointRef, Quantity, Vector
 from gudgeon.generator.reader.collector import Reader, ResultDimension
@@ -136,10 +136,12 @@ def _fill_in(reader: Reader, wanted: Field, address: str, place: Location, value
 def _read_field(reader: Reader, node: Map, wanted: Field, around: Around, values: Values) -> None:
     address, key = f"{around.owner}.{wanted.name}", node.key(wanted.name)
     if wanted.kind == VECTOR:
-        values.vectors[wanted.name] = _vector(reader, node[wanted.name], key, wanted, address, around)
+        values.vectors[wanted.name] = read_vector(reader, node[wanted.name], key, wanted, address, around.motion)
     elif wanted.kind == NUMBER:
         text = text_of(node[wanted.name], key, around.owner)
-        values.quantities[wanted.name] = _number(reader, text, wanted, address, around)
+        values.quantities[wanted.name] = read_number(reader, text, wanted, address, around.motion)
+        if wanted.whole:
+            reader.wholes[address] = wanted.meaning
     elif wanted.kind in (WORD, FLAG):
         values.options[wanted.name] = _word(node[wanted.name], key, wanted, address)
     elif wanted.kind == BODY and around.places is not None:
@@ -147,15 +149,21 @@ def _read_field(reader: Reader, node: Map, wanted: Field, around: Around, values
         values.options[wanted.name] = around.places.check_body(text, text.where)
 
 
-def _number(reader: Reader, text: Text, wanted: Field, address: str, around: Around) -> Quantity:
-    varies = bool(wanted.varies)
-    return reader.quantity(text, address, wanted.dimension, time=varies, result=around.motion if varies else None)
+def read_number(
+    reader: Reader, text: Text, wanted: Field, address: str, motion: ResultDimension | None = None
+) -> Quantity:
+    """The number at an address as its field declares it; `motion` knows the names that one that `varies` may use."""
+    names = motion if wanted.varies in (OF_MOTION, OF_RESULTS) else None
+    return reader.quantity(text, address, wanted.dimension, time=bool(wanted.varies), result=names)
 
 
-def _vector(reader: Reader, pair: object, key: Text, wanted: Field, address: str, around: Around) -> Vector:
+def read_vector(
+    reader: Reader, pair: object, key: Text, wanted: Field, address: str, motion: ResultDimension | None = None
+) -> Vector:
+    """Two numbers `address`.x and `address`.y as their field declares them; `key` is what stands before them."""
     if not isinstance(pair, Items) or len(pair) != 2 or not all(isinstance(item, Text) for item in pair):
         raise BadValueError(f"{address} is {kind_of(pair)}", key.where, "expected a list of two: [x, y]")
-    x, y = (_number(reader, text, wanted, f"{address}.{a}", around) for text, a in zip(pair, "xy", strict=True))
+    x, y = (read_number(reader, text, wanted, f"{address}.{a}", motion) for text, a in zip(pair, "xy", strict=True))
     if wanted.nonzero:
         reader.vectors_not_zero.append((x, y))
     return x, y

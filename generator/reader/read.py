@@ -8,12 +8,14 @@ from collections.abc import Mapping
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.format.overrides import apply_overrides
+from gudgeon.generator.format.sections import OUTPUT
 from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
 from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
 from gudgeon.generator.reader.contacts import read_bearings, read_contacts, read_materials
 from gudgeon.generator.reader.drives import read_drives
+from gudgeon.generator.reader.fields import read_number
 from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
 from gudgeon.generator.reader.parameters import read_parameters, settle
 from gudgeon.generator.reader.places import Places
@@ -108,5 +110,5 @@ def _read_outputs(
     for name, text in root.part("outputs").pairs():
         with reader.collect():
             namespace.add(name, "output", name.where)
-        outputs[str(name)] = reader.quantity(text, f"outputs.{name}", None, time=True, result=known)
+        outputs[str(name)] = read_number(reader, text, OUTPUT, f"outputs.{name}", known)
     return outputs

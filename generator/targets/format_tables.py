@@ -97,4 +97,4 @@ def _word(value: float | str | bool) -> str:
 def _condition(field: Field) -> str:
     limits = (f"`{limit}`" if isinstance(limit, str) else f"{limit:g}" for _, limit, _ in field.bounds)
     found = [f"{bound.relation} {limit}" for bound, limit in zip(field.bounds, limits, strict=True)]
-    return ", ".join([*found, *(["not both 0"] if field.nonzero else [])])
+    return ", ".join([*found, *(["not both 0"] if field.nonzero else []), *(["whole"] if field.whole else [])])

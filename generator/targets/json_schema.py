@@ -82,8 +82,12 @@ def _required(fields: Sequence[Field]) -> list[str]:
     return [field.name for field in fields if field.required]
 
 
-def _described(fields: Sequence[Field]) -> dict[str, Json]:
-    return {field.name: {**_field(field), "description": field.meaning} for field in fields}
+def _described(fields: Sequence[Field], filled_in: bool = True) -> dict[str, Json]:
+    """Keys with what they hold, what they mean and what is `filled_in`, where nothing may be inherited."""
+    found = {field.name: {**_field(field), "description": field.meaning} for field in fields}
+    if not filled_in:
+        return found
+    return found | {f.name: {**found[f.name], "default": f.default} for f in fields if f.default is not None}
 
 
 def _field(field: Field) -> Json:
@@ -110,7 +114,7 @@ _SIMPLE: Mapping[str, Json] = {
 
 def _record(field: Field) -> Json:
     """A mapping with known keys; an optional section with nothing in it is null."""
-    properties = _described(field.fields)
+    properties = _described(field.fields, field.below("extends") is None)
     for below in field.fields if field is FILE else ():
         if below.kind in (MAPPING, RECORD) and not below.required:
             properties[below.name]["type"] = ["object", "null"]
@@ -153,7 +157,7 @@ def _law(role: Field, whole: bool) -> Json:
         {
             "if": {"properties": {"law": {"const": name}}, "required": ["law"]},
             "then": {
-                **_object({"law": True, **_described(law.fields)}),
+                **_object({"law": True, **_described(law.fields, whole)}),
                 "required": _required(law.fields) if whole else [],
             },
         }
