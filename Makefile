@@ -5,7 +5,7 @@ ARGS ?=
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run checks test test-all lint types fuzz bench race stress peers generated setup setup-test clean
+.PHONY: help run checks test test-all lint types fuzz bench race stress peers generated tables setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -59,6 +59,9 @@ peers: setup  ## scikit-sundae, for the methods sundials:*; the next `bench` inc
 generated: setup  ## derive and write generated/ anew for every shipped mechanism
 	@.venv/bin/python tools/regenerate.py
 	@sh tools/setup all
+
+tables: setup  ## the tables of docs/format.md, from the declarations of the fields
+	@.venv/bin/python tools/tables.py
 
 setup:
 	@sh tools/setup all

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import shutil
 import subprocess
@@ -91,3 +92,34 @@ def test_the_wheel_holds_templates_mechanisms_and_generated(tmp_path: Path) -> N
     assert wanted - held == set()
     stray = {name for name in held - wanted if ".dist-info/" not in name}
     assert stray == set()
+
+
+def imported(folder: str) -> set[str]:
+    """The packages that files in a folder import, inside functions too."""
+    found: set[str] = set()
+    for file in (ROOT / folder).rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                found |= {alias.name.partition(".")[0] for alias in node.names}
+            elif isinstance(node, ast.ImportFrom) and node.module:
+                found.add(node.module.partition(".")[0])
+    return found - sys.stdlib_module_names - {"gudgeon"}
+
+
+def asked(lines: list[str]) -> set[str]:
+    return {re.match(r"[\w.-]+", line)[0].lower() for line in lines}  # type: ignore[index]
+
+
+PACKAGES = {"ruamel": "ruamel.yaml", "sksundae": "scikit-sundae"}  # where the package has another name
+BESIDE = {"h5netcdf"}  # with it xarray opens our files
+
+
+def test_what_is_asked_for_is_what_is_imported() -> None:
+    """A dependency that does nothing goes; what is imported is a dependency, or an extra of its own."""
+    project = PROJECT["project"]
+    used = {PACKAGES.get(name, name) for name in imported("runtime") | imported("generator")}
+    extras = project["optional-dependencies"]
+    optional = set().union(*(asked(extras[name]) for name in set(extras) - {"all", "test", "bench"}))
+    assert asked(project["dependencies"]) - used == set()
+    assert optional - used == BESIDE
+    assert used - asked(project["dependencies"]) - optional == {"scikit-sundae", "_cffi_backend"}  # a peer; cffi's own

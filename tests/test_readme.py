@@ -92,7 +92,10 @@ def test_every_test_that_the_table_names_exists() -> None:
         assert function in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}, (file, function)
 
 
-@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md", "docs/methods.md", "docs/physics.md", "docs/race.md"])
+PAGES = ["README.md", "CONTRIBUTING.md", *(f"docs/{name}.md" for name in ("format", "methods", "physics", "race"))]
+
+
+@pytest.mark.parametrize("name", PAGES)
 def test_links_paths_and_targets_exist(name: str) -> None:
     text = (ROOT / name).read_text(encoding="utf-8")
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))

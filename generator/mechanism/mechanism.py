@@ -66,7 +66,7 @@ class Body:
 class Joint:
     """A joint between a point of the first and a point of the second body; `ground` may be either.
 
-    `kind` names a file in generator/joints, which owns the meaning of `quantities` (numbers with
+    `kind` names a file in generator/kinds/joints, which owns the meaning of `quantities` (numbers with
     addresses), `vectors` (pairs of them) and `options` (structural words).
     """
 
@@ -101,7 +101,7 @@ class Drive:
 
 @dataclass(frozen=True)
 class ForceElement:
-    """An entry of the section `forces`; `kind` names a file in generator/force_elements.
+    """An entry of the section `forces`; `kind` names a file in generator/kinds/forces.
 
     `targets` are the points or bodies that its own key lists (a body is a PointRef to its `com`, the
     ground one to the point ""). Expressions (`quantities`, `vectors`) may use t and named coordinates and
@@ -150,7 +150,7 @@ class Bearing:
 
 @dataclass(frozen=True)
 class LawUse:
-    """A force law with its numbers; `law` names a file in generator/forces."""
+    """A force law with its numbers; `law` names a file in generator/kinds/laws."""
 
     law: str
     quantities: Mapping[str, Quantity]  # with the law's defaults filled in

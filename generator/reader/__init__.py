@@ -1,1 +1,1 @@
-"""Shapes to a Mechanism, section by section, all mistakes at once."""
+"""The file's tree to a Mechanism, section by section, all mistakes at once."""

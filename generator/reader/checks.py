@@ -49,8 +49,8 @@ def _check_with(
         if not math.isfinite(value) and not broken_is_told:
             hint = "expected a finite number: is there a division by zero or a root of a negative number?"
             complain(address, f"is {value}{context}", hint)
-        elif address.endswith(".simulate.output") and math.isfinite(value) and value != math.floor(value):
-            complain(address, f"is {value:.6g}{context}", "expected a whole number of equal intervals")
+        elif address in reader.wholes and math.isfinite(value) and value != math.floor(value):
+            complain(address, f"is {value:.6g}{context}", f"expected a whole {reader.wholes[address]}")
     for address, quantity in reader.quantities.items():
         if not broken_is_told and (".parameters." not in address or address in values):
             parts = () if address in values else _constant_parts(quantity.value, known)

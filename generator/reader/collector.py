@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
 from gudgeon.errors import BadValueError, ExpressionError, InputError, InputErrors, Location, UnknownNameError
+from gudgeon.generator.format.shapes import ANY_NAME, check_shape
 from gudgeon.generator.mechanism.mechanism import Condition, Quantity, Vector
-from gudgeon.generator.yaml.shapes import ANY_NAME, FileShape, check_shape
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.parser import at, check_dimension, parse
 from gudgeon.language.suggestions import unknown_name
@@ -35,18 +35,19 @@ class Reader:
         self.quantities: dict[str, Quantity] = {}  # by address
         self.conditions: list[Condition] = []
         self.vectors_not_zero: list[Vector] = []
+        self.wholes: dict[str, str] = {}  # address -> what is counted
         self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
         self.uses: dict[str, set[Dimension]] = {}  # of those: what they were used as
         self.left_out: frozenset[str] = frozenset()  # names of entries whose shape is wrong
 
-    def check_shape(self, root: Map) -> FileShape:
-        """The file as typed shapes, without the entries whose shape is wrong: these are told, and not missed."""
+    def check_shape(self, root: Map) -> Map:
+        """The file without the entries whose shape is wrong: these are told, and not missed."""
         with self.collect():
             checked = check_shape(root)
             twice = (ANY_NAME,) if self.errors else ()  # a key given twice may stand for one that is missing now
             self.left_out = checked.left_out.union(twice)
             self.errors += checked.errors
-            return checked.shape
+            return checked.root
         raise EnoughErrors  # nothing is left to read
 
     @contextmanager
@@ -140,10 +141,6 @@ class Reader:
             expr = expr.operand
         if isinstance(expr, Name) and expected is not None and self.parameters.get(expr.path, TIME) is None:
             self.uses.setdefault(expr.path, set()).add(expected)
-
-    def vector(self, pair: list[Text], address: str, expected: Dimension) -> Vector:
-        """Two components `address`.x and `address`.y."""
-        return self.quantity(pair[0], f"{address}.x", expected), self.quantity(pair[1], f"{address}.y", expected)
 
     def require(self, quantity: Quantity, relation: str, bound: float | Quantity, message: str) -> None:
         """Note a condition, for now and for every override at run time."""

@@ -3,18 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gudgeon.errors import BadValueError, JoinError, Location
+from gudgeon.generator.format.sections import COORDINATES
+from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.mechanism.mechanism import GROUND, Drive, PointRef
-from gudgeon.generator.reader.bodies import COORDINATES, Places, coordinate_of
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import check_keys, kind_key, places_of, refuse_same_body, text_of
-from gudgeon.generator.yaml.shapes import FileShape, missing_key
+from gudgeon.generator.reader.fields import (
+    Around,
+    all_names,
+    check_keys,
+    field_names,
+    kind_key,
+    places_of,
+    read_fields,
+    refuse_same_body,
+)
+from gudgeon.generator.reader.places import Places, coordinate_of
 from gudgeon.generator.yaml.tree import Map, Text, kind_of
 from gudgeon.language.names import Namespace
 from gudgeon.language.tree import functions
-from gudgeon.language.units import DIMENSIONLESS, LENGTH, Dimension
+from gudgeon.language.units import Dimension
 
 
 @dataclass(frozen=True)
@@ -25,15 +35,15 @@ class _Target:
     reference: str | None
     coordinate: str
     points: tuple[PointRef, ...]
-    dimension: Dimension
+    dimension: Dimension | None  # of its value, where the kind alone does not say it
     key: tuple[str, frozenset[str]]
 
 
-def read_drives(reader: Reader, shape: FileShape, places: Places, namespace: Namespace) -> dict[str, Drive]:
+def read_drives(reader: Reader, root: Map, places: Places, namespace: Namespace) -> dict[str, Drive]:
     """All drives that can be read; no two may prescribe the same thing."""
     drives: dict[str, Drive] = {}
     driven: dict[tuple[str, frozenset[str]], Drive] = {}
-    for name, node in shape.drives.items():
+    for name, node in root.part("drives").pairs():
         with reader.collect():
             namespace.add(name, "drive", name.where)
         with reader.collect():
@@ -48,16 +58,14 @@ def read_drives(reader: Reader, shape: FileShape, places: Places, namespace: Nam
 
 def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive, tuple[str, frozenset[str]]]:
     owner = f"drives.{name}"
-    kind = kind_key(node, DRIVES, ("value",), owner)
-    mistyped = check_keys(reader, node, (kind, "value"), owner)
-    target = DRIVES[kind].read(reader, node, kind, places)
-    if "value" not in node:
-        if "value" in mistyped:
-            raise reader.errors.pop()
-        raise missing_key("value", node.where, owner)
-    value = reader.quantity(
-        text_of(node["value"], node.key("value"), owner), f"{owner}.value", target.dimension, time=True
-    )
+    kind = kind_key(node, DRIVES, all_names({k: of.fields for k, of in DRIVES.items()}), owner)
+    mistyped = check_keys(reader, node, [kind, *field_names(DRIVES[kind].fields)], owner)
+    target = _TARGETS[kind](reader, node, kind, places)
+    fields = [replace(f, dimension=target.dimension) if f.any_dimension else f for f in DRIVES[kind].fields]
+    own = read_fields(reader, node, fields, Around(owner, mistyped=mistyped)).quantities
+    if "value" not in own:
+        raise reader.errors.pop()
+    value = own["value"]
     if "sign" in functions(value.value):
         raise BadValueError(
             f"{owner}.value jumps where the argument of sign changes its sign", value.where,
@@ -79,7 +87,7 @@ def _angle(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
     if body == reference:
         raise JoinError(f"{body} cannot be driven against itself", refs[-1].where, hint)
     key = ("theta", frozenset((body, reference)))
-    return _Target(body, None if reference == GROUND else reference, "theta", (), DIMENSIONLESS, key)
+    return _Target(body, None if reference == GROUND else reference, "theta", (), None, key)
 
 
 def _coordinate(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
@@ -99,24 +107,15 @@ def _distance(reader: Reader, node: Map, kind: Text, places: Places) -> _Target:
     refuse_same_body("a driven distance", refs)
     body = next(ref.body for ref in refs if ref.body != GROUND)
     key = ("distance", frozenset(f"{ref.body}.{ref.point}" for ref in refs))
-    return _Target(body, None, "", refs, LENGTH, key)
+    return _Target(body, None, "", refs, None, key)
 
 
 def _place(node: object, kind: Text) -> Location:
     return node.where if isinstance(node, Text) else kind.where
 
 
-@dataclass(frozen=True)
-class DriveKind:
-    """A key of a drive: what it lists, and how that is read."""
-
-    targets: str  # "bodies", "points" or "coordinates"
-    counts: tuple[int, ...]
-    read: Callable[[Reader, Map, Text, Places], _Target]
-
-
-DRIVES: Mapping[str, DriveKind] = {
-    "angle": DriveKind("bodies", (1, 2), _angle),
-    "coordinate": DriveKind("coordinates", (1,), _coordinate),
-    "distance": DriveKind("points", (2,), _distance),
+_TARGETS: Mapping[str, Callable[[Reader, Map, Text, Places], _Target]] = {
+    "angle": _angle,
+    "coordinate": _coordinate,
+    "distance": _distance,
 }

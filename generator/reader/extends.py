@@ -2,32 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import Protocol, TypeVar
+from collections.abc import Iterable, Iterator
 
 from gudgeon.errors import CycleError
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.yaml.tree import Text
+from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.suggestions import unknown_name
 
 
-class Extending(Protocol):
-    @property
-    def extends(self) -> Text | None: ...
-
-
-S = TypeVar("S", bound=Extending)
-
-
 def parents_first(
-    reader: Reader, what: str, section: Mapping[Text, S], known: Iterable[str] = ()
-) -> Iterator[tuple[Text, S]]:
+    reader: Reader, what: str, section: Map, known: Iterable[str] = ()
+) -> Iterator[tuple[Text, Map]]:
     """The entries of a section, each behind the one that it extends.
 
     What extends an unknown name or itself is told and left out; `known` are parents outside the section.
     """
-    by_name = {str(name): (name, entry) for name, entry in section.items()}
-    ready = {name for name in known if name not in by_name}
+    by_name = {str(name): (name, entry) for name, entry in section.pairs()}
+    ready = dict.fromkeys(name for name in known if name not in by_name)  # in order, for a message shows them
     refused: set[str] = set()
     for start in by_name:
         chain: list[str] = []
@@ -36,13 +27,13 @@ def parents_first(
             entry = by_name[current][1]
             if current in chain:
                 cycle = [*chain[chain.index(current) :], current]
-                where = entry.extends.where if entry.extends else by_name[current][0].where
+                where = entry["extends"].where if "extends" in entry else by_name[current][0].where
                 message = f"{what}s that extend each other: {' → '.join(cycle)}"
                 reader.errors.append(CycleError(message, where, "expected one of them to extend none"))
                 refused.update(chain)
                 break
             chain.append(current)
-            parent = entry.extends
+            parent = entry.get("extends")
             if parent is not None and parent not in by_name and parent not in ready:
                 reader.errors.append(unknown_name(what, parent, dict.fromkeys([*ready, *by_name]), parent.where))
                 refused.update(chain)
@@ -52,5 +43,5 @@ def parents_first(
             refused.update(chain)
         for name in reversed(chain):
             if name not in refused:
-                ready.add(name)
+                ready[name] = None
                 yield by_name[name]

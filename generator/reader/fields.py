@@ -1,30 +1,33 @@
-"""The entries of `joints`, `drives` and `forces`: one key says the kind, the others are the kind's own fields."""
+"""What a mapping of the file holds, read by the declaration of its fields; and the key that says a thing's kind."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from gudgeon.errors import BadValueError, InputError, JoinError, MissingKeyError, UnknownKeyError
-from gudgeon.generator.kinds.forces.force_type import ElementField
-from gudgeon.generator.kinds.joints.joint_type import JointField
+from gudgeon.errors import BadValueError, InputError, JoinError, Location, MissingKeyError, UnknownKeyError
+from gudgeon.generator.field import BODY, FLAG, NUMBER, OF_MOTION, OF_RESULTS, VECTOR, WORD, Bound, Field
+from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.mechanism.mechanism import GROUND, PointRef, Quantity, Vector
-from gudgeon.generator.reader.bodies import Places
 from gudgeon.generator.reader.collector import Reader, ResultDimension
-from gudgeon.generator.yaml.shapes import missing_key, unknown_key
+from gudgeon.generator.reader.places import Places
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.suggestions import known_hint, nearest
-
-Field = JointField | ElementField
+from gudgeon.language.tree import Number
+from gudgeon.language.units import DIMENSIONLESS
 
 
 @dataclass(frozen=True)
 class Values:
-    """What an entry's own fields hold; options are filled in with their defaults."""
+    """What the numbers, vectors and choices of a mapping are; defaults are filled in."""
 
     quantities: dict[str, Quantity] = field(default_factory=dict)
     vectors: dict[str, Vector] = field(default_factory=dict)
-    options: dict[str, str] = field(default_factory=dict)
+    options: dict[str, str | bool] = field(default_factory=dict)
+
+    def words(self) -> dict[str, str]:
+        """The choices as a file writes them."""
+        return {name: str(value).lower() if isinstance(value, bool) else value for name, value in self.options.items()}
 
 
 def kind_key(node: Map, known: Iterable[str], also: Iterable[str], owner: str) -> Text:
@@ -40,11 +43,11 @@ def kind_key(node: Map, known: Iterable[str], also: Iterable[str], owner: str) -
     raise unknown_key(strange, known, owner)
 
 
-def check_keys(reader: Reader, node: Map, known: Sequence[str], owner: str) -> set[str | None]:
+def check_keys(reader: Reader, node: Map, known: Sequence[str], owner: str) -> frozenset[str | None]:
     """Collect an error for every key that an entry does not know; what they probably stand for is returned."""
     strange = [key for key in node.names() if key not in known]
     reader.errors.extend(unknown_key(key, known, owner) for key in strange)
-    return {nearest(key, known) for key in strange}
+    return frozenset(nearest(key, known) for key in strange)
 
 
 def text_of(node: object, key: Text, owner: str) -> Text:
@@ -94,81 +97,111 @@ def refuse_same_body(kind: str, refs: Sequence[PointRef]) -> None:
         raise JoinError(f"{kind} joins {what}", last.where, "expected two different bodies")
 
 
-def read_fields(
-    reader: Reader,
-    node: Map,
-    fields: Sequence[Field],
-    owner: str,
-    places: Places,
-    mistyped: set[str | None],
-    motion: ResultDimension | None = None,
-) -> Values:
-    """An entry's own fields. A missing one is not told if a `mistyped` key stands in its place.
+@dataclass(frozen=True)
+class Around:
+    """What fields are read with, beside their mapping."""
 
-    `motion` gives the dimensions of the names that a field that is `variable` may use.
-    """
+    owner: str  # address of the mapping
+    why: str = ""  # what a broken condition without words of its own is told with: the law
+    place: Location | None = None  # of what is filled in; the mapping's, if there is none
+    mistyped: frozenset[str | None] = frozenset()  # what strange keys probably stand for: not told as missing
+    places: Places | None = None  # of bodies
+    motion: ResultDimension | None = None  # of the names that a field that `varies` may use
+
+
+def read_fields(reader: Reader, node: Map, fields: Sequence[Field], around: Around) -> Values:
+    """The numbers, vectors, words, flags and bodies among the fields of a mapping, and their conditions."""
     values = Values()
     for wanted in fields:
         with reader.collect():
             if wanted.name in node:
-                _read_field(reader, node, wanted, owner, places, values, motion)
-            elif wanted.required and wanted.name not in mistyped:
-                raise missing_key(wanted.name, node.where, owner)
-            elif wanted.kind == "option":
-                values.options[wanted.name] = wanted.values[0]
-            elif isinstance(wanted, JointField) and wanted.kind == "body":
-                values.options[wanted.name] = wanted.default
+                _read_field(reader, node, wanted, around, values)
+            elif wanted.required and wanted.name not in around.mistyped:
+                raise missing_key(wanted.name, node.where, around.owner)
+            elif wanted.default is not None:
+                _fill_in(reader, wanted, f"{around.owner}.{wanted.name}", around.place or node.where, values)
+    _bound(reader, fields, around, values)
     return values
 
 
-def _read_field(
-    reader: Reader, node: Map, wanted: Field, owner: str, places: Places, values: Values, motion: ResultDimension | None
-) -> None:
-    address = f"{owner}.{wanted.name}"
-    if wanted.kind == "vector":
-        values.vectors[wanted.name] = vector = _vector(reader, node, wanted, address, motion)
-        _bound(reader, wanted, *vector)
-        return
-    text = text_of(node[wanted.name], node.key(wanted.name), owner)
-    if wanted.kind == "body":
-        values.options[wanted.name] = places.check_body(text, text.where)
-    elif wanted.kind == "option":
-        if text not in wanted.values:
-            raise BadValueError(f"{wanted.name} is {kind_of(text)}", text.where, known_hint(text, wanted.values))
-        values.options[wanted.name] = str(text)
+def _fill_in(reader: Reader, wanted: Field, address: str, place: Location, values: Values) -> None:
+    if wanted.kind == NUMBER:
+        number = Number(float(wanted.default or 0.0), repr(wanted.default))
+        dimension = wanted.dimension or DIMENSIONLESS
+        values.quantities[wanted.name] = reader.keep(Quantity(address, number, dimension, place))
     else:
-        values.quantities[wanted.name] = _number(reader, text, wanted, address, motion)
-        _bound(reader, wanted, values.quantities[wanted.name])
+        values.options[wanted.name] = wanted.choice
 
 
-def _number(reader: Reader, text: Text, wanted: Field, address: str, motion: ResultDimension | None) -> Quantity:
-    if isinstance(wanted, ElementField) and wanted.variable:
-        return reader.quantity(text, address, wanted.dimension, time=True, result=motion)
-    return reader.quantity(text, address, wanted.dimension)
+def _read_field(reader: Reader, node: Map, wanted: Field, around: Around, values: Values) -> None:
+    address, key = f"{around.owner}.{wanted.name}", node.key(wanted.name)
+    if wanted.kind == VECTOR:
+        values.vectors[wanted.name] = read_vector(reader, node[wanted.name], key, wanted, address, around.motion)
+    elif wanted.kind == NUMBER:
+        text = text_of(node[wanted.name], key, around.owner)
+        values.quantities[wanted.name] = read_number(reader, text, wanted, address, around.motion)
+        if wanted.whole:
+            reader.wholes[address] = wanted.meaning
+    elif wanted.kind in (WORD, FLAG):
+        values.options[wanted.name] = _word(node[wanted.name], key, wanted, address)
+    elif wanted.kind == BODY and around.places is not None:
+        text = text_of(node[wanted.name], key, around.owner)
+        values.options[wanted.name] = around.places.check_body(text, text.where)
 
 
-def _vector(reader: Reader, node: Map, wanted: Field, address: str, motion: ResultDimension | None) -> Vector:
-    pair = node[wanted.name]
+def read_number(
+    reader: Reader, text: Text, wanted: Field, address: str, motion: ResultDimension | None = None
+) -> Quantity:
+    """The number at an address as its field declares it; `motion` knows the names that one that `varies` may use."""
+    names = motion if wanted.varies in (OF_MOTION, OF_RESULTS) else None
+    return reader.quantity(text, address, wanted.dimension, time=bool(wanted.varies), result=names)
+
+
+def read_vector(
+    reader: Reader, pair: object, key: Text, wanted: Field, address: str, motion: ResultDimension | None = None
+) -> Vector:
+    """Two numbers `address`.x and `address`.y as their field declares them; `key` is what stands before them."""
     if not isinstance(pair, Items) or len(pair) != 2 or not all(isinstance(item, Text) for item in pair):
-        message = f"{address} is {kind_of(pair)}"
-        raise BadValueError(message, node.key(wanted.name).where, "expected a list of two: [x, y]")
-    x, y = (_number(reader, text, wanted, f"{address}.{a}", motion) for text, a in zip(pair, "xy", strict=True))
-    if isinstance(wanted, JointField) and wanted.nonzero:
+        raise BadValueError(f"{address} is {kind_of(pair)}", key.where, "expected a list of two: [x, y]")
+    x, y = (read_number(reader, text, wanted, f"{address}.{a}", motion) for text, a in zip(pair, "xy", strict=True))
+    if wanted.nonzero:
         reader.vectors_not_zero.append((x, y))
     return x, y
 
 
-def _bound(reader: Reader, wanted: Field, *numbers: Quantity) -> None:
-    """What a field's declaration says of its sign, as conditions."""
-    for number in numbers:
-        if isinstance(wanted, JointField) and wanted.positive:
-            reader.require(number, ">", 0.0, f"{wanted.name} is positive")
-        elif isinstance(wanted, ElementField) and wanted.not_negative:
-            reader.require(number, ">=", 0.0, f"{wanted.name} is not negative")
+def _word(text: object, key: Text, wanted: Field, address: str) -> str | bool:
+    """One of some words, or true or false."""
+    words = {str(value).lower() if isinstance(value, bool) else value: value for value in wanted.values}
+    if not isinstance(text, Text) or text not in words:
+        place = text.where if isinstance(text, Text) and not text.is_nothing else key.where
+        hint = "expected true or false" if wanted.kind == FLAG else known_hint(str(text), words)
+        raise BadValueError(f"{address} is {kind_of(text)}", place, hint)
+    return words[text]
+
+
+def _bound(reader: Reader, fields: Sequence[Field], around: Around, values: Values) -> None:
+    """What the declarations say of numbers, or of both of a vector, as conditions: the limits' own come first."""
+    seen: set[str] = set()
+    waiting: list[tuple[Field, Bound]] = []
+    for wanted in fields:
+        seen.add(wanted.name)
+        waiting = [*((wanted, bound) for bound in wanted.bounds), *waiting]
+        for bounded, bound in waiting:
+            if not isinstance(bound.limit, str) or bound.limit in seen:
+                _require(reader, bounded, bound, around, values)
+        waiting = [(f, bound) for f, bound in waiting if isinstance(bound.limit, str) and bound.limit not in seen]
+
+
+def _require(reader: Reader, wanted: Field, bound: Bound, around: Around, values: Values) -> None:
+    own = values.quantities.get(wanted.name)
+    limit = values.quantities.get(bound.limit) if isinstance(bound.limit, str) else bound.limit
+    for number in values.vectors.get(wanted.name, ()) if own is None else (own,):
+        if limit is not None:
+            reader.require(number, bound.relation, limit, bound.reason(wanted, around.why))
 
 
 def field_names(fields: Iterable[Field]) -> list[str]:
-    """The keys of an entry's own fields."""
+    """The keys of some fields."""
     return [wanted.name for wanted in fields]
 
 

@@ -1,14 +1,15 @@
-"""Joints. What a joint's own keys hold is said by its file in generator/joints."""
+"""Joints and force elements. What a joint's own keys hold is said by its file in generator/kinds/joints."""
 
 from __future__ import annotations
 
 from gudgeon.errors import JoinError
+from gudgeon.generator.field import BODY
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import ForceElement, Joint
-from gudgeon.generator.reader.bodies import Places
 from gudgeon.generator.reader.collector import Reader, ResultDimension
 from gudgeon.generator.reader.fields import (
+    Around,
     all_names,
     check_keys,
     field_names,
@@ -17,15 +18,15 @@ from gudgeon.generator.reader.fields import (
     read_fields,
     refuse_same_body,
 )
-from gudgeon.generator.yaml.shapes import FileShape
+from gudgeon.generator.reader.places import Places
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.names import Namespace
 
 
-def read_joints(reader: Reader, shape: FileShape, places: Places, namespace: Namespace) -> dict[str, Joint]:
+def read_joints(reader: Reader, root: Map, places: Places, namespace: Namespace) -> dict[str, Joint]:
     """All joints that can be read; the others' errors are collected."""
     joints = {}
-    for name, node in shape.joints.items():
+    for name, node in root.part("joints").pairs():
         with reader.collect():
             namespace.add(name, "joint", name.where)
         with reader.collect():
@@ -40,21 +41,21 @@ def _joint(reader: Reader, name: Text, node: Map, places: Places) -> Joint:
     mistyped = check_keys(reader, node, [kind, *field_names(joint_type.fields)], owner)
     first, second = places_of(reader, node, kind, joint_type.joins, (2,), places)
     refuse_same_body(kind, (first, second))
-    values = read_fields(reader, node, joint_type.fields, owner, places, mistyped)
+    values = read_fields(reader, node, joint_type.fields, Around(owner, mistyped=mistyped, places=places))
     for field in joint_type.fields:
-        if field.kind == "body" and values.options.get(field.name) in (first.body, second.body):
+        if field.kind == BODY and values.options.get(field.name) in (first.body, second.body):
             body = values.options[field.name]
             place = node[field.name].where if field.name in node else kind.where
             raise JoinError(f"{body} is one of the two bodies and their {field.name}", place, "expected a third one")
-    return Joint(str(name), str(kind), first, second, values.quantities, values.vectors, values.options, name.where)
+    return Joint(str(name), str(kind), first, second, values.quantities, values.vectors, values.words(), name.where)
 
 
 def read_forces(
-    reader: Reader, shape: FileShape, places: Places, namespace: Namespace, motion: ResultDimension
+    reader: Reader, root: Map, places: Places, namespace: Namespace, motion: ResultDimension
 ) -> dict[str, ForceElement]:
     """All force elements that can be read; `motion` knows the names that their expressions may use."""
     forces = {}
-    for name, node in shape.forces.items():
+    for name, node in root.part("forces").pairs():
         with reader.collect():
             namespace.add(name, "force", name.where)
         with reader.collect():
@@ -69,9 +70,6 @@ def _force(reader: Reader, name: Text, node: Map, places: Places, motion: Result
     mistyped = check_keys(reader, node, [kind, *field_names(element.fields)], owner)
     targets = places_of(reader, node, kind, element.targets, element.counts, places)
     refuse_same_body(kind, targets)
-    values = read_fields(reader, node, element.fields, owner, places, mistyped, motion)
-    for field in element.fields:
-        if field.at_least and {field.name, field.at_least} <= values.quantities.keys():
-            number, bound = values.quantities[field.name], values.quantities[field.at_least]
-            reader.require(number, ">=", bound, f"{field.name} is at least {field.at_least}")
-    return ForceElement(str(name), str(kind), targets, values.quantities, values.vectors, values.options, name.where)
+    around = Around(owner, mistyped=mistyped, places=places, motion=motion)
+    values = read_fields(reader, node, element.fields, around)
+    return ForceElement(str(name), str(kind), targets, values.quantities, values.vectors, values.words(), name.where)

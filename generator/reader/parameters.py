@@ -9,18 +9,18 @@ from dataclasses import replace
 from gudgeon.errors import CycleError, InputError, Location
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.reader.collector import Reader, broken
-from gudgeon.generator.yaml.tree import Text
+from gudgeon.generator.yaml.tree import Map
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.names import check_name
 from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.language.units import DIMENSIONLESS, Dimension
 
 
-def read_parameters(reader: Reader, section: Mapping[Text, Text]) -> dict[str, Quantity]:
+def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
     """The section `parameters:` in the order of the file; reader.parameters knows them afterwards."""
     reader.parameters.update(dict.fromkeys(section))
     trees: dict[str, Expr] = {}
-    for name, text in section.items():
+    for name, text in section.pairs():
         trees[name] = broken(text)
         with reader.collect():
             check_name(name, "parameter", name.where)
@@ -29,8 +29,8 @@ def read_parameters(reader: Reader, section: Mapping[Text, Text]) -> dict[str, Q
             trees[name] = tree
     order: tuple[str, ...] = tuple(trees)
     with reader.collect():
-        order = dependency_order(trees, {str(name): text.where for name, text in section.items()})
-    places = {str(name): text.where for name, text in section.items()}
+        order = dependency_order(trees, {str(name): text.where for name, text in section.pairs()})
+    places = {str(name): text.where for name, text in section.pairs()}
     for used in order:
         with reader.collect():
             reader.parameters[used] = _dimension(used, trees[used], places[used], reader)
@@ -38,7 +38,7 @@ def read_parameters(reader: Reader, section: Mapping[Text, Text]) -> dict[str, Q
         str(name): reader.keep(
             Quantity(f"parameters.{name}", trees[name], reader.parameters[name] or DIMENSIONLESS, text.where)
         )
-        for name, text in section.items()
+        for name, text in section.pairs()
     }
 
 

@@ -7,19 +7,21 @@ import re
 from collections.abc import Mapping
 
 from gudgeon.errors import BadValueError
+from gudgeon.generator.format.overrides import apply_overrides
+from gudgeon.generator.format.sections import OUTPUT
 from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
-from gudgeon.generator.reader.bodies import Places, read_bodies, read_gravity, read_ground, read_start
+from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
 from gudgeon.generator.reader.contacts import read_bearings, read_contacts, read_materials
 from gudgeon.generator.reader.drives import read_drives
+from gudgeon.generator.reader.fields import read_number
 from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
 from gudgeon.generator.reader.parameters import read_parameters, settle
+from gudgeon.generator.reader.places import Places
 from gudgeon.generator.reader.result_names import MotionNames, ResultNames
 from gudgeon.generator.reader.scenes import Parts, read_events, read_scenes
-from gudgeon.generator.yaml.overrides import apply_overrides
-from gudgeon.generator.yaml.shapes import FileShape
-from gudgeon.generator.yaml.tree import parse_yaml
+from gudgeon.generator.yaml.tree import Map, parse_yaml
 from gudgeon.language.names import Namespace, check_name
 
 _MAX_TITLE = 200
@@ -45,29 +47,30 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
     return mechanism
 
 
-def _read(reader: Reader, shape: FileShape, sha256: str) -> Mechanism:
+def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     """Section by section; what is wrong is collected in the reader."""
     namespace = Namespace()
-    title = _read_title(reader, shape)
-    parameters = read_parameters(reader, shape.parameters)
-    gravity = read_gravity(reader, shape)
-    bodies, ground = read_bodies(reader, shape, namespace), read_ground(reader, shape)
+    title = _read_title(reader, root)
+    parameters = read_parameters(reader, root.part("parameters"))
+    gravity = read_gravity(reader, root)
+    bodies, ground = read_bodies(reader, root, namespace), read_ground(reader, root)
     places = Places(bodies, ground)
-    joints = read_joints(reader, shape, places, namespace)
-    drives = read_drives(reader, shape, places, namespace)
-    motion = MotionNames(places, (*shape.joints, *shape.forces), drives, shape.parameters)
-    forces = read_forces(reader, shape, places, namespace, motion)
-    start = read_start(reader, shape, places)
-    bearings = read_bearings(reader, shape, read_materials(reader, shape))
-    contacts = read_contacts(reader, shape)
-    events = read_events(reader, shape.events, "events", motion)
-    scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, shape, motion))
-    unread = {*shape.joints, *shape.drives, *shape.forces} - {*joints, *drives, *forces} | namespace.twice
-    known = ResultNames(places, joints, drives, forces, shape.parameters, unread)
-    outputs = _read_outputs(reader, shape, namespace, known)
+    joints = read_joints(reader, root, places, namespace)
+    drives = read_drives(reader, root, places, namespace)
+    motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, parameters)
+    forces = read_forces(reader, root, places, namespace, motion)
+    start = read_start(reader, root, places)
+    bearings = read_bearings(reader, root, read_materials(reader, root))
+    contacts = read_contacts(reader, root)
+    events = read_events(reader, root.part("events"), "events", motion)
+    scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion))
+    named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}
+    unread = named - {*joints, *drives, *forces} | namespace.twice
+    known = ResultNames(places, joints, drives, forces, parameters, unread)
+    outputs = _read_outputs(reader, root, namespace, known)
     check_values(reader, parameters, scenes)
     return Mechanism(
-        name=str(shape.name),
+        name=str(root["name"]),
         title=title,
         gravity=gravity,
         parameters=settle(reader, parameters),
@@ -85,11 +88,11 @@ def _read(reader: Reader, shape: FileShape, sha256: str) -> Mechanism:
     )
 
 
-def _read_title(reader: Reader, shape: FileShape) -> str:
+def _read_title(reader: Reader, root: Map) -> str:
     """The title, which will stand in comments of emitted code; the name, if there is none."""
     with reader.collect():
-        check_name(shape.name, "mechanism", shape.name.where)
-    title = shape.title if shape.title is not None else shape.name
+        check_name(root["name"], "mechanism", root["name"].where)
+    title = root.get("title", root["name"])
     with reader.collect():
         bad = re.search(rf"[^{_SHOWN}]|\\|\*/|/\*|\?\?/", title)
         if bad or len(title) > _MAX_TITLE:
@@ -100,12 +103,12 @@ def _read_title(reader: Reader, shape: FileShape) -> str:
 
 
 def _read_outputs(
-    reader: Reader, shape: FileShape, namespace: Namespace, known: ResultDimension
+    reader: Reader, root: Map, namespace: Namespace, known: ResultDimension
 ) -> dict[str, Quantity]:
     """Named expressions of t, parameters and anything that a result has."""
     outputs = {}
-    for name, text in shape.outputs.items():
+    for name, text in root.part("outputs").pairs():
         with reader.collect():
             namespace.add(name, "output", name.where)
-        outputs[str(name)] = reader.quantity(text, f"outputs.{name}", None, time=True, result=known)
+        outputs[str(name)] = read_number(reader, text, OUTPUT, f"outputs.{name}", known)
     return outputs

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from gudgeon.errors import ExpressionError, Location
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.mechanism.mechanism import GROUND, Drive, ForceElement
-from gudgeon.generator.reader.bodies import Places
+from gudgeon.generator.reader.places import Places
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Name
 from gudgeon.language.units import (

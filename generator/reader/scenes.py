@@ -3,39 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from gudgeon.errors import BadValueError, CycleError, InputError, Location
+from gudgeon.generator.field import WORD
+from gudgeon.generator.format.sections import EVENT, IDEAL, SIMULATE
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import GROUND, Bearing, Contact, EventSpec, Joint, Play, Quantity, SceneSpec
 from gudgeon.generator.reader.collector import Reader, ResultDimension
 from gudgeon.generator.reader.extends import parents_first
+from gudgeon.generator.reader.fields import Around, read_fields
 from gudgeon.generator.reader.parameters import dependency_order
-from gudgeon.generator.yaml.shapes import EventShape, FileShape, PlayShape, SceneShape
-from gudgeon.generator.yaml.tree import Text, kind_of
+from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.names import check_label
-from gudgeon.language.suggestions import known_hint, unknown_name
+from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Expr, names
-from gudgeon.language.units import DIMENSIONLESS, TIME, Dimension
-
-# the first of each is the default
-DIRECTIONS = ("both", "rising", "falling")
-ACTIONS = ("record", "stop")
-
-IDEAL = "ideal"
-SIMULATE: Mapping[str, Dimension] = {"t_end": TIME, "output": DIMENSIONLESS, "step": TIME}
 
 
 @dataclass(frozen=True)
 class Parts:
-    """What scenes refer to; `named` are all that the file names, also those that could not be read."""
+    """What scenes refer to; `root` is the file, which also names what could not be read."""
 
     joints: Mapping[str, Joint]
     bearings: Mapping[str, Bearing]
     contacts: Mapping[str, Contact]
     parameters: Mapping[str, Quantity]
     events: Mapping[str, EventSpec]
-    shape: FileShape
+    root: Map
     motion: ResultDimension  # of the names that an event's expression may use
 
 
@@ -43,49 +37,50 @@ class Parts:
 class _Draft:
     """A scene as texts, `extends` followed."""
 
-    play: dict[Text, PlayShape] = field(default_factory=dict)
-    parameters: dict[Text, Text] = field(default_factory=dict)
-    simulate: dict[str, Text] = field(default_factory=dict)
-    events: dict[str, EventSpec] = field(default_factory=dict)  # read where they are written
+    play: Map
+    parameters: Map
+    simulate: Map
+    events: dict[str, EventSpec]  # read where they are written
 
 
 def read_scenes(reader: Reader, parts: Parts) -> dict[str, SceneSpec]:
     """All scenes in the order of the file; `ideal` is the first and always there."""
-    section = parts.shape.scenes
-    plain = _Draft(events=dict(parts.events))
+    section = parts.root.part("scenes")
+    nothing = Map.make((), section.where)
+    plain = _Draft(nothing, nothing, nothing, dict(parts.events))
     drafts: dict[str, _Draft] = {IDEAL: plain}
     found: dict[str, SceneSpec] = {IDEAL: SceneSpec(IDEAL, {}, {}, {}, Location(reader.file, 1, 1), plain.events)}
     for name, scene in parents_first(reader, "scene", section, (IDEAL,)):
         with reader.collect():
             check_label(name, "scene", name.where)
-            if name == IDEAL and (scene.play or scene.parameters or scene.extends):
+            if name == IDEAL and any(scene.get(key) for key in ("play", "parameters", "extends")):
                 hint = "expected simulate: and events: only"
                 raise BadValueError("the scene ideal has no play, and the file's parameters", name.where, hint)
-        own = read_events(reader, scene.events, f"scenes.{name}.events", parts.motion)
-        draft = _draft(drafts[scene.extends] if scene.extends else plain, scene, own)
+        own = read_events(reader, scene.part("events"), f"scenes.{name}.events", parts.motion)
+        draft = _draft(drafts[scene["extends"]] if scene.get("extends") else plain, scene, own)
         drafts[str(name)] = draft
         found[str(name)] = _scene(reader, name, draft, parts)
     return {IDEAL: found[IDEAL]} | {str(name): found[name] for name in section if name in found}
 
 
-def _draft(parent: _Draft, scene: SceneShape, events: Mapping[str, EventSpec]) -> _Draft:
-    own = {key: getattr(scene.simulate, key) for key in SIMULATE} if scene.simulate else {}
+def _draft(parent: _Draft, scene: Map, events: Mapping[str, EventSpec]) -> _Draft:
+    def merged(above: Map, key: str) -> Map:
+        return Map.make({**above, **scene.part(key)}, scene.where)
+
     return _Draft(
-        {**parent.play, **scene.play},
-        {**parent.parameters, **scene.parameters},
-        {**parent.simulate, **{key: text for key, text in own.items() if text is not None}},
+        merged(parent.play, "play"), merged(parent.parameters, "parameters"), merged(parent.simulate, "simulate"),
         {**parent.events, **events},
-    )
+    )  # fmt: skip
 
 
 def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec:
     play = {}
-    for joint, use in draft.play.items():
+    for joint, use in draft.play.pairs():
         with reader.collect():
             if (made := _play(joint, use, parts)) is not None:
                 play[str(joint)] = made
     parameters = {}
-    for key, text in draft.parameters.items():
+    for key, text in draft.parameters.pairs():
         with reader.collect():
             if key not in parts.parameters:
                 raise unknown_name("parameter", key, parts.parameters, key.where)
@@ -93,38 +88,29 @@ def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec
             parameters[str(key)] = reader.quantity(text, address, reader.parameters[key])
     with reader.collect():
         _check_cycles(name, parameters, parts)
-    simulate = {}
-    for option, dimension in SIMULATE.items():
-        if option in draft.simulate:
-            simulate[option] = reader.quantity(draft.simulate[option], f"scenes.{name}.simulate.{option}", dimension)
-            if option == "output":
-                reader.require(simulate[option], ">=", 1.0, "a run has at least one interval of output")
-            else:
-                reader.require(simulate[option], ">", 0.0, "a time span is positive")
+    simulate = read_fields(reader, draft.simulate, SIMULATE.fields, Around(f"scenes.{name}.simulate")).quantities
     return SceneSpec(str(name), play, parameters, simulate, name.where, draft.events)
 
 
-def _play(joint: Text, use: PlayShape, parts: Parts) -> Play | None:
+def _play(joint: Text, use: Map, parts: Parts) -> Play | None:
     """The play in one joint; None if what it needs was told to be wrong elsewhere."""
-    if joint not in parts.shape.joints:
-        raise unknown_name("joint", joint, parts.shape.joints, joint.where)
+    joints, bearing, contact = parts.root.part("joints"), use["bearing"], use["contact"]
+    if joint not in joints:
+        raise unknown_name("joint", joint, joints, joint.where)
     errors: list[InputError] = []
-    for what, text, known in (
-        ("bearing", use.bearing, parts.shape.bearings),
-        ("contact", use.contact, parts.shape.contacts),
-    ):
-        if text not in known:
+    for what, text in (("bearing", bearing), ("contact", contact)):
+        if text not in (known := parts.root.part(f"{what}s")):
             errors.append(unknown_name(what, text, known, text.where))
     if errors:
         raise errors[0]
-    if joint not in parts.joints or use.bearing not in parts.bearings or use.contact not in parts.contacts:
+    if joint not in parts.joints or bearing not in parts.bearings or contact not in parts.contacts:
         return None
     kind = joint_types()[parts.joints[joint].kind]
     if not kind.may_have_play:
         able = [name for name, other in parts.joints.items() if joint_types()[other.kind].may_have_play]
         hint = f"expected one of: {', '.join(able)}" if able else "there are no joints here that can"
         raise BadValueError(f"joint {joint} is a {kind.title}: it cannot have play", joint.where, hint)
-    return Play(parts.bearings[use.bearing], parts.contacts[use.contact], joint.where)
+    return Play(parts.bearings[bearing], parts.contacts[contact], joint.where)
 
 
 def _check_cycles(name: Text, own: Mapping[str, Quantity], parts: Parts) -> None:
@@ -146,28 +132,27 @@ def _check_cycles(name: Text, own: Mapping[str, Quantity], parts: Parts) -> None
 
 
 def read_events(
-    reader: Reader, section: Mapping[Text, EventShape], owner: str, motion: ResultDimension
+    reader: Reader, section: Map, owner: str, motion: ResultDimension
 ) -> dict[str, EventSpec]:
     """The events of a section; `motion` gives the dimensions of the coordinates and velocities that they may use."""
     events = {}
-    for name, shape in section.items():
+    for name, node in section.pairs():
         with reader.collect():
             check_label(name, "event", name.where)
         with reader.collect():
-            events[str(name)] = _event(reader, name, shape, f"{owner}.{name}", motion)
+            events[str(name)] = _event(reader, name, node, f"{owner}.{name}", motion)
     return events
 
 
-def _event(reader: Reader, name: Text, shape: EventShape, owner: str, motion: ResultDimension) -> EventSpec:
+def _event(reader: Reader, name: Text, node: Map, owner: str, motion: ResultDimension) -> EventSpec:
     told = len(reader.errors)
-    zero = reader.quantity(shape.zero, f"{owner}.zero", None, time=True, result=motion)
+    own = read_fields(reader, node, EVENT.fields, Around(owner, motion=motion))
+    zero = own.quantities["zero"]
+    choice = {field.name: field.choice for field in EVENT.fields if field.kind == WORD} | own.options
     if len(reader.errors) == told and not _varies(zero.value):
         hint = "expected an expression of t, or of coordinates and velocities: S9.y, L1.omega - 20 rad/s"
-        raise BadValueError(f"{owner}.zero never changes: it crosses zero at no time", shape.zero.where, hint)
-    with reader.collect():
-        direction = _word(shape.direction, "direction", DIRECTIONS)
-        return EventSpec(str(name), zero, direction, _word(shape.action, "action", ACTIONS), name.where)
-    return EventSpec(str(name), zero, DIRECTIONS[0], ACTIONS[0], name.where)
+        raise BadValueError(f"{owner}.zero never changes: it crosses zero at no time", node["zero"].where, hint)
+    return EventSpec(str(name), zero, str(choice["direction"]), str(choice["action"]), name.where)
 
 
 def _varies(expr: Expr) -> bool:
@@ -175,11 +160,3 @@ def _varies(expr: Expr) -> bool:
     paths = [name.path for name in names(expr)]
     return any(path == "t" or "." in path and path.partition(".")[0] != GROUND for path in paths)
 
-
-def _word(text: Text | None, key: str, words: tuple[str, ...]) -> str:
-    """One of some words; the first, where nothing is written."""
-    if text is None:
-        return words[0]
-    if text not in words:
-        raise BadValueError(f"{key} is {kind_of(text)}", text.where, known_hint(text, words))
-    return str(text)

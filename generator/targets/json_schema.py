@@ -1,26 +1,29 @@
-"""The format as a JSON Schema (draft 2020-12), for editors: written from what the reader itself reads by.
+"""The format as a JSON Schema (draft 2020-12), for editors: written from the declarations that the reader reads by.
 
-The shapes are those of schema.py; what joints, drives, forces and laws hold is what their files declare. A schema
-sees names, kinds and shapes; units, references and ranges are told by the reader alone.
+A schema sees names, kinds and shapes; units, references and ranges are told by the reader alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, get_args, get_origin
+from typing import Any
 
-from pydantic import BaseModel
-
-from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.kinds.laws.law import Law, LawOption, laws
-from gudgeon.generator.reader.bodies import COORDINATES, RATES
-from gudgeon.generator.reader.contacts import ROLES
-from gudgeon.generator.reader.drives import DRIVES
-from gudgeon.generator.reader.fields import Field
-from gudgeon.generator.reader.scenes import ACTIONS, DIRECTIONS
-from gudgeon.generator.yaml.shapes import FORMAT, ContactShape, FileShape, Shape, inner
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.field import (
+    BODY,
+    FLAG,
+    KINDS,
+    LAW,
+    MAPPING,
+    NAME,
+    NUMBER,
+    RECORD,
+    TEXT,
+    VECTOR,
+    WORD,
+    Field,
+    Kind,
+)
+from gudgeon.generator.format.sections import CONTACT, COORDINATES, FILE, FORMAT, SECTIONS
 from gudgeon.language.names import IDENTIFIER
 from gudgeon.language.names import MAX_LENGTH as LONGEST_NAME
 from gudgeon.language.parser import MAX_LENGTH
@@ -33,48 +36,27 @@ _NUMBER: Json = {
     "description": "a number, or an expression: 80 mm, 2*pi rad/s, r + 5 mm",
     "anyOf": [{"type": "number"}, {"type": "string", "minLength": 1, "maxLength": MAX_LENGTH, "pattern": r"^[^\n]*$"}],
 }
-_TEXT: Json = {"type": ["string", "number"]}
-_WORDS = {  # fields of the shapes whose text is no number
-    "format": {"const": FORMAT},
-    "name": {"$ref": "#/$defs/name"},
-    "title": _TEXT,
-    "extends": {"$ref": "#/$defs/name"},
-    "bearing": {"$ref": "#/$defs/name"},
-    "contact": {"$ref": "#/$defs/name"},
-    "bearing_material": {"$ref": "#/$defs/name"},
-    "journal_material": {"$ref": "#/$defs/name"},
-    "clip_ratio": _FLAG,
-    "direction": {"enum": list(DIRECTIONS)},
-    "action": {"enum": list(ACTIONS)},
-}  # fmt: skip
 
 
 def schema() -> Json:
     """The schema of a mechanism file, as JSON."""
+    families = (SECTIONS[name].entry for name in ("joints", "drives", "forces"))
+    roles = [field for field in CONTACT.fields if field.kind == LAW]
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"mechanism file, {FORMAT}",
-        **_shape(FileShape),
+        **_record(FILE),
         "$defs": {
             "name": {"type": "string", "pattern": f"^{_NAME}$", "maxLength": LONGEST_NAME},
             "number": _NUMBER,
             "vector": _list(_reference("number"), 2),
             "bodies": {"type": "string", "pattern": f"^{_NAME}$"},
             "points": {"type": "string", "pattern": f"^{_NAME}\\.{_NAME}$"},
-            "coordinates": {"type": "string", "pattern": f"^{_NAME}\\.({'|'.join(COORDINATES)})$"},
-            "joint": _kinds({
-                kind: (of.title, of.joins, (2,), of.fields) for kind, of in joint_types().items()
-            }),
-            "drive": {"oneOf": [
-                _entry(kind, "", _targets(of.targets, of.counts), {"value": _reference("number")}, ["value"])
-                for kind, of in DRIVES.items()
-            ]},
-            "force": _kinds({
-                kind: (of.title, of.targets, of.counts, of.fields) for kind, of in element_types().items()
-            }),
-            **{f"{role}_{use}": _role(role, use == "whole") for role in ROLES for use in ("whole", "part")},
+            "coordinates": _of_bodies("string", COORDINATES),
+            **{family.name: {"oneOf": [_kind(*one) for one in _kinds(family)]} for family in families if family},
+            **{f"{role.name}_{use}": _law(role, use == "whole") for role in roles for use in ("whole", "part")},
         },
-    }  # fmt: skip
+    }
 
 
 def _reference(name: str) -> Json:
@@ -85,113 +67,100 @@ def _list(item: Json, count: int) -> Json:
     return {"type": "array", "items": item, "minItems": count, "maxItems": count}
 
 
+def _of_bodies(kind: str, keys: Mapping[str, object]) -> Json:
+    pattern = {"pattern": f"^{_NAME}\\.({'|'.join(keys)})$"}
+    return {"type": kind, **pattern} if kind else pattern
+
+
 def _object(properties: Mapping[str, Any], required: Sequence[str] = ()) -> Json:
     return {
         "type": "object", "properties": dict(properties), "required": list(required), "additionalProperties": False,
     }  # fmt: skip
 
 
-def _shape(shape: type[BaseModel]) -> Json:
-    """A shape of schema.py."""
-    properties = {name: _field(shape, name, field.annotation) for name, field in shape.model_fields.items()}
-    made = _object(properties, [name for name, field in shape.model_fields.items() if field.is_required()])
-    if shape is ContactShape:  # what a contact inherits it need not give itself
+def _required(fields: Sequence[Field]) -> list[str]:
+    return [field.name for field in fields if field.required]
+
+
+def _described(fields: Sequence[Field], filled_in: bool = True) -> dict[str, Json]:
+    """Keys with what they hold, what they mean and what is `filled_in`, where nothing may be inherited."""
+    found = {field.name: {**_field(field), "description": field.meaning} for field in fields}
+    if not filled_in:
+        return found
+    return found | {f.name: {**found[f.name], "default": f.default} for f in fields if f.default is not None}
+
+
+def _field(field: Field) -> Json:
+    """What a field holds."""
+    if field.kind == RECORD:
+        return _record(field)
+    if field.kind == MAPPING:
+        return _mapping(field)
+    if field.kind == WORD:
+        return {"const": field.values[0]} if len(field.values) == 1 else {"enum": list(field.values)}
+    return _reference(field.name) if field.kind == KINDS else _SIMPLE[field.kind]
+
+
+_SIMPLE: Mapping[str, Json] = {
+    NUMBER: _reference("number"),
+    VECTOR: _reference("vector"),
+    FLAG: _FLAG,
+    TEXT: {"type": ["string", "number"]},
+    NAME: _reference("name"),
+    BODY: _reference("name"),
+    LAW: {"type": "object"},  # what it holds depends on `extends`: see _record
+}
+
+
+def _record(field: Field) -> Json:
+    """A mapping with known keys; an optional section with nothing in it is null."""
+    properties = _described(field.fields, field.below("extends") is None)
+    for below in field.fields if field is FILE else ():
+        if below.kind in (MAPPING, RECORD) and not below.required:
+            properties[below.name]["type"] = ["object", "null"]
+        elif below.kind == MAPPING:
+            properties[below.name]["minProperties"] = 1
+    made = _object(properties, _required(field.fields))
+    roles = [below.name for below in field.fields if below.kind == LAW]
+    if roles:  # what a contact inherits it need not give itself
         made["if"] = {"required": ["extends"]}
-        made["then"] = {"properties": {role: _reference(f"{role}_part") for role in ROLES}}
-        made["else"] = {"properties": {role: _reference(f"{role}_whole") for role in ROLES}}
+        made["then"] = {"properties": {role: _reference(f"{role}_part") for role in roles}}
+        made["else"] = {"properties": {role: _reference(f"{role}_whole") for role in roles}}
     return made
 
 
-_SECTIONS_OF_KINDS = {"joints": "joint", "drives": "drive", "forces": "force"}
-_KEYS = {"guess": COORDINATES, "set": COORDINATES, "rates": RATES}
+def _mapping(field: Field) -> Json:
+    assert field.entry is not None
+    keys = _reference("name") if field.keys is None else _of_bodies("", field.keys)
+    return {"type": "object", "propertyNames": keys, "additionalProperties": _field(field.entry)}
 
 
-def _field(shape: type[BaseModel], name: str, annotation: Any) -> Json:
-    """One field of a shape; a section with nothing in it is null."""
-    of = inner(annotation)
-    if get_origin(of) is dict:
-        keys: Json = _reference("name")
-        if name in _KEYS:
-            keys = {"pattern": f"^{_NAME}\\.({'|'.join(_KEYS[name])})$"}
-        entry = _reference(_SECTIONS_OF_KINDS[name]) if name in _SECTIONS_OF_KINDS else _value(get_args(of)[1], "")
-        made: Json = {"type": "object", "propertyNames": keys, "additionalProperties": entry}
-    else:
-        made = _value(of, name)
-    if name == "bodies":
-        return {**made, "minProperties": 1}
-    is_section = shape is FileShape and isinstance(made.get("type"), str) and made["type"] == "object"
-    return {**made, "type": ["object", "null"]} if is_section else made
+def _kinds(family: Field) -> list[tuple[str, Kind]]:
+    return list(family.kinds().items()) if family.kinds else []
 
 
-def _value(of: Any, name: str) -> Json:
-    """What a type of the shapes stands for."""
-    if of is Text:
-        return _WORDS.get(name, _reference("number"))
-    if of is Map:
-        return {"type": "object"}
-    if isinstance(of, type) and issubclass(of, Shape):
-        return _shape(of)
-    return _reference("vector")  # Pair
+def _kind(name: str, kind: Kind) -> Json:
+    """One entry a kind: its targets and its own fields. One target is written alone, two as a list."""
+    item = _reference(kind.targets)
+    forms = [item if count == 1 else _list(item, count) for count in kind.counts]
+    targets = forms[0] if len(forms) == 1 else {"anyOf": forms}
+    own = _object({name: targets, **_described(kind.fields)}, [name, *_required(kind.fields)])
+    return {"title": kind.title, **own}
 
 
-def _kinds(kinds: Mapping[str, tuple[str, str, Sequence[int], Sequence[Field]]]) -> Json:
-    """One entry a kind: its targets and its own fields."""
-    return {
-        "oneOf": [
-            _entry(
-                kind, title, _targets(targets, counts), {field.name: _own(field) for field in fields},
-                [field.name for field in fields if field.required],
-            )
-            for kind, (title, targets, counts, fields) in kinds.items()
-        ]
-    }  # fmt: skip
-
-
-def _entry(kind: str, title: str, targets: Json, fields: Mapping[str, Json], required: Sequence[str]) -> Json:
-    made = _object({kind: targets, **fields}, [kind, *required])
-    return {"title": title, **made} if title else made
-
-
-def _targets(what: str, counts: Sequence[int]) -> Json:
-    """One target is written alone, two as a list."""
-    forms = [_reference(what) if count == 1 else _list(_reference(what), count) for count in counts]
-    return forms[0] if len(forms) == 1 else {"anyOf": forms}
-
-
-def _own(field: Field) -> Json:
-    """A field that a joint's or a force element's file declares."""
-    of: Json
-    if field.kind == "option":
-        of = _FLAG if field.values == ("false", "true") else {"enum": list(field.values)}
-    else:
-        of = _reference({"vector": "vector", "quantity": "number", "body": "name"}[field.kind])
-    return {**of, "description": field.meaning}
-
-
-def _role(role: str, whole: bool) -> Json:
+def _law(role: Field, whole: bool) -> Json:
     """A law of a contact; `whole`: with all its numbers, since nothing is inherited."""
-    own = [law for law in laws().values() if law.role == role]
-    names = {"law": {"enum": [law.name for law in own]}}
-    known: dict[str, Json] = {name: {} for law in own for name in _law_keys(law)}
-    made = _object({**known, **names}, ["law"] if whole else [])
+    own = _kinds(role)
+    known: dict[str, Json] = {field.name: {} for _, law in own for field in law.fields}
+    made = _object({**known, "law": {"enum": [name for name, _ in own]}}, ["law"] if whole else [])
     made["allOf"] = [
         {
-            "if": {"properties": {"law": {"const": law.name}}, "required": ["law"]},
+            "if": {"properties": {"law": {"const": name}}, "required": ["law"]},
             "then": {
-                **_object({"law": True, **_law_keys(law)}),
-                "required": [p.name for p in law.parameters if p.default is None] if whole else [],
+                **_object({"law": True, **_described(law.fields, whole)}),
+                "required": _required(law.fields) if whole else [],
             },
         }
-        for law in own
+        for name, law in own
     ]
     return made
-
-
-def _law_keys(law: Law) -> dict[str, Json]:
-    numbers = {p.name: {**_reference("number"), "description": p.meaning} for p in law.parameters}
-    return numbers | {option.name: _option(option) for option in law.options}
-
-
-def _option(option: LawOption) -> Json:
-    flag = all(isinstance(value, bool) for value in option.values)
-    return {**(_FLAG if flag else {"enum": list(option.values)}), "description": option.meaning}

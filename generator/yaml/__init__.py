@@ -1,1 +1,1 @@
-"""Bytes to text, lists and mappings with their places; the shapes they must have."""
+"""Bytes to text, lists and mappings with their places."""

@@ -66,6 +66,14 @@ class Map(dict[str, Any]):
         """The key itself, with its place."""
         return next(key for key in self.names() if key == name)
 
+    def pairs(self) -> list[tuple[Text, Any]]:
+        """Keys and values."""
+        return [(key, self[key]) for key in self.names()]
+
+    def part(self, name: str) -> Map:
+        """The mapping at a key; an empty one where there is no such key."""
+        return self[name] if name in self else Map.make((), self.where)
+
     def names(self) -> list[Text]:
         """The keys as what they are."""
         return [key for key in self if isinstance(key, Text)]

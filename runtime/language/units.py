@@ -1,9 +1,8 @@
 """Dimensions and the published list of units.
 
-The list is closed, so that `t`, `c`, `k` are never tonnes, light or Boltzmann. It is a table and not
-pint's registry, which takes longer to build than a file to read; pint is the converter of record:
-a test compares every entry with it. Factors are exact fractions (times a power of π), so that
-`0.3 mm` is the binary64 number nearest to 3e-4 and not 0.3 times the one nearest to 1e-3.
+The list is closed, so that `t`, `c`, `k` are never tonnes, light or Boltzmann. pint is the converter of record: a
+test compares every entry with it, and nothing else imports it. Factors are exact fractions (times a power of π), so
+that `0.3 mm` is the binary64 number nearest to 3e-4 and not 0.3 times the one nearest to 1e-3.
 """
 
 from __future__ import annotations

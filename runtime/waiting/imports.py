@@ -11,7 +11,7 @@ import threading
 from importlib import import_module
 
 RUNTIME = ("numpy", "gudgeon.simulation.simulation")
-GENERATOR = ("numpy", "mpmath", "sympy", "pydantic", "jinja2", "ruamel.yaml", "gudgeon.generator.pipeline")
+GENERATOR = ("numpy", "mpmath", "sympy", "jinja2", "ruamel.yaml", "gudgeon.generator.pipeline")
 CFFI = ("cffi", "pycparser", "cffi.cparser", "cffi.recompiler")
 LOOK = 0.05  # s, after which a signal is looked for
 SPARSE = ("numpy", "scipy.sparse", "scipy.sparse.linalg")

@@ -30,7 +30,7 @@ class Evaluator:
     def __init__(self, name: str, parameters: Mapping[str, float], **options: str | bool) -> None:
         self.law = laws()[name]
         values = {p.name: p.default for p in self.law.parameters} | dict(parameters)
-        chosen = {o.name: o.default for o in self.law.options} | options
+        chosen = {o.name: o.choice for o in self.law.options} | options
         symbols = {v: sp.Symbol(v, real=True) for v in VARIABLES[self.law.role]}
         pair = PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()})
         numbers = {k: sp.Float(v) for k, v in values.items()}
@@ -66,7 +66,7 @@ def test_every_law_is_built_of_smooth_pieces_and_known_symbols() -> None:
         symbols = {v: sp.Symbol(v, real=True) for v in VARIABLES[law.role]}
         parameters = {p.name: sp.Symbol(p.name, positive=True) for p in law.parameters}
         pair = PairSymbols(**{k: sp.Symbol(k, positive=True) for k in vars(PAIR)})
-        chosen = {o.name: o.default for o in law.options}
+        chosen = {o.name: o.choice for o in law.options}
         steps = law.build(LawInputs(parameters, chosen, pair, symbols, lambda name, expression, meaning: expression))
         assert set(RESULTS[law.role]) <= set(steps)
         known = {*symbols.values(), *parameters.values(), *vars(pair).values()}

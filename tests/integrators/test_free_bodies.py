@@ -44,13 +44,13 @@ def values(law: Law) -> dict[str, float]:
     chosen: dict[str, float] = {}
     for parameter in law.parameters:
         low, high = 0.0, math.inf
-        for relation, bound in parameter.bounds:
+        for relation, bound, _ in parameter.bounds:
             number = chosen[bound] if isinstance(bound, str) else bound
             low, high = (max(low, number), high) if relation.startswith(">") else (low, min(high, number))
         if parameter.any_dimension:  # a stiffness, in its own unit
             low = 1e8
         inside = low + 0.1 if math.isinf(high) else low + 0.9 * (high - low)
-        chosen[parameter.name] = inside if parameter.default is None else parameter.default
+        chosen[parameter.name] = inside if parameter.default is None else float(parameter.default)
     return chosen
 
 

@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 from ruamel.yaml import YAML
 
+from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws.law import laws
-from gudgeon.generator.reader.drives import DRIVES
 from gudgeon.generator.targets.json_schema import schema
 from gudgeon.generator.yaml.tree import Items, Map, Text, parse_yaml
 

@@ -65,6 +65,7 @@ MISTAKES: list[tuple[str, type[InputError], int, int]] = [
     ("format_missing", MissingKeyError, 1, 1),
     ("format_of_the_future", BadValueError, 1, 9),
     ("friction_speeds_swapped", BadValueError, 25, 67),
+    ("friction_without_direction", BadValueError, 19, 58),
     ("ground_to_ground", JoinError, 14, 29),
     ("hertz", UnitError, 5, 12),
     ("infinite", ExpressionError, 10, 16),

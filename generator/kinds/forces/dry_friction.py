@@ -13,8 +13,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.forces.force_type import ElementField, ElementType, Loads, Slip
-from gudgeon.language.units import DIMENSIONLESS, VELOCITY, dimension
+from gudgeon.generator.field import NOT_NEGATIVE, Bound, number, vector
+from gudgeon.generator.kinds.forces.force_type import ElementType, Loads, Slip
+from gudgeon.language.units import DIMENSIONLESS, FORCE, VELOCITY
 
 
 def build(targets: Any, fields: Any) -> Loads:
@@ -32,21 +33,20 @@ def build(targets: Any, fields: Any) -> Loads:
     return Loads((), sp.Integer(0), sp.Integer(0), {}, slip)
 
 
-_FORCE = dimension(mass=1, length=1, time=-2)
-
 ELEMENT = ElementType(
     "dry_friction",
     "dry friction with stick",
     "points",
     (2,),
     (
-        ElementField("direction", "vector", "of sliding, in the first body's frame", DIMENSIONLESS, True),
-        ElementField(
-            "static", "quantity", "largest force at stick", _FORCE, True, not_negative=True, at_least="kinetic"
+        vector("direction", "of sliding, in the first body's frame", DIMENSIONLESS, required=True, nonzero=True),
+        number(
+            "static", "largest force at stick", FORCE, required=True,
+            bounds=(*NOT_NEGATIVE, Bound(">=", "kinetic", "static is at least kinetic")),
         ),
-        ElementField("kinetic", "quantity", "force while slipping", _FORCE, True, not_negative=True),
-        ElementField("speed", "quantity", "of the first's surface along the direction", VELOCITY),
+        number("kinetic", "force while slipping", FORCE, required=True, bounds=NOT_NEGATIVE),
+        number("speed", "speed of the first's surface along the direction", VELOCITY, otherwise="0"),
     ),
-    (("F", _FORCE), ("v", VELOCITY), ("mode", DIMENSIONLESS)),
+    (("F", FORCE), ("v", VELOCITY), ("mode", DIMENSIONLESS)),
     build,
-)
+)  # fmt: skip

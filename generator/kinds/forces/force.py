@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.forces.force_type import ElementField, ElementType, Load, Loads
-from gudgeon.language.units import FORCE, dimension
+from gudgeon.generator.field import OF_MOTION, vector, word
+from gudgeon.generator.kinds.forces.force_type import ElementType, Load, Loads
+from gudgeon.language.units import FORCE
 
 
 def build(targets: Any, fields: Any) -> Loads:
@@ -33,8 +34,8 @@ ELEMENT = ElementType(
     "points",
     (1,),
     (
-        ElementField("value", "vector", "components", dimension(mass=1, length=1, time=-2), True, variable=True),
-        ElementField("axes", "option", "in which axes the components are", values=("ground", "body")),
+        vector("value", "the force: its components", FORCE, required=True, varies=OF_MOTION),
+        word("axes", "in which axes the components are", ("ground", "body"), "ground"),
     ),
     (("Fx", FORCE), ("Fy", FORCE), ("F", FORCE)),
     build,

@@ -11,23 +11,9 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.discovery import declared
 from gudgeon.language.units import Dimension
-
-
-@dataclass(frozen=True)
-class ElementField:
-    """A key beside the element's own."""
-
-    name: str
-    kind: str  # "quantity", "vector" or "option"
-    meaning: str
-    dimension: Dimension = Dimension()
-    required: bool = False
-    variable: bool = False  # may use t and named coordinates and velocities, not parameters alone
-    values: tuple[str, ...] = ()  # of an option; the first is the default
-    not_negative: bool = False
-    at_least: str = ""  # another field of the element that it must not fall below
 
 
 @dataclass(frozen=True)
@@ -72,7 +58,7 @@ class ElementType:
     title: str
     targets: str  # "points" or "bodies"; the ground is one of either
     counts: tuple[int, ...]  # how many targets there may be
-    fields: tuple[ElementField, ...]
+    fields: tuple[Field, ...]  # the keys beside its own
     results: tuple[tuple[str, Dimension], ...]  # names of `Loads.series`, for outputs
     build: Callable[..., Loads]
 

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.forces.force_type import ElementField, ElementType, Load, Loads
+from gudgeon.generator.field import NOT_NEGATIVE, number
+from gudgeon.generator.kinds.forces.force_type import ElementType, Load, Loads
 from gudgeon.language.units import DIMENSIONLESS, TORQUE, dimension
 
 
@@ -30,10 +31,13 @@ ELEMENT = ElementType(
     "bodies",
     (2,),
     (
-        ElementField("stiffness", "quantity", "k", dimension(mass=1, length=2, time=-2), not_negative=True),
-        ElementField("free_angle", "quantity", "θ_0", DIMENSIONLESS),
-        ElementField("damping", "quantity", "d", dimension(mass=1, length=2, time=-1), not_negative=True),
+        number("stiffness", "k: moment by angle", TORQUE, bounds=NOT_NEGATIVE, otherwise="0"),
+        number("free_angle", "θ_0: angle without moment", DIMENSIONLESS, otherwise="0"),
+        number(
+            "damping", "d: moment by angular velocity", dimension(mass=1, length=2, time=-1),
+            bounds=NOT_NEGATIVE, otherwise="0",
+        ),
     ),
     (("M", TORQUE),),
     build,
-)
+)  # fmt: skip

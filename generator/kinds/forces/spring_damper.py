@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.forces.force_type import ElementField, ElementType, Load, Loads
-from gudgeon.language.units import FORCE, LENGTH, dimension
+from gudgeon.generator.field import NOT_NEGATIVE, number
+from gudgeon.generator.kinds.forces.force_type import ElementType, Load, Loads
+from gudgeon.language.units import DAMPING, FORCE, LENGTH, STIFFNESS
 
 
 def build(targets: Any, fields: Any) -> Loads:
@@ -44,9 +45,9 @@ ELEMENT = ElementType(
     "points",
     (2,),
     (
-        ElementField("stiffness", "quantity", "k", dimension(mass=1, time=-2), not_negative=True),
-        ElementField("free_length", "quantity", "l_0", LENGTH, not_negative=True),
-        ElementField("damping", "quantity", "d", dimension(mass=1, time=-1), not_negative=True),
+        number("stiffness", "k: force by elongation", STIFFNESS, bounds=NOT_NEGATIVE, otherwise="0"),
+        number("free_length", "l_0: length without force", LENGTH, bounds=NOT_NEGATIVE, otherwise="0"),
+        number("damping", "d: force by the rate of elongation", DAMPING, bounds=NOT_NEGATIVE, otherwise="0"),
     ),
     (("F", FORCE), ("length", LENGTH)),
     build,

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.forces.force_type import ElementField, ElementType, Load, Loads
-from gudgeon.language.units import TORQUE, dimension
+from gudgeon.generator.field import OF_MOTION, number
+from gudgeon.generator.kinds.forces.force_type import ElementType, Load, Loads
+from gudgeon.language.units import TORQUE
 
 
 def build(targets: Any, fields: Any) -> Loads:
@@ -31,7 +32,7 @@ ELEMENT = ElementType(
     "torque on a body or between two",
     "bodies",
     (1, 2),
-    (ElementField("value", "quantity", "on the first", dimension(mass=1, length=2, time=-2), True, variable=True),),
+    (number("value", "the torque on the first body", TORQUE, required=True, varies=OF_MOTION),),
     (("M", TORQUE),),
     build,
 )

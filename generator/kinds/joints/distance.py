@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.joints.joint_type import JointField, JointType
+from gudgeon.generator.field import POSITIVE, number
+from gudgeon.generator.kinds.joints.joint_type import JointType
 from gudgeon.language.units import LENGTH
 
 
@@ -23,7 +24,7 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
 JOINT = JointType(
     "distance",
     "constant distance (massless rod)",
-    (JointField("length", "quantity", "of the rod", LENGTH, True, positive=True),),
+    (number("length", "length of the rod", LENGTH, required=True, bounds=POSITIVE),),
     False,
     ("length",),
     ("m",),

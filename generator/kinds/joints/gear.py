@@ -12,7 +12,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.joints.joint_type import JointField, JointType
+from gudgeon.generator.field import POSITIVE, body_or_ground, flag, vector
+from gudgeon.generator.kinds.joints.joint_type import JointType
 from gudgeon.language.units import LENGTH
 
 
@@ -29,9 +30,9 @@ JOINT = JointType(
     "gear",
     "rolling gear pair",
     (
-        JointField("radii", "vector", "pitch radii of first and second", LENGTH, True, positive=True),
-        JointField("carrier", "body", "what both wheels turn on", default="ground"),
-        JointField("internal", "option", "the second is a ring around the first", values=("false", "true")),
+        vector("radii", "pitch radii of first and second", LENGTH, required=True, bounds=POSITIVE),
+        body_or_ground("carrier", "what both wheels turn on"),
+        flag("internal", "the second is a ring around the first"),
     ),
     False,
     ("mesh",),

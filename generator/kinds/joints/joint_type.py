@@ -10,23 +10,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.discovery import declared
-from gudgeon.language.units import Dimension
-
-
-@dataclass(frozen=True)
-class JointField:
-    """A key beside the joint's own, such as `axis` of a translational joint."""
-
-    name: str
-    kind: str  # "vector" (two numbers), "quantity" (one), "option" (a word) or "body" (a body or ground)
-    meaning: str
-    dimension: Dimension = Dimension()
-    required: bool = False
-    values: tuple[str, ...] = ()  # of an option; the first is the default. ("false", "true") is a YAML bool
-    nonzero: bool = False  # of a vector: not both components zero
-    positive: bool = False  # of a quantity, or of both components of a vector
-    default: str = ""  # of a body field
 
 
 @dataclass(frozen=True)
@@ -39,7 +24,7 @@ class JointType:
 
     kind: str
     title: str
-    fields: tuple[JointField, ...]
+    fields: tuple[Field, ...]  # the keys beside its own, such as `axis` of a translational joint
     may_have_play: bool
     row_names: tuple[str, ...]  # one short name a row of Φ: the row is called "<joint>.<row name>"
     row_units: tuple[str, ...]  # "m" or "rad", a row each

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.joints.joint_type import JointField, JointType
+from gudgeon.generator.field import vector
+from gudgeon.generator.kinds.joints.joint_type import JointType
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -22,7 +23,7 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
 JOINT = JointType(
     "point_on_line",
     "point on a line (pin in slot)",
-    (JointField("direction", "vector", "of the line, in the second body's frame", DIMENSIONLESS, True, nonzero=True),),
+    (vector("direction", "direction in the second body's frame", DIMENSIONLESS, required=True, nonzero=True),),
     False,
     ("offset",),
     ("m",),

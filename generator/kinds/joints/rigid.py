@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.joints.joint_type import JointField, JointType
+from gudgeon.generator.field import number
+from gudgeon.generator.kinds.joints.joint_type import JointType
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -20,7 +21,7 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
 JOINT = JointType(
     "rigid",
     "rigid joint",
-    (JointField("angle", "quantity", "θ_second − θ_first; default 0", DIMENSIONLESS),),
+    (number("angle", "θ_second − θ_first", DIMENSIONLESS, otherwise="0"),),
     False,
     ("x", "y", "angle"),
     ("m", "m", "rad"),

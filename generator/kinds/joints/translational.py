@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.joints.joint_type import JointField, JointType
+from gudgeon.generator.field import number, vector
+from gudgeon.generator.kinds.joints.joint_type import JointType
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -26,10 +27,8 @@ JOINT = JointType(
     "translational",
     "translational joint",
     (
-        JointField(
-            "axis", "vector", "direction of sliding in the first body's frame", DIMENSIONLESS, True, nonzero=True
-        ),
-        JointField("angle", "quantity", "θ_second − θ_first; default: the axis' direction", DIMENSIONLESS),
+        vector("axis", "direction of sliding in the first body's frame", DIMENSIONLESS, required=True, nonzero=True),
+        number("angle", "θ_second − θ_first", DIMENSIONLESS, otherwise="the axis' direction"),
     ),
     False,
     ("offset", "angle"),

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from gudgeon.generator.field import Bound, number, word
 from gudgeon.generator.kinds.laws.dissipation import FACTORS, normal_force
-from gudgeon.generator.kinds.laws.law import Law, LawInputs, LawOption, LawParameter
-from gudgeon.language.units import DIMENSIONLESS, Dimension
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.language.units import DIMENSIONLESS
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -27,13 +28,19 @@ LAW = Law(
     title="Hertz contact with a given stiffness and hysteresis damping",
     source="H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
     validity="a point or a line contact whose stiffness is known; penetrations small against the radii",
-    parameters=(
-        LawParameter("stiffness", "K", "force at unit penetration, N/m^n", Dimension(), None, ((">", 0.0),), True),
-        LawParameter("exponent", "n", "exponent of the penetration", DIMENSIONLESS, 1.5, ((">=", 1.0),)),
-        LawParameter(
-            "restitution", "c_e", "coefficient of restitution", DIMENSIONLESS, 1.0, ((">", 0.0), ("<=", 1.0))
+    fields=(
+        number(
+            "stiffness", "force at unit penetration, N/m^n", None, symbol="K", required=True, bounds=(Bound(">", 0.0),)
         ),
+        number(
+            "exponent", "exponent of the penetration", DIMENSIONLESS,
+            symbol="n", default=1.5, bounds=(Bound(">=", 1.0),),
+        ),
+        number(
+            "restitution", "coefficient of restitution", DIMENSIONLESS,
+            symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
+        ),
+        word("dissipation", "whose hysteresis damping factor", FACTORS, "hunt_crossley"),
     ),
-    options=(LawOption("dissipation", tuple(FACTORS), "hunt_crossley", "whose hysteresis damping factor"),),
     build=build,
-)
+)  # fmt: skip

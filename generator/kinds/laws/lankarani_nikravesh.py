@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from gudgeon.generator.field import Bound, number, word
 from gudgeon.generator.kinds.laws.dissipation import normal_force
-from gudgeon.generator.kinds.laws.law import Law, LawInputs, LawOption, LawParameter
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -32,19 +33,20 @@ LAW = Law(
     title="Lankarani and Nikravesh: Hertz stiffness with hysteresis damping",
     source="H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376",
     validity="c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal",
-    parameters=(
-        LawParameter(
-            "restitution", "c_e", "coefficient of restitution", DIMENSIONLESS, None, ((">", 0.0), ("<=", 1.0))
+    fields=(
+        number(
+            "restitution", "coefficient of restitution", DIMENSIONLESS,
+            symbol="c_e", required=True, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
         ),
-        LawParameter("exponent", "n", "exponent of the penetration", DIMENSIONLESS, 1.5, ((">=", 1.0),)),
-    ),
-    options=(
-        LawOption(
+        number(
+            "exponent", "exponent of the penetration", DIMENSIONLESS,
+            symbol="n", default=1.5, bounds=(Bound(">=", 1.0),),
+        ),
+        word(
             "geometry",
-            ("external", "internal"),
-            "external",
             "curvature of the pair: external R_i + R_j as the paper prints it, internal R_i - R_j for a pin in a hole",
+            ("external", "internal"), "external",
         ),
     ),
     build=build,
-)
+)  # fmt: skip

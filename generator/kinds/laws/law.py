@@ -11,31 +11,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.kinds.discovery import declared
-from gudgeon.language.units import Dimension
-
-
-@dataclass(frozen=True)
-class LawParameter:
-    """A number of a law: a run-time slot `contacts.<contact>.<role>.<name>`."""
-
-    name: str
-    symbol: str  # as in the paper, in LaTeX
-    meaning: str
-    dimension: Dimension
-    default: float | None = None  # None: the user must give it
-    bounds: tuple[tuple[str, float | str], ...] = ()  # (relation, number or name of another parameter)
-    any_dimension: bool = False  # its unit depends on other numbers: not checked
-
-
-@dataclass(frozen=True)
-class LawOption:
-    """A structural choice of a law; bool options have values (False, True)."""
-
-    name: str
-    values: tuple[str | bool, ...]
-    default: str | bool
-    meaning: str
 
 
 @dataclass(frozen=True)
@@ -87,9 +64,18 @@ class Law:
     title: str
     source: str
     validity: str
-    parameters: tuple[LawParameter, ...]
-    options: tuple[LawOption, ...]
+    fields: tuple[Field, ...]  # the keys beside `law`
     build: Callable[..., Any]
+
+    @property
+    def parameters(self) -> tuple[Field, ...]:
+        """Its numbers: run-time slots `contacts.<contact>.<role>.<name>`."""
+        return tuple(field for field in self.fields if field.kind == NUMBER)
+
+    @property
+    def options(self) -> tuple[Field, ...]:
+        """Its structural choices: words, and flags with the values False and True."""
+        return tuple(field for field in self.fields if field.kind != NUMBER)
 
 
 @cache

@@ -12,7 +12,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.laws.law import Law, LawInputs, LawParameter
+from gudgeon.generator.field import Bound, number
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS, VELOCITY
 
 
@@ -32,11 +33,16 @@ LAW = Law(
     title="modified Coulomb friction",
     source="physics.md section 3, after J. A. C. Ambrosio",
     validity="sliding; creeps below v1 where Coulomb's law would stick",
-    parameters=(
-        LawParameter("mu", "c_f", "coefficient of friction", DIMENSIONLESS, None, ((">=", 0.0),)),
-        LawParameter("v0", "v_0", "slip below which there is no friction", VELOCITY, None, ((">=", 0.0),)),
-        LawParameter("v1", "v_1", "slip above which friction is full", VELOCITY, None, ((">", "v0"),)),
+    fields=(
+        number("mu", "coefficient of friction", DIMENSIONLESS, symbol="c_f", required=True, bounds=(Bound(">=", 0.0),)),
+        number(
+            "v0", "slip below which there is no friction", VELOCITY,
+            symbol="v_0", required=True, bounds=(Bound(">=", 0.0),),
+        ),
+        number(
+            "v1", "slip above which friction is full", VELOCITY,
+            symbol="v_1", required=True, bounds=(Bound(">", "v0"),),
+        ),
     ),
-    options=(),
     build=build,
-)
+)  # fmt: skip

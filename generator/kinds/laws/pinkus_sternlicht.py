@@ -13,7 +13,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.laws.law import Law, LawInputs, LawOption, LawParameter
+from gudgeon.generator.field import Bound, flag, number, word
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import LENGTH, VISCOSITY
 
 # Where W vanishes so does every numerator: this keeps 0/0 away, in the derivatives (its square) too, and
@@ -50,21 +51,19 @@ LAW = Law(
     title="Pinkus and Sternlicht: long journal bearing, half film",
     source="O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961), sign corrected",
     validity="long bearing (L/D >> 1); follows Guembel's film for |omega_s| >> |d epsilon/dt|; epsilon capped at .9999",
-    parameters=(
-        LawParameter("viscosity", r"\mu", "dynamic viscosity", VISCOSITY, None, ((">", 0.0),)),
-        LawParameter("extra_clearance", "e_t", "added to c in the film alone", LENGTH, 0.0, ((">=", 0.0),)),
-    ),
-    options=(
-        LawOption(
-            "as_printed", (False, True), False, "the radial force's sign as the paper's Eq. 12 prints it (wrong)"
+    fields=(
+        number("viscosity", "dynamic viscosity", VISCOSITY, symbol=r"\mu", required=True, bounds=(Bound(">", 0.0),)),
+        number(
+            "extra_clearance", "added to c in the film alone", LENGTH,
+            symbol="e_t", default=0.0, bounds=(Bound(">=", 0.0),),
         ),
-        LawOption("shear", (False, True), False, "shear torque, and the film's resultant at each pin centre"),
-        LawOption(
+        flag("as_printed", "the radial force's sign as the paper's Eq. 12 prints it (wrong)"),
+        flag("shear", "shear torque, and the film's resultant at each pin centre"),
+        word(
             "angular_velocity",
-            ("absolute", "relative"),
-            "absolute",
             "omega_i + omega_j; relative is the paper's omega_j - omega_i, which depends on the observer",
+            ("absolute", "relative"), "absolute",
         ),
     ),
     build=build,
-)
+)  # fmt: skip

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, Location
-from gudgeon.generator.yaml.shapes import OVERRIDE, FileShape
+from gudgeon.generator.field import MAPPING, SCALARS, VECTOR, Field
+from gudgeon.generator.format.sections import FILE
+from gudgeon.generator.format.shapes import OVERRIDE
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.suggestions import unknown_name
 
-# What the file must name itself: an override changes it and makes no new one.
-_COLLECTIONS = frozenset(
-    ("parameters", "materials", "bodies", "ground", "joints", "drives")
-    + ("forces", "bearings", "contacts", "events", "scenes", "outputs")
-)
 _AXES = {"x": 0, "y": 1}
 
 
@@ -27,16 +25,19 @@ def apply_overrides(root: Map, overrides: Mapping[str, str | float | bool]) -> M
     for address, value in overrides.items():
         parts = _parts(root, address)
         text = Text.make(_write(value, address), Location(OVERRIDE + address, 1, 1))
-        root = _put(root, parts, text, address, root, 0)
+        root = _put(root, parts, text, _Address(address, root), FILE, 0)
     return root
 
 
 def _parts(root: Map, address: str) -> list[str]:
     if address in root.get("parameters", ()):
         return ["parameters", address]
+    field: Field | None = FILE
     parts = address.split(".")
-    if parts[0] == "start" and len(parts) > 2:  # the key is the name of a coordinate: L7.theta
-        return [*parts[:2], ".".join(parts[2:])]
+    for i, part in enumerate(parts):
+        if field is not None and field.keys is not None:  # the rest is the name of a coordinate: L7.theta
+            return [*parts[:i], ".".join(parts[i:])]
+        field = field and field.below(part)
     return parts
 
 
@@ -53,40 +54,55 @@ def _write(value: object, address: str) -> str:
         raise BadValueError(message, None, "expected a number, a text or a bool") from None
 
 
-def _put(node: Any, parts: list[str], text: Text, address: str, root: Map, depth: int) -> Any:
-    """A copy of `node` with `text` at `parts`; what is not on the way is shared."""
+@dataclass(frozen=True)
+class _Address:
+    """What an override is called, and the file in which it is looked for."""
+
+    text: str
+    root: Map
+
+    def unknown(self) -> InputError:
+        known = [*_addresses(self.root), *self.root.get("parameters", ())]
+        return unknown_name("address", self.text, known, None)
+
+
+def _put(node: Any, parts: list[str], text: Text, address: _Address, field: Field | None, depth: int) -> Any:
+    """A copy of `node`, which `field` declares, with `text` at `parts`; what is not on the way is shared."""
     if not parts:
         if isinstance(node, (Map, Items)):
-            raise BadValueError(f"{address} is {kind_of(node)}", None, _inside(address, node))
+            raise BadValueError(f"{address.text} is {kind_of(node)}", None, _inside(address.text, node))
         return text
     head, rest = parts[0], parts[1:]
     if isinstance(node, Items):
         if head not in _AXES or _AXES[head] >= len(node):
-            raise _unknown(address, root)
+            raise address.unknown()
         i = _AXES[head]
-        return Items.make([*node[:i], _put(node[i], rest, text, address, root, depth + 1), *node[i + 1 :]], node.where)
+        return Items.make([*node[:i], _put(node[i], rest, text, address, None, depth + 1), *node[i + 1 :]], node.where)
     if not isinstance(node, Map):
-        raise _unknown(address, root)
+        raise address.unknown()
+    inner = field and field.below(head, node)
     if head in node:
         key, below = node.key(head), node[head]
     else:
-        if not _may_add(parts, depth, address):
-            raise _unknown(address, root)
-        key, below = Text.make(head, text.where), _new(rest, text.where)
-    return Map.make({**node, key: _put(below, rest, text, address, root, depth + 1)}, node.where)
+        if not _may_add(field, inner, parts, depth) or rest and inner is not None and inner.kind in SCALARS:
+            raise address.unknown()
+        key, below = Text.make(head, text.where), _new(inner, rest, text.where)
+    return Map.make({**node, key: _put(below, rest, text, address, inner, depth + 1)}, node.where)
 
 
-def _may_add(parts: list[str], depth: int, address: str) -> bool:
-    """Whether an override may bring in a key that the file has not: a default, an inherited number, an axis."""
-    section = address.partition(".")[0]
+def _may_add(field: Field | None, inner: Field | None, parts: list[str], depth: int) -> bool:
+    """Whether an override may bring in a key that the file has not: a default, an inherited number, an axis.
+
+    What a section names, the file must name itself. Deeper in, a key that nothing declares is told when it is read.
+    """
     if depth == 0:
-        return parts[0] in FileShape.model_fields and parts[0] not in _COLLECTIONS
-    return depth > 1 or section not in _COLLECTIONS or (section == "scenes" and parts[0] == "ideal")
+        return inner is not None and (inner.kind != MAPPING or len(parts) > 1 and parts[1] in inner.given)
+    return depth > 1 or field is None or field.kind != MAPPING or parts[0] in field.given
 
 
-def _new(rest: list[str], where: Location) -> Any:
-    """What holds a new text: a vector of zeros for .x and .y, else a mapping."""
-    if rest and rest[0] in _AXES:
+def _new(field: Field | None, rest: list[str], where: Location) -> Any:
+    """What holds a new text: a vector of zeros, or a mapping."""
+    if rest and field is not None and field.kind == VECTOR:
         return Items.make([Text.make("0", where), Text.make("0", where)], where)
     return Map.make((), where) if rest else Text.make("", where)
 
@@ -104,7 +120,3 @@ def _addresses(node: Any, prefix: str = "") -> Iterator[str]:
 
 def _inside(address: str, node: Map | Items) -> str:
     return f"expected one of: {', '.join(list(_addresses(node, address))[:8])}"
-
-
-def _unknown(address: str, root: Map) -> InputError:
-    return unknown_name("address", address, [*_addresses(root), *root.get("parameters", ())], None)

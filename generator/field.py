@@ -1,0 +1,148 @@
+"""One key of a mechanism file, declared once.
+
+The reader, `--set`, the JSON Schema and the tables of docs/format.md ask nothing else what a key may hold.
+Sections are declared in generator/format/sections.py, the rest in the files of generator/kinds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from gudgeon.language.units import DIMENSIONLESS, Dimension
+
+# what a field is
+NUMBER = "number"  # an expression with a dimension
+VECTOR = "vector"  # two of them
+WORD = "word"  # one of `values`
+FLAG = "flag"  # true or false
+TEXT = "text"
+NAME = "name"  # of an entry of the section `names`
+BODY = "body"  # a body or the ground
+RECORD = "record"  # a mapping with the keys `fields`
+MAPPING = "mapping"  # names, each with an `entry`
+KINDS = "kinds"  # a mapping with one key that is a kind, and that kind's fields
+LAW = "law"  # a mapping with `law:`, a kind, and that kind's fields
+SCALARS = frozenset((NUMBER, WORD, FLAG, TEXT, NAME, BODY))
+
+# what the expression of a number may use besides parameters
+OF_TIME = "t"
+OF_MOTION = "t, coordinates and velocities"
+OF_RESULTS = "t and anything that a result has"
+
+
+class Bound(NamedTuple):
+    """A condition: `relation` to a number, or to another field of the same mapping."""
+
+    relation: str  # ">" ">=" "<" "<="
+    limit: float | str
+    why: str = ""  # in a message: "a mass is positive"; {name} is the field's own. "": its meaning
+
+    def reason(self, field: Field, owner: str) -> str:
+        """What an error says of a number that breaks it."""
+        return self.why.format(name=field.name) if self.why else f"{field.meaning} ({owner})"
+
+
+POSITIVE = (Bound(">", 0.0, "{name} is positive"),)
+NOT_NEGATIVE = (Bound(">=", 0.0, "{name} is not negative"),)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of joint, drive, force or law: what its own key lists, and the keys beside it."""
+
+    title: str
+    fields: tuple[Field, ...]
+    targets: str = ""  # "points", "bodies" or "coordinates"; a law has none
+    counts: tuple[int, ...] = ()  # how many targets there may be
+
+
+@dataclass(frozen=True)
+class Field:
+    """A key, what it holds, and what that means in one sentence or less."""
+
+    name: str
+    kind: str  # one of those above
+    meaning: str
+    dimension: Dimension | None = DIMENSIONLESS  # None: any, or another key says which
+    required: bool = False
+    default: float | str | bool | None = None  # what the reader fills in (SI)
+    otherwise: str = ""  # what holds where nothing is written and nothing is filled in
+    bounds: tuple[Bound, ...] = ()
+    varies: str = ""  # what its expression may use besides parameters
+    whole: bool = False  # of a number: 1, 2, 3
+    nonzero: bool = False  # of a vector: not both components zero
+    values: tuple[str | bool, ...] = ()  # of a word; a flag has (False, True)
+    symbol: str = ""  # as in the literature, in LaTeX
+    names: str = ""  # the section that a name is of
+    fields: tuple[Field, ...] = ()
+    entry: Field | None = None
+    keys: Mapping[str, Dimension] | None = None  # of a mapping with keys BODY.key: which, and what dimension they have
+    given: tuple[str, ...] = ()  # names of a mapping that exist without being written
+    kinds: Callable[[], Mapping[str, Kind]] | None = None
+
+    @property
+    def any_dimension(self) -> bool:
+        """Whether its unit is not checked."""
+        return self.dimension is None
+
+    @property
+    def choice(self) -> str | bool:
+        """The default of a word, a flag or a body."""
+        assert isinstance(self.default, (str, bool)), self.name
+        return self.default
+
+    def below(self, name: str, node: Any = ()) -> Field | None:
+        """The field of the key `name` in what stands here; `node` is that, to see its kind. None: no such key."""
+        if self.kind == MAPPING:
+            return self.entry
+        return next((field for field in self.known(node) if field.name == name), None)
+
+    def known(self, node: Any = ()) -> tuple[Field, ...]:
+        """The keys that a mapping here may have: of the kinds that `node` names, or of all, if it names none."""
+        if self.kinds is None:
+            return self.fields
+        kinds = self.kinds()
+        chosen = [str(node["law"])] if self.kind == LAW and "law" in node else list(node)
+        return tuple(f for kind in [k for k in chosen if k in kinds] or kinds for f in kinds[kind].fields)
+
+
+def number(name: str, meaning: str, dimension: Dimension | None, **more: Any) -> Field:
+    """A number with a dimension; None: any."""
+    return Field(name, NUMBER, meaning, dimension, **more)
+
+
+def vector(name: str, meaning: str, dimension: Dimension | None, **more: Any) -> Field:
+    """Two numbers: [x, y]."""
+    return Field(name, VECTOR, meaning, dimension, **more)
+
+
+def word(name: str, meaning: str, words: Iterable[str], default: str) -> Field:
+    """One of some words."""
+    return Field(name, WORD, meaning, values=tuple(words), default=default)
+
+
+def flag(name: str, meaning: str) -> Field:
+    """true or false, which is the default."""
+    return Field(name, FLAG, meaning, values=(False, True), default=False)
+
+
+def body_or_ground(name: str, meaning: str) -> Field:
+    """A body, or the ground, which is the default."""
+    return Field(name, BODY, meaning, default="ground")
+
+
+def name_in(names: str, name: str, meaning: str, required: bool = True) -> Field:
+    """A name of an entry of the section `names`."""
+    return Field(name, NAME, meaning, names=names, required=required)
+
+
+def record(name: str, meaning: str, *fields: Field, required: bool = False) -> Field:
+    """A mapping with known keys."""
+    return Field(name, RECORD, meaning, fields=fields, required=required)
+
+
+def mapping(name: str, meaning: str, entry: Field, **more: Any) -> Field:
+    """Names of the user's, each with an `entry`."""
+    return Field(name, MAPPING, meaning, entry=entry, **more)

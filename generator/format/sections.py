@@ -1,0 +1,199 @@
+"""The sections of a mechanism file and their keys, each declared once.
+
+What is open to new files (joints, forces, laws) is declared by these; here it is asked for by `kinds`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from gudgeon.generator.field import (
+    KINDS,
+    LAW,
+    OF_MOTION,
+    OF_RESULTS,
+    TEXT,
+    WORD,
+    Bound,
+    Field,
+    Kind,
+    flag,
+    mapping,
+    name_in,
+    number,
+    record,
+    vector,
+    word,
+)
+from gudgeon.generator.kinds.drives import DRIVES
+from gudgeon.generator.kinds.forces.force_type import element_types
+from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.laws.law import laws
+from gudgeon.language.units import (
+    ACCELERATION,
+    DIMENSIONLESS,
+    INERTIA,
+    LENGTH,
+    MASS,
+    PRESSURE,
+    RATE,
+    TIME,
+    VELOCITY,
+    Dimension,
+)
+
+FORMAT = "gudgeon/1"
+IDEAL = "ideal"  # the scene without play
+
+COORDINATES: Mapping[str, Dimension] = {"x": LENGTH, "y": LENGTH, "theta": DIMENSIONLESS}
+RATES: Mapping[str, Dimension] = {"vx": VELOCITY, "vy": VELOCITY, "omega": RATE}
+
+
+def _joints() -> Mapping[str, Kind]:
+    return {kind: Kind(of.title, of.fields, of.joins, (2,)) for kind, of in joint_types().items()}
+
+
+def _forces() -> Mapping[str, Kind]:
+    return {kind: Kind(of.title, of.fields, of.targets, of.counts) for kind, of in element_types().items()}
+
+
+def _law(role: str, meaning: str) -> Field:
+    def kinds() -> Mapping[str, Kind]:
+        return {law.name: Kind(law.title, law.fields) for law in laws().values() if law.role == role}
+
+    return Field(role, LAW, meaning, kinds=kinds)
+
+
+MATERIAL = record(
+    "material", "an elastic material",
+    number("E", "Young's modulus", PRESSURE, required=True, bounds=(Bound(">", 0.0, "Young's modulus is positive"),)),
+    number(
+        "nu", "Poisson's ratio", DIMENSIONLESS, required=True,
+        bounds=(Bound(">", -1.0, "Poisson's ratio is above -1"), Bound("<", 0.5, "Poisson's ratio is below 0.5")),
+    ),
+)  # fmt: skip
+
+POINT = vector("point", "where it is", LENGTH)
+POINT_OF_GROUND = vector("point", "where it is, in ground axes", LENGTH)
+
+BODY = record(
+    "body", "a rigid body; with a length a bar, which has its origin at the tail and its x axis towards the head",
+    number("mass", "mass", MASS, required=True, bounds=(Bound(">", 0.0, "a mass is positive"),)),
+    number(
+        "inertia", "moment of inertia about the centre of mass", INERTIA, required=True,
+        bounds=(Bound(">", 0.0, "a moment of inertia is positive"),),
+    ),
+    number(
+        "length", "length of a bar, from tail to head", LENGTH, otherwise="it is no bar",
+        bounds=(Bound(">", 0.0, "a length is positive"),),
+    ),
+    vector("com", "centre of mass, in the body's frame", LENGTH, otherwise="mid-length of a bar, else the origin"),
+    mapping("points", "points by name, in the body's frame", POINT),
+)  # fmt: skip
+
+BEARING = record(
+    "bearing", "a pin in a hole",
+    number(
+        "radius", "radius of the hole", LENGTH, required=True,
+        bounds=(Bound(">", 0.0, "a bearing's radius is positive"),),
+    ),
+    number(
+        "clearance", "radial clearance: radius of the hole − radius of the pin", LENGTH, required=True,
+        bounds=(
+            Bound(">", 0.0, "a clearance is positive"),
+            Bound("<", "radius", "a clearance is smaller than the bearing's radius"),
+        ),
+    ),
+    number(
+        "length", "length of the pin in the hole", LENGTH, required=True,
+        bounds=(Bound(">", 0.0, "a bearing's length is positive"),),
+    ),
+    name_in("materials", "bearing_material", "of the hole"),
+    name_in("materials", "journal_material", "of the pin"),
+)  # fmt: skip
+
+CONTACT = record(
+    "contact", "what happens between journal and bearing: a normal law, a film, or both",
+    name_in("contacts", "extends", "contact whose keys it has where it has none of its own", required=False),
+    _law("normal", "law of the normal force"),
+    _law("friction", "law of dry friction"),
+    _law("film", "law of the oil film"),
+    number(
+        "transition", "length over which the film hands over to the dry contact; where there are both", LENGTH,
+        bounds=(Bound(">", 0.0, "the width of a transition is positive"),),
+    ),
+    flag("clip_ratio", "whether the law sees δ̇/δ̇⁻ within −1 and 1 only"),
+    number(
+        "velocity_floor", "least δ̇⁻ that an onset of contact stores", VELOCITY, otherwise="1e-6 m/s",
+        bounds=(Bound(">", 0.0, "the least impact velocity is positive"),),
+    ),
+)  # fmt: skip
+
+EVENT = record(
+    "event", "a run is watched for an expression that crosses zero",
+    number("zero", "the expression", None, required=True, varies=OF_MOTION),
+    word("direction", "which crossings count", ("both", "rising", "falling"), "both"),
+    word("action", "whether the run goes on", ("record", "stop"), "record"),
+)  # fmt: skip
+
+SIMULATE = record(
+    "simulate", "how this scene is run unless the run is told otherwise",
+    number(
+        "t_end", "time at which the run ends", TIME, otherwise="1 s",
+        bounds=(Bound(">", 0.0, "a time span is positive"),),
+    ),
+    number(
+        "output", "number of equal intervals of output", DIMENSIONLESS, otherwise="1000", whole=True,
+        bounds=(Bound(">=", 1.0, "a run has at least one interval of output"),),
+    ),
+    number(
+        "step", "length of the steps of rk4", TIME, otherwise="as long as is stable, by an estimate",
+        bounds=(Bound(">", 0.0, "a time span is positive"),),
+    ),
+)  # fmt: skip
+
+PLAY = record(
+    "play", "the play in a joint",
+    name_in("bearings", "bearing", "its measures"),
+    name_in("contacts", "contact", "its laws"),
+)  # fmt: skip
+
+SCENE = record(
+    "scene", "which joints have play, and what goes with that",
+    name_in("scenes", "extends", "scene whose entries it has besides its own", required=False),
+    mapping("play", "joints with play", PLAY),
+    mapping("parameters", "parameters that have another value here", number("value", "the value here", None)),
+    mapping("events", "events of this scene, besides the file's", EVENT),
+    SIMULATE,
+)  # fmt: skip
+
+START = record(
+    "start", "how the motion begins: coordinates and velocities of centres of mass",
+    mapping("guess", "coordinates that pick the branch", number("value", "about where", None), keys=COORDINATES),
+    mapping("set", "coordinates that are held exactly", number("value", "where", None), keys=COORDINATES),
+    mapping("rates", "velocities that drives leave free", number("value", "how fast", None), keys=RATES),
+)  # fmt: skip
+
+OUTPUT = number("value", "what it is at each time", None, varies=OF_RESULTS)
+
+FILE = record(
+    "file", "a mechanism",
+    Field("format", WORD, "the version of this format", values=(FORMAT,), required=True),
+    name_in("", "name", "the mechanism's name"),
+    Field("title", TEXT, "one line for people", otherwise="the name"),
+    vector("gravity", "acceleration, in ground axes", ACCELERATION, otherwise="none"),
+    mapping("parameters", "numbers by name, for every expression", number("value", "the number", None)),
+    mapping("materials", "materials by name", MATERIAL),
+    mapping("bodies", "bodies by name: one at least", BODY, required=True),
+    mapping("ground", "points of the ground by name", POINT_OF_GROUND),
+    mapping("joints", "joints by name", Field("joint", KINDS, "one kind and its keys", kinds=_joints)),
+    mapping("drives", "drives by name", Field("drive", KINDS, "one kind and its keys", kinds=lambda: DRIVES)),
+    mapping("forces", "force elements by name", Field("force", KINDS, "one kind and its keys", kinds=_forces)),
+    START,
+    mapping("bearings", "bearings by name", BEARING),
+    mapping("contacts", "contacts by name", CONTACT),
+    mapping("events", "events of every scene by name", EVENT),
+    mapping("scenes", "scenes by name; ideal, without play, is always there", SCENE, given=(IDEAL,)),
+    mapping("outputs", "further results by name", OUTPUT),
+)  # fmt: skip
+SECTIONS: Mapping[str, Field] = {field.name: field for field in FILE.fields}

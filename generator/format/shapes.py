@@ -1,0 +1,185 @@
+"""The check of a file's shape by its declaration: which keys there are, and what is text, list or mapping.
+
+Findings come out as our errors, at the place in the file. What is open to new files (joints, drives, forces, laws)
+is some mapping here: the reader checks it, once it knows the kind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+from gudgeon.errors import BadValueError, InputError, InputErrors, Location, MissingKeyError, UnknownKeyError
+from gudgeon.generator.field import KINDS, LAW, MAPPING, RECORD, SCALARS, VECTOR, Field
+from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
+from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.language.suggestions import known_hint, nearest, unknown_name
+
+MOST_FINDINGS = 50
+OVERRIDE = "override of "  # the "file" of a text that comes from an override
+ANY_NAME = "*"  # left out is a section whose names nobody knows
+
+Path = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Checked:
+    """The file without the entries that are wrong in `errors`; `left_out` are their names."""
+
+    root: Map
+    errors: tuple[InputError, ...] = ()
+    left_out: frozenset[str] = frozenset()
+
+
+def check_shape(root: Map) -> Checked:
+    """What can be read of a file, and what is wrong with the shape of the rest.
+
+    Raises UnknownKeyError, MissingKeyError, BadValueError, or several at once, if nothing can be read.
+    """
+    check_format(root)
+    # a section with nothing in it (all of it commented out) is as good as none
+    sections = {k: v for k, v in root.items() if not (isinstance(v, Text) and v.is_nothing and k in _MAY_BE_EMPTY)}
+    document = Map.make(sections, root.where)
+    errors: list[InputError] = []
+    left_out: set[str] = set()
+    while len(errors) < MOST_FINDINGS:
+        findings = list(islice(_findings(FILE, document, ()), MOST_FINDINGS))
+        if not findings:
+            return Checked(document, tuple(errors), frozenset(left_out))
+        errors += _errors(findings, document)
+        if any(found.path[0] in _NEEDED and len(found.path) == 1 for found in findings):
+            break
+        for found in findings:
+            document = _without(document, found, left_out)
+    raise errors[0] if len(errors) == 1 else InputErrors(errors)
+
+
+_NEEDED = frozenset(field.name for field in FILE.fields if field.required)
+_MAY_BE_EMPTY = frozenset(field.name for field in FILE.fields if not field.required and field.kind not in SCALARS)
+
+
+def check_format(root: Map) -> None:
+    """Raise unless the file says that it is of this format: another version has other keys."""
+    found = root.get("format")
+    if found is None:
+        raise MissingKeyError("no format", root.where, f"expected the key format: {FORMAT}")
+    if found != FORMAT:
+        raise BadValueError(f"format is {kind_of(found)}", found.where, f"expected {FORMAT}")
+
+
+@dataclass(frozen=True)
+class _Finding:
+    """Something wrong at `path`: a key that is missing, one that is unknown, or not what was `wanted`."""
+
+    path: Path
+    wanted: str = ""
+    unknown: tuple[str, ...] | None = None  # the keys that are known instead
+    missing: bool = False
+
+
+_TWO = "two: [x, y]"
+
+
+def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
+    """What is wrong in the shape of a node, in the order of the declaration."""
+    if field.kind in SCALARS:
+        if not isinstance(node, Text):
+            yield _Finding(path, "a number or a text")
+    elif field.kind == VECTOR:
+        yield from _in_vector(node, path)
+    elif not isinstance(node, Map):
+        yield _Finding(path, "a mapping")
+    elif field.kind == RECORD:
+        for below in field.fields:
+            if below.name in node:
+                yield from _findings(below, node[below.name], (*path, below.name))
+            elif below.required:
+                yield _Finding((*path, below.name), missing=True)
+        known = tuple(below.name for below in field.fields)
+        yield from (_Finding((*path, key), unknown=known) for key in node if key not in known)
+    elif field.kind == MAPPING and field.entry is not None:
+        for name, entry in node.items():
+            yield from _findings(field.entry, entry, (*path, name))
+    else:
+        assert field.kind in (KINDS, LAW)
+
+
+def _in_vector(node: Any, path: Path) -> Iterator[_Finding]:
+    if not isinstance(node, Items):
+        yield _Finding(path, "a list of two: [x, y]")
+    elif len(node) != 2:
+        yield _Finding(path, _TWO)
+    else:
+        yield from (_Finding((*path, i), "a number or a text") for i in (0, 1) if not isinstance(node[i], Text))
+
+
+def _without(document: Map, finding: _Finding, left_out: set[str]) -> Map:
+    """The file without an unknown key, or without the whole entry in which something is wrong."""
+    path = finding.path
+    if finding.unknown is None:
+        section = SECTIONS.get(str(path[0]))
+        path = path[:2] if section is not None and section.kind == MAPPING else path[:1]
+        if len(path) == 2:
+            left_out.add(str(path[1]))
+    if len(path) == 1:
+        whole = document.get(str(path[0]))
+        left_out.update(whole if isinstance(whole, Map) else (ANY_NAME,))
+    return _remove(document, path)
+
+
+def _remove(node: Map, path: Path) -> Map:
+    head, rest = str(path[0]), path[1:]
+    if head not in node or rest and not isinstance(node[head], Map):
+        return node
+    if rest:
+        return Map.make({**node, node.key(head): _remove(node[head], rest)}, node.where)
+    return Map.make({key: value for key, value in node.items() if key != head}, node.where)
+
+
+def _errors(findings: Sequence[_Finding], document: Map) -> list[InputError]:
+    """Our errors; a missing key is not told where a mistyped one stands in its place."""
+    mistyped = {(*f.path[:-1], nearest(str(f.path[-1]), f.unknown)) for f in findings if f.unknown is not None}
+    return [_error(f, document) for f in findings if not (f.missing and f.path in mistyped)]
+
+
+def _error(finding: _Finding, document: Map) -> InputError:
+    """One finding as an error at its place."""
+    path, owner = finding.path, finding.path[:-1]
+    if finding.unknown is not None:
+        key = _walk(document, owner).key(str(path[-1]))
+        return unknown_key(key, finding.unknown, _title(owner))
+    if finding.missing:
+        return missing_key(str(path[-1]), _walk(document, owner).where, _title(owner))
+    node = _walk(document, path)
+    place = node.where
+    if isinstance(node, Text) and node.is_nothing and path and isinstance(path[-1], str):
+        place = _walk(document, owner).key(path[-1]).where  # nothing has no place of its own
+    what = f"has {len(node)} components" if finding.wanted == _TWO else f"is {kind_of(node)}"
+    return BadValueError(f"{_title(path)} {what}", place, f"expected {finding.wanted}")
+
+
+def unknown_key(key: Text, known: Iterable[str], owner: str) -> InputError:
+    """The error for a key that its mapping does not know; for an override's address, UnknownNameError."""
+    if key.where.file.startswith(OVERRIDE):
+        address = key.where.file.removeprefix(OVERRIDE)
+        return unknown_name("address", address, [f"{address.rpartition('.')[0]}.{name}" for name in known], None)
+    return UnknownKeyError(f"unknown key {str(key)[:60]!r} in {owner}", key.where, known_hint(key, known, 20))
+
+
+def missing_key(name: str, where: Location, owner: str) -> MissingKeyError:
+    """The error for a key that a mapping needs."""
+    return MissingKeyError(f"{owner} has no {name}", where, f"expected the key {name!r}")
+
+
+def _title(path: Path) -> str:
+    return ".".join(str(part) for part in path) or "the file"
+
+
+def _walk(node: Any, path: Path) -> Any:
+    for part in path:
+        if not isinstance(node, (Map, Items)):
+            return node
+        node = node[part]  # type: ignore[index]
+    return node

@@ -1,0 +1,74 @@
+"""Resolves what a file says of places: `body`, `body.point` and `body.coordinate`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+
+from gudgeon.errors import BadValueError, InputError, Location
+from gudgeon.generator.mechanism.mechanism import GROUND, Body, PointRef, Vector
+from gudgeon.generator.yaml.tree import Text, kind_of
+from gudgeon.language.suggestions import known_hint, unknown_name
+from gudgeon.language.units import Dimension
+
+IMPLIED_POINTS = ("origin", "com", "tail", "head")
+
+
+class Places:
+    """Resolves `body` and `body.point`."""
+
+    def __init__(self, bodies: Mapping[str, Body], ground: Mapping[str, Vector]) -> None:
+        self.bodies, self.ground = bodies, ground
+
+    def points(self, body: str) -> list[str]:
+        """The points of a body, the user's first; KeyError for no body."""
+        if body == GROUND:
+            return list(self.ground)
+        bar = self.bodies[body].length is not None
+        implied = IMPLIED_POINTS if bar else IMPLIED_POINTS[:2]
+        return [*(p for p in self.bodies[body].points if p not in implied), *reversed(implied)]
+
+    def check_body(self, name: str, where: Location) -> str:
+        """The name of a body or `ground`. Raises UnknownNameError."""
+        if name not in self.bodies and name != GROUND:
+            raise unknown_name("body", name, (*self.bodies, GROUND), where)
+        return str(name)
+
+    def point(self, text: object, where: Location) -> PointRef:
+        """`L1.head` as a reference. Raises BadValueError or UnknownNameError at the part that is wrong."""
+        if not isinstance(text, Text) or text.count(".") != 1:
+            hint = "expected body.point, such as L1.head or ground.O1"
+            with suppress(InputError, KeyError):
+                body = self.check_body(str(text), where)
+                hint = f"expected one of: {', '.join(f'{body}.{p}' for p in self.points(body))}"
+            raise BadValueError(f"{kind_of(text)} is no point", getattr(text, "where", where), hint)
+        body, _, point = text.partition(".")
+        self.check_body(body, text.where)
+        known = self.points(body)
+        if point not in known:
+            place = Location(text.where.file, text.where.line, text.where.column + len(body) + 1)
+            raise unknown_name(f"point of {body}", point, known, place)
+        return PointRef(body, point, text.where)
+
+    def body(self, text: object, where: Location) -> PointRef:
+        """A body as a reference to its centre of mass, the ground as one to no point in particular."""
+        if not isinstance(text, Text):
+            raise BadValueError(f"{kind_of(text)} is no body", where, known_hint("", (*self.bodies, GROUND)))
+        name = self.check_body(text, where)
+        return PointRef(str(name), "" if name == GROUND else "com", where)
+
+    def names(self) -> Iterator[str]:
+        """Every point: "L1.head"."""
+        for body in (*self.bodies, GROUND):
+            yield from (f"{body}.{point}" for point in self.points(body))
+
+
+def coordinate_of(key: str, known: Mapping[str, Dimension], places: Places, where: Location) -> Dimension:
+    """The dimension of "L7.theta". Raises UnknownNameError at the part that is wrong."""
+    body, _, coordinate = key.partition(".")
+    if body not in places.bodies:
+        raise unknown_name("body", body, places.bodies, where)
+    if coordinate not in known:
+        place = Location(where.file, where.line, where.column + len(body) + 1)
+        raise unknown_name(f"coordinate of {body}", coordinate, known, place)
+    return known[coordinate]

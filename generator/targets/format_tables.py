@@ -1,0 +1,100 @@
+"""The tables of docs/format.md: every key that a file may have, from the declarations that the reader reads by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from gudgeon.generator.field import BODY, FLAG, KINDS, LAW, MAPPING, NAME, NUMBER, RECORD, VECTOR, WORD, Field, Kind
+from gudgeon.generator.format.sections import FILE
+from gudgeon.language.units import Dimension, si_unit
+
+Row = tuple[str, ...]
+_HEAD = ("key", "holds", "without it", "condition", "meaning")
+
+
+def tables() -> str:
+    """All tables as Markdown, a heading each."""
+    return "\n".join(_of_record("The file", FILE, "", set()))
+
+
+def _of_record(heading: str, of: Field, path: str, seen: set[str]) -> Iterator[str]:
+    """The table of a mapping with known keys, then those of what it holds."""
+    seen.add(of.name)
+    yield from _table(heading, of.meaning, _HEAD, [_row(field) for field in of.fields])
+    for field in of.fields:
+        inner, place = field, f"{path}{field.name}"
+        if field.kind == MAPPING and field.entry is not None:
+            inner, place = field.entry, f"{place}.NAME"
+        if inner.kind == RECORD and inner.name not in seen:
+            yield from _of_record(f"`{place}`", inner, f"{place}.", seen)
+        elif inner.kinds is not None:
+            yield from _of_kinds(f"`{place}`", inner)
+
+
+def _of_kinds(heading: str, of: Field) -> Iterator[str]:
+    """The table of what is one of several kinds: a row a kind, then one for each of its keys."""
+    rows: list[Row] = []
+    for name, kind in of.kinds().items() if of.kinds else ():
+        itself = ("`law`", f"`{name}`") if of.kind == LAW else (f"`{name}`", _targets(kind))
+        rows.append((f"`{name}`", *itself, "needed", "", kind.title))
+        rows += [("", *_row(field)) for field in kind.fields]
+    yield from _table(heading, of.meaning, ("kind", *_HEAD), rows)
+
+
+def _table(heading: str, meaning: str, head: Row, rows: Sequence[Row]) -> Iterator[str]:
+    yield from (f"## {heading}", "", f"{meaning[0].upper()}{meaning[1:]}.", "")
+    yield from (_line(head), "|" + "---|" * len(head), *map(_line, rows), "")
+
+
+def _line(cells: Row) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
+def _row(field: Field) -> Row:
+    return f"`{field.name}`", _holds(field), _without(field), _condition(field), field.meaning
+
+
+def _holds(field: Field) -> str:
+    if field.kind == NUMBER:
+        return f"number, {_unit(field.dimension)}" + (f"; of {field.varies}" if field.varies else "")
+    if field.kind == VECTOR:
+        return f"[x, y], {_unit(field.dimension)}" + (f"; of {field.varies}" if field.varies else "")
+    if field.kind in (WORD, FLAG):
+        return " or ".join(f"`{_word(value)}`" for value in field.values)
+    if field.kind == NAME:
+        return f"name in `{field.names}`" if field.names else "name"
+    if field.kind == MAPPING:
+        entry = field.entry.kind if field.entry else ""
+        if field.keys:
+            return "numbers: " + ", ".join(f"`BODY.{key}`, {_unit(of)}" for key, of in field.keys.items())
+        return f"names: {_holds(field.entry) if field.entry and entry in (NUMBER, VECTOR) else 'mappings'}"
+    return {RECORD: "mapping", KINDS: "mapping", LAW: "mapping", BODY: "body or `ground`"}.get(field.kind, field.kind)
+
+
+def _unit(of: Dimension | None) -> str:
+    if of is None:
+        return "any unit"
+    return si_unit(of) or "no unit or an angle"
+
+
+def _targets(kind: Kind) -> str:
+    one = {"points": "BODY.POINT", "bodies": "BODY", "coordinates": "BODY.x, .y or .theta"}[kind.targets]
+    return " or ".join(one if count == 1 else f"[{', '.join([one] * count)}]" for count in kind.counts)
+
+
+def _without(field: Field) -> str:
+    if field.required:
+        return "needed"
+    if field.default is not None:
+        return f"`{_word(field.default)}`"
+    return field.otherwise
+
+
+def _word(value: float | str | bool) -> str:
+    return str(value).lower() if isinstance(value, bool) else f"{value:g}" if isinstance(value, float) else value
+
+
+def _condition(field: Field) -> str:
+    limits = (f"`{limit}`" if isinstance(limit, str) else f"{limit:g}" for _, limit, _ in field.bounds)
+    found = [f"{bound.relation} {limit}" for bound, limit in zip(field.bounds, limits, strict=True)]
+    return ", ".join([*found, *(["not both 0"] if field.nonzero else []), *(["whole"] if field.whole else [])])
