@@ -208,10 +208,11 @@ def _defaults() -> dict[str, Any]:
     """What is not said where it is as usual: nothing, mostly."""
     usual = {field.name: field.default for field in fields(KernelSource) if field.default is not MISSING}
     plain = {name: list(value) if isinstance(value, tuple) else value for name, value in usual.items()}
-    lists = ("rows", "joints", "drives", "clearances", "series", "start_rows", "start_guess", "start_set",
-             "start_rates", "frictions", "pivots", "start_pivots", "rate_jumps", "indeterminate", "derived", "conditions",
-             "notes")  # fmt: skip
-    nothing = {**dict.fromkeys(lists, []), **dict.fromkeys(("files", "outputs", "simulate"), {})}
+    lists = (
+        "rows", "joints", "drives", "clearances", "series", "start_rows", "start_guess", "start_set", "start_rates",
+        "frictions", "pivots", "start_pivots", "rate_jumps", "indeterminate", "derived", "conditions", "notes",
+    )  # fmt: skip
+    nothing: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in ("files", "outputs", "simulate")}
     return {"main": "scene.c", **nothing, **plain, "story": {}}
 
 
