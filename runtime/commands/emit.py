@@ -1,9 +1,9 @@
-"""`gudgeon emit`: the generated C as files, a folder a scene."""
+"""`gudgeon emit`: the generated C as files, a folder a scene, and the engine beside them."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
@@ -12,28 +12,50 @@ from gudgeon.commands.common import check_folder, chosen_scenes
 from gudgeon.commands.progress import status_line
 from gudgeon.errors import InputError
 from gudgeon.files.writing import PART, Aside, read_regular
+from gudgeon.loading.engine import engine_files
 from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
 from gudgeon.loading.shipped import REST
 
+ENGINE = "engine"  # the folder of what all scenes share
 LIST = "emitted.sha256"  # what was written, as `sha256sum -c` reads it
 _LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a name is plain: it leads nowhere else
 
 
 def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
-    """Write `folder/<scene>/*.c, *.h, kernel.json`; nothing is written if any folder holds something else."""
+    """Write `folder/<scene>/*` and `folder/engine/*`; nothing is written if any folder holds something else."""
     check_folder("--out", folder)
-    scenes = chosen_scenes(mechanism, wanted)
+    scenes, rooms = chosen_scenes(mechanism, wanted), _rooms()
+    if ENGINE in scenes:
+        told = f"scene {ENGINE!r} cannot be emitted: the folder of that name holds what all scenes share"
+        raise InputError(told, hint="give the scene another name, or emit others with --scene")
     for scene in scenes:
         refuse_foreign(folder / scene)
+    for room in rooms:
+        refuse_foreign(folder / room, {inner.rpartition("/")[2] for inner in rooms if inner.startswith(f"{room}/")})
     file = find_mechanism(mechanism)
     data = read_bytes(file)
+    needs_engine = False
     for scene in scenes:
         with status_line():
             source, _ = kernel_source(data, file, scene)
         texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
         _write(folder / scene, {name: text.encode() for name, text in texts.items()})
         print(f"wrote {folder / scene}: {', '.join(texts)}")
+        needs_engine |= not source.cdef
+    if needs_engine:
+        for room, texts in rooms.items():
+            _write(folder / room, {name: text.encode() for name, text in texts.items()})
+        print(f"wrote {folder / ENGINE}: what all scenes share")
     return 0
+
+
+def _rooms() -> dict[str, dict[str, str]]:
+    """The engine's texts by folder, "engine/run", and name; a folder before those in it."""
+    rooms: dict[str, dict[str, str]] = {}
+    for path, text in sorted(engine_files().items()):
+        room, _, name = path.rpartition("/")
+        rooms.setdefault(room, {})[name] = text
+    return dict(sorted(rooms.items()))
 
 
 def _write(folder: Path, texts: dict[str, bytes]) -> None:
@@ -72,8 +94,11 @@ def _listed(folder: Path) -> dict[str, set[str]]:
     return found
 
 
-def refuse_foreign(folder: Path) -> None:
-    """InputError if the folder holds anything but what an earlier `emit` has written there, unchanged."""
+def refuse_foreign(folder: Path, inner: Collection[str] = ()) -> None:
+    """InputError if the folder holds anything but what an earlier `emit` has written there, unchanged.
+
+    `inner`: folders in it that are looked at by themselves.
+    """
     try:
         if folder.is_symlink():
             raise InputError(f"{folder} is a link: nothing is written through it", hint="name another folder")
@@ -85,7 +110,8 @@ def refuse_foreign(folder: Path) -> None:
         if not listed and read_regular(folder / LIST):
             told = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
             raise InputError(told, hint="put the list back as it was, remove the folder, or name another one")
-        foreign = sorted(path.name for path in folder.iterdir() if not _is_own(path, listed))
+        own = (path.name for path in folder.iterdir() if _is_own(path, listed) or _is_folder(path, inner))
+        foreign = sorted({path.name for path in folder.iterdir()} - set(own))
     except OSError as error:
         raise InputError(f"{folder} cannot be read: {error.strerror or error}", hint="name another folder") from error
     own = [name for name in foreign if name in listed]
@@ -95,6 +121,10 @@ def refuse_foreign(folder: Path) -> None:
     if foreign:
         foreign, hint = [name for name in foreign if name not in listed], "move them away or name another folder"
         raise InputError(f"{folder} holds files that `emit` did not write so: {', '.join(foreign[:5])}", hint=hint)
+
+
+def _is_folder(path: Path, names: Collection[str]) -> bool:
+    return path.name in names and path.is_dir() and not path.is_symlink()
 
 
 def _is_own(path: Path, listed: Mapping[str, set[str]]) -> bool:

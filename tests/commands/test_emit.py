@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import subprocess
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,8 @@ from gudgeon.commands import emit
 from gudgeon.commands.emit import LIST, emit_c, refuse_foreign
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, InputError, OutputError
+from gudgeon.loading.compiler import find_compiler
+from gudgeon.loading.engine import engine_files
 from tests.tiny import tiny
 
 
@@ -170,7 +173,7 @@ def test_a_list_that_was_altered_is_what_is_told(tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
         refuse_foreign(tmp_path / "ideal")
     assert str(caught.value).startswith(f"{file} is no list")
-    assert "asked.c" not in str(caught.value)
+    assert "dynamics.c" not in str(caught.value)
     line = next(each for each in good.splitlines() if each.endswith("  model.h"))
     file.write_text(good.replace(line, "0" * 64 + "  model.h"))
     with pytest.raises(InputError, match=rf": model.h and the checksums in {LIST} differ: files or list were changed"):
@@ -178,3 +181,27 @@ def test_a_list_that_was_altered_is_what_is_told(tmp_path: Path) -> None:
     (tmp_path / "ideal" / "mine.txt").write_text("x")
     with pytest.raises(InputError, match=r"did not write so: mine\.txt\n"):
         refuse_foreign(tmp_path / "ideal")
+
+
+def test_the_engine_is_written_once_beside_the_scenes(tmp_path: Path) -> None:
+    """What was emitted compiles by itself; again is no change; another's file in any of the engine's folders is kept."""
+    emit_c("pendulum", tmp_path, ())
+    before = contents(tmp_path)
+    texts = {name: text.encode() for name, text in engine_files().items()}
+    assert texts == {name: before[name] for name in before if name.startswith("engine/") and not name.endswith(LIST)}
+    flags = ["-std=c11", "-O1", "-ffp-contract=off", "-fPIC", "-shared", "-I.", "-I.."]
+    for scene in ("ideal", "two_seconds"):
+        command = [*find_compiler(), *flags, "scene.c", "../engine/engine.c", "-lm", "-o", os.devnull]
+        done = subprocess.run(command, cwd=tmp_path / scene, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr[:2000]
+    emit_c("pendulum", tmp_path, ("ideal",))
+    assert contents(tmp_path) == before
+    (tmp_path / "engine" / "run" / "mine.c").write_text("mine")
+    with pytest.raises(InputError, match=r"engine/run holds files that `emit` did not write so: mine\.c"):
+        emit_c("pendulum", tmp_path, ())
+
+
+def test_a_scene_that_is_called_as_the_engines_folder(source: list[KernelSource], tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="scene 'engine' cannot be emitted"):
+        emit_c("x.yaml", tmp_path / "c", ("dry", "engine"))
+    assert not (tmp_path / "c").exists()
