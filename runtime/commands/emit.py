@@ -110,8 +110,8 @@ def refuse_foreign(folder: Path, inner: Collection[str] = ()) -> None:
         if not listed and read_regular(folder / LIST):
             told = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
             raise InputError(told, hint="put the list back as it was, remove the folder, or name another one")
-        own = (path.name for path in folder.iterdir() if _is_own(path, listed) or _is_folder(path, inner))
-        foreign = sorted({path.name for path in folder.iterdir()} - set(own))
+        kept = (path.name for path in folder.iterdir() if _is_own(path, listed) or _is_folder(path, inner))
+        foreign = sorted({path.name for path in folder.iterdir()} - set(kept))
     except OSError as error:
         raise InputError(f"{folder} cannot be read: {error.strerror or error}", hint="name another folder") from error
     own = [name for name in foreign if name in listed]

@@ -184,7 +184,7 @@ def test_a_list_that_was_altered_is_what_is_told(tmp_path: Path) -> None:
 
 
 def test_the_engine_is_written_once_beside_the_scenes(tmp_path: Path) -> None:
-    """What was emitted compiles by itself; again is no change; another's file in any of the engine's folders is kept."""
+    """What was emitted compiles by itself; emitted again it is the same; a file of another in its folders is kept."""
     emit_c("pendulum", tmp_path, ())
     before = contents(tmp_path)
     texts = {name: text.encode() for name, text in engine_files().items()}
