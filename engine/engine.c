@@ -17,8 +17,7 @@
 #include "watch/jumps.c"
 #endif
 #include "methods/rk4.c"
-#include "methods/dop853.c"
-#include "methods/rodas5p.c"
+#include "methods/methods.c"
 #include "watch/roots.c"
 #include "watch/pulses.c"
 #if !N_WATCHED

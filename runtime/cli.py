@@ -15,6 +15,7 @@ from typing import Annotated, Any, TypeVar
 
 import typer
 
+from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 from gudgeon.errors import GudgeonError, MemoryShortage
 from gudgeon.language.shown import visible
 
@@ -112,8 +113,8 @@ def run(
         typer.Option(parser=_whole(1), metavar="COUNT", help="Equal output intervals. [default: the scene's]"),
     ] = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
-    method: Annotated[str, typer.Option(help="auto, rk4, dop853, rodas5p, kinematic, scipy:Radau …")] = "auto",
-    rtol: Annotated[str | None, typer.Option(help="Tolerance of a step of auto, dop853, rodas5p: 1e-8.")] = None,
+    method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …")] = "auto",
+    rtol: Annotated[str | None, typer.Option(help=f"Tolerance of a step of auto, {', '.join(CHOOSING)}: 1e-8.")] = None,
     watch: Annotated[
         list[str] | None,
         typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
@@ -229,7 +230,7 @@ def bench(
     quick: Quick = False, mark: Mark = None,
     methods: Annotated[
         list[str] | None,
-        typer.Option("--methods", metavar="NAMES", help="Only these: auto,dop853,rodas5p,rk4,scipy:*,sundials:cvode."),
+        typer.Option("--methods", metavar="NAMES", help=f"Only these: {','.join(OFFERED)},scipy:*,sundials:cvode."),
     ] = None,
     json: Json = False,
 ) -> int:  # fmt: skip
@@ -251,7 +252,7 @@ def bench(
 @_told
 def stress(
     file: File, scene: Scenes = None, set_: Set = None,
-    method: Annotated[str, typer.Option(help="auto, dop853, rodas5p, rk4.")] = "auto",
+    method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}.")] = "auto",
     at: Annotated[
         str | None, typer.Option("--at", help="Step or tolerance where no axis is one. [default: 1e-8, or the scene's]")
     ] = None,

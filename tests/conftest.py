@@ -61,7 +61,7 @@ def make_source(scene: str) -> KernelSource:
         rows=tuple(rows), joints=(guide,) if play else (guide, ideal_joint), drives=(DriveInfo("crank", 0, "rad"),),
         clearances=(ClearanceInfo("A", 0, 1, "S9.origin", True, False, 2, {"K": 4}),) if play else (),
         series=(), start_rows=(), start_guess=(), start_set=(), start_rates=(),
-        frictions=(), methods=("rk4",), pivots=(), start_pivots=(),
+        frictions=(), pivots=(), start_pivots=(),
         rate_jumps=(), indeterminate=(), slots=tuple(slots),
         derived=("half_L1", "A.K"), conditions=(),
         outputs={"lift": ["+", "S9.y", RADIUS], "speed": ["*", "omega", ["/", "bodies.L1.length", 2.0]]},

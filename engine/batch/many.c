@@ -23,7 +23,7 @@ static int start_run(const Batch *b, long i, Run *run)
     gudgeon_run_stop(run, b->stop);
     gudgeon_run_asks(run, is_ending, (void *)b, GLANCE);
     if (b->choice >= 0)
-        gudgeon_adaptive_setup(run, b->choice, b->scale + i * 2 * N_X, b->least + 2 * i, b->fixed);
+        gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i, b->fixed);
     return 0;
 }
 

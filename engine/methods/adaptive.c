@@ -2,13 +2,9 @@
  * Methods that choose their step: error control by component, projection, events, samples from the interpolant,
  * and the choice between the explicit and the stiff method from what the steps themselves measure.
  */
-enum { STIFF = 1, AUTOMATIC = 2, BEGIN_STIFF = 3, MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
+enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
     SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
-/* h rho beyond which an explicit step is not taken: at h rho = 5.65 the estimate of order 5 vanishes for a decaying
- * mode, at 6.4 the mode grows (both are zeros of polynomials that follow from the coefficients) */
-#define UNSTABLE 4.8
 #define LONG_RUN 1e4  /* s: an end further away than this says nothing about the shortest step that makes sense */
-#define BOUNDED 4.0   /* h rho at which stability bounds its steps */
 #define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
 #define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
@@ -32,7 +28,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     run->stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->stuck + 1 : 0;
     run->t = t_new;
     run->steps++;
-    run->stiff_steps += step->stiff;
+    run->stiff_steps += step->method->stiff;
     run->ended[event < 0 ? N_MARGINS : event]++;
     run->linear_ready = 0;
     note_speed(run);
@@ -63,10 +59,11 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
 /* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
 static void change_method(Run *run)
 {
-    if (!run->stiff)
+    const int stiff = run->method->stiff;
+    if (!stiff)
         run->patience = run->since > 400 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
-    run->h_stiff = run->stiff ? run->h : 0.0;
-    run->stiff = !run->stiff;
+    run->h_stiff = stiff ? run->h : 0.0;
+    run->method = stiff ? EXPLICIT : IMPLICIT;
     run->votes = 0;
     run->since = 0;
 }
@@ -76,20 +73,21 @@ static void choose(Run *run)
 {
     /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
     const int slower = run->since > 8 && run->since < 200 && run->h < WORTH * run->h_stiff;
-    const int against = run->stiff ? run->stability < SLACK : run->stability > BOUNDED || slower;
+    const int stiff = run->method->stiff;
+    const int against = stiff ? run->stability < SLACK : run->stability > run->method->bounded || slower;
     run->votes = against ? run->votes + 1 : 0;
     run->since++;
-    if (run->choice == AUTOMATIC && run->votes >= (run->stiff ? run->patience : 3))
+    if (run->automatic && run->votes >= (stiff ? run->patience : 3))
         change_method(run);
 }
 
 /* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
-static void next_length(Run *run, const Step *step, double power, int again, int whole)
+static void next_length(Run *run, const Step *step, int again, int whole)
 {
-    const double error = max_of(1e-12, step->error);
+    const double error = max_of(1e-12, step->error), power = step->method->power;
     double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
-    if (!run->stiff && run->stability > 1.0)
-        factor = min_of(factor, 1.1 * BOUNDED / run->stability);
+    if (!step->method->stiff && run->stability > 1.0)
+        factor = min_of(factor, 1.1 * step->method->bounded / run->stability);
     factor = min_of(again ? 1.0 : step->looked ? 2.0 : 6.0, max_of(0.3, factor));
     run->error_before = max_of(1e-4, error);
     if (run->first)
@@ -112,16 +110,17 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
         h = left;
     const double longest = h;
     for (;;) {
-        const double power = run->stiff ? 0.2 : 0.125;
-        const int status = run->stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
+        const Method *method = step->method = run->method;
+        const int status = method->try(run, h, p, step);
         if (status == STOPPED || (status && run->fixed > 0.0))
             return status;
-        if (!status && step->error <= run->accept && !run->stiff && run->fixed <= 0.0 && run->stability > UNSTABLE) {
+        if (!status && step->error <= run->accept && !method->stiff && run->fixed <= 0.0
+            && run->stability > method->unstable) {
             run->rejected++;
-            if (run->choice == AUTOMATIC && !given_up)
+            if (run->automatic && !given_up)
                 change_method(run);
             else
-                h *= BOUNDED / run->stability;
+                h *= method->bounded / run->stability;
             continue;
         }
         if (!status && step->error <= run->accept && is_unresolved(run, step, p) && run->fixed <= 0.0
@@ -140,14 +139,14 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
             continue;
         }
         if (!status && step->error <= run->accept) {
-            next_length(run, step, power, again, h < left);
+            next_length(run, step, again, h < left);
             /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
             run->crawl = h < 256.0 * least ? run->crawl + 1 : 0;
             return run->crawl > MAX_CRAWL ? TOO_SMALL : 0;
         }
         again = 1;
         run->rejected++;
-        h *= status ? 0.25 : min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -power)));
+        h *= status ? 0.25 : min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -method->power)));
         if (h > least)
             continue;
         if (N_SWITCHES > 0 && status == NOT_FINITE && run->memory.held) {
@@ -155,7 +154,7 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
             h = longest;
             continue;
         }
-        if (run->choice != AUTOMATIC || !run->stiff || given_up++)
+        if (!run->automatic || !method->stiff || given_up++)
             return status ? status : TOO_SMALL;
         change_method(run); /* its matrix is singular where rows depend on each other; the other one knows a way */
         h = longest;
@@ -242,15 +241,16 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
 }
 
 /*
- * choice: 0 explicit, 1 stiff, 2 automatic, 3 automatic from stiff; scale (2 N_X): tolerances, those of velocities a
- * unit of speed; least: the smallest length (m) and angle (rad) that matter.
+ * method: that begins, as gudgeon_method counts; automatic: whether it may change; scale (2 N_X): tolerances, those of
+ * velocities a unit of speed; least: the smallest length (m) and angle (rad) that matter.
  */
-void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *least, double fixed)
+void gudgeon_adaptive_setup(void *memory, int method, int automatic, const double *scale, const double *least,
+    double fixed)
 {
     Run *run = memory;
-    run->choice = choice == BEGIN_STIFF ? AUTOMATIC : choice;
-    run->stiff = choice == STIFF || choice == BEGIN_STIFF;
-    run->patience = choice == BEGIN_STIFF ? 4 * PATIENCE : PATIENCE;
+    run->method = METHODS[method];
+    run->automatic = automatic;
+    run->patience = automatic && run->method->stiff ? 4 * PATIENCE : PATIENCE;
     run->fixed = fixed;
     run->error_before = 1e-4;
     run->crossed = run->skip = -1;

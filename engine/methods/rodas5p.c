@@ -104,7 +104,7 @@ static int rodas5p_try(Run *run, double h, const Parameters *p, Step *step)
     const double hg = h * RODAS5P_GAMMA;
     double y[N_Y], f[N_Y], r[N_Y], before[N_Y];
     Aside aside;
-    step->t = run->t, step->h = h, step->stiff = 1, step->dense_ready = 0;
+    step->t = run->t, step->h = h, step->dense_ready = 0;
     forget_stages(step);
     if (!run->linear_ready) {
         const int lost = linearize_state(run->t, run->y, &run->memory, p, run->dy + N_X, &run->aside, &run->linear);
@@ -148,8 +148,9 @@ static int rodas5p_try(Run *run, double h, const Parameters *p, Step *step)
     return step->error > run->accept ? 0 : finish_step(run, step, p);
 }
 
-static void rodas5p_dense(const Run *run, Step *step)
+static int rodas5p_dense(Run *run, const Parameters *p, Step *step)
 {
+    (void)p;
     double (*const k)[N_Y] = step->k;
     for (int i = 0; i < N_Y; i++) {
         step->dense[0][i] = step->y[i] - run->y[i];
@@ -163,6 +164,7 @@ static void rodas5p_dense(const Run *run, Step *step)
             + 80.12511834622643 * k[3][i] - 52.072871366152654 * k[4][i] - 59.78993625266729 * k[5][i]
             - 0.15582684282751913 * k[6][i] + 4.883087185713722 * k[7][i];
     }
+    return 0;
 }
 
 static void rodas5p_interpolate(const Run *run, const Step *step, double s, double *y)
@@ -171,3 +173,7 @@ static void rodas5p_interpolate(const Run *run, const Step *step, double s, doub
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i] + s * (d[0][i] + (1.0 - s) * (d[1][i] + s * (d[2][i] + s * d[3][i])));
 }
+
+static const Method rodas5p = {.name = "rodas5p", .try = rodas5p_try, .dense = rodas5p_dense,
+    .interpolate = rodas5p_interpolate, .power = 0.2, .stiff = 1, .unstable = INFINITY, .bounded = INFINITY,
+    .degree = 4, .turned = 0x2, .heard = rodas5p_heard, .n_heard = COUNT_OF(rodas5p_heard)};

@@ -37,13 +37,16 @@ enum {
     N_STAGES = 16, N_DENSE = 7, N_LOOKS = 16
 };
 
+typedef struct Method Method; /* methods.c */
+
 typedef struct {
+    const Method *method;
     double t, h, error;
     double y[N_Y], dy[N_Y];                  /* at the end */
     Aside aside;
     double k[N_STAGES][N_Y];                 /* rates or increments of the stages */
     double dense[N_DENSE][N_Y];
-    int dense_ready, stiff;
+    int dense_ready;
     int n_seen;                              /* stages so far, their nodes and margins */
     double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_MARGINS)];
     double look[AT_LEAST_ONE(N_WATCHED)][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (looks.c) */
@@ -89,7 +92,8 @@ typedef struct {
     int rising[AT_LEAST_ONE(N_CLEARANCES)]; /* whether a joint's force rose at the end of the last step */
     Pace advance;
     long ended[N_MARGINS + 1]; /* steps that each margin ended, since the pace was taken */
-    int crossed, skip, choice, stiff, votes, patience, since, stuck, crawl, linear_ready;
+    const Method *method;
+    int crossed, skip, automatic, votes, patience, since, stuck, crawl, linear_ready;
     Linear linear;
     Step step;
 } Run;

@@ -52,7 +52,9 @@ void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every
 void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended);
 int gudgeon_run_events(void *memory, double *t, int *event);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
-void gudgeon_adaptive_setup(void *memory, int choice, const double *scale, const double *least, double fixed);
+int gudgeon_method(const char *name);
+void gudgeon_adaptive_setup(void *memory, int method, int automatic, const double *scale, const double *least,
+    double fixed);
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
@@ -60,7 +62,7 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 /* Arrays with a row for each run; `numbers` are the doubles of Parameters, `samples` the times of t. */
 typedef struct {
     long samples, numbers, limit;         /* steps after which a call returns */
-    int choice, stop;                     /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
+    int choice, automatic, stop;          /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
     double fixed, *t;
     double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
     double *step, *scale, *least;         /* rk4's step; tolerances as gudgeon_adaptive_setup takes them */

@@ -75,7 +75,7 @@ static int is_unresolved(Run *run, Step *step, const Parameters *p)
         }
         const double missed = misfit(step->look[i]), enough = max_of(0.05 * (most - least), 10.0 * change[i]);
         /* stages that see far more than the looks: these keep time with what they look at */
-        const int beats = range[i] > 2.0 * (most - least) + 10.0 * change[i] && !step->stiff;
+        const int beats = range[i] > 2.0 * (most - least) + 10.0 * change[i] && !step->method->stiff;
         if (step->near[i] && (missed > enough || beats) && least - missed < 0.0)
             return 1;
     }

@@ -34,9 +34,7 @@ static int follows(void *context, double share, int sure)
 static double missed_pulse(Run *run, Step *step, const Parameters *p)
 {
     Look look = {run, step, p};
-    const double *place = step->stiff ? rodas5p_heard : dop853_heard;
-    const int n = (int)((step->stiff ? sizeof rodas5p_heard : sizeof dop853_heard) / sizeof *place);
-    return unseen_term(step->t, step->h, place, n, follows, &look, p);
+    return unseen_term(step->t, step->h, step->method->heard, step->method->n_heard, follows, &look, p);
 }
 #else
 static double missed_pulse(const Run *run, const Step *step, const Parameters *p)

@@ -15,18 +15,12 @@ static int make_dense(Run *run, const Parameters *p, Step *step)
     if (step->dense_ready)
         return 0;
     step->dense_ready = 1;
-    if (!step->stiff)
-        return dop853_dense(run, p, step);
-    rodas5p_dense(run, step);
-    return 0;
+    return step->method->dense(run, p, step);
 }
 
 static void interpolate(const Run *run, const Step *step, double s, double *y)
 {
-    if (step->stiff)
-        rodas5p_interpolate(run, step, s, y);
-    else
-        dop853_interpolate(run, step, s, y);
+    step->method->interpolate(run, step, s, y);
 }
 
 /* State, projected, and right-hand side at share s of the step. */

@@ -41,15 +41,15 @@ static void margins_at(Run *run, const Step *step, double s, const Parameters *p
 }
 
 #if WATCHES_STATE
-/* y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))), as both methods write it, multiplied out. */
+/* y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))), as all methods write it, multiplied out. */
 static void course_of(const Run *run, const Step *step, Course *course)
 {
-    const int degree = step->stiff ? 4 : 7;
+    const int degree = step->method->degree;
     course->t = step->t, course->h = step->h, course->degree = degree;
     for (int i = 0; i < 2 * N_X; i++) {
         double c[N_DENSE + 1] = {step->dense[degree - 1][i]};
         for (int k = degree - 1; k >= 0; k--) {
-            const int turned = step->stiff ? k == 1 : k % 2 == 1; /* times 1 - s instead of s */
+            const int turned = step->method->turned >> k & 1; /* times 1 - s instead of s */
             for (int j = degree - k; j > 0; j--)
                 c[j] = turned ? c[j] - c[j - 1] : c[j - 1];
             c[0] = (turned ? c[0] : 0.0) + (k > 0 ? step->dense[k - 1][i] : run->y[i]);
@@ -172,7 +172,7 @@ static void look_inside(Run *run, Step *step, const Parameters *p)
     for (int i = 0; i < N_WATCHED; i++)
         step->from[i] = step->to[i] = 0.0;
 #if WATCHES_STATE
-    if ((!step->stiff && is_clear(run, step, p)) || make_dense(run, p, step))
+    if ((!step->method->stiff && is_clear(run, step, p)) || make_dense(run, p, step))
         return;
     course_of(run, step, &course);
 #endif

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from gudgeon.commands.progress import Report
 from gudgeon.commands.studies import Request, each, exit_code, load_scenes
+from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.bench import SceneBench, bench, usual_steps
 from gudgeon.studies.methods import choice
 from gudgeon.studies.show.bench import show_bench
 
-EVERY = "leave it out for all that fit; or auto,dop853,rodas5p,rk4"
+EVERY = f"leave it out for all that fit; or {','.join(OFFERED)}"
 
 
 def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:

@@ -15,7 +15,9 @@ from typing import TYPE_CHECKING, Any
 from gudgeon.commands.progress import status_line
 from gudgeon.commands.reduction_story import story_data, tell
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import InputError, InputErrors
+from gudgeon.integrators.adaptive import begins_with
 from gudgeon.loading.find import derived, find_mechanism, read_bytes
 
 if TYPE_CHECKING:
@@ -97,16 +99,9 @@ def driven(source: KernelSource) -> tuple[str, ...]:
     return tuple(row for row in rows if row not in source.closures)
 
 
-def begins_with(source: KernelSource) -> str:
-    """The first method of `auto`: a film is stiff from rest on (integrators/adaptive.py)."""
-    if "dop853" not in source.methods:
-        return source.methods[0]
-    return "rodas5p" if any(joint.film for joint in source.clearances) else "dop853"
-
-
 def _takes_checks(source: KernelSource) -> bool:
     """Friction that sticks and impulses of drives are the C methods' own (integrators/python_driver.py)."""
-    return "dop853" in source.methods and not (source.frictions or source.rate_jumps)
+    return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps)
 
 
 def _reduction(source: KernelSource) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gudgeon.contract import ledger as told
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.ledger import Solve, Step, Story
+from gudgeon.contract.methods import KINEMATIC
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -221,7 +222,7 @@ def _operations(source: KernelSource) -> str:
             f"accelerations {full:,} → {arrive:,} with all positions and velocities, {_factor(full, arrive)}"
             + f"; each of Newton's steps {step:,}" * bool(step)
         )
-    if "kinematic" in source.methods:  # a coordinate of the tree that no row says: all rows are asked
+    if KINEMATIC in source.methods:  # a coordinate of the tree that no row says: all rows are asked
         return f"accelerations {full:,}; each of Newton's steps, in absolute coordinates, {counts['project']:,}"
     if source.formulation == "full" or "reduced_dynamics" not in counts:
         return f"accelerations {full:,}{_laws(source)}"

@@ -10,6 +10,7 @@ from gudgeon.commands.progress import Report
 from gudgeon.commands.run import addresses
 from gudgeon.commands.studies import Request, each, exit_code, load_scenes
 from gudgeon.contract.kernel_source import Slot
+from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.adaptive import tolerance
 from gudgeon.language.suggestions import unknown
@@ -22,8 +23,6 @@ from gudgeon.studies.show.box import show_box
 from gudgeon.studies.show.stress import show_stress
 from gudgeon.studies.show.stress_words import PASCAL
 from gudgeon.studies.stress import USUAL, StressBox, StressMap, default_steps, stress, stress_box
-
-METHODS = ("auto", "dop853", "rodas5p", "rk4")
 
 
 @dataclass(frozen=True)
@@ -98,8 +97,8 @@ def _box(
 
 def _check(asked: Stress, step: float | None) -> None:
     """Options that would say nothing together are refused: what was typed was meant."""
-    if asked.method not in METHODS:
-        raise BadValueError(f"--method {asked.method!r}: expected {', '.join(METHODS)}")
+    if asked.method not in OFFERED:
+        raise BadValueError(f"--method {asked.method!r}: expected {', '.join(OFFERED)}")
     own = [name for name in map(_name, asked.axes) if name in SETTINGS]
     _check_once("--axis", asked.axes)
     _check_once("--range", asked.ranges)

@@ -12,6 +12,7 @@ from dataclasses import MISSING, asdict, dataclass, fields
 from typing import Any
 
 from gudgeon.contract.ledger import Story
+from gudgeon.contract.methods import INTEGRATORS, KINEMATIC
 from gudgeon.contract.stored import as_text, complete, shorten
 
 
@@ -151,7 +152,6 @@ class KernelSource:
     start_set: tuple[str, ...]
     start_rates: tuple[str, ...]  # "L1.omega"
     frictions: tuple[str, ...]  # force elements that may stick
-    methods: tuple[str, ...]  # integrators in the library
     pivots: tuple[str, ...]  # rows in their order of elimination: a status k > 0 names pivots[k − 1]
     start_pivots: tuple[str, ...]  # the same for the kinematic method's projection
     rate_jumps: tuple[str, ...]  # drives whose rate may jump: the linkage follows by an impulse
@@ -181,6 +181,12 @@ class KernelSource:
     def degrees_of_freedom(self) -> int:
         """Coordinates less constraint rows."""
         return len(self.coordinates) - len(self.rows)
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """What runs this scene: the integrators, or where nothing is left to be integrated the other one."""
+        integrates = self.degrees_of_freedom or self.clearances or self.frictions
+        return INTEGRATORS if integrates else (KINEMATIC,)
 
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""

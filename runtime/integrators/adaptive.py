@@ -1,4 +1,4 @@
-"""Methods that choose their step, with located events and projection (templates/c/methods/adaptive.c.jinja).
+"""Methods that choose their step, with located events and projection (engine/methods/adaptive.c).
 
 - `dop853`: explicit, order 8, dense output of order 7 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
   Differential Equations I, 1993, section II.5).
@@ -20,7 +20,8 @@ from time import perf_counter
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import Slot
+from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators.failure import NOT_FINITE, failure
 from gudgeon.integrators.session import Session
@@ -29,8 +30,6 @@ from gudgeon.model.assembly import mechanism_sizes
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import number
 
-CHOICES = {"dop853": 0, "rodas5p": 1, "adaptive": 2}
-BEGIN_STIFF = 3  # adaptive in a scene with a film: stiff from rest on (physics.md, section 6)
 RTOL = 1e-8  # of a plain run
 FELT_BY_FILMS = 0.015  # share of the speeds within a film that an error of velocities may be
 SMALLEST = 1e-14  # rounding would be controlled below it
@@ -44,7 +43,7 @@ def run(problem: Problem) -> Trajectory:
     scale, least = tolerances(problem.compiled, problem.p, problem.rtol)
     fixed = 0.0 if math.isinf(problem.step) else problem.step
     choice = choice_of(problem.compiled, problem.method)
-    session.lib.gudgeon_adaptive_setup(session.run, choice, session.pointer(scale), session.pointer(least), fixed)
+    session.lib.gudgeon_adaptive_setup(session.run, *choice, session.pointer(scale), session.pointer(least), fixed)
     return session.drive(lambda: _all(session))
 
 
@@ -88,7 +87,7 @@ def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
     if method == "rk4" or (fixed and method != "kinematic"):
         raise BadValueError(
             f"method {method!r} with a fixed step has no tolerance",
-            hint="leave out rtol; or leave out step and take auto, dop853 or rodas5p",
+            hint=f"leave out rtol; or leave out step and take {', '.join(('auto', *CHOOSING))}",
         )
     try:
         value = number(rtol, Slot("rtol", "", 0.0, False, (0, 0, 0)))
@@ -103,10 +102,18 @@ def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
     return value
 
 
-def choice_of(compiled: CompiledModel, method: str) -> int:
-    """What gudgeon_adaptive_setup calls a method in this scene."""
-    film = any(joint.film for joint in compiled.source.clearances)
-    return BEGIN_STIFF if method == "adaptive" and film else CHOICES[method]
+def begins_with(source: KernelSource) -> str:
+    """The first method of `auto`: a film is stiff from rest on (physics.md, section 6)."""
+    if KINEMATIC in source.methods:
+        return KINEMATIC
+    return AUTO[any(joint.film for joint in source.clearances)]
+
+
+def choice_of(compiled: CompiledModel, method: str) -> tuple[int, int]:
+    """For gudgeon_adaptive_setup: C's number of the method that begins, and whether it may change."""
+    automatic = method == ADAPTIVE
+    name = begins_with(compiled.source) if automatic else method
+    return int(compiled.lib.gudgeon_method(name.encode())), int(automatic)
 
 
 def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:

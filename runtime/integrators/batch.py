@@ -24,7 +24,6 @@ from gudgeon.model.assembly import assemble, mechanism_sizes
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.waiting.ctrl_c import CtrlC
 
-METHODS = ("rk4", "dop853", "rodas5p", "adaptive")
 ALL_OVER, LISTS, RUN_OVER = 0, 1, 2  # what a call returns
 PORTION = 16  # runs handed out at once, at most
 GLANCE = 0.05  # s between two looks of the waiting thread
@@ -66,7 +65,7 @@ class Runs:
         explicit = self.method == "rk4"
         struct.samples, struct.numbers = len(self.times), self.arrays["p"].shape[1]
         struct.limit = rk4.CHUNK if explicit else adaptive.CHUNK
-        struct.choice = -1 if explicit else adaptive.choice_of(self.compiled, self.method)
+        struct.choice, struct.automatic = (-1, 0) if explicit else adaptive.choice_of(self.compiled, self.method)
         struct.fixed, struct.stop = float(self.arrays["step"][0]) if fixed else 0.0, int(stop)
         kinds = {"uint8": "unsigned char *", "int8": "signed char *", "int32": "int *", "int64": "long *"}
         for name, array in self.arrays.items():

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.model.assembly import mechanism_size
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.dead_centre import nearly_dependent_rows
-from gudgeon.model.steep import NEED_SLOPES, steep_force
+from gudgeon.model.steep import steep_force
 from gudgeon.model.written import of_time, rate_reason, reason, trees
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12

@@ -10,7 +10,6 @@ from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.model.compiled import Array
 from gudgeon.model.written import Values, trees, values_at
 
-NEED_SLOPES = ("rodas5p", "adaptive")
 _SHORT = (1e-8, 1e-10, 1e-12)  # ways over which a rise is looked at, of a size of 1
 _STEEPER, _ROUNDING = 3.0, 1e-13  # how much each shorter way is steeper at least; what is no rise
 

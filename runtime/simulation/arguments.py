@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.methods import ADAPTIVE, CHOOSING, KINEMATIC
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.integrators import adaptive, kinematic, rk4
 from gudgeon.integrators.peers import driver
@@ -18,8 +19,8 @@ from gudgeon.model.default_step import scene_end, scene_step
 from gudgeon.model.parameters import number
 
 METHODS = {
-    "rk4": rk4.run, "dop853": adaptive.run, "rodas5p": adaptive.run, "adaptive": adaptive.run,
-    "kinematic": kinematic.run, **dict.fromkeys(driver.NAMES, driver.run),
+    "rk4": rk4.run, **dict.fromkeys((*CHOOSING, ADAPTIVE), adaptive.run), KINEMATIC: kinematic.run,
+    **dict.fromkeys(driver.NAMES, driver.run),
 }  # fmt: skip
 MAX_STEPS = 10**12
 DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8
@@ -89,12 +90,11 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
             f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
             "  remove a drive or a joint; `gudgeon check -v` lists the rows"
         )
-    adaptive_too = ("adaptive", *driver.NAMES) if "dop853" in source.methods else ()
-    fitting = (*source.methods, *adaptive_too)
+    fitting = source.methods if KINEMATIC in source.methods else (*source.methods, ADAPTIVE, *driver.NAMES)
     if method == "auto":
-        return fitting[0] if len(fitting) == 1 or fixed else "adaptive"
+        return fitting[0] if len(fitting) == 1 or fixed else ADAPTIVE
     if method not in METHODS:
-        offered = ", ".join(name for name in METHODS if name != "adaptive")  # a name of ours for what auto runs
+        offered = ", ".join(name for name in METHODS if name != ADAPTIVE)  # a name of ours for what auto runs
         raise BadValueError(f"method {method!r}: expected auto, {offered}")
     if method not in fitting:
         freedom = f"{dof} degree{'' if dof == 1 else 's'} of freedom"

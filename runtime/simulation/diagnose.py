@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from gudgeon.contract.methods import ADAPTIVE, AUTO
 from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.assembly import mechanism_size
@@ -14,7 +15,6 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.dead_centre import dependent_rows
 from gudgeon.results.diagnostics import Diagnostics, Peak
 
-ORDER_OF_CHOICE = ("dop853", "rodas5p")  # what "adaptive" ran with, where it ran with one alone
 BLOCK = 1 << 16  # samples balanced between two looks
 APART = 0.01  # of the mechanism's size: violated constraints that no stabilisation explains
 THIN = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
@@ -33,8 +33,8 @@ def diagnose(
         last = last_step(duration, used)
         used = max(last, min(used, duration))
     simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
-    if method == "adaptive":
-        method = "dop853+rodas5p" if 0 < counts.stiff_steps < counts.steps else ORDER_OF_CHOICE[counts.stiff_steps > 0]
+    if method == ADAPTIVE:
+        method = "+".join(AUTO) if 0 < counts.stiff_steps < counts.steps else AUTO[counts.stiff_steps > 0]
     return Diagnostics(
         method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
         last_step=last if last != used else math.nan,

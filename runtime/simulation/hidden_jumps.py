@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import SolverError
 from gudgeon.integrators.trajectory import Problem
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, functions, names
@@ -78,7 +79,7 @@ def any_in_batch(source: KernelSource, p: Array, t0: float, t1: float) -> bool:
 
 def _integrates(source: KernelSource) -> bool:
     """Whether a jump is an impulse on what is free; else the linkage follows it, as far as rates are numbers there."""
-    return bool(source.drives) and source.methods != ("kinematic",)
+    return bool(source.drives) and KINEMATIC not in source.methods
 
 
 def _with_drives(source: KernelSource) -> list[tuple[str, Expr]]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gudgeon.contract.methods import ADAPTIVE, INTEGRATORS
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators import batch as many
@@ -53,7 +54,7 @@ def simulate_many(
     times = output_times(simulation.source, 0.0, t_end, output)
     chosen = method_of(simulation.source, method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)
-    in_c = chosen in many.METHODS and not left_out(simulation.compiled)
+    in_c = chosen in (*INTEGRATORS, ADAPTIVE) and not left_out(simulation.compiled)
     if in_c:
         p, motion, bad = prepare_sets(simulation.compiled, given, is_given, chosen != "rk4")
         fine = np.delete(p, list(bad), axis=0)

@@ -6,18 +6,19 @@ from collections.abc import Sequence
 from fnmatch import fnmatchcase
 from importlib.util import find_spec
 
+from gudgeon.contract.methods import CHOOSING, INTEGRATORS
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.peers.sundials_steppers import INSTALL
 from gudgeon.language.wanted import listed
 from gudgeon.simulation.simulation import Simulation
 
-ADAPTIVE = ("dop853", "rodas5p", "auto")
+ADAPTIVE = (*CHOOSING, "auto")
 
 
 def adaptive(simulation: Simulation) -> bool:
     """Whether methods that choose their step fit a scene."""
-    return set(ADAPTIVE[:2]) <= set(simulation.source.methods)
+    return set(CHOOSING) <= set(simulation.source.methods)
 
 
 def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
@@ -25,8 +26,9 @@ def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) ->
 
     By default all; with `quick` without the cross-checks, which take long. BadValueError for a name that is none.
     """
-    every = ("rk4", *ADAPTIVE, *python_driver.NAMES)
-    usual = every[: 1 + len(ADAPTIVE)] if quick else every
+    own = (*(name for name in INTEGRATORS if name not in CHOOSING), *ADAPTIVE)
+    every = (*own, *python_driver.NAMES)
+    usual = own if quick else every
     wanted = usual if wanted is None else listed(wanted, "methods", str, "a list of names of methods")
     named = [m for m in every if any(fnmatchcase(m, text) for text in wanted)]
     for text in wanted:

@@ -38,7 +38,7 @@ UNTOLD = Story()
 
 def describe(
     model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "",
-    methods: tuple[str, ...] = (), pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
+    pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
     operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
     motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = UNTOLD, lanes: str = "",
     chain: Chain | None = None,
@@ -63,7 +63,7 @@ def describe(
         series=tuple(SeriesInfo(name, unit) for name, (_, unit) in element_series(model).items()),
         start_rows=tuple(map(_row, model.all_rows)),
         start_guess=tuple(start.guess), start_set=tuple(start.set), start_rates=tuple(start.rates),
-        frictions=tuple(friction.name for friction in model.frictions), methods=methods, pivots=pivots,
+        frictions=tuple(friction.name for friction in model.frictions), pivots=pivots,
         start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
         slots=tuple(

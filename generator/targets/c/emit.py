@@ -33,7 +33,6 @@ def emit(program: Program) -> KernelSource:
     course = program.course
     return describe(
         model, files=files | beside, main=MAIN,
-        methods=("rk4", "dop853", "rodas5p") if program.methods else ("kinematic",),
         pivots=program.kkt.pivots, start_pivots=course.pivots if course else (), motion_pivots=integrated.pivots,
         operations=_operations(program, prepare),
         tree=tree.system.unknowns if tree else (), chain=integrated.chain,

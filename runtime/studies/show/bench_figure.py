@@ -10,6 +10,7 @@ import matplotlib
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from gudgeon.contract.methods import KINEMATIC, METHODS
 from gudgeon.integrators.peers.driver import NAMES
 from gudgeon.language.shown import in_figure
 from gudgeon.results.plots import COLOURS, IDEAL, STYLE
@@ -20,7 +21,7 @@ from gudgeon.studies.words import seconds, share
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-MARKERS = {"rk4": "s", "dop853": "o", "rodas5p": "^", "auto": "x", "kinematic": "D"}
+MARKERS = {method.name: method.marker for method in METHODS} | {"auto": "x", KINEMATIC: "D"}
 # cross-checks are in the background: thin, dashed, grey or light blue, told apart by their markers
 CHECKS = dict(zip(NAMES, ("v", "<", ">", "p", "h", "P", "*"), strict=True))
 GREY, LIGHT = "#666666", {"scipy": "#9a9a9a", "sundials": "#56B4E9"}

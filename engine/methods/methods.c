@@ -1,0 +1,35 @@
+/*
+ * The methods that choose their step. A file of each says how a step is tried and what lies between its ends; its last
+ * lines are all that adaptive.c, and what looks inside steps, ask of it. A new one is included and listed here.
+ */
+#include <string.h>
+
+struct Method {
+    const char *name;                                           /* as in runtime/contract/methods.py */
+    int (*try)(Run *, double h, const Parameters *, Step *);    /* a step of length h into Step, with its error */
+    int (*dense)(Run *, const Parameters *, Step *);            /* makes the interpolant of an accepted one */
+    void (*interpolate)(const Run *, const Step *, double share, double *y);
+    double power;             /* of the error, that a step's length goes by: 1 / (order of the estimate + 1) */
+    int stiff;                /* whether it takes the Jacobian */
+    double unstable, bounded; /* h rho beyond which no step is taken; at which stability bounds its steps */
+    int degree, turned;       /* of y0 + s (d0 + (s or 1 - s) (d1 + ...)); bit k: d_k is followed by 1 - s */
+    const double *heard;      /* shares of a step, in their order, at which its error hears of the equations */
+    int n_heard;
+};
+#define COUNT_OF(table) ((int)(sizeof(table) / sizeof *(table)))
+
+#include "dop853.c"
+#include "rodas5p.c"
+
+static const Method *const METHODS[] = {&dop853, &rodas5p};
+#define EXPLICIT (&dop853)  /* what the automatic choice is between */
+#define IMPLICIT (&rodas5p)
+
+/* A method's number, as gudgeon_adaptive_setup takes it; -1: none has that name. */
+int gudgeon_method(const char *name)
+{
+    for (int i = 0; i < COUNT_OF(METHODS); i++)
+        if (!strcmp(METHODS[i]->name, name))
+            return i;
+    return -1;
+}
