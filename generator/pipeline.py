@@ -5,10 +5,11 @@ Where `seconds` is given, each stage notes there how long it took.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from time import perf_counter
+from typing import Any
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model, make_model
@@ -31,13 +32,15 @@ def derive(
     with _stage("reading", seconds):
         mechanism = read_mechanism(data, file, overrides)
     with _stage("equations", seconds):
-        model = replace(make_model(make_scene(mechanism, scene)), to_numpy=_in_numpy)
+        model = replace(make_model(make_scene(mechanism, scene)), targets=TARGETS)
     with _stage("rank of the rows", seconds):
         return model.without(find_redundancy(model, describe(model)))
 
 
-def _in_numpy(model: Model) -> NumPyModel:
-    return NumPyModel(make_program(model, "full"))
+# What `Model.written` offers: a name each, and what is made of the absolute formulation's functions.
+TARGETS: Mapping[str, Callable[[Model], Any]] = {
+    "numpy": lambda model: NumPyModel(make_program(model, "full")),
+}
 
 
 def in_c(model: Model, formulation: str = "reduced", seconds: Seconds | None = None) -> KernelSource:

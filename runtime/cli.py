@@ -109,8 +109,7 @@ def run(
         str | None, typer.Option("--t-end", help="Until when, in s or with a unit. [default: the scene's, or 1 s]")
     ] = None,
     output: Annotated[
-        int | None,
-        typer.Option(parser=_whole(1), metavar="COUNT", help="Equal output intervals. [default: the scene's]"),
+        int | None, typer.Option(parser=_whole(1), metavar="COUNT", help="Output intervals. [default: the scene's]")
     ] = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …")] = "auto",

@@ -7,7 +7,7 @@ properties Phi, Phi_q, nu, gamma, M and g, which write everything out in q, q̇,
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -55,7 +55,7 @@ class Model:
     gravity: tuple[sp.Expr, sp.Expr]
     baumgarte: tuple[sp.Symbol, sp.Symbol]
     events: tuple[Event, ...] = ()  # what the user watches
-    to_numpy: Callable[[Model], Any] | None = None  # of generator/targets, which no equation knows
+    targets: Mapping[str, Callable[[Model], Any]] = field(default_factory=dict)  # of generator/targets
 
     def without(self, redundancy: Redundancy) -> Model:
         """The same scene without the rows that say nothing new."""
@@ -95,13 +95,20 @@ class Model:
         A NumPyModel (generator/targets/numpy/module.py says shapes and units): the plainest form of all that the
         emitted C computes at a state.
         """
-        return self._in_numpy
+        return self.written("numpy")
+
+    def written(self, target: str) -> Any:
+        """The equations in another language, once made: what the folder of that name in generator/targets gives."""
+        if target not in self.targets:
+            known = ", ".join(self.targets) or "none: it was not derived by the pipeline, which knows them"
+            raise ValueError(f"no target {target!r} of a model: there is {known}")
+        if target not in self._written:
+            self._written[target] = self.targets[target](self)
+        return self._written[target]
 
     @cached_property
-    def _in_numpy(self) -> Any:
-        if self.to_numpy is None:
-            raise ValueError("this model was not derived by the pipeline, which knows the targets")
-        return self.to_numpy(self)
+    def _written(self) -> dict[str, Any]:
+        return {}
 
     def _column(self, expressions: Iterable[sp.Expr]) -> sp.Matrix:
         return sp.Matrix([as_written(self.symbols.explicit(e)) for e in expressions])
