@@ -101,7 +101,7 @@ def test_links_paths_and_targets_exist(name: str) -> None:
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
     assert set(re.findall(r"`make ([a-z-]+)", text)) - targets == set()
     links = [link for link in re.findall(r"\]\(([^)]+)\)", text) if "://" not in link]
-    folders = "runtime|generator|templates|generated|mechanisms|tests|benchmarks|docs|tools"
+    folders = "runtime|engine|generator|templates|generated|mechanisms|tests|benchmarks|docs|tools"
     paths = re.findall(rf"`((?:{folders})/[\w./-]*)`", text)
     assert [link for link in links if not (ROOT / name).parent.joinpath(link).exists()] == []
     assert [path for path in paths if not (ROOT / path).exists()] == []
