@@ -1,4 +1,4 @@
-"""Methods that choose their step, with located events and projection (templates/c/methods/adaptive.c.jinja).
+"""Methods that choose their step, with located events and projection (engine/methods/adaptive.c).
 
 - `dop853`: explicit, order 8, dense output of order 7 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
   Differential Equations I, 1993, section II.5).

@@ -7,9 +7,6 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 0          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 1   /* the same, where they follow */
 #define N_Q 9                 /* coordinates of all bodies */
 #define N_ROWS 9              /* constraint rows of the motion */
 #define N_ALL_ROWS 9          /* rows of the closed linkage */
@@ -20,6 +17,11 @@
 #define N_SWITCHES 0          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 0            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 0          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 1   /* the same, where they follow */
 #define N_X 2                 /* coordinates that are integrated */
 #define N_LOOPS 2             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +30,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 1             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 2       /* rows that are solved together */
+#define N_VALUES 0            /* of the linearized equations */
+#define N_FACTORS 0           /* of their factors L and U */
+#define HAS_LANES 0           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,11 +42,6 @@
 #define N_GUESS 2             /* coordinates that the start guesses */
 #define N_SET 0               /* those that it sets */
 #define N_RATES 0             /* velocities that it sets */
-#define N_VALUES 0            /* of the linearized equations */
-#define N_FACTORS 0           /* of their factors L and U */
-#define HAS_LANES 0           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {    double omega;  /* parameters.omega */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double coupler_mass;  /* bodies.coupler.mass */    double coupler_inertia;  /* bodies.coupler.inertia */    double rocker_mass;  /* bodies.rocker.mass */    double rocker_inertia;  /* bodies.rocker.inertia */    double crank_length;  /* bodies.crank.length */    double coupler_length;  /* bodies.coupler.length */    double coupler_points_tracer_x;  /* bodies.coupler.points.tracer.x */    double coupler_points_tracer_y;  /* bodies.coupler.points.tracer.y */    double rocker_length;  /* bodies.rocker.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double B0_x;  /* ground.B0.x */    double par_y;  /* gravity.y */    double guess_coupler_theta;  /* start.guess.coupler.theta */    double guess_rocker_theta;  /* start.guess.rocker.theta */    double crank_head_x;  /* point from the centre of mass */    double coupler_head_x;  /* point from the centre of mass */    double coupler_tracer_x;  /* point from the centre of mass */    double rocker_head_x;  /* point from the centre of mass */    double weight_crank_y;  /* weight */    double weight_coupler_y;  /* weight */    double weight_rocker_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_crank_mass;  /* 1/M */    double inverse_coupler_mass;  /* 1/M */    double inverse_rocker_mass;  /* 1/M */    double inverse_coupler_inertia;  /* 1/M */    double inverse_rocker_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double crank_head_span_x;  /* vector in its frame */    double coupler_head_span_x;  /* vector in its frame */    double rocker_head_span_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_coupler;  /* sum of m w.w */    double inertia_coupler_coupler;  /* sum of m w.w */    double inertia_rocker_rocker;  /* sum of m w.w */    double mass_motor_motor;  /* constant of M */    double mass_coupler_coupler;  /* constant of M */    double mass_rocker_rocker;  /* constant of M */    double weight_crank__across;  /* weight */    double weight_coupler__across;  /* weight */    double weight_rocker__across;  /* weight */    double inverse_mass_rocker_rocker;  /* 1/M */    double inverse_mass_coupler_coupler;  /* 1/M */} Parameters;
