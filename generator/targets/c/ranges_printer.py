@@ -1,4 +1,4 @@
-"""Kernels a second time, for ranges: the same statements, with bounds and slopes for numbers (engine/watch/ranges.h)."""
+"""Kernels a second time, for ranges: the same statements with bounds and slopes for numbers (engine/watch/ranges.h)."""
 
 from __future__ import annotations
 
