@@ -131,7 +131,8 @@ def unlatched(step: Step) -> Step:
 def in_place(model: Model, value: sp.Expr) -> sp.Expr:
     """A step's value with parameters read from their struct, the reciprocals that it needs of them as well."""
     value = hoisted(model.slots, value)
-    return value.xreplace({s: sp.Symbol(f"p->{s.name}") for s in value.free_symbols if s in model.symbols.info})
+    info = model.symbols.info
+    return value.xreplace({s: sp.Symbol(info[s].home) for s in value.free_symbols if s in info})
 
 
 def share_slope(model: Model, clearance: Clearance) -> Kernel:

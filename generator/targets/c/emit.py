@@ -22,6 +22,8 @@ from gudgeon.generator.solvers.kkt import NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.c import lanes as lanes_code
 from gudgeon.generator.targets.c.describe import describe
+from gudgeon.generator.targets.c.fields import parameter_fields
+from gudgeon.generator.targets.c.layout import within
 from gudgeon.generator.targets.c.newton import jacobian_code, newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearance_code
 from gudgeon.generator.targets.c.reduced import motion_code, reduced_cdef, reduced_code
@@ -112,7 +114,9 @@ def emit(program: Program) -> KernelSource:
         files["reduced.c"] = reduced_code(model, tree, render, _kernels)
     files |= _loops(program, counts) if program.methods else kinematic_code(program, counts, render)
     beside = lanes_code.lanes_code(program, counts | _jumps(integrated), render) if program.has_lanes else {}
+    files = {name: within(text) for name, text in files.items()}
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
+    beside = {name: within(text) for name, text in beside.items()}
     course = program.course
     return describe(
         model, files=files | beside, main="scene.c", cdef=_cdef(program, files),
@@ -213,12 +217,10 @@ def _counts(model: Model, integrated: Integrated) -> dict[str, int]:
 
 
 def _header(model: Model) -> dict[str, Any]:
-    mechanism, info = model.scene.mechanism, model.symbols.info
-    slots = [(entry.symbol.name, printer.comment_text(entry.address)) for entry in model.slots.entries.values()]
-    derived = [(symbol.name, printer.comment_text(info[symbol].meaning)) for symbol in model.slots.derived]
+    mechanism = model.scene.mechanism
     return {
         "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
-        "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived,
+        "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": parameter_fields(model.slots),
         "event_directions": [SIGNS[event.direction] for event in model.events] or [0],
         "event_stops": [int(event.action == "stop") for event in model.events] or [0],
         "jumps": has_jumps(model),

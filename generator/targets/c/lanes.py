@@ -23,8 +23,7 @@ def lanes_code(program: Program, counts: Mapping[str, int], render: Callable[...
     pins = [_pin(pin, render) for pin in program.pins]
     kernels = (*program.tree.plain, program.methods.plain_closing)
     wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
-    parameters = [entry.symbol.name for entry in model.slots.entries.values()]
-    parameters += [symbol.name for symbol in model.slots.derived]
+    parameters = [model.slots.field(symbol) for symbol in model.slots.members()]
     functions, of_two = lanes_printer.FUNCTIONS, lanes_printer.FUNCTIONS_OF_TWO
     return {
         "lanes.h": render(
@@ -48,7 +47,7 @@ def _pin(pin: Pin, render: Callable[..., str]) -> str:
     """Law functions, then the joint's own."""
     clearance = pin.clearance
     steps = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
-    parts = {name: "\n".join(map(lanes_printer.line, getattr(pin, name))) for name in steps}
+    parts = {name: lanes_printer.statements(getattr(pin, name)) for name in steps}
     own = render(
         "batch/lane_pin.c.jinja", joint=clearance.name, dry=clearance.normal is not None,
         film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio", **parts,

@@ -42,7 +42,7 @@ def clearance_code(pin: Pin, render: Render) -> str:
 
 
 def _lines(statements: Sequence[Statement]) -> str:
-    return "\n".join(map(functions.line, statements))
+    return functions.statements(statements)
 
 
 def _template(pin: Pin) -> str:

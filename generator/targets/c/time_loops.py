@@ -230,5 +230,5 @@ def deepest(clearance: Clearance) -> sp.Expr:
 
 def _lengths(model: Model, values: Sequence[sp.Expr]) -> list[str]:
     """A number of each joint with play, from the parameters' struct."""
-    read = {s: sp.Symbol(f"p->{s.name}") for s in model.symbols.info}
+    read = {s: sp.Symbol(info.home) for s, info in model.symbols.info.items() if info.home}
     return [printer.expression(sp.sympify(value).xreplace(read)) for value in values] or ["0.0"]
