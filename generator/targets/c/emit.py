@@ -25,7 +25,7 @@ from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.fields import parameter_fields
 from gudgeon.generator.targets.c.layout import within
 from gudgeon.generator.targets.c.newton import jacobian_code, newton_code, tangent_code
-from gudgeon.generator.targets.c.play import clearance_code
+from gudgeon.generator.targets.c.play import clearances_code
 from gudgeon.generator.targets.c.reduced import motion_code, reduced_cdef, reduced_code
 from gudgeon.generator.targets.c.time_loops import integrator_loops, kinematic_code
 
@@ -144,14 +144,13 @@ def _cdef(program: Program, files: Collection[str]) -> str:
 def _files(program: Program, counts: Mapping[str, int], prepare: Kernel) -> dict[str, str]:
     """What every scene has, in the order in which it is read."""
     model = program.model
-    clearances = [clearance_code(pin, render) for pin in program.pins]
     return {
         "model.h": render("scene/model.h.jinja", **_header(model), **counts, overflows=_overflows(program)),
         "asked.c": render("scene/asked.c.jinja"),
         "trigonometry.c": render("scene/trigonometry.c.jinja", vector="Four", bits="FourBits", given="*angle"),
         "parameters.c": _kernels(prepare),
         "constraints.c": _kernels(*program.closed),
-        "clearance.c": "\n".join(clearances) or "/* No joint has play. */\n",
+        "clearance.c": clearances_code(program, render),
         **({"singular.c": _singular(model, counts)} if model.rows and not model.frictions else {}),
         "dynamics.c": _kernels(*program.right_hand_side),
         "system.c": render("scene/calls.c.jinja", **counts),
@@ -163,7 +162,7 @@ def _loops(program: Program, counts: Mapping[str, int]) -> dict[str, str]:
     """The methods, with the linearized equations (Newton's matrix, Jacobian)."""
     methods = program.methods
     assert methods
-    linearized = tangent_code(program.pins, methods.slopes, render) + newton_code(methods.newton, render)
+    linearized = tangent_code(program.pins, methods, render) + newton_code(methods.newton, render)
     linearized += jacobian_code(program.integrated, methods.gains, render)
     return integrator_loops(program, motion_code(program, render, _kernels), linearized, counts, render)
 
@@ -257,9 +256,12 @@ def _overflows(program: Program) -> bool:
 def _all(program: Program, *prepare: Kernel) -> list[Kernel]:
     tree, extra = program.tree, program.methods or program.course
     kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ()), *prepare]
-    return [*kernels, *(extra.kernels if extra else ()), *(kernel for pin in program.pins for kernel in pin.laws)]
+    return [*kernels, *(extra.kernels if extra else ()), *program.laws]
 
 
 def _operations(program: Program, prepare: Kernel) -> dict[str, int]:
-    """Of each function, as `check -v` tells them."""
-    return {kernel.name: kernel.operations for kernel in _all(program, prepare)}
+    """Of each function, as `check -v` tells them; of laws those of each joint."""
+    calls = [(pin.clearance.name, *call) for pin in program.pins for call in pin.laws.items()]
+    laws = {f"{role}_{joint}_force": call.kernel for joint, role, call in calls}
+    own = {kernel.name: kernel for kernel in _all(program, prepare) if kernel not in program.laws}
+    return {name: kernel.operations for name, kernel in (own | laws).items()}

@@ -32,6 +32,7 @@ from gudgeon.generator.ir.statements import (
     When,
 )
 from gudgeon.generator.ir.values import NONE, Place
+from gudgeon.generator.kernels.shared import CORNER, SharedCall
 from gudgeon.generator.targets.c.layout import WIDTH, broken
 from gudgeon.generator.targets.c.printer import CPrinter, Text, comment_text
 
@@ -176,6 +177,12 @@ def statements(items: Sequence[Statement]) -> str:
     return "\n".join(map(Lines(CPrinter(own)).line, own.sections[0].statements)) if own.sections else ""
 
 
+def shared_call(call: SharedCall, given: Sequence[str], results: Sequence[str], sides: bool = True) -> str:
+    """A joint's call of a function that joints share."""
+    held = ["side", "g", str(call.corner)] if sides and call.corner is not None else []
+    return f"{call.kernel.name}({', '.join([*given, *call.numbers, *held, *results])});"
+
+
 def arguments(items: tuple[Argument, ...]) -> str:
     return ", ".join(f"{a.type}{a.name}" if a.type.endswith("*") else f"{a.type} {a.name}" for a in items)
 
@@ -185,6 +192,15 @@ def kernel(item: Kernel) -> str:
     return "\n".join(function(part, Lines(CPrinter(own)), own) for part in cut(item) if (own := readable(part)))
 
 
+def _touched(item: Kernel) -> frozenset[str]:
+    """What its lines read and write, by what it is called there."""
+    lines = [line for section in item.sections for line in section.statements]
+    names = NONE.union(*(line.reads | line.writes for line in lines))
+    names |= {s.name for line in lines for x in line.expressions for s in x.free_symbols}
+    corner = NONE if item.first_corner is None else {CORNER.name}
+    return names | corner | {item.names.get(name, name) for name in names}
+
+
 def function(item: Kernel, writer: Lines, own: Readable, touched: frozenset[str] = NONE) -> str:
     """Its doc comment in front; arguments that it does not touch are voided."""
     body = "\n\n".join(
@@ -192,7 +208,7 @@ def function(item: Kernel, writer: Lines, own: Readable, touched: frozenset[str]
                    *map(writer.line, section.statements)])
         for section in own.sections
     )  # fmt: skip
-    touched = touched.union(*(x.reads | x.writes for section in item.sections for x in section.statements))
+    touched |= _touched(item)
     voids = "".join(f"    (void){a.name};\n" for a in item.arguments if a.name not in touched)
     doc = "\n".join(f" * {comment_text(text)}" for text in item.doc)
     attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""

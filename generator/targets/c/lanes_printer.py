@@ -30,6 +30,7 @@ from gudgeon.generator.ir.statements import (
     Status,
 )
 from gudgeon.generator.ir.values import Chosen, Place, Test, Value
+from gudgeon.generator.kernels.shared import CORNER
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.c.printer import Text
 
@@ -156,7 +157,7 @@ def kernel(item: Kernel) -> str:
         Section(section.title, tuple(x for x in section.statements if not isinstance(x, _LEFT_OUT)))
         for section in grouped.sections
     )
-    arguments = tuple(Argument(_TYPES.get(a.type, a.type), a.name) for a in item.arguments if a not in SIDES)
+    arguments = tuple(Argument(_TYPES.get(a.type, a.type), a.name) for a in item.arguments if a not in (*SIDES, CORNER))
     sections = tuple(section for section in kept if section.statements)
     lanes = replace(item, sections=sections, arguments=arguments, returns="void")
     told = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)

@@ -198,7 +198,7 @@ def function(kernel: Kernel) -> str:
     own = readable(kernel)
     for section in own.sections:
         body = Lines(own).text(section.statements)
-        text += indented([f"# {section.title}", *body]) if body else []
+        text += indented([*[f"# {section.title}"] * bool(section.title), *body]) if body else []
     return "\n".join([*text, *([f"    return {', '.join(returned)}"] if returned else [])])
 
 
