@@ -19,7 +19,7 @@ from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.ledger import tell
 from gudgeon.generator.kernels.program import Integrated, Program
 from gudgeon.generator.solvers.kkt import NEARLY_SINGULAR, SINGULAR
-from gudgeon.generator.targets.c import functions, printer
+from gudgeon.generator.targets.c import functions, printer, readme
 from gudgeon.generator.targets.c import lanes as lanes_code
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.fields import parameter_fields
@@ -117,6 +117,7 @@ def emit(program: Program) -> KernelSource:
     files = {name: within(text) for name, text in files.items()}
     files["scene.c"] = "".join(f'#include "{name}"\n' for name in files)
     beside = {name: within(text) for name, text in beside.items()}
+    files[readme.NAME] = readme.readme(program, files | beside)
     course = program.course
     return describe(
         model, files=files | beside, main="scene.c", cdef=_cdef(program, files),
