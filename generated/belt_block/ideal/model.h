@@ -1,6 +1,7 @@
 /*
  * Block on a belt, stick-slip with a spring
- * mechanism belt_block, scene ideal, from the YAML with sha256 ad6cf45ee3bd9c53289477c5ab8b2e7dfc80bfbc340727173898365090aada13
+ * mechanism belt_block, scene ideal, from the YAML with sha256
+ * ad6cf45ee3bd9c53289477c5ab8b2e7dfc80bfbc340727173898365090aada13
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
@@ -44,7 +45,29 @@
 #define N_RATES 0             /* velocities that it sets */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double belt_speed;  /* parameters.belt_speed */    double start_at;  /* parameters.start_at */    double block_mass;  /* bodies.block.mass */    double block_inertia;  /* bodies.block.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double guide_axis_x;  /* joints.guide.axis.x */    double wall_x;  /* ground.wall.x */    double spring_stiffness;  /* forces.spring.stiffness */    double spring_free_length;  /* forces.spring.free_length */    double rub_direction_x;  /* forces.rub.direction.x */    double rub_speed;  /* forces.rub.speed */    double rub_static;  /* forces.rub.static */    double rub_kinetic;  /* forces.rub.kinetic */    double set_block_x;  /* start.set.block.x */    double alpha_stick;  /* baumgarte.stick */    double two_alpha_stick;  /* 2 alpha of a stick */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_block_mass;  /* 1/M */    double inverse_block_inertia;  /* 1/M */} Parameters;
+typedef struct {
+    double belt_speed;  /* parameters.belt_speed, m/s */
+    double start_at;  /* parameters.start_at, m */
+    double block_mass;  /* bodies.block.mass, kg */
+    double block_inertia;  /* bodies.block.inertia, kg m^2 */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double guide_axis_x;  /* joints.guide.axis.x, 1 */
+    double wall_x;  /* ground.wall.x, m */
+    double spring_stiffness;  /* forces.spring.stiffness, kg/s^2 */
+    double spring_free_length;  /* forces.spring.free_length, m */
+    double rub_direction_x;  /* forces.rub.direction.x, 1 */
+    double rub_speed;  /* forces.rub.speed, m/s */
+    double rub_static;  /* forces.rub.static, kg m/s^2 */
+    double rub_kinetic;  /* forces.rub.kinetic, kg m/s^2 */
+    double set_block_x;  /* start.set.block.x, m */
+    double alpha_stick;  /* baumgarte.stick, 1/s */
+    double two_alpha_stick;  /* 2 alpha of a stick, 1/s */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_block_mass;  /* 1/M, 1/kg */
+    double inverse_block_inertia;  /* 1/M, 1/(kg m^2) */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

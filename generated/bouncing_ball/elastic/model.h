@@ -1,6 +1,7 @@
 /*
  * Bouncing ball, Hertz contact with hysteresis damping
- * mechanism bouncing_ball, scene elastic, from the YAML with sha256 ddbbdb569d27e2af35adb5d783bcae0a9ce6a8f16cf6d94e2fb65a4b9090f7b4
+ * mechanism bouncing_ball, scene elastic, from the YAML with sha256
+ * ddbbdb569d27e2af35adb5d783bcae0a9ce6a8f16cf6d94e2fb65a4b9090f7b4
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
@@ -44,7 +45,29 @@
 #define N_RATES 0             /* velocities that it sets */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double height;  /* parameters.height */    double ball_mass;  /* bodies.ball.mass */    double ball_inertia;  /* bodies.ball.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double floor_radius;  /* bearings.floor.radius */    double floor_clearance;  /* bearings.floor.clearance */    double floor_length;  /* bearings.floor.length */    double steel_E;  /* materials.steel.E */    double steel_nu;  /* materials.steel.nu */    double elastic_normal_stiffness;  /* contacts.elastic.normal.stiffness */    double elastic_normal_exponent;  /* contacts.elastic.normal.exponent */    double elastic_normal_restitution;  /* contacts.elastic.normal.restitution */    double velocity_floor;  /* contacts.elastic.velocity_floor */    double par_y;  /* gravity.y */    double R_j_floor;  /* journal radius */    double weight_ball_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_ball_mass;  /* 1/M */    double inverse_ball_inertia;  /* 1/M */} Parameters;
+typedef struct {
+    double height;  /* parameters.height, m */
+    double ball_mass;  /* bodies.ball.mass, kg */
+    double ball_inertia;  /* bodies.ball.inertia, kg m^2 */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double floor_radius;  /* bearings.floor.radius, m */
+    double floor_clearance;  /* bearings.floor.clearance, m */
+    double floor_length;  /* bearings.floor.length, m */
+    double steel_E;  /* materials.steel.E, kg/(m s^2) */
+    double steel_nu;  /* materials.steel.nu, 1 */
+    double elastic_normal_stiffness;  /* contacts.elastic.normal.stiffness, 1 */
+    double elastic_normal_exponent;  /* contacts.elastic.normal.exponent, 1 */
+    double elastic_normal_restitution;  /* contacts.elastic.normal.restitution, 1 */
+    double velocity_floor;  /* contacts.elastic.velocity_floor, m/s */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double R_j_floor;  /* journal radius, m */
+    double weight_ball_y;  /* weight, kg m/s^2 */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_ball_mass;  /* 1/M, 1/kg */
+    double inverse_ball_inertia;  /* 1/M, 1/(kg m^2) */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

@@ -1,6 +1,7 @@
 /*
  * car axis on a bumpy road (IVP test set)
- * mechanism car_axis, scene ideal, from the YAML with sha256 27bc1ed978b03a2998003e93863092bd7f8153fd519f0ee731603b508116784b
+ * mechanism car_axis, scene ideal, from the YAML with sha256
+ * 27bc1ed978b03a2998003e93863092bd7f8153fd519f0ee731603b508116784b
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
@@ -44,7 +45,42 @@
 #define N_RATES 2             /* velocities that it sets */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double length;  /* parameters.length */    double half_mass;  /* parameters.half_mass */    double par_r;  /* parameters.r */    double omega;  /* parameters.omega */    double axle_mass;  /* bodies.axle.mass */    double axle_inertia;  /* bodies.axle.inertia */    double road_mass;  /* bodies.road.mass */    double road_inertia;  /* bodies.road.inertia */    double axle_length;  /* bodies.axle.length */    double road_length;  /* bodies.road.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slot_direction_y;  /* joints.slot.direction.y */    double par_y;  /* gravity.y */    double left_stiffness;  /* forces.left.stiffness */    double left_free_length;  /* forces.left.free_length */    double right_stiffness;  /* forces.right.stiffness */    double right_free_length;  /* forces.right.free_length */    double set_axle_y;  /* start.set.axle.y */    double axle_head_x;  /* point from the centre of mass */    double road_head_x;  /* point from the centre of mass */    double weight_axle_y;  /* weight */    double weight_road_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_axle_mass;  /* 1/M */    double inverse_axle_inertia;  /* 1/M */    double inverse_road_mass;  /* 1/M */    double inverse_road_inertia;  /* 1/M */    double axle_tail_span_x;  /* vector in its frame */    double road_head_span_x;  /* vector in its frame */    double inertia_road_road;  /* sum of m w.w */    double mass_bump_bump;  /* constant of M */    double weight_road__across;  /* weight */} Parameters;
+typedef struct {
+    double length;  /* parameters.length, m */
+    double half_mass;  /* parameters.half_mass, kg */
+    double par_r;  /* parameters.r, m */
+    double omega;  /* parameters.omega, 1/s */
+    double axle_mass;  /* bodies.axle.mass, kg */
+    double axle_inertia;  /* bodies.axle.inertia, kg m^2 */
+    double road_mass;  /* bodies.road.mass, kg */
+    double road_inertia;  /* bodies.road.inertia, kg m^2 */
+    double axle_length;  /* bodies.axle.length, m */
+    double road_length;  /* bodies.road.length, m */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double slot_direction_y;  /* joints.slot.direction.y, 1 */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double left_stiffness;  /* forces.left.stiffness, kg/s^2 */
+    double left_free_length;  /* forces.left.free_length, m */
+    double right_stiffness;  /* forces.right.stiffness, kg/s^2 */
+    double right_free_length;  /* forces.right.free_length, m */
+    double set_axle_y;  /* start.set.axle.y, m */
+    double axle_head_s_x;  /* point from the centre of mass, m */
+    double road_head_s_x;  /* point from the centre of mass, m */
+    double weight_axle_y;  /* weight, kg m/s^2 */
+    double weight_road_y;  /* weight, kg m/s^2 */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_axle_mass;  /* 1/M, 1/kg */
+    double inverse_axle_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_road_mass;  /* 1/M, 1/kg */
+    double inverse_road_inertia;  /* 1/M, 1/(kg m^2) */
+    double axle_tail_span_x;  /* vector in its frame, m */
+    double road_head_span_x;  /* vector in its frame, m */
+    double inertia_road_road;  /* sum of m w.w, kg m^2 */
+    double mass_bump_bump;  /* constant of M, kg m^2 */
+    double weight_road__across;  /* weight, kg m^2/s^2 */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

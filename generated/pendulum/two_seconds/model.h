@@ -1,6 +1,7 @@
 /*
  * simple pendulum (IFToMM A01)
- * mechanism pendulum, scene two_seconds, from the YAML with sha256 cffac5b14bb71839656f5fba5f5c861a4419ab0d638c7e3e96405a19a3d70ae6
+ * mechanism pendulum, scene two_seconds, from the YAML with sha256
+ * cffac5b14bb71839656f5fba5f5c861a4419ab0d638c7e3e96405a19a3d70ae6
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
@@ -44,7 +45,23 @@
 #define N_RATES 1             /* velocities that it sets */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double par_g;  /* parameters.g */    double length;  /* parameters.length */    double bob_mass;  /* bodies.bob.mass */    double bob_inertia;  /* bodies.bob.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double rod_length;  /* joints.rod.length */    double par_y;  /* gravity.y */    double set_bob_x;  /* start.set.bob.x */    double rod_half_inverse_length;  /* of joint rod */    double weight_bob_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_bob_inertia;  /* 1/M */    double inverse_bob_mass;  /* 1/M */} Parameters;
+typedef struct {
+    double par_g;  /* parameters.g, m/s^2 */
+    double length;  /* parameters.length, m */
+    double bob_mass;  /* bodies.bob.mass, kg */
+    double bob_inertia;  /* bodies.bob.inertia, kg m^2 */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double rod_length;  /* joints.rod.length, m */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double set_bob_x;  /* start.set.bob.x, m */
+    double rod_half_inverse_length;  /* of joint rod, 1/m */
+    double weight_bob_y;  /* weight, kg m/s^2 */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_bob_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_bob_mass;  /* 1/M, 1/kg */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

@@ -16,7 +16,9 @@ from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.time_terms import count_terms
 from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR, SINGULAR
-from gudgeon.generator.targets.c import functions, printer
+from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.c.fields import parameter_fields
+from gudgeon.generator.targets.c.layout import broken
 
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # of which each rate is the derivative
 _OF_JOINTS = {
@@ -30,12 +32,10 @@ _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_sq
 def header_values(program: Program) -> dict[str, Any]:
     """What the template of model.h is filled with."""
     model = program.model
-    mechanism, info = model.scene.mechanism, model.symbols.info
-    slots = [(entry.symbol.name, printer.comment_text(entry.address)) for entry in model.slots.entries.values()]
-    derived = [(symbol.name, printer.comment_text(info[symbol].meaning)) for symbol in model.slots.derived]
+    mechanism = model.scene.mechanism
     return {
         "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
-        "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived,
+        "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": parameter_fields(model.slots),
         "sizes": _defines(sizes(program)), "tables": _tables(program), "of_joints": _of_joints(model),
         "gains": _gains(program),
     }  # fmt: skip
@@ -158,7 +158,7 @@ def _tables(program: Program) -> list[str]:
 
 def _table(kind: str, name: str, values: Iterable[int]) -> str:
     """An empty one holds a number that nobody reads."""
-    return functions.wrapped(f"static const {kind} {name}[] = {{{', '.join(map(str, values)) or 0}}};")
+    return "\n".join(broken(f"static const {kind} {name}[] = {{{', '.join(map(str, values)) or 0}}};"))
 
 
 def _watched(program: Program) -> dict[tuple[str, str], Sequence[int]]:
@@ -206,7 +206,7 @@ def _of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
         "deepest": [deepest(c) for c in model.clearances],
         "slowest_impact": [c.velocity_floor for c in model.clearances],
     }
-    read = {s: sp.Symbol(f"p->{s.name}") for s in model.symbols.info}
+    read = {s: sp.Symbol(info.home) for s, info in model.symbols.info.items() if info.home}
     return [
         (_OF_JOINTS[name], name, [printer.expression(sp.sympify(x).xreplace(read)) for x in some])
         for name, some in values.items()
