@@ -20,8 +20,16 @@ def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> di
     for law in (clearance.normal, clearance.friction, clearance.film):
         if law is not None:
             kernel = _law_kernel(model, clearance, law)
-            found[law.law.role] = shared.call(kernel, joint_numbers(model, clearance), clearance.name)
+            numbers = joint_numbers(model, clearance)
+            found[law.law.role] = shared.call(kernel, numbers, clearance.name, _meanings(model, law))
     return found
+
+
+def _meanings(model: Model, equations: LawEquations) -> dict[str, str]:
+    """Of the law's numbers, by the names that they have in it."""
+    info = model.symbols.info
+    derived = {name: info[symbol].meaning for name, symbol in equations.derived.items() if symbol in info}
+    return derived | {parameter.name: parameter.meaning for parameter in equations.law.parameters}
 
 
 def law_name(equations: LawEquations) -> str:

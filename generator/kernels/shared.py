@@ -6,6 +6,7 @@ the order in which the terms of the first joint stand.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
@@ -21,6 +22,7 @@ from gudgeon.generator.ir.values import Chosen, Place
 from gudgeon.generator.symbols.corners import SideOf
 
 CORNER = Argument("int", "corner")
+NOTHING: Mapping[str, str] = {}
 _SIDE = "side_"
 
 
@@ -40,14 +42,21 @@ class SharedFunctions:
         self.kernels: list[Kernel] = []
         self._known: dict[object, Kernel] = {}
 
-    def call(self, kernel: Kernel, numbers: Mapping[str, str], joint: str) -> SharedCall:
-        """The call of a joint's own function: `numbers` are what fields (`p->pin_radius`) are called in it (`R_i`)."""
+    def call(
+        self, kernel: Kernel, numbers: Mapping[str, str], joint: str, meanings: Mapping[str, str] = NOTHING
+    ) -> SharedCall:  # fmt: skip
+        """The call of a joint's own function: `numbers` are what fields (`p->pin_radius`) are called in it (`R_i`).
+
+        `meanings` of numbers by these names go to its doc comment.
+        """
         called, given = _called(kernel, numbers)
         first = min(_corners(kernel), default=None)
         if first is not None:
             called |= {f"{_SIDE}{k}": f"{_SIDE}{k - first + 1}" for k in _corners(kernel)}
+        told = [f"{name}: {meanings[name]}" for name in map(called.__getitem__, given) if name in meanings]
+        doc = (*kernel.doc, *textwrap.wrap("; ".join(told) + ".", 110)) if told else kernel.doc
         shared = replace(
-            kernel, arguments=_arguments(kernel, [called[field] for field in given], first is not None),
+            kernel, doc=doc, arguments=_arguments(kernel, [called[field] for field in given], first is not None),
             sections=_without_numbers(kernel), names={**kernel.names, **called}, first_corner=first,
         )  # fmt: skip
         key = (kernel.name, shared.arguments, *_contents(shared))
@@ -130,6 +139,7 @@ def _contents(kernel: Kernel) -> Iterator[object]:
         return value.xreplace(sides).xreplace(symbols)
 
     for line in _lines(kernel):
-        what = line.target if isinstance(line, Statement) else type(line)
-        test = line.value.test.relation if isinstance(line, Statement) and isinstance(line.value, Chosen) else ""
-        yield kernel.names.get(str(what), what), test, tuple(map(named, line.expressions))
+        value = line.value if isinstance(line, Statement) else None
+        what = line.target if isinstance(line, Statement) else type(line).__name__
+        how = value.test.relation if isinstance(value, Chosen) else value.text if isinstance(value, Place) else ""
+        yield kernel.names.get(what, what), how, tuple(map(named, line.expressions))

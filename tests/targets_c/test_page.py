@@ -7,8 +7,10 @@ from functools import cache
 from importlib import resources
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import gudgeon
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
@@ -92,6 +94,31 @@ def test_two_joints_call_the_same_law() -> None:
         called = re.findall(rf"^    {law}\(([^;]*)\);", text, flags=re.M)
         assert [int(k) for call in called for k in re.findall(r"g,\s+(\d+),\s+&", call)] == list(corners)
         assert all("p->oil_" in call for call in called)
+
+
+def test_joints_with_other_bearings_and_contacts_share_a_law(tmp_path: Path) -> None:
+    """Each is given its own numbers: with those of the first ones the motion is that of the shipped scene."""
+    text = FILES["nine_bar_press"].read_text(encoding="utf-8")
+    pin, oil = re.search(r"  pin: (.*)\n", text), re.search(r"  dry:\n(    .*\n)+", text)
+    assert pin and oil
+    able = oil[0].replace("  dry:", "  able:") + (
+        "    film: {law: pinkus_sternlicht, viscosity: 100 cP}\n    transition: 5 um\n"
+    )
+    text = text.replace("contacts:\n", f"  wide: {pin[1]}\n\ncontacts:\n{able}")
+    text = text.replace("B: {bearing: pin, contact: oil}", "B: {bearing: wide, contact: able}")
+    path = tmp_path / "press.yaml"
+    path.write_text(text, encoding="utf-8")
+    other, shipped = gudgeon.load(path, "lubricated"), gudgeon.load("nine_bar_press", "lubricated")
+    code = other.source.files["clearance.c"]
+    for law in ("lankarani_nikravesh", "modified_coulomb", "pinkus_sternlicht"):
+        first, second = re.findall(rf"^    {law}\(([^;]*)\);", code, flags=re.M)
+        assert len(re.findall(rf"void {law}\w*\(", code)) == 1
+        assert "p->oil_" in first and "p->able_" in second and not re.search("p->(oil|pin)_", second)
+    rng, start = np.random.default_rng(7), shipped.start()
+    for _ in range(8):
+        away = [scale * rng.normal(size=24) for scale in (3e-4, 0.1)]  # A and B in the film and in contact
+        y = np.concatenate([start.q + away[0], start.v + away[1]])
+        np.testing.assert_allclose(other.rhs(0.0, y), shipped.rhs(0.0, y), rtol=1e-9, atol=1e-9)
 
 
 def test_laws_of_other_options_are_other_functions() -> None:
