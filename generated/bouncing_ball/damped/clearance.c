@@ -3,6 +3,8 @@
  * Source: H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
  * Valid: a point or a line contact whose stiffness is known; penetrations small against the radii.
  * Options: dissipation: hunt_crossley.
+ * stiffness: force at unit penetration, N/m^n; exponent: exponent of the penetration; hysteresis: hysteresis
+ * damping factor a.
  */
 static inline void hertz(double delta, double ratio, double stiffness, double exponent, double hysteresis,
     const double *side, double *g, int corner, double *F_n_out)

@@ -49,6 +49,7 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
  * Source: H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
  * Valid: a point or a line contact whose stiffness is known; penetrations small against the radii.
  * Options: dissipation: none.
+ * stiffness: force at unit penetration, N/m^n; exponent: exponent of the penetration.
  */
 static inline void hertz_none(Lanes delta, Lanes ratio, Lanes stiffness, Lanes exponent, Lanes *F_n_out)
 {

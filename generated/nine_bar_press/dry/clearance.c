@@ -3,6 +3,7 @@
  * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
  * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
  * Options: geometry: external.
+ * exponent: exponent of the penetration; K: contact stiffness; hysteresis: hysteresis damping factor a.
  */
 static inline void lankarani_nikravesh(double delta, double ratio, double exponent, double K, double hysteresis,
     const double *side, double *g, int corner, double *F_n_out)
@@ -20,6 +21,7 @@ static inline void lankarani_nikravesh(double delta, double ratio, double expone
  * modified Coulomb friction.
  * Source: physics.md section 3, after J. A. C. Ambrosio.
  * Valid: sliding; creeps below v1 where Coulomb's law would stick.
+ * mu: coefficient of friction; v0: slip below which there is no friction; friction_slope: 1/(v1 - v0).
  */
 static inline void modified_coulomb(double F_n, double v_t, double mu, double v0, double friction_slope,
     const double *side, double *g, int corner, double *F_t_out)

@@ -75,6 +75,7 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
  * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
  * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
  * Options: geometry: external.
+ * exponent: exponent of the penetration; K: contact stiffness; hysteresis: hysteresis damping factor a.
  */
 static inline void lankarani_nikravesh(Lanes delta, Lanes ratio, Lanes exponent, Lanes K, Lanes hysteresis,
     Lanes *F_n_out)
@@ -88,6 +89,7 @@ static inline void lankarani_nikravesh(Lanes delta, Lanes ratio, Lanes exponent,
  * modified Coulomb friction.
  * Source: physics.md section 3, after J. A. C. Ambrosio.
  * Valid: sliding; creeps below v1 where Coulomb's law would stick.
+ * mu: coefficient of friction; v0: slip below which there is no friction; friction_slope: 1/(v1 - v0).
  */
 static inline void modified_coulomb(Lanes F_n, Lanes v_t, Lanes mu, Lanes v0, Lanes friction_slope, Lanes *F_t_out)
 {
