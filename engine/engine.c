@@ -30,10 +30,12 @@
 #include "watch/events.c"
 #include "run/peaks.c"
 #include "run/changes.c"
+#include "methods/step_length.c"
 #include "methods/adaptive.c"
 #include "batch/many.c"
 #else
 #include "kinematic/kinematic.c"
+#include "kinematic/works.c"
 #if N_USER_EVENTS
 #include "kinematic/events.c"
 #endif

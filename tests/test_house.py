@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -31,3 +32,26 @@ def test_every_room_says_its_purpose() -> None:
     rooms = {file.parent for file in PACKAGE} - {ROOT / "runtime", ROOT / "generator"}
     silent = [room for room in sorted(rooms) if not ast.get_docstring(ast.parse((room / "__init__.py").read_text()))]
     assert silent == []
+
+
+ENGINE = [*sorted((ROOT / "engine").rglob("*.c")), *sorted((ROOT / "engine").rglob("*.h"))]
+
+
+@pytest.mark.parametrize("file", ENGINE, ids=lambda file: str(file.relative_to(ROOT)))
+def test_the_engine_is_plain_c(file: Path) -> None:
+    """No Jinja, no mechanism's name; a comment first that says what the file is for; lines and files of a length."""
+    text = file.read_text(encoding="utf-8")
+    lines = text.splitlines()
+    assert text.startswith("/*") and "{%" not in text and not re.search(r"\{\{-? *\w+ *-?\}\}", text)
+    assert len(lines) <= LONGEST_FILE and max(map(len, lines)) <= 120
+    assert not [path.stem for path in (ROOT / "mechanisms").glob("*_*.yaml") if path.stem in text]
+
+
+def test_what_is_derived_is_committed_and_the_engine_once() -> None:
+    generated = [path for path in (ROOT / "generated").rglob("*") if path.is_file() and "__pycache__" not in path.parts]
+    assert len(generated) <= 200
+    definition = re.compile(r"^\w[\w *]*?(\w+)\([^;{]*\)\n\{", re.M)
+    functions_of_engine = {name for file in ENGINE for name in definition.findall(file.read_text(encoding="utf-8"))}
+    assert {"gudgeon_adaptive_run", "dop853_try", "project_state"} <= functions_of_engine
+    texts = "".join(path.read_text(encoding="utf-8") for path in generated if path.suffix in (".c", ".h"))
+    assert not functions_of_engine & set(definition.findall(texts))

@@ -1,3 +1,6 @@
+/*
+ * What is noted of joints with play at accepted states: peaks, eccentricities, ratios of velocities.
+ */
 static inline Real total_force(const ClearanceOf *joint)
 {
     return real_sqrt(joint->F_n * joint->F_n + joint->F_t * joint->F_t);

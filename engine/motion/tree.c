@@ -1,3 +1,6 @@
+/*
+ * What is integrated where bodies form a tree: its coordinates, their rates, works.
+ */
 #include "../both/one.h"
 
 #define IN_BOTH

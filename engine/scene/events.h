@@ -1,3 +1,4 @@
+/* Events of the user: when one is crossed. */
 #ifndef GUDGEON_EVENTS_H
 #define GUDGEON_EVENTS_H
 

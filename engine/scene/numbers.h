@@ -4,6 +4,8 @@
 #ifndef GUDGEON_NUMBERS_H
 #define GUDGEON_NUMBERS_H
 
+#define PI 3.141592653589793
+
 /* min, max, sign that keep a NaN in x. */
 static inline double max_of(double x, double y) { return x < y ? y : x; }
 static inline double min_of(double x, double y) { return x > y ? y : x; }

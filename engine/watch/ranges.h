@@ -186,7 +186,7 @@ static inline Range range_atan2(Range y, Range x)
     if (is_empty(x) || is_empty(y))
         return only(NAN);
     if (y.lo <= 0.0 && y.hi >= 0.0 && x.lo <= 0.0)
-        return (Range){-3.141592653589793, 3.141592653589793, -INFINITY, INFINITY, x.partly | y.partly};
+        return (Range){-PI, PI, -INFINITY, INFINITY, x.partly | y.partly};
     const double a = atan2(y.lo, x.lo), b = atan2(y.lo, x.hi), c = atan2(y.hi, x.lo), d = atan2(y.hi, x.hi);
     const Range square = range_add(range_square(x), range_square(y));
     const Range by_x = range_times(x, range_inverse(square)), by_y = range_times(y, range_inverse(square));

@@ -123,7 +123,10 @@ class Geometry:
             com = (self.slots.use(body.length) / 2, ZERO) if body.length else (ZERO, ZERO)
         s = self._in_body(body, point, com)
         x, y = (
-            self.slots.derive_signed(f"{body.name}_{point}_{axis}", value - origin, "point from the centre of mass")
+            self.slots.derive_signed(
+                f"{body.name}_{point}_{axis}", value - origin, "point from the centre of mass",
+                f"{body.name}_{point}_s_{axis}",
+            )  # fmt: skip
             for axis, value, origin in zip("xy", s, com, strict=True)
         )
         return x, y

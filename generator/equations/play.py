@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import sympy as sp
 
@@ -14,17 +15,23 @@ from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.language.units import VELOCITY
 
+Derive: TypeAlias = Callable[[str, sp.Expr, str], sp.Expr]  # name, value, meaning: the symbol of a number
 VELOCITY_FLOOR = 1e-6  # m/s, least impact velocity that an onset stores
 
 
 @dataclass(frozen=True)
 class LawEquations:
-    """A law with its symbols filled in; `steps` are abbreviations, then the role's results."""
+    """A law with its symbols filled in; `steps` are abbreviations, then the role's results.
+
+    `numbers` are those of the file by their names there, `derived` what the law makes of them and of the pair.
+    """
 
     law: Law
     options: Mapping[str, str | bool]
     variables: tuple[sp.Symbol, ...]
     steps: Mapping[str, sp.Expr]
+    numbers: Mapping[str, sp.Expr]
+    derived: Mapping[str, sp.Expr]
 
 
 @dataclass(frozen=True)
@@ -101,13 +108,18 @@ def _pair(name: str, bearing: Bearing, slots: Slots) -> PairSymbols:
     )
 
 
-def _law(use: LawUse, role: str, pair: PairSymbols, slots: Slots, derive: object) -> LawEquations:
+def _law(use: LawUse, role: str, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEquations:
     law = laws()[use.law]
     variables = {name: sp.Symbol(name, real=True) for name in VARIABLES[role]}
     parameters = {name: slots.use(quantity) for name, quantity in use.quantities.items()}
-    inputs = LawInputs(parameters, use.options, pair, variables, derive)  # type: ignore[arg-type]
-    steps = law.build(inputs)
+    derived: dict[str, sp.Expr] = {}
+
+    def told(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
+        derived[name] = derive(name, expression, meaning)
+        return derived[name]
+
+    steps = law.build(LawInputs(parameters, use.options, pair, variables, told))
     missing = set(RESULTS[role]) - set(steps)
     if missing:
         raise TypeError(f"law {law.name} returns no {', '.join(sorted(missing))}")
-    return LawEquations(law, use.options, tuple(variables.values()), steps)
+    return LawEquations(law, use.options, tuple(variables.values()), steps, parameters, derived)

@@ -6,8 +6,8 @@ coordinates and parameters that they read and the definitions (cosines, arms, dr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import sympy as sp
 
@@ -40,6 +40,8 @@ class Kernel:
     returns: str = "void"
     inline: bool = False
     attribute: str = ""  # of the compiler: "noinline"
+    names: Mapping[str, str] = field(default_factory=dict)  # what symbols are called in its text
+    first_corner: int | None = None  # its corners are counted from the argument `corner`; None: by their own numbers
 
     @property
     def operations(self) -> int:
@@ -175,7 +177,8 @@ class KernelBuilder:
         if owner is not None:
             sections = hold_sides(self._symbols.switches, owner, sections, only_known)
         kept = tuple(section for section in sections if section.statements)
-        return Kernel(self._name, self._doc, tuple(arguments), kept, returns, inline)
+        names = self._symbols.shorter({name for section in kept for line in section.statements for name in line.reads})
+        return Kernel(self._name, self._doc, tuple(arguments), kept, returns, inline, names=names)
 
     def _resolve(self, expressions: Iterable[sp.Expr], declared: set[str]) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
         """Definitions to compute (in the order in which they were made) and inputs to read."""

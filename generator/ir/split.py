@@ -214,7 +214,7 @@ class _Cut:
         return Kernel(
             name, (f"A part of `{self.kernel.name}`, which calls it.",),
             (*self.kernel.arguments, Argument("double *", self.passed)), _sections([*within, *end]),
-            "int" if tested else "void", attribute="noinline",
+            "int" if tested else "void", attribute="noinline", names=self.kernel.names,
         )  # fmt: skip
 
     def call(self, name: str, piece: list[Item], rest: set[str]) -> list[Item]:

@@ -11,7 +11,7 @@ from typing import ClassVar, TypeAlias
 
 import sympy as sp
 
-from gudgeon.generator.symbols.corners import SideOf
+from gudgeon.generator.symbols.corners import SideOf, Size
 
 Names = frozenset[str]
 NONE: Names = frozenset()
@@ -66,6 +66,13 @@ class Test:
     def expressions(self) -> tuple[sp.Basic, ...]:
         """On both sides."""
         return (self.value, *(x for x in self.bound if isinstance(x, sp.Basic)))
+
+    @property
+    def of_itself(self) -> bool:
+        """Whether the bound is a share of the value itself: what is asked is whether it is above zero, and finite."""
+        if self.relation != ">" or len(self.bound) != 2 or not isinstance(self.bound[0], float):
+            return False
+        return 0 < self.bound[0] < 1 and self.bound[1] == (Size(self.value) if self.size else self.value)
 
 
 @dataclass(frozen=True)

@@ -17,14 +17,14 @@ from gudgeon.generator.ir.values import Given
 def prepare_kernel(model: Model) -> Kernel:
     """Slots from what is given, the rest from their defaults; then everything derived from them."""
     slots: list[Statement] = []
+    info = model.symbols.info
     for i, entry in enumerate(model.slots.entries.values()):
-        name = entry.symbol.name
-        slots.append(Statement(name, Given(i, entry.value), True, entry.address))
-        slots.append(Statement(f"p->{name}", entry.symbol, False))
+        slots.append(Statement(entry.symbol.name, Given(i, entry.value), True, entry.address))
+        slots.append(Statement(info[entry.symbol].home, entry.symbol, False))
     derived: list[Statement] = []
     for symbol, value in model.slots.derived.items():
-        derived.append(Statement(symbol.name, value, True, model.symbols.info[symbol].meaning))
-        derived.append(Statement(f"p->{symbol.name}", symbol, False))
+        derived.append(Statement(symbol.name, value, True, info[symbol].meaning))
+        derived.append(Statement(info[symbol].home, symbol, False))
     return Kernel(
         "prepare",
         ("Every number of a run: slots given or by default, then what follows from them.",),

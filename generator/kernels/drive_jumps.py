@@ -1,7 +1,7 @@
 """Corners of drives for `rk4`: functions of time alone, at whose zeros the rate of what is prescribed may jump.
 
 The adaptive methods look for them along a step with all others (watched.py). rk4 keeps to its grid and to no sides; it
-needs to know the times only, which hang on no state: a part of its step ends there (templates/c/watch/jumps.c.jinja).
+needs to know the times only, which hang on no state: a part of its step ends there (engine/watch/jumps.c).
 """
 
 from __future__ import annotations

@@ -149,7 +149,7 @@ def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> N
 
 
 def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
-    """The way out when a pivot vanishes (templates/c/scene/singular.c.jinja)."""
+    """The way out when a pivot vanishes (engine/scene/singular.c)."""
     build.line(Jump())
     build.section("a pivot vanished: rows depend on each other here")
     force, rhs = (tuple(b.get(k, ZERO) for k in nodes) for nodes in (range(kkt.n), range(kkt.n, kkt.n + len(kkt.rows))))

@@ -1,7 +1,7 @@
 """Functions of the state whose zeros end a step: a scene's own corners and its user events, apart from the rest.
 
 A step may be long where the motion is smooth, and an expression may change its sign many times meanwhile. So each is
-looked at along a step (templates/c/watch/watched.c.jinja), by bounds over its parts. This is the part of the
+looked at along a step (engine/watch/watched.c), by bounds over its parts. This is the part of the
 right-hand side that they need: mostly no more than the positions in them.
 """
 

@@ -1,4 +1,4 @@
-"""The force laws of each joint with play as small functions of their own."""
+"""The force laws of joints with play as small functions of their own, each once a scene."""
 
 from __future__ import annotations
 
@@ -6,36 +6,45 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section
+from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
 from gudgeon.generator.ir.signatures import PARAMETERS, SIDES
 from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
 from gudgeon.generator.kinds.laws.law import RESULTS
 
 
-def law_kernels(model: Model, clearance: Clearance) -> list[Kernel]:
-    """`normal_<joint>`, `friction_<joint>`, `film_<joint>`, as far as the joint has them."""
-    kernels = []
-    if clearance.normal is not None:
-        kernels.append(_law_kernel(model, clearance, clearance.normal))
-        kernels.append(
-            _no_friction(clearance) if clearance.friction is None else _law_kernel(model, clearance, clearance.friction)
-        )
-    if clearance.film is not None:
-        kernels.append(_law_kernel(model, clearance, clearance.film))
-    return kernels
+def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedCall]:
+    """How a joint calls its laws, by role, as far as it has them."""
+    found = {}
+    for law in (clearance.normal, clearance.friction, clearance.film):
+        if law is not None:
+            kernel = _law_kernel(model, clearance, law)
+            numbers = joint_numbers(model, clearance)
+            found[law.law.role] = shared.call(kernel, numbers, clearance.name, _meanings(model, law))
+    return found
+
+
+def _meanings(model: Model, equations: LawEquations) -> dict[str, str]:
+    """Of the law's numbers, by the names that they have in it."""
+    info = model.symbols.info
+    derived = {name: info[symbol].meaning for name, symbol in equations.derived.items() if symbol in info}
+    return derived | {parameter.name: parameter.meaning for parameter in equations.law.parameters}
+
+
+def law_name(equations: LawEquations) -> str:
+    """The law's own name, with the options that are not the usual ones."""
+    usual = {option.name: option.default for option in equations.law.options}
+    chosen = {name: value for name, value in equations.options.items() if value != usual[name]}
+    return "_".join([equations.law.name, *(name if value is True else str(value) for name, value in chosen.items())])
 
 
 def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
     """Abbreviations become locals, results `*F_…` pointers; the law says its source and validity."""
     law = equations.law
     results = RESULTS[law.role]
-    chosen = [f"{name}: {value}" for name, value in equations.options.items()]
-    build = KernelBuilder(model.symbols, f"{law.role}_{clearance.name}_force", [
-        f"{law.title}.", f"Source: {law.source}.", f"Valid: {law.validity}.",
-        *([f"Options: {', '.join(chosen)}."] if chosen else []),
-    ])  # fmt: skip
-    build.section(f"law of joint {clearance.name}")
+    build = KernelBuilder(model.symbols, law_name(equations), _doc(equations))
+    build.section("")
     for name, equation in equations.steps.items():
         value = hoisted(model.slots, sp.sympify(equation))
         if name in results:
@@ -49,8 +58,10 @@ def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> 
     return with_reciprocals(kernel)
 
 
-def _no_friction(clearance: Clearance) -> Kernel:
-    variables = (Argument("double", "F_n"), Argument("double", "v_t"))
-    arguments = (*variables, PARAMETERS, *SIDES, Argument("double *", "F_t_out"))
-    none = Section("no friction law", (Statement("*F_t_out", sp.Integer(0), False),))
-    return Kernel(f"friction_{clearance.name}_force", ("No friction in this joint.",), arguments, (none,), inline=True)
+def _doc(equations: LawEquations) -> list[str]:
+    law = equations.law
+    chosen = [f"{name}: {value}" for name, value in equations.options.items()]
+    return [
+        f"{law.title}.", f"Source: {law.source}.", f"Valid: {law.validity}.",
+        *([f"Options: {', '.join(chosen)}."] if chosen else []),
+    ]  # fmt: skip

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
@@ -11,10 +11,11 @@ from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.ir.kernels import Kernel, Section, hold_sides
+from gudgeon.generator.ir.kernels import Section, hold_sides
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
-from gudgeon.generator.kernels.laws import law_kernels
+from gudgeon.generator.kernels.laws import law_calls, law_name
+from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
 from gudgeon.generator.solvers.contact_slopes import dry_slopes, film_slopes, in_place, share_slope, unlatched
 
 Statements = tuple[Statement, ...]
@@ -31,7 +32,7 @@ class Pin:
     """One joint with play: statements before and after the calls of its laws, in the order of contact_steps.py."""
 
     clearance: Clearance
-    laws: tuple[Kernel, ...]  # normal, friction, film, as far as it has them
+    laws: Mapping[str, SharedCall]  # by role, as far as it has them
     gap: Statements
     before_dry: Statements = ()
     after_dry: Statements = ()
@@ -46,14 +47,14 @@ class Pin:
         return self.clearance.film is not None and self.clearance.normal is not None
 
 
-def make_pin(model: Model, clearance: Clearance) -> Pin:
+def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin:
     """Derives the laws and the steps, and with them the corners of the joint."""
     name, film = clearance.name, clearance.film
 
     def held(steps: Sequence[Step]) -> Statements:
         return _statements(model, steps, name)
 
-    laws, parts = tuple(law_kernels(model, clearance)), {}
+    laws, parts = law_calls(model, clearance, shared), {}
     if clearance.normal is not None:
         parts["before_dry"] = held([unlatched(step) for step in contact.before_dry(clearance)])
         parts["after_dry"] = held(contact.after_dry())
@@ -79,13 +80,20 @@ def _statements(model: Model, steps: Sequence[Step], owner: str) -> Statements:
     return tuple(item for item in section.statements if isinstance(item, Statement))
 
 
-def pin_slopes(model: Model, clearance: Clearance) -> tuple[Kernel, ...]:
-    """Derivatives of the film's part, of the dry one and of their blend, as far as the joint has them."""
-    own = []
+def pin_slopes(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedCall]:
+    """Derivatives of the film's part, of the dry one and of their blend ("share"), as far as the joint has them."""
+    own = {}
     if clearance.film is not None:
-        own.append(film_slopes(model, clearance, clearance.film))
+        own["film"] = film_slopes(model, clearance, clearance.film)
     if clearance.normal is not None:
-        own.append(dry_slopes(model, clearance, clearance.normal))
+        own["dry"] = dry_slopes(model, clearance, clearance.normal)
     if len(own) == 2:
-        own.append(share_slope(model, clearance))
-    return tuple(own)
+        own["share"] = share_slope(model, clearance)
+    numbers = joint_numbers(model, clearance)
+    return {part: shared.call(replace(kernel, name=_slope_name(clearance, part)), numbers, clearance.name)
+            for part, kernel in own.items()}  # fmt: skip
+
+
+def _slope_name(clearance: Clearance, part: str) -> str:
+    laws = {"film": [clearance.film], "dry": [clearance.normal, clearance.friction], "share": []}[part]
+    return "_".join([f"{part}_slopes", *(law_name(law) for law in laws if law)])

@@ -26,6 +26,7 @@ from gudgeon.generator.kernels.kinematic import kinematic_kernels
 from gudgeon.generator.kernels.play import Pin, make_pin, pin_slopes
 from gudgeon.generator.kernels.projection import closing_kernel, projection_kernel
 from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued, motion_kernels, reduced_kernels
+from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions
 from gudgeon.generator.kernels.time_terms import time_terms_kernel
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.reduction.reduction import TreeSystem, reduce
@@ -79,12 +80,14 @@ class TreeFunctions:
 class Methods:
     """What the integrators need beside the motion.
 
-    `slopes` by joint with play; `closing` projects onto the rows, `plain_closing` before sines are put side by side;
-    `gains` by name: 2α and β² of Baumgarte's terms, 2α of a stick, as far as there are any.
+    `slopes` by joint with play and part, of the functions `sloping`; `closing` projects onto the rows, `plain_closing`
+    before sines are put side by side; `gains` by name: 2α and β² of Baumgarte's terms, 2α of a stick, as far as there
+    are any.
     """
 
     newton: Newton
-    slopes: Mapping[str, tuple[Kernel, ...]]
+    slopes: Mapping[str, Mapping[str, SharedCall]]
+    sloping: tuple[Kernel, ...]
     closing: Kernel
     plain_closing: Kernel
     gains: Mapping[str, sp.Expr]
@@ -94,7 +97,7 @@ class Methods:
         """Newton's, then the slopes."""
         newton = self.newton
         own = (newton.linearize, newton.factor, newton.substitute, newton.solve)
-        return (*own, *(kernel for kernels in self.slopes.values() for kernel in kernels))
+        return (*own, *self.sloping)
 
 
 @dataclass(frozen=True)
@@ -130,6 +133,7 @@ class Program:
     closed: tuple[Kernel, ...]
     dynamics: Kernel
     watched: Kernel | None
+    laws: tuple[Kernel, ...]  # of joints with play, each once
     pins: tuple[Pin, ...]
     tree: TreeFunctions | None
     integrated: Integrated
@@ -168,14 +172,16 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
         closed_linkage.mass_kernel(model), *closed_linkage.row_kernels(model), closed_linkage.start_kernel(model),
         outputs.outputs_kernel(model),
     )  # fmt: skip
-    pins = tuple(make_pin(model, clearance) for clearance in model.clearances)
+    laws = SharedFunctions()
+    pins = tuple(make_pin(model, clearance, laws) for clearance in model.clearances)
     tree, in_tree = _tree(model, kkt.pivots) if formulation == "reduced" else (None, None)
     watched = watched_kernel(dynamics, model)
     angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
     plain = Integrated(system, kkt, angles, False, watched, jumps_of(dynamics, model), kkt.pivots)
     integrated = in_tree or plain
     program = Program(
-        model, formulation, kkt, closed, dynamics, watched, pins, tree, integrated, time_terms_kernel(dynamics),
+        model, formulation, kkt, closed, dynamics, watched, tuple(laws.kernels), pins, tree, integrated,
+        time_terms_kernel(dynamics),
         methods=_methods(model, integrated) if integrates else None,
         course=None if integrates else _course(model, kkt, integrated),
     )  # fmt: skip
@@ -202,7 +208,8 @@ def _tree(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integra
 
 
 def _methods(model: Model, integrated: Integrated) -> Methods:
-    slopes = {clearance.name: pin_slopes(model, clearance) for clearance in model.clearances}
+    sloping = SharedFunctions()
+    slopes = {clearance.name: pin_slopes(model, clearance, sloping) for clearance in model.clearances}
     newton = Newton(integrated.system)
     gains = {"stick": stick_gain(model)} if model.frictions else {}
     if not integrated.reduced:
@@ -211,7 +218,7 @@ def _methods(model: Model, integrated: Integrated) -> Methods:
         gains["beta_squared"] = model.slots.derive("beta_squared", beta**2)
     closing = closing_kernel(integrated.system)
     finished = side_by_side(without_unused(closing)) if integrated.reduced else closing
-    return Methods(newton, slopes, finished, without_unused(closing), gains)
+    return Methods(newton, slopes, tuple(sloping.kernels), finished, without_unused(closing), gains)
 
 
 def _course(model: Model, kkt: KKT, integrated: Integrated) -> Course:

@@ -3,7 +3,7 @@
 A step of a method sees forces and drives at its stages only. Polynomials, sines and exponentials of a linear argument
 show there what they do; e^(−t²), 1/(1 + t²), tanh t or a sine of a sine may be at rest at all of them and act in
 between. Such terms are known without the state, and so are their bounds over a part of a step
-(templates/c/watch/time_terms.c.jinja, ranges.c.jinja).
+(engine/watch/time_terms.c, ranges.h).
 """
 
 from __future__ import annotations

@@ -127,8 +127,11 @@ class Motions:
             self._arms[frame.name, x, y] = a_x, a_y
         return self._arms[frame.name, x, y]
 
-    def constant_vector(self, wanted: str, w: Pair) -> Pair:
+    def constant_vector(self, wanted: str, w: Pair, shown: str = "") -> Pair:
         """Both components as numbers of `prepare`."""
-        derive = self.slots.derive_signed
-        return derive(f"{wanted}_x", sp.expand(w[0]), "vector in its frame"), derive(
-            f"{wanted}_y", sp.expand(w[1]), "vector in its frame")  # fmt: skip
+        x, y = (
+            self.slots.derive_signed(f"{wanted}_{axis}", sp.expand(part), "vector in its frame",
+                                     f"{shown}_{axis}" if shown else "")
+            for axis, part in zip("xy", w, strict=True)
+        )  # fmt: skip
+        return x, y

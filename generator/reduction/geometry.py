@@ -131,7 +131,8 @@ class TreeGeometry(Geometry):
         derive = self.slots.derive
         cos = derive(f"cos_{body}_offset", sp.cos(offset), f"angle of {body} in its frame")
         sin = derive(f"sin_{body}_offset", sp.sin(offset), f"angle of {body} in its frame")
-        return self.motions.constant_vector(wanted, (cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]))
+        turned = (cos * s[0] - sin * s[1], sin * s[0] + cos * s[1])
+        return self.motions.constant_vector(wanted, turned, f"{wanted}_in_frame")
 
     def _carry(self, link: Link) -> None:
         """Where the body is, from its parent; then its symbols."""

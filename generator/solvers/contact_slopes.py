@@ -40,8 +40,8 @@ class _Slopes:
     def __init__(self, model: Model, clearance: Clearance, part: str) -> None:
         self.model, self.clearance, self.part = model, clearance, part
         self.build = KernelBuilder(model.symbols, f"{part}_slopes_{clearance.name}", [
-            f"Joint {clearance.name}, {part}: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t,",
-            "omega_i, omega_j (forward differentiation of the same steps).",
+            f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t, omega_i,",
+            "omega_j (forward differentiation of the same steps).",
         ])  # fmt: skip
         self.tangents = Tangents(model.symbols, self.build, INPUTS, clearance.name, share_powers=True)
 
@@ -85,7 +85,7 @@ def film_slopes(model: Model, clearance: Clearance, film: LawEquations) -> Kerne
     slopes.section("eccentricity ratio and effective squeeze velocity")
     for step in contact.before_film(clearance, film):
         slopes.step(step)
-    slopes.section(f"film of joint {clearance.name}")
+    slopes.section("film")
     results = slopes.law(film, (contact.epsilon, contact.w_n, contact.w_t))
     slopes.section("moments")
     slopes.step(Step(contact.of_part(contact.F_along_t, "film"), results["F_t"]))
@@ -110,7 +110,7 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     tangents.know(ratio, {contact.deltadot: slope})
     for step in contact.before_dry(clearance):
         slopes.step(unlatched(step))
-    slopes.section(f"contact of joint {clearance.name}")
+    slopes.section("contact")
     F_n = slopes.law(normal, (DEPTH, contact.ratio))["F_n"]
     tangential = contact.of_part(contact.F_along_t, "dry")
     if clearance.friction is not None:
@@ -131,13 +131,14 @@ def unlatched(step: Step) -> Step:
 def in_place(model: Model, value: sp.Expr) -> sp.Expr:
     """A step's value with parameters read from their struct, the reciprocals that it needs of them as well."""
     value = hoisted(model.slots, value)
-    return value.xreplace({s: sp.Symbol(f"p->{s.name}") for s in value.free_symbols if s in model.symbols.info})
+    info = model.symbols.info
+    return value.xreplace({s: sp.Symbol(info[s].home) for s in value.free_symbols if s in info})
 
 
 def share_slope(model: Model, clearance: Clearance) -> Kernel:
     """The share of the dry contact in the transition of a closed contact, and its derivative by e."""
     build = KernelBuilder(model.symbols, f"share_slope_{clearance.name}", [
-        f"Joint {clearance.name}: the share of the dry contact between film and contact, and its derivative by e.",
+        "The share of the dry contact between film and contact, and its derivative by e.",
     ])  # fmt: skip
     tangents = Tangents(model.symbols, build, (contact.delta,), clearance.name)
     build.section("share")

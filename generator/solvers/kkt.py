@@ -28,7 +28,7 @@ Entries = dict[tuple[int, int], sp.Expr]
 # share is the squared sine of the angle between the row and the others, rounding leaves some 1e-15.
 SINGULAR = 1e-13
 # Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
-# The rank-revealing way (templates/c/scene/singular.c.jinja) leaves it out for the moment if the others agree.
+# The rank-revealing way (engine/scene/singular.c) leaves it out for the moment if the others agree.
 NEARLY_SINGULAR = 1e-8
 # Share of a joint's two rows that is left of one of them where it counts as vanished: their size is the squared sine
 # of the angle to the singular position, and within 1e-5 of it rounding decides where things go.

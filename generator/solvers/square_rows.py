@@ -4,7 +4,7 @@ A linkage without freedom falls into groups of bodies that can be placed one aft
 kinematics, mostly dyads: two rows in two angles). In Φ_q they are the diagonal blocks of its block triangular form:
 match every row with a coordinate of its own, then take the strongly connected parts of who needs whom, in order
 (A. Pothen, C.-J. Fan, ACM Trans. Math. Softw. 16:303, 1990). One row is a division, two are Cramer's rule, larger
-blocks are factorized densely with pivoting at run time (templates/c/scene/block.c.jinja).
+blocks are factorized densely with pivoting at run time (engine/scene/block.c).
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class SquareRows:
 
     @property
     def largest(self) -> int:
-        """Rows of the largest block; more than two need the code of block.c.jinja."""
+        """Rows of the largest block; more than two need engine/scene/block.c."""
         return max((len(block.rows) for block in self.blocks or ()), default=0)
 
     def factorize(self, build: KernelBuilder) -> list[Solver]:

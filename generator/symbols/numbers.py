@@ -76,7 +76,9 @@ class Slots:
         default = float(evaluate(quantity.value, lambda path: self.entries[f"parameters.{path}"].default))
         if not names_any(quantity):
             value = sp.Float(default, 17)
-        symbol = self.symbols.new(wanted, "p->{}", address)
+        short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is no y
+        shown = address if short else ""
+        symbol = self.symbols.new(wanted, "p->{}", address, shown=shown)
         self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension)
         return symbol
 
@@ -98,21 +100,29 @@ class Slots:
         self.symbols.adopt(self.entries[address].symbol)
         return self.entries[address].symbol
 
-    def derive(self, wanted: str, expression: sp.Expr, meaning: str = "") -> sp.Expr:
+    def derive(self, wanted: str, expression: sp.Expr, meaning: str = "", shown: str = "") -> sp.Expr:
         """A number that `prepare` computes once a run; numbers and slots themselves stay as they are."""
         if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].home.startswith("p->")):
             return expression
         if expression not in self._derived_by:
-            symbol = self.symbols.define(wanted, expression, "p->{}", meaning)
+            symbol = self.symbols.define(wanted, expression, "p->{}", meaning, shown=shown)
             self.derived[symbol] = expression
             self._derived_by[expression] = symbol
         self.symbols.adopt(self._derived_by[expression])
         return self._derived_by[expression]
 
-    def derive_signed(self, wanted: str, expression: sp.Expr, meaning: str = "") -> sp.Expr:
+    def derive_signed(self, wanted: str, expression: sp.Expr, meaning: str = "", shown: str = "") -> sp.Expr:
         """Like `derive`, but −s is written with the symbol of s, so that opposite arms are shared."""
         opposite = self._derived_by.get(-expression)
-        return self.derive(wanted, expression, meaning) if opposite is None else -opposite
+        return self.derive(wanted, expression, meaning, shown) if opposite is None else -opposite
+
+    def members(self) -> list[sp.Symbol]:
+        """Every number of a run: slots, then what is derived."""
+        return [*(entry.symbol for entry in self.entries.values()), *self.derived]
+
+    def field(self, symbol: sp.Symbol) -> str:
+        """What a number is called in Parameters."""
+        return self.symbols.info[symbol].home.removeprefix("p->")
 
 
 def names_any(quantity: Quantity) -> bool:

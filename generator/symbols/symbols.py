@@ -8,6 +8,7 @@ that Φ_q and γ come out in the words of the geometry and need no search for co
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import sympy as sp
@@ -64,6 +65,7 @@ class Symbols:
         self._names: set[str] = set()
         self._shared: Symbols | None = None  # who else has the members of Parameters
         self._frozen = False
+        self._numbered: dict[str, str] = {}  # names that others had before: what was wanted
 
     def freeze(self, frozen: bool = True) -> None:
         """From now on no name is new (a defect of the generator), nor any corner; or, thawed, they may be again."""
@@ -97,24 +99,62 @@ class Symbols:
             count += 1
             candidate = f"{name}_{count}"
         self._names.add(candidate)
+        if count > 1:
+            self._numbered[candidate] = name
         return candidate
 
-    def new(self, wanted: str, home: str = "", meaning: str = "", unit: str = "") -> sp.Symbol:
-        """A new real symbol; `{}` in `home` stands for the C name that it gets."""
-        name = self.unique(wanted)
+    def shorter(self, used: Collection[str]) -> dict[str, str]:
+        """What names that bear a number are called in a function that uses these: without it, or with the least."""
+        own = [name for name in used if not self._home(name).startswith("p->")]
+        numbered = sorted((name for name in own if name in self._numbered), key=lambda name: (len(name), name))
+        taken = {*own} - {*numbered}
+        found: dict[str, str] = {}
+        for name in numbered:
+            base = self._numbered[name]
+            free = base not in taken and not self._is_member(base)
+            found[name] = base if free else next(
+                called for k in range(2, len(used) + 3) if (called := f"{base}_{k}") not in taken
+            )  # fmt: skip
+            taken.add(found[name])
+        return {name: called for name, called in found.items() if name != called}
+
+    def _is_member(self, name: str) -> bool:
+        """Whether a number of the run has this name: the same one for something else would mislead."""
+        return self._home(name) == f"p->{name}"
+
+    def _home(self, name: str) -> str:
+        info = self.info.get(sp.Symbol(name, real=True))
+        return info.home if info else ""
+
+    def new(
+        self, wanted: str, home: str = "", meaning: str = "", unit: str = "", shown: str = ""
+    ) -> sp.Symbol:  # fmt: skip
+        """A new real symbol; `{}` in `home` stands for the C name that it gets: `shown`, or its own.
+
+        Its own name is what terms are put in order by.
+        """
         shared = self._shared if home.startswith("p->") else None
-        while shared is not None and name in shared._names:
-            name = self.unique(wanted)
+        name, called = (self._unshared(text, shared) if text else "" for text in (wanted, shown))
         symbol = sp.Symbol(name, real=True)
-        self.info[symbol] = SymbolInfo(home.replace("{}", name), meaning, unit)
+        self.info[symbol] = SymbolInfo(home.replace("{}", called or name), meaning, unit)
         if shared is not None:
-            shared._names.add(name)
             shared.info[symbol] = self.info[symbol]
         return symbol
 
-    def define(self, wanted: str, expression: sp.Expr, home: str = "", meaning: str = "", unit: str = "") -> sp.Symbol:
+    def _unshared(self, wanted: str, shared: Symbols | None) -> str:
+        """A name that is new on the other side too."""
+        name = self.unique(wanted)
+        while shared is not None and name in shared._names:
+            name = self.unique(wanted)
+        if shared is not None:
+            shared._names.add(name)
+        return name
+
+    def define(
+        self, wanted: str, expression: sp.Expr, home: str = "", meaning: str = "", unit: str = "", shown: str = ""
+    ) -> sp.Symbol:  # fmt: skip
         """A new symbol that stands for `expression`."""
-        symbol = self.new(wanted, home, meaning, unit)
+        symbol = self.new(wanted, home, meaning, unit, shown)
         self.definitions[symbol] = expression
         if self._shared is not None and home.startswith("p->"):
             self._shared.definitions[symbol] = expression

@@ -1,4 +1,4 @@
-"""Many runs in C (templates/c/batch/many.c.jinja): the arrays that they fill, and the threads that work on them.
+"""Many runs in C (engine/batch/many.c): the arrays that they fill, and the threads that work on them.
 
 A call of C takes runs from start to end and holds no lock of Python; Python hands out runs, and fetches the
 lists of contacts and events.

@@ -1,4 +1,4 @@
-"""What a status of the C time loops stands for (templates/c/run/run.c.jinja), in words."""
+"""What a status of the C time loops stands for (engine/run/run.c), in words."""
 
 from __future__ import annotations
 

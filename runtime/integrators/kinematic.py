@@ -1,7 +1,7 @@
 """No degree of freedom: positions by Newton from sample to sample, the rest by linear solves.
 
 Nothing is integrated but the work of drives and force elements, for the energy check: Gauss–Legendre quadrature of
-their power over the steps that follow the motion (templates/c/kinematic/kinematic.c.jinja). `Trajectory.seconds` is
+their power over the steps that follow the motion (engine/kinematic/kinematic.c). `Trajectory.seconds` is
 the time of the motion, works and events not counted.
 """
 

@@ -1,6 +1,6 @@
 """Events of a scene without a degree of freedom: its motion is known at every time, so their times are too.
 
-templates/c/kinematic/kinematic_events.c.jinja looks for changes of sign over parts of the way in which no expression
+engine/kinematic/events.c looks for changes of sign over parts of the way in which no expression
 turns back, and finds their times by bisection to 4 ulp of t or 1e-12 of the part. A zero at the end of the run counts:
 the way is looked at a little beyond it.
 """

@@ -1,4 +1,4 @@
-"""Classical Runge–Kutta of order 4 with fixed step: the loop is in C (templates/c/methods/rk4.c.jinja).
+"""Classical Runge–Kutta of order 4 with fixed step: the loop is in C (engine/methods/rk4.c).
 
 Every step is as long as was asked for, the last one as is left; outputs do not touch them. Samples between two steps
 come from the cubic through both. Python is called once a chunk of steps and fetches impacts and events; C asks it on

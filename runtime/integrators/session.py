@@ -1,4 +1,4 @@
-"""The C struct of one run: started, driven by a method, and read out (templates/c/run/run.c.jinja)."""
+"""The C struct of one run: started, driven by a method, and read out (engine/run/)."""
 
 from __future__ import annotations
 

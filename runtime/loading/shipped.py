@@ -17,7 +17,7 @@ PACKAGE = Path(__file__).parents[1]
 MECHANISMS = PACKAGE / "mechanisms"
 GENERATED = PACKAGE / "generated"
 REST = "kernel.json"
-_TEXTS = (".c", ".h")
+_TEXTS = (".c", ".h", ".md")
 
 
 def shipped() -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 A scene with play starts from its closed linkage (e = 0, ideal velocities). Angles weigh most: a step
 moves guessed angles least, then the other angles, and positions follow. The ordinary case is one call of C
-(templates/c/scene/start.c.jinja); what it cannot close, or not near the guess, is looked for here.
+(engine/scene/start.c); what it cannot close, or not near the guess, is looked for here.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ from gudgeon.model.compiled import Array
 from gudgeon.waiting.imports import SPARSE, whole
 
 LARGE = 150  # coordinates from which on this is used
-DAMPING = 1e-10  # of the sum of squares: C's first step has the same (templates/c/scene/start.c.jinja)
+DAMPING = 1e-10  # of the sum of squares: C's first step has the same (engine/scene/start.c)
 COLUMNS, SHARPER = 6, 6  # random columns that are filtered, how often
 VANISHES = 1e-6  # of the largest singular value: what is below is left alone where rows depend on each other
 

@@ -15,7 +15,7 @@ from gudgeon.generator.ir.order import nearby
 from gudgeon.generator.ir.statements import Call, Declare, Line, Statement
 from gudgeon.generator.ir.values import Place
 from gudgeon.generator.pipeline import generate
-from gudgeon.generator.targets.c import functions
+from gudgeon.generator.targets.c import functions, printer
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.mechanisms.n_four_bar import text
@@ -116,6 +116,6 @@ def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> 
     *pieces, main = parts.cut(Kernel("f", (), kernel.arguments, (Section("", (*front, *free, last)),)))
     assert [piece.name for piece in pieces] == ["f_part_1", "f_part_2", "f_part_3"]
     kept = [line for section in main.sections for line in section.statements if not isinstance(line, Statement)]
-    assert [functions.line(line).strip() for line in kept] == [
+    assert [functions.Lines(printer.CPrinter()).line(line).strip() for line in kept] == [
         "double passed[3];", "double b[2];", "fill(b);", *(f"f_part_{k}(x, y, passed);" for k in (1, 2, 3)),
     ]  # fmt: skip

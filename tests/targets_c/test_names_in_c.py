@@ -73,7 +73,7 @@ def vocabulary() -> frozenset[str]:
     """Every identifier in the C of scenes that have everything."""
     scenes = [("slider_crank", "oiled"), ("slider_crank", "ideal"), ("double_pendulum", "dry"), ("every_kind", "ideal")]
     sources = [generate((VALID / f"{f}.yaml").read_bytes(), "f", scene) for f, scene in scenes]
-    texts = [text for source in sources for text in source.files.values()]
+    texts = [text for source in sources for name, text in source.files.items() if name.endswith((".c", ".h"))]
     texts += engine_files().values()
     words = re.findall(r"[A-Za-z]\w*", re.sub(r"/\*.*?\*/", " ", "\n".join(texts), flags=re.S))
     return frozenset(filter(accepted, words))

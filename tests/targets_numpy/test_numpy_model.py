@@ -54,7 +54,8 @@ def check(simulation: Simulation) -> None:
     model, c, p = simulation.model.numpy(), simulation.compiled, simulation.p
     joints, frictions = len(simulation.source.clearances), len(simulation.source.frictions)
     numbers = model.prepare()
-    names = [model.model.slots.entries[slot.address].symbol.name for slot in simulation.source.slots]
+    slots = model.model.slots
+    names = [slots.field(slots.entries[slot.address].symbol) for slot in simulation.source.slots]
     in_c = dict(zip([*names, *simulation.source.derived], p.tolist(), strict=True))
     shared = [name for name in vars(numbers) if name in in_c]
     assert set(names) <= set(shared)

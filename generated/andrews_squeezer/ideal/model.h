@@ -1,15 +1,13 @@
 /*
  * Andrews' squeezing mechanism (seven-body mechanism)
- * mechanism andrews_squeezer, scene ideal, from the YAML with sha256 471536d25724392f83d154950e54c5245e4d82c620bcf77f2707564fd4a61dd4
+ * mechanism andrews_squeezer, scene ideal, from the YAML with sha256
+ * 471536d25724392f83d154950e54c5245e4d82c620bcf77f2707564fd4a61dd4
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 21                /* coordinates of all bodies */
 #define N_ROWS 20             /* constraint rows of the motion */
 #define N_ALL_ROWS 20         /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 0          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 3            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_X 7                 /* coordinates that are integrated */
 #define N_LOOPS 6             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 1             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 70           /* of the linearized equations */
+#define N_FACTORS 71          /* of their factors L and U */
+#define HAS_LANES 1           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,14 +43,125 @@
 #define N_GUESS 6             /* coordinates that the start guesses */
 #define N_SET 1               /* those that it sets */
 #define N_RATES 0             /* velocities that it sets */
-#define N_VALUES 70           /* of the linearized equations */
-#define N_FACTORS 71          /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double OF_mass;  /* bodies.OF.mass */    double OF_inertia;  /* bodies.OF.inertia */    double FE_mass;  /* bodies.FE.mass */    double FE_inertia;  /* bodies.FE.inertia */    double BDE_mass;  /* bodies.BDE.mass */    double BDE_inertia;  /* bodies.BDE.inertia */    double EG_mass;  /* bodies.EG.mass */    double EG_inertia;  /* bodies.EG.inertia */    double AG_mass;  /* bodies.AG.mass */    double AG_inertia;  /* bodies.AG.inertia */    double HE_mass;  /* bodies.HE.mass */    double HE_inertia;  /* bodies.HE.inertia */    double AH_mass;  /* bodies.AH.mass */    double AH_inertia;  /* bodies.AH.inertia */    double OF_points_O_x;  /* bodies.OF.points.O.x */    double OF_points_F_x;  /* bodies.OF.points.F.x */    double FE_points_E_x;  /* bodies.FE.points.E.x */    double FE_points_F_x;  /* bodies.FE.points.F.x */    double BDE_points_B_x;  /* bodies.BDE.points.B.x */    double BDE_points_B_y;  /* bodies.BDE.points.B.y */    double BDE_points_E_x;  /* bodies.BDE.points.E.x */    double BDE_points_E_y;  /* bodies.BDE.points.E.y */    double BDE_points_D_x;  /* bodies.BDE.points.D.x */    double BDE_points_D_y;  /* bodies.BDE.points.D.y */    double EG_points_G_y;  /* bodies.EG.points.G.y */    double EG_points_E_y;  /* bodies.EG.points.E.y */    double AG_points_A_x;  /* bodies.AG.points.A.x */    double AG_points_A_y;  /* bodies.AG.points.A.y */    double AG_points_G_x;  /* bodies.AG.points.G.x */    double AG_points_G_y;  /* bodies.AG.points.G.y */    double HE_points_H_x;  /* bodies.HE.points.H.x */    double HE_points_E_x;  /* bodies.HE.points.E.x */    double AH_points_A_x;  /* bodies.AH.points.A.x */    double AH_points_A_y;  /* bodies.AH.points.A.y */    double AH_points_H_x;  /* bodies.AH.points.H.x */    double AH_points_H_y;  /* bodies.AH.points.H.y */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double B_x;  /* ground.B.x */    double B_y;  /* ground.B.y */    double A_x;  /* ground.A.x */    double A_y;  /* ground.A.y */    double C_x;  /* ground.C.x */    double C_y;  /* ground.C.y */    double spring_stiffness;  /* forces.spring.stiffness */    double spring_free_length;  /* forces.spring.free_length */    double motor_value;  /* forces.motor.value */    double guess_FE_theta;  /* start.guess.FE.theta */    double guess_BDE_theta;  /* start.guess.BDE.theta */    double guess_EG_theta;  /* start.guess.EG.theta */    double guess_AG_theta;  /* start.guess.AG.theta */    double guess_HE_theta;  /* start.guess.HE.theta */    double guess_AH_theta;  /* start.guess.AH.theta */    double set_OF_theta;  /* start.set.OF.theta */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_OF_mass;  /* 1/M */    double inverse_BDE_mass;  /* 1/M */    double inverse_EG_mass;  /* 1/M */    double inverse_AG_mass;  /* 1/M */    double inverse_HE_mass;  /* 1/M */    double inverse_AH_mass;  /* 1/M */    double inverse_OF_inertia;  /* 1/M */    double inverse_FE_mass;  /* 1/M */    double inverse_BDE_inertia;  /* 1/M */    double inverse_EG_inertia;  /* 1/M */    double inverse_AG_inertia;  /* 1/M */    double inverse_HE_inertia;  /* 1/M */    double inverse_AH_inertia;  /* 1/M */    double inverse_FE_inertia;  /* 1/M */    double OF_com_span_x;  /* vector in its frame */    double BDE_com_span_x;  /* vector in its frame */    double BDE_com_span_y;  /* vector in its frame */    double AG_com_span_x;  /* vector in its frame */    double AG_com_span_y;  /* vector in its frame */    double AH_com_span_x;  /* vector in its frame */    double AH_com_span_y;  /* vector in its frame */    double OF_F_span_x;  /* vector in its frame */    double FE_com_span_x;  /* vector in its frame */    double BDE_E_span_x;  /* vector in its frame */    double BDE_E_span_y;  /* vector in its frame */    double HE_com_span_x;  /* vector in its frame */    double FE_E_span_x;  /* vector in its frame */    double EG_com_span_y;  /* vector in its frame */    double EG_G_span_y;  /* vector in its frame */    double AG_G_span_x;  /* vector in its frame */    double AG_G_span_y;  /* vector in its frame */    double HE_H_span_x;  /* vector in its frame */    double AH_H_span_x;  /* vector in its frame */    double AH_H_span_y;  /* vector in its frame */    double BDE_D_span_x;  /* vector in its frame */    double BDE_D_span_y;  /* vector in its frame */    double inertia_OF_OF;  /* sum of m w.w */    double inertia_OF_FE;  /* sum of m w.w */    double inertia_FE_FE;  /* sum of m w.w */    double inertia_BDE_BDE;  /* sum of m w.w */    double twist_OF_EG;  /* sum of m wxw */    double twist_FE_EG;  /* sum of m wxw */    double inertia_EG_EG;  /* sum of m w.w */    double inertia_AG_AG;  /* sum of m w.w */    double inertia_BDE_HE;  /* sum of m w.w */    double twist_BDE_HE;  /* sum of m wxw */    double inertia_HE_HE;  /* sum of m w.w */    double inertia_AH_AH;  /* sum of m w.w */    double mass_OF_OF;  /* constant of M */    double mass_FE_FE;  /* constant of M */    double mass_BDE_BDE;  /* constant of M */    double mass_EG_EG;  /* constant of M */    double mass_AG_AG;  /* constant of M */    double mass_HE_HE;  /* constant of M */    double mass_AH_AH;  /* constant of M */    double inverse_mass_AG_AG;  /* 1/M */    double inverse_mass_AH_AH;  /* 1/M */    double inverse_mass_HE_HE;  /* 1/M */    double inverse_mass_EG_EG;  /* 1/M */} Parameters;
+typedef struct {
+    double OF_mass;  /* bodies.OF.mass, kg */
+    double OF_inertia;  /* bodies.OF.inertia, kg m^2 */
+    double FE_mass;  /* bodies.FE.mass, kg */
+    double FE_inertia;  /* bodies.FE.inertia, kg m^2 */
+    double BDE_mass;  /* bodies.BDE.mass, kg */
+    double BDE_inertia;  /* bodies.BDE.inertia, kg m^2 */
+    double EG_mass;  /* bodies.EG.mass, kg */
+    double EG_inertia;  /* bodies.EG.inertia, kg m^2 */
+    double AG_mass;  /* bodies.AG.mass, kg */
+    double AG_inertia;  /* bodies.AG.inertia, kg m^2 */
+    double HE_mass;  /* bodies.HE.mass, kg */
+    double HE_inertia;  /* bodies.HE.inertia, kg m^2 */
+    double AH_mass;  /* bodies.AH.mass, kg */
+    double AH_inertia;  /* bodies.AH.inertia, kg m^2 */
+    double OF_points_O_x;  /* bodies.OF.points.O.x, m */
+    double OF_points_F_x;  /* bodies.OF.points.F.x, m */
+    double FE_points_E_x;  /* bodies.FE.points.E.x, m */
+    double FE_points_F_x;  /* bodies.FE.points.F.x, m */
+    double BDE_points_B_x;  /* bodies.BDE.points.B.x, m */
+    double BDE_points_B_y;  /* bodies.BDE.points.B.y, m */
+    double BDE_points_E_x;  /* bodies.BDE.points.E.x, m */
+    double BDE_points_E_y;  /* bodies.BDE.points.E.y, m */
+    double BDE_points_D_x;  /* bodies.BDE.points.D.x, m */
+    double BDE_points_D_y;  /* bodies.BDE.points.D.y, m */
+    double EG_points_G_y;  /* bodies.EG.points.G.y, m */
+    double EG_points_E_y;  /* bodies.EG.points.E.y, m */
+    double AG_points_A_x;  /* bodies.AG.points.A.x, m */
+    double AG_points_A_y;  /* bodies.AG.points.A.y, m */
+    double AG_points_G_x;  /* bodies.AG.points.G.x, m */
+    double AG_points_G_y;  /* bodies.AG.points.G.y, m */
+    double HE_points_H_x;  /* bodies.HE.points.H.x, m */
+    double HE_points_E_x;  /* bodies.HE.points.E.x, m */
+    double AH_points_A_x;  /* bodies.AH.points.A.x, m */
+    double AH_points_A_y;  /* bodies.AH.points.A.y, m */
+    double AH_points_H_x;  /* bodies.AH.points.H.x, m */
+    double AH_points_H_y;  /* bodies.AH.points.H.y, m */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double B_x;  /* ground.B.x, m */
+    double B_y;  /* ground.B.y, m */
+    double A_x;  /* ground.A.x, m */
+    double A_y;  /* ground.A.y, m */
+    double C_x;  /* ground.C.x, m */
+    double C_y;  /* ground.C.y, m */
+    double spring_stiffness;  /* forces.spring.stiffness, kg/s^2 */
+    double spring_free_length;  /* forces.spring.free_length, m */
+    double motor_value;  /* forces.motor.value, kg m^2/s^2 */
+    double guess_FE_theta;  /* start.guess.FE.theta, rad */
+    double guess_BDE_theta;  /* start.guess.BDE.theta, rad */
+    double guess_EG_theta;  /* start.guess.EG.theta, rad */
+    double guess_AG_theta;  /* start.guess.AG.theta, rad */
+    double guess_HE_theta;  /* start.guess.HE.theta, rad */
+    double guess_AH_theta;  /* start.guess.AH.theta, rad */
+    double set_OF_theta;  /* start.set.OF.theta, rad */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_OF_mass;  /* 1/M, 1/kg */
+    double inverse_BDE_mass;  /* 1/M, 1/kg */
+    double inverse_EG_mass;  /* 1/M, 1/kg */
+    double inverse_AG_mass;  /* 1/M, 1/kg */
+    double inverse_HE_mass;  /* 1/M, 1/kg */
+    double inverse_AH_mass;  /* 1/M, 1/kg */
+    double inverse_OF_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_FE_mass;  /* 1/M, 1/kg */
+    double inverse_BDE_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_EG_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_AG_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_HE_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_AH_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_FE_inertia;  /* 1/M, 1/(kg m^2) */
+    double OF_com_span_x;  /* vector in its frame, m */
+    double BDE_com_span_x;  /* vector in its frame, m */
+    double BDE_com_span_y;  /* vector in its frame, m */
+    double AG_com_span_x;  /* vector in its frame, m */
+    double AG_com_span_y;  /* vector in its frame, m */
+    double AH_com_span_x;  /* vector in its frame, m */
+    double AH_com_span_y;  /* vector in its frame, m */
+    double OF_F_span_x;  /* vector in its frame, m */
+    double FE_com_span_x;  /* vector in its frame, m */
+    double BDE_E_span_x;  /* vector in its frame, m */
+    double BDE_E_span_y;  /* vector in its frame, m */
+    double HE_com_span_x;  /* vector in its frame, m */
+    double FE_E_span_x;  /* vector in its frame, m */
+    double EG_com_span_y;  /* vector in its frame, m */
+    double EG_G_span_y;  /* vector in its frame, m */
+    double AG_G_span_x;  /* vector in its frame, m */
+    double AG_G_span_y;  /* vector in its frame, m */
+    double HE_H_span_x;  /* vector in its frame, m */
+    double AH_H_span_x;  /* vector in its frame, m */
+    double AH_H_span_y;  /* vector in its frame, m */
+    double BDE_D_span_x;  /* vector in its frame, m */
+    double BDE_D_span_y;  /* vector in its frame, m */
+    double inertia_OF_OF;  /* sum of m w.w, kg m^2 */
+    double inertia_OF_FE;  /* sum of m w.w, kg m^2 */
+    double inertia_FE_FE;  /* sum of m w.w, kg m^2 */
+    double inertia_BDE_BDE;  /* sum of m w.w, kg m^2 */
+    double twist_OF_EG;  /* sum of m wxw, kg m^2 */
+    double twist_FE_EG;  /* sum of m wxw, kg m^2 */
+    double inertia_EG_EG;  /* sum of m w.w, kg m^2 */
+    double inertia_AG_AG;  /* sum of m w.w, kg m^2 */
+    double inertia_BDE_HE;  /* sum of m w.w, kg m^2 */
+    double twist_BDE_HE;  /* sum of m wxw, kg m^2 */
+    double inertia_HE_HE;  /* sum of m w.w, kg m^2 */
+    double inertia_AH_AH;  /* sum of m w.w, kg m^2 */
+    double mass_OF_OF;  /* constant of M, kg m^2 */
+    double mass_FE_FE;  /* constant of M, kg m^2 */
+    double mass_BDE_BDE;  /* constant of M, kg m^2 */
+    double mass_EG_EG;  /* constant of M, kg m^2 */
+    double mass_AG_AG;  /* constant of M, kg m^2 */
+    double mass_HE_HE;  /* constant of M, kg m^2 */
+    double mass_AH_AH;  /* constant of M, kg m^2 */
+    double inverse_mass_AG_AG;  /* 1/M, 1/(kg m^2) */
+    double inverse_mass_AH_AH;  /* 1/M, 1/(kg m^2) */
+    double inverse_mass_HE_HE;  /* 1/M, 1/(kg m^2) */
+    double inverse_mass_EG_EG;  /* 1/M, 1/(kg m^2) */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

@@ -3,44 +3,28 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double OF_mass = p->OF_mass;
-    const double OF_inertia = p->OF_inertia;
-    const double FE_mass = p->FE_mass;
-    const double FE_inertia = p->FE_inertia;
-    const double BDE_mass = p->BDE_mass;
-    const double BDE_inertia = p->BDE_inertia;
-    const double EG_mass = p->EG_mass;
-    const double EG_inertia = p->EG_inertia;
-    const double AG_mass = p->AG_mass;
-    const double AG_inertia = p->AG_inertia;
-    const double HE_mass = p->HE_mass;
-    const double HE_inertia = p->HE_inertia;
-    const double AH_mass = p->AH_mass;
-    const double AH_inertia = p->AH_inertia;
-
     /* M */
-    m[0] = OF_mass;
-    m[1] = OF_mass;
-    m[2] = OF_inertia;
-    m[3] = FE_mass;
-    m[4] = FE_mass;
-    m[5] = FE_inertia;
-    m[6] = BDE_mass;
-    m[7] = BDE_mass;
-    m[8] = BDE_inertia;
-    m[9] = EG_mass;
-    m[10] = EG_mass;
-    m[11] = EG_inertia;
-    m[12] = AG_mass;
-    m[13] = AG_mass;
-    m[14] = AG_inertia;
-    m[15] = HE_mass;
-    m[16] = HE_mass;
-    m[17] = HE_inertia;
-    m[18] = AH_mass;
-    m[19] = AH_mass;
-    m[20] = AH_inertia;
+    m[0] = p->OF_mass;
+    m[1] = p->OF_mass;
+    m[2] = p->OF_inertia;
+    m[3] = p->FE_mass;
+    m[4] = p->FE_mass;
+    m[5] = p->FE_inertia;
+    m[6] = p->BDE_mass;
+    m[7] = p->BDE_mass;
+    m[8] = p->BDE_inertia;
+    m[9] = p->EG_mass;
+    m[10] = p->EG_mass;
+    m[11] = p->EG_inertia;
+    m[12] = p->AG_mass;
+    m[13] = p->AG_mass;
+    m[14] = p->AG_inertia;
+    m[15] = p->HE_mass;
+    m[16] = p->HE_mass;
+    m[17] = p->HE_inertia;
+    m[18] = p->AH_mass;
+    m[19] = p->AH_mass;
+    m[20] = p->AH_inertia;
 }
 
 /*
@@ -72,85 +56,59 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double AH_y = q[19];
     const double AH_theta = q[20];
 
-    /* parameters */
-    const double OF_points_O_x = p->OF_points_O_x;
-    const double OF_points_F_x = p->OF_points_F_x;
-    const double FE_points_E_x = p->FE_points_E_x;
-    const double FE_points_F_x = p->FE_points_F_x;
-    const double BDE_points_B_x = p->BDE_points_B_x;
-    const double BDE_points_B_y = p->BDE_points_B_y;
-    const double BDE_points_E_x = p->BDE_points_E_x;
-    const double BDE_points_E_y = p->BDE_points_E_y;
-    const double EG_points_G_y = p->EG_points_G_y;
-    const double EG_points_E_y = p->EG_points_E_y;
-    const double AG_points_A_x = p->AG_points_A_x;
-    const double AG_points_A_y = p->AG_points_A_y;
-    const double AG_points_G_x = p->AG_points_G_x;
-    const double AG_points_G_y = p->AG_points_G_y;
-    const double HE_points_H_x = p->HE_points_H_x;
-    const double HE_points_E_x = p->HE_points_E_x;
-    const double AH_points_A_x = p->AH_points_A_x;
-    const double AH_points_A_y = p->AH_points_A_y;
-    const double AH_points_H_x = p->AH_points_H_x;
-    const double AH_points_H_y = p->AH_points_H_y;
-    const double B_x = p->B_x;
-    const double B_y = p->B_y;
-    const double A_x = p->A_x;
-    const double A_y = p->A_y;
-
     /* directions, arms, drives */
     const double cos_theta_OF = cos(OF_theta);
     const double sin_theta_OF = sin(OF_theta);
-    const double arm_OF_O_x = OF_points_O_x*cos_theta_OF;
-    const double arm_OF_O_y = OF_points_O_x*sin_theta_OF;
+    const double arm_OF_O_x = p->OF_points_O_x*cos_theta_OF;
+    const double arm_OF_O_y = p->OF_points_O_x*sin_theta_OF;
     const double cos_theta_BDE = cos(BDE_theta);
     const double sin_theta_BDE = sin(BDE_theta);
-    const double arm_BDE_B_x = BDE_points_B_x*cos_theta_BDE - BDE_points_B_y*sin_theta_BDE;
-    const double arm_BDE_B_y = BDE_points_B_x*sin_theta_BDE + BDE_points_B_y*cos_theta_BDE;
+    const double arm_BDE_B_x = p->BDE_points_B_x*cos_theta_BDE - p->BDE_points_B_y*sin_theta_BDE;
+    const double arm_BDE_B_y = p->BDE_points_B_x*sin_theta_BDE + p->BDE_points_B_y*cos_theta_BDE;
     const double cos_theta_AG = cos(AG_theta);
     const double sin_theta_AG = sin(AG_theta);
-    const double arm_AG_A_x = AG_points_A_x*cos_theta_AG - AG_points_A_y*sin_theta_AG;
-    const double arm_AG_A_y = AG_points_A_x*sin_theta_AG + AG_points_A_y*cos_theta_AG;
+    const double arm_AG_A_x = p->AG_points_A_x*cos_theta_AG - p->AG_points_A_y*sin_theta_AG;
+    const double arm_AG_A_y = p->AG_points_A_x*sin_theta_AG + p->AG_points_A_y*cos_theta_AG;
     const double cos_theta_AH = cos(AH_theta);
     const double sin_theta_AH = sin(AH_theta);
-    const double arm_AH_A_x = AH_points_A_x*cos_theta_AH - AH_points_A_y*sin_theta_AH;
-    const double arm_AH_A_y = AH_points_A_x*sin_theta_AH + AH_points_A_y*cos_theta_AH;
-    const double arm_OF_F_x = OF_points_F_x*cos_theta_OF;
-    const double arm_OF_F_y = OF_points_F_x*sin_theta_OF;
+    const double arm_AH_A_x = p->AH_points_A_x*cos_theta_AH - p->AH_points_A_y*sin_theta_AH;
+    const double arm_AH_A_y = p->AH_points_A_x*sin_theta_AH + p->AH_points_A_y*cos_theta_AH;
+    const double arm_OF_F_x = p->OF_points_F_x*cos_theta_OF;
+    const double arm_OF_F_y = p->OF_points_F_x*sin_theta_OF;
     const double cos_theta_FE = cos(FE_theta);
     const double sin_theta_FE = sin(FE_theta);
-    const double arm_FE_F_x = FE_points_F_x*cos_theta_FE;
-    const double arm_FE_F_y = FE_points_F_x*sin_theta_FE;
-    const double arm_FE_E_x = FE_points_E_x*cos_theta_FE;
-    const double arm_FE_E_y = FE_points_E_x*sin_theta_FE;
-    const double arm_BDE_E_x = BDE_points_E_x*cos_theta_BDE - BDE_points_E_y*sin_theta_BDE;
-    const double arm_BDE_E_y = BDE_points_E_x*sin_theta_BDE + BDE_points_E_y*cos_theta_BDE;
+    const double arm_FE_F_x = p->FE_points_F_x*cos_theta_FE;
+    const double arm_FE_F_y = p->FE_points_F_x*sin_theta_FE;
+    const double arm_FE_E_x = p->FE_points_E_x*cos_theta_FE;
+    const double arm_FE_E_y = p->FE_points_E_x*sin_theta_FE;
+    const double arm_BDE_E_x = p->BDE_points_E_x*cos_theta_BDE - p->BDE_points_E_y*sin_theta_BDE;
+    const double arm_BDE_E_y = p->BDE_points_E_x*sin_theta_BDE + p->BDE_points_E_y*cos_theta_BDE;
     const double cos_theta_EG = cos(EG_theta);
     const double sin_theta_EG = sin(EG_theta);
-    const double arm_EG_E_x = -EG_points_E_y*sin_theta_EG;
-    const double arm_EG_E_y = EG_points_E_y*cos_theta_EG;
+    const double arm_EG_E_x = -p->EG_points_E_y*sin_theta_EG;
+    const double arm_EG_E_y = p->EG_points_E_y*cos_theta_EG;
     const double cos_theta_HE = cos(HE_theta);
     const double sin_theta_HE = sin(HE_theta);
-    const double arm_HE_E_x = HE_points_E_x*cos_theta_HE;
-    const double arm_HE_E_y = HE_points_E_x*sin_theta_HE;
-    const double arm_EG_G_x = -EG_points_G_y*sin_theta_EG;
-    const double arm_EG_G_y = EG_points_G_y*cos_theta_EG;
-    const double arm_AG_G_x = AG_points_G_x*cos_theta_AG - AG_points_G_y*sin_theta_AG;
-    const double arm_AG_G_y = AG_points_G_x*sin_theta_AG + AG_points_G_y*cos_theta_AG;
-    const double arm_HE_H_x = HE_points_H_x*cos_theta_HE;
-    const double arm_HE_H_y = HE_points_H_x*sin_theta_HE;
-    const double arm_AH_H_x = AH_points_H_x*cos_theta_AH - AH_points_H_y*sin_theta_AH;
-    const double arm_AH_H_y = AH_points_H_x*sin_theta_AH + AH_points_H_y*cos_theta_AH;
+    const double arm_HE_E_x = p->HE_points_E_x*cos_theta_HE;
+    const double arm_HE_E_y = p->HE_points_E_x*sin_theta_HE;
+    const double arm_EG_G_x = -p->EG_points_G_y*sin_theta_EG;
+    const double arm_EG_G_y = p->EG_points_G_y*cos_theta_EG;
+    const double arm_AG_G_x = p->AG_points_G_x*cos_theta_AG - p->AG_points_G_y*sin_theta_AG;
+    const double arm_AG_G_y = p->AG_points_G_x*sin_theta_AG + p->AG_points_G_y*cos_theta_AG;
+    const double arm_HE_H_x = p->HE_points_H_x*cos_theta_HE;
+    const double arm_HE_H_y = p->HE_points_H_x*sin_theta_HE;
+    const double arm_AH_H_x = p->AH_points_H_x*cos_theta_AH - p->AH_points_H_y*sin_theta_AH;
+    const double arm_AH_H_y = p->AH_points_H_x*sin_theta_AH + p->AH_points_H_y*cos_theta_AH;
 
     /* rows */
     phi[0] = -OF_x - arm_OF_O_x;  /* O.x */
     phi[1] = -OF_y - arm_OF_O_y;  /* O.y */
-    phi[2] = -BDE_x + B_x - arm_BDE_B_x;  /* B.x */
-    phi[3] = -BDE_y + B_y - arm_BDE_B_y;  /* B.y */
-    phi[4] = -AG_x + A_x - arm_AG_A_x;  /* A5.x */
-    phi[5] = -AG_y + A_y - arm_AG_A_y;  /* A5.y */
-    phi[6] = -AH_x + A_x - arm_AH_A_x;  /* A7.x */
-    phi[7] = -AH_y + A_y - arm_AH_A_y;  /* A7.y */
+    phi[2] = -BDE_x + p->B_x - arm_BDE_B_x;  /* B.x */
+    phi[3] = -BDE_y + p->B_y - arm_BDE_B_y;  /* B.y */
+    phi[4] = -AG_x + p->A_x - arm_AG_A_x;  /* A5.x */
+    phi[5] = -AG_y + p->A_y - arm_AG_A_y;  /* A5.y */
+    phi[6] = -AH_x + p->A_x - arm_AH_A_x;  /* A7.x */
+    phi[7] = -AH_y + p->A_y - arm_AH_A_y;  /* A7.y */
     phi[8] = -FE_x + OF_x - arm_FE_F_x + arm_OF_F_x;  /* F.x */
     phi[9] = -FE_y + OF_y - arm_FE_F_y + arm_OF_F_y;  /* F.y */
     phi[10] = -BDE_x + FE_x - arm_BDE_E_x + arm_FE_E_x;  /* E3.x */
@@ -180,71 +138,49 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
     const double HE_theta = q[17];
     const double AH_theta = q[20];
 
-    /* parameters */
-    const double OF_points_O_x = p->OF_points_O_x;
-    const double OF_points_F_x = p->OF_points_F_x;
-    const double FE_points_E_x = p->FE_points_E_x;
-    const double FE_points_F_x = p->FE_points_F_x;
-    const double BDE_points_B_x = p->BDE_points_B_x;
-    const double BDE_points_B_y = p->BDE_points_B_y;
-    const double BDE_points_E_x = p->BDE_points_E_x;
-    const double BDE_points_E_y = p->BDE_points_E_y;
-    const double EG_points_G_y = p->EG_points_G_y;
-    const double EG_points_E_y = p->EG_points_E_y;
-    const double AG_points_A_x = p->AG_points_A_x;
-    const double AG_points_A_y = p->AG_points_A_y;
-    const double AG_points_G_x = p->AG_points_G_x;
-    const double AG_points_G_y = p->AG_points_G_y;
-    const double HE_points_H_x = p->HE_points_H_x;
-    const double HE_points_E_x = p->HE_points_E_x;
-    const double AH_points_A_x = p->AH_points_A_x;
-    const double AH_points_A_y = p->AH_points_A_y;
-    const double AH_points_H_x = p->AH_points_H_x;
-    const double AH_points_H_y = p->AH_points_H_y;
-
     /* directions, arms, drives */
     const double cos_theta_OF = cos(OF_theta);
     const double sin_theta_OF = sin(OF_theta);
-    const double arm_OF_O_x = OF_points_O_x*cos_theta_OF;
-    const double arm_OF_O_y = OF_points_O_x*sin_theta_OF;
+    const double arm_OF_O_x = p->OF_points_O_x*cos_theta_OF;
+    const double arm_OF_O_y = p->OF_points_O_x*sin_theta_OF;
     const double cos_theta_BDE = cos(BDE_theta);
     const double sin_theta_BDE = sin(BDE_theta);
-    const double arm_BDE_B_x = BDE_points_B_x*cos_theta_BDE - BDE_points_B_y*sin_theta_BDE;
-    const double arm_BDE_B_y = BDE_points_B_x*sin_theta_BDE + BDE_points_B_y*cos_theta_BDE;
+    const double arm_BDE_B_x = p->BDE_points_B_x*cos_theta_BDE - p->BDE_points_B_y*sin_theta_BDE;
+    const double arm_BDE_B_y = p->BDE_points_B_x*sin_theta_BDE + p->BDE_points_B_y*cos_theta_BDE;
     const double cos_theta_AG = cos(AG_theta);
     const double sin_theta_AG = sin(AG_theta);
-    const double arm_AG_A_x = AG_points_A_x*cos_theta_AG - AG_points_A_y*sin_theta_AG;
-    const double arm_AG_A_y = AG_points_A_x*sin_theta_AG + AG_points_A_y*cos_theta_AG;
+    const double arm_AG_A_x = p->AG_points_A_x*cos_theta_AG - p->AG_points_A_y*sin_theta_AG;
+    const double arm_AG_A_y = p->AG_points_A_x*sin_theta_AG + p->AG_points_A_y*cos_theta_AG;
     const double cos_theta_AH = cos(AH_theta);
     const double sin_theta_AH = sin(AH_theta);
-    const double arm_AH_A_x = AH_points_A_x*cos_theta_AH - AH_points_A_y*sin_theta_AH;
-    const double arm_AH_A_y = AH_points_A_x*sin_theta_AH + AH_points_A_y*cos_theta_AH;
-    const double arm_OF_F_x = OF_points_F_x*cos_theta_OF;
-    const double arm_OF_F_y = OF_points_F_x*sin_theta_OF;
+    const double arm_AH_A_x = p->AH_points_A_x*cos_theta_AH - p->AH_points_A_y*sin_theta_AH;
+    const double arm_AH_A_y = p->AH_points_A_x*sin_theta_AH + p->AH_points_A_y*cos_theta_AH;
+    const double arm_OF_F_x = p->OF_points_F_x*cos_theta_OF;
+    const double arm_OF_F_y = p->OF_points_F_x*sin_theta_OF;
     const double cos_theta_FE = cos(FE_theta);
     const double sin_theta_FE = sin(FE_theta);
-    const double arm_FE_F_x = FE_points_F_x*cos_theta_FE;
-    const double arm_FE_F_y = FE_points_F_x*sin_theta_FE;
-    const double arm_FE_E_x = FE_points_E_x*cos_theta_FE;
-    const double arm_FE_E_y = FE_points_E_x*sin_theta_FE;
-    const double arm_BDE_E_x = BDE_points_E_x*cos_theta_BDE - BDE_points_E_y*sin_theta_BDE;
-    const double arm_BDE_E_y = BDE_points_E_x*sin_theta_BDE + BDE_points_E_y*cos_theta_BDE;
+    const double arm_FE_F_x = p->FE_points_F_x*cos_theta_FE;
+    const double arm_FE_F_y = p->FE_points_F_x*sin_theta_FE;
+    const double arm_FE_E_x = p->FE_points_E_x*cos_theta_FE;
+    const double arm_FE_E_y = p->FE_points_E_x*sin_theta_FE;
+    const double arm_BDE_E_x = p->BDE_points_E_x*cos_theta_BDE - p->BDE_points_E_y*sin_theta_BDE;
+    const double arm_BDE_E_y = p->BDE_points_E_x*sin_theta_BDE + p->BDE_points_E_y*cos_theta_BDE;
     const double cos_theta_EG = cos(EG_theta);
     const double sin_theta_EG = sin(EG_theta);
-    const double arm_EG_E_x = -EG_points_E_y*sin_theta_EG;
-    const double arm_EG_E_y = EG_points_E_y*cos_theta_EG;
+    const double arm_EG_E_x = -p->EG_points_E_y*sin_theta_EG;
+    const double arm_EG_E_y = p->EG_points_E_y*cos_theta_EG;
     const double cos_theta_HE = cos(HE_theta);
     const double sin_theta_HE = sin(HE_theta);
-    const double arm_HE_E_x = HE_points_E_x*cos_theta_HE;
-    const double arm_HE_E_y = HE_points_E_x*sin_theta_HE;
-    const double arm_EG_G_x = -EG_points_G_y*sin_theta_EG;
-    const double arm_EG_G_y = EG_points_G_y*cos_theta_EG;
-    const double arm_AG_G_x = AG_points_G_x*cos_theta_AG - AG_points_G_y*sin_theta_AG;
-    const double arm_AG_G_y = AG_points_G_x*sin_theta_AG + AG_points_G_y*cos_theta_AG;
-    const double arm_HE_H_x = HE_points_H_x*cos_theta_HE;
-    const double arm_HE_H_y = HE_points_H_x*sin_theta_HE;
-    const double arm_AH_H_x = AH_points_H_x*cos_theta_AH - AH_points_H_y*sin_theta_AH;
-    const double arm_AH_H_y = AH_points_H_x*sin_theta_AH + AH_points_H_y*cos_theta_AH;
+    const double arm_HE_E_x = p->HE_points_E_x*cos_theta_HE;
+    const double arm_HE_E_y = p->HE_points_E_x*sin_theta_HE;
+    const double arm_EG_G_x = -p->EG_points_G_y*sin_theta_EG;
+    const double arm_EG_G_y = p->EG_points_G_y*cos_theta_EG;
+    const double arm_AG_G_x = p->AG_points_G_x*cos_theta_AG - p->AG_points_G_y*sin_theta_AG;
+    const double arm_AG_G_y = p->AG_points_G_x*sin_theta_AG + p->AG_points_G_y*cos_theta_AG;
+    const double arm_HE_H_x = p->HE_points_H_x*cos_theta_HE;
+    const double arm_HE_H_y = p->HE_points_H_x*sin_theta_HE;
+    const double arm_AH_H_x = p->AH_points_H_x*cos_theta_AH - p->AH_points_H_y*sin_theta_AH;
+    const double arm_AH_H_y = p->AH_points_H_x*sin_theta_AH + p->AH_points_H_y*cos_theta_AH;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d O.x / d OF_x */
@@ -347,8 +283,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -367,71 +302,49 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double AH_theta = q[20];
     const double AH_omega = v[20];
 
-    /* parameters */
-    const double OF_points_O_x = p->OF_points_O_x;
-    const double OF_points_F_x = p->OF_points_F_x;
-    const double FE_points_E_x = p->FE_points_E_x;
-    const double FE_points_F_x = p->FE_points_F_x;
-    const double BDE_points_B_x = p->BDE_points_B_x;
-    const double BDE_points_B_y = p->BDE_points_B_y;
-    const double BDE_points_E_x = p->BDE_points_E_x;
-    const double BDE_points_E_y = p->BDE_points_E_y;
-    const double EG_points_G_y = p->EG_points_G_y;
-    const double EG_points_E_y = p->EG_points_E_y;
-    const double AG_points_A_x = p->AG_points_A_x;
-    const double AG_points_A_y = p->AG_points_A_y;
-    const double AG_points_G_x = p->AG_points_G_x;
-    const double AG_points_G_y = p->AG_points_G_y;
-    const double HE_points_H_x = p->HE_points_H_x;
-    const double HE_points_E_x = p->HE_points_E_x;
-    const double AH_points_A_x = p->AH_points_A_x;
-    const double AH_points_A_y = p->AH_points_A_y;
-    const double AH_points_H_x = p->AH_points_H_x;
-    const double AH_points_H_y = p->AH_points_H_y;
-
     /* directions, arms, drives */
     const double cos_theta_OF = cos(OF_theta);
     const double sin_theta_OF = sin(OF_theta);
-    const double arm_OF_O_x = OF_points_O_x*cos_theta_OF;
-    const double arm_OF_O_y = OF_points_O_x*sin_theta_OF;
+    const double arm_OF_O_x = p->OF_points_O_x*cos_theta_OF;
+    const double arm_OF_O_y = p->OF_points_O_x*sin_theta_OF;
     const double cos_theta_BDE = cos(BDE_theta);
     const double sin_theta_BDE = sin(BDE_theta);
-    const double arm_BDE_B_x = BDE_points_B_x*cos_theta_BDE - BDE_points_B_y*sin_theta_BDE;
-    const double arm_BDE_B_y = BDE_points_B_x*sin_theta_BDE + BDE_points_B_y*cos_theta_BDE;
+    const double arm_BDE_B_x = p->BDE_points_B_x*cos_theta_BDE - p->BDE_points_B_y*sin_theta_BDE;
+    const double arm_BDE_B_y = p->BDE_points_B_x*sin_theta_BDE + p->BDE_points_B_y*cos_theta_BDE;
     const double cos_theta_AG = cos(AG_theta);
     const double sin_theta_AG = sin(AG_theta);
-    const double arm_AG_A_x = AG_points_A_x*cos_theta_AG - AG_points_A_y*sin_theta_AG;
-    const double arm_AG_A_y = AG_points_A_x*sin_theta_AG + AG_points_A_y*cos_theta_AG;
+    const double arm_AG_A_x = p->AG_points_A_x*cos_theta_AG - p->AG_points_A_y*sin_theta_AG;
+    const double arm_AG_A_y = p->AG_points_A_x*sin_theta_AG + p->AG_points_A_y*cos_theta_AG;
     const double cos_theta_AH = cos(AH_theta);
     const double sin_theta_AH = sin(AH_theta);
-    const double arm_AH_A_x = AH_points_A_x*cos_theta_AH - AH_points_A_y*sin_theta_AH;
-    const double arm_AH_A_y = AH_points_A_x*sin_theta_AH + AH_points_A_y*cos_theta_AH;
-    const double arm_OF_F_x = OF_points_F_x*cos_theta_OF;
-    const double arm_OF_F_y = OF_points_F_x*sin_theta_OF;
+    const double arm_AH_A_x = p->AH_points_A_x*cos_theta_AH - p->AH_points_A_y*sin_theta_AH;
+    const double arm_AH_A_y = p->AH_points_A_x*sin_theta_AH + p->AH_points_A_y*cos_theta_AH;
+    const double arm_OF_F_x = p->OF_points_F_x*cos_theta_OF;
+    const double arm_OF_F_y = p->OF_points_F_x*sin_theta_OF;
     const double cos_theta_FE = cos(FE_theta);
     const double sin_theta_FE = sin(FE_theta);
-    const double arm_FE_F_x = FE_points_F_x*cos_theta_FE;
-    const double arm_FE_F_y = FE_points_F_x*sin_theta_FE;
-    const double arm_FE_E_x = FE_points_E_x*cos_theta_FE;
-    const double arm_FE_E_y = FE_points_E_x*sin_theta_FE;
-    const double arm_BDE_E_x = BDE_points_E_x*cos_theta_BDE - BDE_points_E_y*sin_theta_BDE;
-    const double arm_BDE_E_y = BDE_points_E_x*sin_theta_BDE + BDE_points_E_y*cos_theta_BDE;
+    const double arm_FE_F_x = p->FE_points_F_x*cos_theta_FE;
+    const double arm_FE_F_y = p->FE_points_F_x*sin_theta_FE;
+    const double arm_FE_E_x = p->FE_points_E_x*cos_theta_FE;
+    const double arm_FE_E_y = p->FE_points_E_x*sin_theta_FE;
+    const double arm_BDE_E_x = p->BDE_points_E_x*cos_theta_BDE - p->BDE_points_E_y*sin_theta_BDE;
+    const double arm_BDE_E_y = p->BDE_points_E_x*sin_theta_BDE + p->BDE_points_E_y*cos_theta_BDE;
     const double cos_theta_EG = cos(EG_theta);
     const double sin_theta_EG = sin(EG_theta);
-    const double arm_EG_E_x = -EG_points_E_y*sin_theta_EG;
-    const double arm_EG_E_y = EG_points_E_y*cos_theta_EG;
+    const double arm_EG_E_x = -p->EG_points_E_y*sin_theta_EG;
+    const double arm_EG_E_y = p->EG_points_E_y*cos_theta_EG;
     const double cos_theta_HE = cos(HE_theta);
     const double sin_theta_HE = sin(HE_theta);
-    const double arm_HE_E_x = HE_points_E_x*cos_theta_HE;
-    const double arm_HE_E_y = HE_points_E_x*sin_theta_HE;
-    const double arm_EG_G_x = -EG_points_G_y*sin_theta_EG;
-    const double arm_EG_G_y = EG_points_G_y*cos_theta_EG;
-    const double arm_AG_G_x = AG_points_G_x*cos_theta_AG - AG_points_G_y*sin_theta_AG;
-    const double arm_AG_G_y = AG_points_G_x*sin_theta_AG + AG_points_G_y*cos_theta_AG;
-    const double arm_HE_H_x = HE_points_H_x*cos_theta_HE;
-    const double arm_HE_H_y = HE_points_H_x*sin_theta_HE;
-    const double arm_AH_H_x = AH_points_H_x*cos_theta_AH - AH_points_H_y*sin_theta_AH;
-    const double arm_AH_H_y = AH_points_H_x*sin_theta_AH + AH_points_H_y*cos_theta_AH;
+    const double arm_HE_E_x = p->HE_points_E_x*cos_theta_HE;
+    const double arm_HE_E_y = p->HE_points_E_x*sin_theta_HE;
+    const double arm_EG_G_x = -p->EG_points_G_y*sin_theta_EG;
+    const double arm_EG_G_y = p->EG_points_G_y*cos_theta_EG;
+    const double arm_AG_G_x = p->AG_points_G_x*cos_theta_AG - p->AG_points_G_y*sin_theta_AG;
+    const double arm_AG_G_y = p->AG_points_G_x*sin_theta_AG + p->AG_points_G_y*cos_theta_AG;
+    const double arm_HE_H_x = p->HE_points_H_x*cos_theta_HE;
+    const double arm_HE_H_y = p->HE_points_H_x*sin_theta_HE;
+    const double arm_AH_H_x = p->AH_points_H_x*cos_theta_AH - p->AH_points_H_y*sin_theta_AH;
+    const double arm_AH_H_y = p->AH_points_H_x*sin_theta_AH + p->AH_points_H_y*cos_theta_AH;
 
     /* rows */
     gamma_rows[0] = -(OF_omega * OF_omega)*arm_OF_O_x;  /* O.x */
@@ -462,23 +375,14 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)rates;
-    /* parameters */
-    const double guess_FE_theta = p->guess_FE_theta;
-    const double guess_BDE_theta = p->guess_BDE_theta;
-    const double guess_EG_theta = p->guess_EG_theta;
-    const double guess_AG_theta = p->guess_AG_theta;
-    const double guess_HE_theta = p->guess_HE_theta;
-    const double guess_AH_theta = p->guess_AH_theta;
-    const double set_OF_theta = p->set_OF_theta;
-
     /* start */
-    guess[0] = guess_FE_theta;  /* start.guess.FE.theta */
-    guess[1] = guess_BDE_theta;  /* start.guess.BDE.theta */
-    guess[2] = guess_EG_theta;  /* start.guess.EG.theta */
-    guess[3] = guess_AG_theta;  /* start.guess.AG.theta */
-    guess[4] = guess_HE_theta;  /* start.guess.HE.theta */
-    guess[5] = guess_AH_theta;  /* start.guess.AH.theta */
-    set[0] = set_OF_theta;  /* start.set.OF.theta */
+    guess[0] = p->guess_FE_theta;  /* start.guess.FE.theta */
+    guess[1] = p->guess_BDE_theta;  /* start.guess.BDE.theta */
+    guess[2] = p->guess_EG_theta;  /* start.guess.EG.theta */
+    guess[3] = p->guess_AG_theta;  /* start.guess.AG.theta */
+    guess[4] = p->guess_HE_theta;  /* start.guess.HE.theta */
+    guess[5] = p->guess_AH_theta;  /* start.guess.AH.theta */
+    set[0] = p->set_OF_theta;  /* start.set.OF.theta */
 }
 
 /*
@@ -516,38 +420,15 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double AH_vy = v[19];
     const double AH_omega = v[20];
 
-    /* parameters */
-    const double OF_mass = p->OF_mass;
-    const double OF_inertia = p->OF_inertia;
-    const double FE_mass = p->FE_mass;
-    const double FE_inertia = p->FE_inertia;
-    const double BDE_mass = p->BDE_mass;
-    const double BDE_inertia = p->BDE_inertia;
-    const double EG_mass = p->EG_mass;
-    const double EG_inertia = p->EG_inertia;
-    const double AG_mass = p->AG_mass;
-    const double AG_inertia = p->AG_inertia;
-    const double HE_mass = p->HE_mass;
-    const double HE_inertia = p->HE_inertia;
-    const double AH_mass = p->AH_mass;
-    const double AH_inertia = p->AH_inertia;
-    const double BDE_points_D_x = p->BDE_points_D_x;
-    const double BDE_points_D_y = p->BDE_points_D_y;
-    const double C_x = p->C_x;
-    const double C_y = p->C_y;
-    const double spring_stiffness = p->spring_stiffness;
-    const double spring_free_length = p->spring_free_length;
-    const double motor_value = p->motor_value;
-
     /* directions, arms, drives */
     const double cos_theta_BDE = cos(BDE_theta);
     const double sin_theta_BDE = sin(BDE_theta);
-    const double arm_BDE_D_x = BDE_points_D_x*cos_theta_BDE - BDE_points_D_y*sin_theta_BDE;
-    const double arm_BDE_D_y = BDE_points_D_x*sin_theta_BDE + BDE_points_D_y*cos_theta_BDE;
-    const double spring_span_x = BDE_x - C_x + arm_BDE_D_x;
-    const double spring_span_y = BDE_y - C_y + arm_BDE_D_y;
+    const double arm_BDE_D_x = p->BDE_points_D_x*cos_theta_BDE - p->BDE_points_D_y*sin_theta_BDE;
+    const double arm_BDE_D_y = p->BDE_points_D_x*sin_theta_BDE + p->BDE_points_D_y*cos_theta_BDE;
+    const double spring_span_x = BDE_x - p->C_x + arm_BDE_D_x;
+    const double spring_span_y = BDE_y - p->C_y + arm_BDE_D_y;
     const double spring_length = sqrt((spring_span_x * spring_span_x) + (spring_span_y * spring_span_y));
-    const double spring_force = spring_stiffness*(-spring_free_length + spring_length);
+    const double spring_force = p->spring_stiffness*(-p->spring_free_length + spring_length);
 
     /* multipliers */
     const double multiplier_O_x = lambda[0];
@@ -604,17 +485,17 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     reactions[29] = 0.0;  /* H.M */
     series[0] = spring_force;  /* spring.F */
     series[1] = spring_length;  /* spring.length */
-    series[2] = motor_value;  /* motor.M */
+    series[2] = p->motor_value;  /* motor.M */
 
     /* energy */
-    energy[0] = (0.5)*AG_inertia*(AG_omega * AG_omega) + (0.5)*AG_mass*(AG_vx * AG_vx) + (0.5)*AG_mass*(AG_vy
-        * AG_vy) + (0.5)*AH_inertia*(AH_omega * AH_omega) + (0.5)*AH_mass*(AH_vx * AH_vx) +
-        (0.5)*AH_mass*(AH_vy * AH_vy) + (0.5)*BDE_inertia*(BDE_omega * BDE_omega) + (0.5)*BDE_mass*(BDE_vx *
-        BDE_vx) + (0.5)*BDE_mass*(BDE_vy * BDE_vy) + (0.5)*EG_inertia*(EG_omega * EG_omega) +
-        (0.5)*EG_mass*(EG_vx * EG_vx) + (0.5)*EG_mass*(EG_vy * EG_vy) + (0.5)*FE_inertia*(FE_omega * FE_omega)
-        + (0.5)*FE_mass*(FE_vx * FE_vx) + (0.5)*FE_mass*(FE_vy * FE_vy) + (0.5)*HE_inertia*(HE_omega *
-        HE_omega) + (0.5)*HE_mass*(HE_vx * HE_vx) + (0.5)*HE_mass*(HE_vy * HE_vy) + (0.5)*OF_inertia*(OF_omega
-        * OF_omega) + (0.5)*OF_mass*(OF_vx * OF_vx) + (0.5)*OF_mass*(OF_vy * OF_vy);
-    energy[1] = (0.5)*spring_stiffness*((-spring_free_length + spring_length) * (-spring_free_length +
-        spring_length));
+    energy[0] = 0.5*p->AG_inertia*(AG_omega * AG_omega) + 0.5*p->AG_mass*(AG_vx * AG_vx)
+        + 0.5*p->AG_mass*(AG_vy * AG_vy) + 0.5*p->AH_inertia*(AH_omega * AH_omega) + 0.5*p->AH_mass*(AH_vx * AH_vx)
+        + 0.5*p->AH_mass*(AH_vy * AH_vy) + 0.5*p->BDE_inertia*(BDE_omega * BDE_omega)
+        + 0.5*p->BDE_mass*(BDE_vx * BDE_vx) + 0.5*p->BDE_mass*(BDE_vy * BDE_vy)
+        + 0.5*p->EG_inertia*(EG_omega * EG_omega) + 0.5*p->EG_mass*(EG_vx * EG_vx) + 0.5*p->EG_mass*(EG_vy * EG_vy)
+        + 0.5*p->FE_inertia*(FE_omega * FE_omega) + 0.5*p->FE_mass*(FE_vx * FE_vx) + 0.5*p->FE_mass*(FE_vy * FE_vy)
+        + 0.5*p->HE_inertia*(HE_omega * HE_omega) + 0.5*p->HE_mass*(HE_vx * HE_vx) + 0.5*p->HE_mass*(HE_vy * HE_vy)
+        + 0.5*p->OF_inertia*(OF_omega * OF_omega) + 0.5*p->OF_mass*(OF_vx * OF_vx) + 0.5*p->OF_mass*(OF_vy * OF_vy);
+    energy[1] = 0.5*p->spring_stiffness*((-p->spring_free_length + spring_length)
+        * (-p->spring_free_length + spring_length));
 }

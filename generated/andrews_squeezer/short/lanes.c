@@ -151,22 +151,6 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     const Lanes HE_theta = q[5];
     const Lanes EG_theta = q[6];
 
-    /* parameters */
-    const Lanes B_x = p->B_x;
-    const Lanes B_y = p->B_y;
-    const Lanes A_x = p->A_x;
-    const Lanes A_y = p->A_y;
-    const Lanes OF_F_span_x = p->OF_F_span_x;
-    const Lanes BDE_E_span_x = p->BDE_E_span_x;
-    const Lanes BDE_E_span_y = p->BDE_E_span_y;
-    const Lanes FE_E_span_x = p->FE_E_span_x;
-    const Lanes EG_G_span_y = p->EG_G_span_y;
-    const Lanes AG_G_span_x = p->AG_G_span_x;
-    const Lanes AG_G_span_y = p->AG_G_span_y;
-    const Lanes HE_H_span_x = p->HE_H_span_x;
-    const Lanes AH_H_span_x = p->AH_H_span_x;
-    const Lanes AH_H_span_y = p->AH_H_span_y;
-
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
     sines_and_cosines(OF_theta, &sines_0, &cosines_0, rare);
@@ -196,28 +180,28 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     const Lanes sin_theta_HE = sines_5;
     const Lanes cos_theta_EG = cosines_6;
     const Lanes sin_theta_EG = sines_6;
-    const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
-    const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
-    const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
-    const Lanes span_BDE_E_y = BDE_E_span_x*sin_theta_BDE + BDE_E_span_y*cos_theta_BDE;
-    const Lanes span_FE_E_x = FE_E_span_x*cos_theta_FE;
-    const Lanes span_FE_E_y = FE_E_span_x*sin_theta_FE;
-    const Lanes span_EG_G_x = -EG_G_span_y*sin_theta_EG;
-    const Lanes span_EG_G_y = EG_G_span_y*cos_theta_EG;
-    const Lanes span_AG_G_x = AG_G_span_x*cos_theta_AG - AG_G_span_y*sin_theta_AG;
-    const Lanes span_AG_G_y = AG_G_span_x*sin_theta_AG + AG_G_span_y*cos_theta_AG;
-    const Lanes span_HE_H_x = HE_H_span_x*cos_theta_HE;
-    const Lanes span_HE_H_y = HE_H_span_x*sin_theta_HE;
-    const Lanes span_AH_H_x = AH_H_span_x*cos_theta_AH - AH_H_span_y*sin_theta_AH;
-    const Lanes span_AH_H_y = AH_H_span_x*sin_theta_AH + AH_H_span_y*cos_theta_AH;
+    const Lanes span_OF_F_x = p->OF_F_span_x*cos_theta_OF;
+    const Lanes span_OF_F_y = p->OF_F_span_x*sin_theta_OF;
+    const Lanes span_BDE_E_x = p->BDE_E_span_x*cos_theta_BDE - p->BDE_E_span_y*sin_theta_BDE;
+    const Lanes span_BDE_E_y = p->BDE_E_span_x*sin_theta_BDE + p->BDE_E_span_y*cos_theta_BDE;
+    const Lanes span_FE_E_x = p->FE_E_span_x*cos_theta_FE;
+    const Lanes span_FE_E_y = p->FE_E_span_x*sin_theta_FE;
+    const Lanes span_EG_G_x = -p->EG_G_span_y*sin_theta_EG;
+    const Lanes span_EG_G_y = p->EG_G_span_y*cos_theta_EG;
+    const Lanes span_AG_G_x = p->AG_G_span_x*cos_theta_AG - p->AG_G_span_y*sin_theta_AG;
+    const Lanes span_AG_G_y = p->AG_G_span_x*sin_theta_AG + p->AG_G_span_y*cos_theta_AG;
+    const Lanes span_HE_H_x = p->HE_H_span_x*cos_theta_HE;
+    const Lanes span_HE_H_y = p->HE_H_span_x*sin_theta_HE;
+    const Lanes span_AH_H_x = p->AH_H_span_x*cos_theta_AH - p->AH_H_span_y*sin_theta_AH;
+    const Lanes span_AH_H_y = p->AH_H_span_x*sin_theta_AH + p->AH_H_span_y*cos_theta_AH;
 
     /* rows */
-    out[0] = -A_x - span_AG_G_x + span_EG_G_x + span_FE_E_x + span_OF_F_x;  /* G.x */
-    out[1] = -A_y - span_AG_G_y + span_EG_G_y + span_FE_E_y + span_OF_F_y;  /* G.y */
-    out[2] = -A_x + B_x - span_AH_H_x + span_BDE_E_x + span_HE_H_x;  /* H.x */
-    out[3] = -A_y + B_y - span_AH_H_y + span_BDE_E_y + span_HE_H_y;  /* H.y */
-    out[4] = -B_x - span_BDE_E_x + span_FE_E_x + span_OF_F_x;  /* E3.x */
-    out[5] = -B_y - span_BDE_E_y + span_FE_E_y + span_OF_F_y;  /* E3.y */
+    out[0] = -p->A_x - span_AG_G_x + span_EG_G_x + span_FE_E_x + span_OF_F_x;  /* G.x */
+    out[1] = -p->A_y - span_AG_G_y + span_EG_G_y + span_FE_E_y + span_OF_F_y;  /* G.y */
+    out[2] = -p->A_x + p->B_x - span_AH_H_x + span_BDE_E_x + span_HE_H_x;  /* H.x */
+    out[3] = -p->A_y + p->B_y - span_AH_H_y + span_BDE_E_y + span_HE_H_y;  /* H.y */
+    out[4] = -p->B_x - span_BDE_E_x + span_FE_E_x + span_OF_F_x;  /* E3.x */
+    out[5] = -p->B_y - span_BDE_E_y + span_FE_E_y + span_OF_F_y;  /* E3.y */
 }
 
 /*
@@ -243,18 +227,6 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     const Lanes EG_theta = q[6];
     const Lanes EG_omega = v[6];
 
-    /* parameters */
-    const Lanes OF_F_span_x = p->OF_F_span_x;
-    const Lanes BDE_E_span_x = p->BDE_E_span_x;
-    const Lanes BDE_E_span_y = p->BDE_E_span_y;
-    const Lanes FE_E_span_x = p->FE_E_span_x;
-    const Lanes EG_G_span_y = p->EG_G_span_y;
-    const Lanes AG_G_span_x = p->AG_G_span_x;
-    const Lanes AG_G_span_y = p->AG_G_span_y;
-    const Lanes HE_H_span_x = p->HE_H_span_x;
-    const Lanes AH_H_span_x = p->AH_H_span_x;
-    const Lanes AH_H_span_y = p->AH_H_span_y;
-
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
     sines_and_cosines(OF_theta, &sines_0, &cosines_0, rare);
@@ -284,20 +256,20 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     const Lanes sin_theta_HE = sines_5;
     const Lanes cos_theta_EG = cosines_6;
     const Lanes sin_theta_EG = sines_6;
-    const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
-    const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
-    const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
-    const Lanes span_BDE_E_y = BDE_E_span_x*sin_theta_BDE + BDE_E_span_y*cos_theta_BDE;
-    const Lanes span_FE_E_x = FE_E_span_x*cos_theta_FE;
-    const Lanes span_FE_E_y = FE_E_span_x*sin_theta_FE;
-    const Lanes span_EG_G_x = -EG_G_span_y*sin_theta_EG;
-    const Lanes span_EG_G_y = EG_G_span_y*cos_theta_EG;
-    const Lanes span_AG_G_x = AG_G_span_x*cos_theta_AG - AG_G_span_y*sin_theta_AG;
-    const Lanes span_AG_G_y = AG_G_span_x*sin_theta_AG + AG_G_span_y*cos_theta_AG;
-    const Lanes span_HE_H_x = HE_H_span_x*cos_theta_HE;
-    const Lanes span_HE_H_y = HE_H_span_x*sin_theta_HE;
-    const Lanes span_AH_H_x = AH_H_span_x*cos_theta_AH - AH_H_span_y*sin_theta_AH;
-    const Lanes span_AH_H_y = AH_H_span_x*sin_theta_AH + AH_H_span_y*cos_theta_AH;
+    const Lanes span_OF_F_x = p->OF_F_span_x*cos_theta_OF;
+    const Lanes span_OF_F_y = p->OF_F_span_x*sin_theta_OF;
+    const Lanes span_BDE_E_x = p->BDE_E_span_x*cos_theta_BDE - p->BDE_E_span_y*sin_theta_BDE;
+    const Lanes span_BDE_E_y = p->BDE_E_span_x*sin_theta_BDE + p->BDE_E_span_y*cos_theta_BDE;
+    const Lanes span_FE_E_x = p->FE_E_span_x*cos_theta_FE;
+    const Lanes span_FE_E_y = p->FE_E_span_x*sin_theta_FE;
+    const Lanes span_EG_G_x = -p->EG_G_span_y*sin_theta_EG;
+    const Lanes span_EG_G_y = p->EG_G_span_y*cos_theta_EG;
+    const Lanes span_AG_G_x = p->AG_G_span_x*cos_theta_AG - p->AG_G_span_y*sin_theta_AG;
+    const Lanes span_AG_G_y = p->AG_G_span_x*sin_theta_AG + p->AG_G_span_y*cos_theta_AG;
+    const Lanes span_HE_H_x = p->HE_H_span_x*cos_theta_HE;
+    const Lanes span_HE_H_y = p->HE_H_span_x*sin_theta_HE;
+    const Lanes span_AH_H_x = p->AH_H_span_x*cos_theta_AH - p->AH_H_span_y*sin_theta_AH;
+    const Lanes span_AH_H_y = p->AH_H_span_x*sin_theta_AH + p->AH_H_span_y*cos_theta_AH;
 
     /* rows */
     out[0] = AG_omega*span_AG_G_y - EG_omega*span_EG_G_y - FE_omega*span_FE_E_y - OF_omega*span_OF_F_y;  /* G.x */
@@ -313,8 +285,8 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
+static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
     (void)t;
     (void)memory;
@@ -334,39 +306,6 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes EG_theta = q[6];
     const Lanes EG_omega = v[6];
 
-    /* parameters */
-    const Lanes B_x = p->B_x;
-    const Lanes B_y = p->B_y;
-    const Lanes C_x = p->C_x;
-    const Lanes C_y = p->C_y;
-    const Lanes spring_stiffness = p->spring_stiffness;
-    const Lanes spring_free_length = p->spring_free_length;
-    const Lanes motor_value = p->motor_value;
-    const Lanes OF_F_span_x = p->OF_F_span_x;
-    const Lanes BDE_E_span_x = p->BDE_E_span_x;
-    const Lanes BDE_E_span_y = p->BDE_E_span_y;
-    const Lanes FE_E_span_x = p->FE_E_span_x;
-    const Lanes EG_G_span_y = p->EG_G_span_y;
-    const Lanes AG_G_span_x = p->AG_G_span_x;
-    const Lanes AG_G_span_y = p->AG_G_span_y;
-    const Lanes HE_H_span_x = p->HE_H_span_x;
-    const Lanes AH_H_span_x = p->AH_H_span_x;
-    const Lanes AH_H_span_y = p->AH_H_span_y;
-    const Lanes BDE_D_span_x = p->BDE_D_span_x;
-    const Lanes BDE_D_span_y = p->BDE_D_span_y;
-    const Lanes inertia_OF_FE = p->inertia_OF_FE;
-    const Lanes twist_OF_EG = p->twist_OF_EG;
-    const Lanes twist_FE_EG = p->twist_FE_EG;
-    const Lanes inertia_BDE_HE = p->inertia_BDE_HE;
-    const Lanes twist_BDE_HE = p->twist_BDE_HE;
-    const Lanes mass_OF_OF = p->mass_OF_OF;
-    const Lanes mass_FE_FE = p->mass_FE_FE;
-    const Lanes mass_BDE_BDE = p->mass_BDE_BDE;
-    const Lanes inverse_mass_AG_AG = p->inverse_mass_AG_AG;
-    const Lanes inverse_mass_AH_AH = p->inverse_mass_AH_AH;
-    const Lanes inverse_mass_HE_HE = p->inverse_mass_HE_HE;
-    const Lanes inverse_mass_EG_EG = p->inverse_mass_EG_EG;
-
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
     sines_and_cosines(OF_theta, &sines_0, &cosines_0, rare);
@@ -396,73 +335,73 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes sin_theta_HE = sines_5;
     const Lanes cos_theta_EG = cosines_6;
     const Lanes sin_theta_EG = sines_6;
-    const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
-    const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
-    const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
-    const Lanes span_BDE_E_y = BDE_E_span_x*sin_theta_BDE + BDE_E_span_y*cos_theta_BDE;
-    const Lanes span_FE_E_x = FE_E_span_x*cos_theta_FE;
-    const Lanes span_FE_E_y = FE_E_span_x*sin_theta_FE;
-    const Lanes span_EG_G_x = -EG_G_span_y*sin_theta_EG;
-    const Lanes span_EG_G_y = EG_G_span_y*cos_theta_EG;
-    const Lanes span_AG_G_x = AG_G_span_x*cos_theta_AG - AG_G_span_y*sin_theta_AG;
-    const Lanes span_AG_G_y = AG_G_span_x*sin_theta_AG + AG_G_span_y*cos_theta_AG;
-    const Lanes span_HE_H_x = HE_H_span_x*cos_theta_HE;
-    const Lanes span_HE_H_y = HE_H_span_x*sin_theta_HE;
-    const Lanes span_AH_H_x = AH_H_span_x*cos_theta_AH - AH_H_span_y*sin_theta_AH;
-    const Lanes span_AH_H_y = AH_H_span_x*sin_theta_AH + AH_H_span_y*cos_theta_AH;
-    const Lanes span_BDE_D_x = BDE_D_span_x*cos_theta_BDE - BDE_D_span_y*sin_theta_BDE;
-    const Lanes span_BDE_D_y = BDE_D_span_x*sin_theta_BDE + BDE_D_span_y*cos_theta_BDE;
-    const Lanes BDE_D_x = B_x + span_BDE_D_x;
-    const Lanes BDE_D_y = B_y + span_BDE_D_y;
-    const Lanes spring_span_x = BDE_D_x - C_x;
-    const Lanes spring_span_y = BDE_D_y - C_y;
+    const Lanes span_OF_F_x = p->OF_F_span_x*cos_theta_OF;
+    const Lanes span_OF_F_y = p->OF_F_span_x*sin_theta_OF;
+    const Lanes span_BDE_E_x = p->BDE_E_span_x*cos_theta_BDE - p->BDE_E_span_y*sin_theta_BDE;
+    const Lanes span_BDE_E_y = p->BDE_E_span_x*sin_theta_BDE + p->BDE_E_span_y*cos_theta_BDE;
+    const Lanes span_FE_E_x = p->FE_E_span_x*cos_theta_FE;
+    const Lanes span_FE_E_y = p->FE_E_span_x*sin_theta_FE;
+    const Lanes span_EG_G_x = -p->EG_G_span_y*sin_theta_EG;
+    const Lanes span_EG_G_y = p->EG_G_span_y*cos_theta_EG;
+    const Lanes span_AG_G_x = p->AG_G_span_x*cos_theta_AG - p->AG_G_span_y*sin_theta_AG;
+    const Lanes span_AG_G_y = p->AG_G_span_x*sin_theta_AG + p->AG_G_span_y*cos_theta_AG;
+    const Lanes span_HE_H_x = p->HE_H_span_x*cos_theta_HE;
+    const Lanes span_HE_H_y = p->HE_H_span_x*sin_theta_HE;
+    const Lanes span_AH_H_x = p->AH_H_span_x*cos_theta_AH - p->AH_H_span_y*sin_theta_AH;
+    const Lanes span_AH_H_y = p->AH_H_span_x*sin_theta_AH + p->AH_H_span_y*cos_theta_AH;
+    const Lanes span_BDE_D_x = p->BDE_D_span_x*cos_theta_BDE - p->BDE_D_span_y*sin_theta_BDE;
+    const Lanes span_BDE_D_y = p->BDE_D_span_x*sin_theta_BDE + p->BDE_D_span_y*cos_theta_BDE;
+    const Lanes BDE_D_x = p->B_x + span_BDE_D_x;
+    const Lanes BDE_D_y = p->B_y + span_BDE_D_y;
+    const Lanes spring_span_x = BDE_D_x - p->C_x;
+    const Lanes spring_span_y = BDE_D_y - p->C_y;
     const Lanes spring_length = lanes_sqrt((spring_span_x * spring_span_x) + (spring_span_y * spring_span_y));
-    const Lanes spring_force = spring_stiffness*(-spring_free_length + spring_length);
+    const Lanes spring_force = p->spring_stiffness*(-p->spring_free_length + spring_length);
     const Lanes spring_pull = spring_force/spring_length;
     const Lanes cos_FE_less_OF = cos_theta_FE*cos_theta_OF + sin_theta_FE*sin_theta_OF;
     const Lanes sin_FE_less_OF = -cos_theta_FE*sin_theta_OF + cos_theta_OF*sin_theta_FE;
-    const Lanes dot_OF_FE = cos_FE_less_OF*inertia_OF_FE;
-    const Lanes cross_OF_FE = inertia_OF_FE*sin_FE_less_OF;
+    const Lanes dot_OF_FE = cos_FE_less_OF*p->inertia_OF_FE;
+    const Lanes cross_OF_FE = p->inertia_OF_FE*sin_FE_less_OF;
     const Lanes cos_EG_less_OF = cos_theta_EG*cos_theta_OF + sin_theta_EG*sin_theta_OF;
     const Lanes sin_EG_less_OF = -cos_theta_EG*sin_theta_OF + cos_theta_OF*sin_theta_EG;
-    const Lanes dot_OF_EG = -sin_EG_less_OF*twist_OF_EG;
-    const Lanes cross_OF_EG = cos_EG_less_OF*twist_OF_EG;
+    const Lanes dot_OF_EG = -sin_EG_less_OF*p->twist_OF_EG;
+    const Lanes cross_OF_EG = cos_EG_less_OF*p->twist_OF_EG;
     const Lanes cos_EG_less_FE = cos_theta_EG*cos_theta_FE + sin_theta_EG*sin_theta_FE;
     const Lanes sin_EG_less_FE = -cos_theta_EG*sin_theta_FE + cos_theta_FE*sin_theta_EG;
-    const Lanes dot_FE_EG = -sin_EG_less_FE*twist_FE_EG;
-    const Lanes cross_FE_EG = cos_EG_less_FE*twist_FE_EG;
+    const Lanes dot_FE_EG = -sin_EG_less_FE*p->twist_FE_EG;
+    const Lanes cross_FE_EG = cos_EG_less_FE*p->twist_FE_EG;
     const Lanes cos_HE_less_BDE = cos_theta_BDE*cos_theta_HE + sin_theta_BDE*sin_theta_HE;
     const Lanes sin_HE_less_BDE = cos_theta_BDE*sin_theta_HE - cos_theta_HE*sin_theta_BDE;
-    const Lanes dot_BDE_HE = cos_HE_less_BDE*inertia_BDE_HE - sin_HE_less_BDE*twist_BDE_HE;
-    const Lanes cross_BDE_HE = cos_HE_less_BDE*twist_BDE_HE + inertia_BDE_HE*sin_HE_less_BDE;
+    const Lanes dot_BDE_HE = cos_HE_less_BDE*p->inertia_BDE_HE - sin_HE_less_BDE*p->twist_BDE_HE;
+    const Lanes cross_BDE_HE = cos_HE_less_BDE*p->twist_BDE_HE + p->inertia_BDE_HE*sin_HE_less_BDE;
 
     /* constraints: gamma */
-    const Lanes rhs_G_x = -(AG_omega * AG_omega)*span_AG_G_x + (EG_omega * EG_omega)*span_EG_G_x + (FE_omega *
-        FE_omega)*span_FE_E_x + (OF_omega * OF_omega)*span_OF_F_x;
-    const Lanes rhs_G_y = -(AG_omega * AG_omega)*span_AG_G_y + (EG_omega * EG_omega)*span_EG_G_y + (FE_omega *
-        FE_omega)*span_FE_E_y + (OF_omega * OF_omega)*span_OF_F_y;
-    const Lanes rhs_H_x = -(AH_omega * AH_omega)*span_AH_H_x + (BDE_omega * BDE_omega)*span_BDE_E_x +
-        (HE_omega * HE_omega)*span_HE_H_x;
-    const Lanes rhs_H_y = -(AH_omega * AH_omega)*span_AH_H_y + (BDE_omega * BDE_omega)*span_BDE_E_y +
-        (HE_omega * HE_omega)*span_HE_H_y;
-    const Lanes rhs_E3_x = -(BDE_omega * BDE_omega)*span_BDE_E_x + (FE_omega * FE_omega)*span_FE_E_x +
-        (OF_omega * OF_omega)*span_OF_F_x;
-    const Lanes rhs_E3_y = -(BDE_omega * BDE_omega)*span_BDE_E_y + (FE_omega * FE_omega)*span_FE_E_y +
-        (OF_omega * OF_omega)*span_OF_F_y;
+    const Lanes rhs_G_x = -(AG_omega * AG_omega)*span_AG_G_x + (EG_omega * EG_omega)*span_EG_G_x
+        + (FE_omega * FE_omega)*span_FE_E_x + (OF_omega * OF_omega)*span_OF_F_x;
+    const Lanes rhs_G_y = -(AG_omega * AG_omega)*span_AG_G_y + (EG_omega * EG_omega)*span_EG_G_y
+        + (FE_omega * FE_omega)*span_FE_E_y + (OF_omega * OF_omega)*span_OF_F_y;
+    const Lanes rhs_H_x = -(AH_omega * AH_omega)*span_AH_H_x + (BDE_omega * BDE_omega)*span_BDE_E_x
+        + (HE_omega * HE_omega)*span_HE_H_x;
+    const Lanes rhs_H_y = -(AH_omega * AH_omega)*span_AH_H_y + (BDE_omega * BDE_omega)*span_BDE_E_y
+        + (HE_omega * HE_omega)*span_HE_H_y;
+    const Lanes rhs_E3_x = -(BDE_omega * BDE_omega)*span_BDE_E_x + (FE_omega * FE_omega)*span_FE_E_x
+        + (OF_omega * OF_omega)*span_OF_F_x;
+    const Lanes rhs_E3_y = -(BDE_omega * BDE_omega)*span_BDE_E_y + (FE_omega * FE_omega)*span_FE_E_y
+        + (OF_omega * OF_omega)*span_OF_F_y;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_G_x__AG_theta = inverse_mass_AG_AG*span_AG_G_y;
-    const Lanes l_G_y__AG_theta = -inverse_mass_AG_AG*span_AG_G_x;
-    const Lanes l_H_x__AH_theta = inverse_mass_AH_AH*span_AH_H_y;
-    const Lanes l_H_y__AH_theta = -inverse_mass_AH_AH*span_AH_H_x;
-    const Lanes l_H_x__HE_theta = -inverse_mass_HE_HE*span_HE_H_y;
-    const Lanes l_H_y__HE_theta = inverse_mass_HE_HE*span_HE_H_x;
-    const Lanes l_BDE_theta__HE_theta = dot_BDE_HE*inverse_mass_HE_HE;
+    const Lanes l_G_x__AG_theta = p->inverse_mass_AG_AG*span_AG_G_y;
+    const Lanes l_G_y__AG_theta = -p->inverse_mass_AG_AG*span_AG_G_x;
+    const Lanes l_H_x__AH_theta = p->inverse_mass_AH_AH*span_AH_H_y;
+    const Lanes l_H_y__AH_theta = -p->inverse_mass_AH_AH*span_AH_H_x;
+    const Lanes l_H_x__HE_theta = -p->inverse_mass_HE_HE*span_HE_H_y;
+    const Lanes l_H_y__HE_theta = p->inverse_mass_HE_HE*span_HE_H_x;
+    const Lanes l_BDE_theta__HE_theta = dot_BDE_HE*p->inverse_mass_HE_HE;
     const Lanes scale_H_x = l_H_x__AH_theta*span_AH_H_y - l_H_x__HE_theta*span_HE_H_y;
     const Lanes scale_H_y = -l_H_y__AH_theta*span_AH_H_x + l_H_y__HE_theta*span_HE_H_x;
     const Lanes pivot_H_x__H_y = l_H_y__AH_theta*span_AH_H_y - l_H_y__HE_theta*span_HE_H_y;
     const Lanes determinant_H_x__H_y = -(pivot_H_x__H_y * pivot_H_x__H_y) + scale_H_x*scale_H_y;
-    *rare |= ~(scale_H_x > 1e-05 * scale_H_x);
+    *rare |= ~((scale_H_x > 0.0) & (scale_H_x < INFINITY));
     *rare |= ~(determinant_H_x__H_y > 1e-05 * scale_H_y * scale_H_x);
     const Lanes size_H_x = scale_H_x + scale_H_y;
     *rare |= ~(scale_H_x > 1e-10 * size_H_x);
@@ -473,23 +412,21 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes inverse_cross_H_x__H_y = -inverse_H_x__H_y*pivot_H_x__H_y;
     const Lanes w_BDE_theta__H_x = l_BDE_theta__HE_theta*span_HE_H_y - span_BDE_E_y;
     const Lanes w_BDE_theta__H_y = -l_BDE_theta__HE_theta*span_HE_H_x + span_BDE_E_x;
-    const Lanes l_BDE_theta__H_x = inverse_cross_H_x__H_y*w_BDE_theta__H_y +
-        inverse_pivot_H_x*w_BDE_theta__H_x;
-    const Lanes l_BDE_theta__H_y = inverse_cross_H_x__H_y*w_BDE_theta__H_x +
-        inverse_pivot_H_y*w_BDE_theta__H_y;
-    const Lanes inverse_pivot_BDE_theta = 1.0/(-dot_BDE_HE*l_BDE_theta__HE_theta -
-        l_BDE_theta__H_x*w_BDE_theta__H_x - l_BDE_theta__H_y*w_BDE_theta__H_y + mass_BDE_BDE);
+    const Lanes l_BDE_theta__H_x = inverse_cross_H_x__H_y*w_BDE_theta__H_y + inverse_pivot_H_x*w_BDE_theta__H_x;
+    const Lanes l_BDE_theta__H_y = inverse_cross_H_x__H_y*w_BDE_theta__H_x + inverse_pivot_H_y*w_BDE_theta__H_y;
+    const Lanes inverse_pivot_BDE_theta = 1.0/(-dot_BDE_HE*l_BDE_theta__HE_theta - l_BDE_theta__H_x*w_BDE_theta__H_x
+        - l_BDE_theta__H_y*w_BDE_theta__H_y + p->mass_BDE_BDE);
     const Lanes l_E3_x__BDE_theta = inverse_pivot_BDE_theta*span_BDE_E_y;
     const Lanes l_E3_y__BDE_theta = -inverse_pivot_BDE_theta*span_BDE_E_x;
-    const Lanes l_G_x__EG_theta = -inverse_mass_EG_EG*span_EG_G_y;
-    const Lanes l_G_y__EG_theta = inverse_mass_EG_EG*span_EG_G_x;
-    const Lanes l_OF_theta__EG_theta = dot_OF_EG*inverse_mass_EG_EG;
-    const Lanes l_FE_theta__EG_theta = dot_FE_EG*inverse_mass_EG_EG;
+    const Lanes l_G_x__EG_theta = -p->inverse_mass_EG_EG*span_EG_G_y;
+    const Lanes l_G_y__EG_theta = p->inverse_mass_EG_EG*span_EG_G_x;
+    const Lanes l_OF_theta__EG_theta = dot_OF_EG*p->inverse_mass_EG_EG;
+    const Lanes l_FE_theta__EG_theta = dot_FE_EG*p->inverse_mass_EG_EG;
     const Lanes scale_G_x = l_G_x__AG_theta*span_AG_G_y - l_G_x__EG_theta*span_EG_G_y;
     const Lanes scale_G_y = -l_G_y__AG_theta*span_AG_G_x + l_G_y__EG_theta*span_EG_G_x;
     const Lanes pivot_G_x__G_y = l_G_y__AG_theta*span_AG_G_y - l_G_y__EG_theta*span_EG_G_y;
     const Lanes determinant_G_x__G_y = -(pivot_G_x__G_y * pivot_G_x__G_y) + scale_G_x*scale_G_y;
-    *rare |= ~(scale_G_x > 1e-05 * scale_G_x);
+    *rare |= ~((scale_G_x > 0.0) & (scale_G_x < INFINITY));
     *rare |= ~(determinant_G_x__G_y > 1e-05 * scale_G_y * scale_G_x);
     const Lanes size_G_x = scale_G_x + scale_G_y;
     *rare |= ~(scale_G_x > 1e-10 * size_G_x);
@@ -506,34 +443,30 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes w_FE_theta__G_y = -l_FE_theta__EG_theta*span_EG_G_x + span_FE_E_x;
     const Lanes l_FE_theta__G_x = inverse_cross_G_x__G_y*w_FE_theta__G_y + inverse_pivot_G_x*w_FE_theta__G_x;
     const Lanes l_FE_theta__G_y = inverse_cross_G_x__G_y*w_FE_theta__G_x + inverse_pivot_G_y*w_FE_theta__G_y;
-    const Lanes pivot_OF_theta = -dot_OF_EG*l_OF_theta__EG_theta - l_OF_theta__G_x*w_OF_theta__G_x -
-        l_OF_theta__G_y*w_OF_theta__G_y + mass_OF_OF;
-    const Lanes pivot_FE_theta = -dot_FE_EG*l_FE_theta__EG_theta - l_FE_theta__G_x*w_FE_theta__G_x -
-        l_FE_theta__G_y*w_FE_theta__G_y + mass_FE_FE;
-    const Lanes pivot_OF_theta__FE_theta = -dot_OF_EG*l_FE_theta__EG_theta + dot_OF_FE -
-        l_FE_theta__G_x*w_OF_theta__G_x - l_FE_theta__G_y*w_OF_theta__G_y;
-    const Lanes determinant_OF_theta__FE_theta = pivot_FE_theta*pivot_OF_theta - (pivot_OF_theta__FE_theta *
-        pivot_OF_theta__FE_theta);
+    const Lanes pivot_OF_theta = -dot_OF_EG*l_OF_theta__EG_theta - l_OF_theta__G_x*w_OF_theta__G_x
+        - l_OF_theta__G_y*w_OF_theta__G_y + p->mass_OF_OF;
+    const Lanes pivot_FE_theta = -dot_FE_EG*l_FE_theta__EG_theta - l_FE_theta__G_x*w_FE_theta__G_x
+        - l_FE_theta__G_y*w_FE_theta__G_y + p->mass_FE_FE;
+    const Lanes pivot_OF_theta__FE_theta = -dot_OF_EG*l_FE_theta__EG_theta + dot_OF_FE
+        - l_FE_theta__G_x*w_OF_theta__G_x - l_FE_theta__G_y*w_OF_theta__G_y;
+    const Lanes determinant_OF_theta__FE_theta = pivot_FE_theta*pivot_OF_theta
+        - (pivot_OF_theta__FE_theta * pivot_OF_theta__FE_theta);
     const Lanes inverse_OF_theta__FE_theta = 1.0/determinant_OF_theta__FE_theta;
     const Lanes inverse_pivot_OF_theta = inverse_OF_theta__FE_theta*pivot_FE_theta;
     const Lanes inverse_pivot_FE_theta = inverse_OF_theta__FE_theta*pivot_OF_theta;
     const Lanes inverse_cross_OF_theta__FE_theta = -inverse_OF_theta__FE_theta*pivot_OF_theta__FE_theta;
-    const Lanes l_E3_x__OF_theta = -inverse_cross_OF_theta__FE_theta*span_FE_E_y -
-        inverse_pivot_OF_theta*span_OF_F_y;
-    const Lanes l_E3_x__FE_theta = -inverse_cross_OF_theta__FE_theta*span_OF_F_y -
-        inverse_pivot_FE_theta*span_FE_E_y;
-    const Lanes l_E3_y__OF_theta = inverse_cross_OF_theta__FE_theta*span_FE_E_x +
-        inverse_pivot_OF_theta*span_OF_F_x;
-    const Lanes l_E3_y__FE_theta = inverse_cross_OF_theta__FE_theta*span_OF_F_x +
-        inverse_pivot_FE_theta*span_FE_E_x;
-    const Lanes scale_E3_x = l_E3_x__BDE_theta*span_BDE_E_y - l_E3_x__FE_theta*span_FE_E_y -
-        l_E3_x__OF_theta*span_OF_F_y;
-    const Lanes scale_E3_y = -l_E3_y__BDE_theta*span_BDE_E_x + l_E3_y__FE_theta*span_FE_E_x +
-        l_E3_y__OF_theta*span_OF_F_x;
-    const Lanes pivot_E3_x__E3_y = l_E3_y__BDE_theta*span_BDE_E_y - l_E3_y__FE_theta*span_FE_E_y -
-        l_E3_y__OF_theta*span_OF_F_y;
+    const Lanes l_E3_x__OF_theta = -inverse_cross_OF_theta__FE_theta*span_FE_E_y - inverse_pivot_OF_theta*span_OF_F_y;
+    const Lanes l_E3_x__FE_theta = -inverse_cross_OF_theta__FE_theta*span_OF_F_y - inverse_pivot_FE_theta*span_FE_E_y;
+    const Lanes l_E3_y__OF_theta = inverse_cross_OF_theta__FE_theta*span_FE_E_x + inverse_pivot_OF_theta*span_OF_F_x;
+    const Lanes l_E3_y__FE_theta = inverse_cross_OF_theta__FE_theta*span_OF_F_x + inverse_pivot_FE_theta*span_FE_E_x;
+    const Lanes scale_E3_x = l_E3_x__BDE_theta*span_BDE_E_y - l_E3_x__FE_theta*span_FE_E_y
+        - l_E3_x__OF_theta*span_OF_F_y;
+    const Lanes scale_E3_y = -l_E3_y__BDE_theta*span_BDE_E_x + l_E3_y__FE_theta*span_FE_E_x
+        + l_E3_y__OF_theta*span_OF_F_x;
+    const Lanes pivot_E3_x__E3_y = l_E3_y__BDE_theta*span_BDE_E_y - l_E3_y__FE_theta*span_FE_E_y
+        - l_E3_y__OF_theta*span_OF_F_y;
     const Lanes determinant_E3_x__E3_y = -(pivot_E3_x__E3_y * pivot_E3_x__E3_y) + scale_E3_x*scale_E3_y;
-    *rare |= ~(scale_E3_x > 1e-08 * scale_E3_x);
+    *rare |= ~((scale_E3_x > 0.0) & (scale_E3_x < INFINITY));
     *rare |= ~(determinant_E3_x__E3_y > 1e-08 * scale_E3_y * scale_E3_x);
     const Lanes size_E3_x = scale_E3_x + scale_E3_y;
     *rare |= ~(scale_E3_x > 1e-10 * size_E3_x);
@@ -547,43 +480,43 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes z_HE_theta = -(BDE_omega * BDE_omega)*cross_BDE_HE;
     const Lanes z_H_x = -l_H_x__HE_theta*z_HE_theta + rhs_H_x;
     const Lanes z_H_y = -l_H_y__HE_theta*z_HE_theta + rhs_H_y;
-    const Lanes z_BDE_theta = (HE_omega * HE_omega)*cross_BDE_HE - l_BDE_theta__HE_theta*z_HE_theta -
-        l_BDE_theta__H_x*z_H_x - l_BDE_theta__H_y*z_H_y - span_BDE_D_x*spring_pull*spring_span_y +
-        span_BDE_D_y*spring_pull*spring_span_x;
+    const Lanes z_BDE_theta = (HE_omega * HE_omega)*cross_BDE_HE - l_BDE_theta__HE_theta*z_HE_theta
+        - l_BDE_theta__H_x*z_H_x - l_BDE_theta__H_y*z_H_y - span_BDE_D_x*spring_pull*spring_span_y
+        + span_BDE_D_y*spring_pull*spring_span_x;
     const Lanes z_EG_theta = -(FE_omega * FE_omega)*cross_FE_EG - (OF_omega * OF_omega)*cross_OF_EG;
     const Lanes z_G_x = -l_G_x__EG_theta*z_EG_theta + rhs_G_x;
     const Lanes z_G_y = -l_G_y__EG_theta*z_EG_theta + rhs_G_y;
-    const Lanes z_OF_theta = (EG_omega * EG_omega)*cross_OF_EG + (FE_omega * FE_omega)*cross_OF_FE -
-        l_OF_theta__EG_theta*z_EG_theta - l_OF_theta__G_x*z_G_x - l_OF_theta__G_y*z_G_y + motor_value;
-    const Lanes z_FE_theta = (EG_omega * EG_omega)*cross_FE_EG - (OF_omega * OF_omega)*cross_OF_FE -
-        l_FE_theta__EG_theta*z_EG_theta - l_FE_theta__G_x*z_G_x - l_FE_theta__G_y*z_G_y;
-    const Lanes z_E3_x = -l_E3_x__BDE_theta*z_BDE_theta - l_E3_x__FE_theta*z_FE_theta -
-        l_E3_x__OF_theta*z_OF_theta + rhs_E3_x;
-    const Lanes z_E3_y = -l_E3_y__BDE_theta*z_BDE_theta - l_E3_y__FE_theta*z_FE_theta -
-        l_E3_y__OF_theta*z_OF_theta + rhs_E3_y;
+    const Lanes z_OF_theta = (EG_omega * EG_omega)*cross_OF_EG + (FE_omega * FE_omega)*cross_OF_FE
+        - l_OF_theta__EG_theta*z_EG_theta - l_OF_theta__G_x*z_G_x - l_OF_theta__G_y*z_G_y + p->motor_value;
+    const Lanes z_FE_theta = (EG_omega * EG_omega)*cross_FE_EG - (OF_omega * OF_omega)*cross_OF_FE
+        - l_FE_theta__EG_theta*z_EG_theta - l_FE_theta__G_x*z_G_x - l_FE_theta__G_y*z_G_y;
+    const Lanes z_E3_x = -l_E3_x__BDE_theta*z_BDE_theta - l_E3_x__FE_theta*z_FE_theta - l_E3_x__OF_theta*z_OF_theta
+        + rhs_E3_x;
+    const Lanes z_E3_y = -l_E3_y__BDE_theta*z_BDE_theta - l_E3_y__FE_theta*z_FE_theta - l_E3_y__OF_theta*z_OF_theta
+        + rhs_E3_y;
 
     /* backward substitution */
     const Lanes lambda_E3_y = inverse_cross_E3_x__E3_y*z_E3_x + inverse_pivot_E3_y*z_E3_y;
     const Lanes lambda_E3_x = inverse_cross_E3_x__E3_y*z_E3_y + inverse_pivot_E3_x*z_E3_x;
-    const Lanes acceleration_FE_theta = inverse_cross_OF_theta__FE_theta*z_OF_theta +
-        inverse_pivot_FE_theta*z_FE_theta - l_E3_x__FE_theta*lambda_E3_x - l_E3_y__FE_theta*lambda_E3_y;
-    const Lanes acceleration_OF_theta = inverse_cross_OF_theta__FE_theta*z_FE_theta +
-        inverse_pivot_OF_theta*z_OF_theta - l_E3_x__OF_theta*lambda_E3_x - l_E3_y__OF_theta*lambda_E3_y;
-    const Lanes lambda_G_y = -acceleration_FE_theta*l_FE_theta__G_y - acceleration_OF_theta*l_OF_theta__G_y +
-        inverse_cross_G_x__G_y*z_G_x + inverse_pivot_G_y*z_G_y;
-    const Lanes lambda_G_x = -acceleration_FE_theta*l_FE_theta__G_x - acceleration_OF_theta*l_OF_theta__G_x +
-        inverse_cross_G_x__G_y*z_G_y + inverse_pivot_G_x*z_G_x;
-    const Lanes acceleration_EG_theta = -acceleration_FE_theta*l_FE_theta__EG_theta -
-        acceleration_OF_theta*l_OF_theta__EG_theta + inverse_mass_EG_EG*z_EG_theta -
-        l_G_x__EG_theta*lambda_G_x - l_G_y__EG_theta*lambda_G_y;
-    const Lanes acceleration_BDE_theta = inverse_pivot_BDE_theta*z_BDE_theta - l_E3_x__BDE_theta*lambda_E3_x -
-        l_E3_y__BDE_theta*lambda_E3_y;
-    const Lanes lambda_H_y = -acceleration_BDE_theta*l_BDE_theta__H_y + inverse_cross_H_x__H_y*z_H_x +
-        inverse_pivot_H_y*z_H_y;
-    const Lanes lambda_H_x = -acceleration_BDE_theta*l_BDE_theta__H_x + inverse_cross_H_x__H_y*z_H_y +
-        inverse_pivot_H_x*z_H_x;
-    const Lanes acceleration_HE_theta = -acceleration_BDE_theta*l_BDE_theta__HE_theta +
-        inverse_mass_HE_HE*z_HE_theta - l_H_x__HE_theta*lambda_H_x - l_H_y__HE_theta*lambda_H_y;
+    const Lanes acceleration_FE_theta = inverse_cross_OF_theta__FE_theta*z_OF_theta + inverse_pivot_FE_theta*z_FE_theta
+        - l_E3_x__FE_theta*lambda_E3_x - l_E3_y__FE_theta*lambda_E3_y;
+    const Lanes acceleration_OF_theta = inverse_cross_OF_theta__FE_theta*z_FE_theta + inverse_pivot_OF_theta*z_OF_theta
+        - l_E3_x__OF_theta*lambda_E3_x - l_E3_y__OF_theta*lambda_E3_y;
+    const Lanes lambda_G_y = -acceleration_FE_theta*l_FE_theta__G_y - acceleration_OF_theta*l_OF_theta__G_y
+        + inverse_cross_G_x__G_y*z_G_x + inverse_pivot_G_y*z_G_y;
+    const Lanes lambda_G_x = -acceleration_FE_theta*l_FE_theta__G_x - acceleration_OF_theta*l_OF_theta__G_x
+        + inverse_cross_G_x__G_y*z_G_y + inverse_pivot_G_x*z_G_x;
+    const Lanes acceleration_EG_theta = -acceleration_FE_theta*l_FE_theta__EG_theta
+        - acceleration_OF_theta*l_OF_theta__EG_theta + p->inverse_mass_EG_EG*z_EG_theta - l_G_x__EG_theta*lambda_G_x
+        - l_G_y__EG_theta*lambda_G_y;
+    const Lanes acceleration_BDE_theta = inverse_pivot_BDE_theta*z_BDE_theta - l_E3_x__BDE_theta*lambda_E3_x
+        - l_E3_y__BDE_theta*lambda_E3_y;
+    const Lanes lambda_H_y = -acceleration_BDE_theta*l_BDE_theta__H_y + inverse_cross_H_x__H_y*z_H_x
+        + inverse_pivot_H_y*z_H_y;
+    const Lanes lambda_H_x = -acceleration_BDE_theta*l_BDE_theta__H_x + inverse_cross_H_x__H_y*z_H_y
+        + inverse_pivot_H_x*z_H_x;
+    const Lanes acceleration_HE_theta = -acceleration_BDE_theta*l_BDE_theta__HE_theta
+        + p->inverse_mass_HE_HE*z_HE_theta - l_H_x__HE_theta*lambda_H_x - l_H_y__HE_theta*lambda_H_y;
     const Lanes acceleration_AH_theta = -l_H_x__AH_theta*lambda_H_x - l_H_y__AH_theta*lambda_H_y;
     const Lanes acceleration_AG_theta = -l_G_x__AG_theta*lambda_G_x - l_G_y__AG_theta*lambda_G_y;
 
@@ -604,7 +537,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 
     /* a pivot vanished: rows depend on each other here */
     aside->power[0] = all_of(0.0);
-    aside->power[1] = OF_omega*motor_value;
+    aside->power[1] = OF_omega*p->motor_value;
     aside->power[2] = all_of(0.0);
 }
 
@@ -612,8 +545,8 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
  * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
-static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
+static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
     (void)t;
     (void)memory;
@@ -632,34 +565,6 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes HE_omega = v[5];
     const Lanes EG_theta = q[6];
     const Lanes EG_omega = v[6];
-
-    /* parameters */
-    const Lanes B_x = p->B_x;
-    const Lanes B_y = p->B_y;
-    const Lanes A_x = p->A_x;
-    const Lanes A_y = p->A_y;
-    const Lanes OF_F_span_x = p->OF_F_span_x;
-    const Lanes BDE_E_span_x = p->BDE_E_span_x;
-    const Lanes BDE_E_span_y = p->BDE_E_span_y;
-    const Lanes FE_E_span_x = p->FE_E_span_x;
-    const Lanes EG_G_span_y = p->EG_G_span_y;
-    const Lanes AG_G_span_x = p->AG_G_span_x;
-    const Lanes AG_G_span_y = p->AG_G_span_y;
-    const Lanes HE_H_span_x = p->HE_H_span_x;
-    const Lanes AH_H_span_x = p->AH_H_span_x;
-    const Lanes AH_H_span_y = p->AH_H_span_y;
-    const Lanes inertia_OF_FE = p->inertia_OF_FE;
-    const Lanes twist_OF_EG = p->twist_OF_EG;
-    const Lanes twist_FE_EG = p->twist_FE_EG;
-    const Lanes inertia_BDE_HE = p->inertia_BDE_HE;
-    const Lanes twist_BDE_HE = p->twist_BDE_HE;
-    const Lanes mass_OF_OF = p->mass_OF_OF;
-    const Lanes mass_FE_FE = p->mass_FE_FE;
-    const Lanes mass_BDE_BDE = p->mass_BDE_BDE;
-    const Lanes inverse_mass_AG_AG = p->inverse_mass_AG_AG;
-    const Lanes inverse_mass_AH_AH = p->inverse_mass_AH_AH;
-    const Lanes inverse_mass_HE_HE = p->inverse_mass_HE_HE;
-    const Lanes inverse_mass_EG_EG = p->inverse_mass_EG_EG;
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
@@ -690,228 +595,218 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes sin_theta_HE = sines_5;
     const Lanes cos_theta_EG = cosines_6;
     const Lanes sin_theta_EG = sines_6;
-    const Lanes span_OF_F_x = OF_F_span_x*cos_theta_OF;
-    const Lanes span_OF_F_y = OF_F_span_x*sin_theta_OF;
-    const Lanes span_BDE_E_x = BDE_E_span_x*cos_theta_BDE - BDE_E_span_y*sin_theta_BDE;
-    const Lanes span_BDE_E_y = BDE_E_span_x*sin_theta_BDE + BDE_E_span_y*cos_theta_BDE;
-    const Lanes span_FE_E_x = FE_E_span_x*cos_theta_FE;
-    const Lanes span_FE_E_y = FE_E_span_x*sin_theta_FE;
-    const Lanes span_EG_G_x = -EG_G_span_y*sin_theta_EG;
-    const Lanes span_EG_G_y = EG_G_span_y*cos_theta_EG;
-    const Lanes span_AG_G_x = AG_G_span_x*cos_theta_AG - AG_G_span_y*sin_theta_AG;
-    const Lanes span_AG_G_y = AG_G_span_x*sin_theta_AG + AG_G_span_y*cos_theta_AG;
-    const Lanes span_HE_H_x = HE_H_span_x*cos_theta_HE;
-    const Lanes span_HE_H_y = HE_H_span_x*sin_theta_HE;
-    const Lanes span_AH_H_x = AH_H_span_x*cos_theta_AH - AH_H_span_y*sin_theta_AH;
-    const Lanes span_AH_H_y = AH_H_span_x*sin_theta_AH + AH_H_span_y*cos_theta_AH;
+    const Lanes span_OF_F_x = p->OF_F_span_x*cos_theta_OF;
+    const Lanes span_OF_F_y = p->OF_F_span_x*sin_theta_OF;
+    const Lanes span_BDE_E_x = p->BDE_E_span_x*cos_theta_BDE - p->BDE_E_span_y*sin_theta_BDE;
+    const Lanes span_BDE_E_y = p->BDE_E_span_x*sin_theta_BDE + p->BDE_E_span_y*cos_theta_BDE;
+    const Lanes span_FE_E_x = p->FE_E_span_x*cos_theta_FE;
+    const Lanes span_FE_E_y = p->FE_E_span_x*sin_theta_FE;
+    const Lanes span_EG_G_x = -p->EG_G_span_y*sin_theta_EG;
+    const Lanes span_EG_G_y = p->EG_G_span_y*cos_theta_EG;
+    const Lanes span_AG_G_x = p->AG_G_span_x*cos_theta_AG - p->AG_G_span_y*sin_theta_AG;
+    const Lanes span_AG_G_y = p->AG_G_span_x*sin_theta_AG + p->AG_G_span_y*cos_theta_AG;
+    const Lanes span_HE_H_x = p->HE_H_span_x*cos_theta_HE;
+    const Lanes span_HE_H_y = p->HE_H_span_x*sin_theta_HE;
+    const Lanes span_AH_H_x = p->AH_H_span_x*cos_theta_AH - p->AH_H_span_y*sin_theta_AH;
+    const Lanes span_AH_H_y = p->AH_H_span_x*sin_theta_AH + p->AH_H_span_y*cos_theta_AH;
     const Lanes cos_FE_less_OF = cos_theta_FE*cos_theta_OF + sin_theta_FE*sin_theta_OF;
-    const Lanes dot_OF_FE = cos_FE_less_OF*inertia_OF_FE;
+    const Lanes dot_OF_FE = cos_FE_less_OF*p->inertia_OF_FE;
     const Lanes sin_EG_less_OF = -cos_theta_EG*sin_theta_OF + cos_theta_OF*sin_theta_EG;
-    const Lanes dot_OF_EG = -sin_EG_less_OF*twist_OF_EG;
+    const Lanes dot_OF_EG = -sin_EG_less_OF*p->twist_OF_EG;
     const Lanes sin_EG_less_FE = -cos_theta_EG*sin_theta_FE + cos_theta_FE*sin_theta_EG;
-    const Lanes dot_FE_EG = -sin_EG_less_FE*twist_FE_EG;
+    const Lanes dot_FE_EG = -sin_EG_less_FE*p->twist_FE_EG;
     const Lanes cos_HE_less_BDE = cos_theta_BDE*cos_theta_HE + sin_theta_BDE*sin_theta_HE;
     const Lanes sin_HE_less_BDE = cos_theta_BDE*sin_theta_HE - cos_theta_HE*sin_theta_BDE;
-    const Lanes dot_BDE_HE = cos_HE_less_BDE*inertia_BDE_HE - sin_HE_less_BDE*twist_BDE_HE;
+    const Lanes dot_BDE_HE = cos_HE_less_BDE*p->inertia_BDE_HE - sin_HE_less_BDE*p->twist_BDE_HE;
 
     /* Phi and Phi_dot */
-    const Lanes phi_G_x = -A_x - span_AG_G_x + span_EG_G_x + span_FE_E_x + span_OF_F_x;
-    const Lanes phi_dot_G_x = AG_omega*span_AG_G_y - EG_omega*span_EG_G_y - FE_omega*span_FE_E_y -
-        OF_omega*span_OF_F_y;
-    const Lanes phi_G_y = -A_y - span_AG_G_y + span_EG_G_y + span_FE_E_y + span_OF_F_y;
-    const Lanes phi_dot_G_y = -AG_omega*span_AG_G_x + EG_omega*span_EG_G_x + FE_omega*span_FE_E_x +
-        OF_omega*span_OF_F_x;
-    const Lanes phi_H_x = -A_x + B_x - span_AH_H_x + span_BDE_E_x + span_HE_H_x;
+    const Lanes phi_G_x = -p->A_x - span_AG_G_x + span_EG_G_x + span_FE_E_x + span_OF_F_x;
+    const Lanes phi_dot_G_x = AG_omega*span_AG_G_y - EG_omega*span_EG_G_y - FE_omega*span_FE_E_y - OF_omega*span_OF_F_y;
+    const Lanes phi_G_y = -p->A_y - span_AG_G_y + span_EG_G_y + span_FE_E_y + span_OF_F_y;
+    const Lanes phi_dot_G_y = -AG_omega*span_AG_G_x + EG_omega*span_EG_G_x + FE_omega*span_FE_E_x
+        + OF_omega*span_OF_F_x;
+    const Lanes phi_H_x = -p->A_x + p->B_x - span_AH_H_x + span_BDE_E_x + span_HE_H_x;
     const Lanes phi_dot_H_x = AH_omega*span_AH_H_y - BDE_omega*span_BDE_E_y - HE_omega*span_HE_H_y;
-    const Lanes phi_H_y = -A_y + B_y - span_AH_H_y + span_BDE_E_y + span_HE_H_y;
+    const Lanes phi_H_y = -p->A_y + p->B_y - span_AH_H_y + span_BDE_E_y + span_HE_H_y;
     const Lanes phi_dot_H_y = -AH_omega*span_AH_H_x + BDE_omega*span_BDE_E_x + HE_omega*span_HE_H_x;
-    const Lanes phi_E3_x = -B_x - span_BDE_E_x + span_FE_E_x + span_OF_F_x;
+    const Lanes phi_E3_x = -p->B_x - span_BDE_E_x + span_FE_E_x + span_OF_F_x;
     const Lanes phi_dot_E3_x = BDE_omega*span_BDE_E_y - FE_omega*span_FE_E_y - OF_omega*span_OF_F_y;
-    const Lanes phi_E3_y = -B_y - span_BDE_E_y + span_FE_E_y + span_OF_F_y;
+    const Lanes phi_E3_y = -p->B_y - span_BDE_E_y + span_FE_E_y + span_OF_F_y;
     const Lanes phi_dot_E3_y = -BDE_omega*span_BDE_E_x + FE_omega*span_FE_E_x + OF_omega*span_OF_F_x;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_G_x__AG_theta_4 = inverse_mass_AG_AG*span_AG_G_y;
-    const Lanes l_G_y__AG_theta_4 = -inverse_mass_AG_AG*span_AG_G_x;
-    const Lanes l_H_x__AH_theta_4 = inverse_mass_AH_AH*span_AH_H_y;
-    const Lanes l_H_y__AH_theta_4 = -inverse_mass_AH_AH*span_AH_H_x;
-    const Lanes l_BDE_theta__HE_theta_4 = dot_BDE_HE*inverse_mass_HE_HE;
-    const Lanes l_H_x__HE_theta_4 = -inverse_mass_HE_HE*span_HE_H_y;
-    const Lanes l_H_y__HE_theta_4 = inverse_mass_HE_HE*span_HE_H_x;
-    const Lanes inverse_pivot_BDE_theta_4 = 1.0/(-dot_BDE_HE*l_BDE_theta__HE_theta_4 + mass_BDE_BDE);
-    const Lanes w_H_x__BDE_theta_2 = -dot_BDE_HE*l_H_x__HE_theta_4 - span_BDE_E_y;
-    const Lanes l_H_x__BDE_theta_3 = inverse_pivot_BDE_theta_4*w_H_x__BDE_theta_2;
-    const Lanes w_H_y__BDE_theta_2 = -dot_BDE_HE*l_H_y__HE_theta_4 + span_BDE_E_x;
-    const Lanes l_H_y__BDE_theta_3 = inverse_pivot_BDE_theta_4*w_H_y__BDE_theta_2;
-    const Lanes l_E3_x__BDE_theta_4 = inverse_pivot_BDE_theta_4*span_BDE_E_y;
-    const Lanes l_E3_y__BDE_theta_4 = -inverse_pivot_BDE_theta_4*span_BDE_E_x;
-    const Lanes scale_H_x_4 = l_H_x__AH_theta_4*span_AH_H_y + l_H_x__BDE_theta_3*w_H_x__BDE_theta_2 -
-        l_H_x__HE_theta_4*span_HE_H_y;
-    const Lanes scale_H_y_4 = -l_H_y__AH_theta_4*span_AH_H_x + l_H_y__BDE_theta_3*w_H_y__BDE_theta_2 +
-        l_H_y__HE_theta_4*span_HE_H_x;
-    const Lanes pivot_H_x__H_y_3 = l_H_y__AH_theta_4*span_AH_H_y + l_H_y__BDE_theta_3*w_H_x__BDE_theta_2 -
-        l_H_y__HE_theta_4*span_HE_H_y;
-    const Lanes determinant_H_x__H_y_3 = -(pivot_H_x__H_y_3 * pivot_H_x__H_y_3) + scale_H_x_4*scale_H_y_4;
-    *rare |= ~(scale_H_x_4 > 1e-10 * scale_H_x_4);
-    *rare |= ~(determinant_H_x__H_y_3 > 1e-10 * scale_H_y_4 * scale_H_x_4);
-    const Lanes size_H_x_3 = scale_H_x_4 + scale_H_y_4;
-    *rare |= ~(scale_H_x_4 > 1e-10 * size_H_x_3);
-    *rare |= ~(determinant_H_x__H_y_3 > 1e-10 * size_H_x_3 * scale_H_x_4);
-    const Lanes inverse_H_x__H_y_3 = -1.0/determinant_H_x__H_y_3;
-    const Lanes inverse_pivot_H_x_4 = inverse_H_x__H_y_3*scale_H_y_4;
-    const Lanes inverse_pivot_H_y_4 = inverse_H_x__H_y_3*scale_H_x_4;
-    const Lanes inverse_cross_H_x__H_y_3 = -inverse_H_x__H_y_3*pivot_H_x__H_y_3;
-    const Lanes w_E3_x__H_x_2 = -l_E3_x__BDE_theta_4*w_H_x__BDE_theta_2;
-    const Lanes w_E3_x__H_y_2 = -l_E3_x__BDE_theta_4*w_H_y__BDE_theta_2;
-    const Lanes l_E3_x__H_x_3 = inverse_cross_H_x__H_y_3*w_E3_x__H_y_2 + inverse_pivot_H_x_4*w_E3_x__H_x_2;
-    const Lanes l_E3_x__H_y_3 = inverse_cross_H_x__H_y_3*w_E3_x__H_x_2 + inverse_pivot_H_y_4*w_E3_x__H_y_2;
-    const Lanes w_E3_y__H_x_2 = -l_E3_y__BDE_theta_4*w_H_x__BDE_theta_2;
-    const Lanes w_E3_y__H_y_2 = -l_E3_y__BDE_theta_4*w_H_y__BDE_theta_2;
-    const Lanes l_E3_y__H_x_3 = inverse_cross_H_x__H_y_3*w_E3_y__H_y_2 + inverse_pivot_H_x_4*w_E3_y__H_x_2;
-    const Lanes l_E3_y__H_y_3 = inverse_cross_H_x__H_y_3*w_E3_y__H_x_2 + inverse_pivot_H_y_4*w_E3_y__H_y_2;
-    const Lanes l_OF_theta__EG_theta_4 = dot_OF_EG*inverse_mass_EG_EG;
-    const Lanes l_FE_theta__EG_theta_4 = dot_FE_EG*inverse_mass_EG_EG;
-    const Lanes l_G_x__EG_theta_4 = -inverse_mass_EG_EG*span_EG_G_y;
-    const Lanes l_G_y__EG_theta_4 = inverse_mass_EG_EG*span_EG_G_x;
-    const Lanes pivot_OF_theta_3 = -dot_OF_EG*l_OF_theta__EG_theta_4 + mass_OF_OF;
-    const Lanes pivot_FE_theta_3 = -dot_FE_EG*l_FE_theta__EG_theta_4 + mass_FE_FE;
-    const Lanes pivot_OF_theta__FE_theta_3 = -dot_OF_EG*l_FE_theta__EG_theta_4 + dot_OF_FE;
-    const Lanes determinant_OF_theta__FE_theta_3 = pivot_FE_theta_3*pivot_OF_theta_3 -
-        (pivot_OF_theta__FE_theta_3 * pivot_OF_theta__FE_theta_3);
-    const Lanes inverse_OF_theta__FE_theta_3 = 1.0/determinant_OF_theta__FE_theta_3;
-    const Lanes inverse_pivot_OF_theta_4 = inverse_OF_theta__FE_theta_3*pivot_FE_theta_3;
-    const Lanes inverse_pivot_FE_theta_4 = inverse_OF_theta__FE_theta_3*pivot_OF_theta_3;
-    const Lanes inverse_cross_OF_theta__FE_theta_3 = -inverse_OF_theta__FE_theta_3*pivot_OF_theta__FE_theta_3;
-    const Lanes w_G_x__OF_theta_2 = -dot_OF_EG*l_G_x__EG_theta_4 - span_OF_F_y;
-    const Lanes w_G_x__FE_theta_2 = -dot_FE_EG*l_G_x__EG_theta_4 - span_FE_E_y;
-    const Lanes l_G_x__OF_theta_3 = inverse_cross_OF_theta__FE_theta_3*w_G_x__FE_theta_2 +
-        inverse_pivot_OF_theta_4*w_G_x__OF_theta_2;
-    const Lanes l_G_x__FE_theta_3 = inverse_cross_OF_theta__FE_theta_3*w_G_x__OF_theta_2 +
-        inverse_pivot_FE_theta_4*w_G_x__FE_theta_2;
-    const Lanes w_G_y__OF_theta_2 = -dot_OF_EG*l_G_y__EG_theta_4 + span_OF_F_x;
-    const Lanes w_G_y__FE_theta_2 = -dot_FE_EG*l_G_y__EG_theta_4 + span_FE_E_x;
-    const Lanes l_G_y__OF_theta_3 = inverse_cross_OF_theta__FE_theta_3*w_G_y__FE_theta_2 +
-        inverse_pivot_OF_theta_4*w_G_y__OF_theta_2;
-    const Lanes l_G_y__FE_theta_3 = inverse_cross_OF_theta__FE_theta_3*w_G_y__OF_theta_2 +
-        inverse_pivot_FE_theta_4*w_G_y__FE_theta_2;
-    const Lanes l_E3_x__OF_theta_4 = -inverse_cross_OF_theta__FE_theta_3*span_FE_E_y -
-        inverse_pivot_OF_theta_4*span_OF_F_y;
-    const Lanes l_E3_x__FE_theta_4 = -inverse_cross_OF_theta__FE_theta_3*span_OF_F_y -
-        inverse_pivot_FE_theta_4*span_FE_E_y;
-    const Lanes l_E3_y__OF_theta_4 = inverse_cross_OF_theta__FE_theta_3*span_FE_E_x +
-        inverse_pivot_OF_theta_4*span_OF_F_x;
-    const Lanes l_E3_y__FE_theta_4 = inverse_cross_OF_theta__FE_theta_3*span_OF_F_x +
-        inverse_pivot_FE_theta_4*span_FE_E_x;
-    const Lanes scale_G_x_4 = l_G_x__AG_theta_4*span_AG_G_y - l_G_x__EG_theta_4*span_EG_G_y +
-        l_G_x__FE_theta_3*w_G_x__FE_theta_2 + l_G_x__OF_theta_3*w_G_x__OF_theta_2;
-    const Lanes scale_G_y_4 = -l_G_y__AG_theta_4*span_AG_G_x + l_G_y__EG_theta_4*span_EG_G_x +
-        l_G_y__FE_theta_3*w_G_y__FE_theta_2 + l_G_y__OF_theta_3*w_G_y__OF_theta_2;
-    const Lanes pivot_G_x__G_y_3 = l_G_y__AG_theta_4*span_AG_G_y - l_G_y__EG_theta_4*span_EG_G_y +
-        l_G_y__FE_theta_3*w_G_x__FE_theta_2 + l_G_y__OF_theta_3*w_G_x__OF_theta_2;
-    const Lanes determinant_G_x__G_y_3 = -(pivot_G_x__G_y_3 * pivot_G_x__G_y_3) + scale_G_x_4*scale_G_y_4;
-    *rare |= ~(scale_G_x_4 > 1e-10 * scale_G_x_4);
-    *rare |= ~(determinant_G_x__G_y_3 > 1e-10 * scale_G_y_4 * scale_G_x_4);
-    const Lanes size_G_x_3 = scale_G_x_4 + scale_G_y_4;
-    *rare |= ~(scale_G_x_4 > 1e-10 * size_G_x_3);
-    *rare |= ~(determinant_G_x__G_y_3 > 1e-10 * size_G_x_3 * scale_G_x_4);
-    const Lanes inverse_G_x__G_y_3 = -1.0/determinant_G_x__G_y_3;
-    const Lanes inverse_pivot_G_x_4 = inverse_G_x__G_y_3*scale_G_y_4;
-    const Lanes inverse_pivot_G_y_4 = inverse_G_x__G_y_3*scale_G_x_4;
-    const Lanes inverse_cross_G_x__G_y_3 = -inverse_G_x__G_y_3*pivot_G_x__G_y_3;
-    const Lanes w_E3_x__G_x_2 = -l_E3_x__FE_theta_4*w_G_x__FE_theta_2 - l_E3_x__OF_theta_4*w_G_x__OF_theta_2;
-    const Lanes w_E3_x__G_y_2 = -l_E3_x__FE_theta_4*w_G_y__FE_theta_2 - l_E3_x__OF_theta_4*w_G_y__OF_theta_2;
-    const Lanes l_E3_x__G_x_3 = inverse_cross_G_x__G_y_3*w_E3_x__G_y_2 + inverse_pivot_G_x_4*w_E3_x__G_x_2;
-    const Lanes l_E3_x__G_y_3 = inverse_cross_G_x__G_y_3*w_E3_x__G_x_2 + inverse_pivot_G_y_4*w_E3_x__G_y_2;
-    const Lanes w_E3_y__G_x_2 = -l_E3_y__FE_theta_4*w_G_x__FE_theta_2 - l_E3_y__OF_theta_4*w_G_x__OF_theta_2;
-    const Lanes w_E3_y__G_y_2 = -l_E3_y__FE_theta_4*w_G_y__FE_theta_2 - l_E3_y__OF_theta_4*w_G_y__OF_theta_2;
-    const Lanes l_E3_y__G_x_3 = inverse_cross_G_x__G_y_3*w_E3_y__G_y_2 + inverse_pivot_G_x_4*w_E3_y__G_x_2;
-    const Lanes l_E3_y__G_y_3 = inverse_cross_G_x__G_y_3*w_E3_y__G_x_2 + inverse_pivot_G_y_4*w_E3_y__G_y_2;
-    const Lanes scale_E3_x_4 = l_E3_x__BDE_theta_4*span_BDE_E_y - l_E3_x__FE_theta_4*span_FE_E_y -
-        l_E3_x__OF_theta_4*span_OF_F_y;
-    const Lanes scale_E3_y_4 = -l_E3_y__BDE_theta_4*span_BDE_E_x + l_E3_y__FE_theta_4*span_FE_E_x +
-        l_E3_y__OF_theta_4*span_OF_F_x;
-    const Lanes pivot_E3_x_3 = l_E3_x__G_x_3*w_E3_x__G_x_2 + l_E3_x__G_y_3*w_E3_x__G_y_2 +
-        l_E3_x__H_x_3*w_E3_x__H_x_2 + l_E3_x__H_y_3*w_E3_x__H_y_2 + scale_E3_x_4;
-    const Lanes pivot_E3_y_3 = l_E3_y__G_x_3*w_E3_y__G_x_2 + l_E3_y__G_y_3*w_E3_y__G_y_2 +
-        l_E3_y__H_x_3*w_E3_y__H_x_2 + l_E3_y__H_y_3*w_E3_y__H_y_2 + scale_E3_y_4;
-    const Lanes pivot_E3_x__E3_y_3 = l_E3_y__BDE_theta_4*span_BDE_E_y - l_E3_y__FE_theta_4*span_FE_E_y +
-        l_E3_y__G_x_3*w_E3_x__G_x_2 + l_E3_y__G_y_3*w_E3_x__G_y_2 + l_E3_y__H_x_3*w_E3_x__H_x_2 +
-        l_E3_y__H_y_3*w_E3_x__H_y_2 - l_E3_y__OF_theta_4*span_OF_F_y;
-    const Lanes determinant_E3_x__E3_y_3 = pivot_E3_x_3*pivot_E3_y_3 - (pivot_E3_x__E3_y_3 *
-        pivot_E3_x__E3_y_3);
-    *rare |= ~(pivot_E3_x_3 > 1e-10 * scale_E3_x_4);
-    *rare |= ~(determinant_E3_x__E3_y_3 > 1e-10 * scale_E3_y_4 * pivot_E3_x_3);
-    const Lanes size_E3_x_3 = scale_E3_x_4 + scale_E3_y_4;
-    *rare |= ~(pivot_E3_x_3 > 1e-10 * size_E3_x_3);
-    *rare |= ~(determinant_E3_x__E3_y_3 > 1e-10 * size_E3_x_3 * pivot_E3_x_3);
-    const Lanes inverse_E3_x__E3_y_3 = -1.0/determinant_E3_x__E3_y_3;
-    const Lanes inverse_pivot_E3_x_4 = inverse_E3_x__E3_y_3*pivot_E3_y_3;
-    const Lanes inverse_pivot_E3_y_4 = inverse_E3_x__E3_y_3*pivot_E3_x_3;
-    const Lanes inverse_cross_E3_x__E3_y_3 = -inverse_E3_x__E3_y_3*pivot_E3_x__E3_y_3;
+    const Lanes l_G_x__AG_theta = p->inverse_mass_AG_AG*span_AG_G_y;
+    const Lanes l_G_y__AG_theta = -p->inverse_mass_AG_AG*span_AG_G_x;
+    const Lanes l_H_x__AH_theta = p->inverse_mass_AH_AH*span_AH_H_y;
+    const Lanes l_H_y__AH_theta = -p->inverse_mass_AH_AH*span_AH_H_x;
+    const Lanes l_BDE_theta__HE_theta = dot_BDE_HE*p->inverse_mass_HE_HE;
+    const Lanes l_H_x__HE_theta = -p->inverse_mass_HE_HE*span_HE_H_y;
+    const Lanes l_H_y__HE_theta = p->inverse_mass_HE_HE*span_HE_H_x;
+    const Lanes inverse_pivot_BDE_theta = 1.0/(-dot_BDE_HE*l_BDE_theta__HE_theta + p->mass_BDE_BDE);
+    const Lanes w_H_x__BDE_theta = -dot_BDE_HE*l_H_x__HE_theta - span_BDE_E_y;
+    const Lanes l_H_x__BDE_theta = inverse_pivot_BDE_theta*w_H_x__BDE_theta;
+    const Lanes w_H_y__BDE_theta = -dot_BDE_HE*l_H_y__HE_theta + span_BDE_E_x;
+    const Lanes l_H_y__BDE_theta = inverse_pivot_BDE_theta*w_H_y__BDE_theta;
+    const Lanes l_E3_x__BDE_theta = inverse_pivot_BDE_theta*span_BDE_E_y;
+    const Lanes l_E3_y__BDE_theta = -inverse_pivot_BDE_theta*span_BDE_E_x;
+    const Lanes scale_H_x = l_H_x__AH_theta*span_AH_H_y + l_H_x__BDE_theta*w_H_x__BDE_theta
+        - l_H_x__HE_theta*span_HE_H_y;
+    const Lanes scale_H_y = -l_H_y__AH_theta*span_AH_H_x + l_H_y__BDE_theta*w_H_y__BDE_theta
+        + l_H_y__HE_theta*span_HE_H_x;
+    const Lanes pivot_H_x__H_y = l_H_y__AH_theta*span_AH_H_y + l_H_y__BDE_theta*w_H_x__BDE_theta
+        - l_H_y__HE_theta*span_HE_H_y;
+    const Lanes determinant_H_x__H_y = -(pivot_H_x__H_y * pivot_H_x__H_y) + scale_H_x*scale_H_y;
+    *rare |= ~((scale_H_x > 0.0) & (scale_H_x < INFINITY));
+    *rare |= ~(determinant_H_x__H_y > 1e-10 * scale_H_y * scale_H_x);
+    const Lanes size_H_x = scale_H_x + scale_H_y;
+    *rare |= ~(scale_H_x > 1e-10 * size_H_x);
+    *rare |= ~(determinant_H_x__H_y > 1e-10 * size_H_x * scale_H_x);
+    const Lanes inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
+    const Lanes inverse_pivot_H_x = inverse_H_x__H_y*scale_H_y;
+    const Lanes inverse_pivot_H_y = inverse_H_x__H_y*scale_H_x;
+    const Lanes inverse_cross_H_x__H_y = -inverse_H_x__H_y*pivot_H_x__H_y;
+    const Lanes w_E3_x__H_x = -l_E3_x__BDE_theta*w_H_x__BDE_theta;
+    const Lanes w_E3_x__H_y = -l_E3_x__BDE_theta*w_H_y__BDE_theta;
+    const Lanes l_E3_x__H_x = inverse_cross_H_x__H_y*w_E3_x__H_y + inverse_pivot_H_x*w_E3_x__H_x;
+    const Lanes l_E3_x__H_y = inverse_cross_H_x__H_y*w_E3_x__H_x + inverse_pivot_H_y*w_E3_x__H_y;
+    const Lanes w_E3_y__H_x = -l_E3_y__BDE_theta*w_H_x__BDE_theta;
+    const Lanes w_E3_y__H_y = -l_E3_y__BDE_theta*w_H_y__BDE_theta;
+    const Lanes l_E3_y__H_x = inverse_cross_H_x__H_y*w_E3_y__H_y + inverse_pivot_H_x*w_E3_y__H_x;
+    const Lanes l_E3_y__H_y = inverse_cross_H_x__H_y*w_E3_y__H_x + inverse_pivot_H_y*w_E3_y__H_y;
+    const Lanes l_OF_theta__EG_theta = dot_OF_EG*p->inverse_mass_EG_EG;
+    const Lanes l_FE_theta__EG_theta = dot_FE_EG*p->inverse_mass_EG_EG;
+    const Lanes l_G_x__EG_theta = -p->inverse_mass_EG_EG*span_EG_G_y;
+    const Lanes l_G_y__EG_theta = p->inverse_mass_EG_EG*span_EG_G_x;
+    const Lanes pivot_OF_theta = -dot_OF_EG*l_OF_theta__EG_theta + p->mass_OF_OF;
+    const Lanes pivot_FE_theta = -dot_FE_EG*l_FE_theta__EG_theta + p->mass_FE_FE;
+    const Lanes pivot_OF_theta__FE_theta = -dot_OF_EG*l_FE_theta__EG_theta + dot_OF_FE;
+    const Lanes determinant_OF_theta__FE_theta = pivot_FE_theta*pivot_OF_theta
+        - (pivot_OF_theta__FE_theta * pivot_OF_theta__FE_theta);
+    const Lanes inverse_OF_theta__FE_theta = 1.0/determinant_OF_theta__FE_theta;
+    const Lanes inverse_pivot_OF_theta = inverse_OF_theta__FE_theta*pivot_FE_theta;
+    const Lanes inverse_pivot_FE_theta = inverse_OF_theta__FE_theta*pivot_OF_theta;
+    const Lanes inverse_cross_OF_theta__FE_theta = -inverse_OF_theta__FE_theta*pivot_OF_theta__FE_theta;
+    const Lanes w_G_x__OF_theta = -dot_OF_EG*l_G_x__EG_theta - span_OF_F_y;
+    const Lanes w_G_x__FE_theta = -dot_FE_EG*l_G_x__EG_theta - span_FE_E_y;
+    const Lanes l_G_x__OF_theta = inverse_cross_OF_theta__FE_theta*w_G_x__FE_theta
+        + inverse_pivot_OF_theta*w_G_x__OF_theta;
+    const Lanes l_G_x__FE_theta = inverse_cross_OF_theta__FE_theta*w_G_x__OF_theta
+        + inverse_pivot_FE_theta*w_G_x__FE_theta;
+    const Lanes w_G_y__OF_theta = -dot_OF_EG*l_G_y__EG_theta + span_OF_F_x;
+    const Lanes w_G_y__FE_theta = -dot_FE_EG*l_G_y__EG_theta + span_FE_E_x;
+    const Lanes l_G_y__OF_theta = inverse_cross_OF_theta__FE_theta*w_G_y__FE_theta
+        + inverse_pivot_OF_theta*w_G_y__OF_theta;
+    const Lanes l_G_y__FE_theta = inverse_cross_OF_theta__FE_theta*w_G_y__OF_theta
+        + inverse_pivot_FE_theta*w_G_y__FE_theta;
+    const Lanes l_E3_x__OF_theta = -inverse_cross_OF_theta__FE_theta*span_FE_E_y - inverse_pivot_OF_theta*span_OF_F_y;
+    const Lanes l_E3_x__FE_theta = -inverse_cross_OF_theta__FE_theta*span_OF_F_y - inverse_pivot_FE_theta*span_FE_E_y;
+    const Lanes l_E3_y__OF_theta = inverse_cross_OF_theta__FE_theta*span_FE_E_x + inverse_pivot_OF_theta*span_OF_F_x;
+    const Lanes l_E3_y__FE_theta = inverse_cross_OF_theta__FE_theta*span_OF_F_x + inverse_pivot_FE_theta*span_FE_E_x;
+    const Lanes scale_G_x = l_G_x__AG_theta*span_AG_G_y - l_G_x__EG_theta*span_EG_G_y + l_G_x__FE_theta*w_G_x__FE_theta
+        + l_G_x__OF_theta*w_G_x__OF_theta;
+    const Lanes scale_G_y = -l_G_y__AG_theta*span_AG_G_x + l_G_y__EG_theta*span_EG_G_x
+        + l_G_y__FE_theta*w_G_y__FE_theta + l_G_y__OF_theta*w_G_y__OF_theta;
+    const Lanes pivot_G_x__G_y = l_G_y__AG_theta*span_AG_G_y - l_G_y__EG_theta*span_EG_G_y
+        + l_G_y__FE_theta*w_G_x__FE_theta + l_G_y__OF_theta*w_G_x__OF_theta;
+    const Lanes determinant_G_x__G_y = -(pivot_G_x__G_y * pivot_G_x__G_y) + scale_G_x*scale_G_y;
+    *rare |= ~((scale_G_x > 0.0) & (scale_G_x < INFINITY));
+    *rare |= ~(determinant_G_x__G_y > 1e-10 * scale_G_y * scale_G_x);
+    const Lanes size_G_x = scale_G_x + scale_G_y;
+    *rare |= ~(scale_G_x > 1e-10 * size_G_x);
+    *rare |= ~(determinant_G_x__G_y > 1e-10 * size_G_x * scale_G_x);
+    const Lanes inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
+    const Lanes inverse_pivot_G_x = inverse_G_x__G_y*scale_G_y;
+    const Lanes inverse_pivot_G_y = inverse_G_x__G_y*scale_G_x;
+    const Lanes inverse_cross_G_x__G_y = -inverse_G_x__G_y*pivot_G_x__G_y;
+    const Lanes w_E3_x__G_x = -l_E3_x__FE_theta*w_G_x__FE_theta - l_E3_x__OF_theta*w_G_x__OF_theta;
+    const Lanes w_E3_x__G_y = -l_E3_x__FE_theta*w_G_y__FE_theta - l_E3_x__OF_theta*w_G_y__OF_theta;
+    const Lanes l_E3_x__G_x = inverse_cross_G_x__G_y*w_E3_x__G_y + inverse_pivot_G_x*w_E3_x__G_x;
+    const Lanes l_E3_x__G_y = inverse_cross_G_x__G_y*w_E3_x__G_x + inverse_pivot_G_y*w_E3_x__G_y;
+    const Lanes w_E3_y__G_x = -l_E3_y__FE_theta*w_G_x__FE_theta - l_E3_y__OF_theta*w_G_x__OF_theta;
+    const Lanes w_E3_y__G_y = -l_E3_y__FE_theta*w_G_y__FE_theta - l_E3_y__OF_theta*w_G_y__OF_theta;
+    const Lanes l_E3_y__G_x = inverse_cross_G_x__G_y*w_E3_y__G_y + inverse_pivot_G_x*w_E3_y__G_x;
+    const Lanes l_E3_y__G_y = inverse_cross_G_x__G_y*w_E3_y__G_x + inverse_pivot_G_y*w_E3_y__G_y;
+    const Lanes scale_E3_x = l_E3_x__BDE_theta*span_BDE_E_y - l_E3_x__FE_theta*span_FE_E_y
+        - l_E3_x__OF_theta*span_OF_F_y;
+    const Lanes scale_E3_y = -l_E3_y__BDE_theta*span_BDE_E_x + l_E3_y__FE_theta*span_FE_E_x
+        + l_E3_y__OF_theta*span_OF_F_x;
+    const Lanes pivot_E3_x = l_E3_x__G_x*w_E3_x__G_x + l_E3_x__G_y*w_E3_x__G_y + l_E3_x__H_x*w_E3_x__H_x
+        + l_E3_x__H_y*w_E3_x__H_y + scale_E3_x;
+    const Lanes pivot_E3_y = l_E3_y__G_x*w_E3_y__G_x + l_E3_y__G_y*w_E3_y__G_y + l_E3_y__H_x*w_E3_y__H_x
+        + l_E3_y__H_y*w_E3_y__H_y + scale_E3_y;
+    const Lanes pivot_E3_x__E3_y = l_E3_y__BDE_theta*span_BDE_E_y - l_E3_y__FE_theta*span_FE_E_y
+        + l_E3_y__G_x*w_E3_x__G_x + l_E3_y__G_y*w_E3_x__G_y + l_E3_y__H_x*w_E3_x__H_x + l_E3_y__H_y*w_E3_x__H_y
+        - l_E3_y__OF_theta*span_OF_F_y;
+    const Lanes determinant_E3_x__E3_y = pivot_E3_x*pivot_E3_y - (pivot_E3_x__E3_y * pivot_E3_x__E3_y);
+    *rare |= ~(pivot_E3_x > 1e-10 * scale_E3_x);
+    *rare |= ~(determinant_E3_x__E3_y > 1e-10 * scale_E3_y * pivot_E3_x);
+    const Lanes size_E3_x = scale_E3_x + scale_E3_y;
+    *rare |= ~(pivot_E3_x > 1e-10 * size_E3_x);
+    *rare |= ~(determinant_E3_x__E3_y > 1e-10 * size_E3_x * pivot_E3_x);
+    const Lanes inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
+    const Lanes inverse_pivot_E3_x = inverse_E3_x__E3_y*pivot_E3_y;
+    const Lanes inverse_pivot_E3_y = inverse_E3_x__E3_y*pivot_E3_x;
+    const Lanes inverse_cross_E3_x__E3_y = -inverse_E3_x__E3_y*pivot_E3_x__E3_y;
 
     /* forward substitution */
-    const Lanes dq_z_E3_x = -l_E3_x__G_x_3*phi_G_x - l_E3_x__G_y_3*phi_G_y - l_E3_x__H_x_3*phi_H_x -
-        l_E3_x__H_y_3*phi_H_y + phi_E3_x;
-    const Lanes dq_z_E3_y = -l_E3_y__G_x_3*phi_G_x - l_E3_y__G_y_3*phi_G_y - l_E3_y__H_x_3*phi_H_x -
-        l_E3_y__H_y_3*phi_H_y + phi_E3_y;
+    const Lanes dq_z_E3_x = -l_E3_x__G_x*phi_G_x - l_E3_x__G_y*phi_G_y - l_E3_x__H_x*phi_H_x - l_E3_x__H_y*phi_H_y
+        + phi_E3_x;
+    const Lanes dq_z_E3_y = -l_E3_y__G_x*phi_G_x - l_E3_y__G_y*phi_G_y - l_E3_y__H_x*phi_H_x - l_E3_y__H_y*phi_H_y
+        + phi_E3_y;
 
     /* backward substitution */
-    const Lanes dq_lambda_E3_y = dq_z_E3_x*inverse_cross_E3_x__E3_y_3 + dq_z_E3_y*inverse_pivot_E3_y_4;
-    const Lanes dq_lambda_E3_x = dq_z_E3_x*inverse_pivot_E3_x_4 + dq_z_E3_y*inverse_cross_E3_x__E3_y_3;
-    const Lanes dq_lambda_G_y = -dq_lambda_E3_x*l_E3_x__G_y_3 - dq_lambda_E3_y*l_E3_y__G_y_3 +
-        inverse_cross_G_x__G_y_3*phi_G_x + inverse_pivot_G_y_4*phi_G_y;
-    const Lanes dq_lambda_G_x = -dq_lambda_E3_x*l_E3_x__G_x_3 - dq_lambda_E3_y*l_E3_y__G_x_3 +
-        inverse_cross_G_x__G_y_3*phi_G_y + inverse_pivot_G_x_4*phi_G_x;
-    const Lanes dq_acceleration_FE_theta = -dq_lambda_E3_x*l_E3_x__FE_theta_4 -
-        dq_lambda_E3_y*l_E3_y__FE_theta_4 - dq_lambda_G_x*l_G_x__FE_theta_3 - dq_lambda_G_y*l_G_y__FE_theta_3;
-    const Lanes dq_acceleration_OF_theta = -dq_lambda_E3_x*l_E3_x__OF_theta_4 -
-        dq_lambda_E3_y*l_E3_y__OF_theta_4 - dq_lambda_G_x*l_G_x__OF_theta_3 - dq_lambda_G_y*l_G_y__OF_theta_3;
-    const Lanes dq_acceleration_EG_theta = -dq_acceleration_FE_theta*l_FE_theta__EG_theta_4 -
-        dq_acceleration_OF_theta*l_OF_theta__EG_theta_4 - dq_lambda_G_x*l_G_x__EG_theta_4 -
-        dq_lambda_G_y*l_G_y__EG_theta_4;
-    const Lanes dq_lambda_H_y = -dq_lambda_E3_x*l_E3_x__H_y_3 - dq_lambda_E3_y*l_E3_y__H_y_3 +
-        inverse_cross_H_x__H_y_3*phi_H_x + inverse_pivot_H_y_4*phi_H_y;
-    const Lanes dq_lambda_H_x = -dq_lambda_E3_x*l_E3_x__H_x_3 - dq_lambda_E3_y*l_E3_y__H_x_3 +
-        inverse_cross_H_x__H_y_3*phi_H_y + inverse_pivot_H_x_4*phi_H_x;
-    const Lanes dq_acceleration_BDE_theta = -dq_lambda_E3_x*l_E3_x__BDE_theta_4 -
-        dq_lambda_E3_y*l_E3_y__BDE_theta_4 - dq_lambda_H_x*l_H_x__BDE_theta_3 -
-        dq_lambda_H_y*l_H_y__BDE_theta_3;
-    const Lanes dq_acceleration_HE_theta = -dq_acceleration_BDE_theta*l_BDE_theta__HE_theta_4 -
-        dq_lambda_H_x*l_H_x__HE_theta_4 - dq_lambda_H_y*l_H_y__HE_theta_4;
-    const Lanes dq_acceleration_AH_theta = -dq_lambda_H_x*l_H_x__AH_theta_4 - dq_lambda_H_y*l_H_y__AH_theta_4;
-    const Lanes dq_acceleration_AG_theta = -dq_lambda_G_x*l_G_x__AG_theta_4 - dq_lambda_G_y*l_G_y__AG_theta_4;
+    const Lanes dq_lambda_E3_y = dq_z_E3_x*inverse_cross_E3_x__E3_y + dq_z_E3_y*inverse_pivot_E3_y;
+    const Lanes dq_lambda_E3_x = dq_z_E3_x*inverse_pivot_E3_x + dq_z_E3_y*inverse_cross_E3_x__E3_y;
+    const Lanes dq_lambda_G_y = -dq_lambda_E3_x*l_E3_x__G_y - dq_lambda_E3_y*l_E3_y__G_y
+        + inverse_cross_G_x__G_y*phi_G_x + inverse_pivot_G_y*phi_G_y;
+    const Lanes dq_lambda_G_x = -dq_lambda_E3_x*l_E3_x__G_x - dq_lambda_E3_y*l_E3_y__G_x
+        + inverse_cross_G_x__G_y*phi_G_y + inverse_pivot_G_x*phi_G_x;
+    const Lanes dq_acceleration_FE_theta = -dq_lambda_E3_x*l_E3_x__FE_theta - dq_lambda_E3_y*l_E3_y__FE_theta
+        - dq_lambda_G_x*l_G_x__FE_theta - dq_lambda_G_y*l_G_y__FE_theta;
+    const Lanes dq_acceleration_OF_theta = -dq_lambda_E3_x*l_E3_x__OF_theta - dq_lambda_E3_y*l_E3_y__OF_theta
+        - dq_lambda_G_x*l_G_x__OF_theta - dq_lambda_G_y*l_G_y__OF_theta;
+    const Lanes dq_acceleration_EG_theta = -dq_acceleration_FE_theta*l_FE_theta__EG_theta
+        - dq_acceleration_OF_theta*l_OF_theta__EG_theta - dq_lambda_G_x*l_G_x__EG_theta - dq_lambda_G_y*l_G_y__EG_theta;
+    const Lanes dq_lambda_H_y = -dq_lambda_E3_x*l_E3_x__H_y - dq_lambda_E3_y*l_E3_y__H_y
+        + inverse_cross_H_x__H_y*phi_H_x + inverse_pivot_H_y*phi_H_y;
+    const Lanes dq_lambda_H_x = -dq_lambda_E3_x*l_E3_x__H_x - dq_lambda_E3_y*l_E3_y__H_x
+        + inverse_cross_H_x__H_y*phi_H_y + inverse_pivot_H_x*phi_H_x;
+    const Lanes dq_acceleration_BDE_theta = -dq_lambda_E3_x*l_E3_x__BDE_theta - dq_lambda_E3_y*l_E3_y__BDE_theta
+        - dq_lambda_H_x*l_H_x__BDE_theta - dq_lambda_H_y*l_H_y__BDE_theta;
+    const Lanes dq_acceleration_HE_theta = -dq_acceleration_BDE_theta*l_BDE_theta__HE_theta
+        - dq_lambda_H_x*l_H_x__HE_theta - dq_lambda_H_y*l_H_y__HE_theta;
+    const Lanes dq_acceleration_AH_theta = -dq_lambda_H_x*l_H_x__AH_theta - dq_lambda_H_y*l_H_y__AH_theta;
+    const Lanes dq_acceleration_AG_theta = -dq_lambda_G_x*l_G_x__AG_theta - dq_lambda_G_y*l_G_y__AG_theta;
 
     /* forward substitution */
-    const Lanes dv_z_E3_x = -l_E3_x__G_x_3*phi_dot_G_x - l_E3_x__G_y_3*phi_dot_G_y - l_E3_x__H_x_3*phi_dot_H_x
-        - l_E3_x__H_y_3*phi_dot_H_y + phi_dot_E3_x;
-    const Lanes dv_z_E3_y = -l_E3_y__G_x_3*phi_dot_G_x - l_E3_y__G_y_3*phi_dot_G_y - l_E3_y__H_x_3*phi_dot_H_x
-        - l_E3_y__H_y_3*phi_dot_H_y + phi_dot_E3_y;
+    const Lanes dv_z_E3_x = -l_E3_x__G_x*phi_dot_G_x - l_E3_x__G_y*phi_dot_G_y - l_E3_x__H_x*phi_dot_H_x
+        - l_E3_x__H_y*phi_dot_H_y + phi_dot_E3_x;
+    const Lanes dv_z_E3_y = -l_E3_y__G_x*phi_dot_G_x - l_E3_y__G_y*phi_dot_G_y - l_E3_y__H_x*phi_dot_H_x
+        - l_E3_y__H_y*phi_dot_H_y + phi_dot_E3_y;
 
     /* backward substitution */
-    const Lanes dv_lambda_E3_y = dv_z_E3_x*inverse_cross_E3_x__E3_y_3 + dv_z_E3_y*inverse_pivot_E3_y_4;
-    const Lanes dv_lambda_E3_x = dv_z_E3_x*inverse_pivot_E3_x_4 + dv_z_E3_y*inverse_cross_E3_x__E3_y_3;
-    const Lanes dv_lambda_G_y = -dv_lambda_E3_x*l_E3_x__G_y_3 - dv_lambda_E3_y*l_E3_y__G_y_3 +
-        inverse_cross_G_x__G_y_3*phi_dot_G_x + inverse_pivot_G_y_4*phi_dot_G_y;
-    const Lanes dv_lambda_G_x = -dv_lambda_E3_x*l_E3_x__G_x_3 - dv_lambda_E3_y*l_E3_y__G_x_3 +
-        inverse_cross_G_x__G_y_3*phi_dot_G_y + inverse_pivot_G_x_4*phi_dot_G_x;
-    const Lanes dv_acceleration_FE_theta = -dv_lambda_E3_x*l_E3_x__FE_theta_4 -
-        dv_lambda_E3_y*l_E3_y__FE_theta_4 - dv_lambda_G_x*l_G_x__FE_theta_3 - dv_lambda_G_y*l_G_y__FE_theta_3;
-    const Lanes dv_acceleration_OF_theta = -dv_lambda_E3_x*l_E3_x__OF_theta_4 -
-        dv_lambda_E3_y*l_E3_y__OF_theta_4 - dv_lambda_G_x*l_G_x__OF_theta_3 - dv_lambda_G_y*l_G_y__OF_theta_3;
-    const Lanes dv_acceleration_EG_theta = -dv_acceleration_FE_theta*l_FE_theta__EG_theta_4 -
-        dv_acceleration_OF_theta*l_OF_theta__EG_theta_4 - dv_lambda_G_x*l_G_x__EG_theta_4 -
-        dv_lambda_G_y*l_G_y__EG_theta_4;
-    const Lanes dv_lambda_H_y = -dv_lambda_E3_x*l_E3_x__H_y_3 - dv_lambda_E3_y*l_E3_y__H_y_3 +
-        inverse_cross_H_x__H_y_3*phi_dot_H_x + inverse_pivot_H_y_4*phi_dot_H_y;
-    const Lanes dv_lambda_H_x = -dv_lambda_E3_x*l_E3_x__H_x_3 - dv_lambda_E3_y*l_E3_y__H_x_3 +
-        inverse_cross_H_x__H_y_3*phi_dot_H_y + inverse_pivot_H_x_4*phi_dot_H_x;
-    const Lanes dv_acceleration_BDE_theta = -dv_lambda_E3_x*l_E3_x__BDE_theta_4 -
-        dv_lambda_E3_y*l_E3_y__BDE_theta_4 - dv_lambda_H_x*l_H_x__BDE_theta_3 -
-        dv_lambda_H_y*l_H_y__BDE_theta_3;
-    const Lanes dv_acceleration_HE_theta = -dv_acceleration_BDE_theta*l_BDE_theta__HE_theta_4 -
-        dv_lambda_H_x*l_H_x__HE_theta_4 - dv_lambda_H_y*l_H_y__HE_theta_4;
-    const Lanes dv_acceleration_AH_theta = -dv_lambda_H_x*l_H_x__AH_theta_4 - dv_lambda_H_y*l_H_y__AH_theta_4;
-    const Lanes dv_acceleration_AG_theta = -dv_lambda_G_x*l_G_x__AG_theta_4 - dv_lambda_G_y*l_G_y__AG_theta_4;
+    const Lanes dv_lambda_E3_y = dv_z_E3_x*inverse_cross_E3_x__E3_y + dv_z_E3_y*inverse_pivot_E3_y;
+    const Lanes dv_lambda_E3_x = dv_z_E3_x*inverse_pivot_E3_x + dv_z_E3_y*inverse_cross_E3_x__E3_y;
+    const Lanes dv_lambda_G_y = -dv_lambda_E3_x*l_E3_x__G_y - dv_lambda_E3_y*l_E3_y__G_y
+        + inverse_cross_G_x__G_y*phi_dot_G_x + inverse_pivot_G_y*phi_dot_G_y;
+    const Lanes dv_lambda_G_x = -dv_lambda_E3_x*l_E3_x__G_x - dv_lambda_E3_y*l_E3_y__G_x
+        + inverse_cross_G_x__G_y*phi_dot_G_y + inverse_pivot_G_x*phi_dot_G_x;
+    const Lanes dv_acceleration_FE_theta = -dv_lambda_E3_x*l_E3_x__FE_theta - dv_lambda_E3_y*l_E3_y__FE_theta
+        - dv_lambda_G_x*l_G_x__FE_theta - dv_lambda_G_y*l_G_y__FE_theta;
+    const Lanes dv_acceleration_OF_theta = -dv_lambda_E3_x*l_E3_x__OF_theta - dv_lambda_E3_y*l_E3_y__OF_theta
+        - dv_lambda_G_x*l_G_x__OF_theta - dv_lambda_G_y*l_G_y__OF_theta;
+    const Lanes dv_acceleration_EG_theta = -dv_acceleration_FE_theta*l_FE_theta__EG_theta
+        - dv_acceleration_OF_theta*l_OF_theta__EG_theta - dv_lambda_G_x*l_G_x__EG_theta - dv_lambda_G_y*l_G_y__EG_theta;
+    const Lanes dv_lambda_H_y = -dv_lambda_E3_x*l_E3_x__H_y - dv_lambda_E3_y*l_E3_y__H_y
+        + inverse_cross_H_x__H_y*phi_dot_H_x + inverse_pivot_H_y*phi_dot_H_y;
+    const Lanes dv_lambda_H_x = -dv_lambda_E3_x*l_E3_x__H_x - dv_lambda_E3_y*l_E3_y__H_x
+        + inverse_cross_H_x__H_y*phi_dot_H_y + inverse_pivot_H_x*phi_dot_H_x;
+    const Lanes dv_acceleration_BDE_theta = -dv_lambda_E3_x*l_E3_x__BDE_theta - dv_lambda_E3_y*l_E3_y__BDE_theta
+        - dv_lambda_H_x*l_H_x__BDE_theta - dv_lambda_H_y*l_H_y__BDE_theta;
+    const Lanes dv_acceleration_HE_theta = -dv_acceleration_BDE_theta*l_BDE_theta__HE_theta
+        - dv_lambda_H_x*l_H_x__HE_theta - dv_lambda_H_y*l_H_y__HE_theta;
+    const Lanes dv_acceleration_AH_theta = -dv_lambda_H_x*l_H_x__AH_theta - dv_lambda_H_y*l_H_y__AH_theta;
+    const Lanes dv_acceleration_AG_theta = -dv_lambda_G_x*l_G_x__AG_theta - dv_lambda_G_y*l_G_y__AG_theta;
 
     /* results */
     dq[0] = dq_acceleration_OF_theta;

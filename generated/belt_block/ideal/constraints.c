@@ -3,14 +3,10 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double block_mass = p->block_mass;
-    const double block_inertia = p->block_inertia;
-
     /* M */
-    m[0] = block_mass;
-    m[1] = block_mass;
-    m[2] = block_inertia;
+    m[0] = p->block_mass;
+    m[1] = p->block_mass;
+    m[2] = p->block_inertia;
 }
 
 /*
@@ -58,8 +54,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t;
     (void)q;
@@ -77,11 +72,8 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 {
     (void)guess;
     (void)rates;
-    /* parameters */
-    const double set_block_x = p->set_block_x;
-
     /* start */
-    set[0] = set_block_x;  /* start.set.block.x */
+    set[0] = p->set_block_x;  /* start.set.block.x */
 }
 
 /*
@@ -100,17 +92,10 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double block_vy = v[1];
     const double block_omega = v[2];
 
-    /* parameters */
-    const double block_mass = p->block_mass;
-    const double block_inertia = p->block_inertia;
-    const double wall_x = p->wall_x;
-    const double spring_stiffness = p->spring_stiffness;
-    const double spring_free_length = p->spring_free_length;
-
     /* directions, arms, drives */
-    const double spring_span_x = block_x - wall_x;
+    const double spring_span_x = block_x - p->wall_x;
     const double spring_length = sqrt((block_y * block_y) + (spring_span_x * spring_span_x));
-    const double spring_force = spring_stiffness*(-spring_free_length + spring_length);
+    const double spring_force = p->spring_stiffness*(-p->spring_free_length + spring_length);
 
     /* multipliers */
     const double multiplier_guide_offset = lambda[0];
@@ -124,8 +109,8 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     series[1] = spring_length;  /* spring.length */
 
     /* energy */
-    energy[0] = (0.5)*block_inertia*(block_omega * block_omega) + (0.5)*block_mass*(block_vx * block_vx) +
-        (0.5)*block_mass*(block_vy * block_vy);
-    energy[1] = (0.5)*spring_stiffness*((-spring_free_length + spring_length) * (-spring_free_length +
-        spring_length));
+    energy[0] = 0.5*p->block_inertia*(block_omega * block_omega) + 0.5*p->block_mass*(block_vx * block_vx)
+        + 0.5*p->block_mass*(block_vy * block_vy);
+    energy[1] = 0.5*p->spring_stiffness*((-p->spring_free_length + spring_length)
+        * (-p->spring_free_length + spring_length));
 }

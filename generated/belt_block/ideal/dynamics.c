@@ -3,8 +3,8 @@
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
+    Aside *aside)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -15,74 +15,63 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double block_vy = v[1];
     const double block_omega = v[2];
 
-    /* parameters */
-    const double wall_x = p->wall_x;
-    const double spring_stiffness = p->spring_stiffness;
-    const double spring_free_length = p->spring_free_length;
-    const double rub_speed = p->rub_speed;
-    const double rub_static = p->rub_static;
-    const double rub_kinetic = p->rub_kinetic;
-    const double two_alpha_stick = p->two_alpha_stick;
-    const double two_alpha = p->two_alpha;
-    const double beta_squared = p->beta_squared;
-    const double inverse_block_mass = p->inverse_block_mass;
-    const double inverse_block_inertia = p->inverse_block_inertia;
-
     /* directions, arms, drives */
-    const double spring_span_x = block_x - wall_x;
+    const double spring_span_x = block_x - p->wall_x;
     const double spring_length = sqrt((block_y * block_y) + (spring_span_x * spring_span_x));
-    const double spring_force = spring_stiffness*(-spring_free_length + spring_length);
+    const double spring_force = p->spring_stiffness*(-p->spring_free_length + spring_length);
     const double spring_pull = spring_force/spring_length;
 
     /* friction: slip, or stick as a row */
-    const double slip_rub = block_vx - rub_speed;
+    const double slip_rub = block_vx - p->rub_speed;
     const double mode_rub = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
     const double stick_rub = mode_rub == 0.0 ? 1.0 : 0.0;
     const double sign_rub = fabs(mode_rub) > 1.0 ? 0.0 : mode_rub;
-    const double kinetic_rub = -rub_kinetic*sign_rub;
-    const double rhs_rub = -slip_rub*two_alpha_stick;
+    const double kinetic_rub = -p->rub_kinetic*sign_rub;
+    const double rhs_rub = -slip_rub*p->two_alpha_stick;
     aside->friction[0].v = slip_rub;
-    aside->friction[0].static_limit = rub_static;
-    aside->friction[0].speed = rub_speed;
+    aside->friction[0].static_limit = p->rub_static;
+    aside->friction[0].speed = p->rub_speed;
     aside->friction[0].force = kinetic_rub;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
     const double phi_guide_offset = block_y;
     const double phi_dot_guide_offset = block_vy;
-    const double rhs_guide_offset = -beta_squared*phi_guide_offset - phi_dot_guide_offset*two_alpha;
+    const double rhs_guide_offset = -p->beta_squared*phi_guide_offset - phi_dot_guide_offset*p->two_alpha;
     aside->phi[0] = phi_guide_offset;
     aside->phi_dot[0] = phi_dot_guide_offset;
     const double phi_guide_angle = block_theta;
     const double phi_dot_guide_angle = block_omega;
-    const double rhs_guide_angle = -beta_squared*phi_guide_angle - phi_dot_guide_angle*two_alpha;
+    const double rhs_guide_angle = -p->beta_squared*phi_guide_angle - phi_dot_guide_angle*p->two_alpha;
     aside->phi[1] = phi_guide_angle;
     aside->phi_dot[1] = phi_dot_guide_angle;
 
     /* L D L^T of the KKT matrix */
-    const double scale_guide_offset = inverse_block_mass;
-    if (!(scale_guide_offset > 1e-13 * scale_guide_offset)) return 1;
+    const double scale_guide_offset = p->inverse_block_mass;
+    if (!(scale_guide_offset > 0.0 && scale_guide_offset < INFINITY))
+        return 1;
     const double inverse_pivot_guide_offset = 1.0/scale_guide_offset;
-    const double scale_guide_angle = inverse_block_inertia;
-    if (!(scale_guide_angle > 1e-13 * scale_guide_angle)) return 2;
+    const double scale_guide_angle = p->inverse_block_inertia;
+    if (!(scale_guide_angle > 0.0 && scale_guide_angle < INFINITY))
+        return 2;
     const double inverse_pivot_guide_angle = 1.0/scale_guide_angle;
-    const double scale_rub = inverse_block_mass;
-    if (stick_rub != 0.0 && !(scale_rub > 1e-13 * scale_rub)) return 3;
+    const double scale_rub = p->inverse_block_mass;
+    if (stick_rub != 0.0 && !(scale_rub > 0.0 && scale_rub < INFINITY))
+        return 3;
     const double inverse_pivot_rub = stick_rub != 0.0 ? 1.0/scale_rub : 0.0;
 
     /* forward substitution */
     const double z_block_x = kinetic_rub - spring_pull*spring_span_x;
     const double z_block_y = -block_y*spring_pull;
-    const double z_guide_offset = -inverse_block_mass*z_block_y + rhs_guide_offset;
-    const double z_rub = -inverse_block_mass*z_block_x + rhs_rub;
+    const double z_guide_offset = -p->inverse_block_mass*z_block_y + rhs_guide_offset;
+    const double z_rub = -p->inverse_block_mass*z_block_x + rhs_rub;
 
     /* backward substitution */
     const double lambda_rub = -inverse_pivot_rub*z_rub;
     const double lambda_guide_angle = -inverse_pivot_guide_angle*rhs_guide_angle;
-    const double acceleration_block_theta = -inverse_block_inertia*lambda_guide_angle;
+    const double acceleration_block_theta = -p->inverse_block_inertia*lambda_guide_angle;
     const double lambda_guide_offset = -inverse_pivot_guide_offset*z_guide_offset;
-    const double acceleration_block_y = -inverse_block_mass*lambda_guide_offset +
-        inverse_block_mass*z_block_y;
-    const double acceleration_block_x = -inverse_block_mass*lambda_rub + inverse_block_mass*z_block_x;
+    const double acceleration_block_y = -p->inverse_block_mass*lambda_guide_offset + p->inverse_block_mass*z_block_y;
+    const double acceleration_block_x = -p->inverse_block_mass*lambda_rub + p->inverse_block_mass*z_block_x;
 
     /* results */
     a[0] = acceleration_block_x;

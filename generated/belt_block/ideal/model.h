@@ -1,15 +1,13 @@
 /*
  * Block on a belt, stick-slip with a spring
- * mechanism belt_block, scene ideal, from the YAML with sha256 ad6cf45ee3bd9c53289477c5ab8b2e7dfc80bfbc340727173898365090aada13
+ * mechanism belt_block, scene ideal, from the YAML with sha256
+ * ad6cf45ee3bd9c53289477c5ab8b2e7dfc80bfbc340727173898365090aada13
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 3                 /* coordinates of all bodies */
 #define N_ROWS 2              /* constraint rows of the motion */
 #define N_ALL_ROWS 2          /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 1          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 2            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_X 1                 /* coordinates that are integrated */
 #define N_LOOPS 0             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 0             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 5            /* of the linearized equations */
+#define N_FACTORS 2           /* of their factors L and U */
+#define HAS_LANES 0           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 1           /* corners of expressions, and events */
@@ -37,14 +43,31 @@
 #define N_GUESS 0             /* coordinates that the start guesses */
 #define N_SET 1               /* those that it sets */
 #define N_RATES 0             /* velocities that it sets */
-#define N_VALUES 5            /* of the linearized equations */
-#define N_FACTORS 2           /* of their factors L and U */
-#define HAS_LANES 0           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double belt_speed;  /* parameters.belt_speed */    double start_at;  /* parameters.start_at */    double block_mass;  /* bodies.block.mass */    double block_inertia;  /* bodies.block.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double guide_axis_x;  /* joints.guide.axis.x */    double wall_x;  /* ground.wall.x */    double spring_stiffness;  /* forces.spring.stiffness */    double spring_free_length;  /* forces.spring.free_length */    double rub_direction_x;  /* forces.rub.direction.x */    double rub_speed;  /* forces.rub.speed */    double rub_static;  /* forces.rub.static */    double rub_kinetic;  /* forces.rub.kinetic */    double set_block_x;  /* start.set.block.x */    double alpha_stick;  /* baumgarte.stick */    double two_alpha_stick;  /* 2 alpha of a stick */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_block_mass;  /* 1/M */    double inverse_block_inertia;  /* 1/M */} Parameters;
+typedef struct {
+    double belt_speed;  /* parameters.belt_speed, m/s */
+    double start_at;  /* parameters.start_at, m */
+    double block_mass;  /* bodies.block.mass, kg */
+    double block_inertia;  /* bodies.block.inertia, kg m^2 */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double guide_axis_x;  /* joints.guide.axis.x, 1 */
+    double wall_x;  /* ground.wall.x, m */
+    double spring_stiffness;  /* forces.spring.stiffness, kg/s^2 */
+    double spring_free_length;  /* forces.spring.free_length, m */
+    double rub_direction_x;  /* forces.rub.direction.x, 1 */
+    double rub_speed;  /* forces.rub.speed, m/s */
+    double rub_static;  /* forces.rub.static, kg m/s^2 */
+    double rub_kinetic;  /* forces.rub.kinetic, kg m/s^2 */
+    double set_block_x;  /* start.set.block.x, m */
+    double alpha_stick;  /* baumgarte.stick, 1/s */
+    double two_alpha_stick;  /* 2 alpha of a stick, 1/s */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_block_mass;  /* 1/M, 1/kg */
+    double inverse_block_inertia;  /* 1/M, 1/(kg m^2) */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

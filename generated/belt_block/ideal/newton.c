@@ -15,36 +15,30 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double guide_slide = q[0];
     const double guide_slide_rate = v[0];
 
-    /* parameters */
-    const double wall_x = p->wall_x;
-    const double spring_stiffness = p->spring_stiffness;
-    const double spring_free_length = p->spring_free_length;
-    const double rub_kinetic = p->rub_kinetic;
-
     /* directions, arms, drives */
-    const double spring_span_x = guide_slide - wall_x;
+    const double spring_span_x = guide_slide - p->wall_x;
     const double side_0 = side_of(side, g, 0, spring_span_x);
     const double spring_length = side_0*spring_span_x;
-    const double spring_force = spring_stiffness*(-spring_free_length + spring_length);
+    const double spring_force = p->spring_stiffness*(-p->spring_free_length + spring_length);
     const double spring_pull = spring_force/spring_length;
 
     /* friction: slip, or stick as a row */
-    const double mode_rub_2 = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
-    const double stick_rub_2 = mode_rub_2 == 0.0 ? 1.0 : 0.0;
-    const double sign_rub_2 = fabs(mode_rub_2) > 1.0 ? 0.0 : mode_rub_2;
-    const double held_force_rub = stick_rub_2 != 0.0 ? aside->friction[0].force : 0.0;
+    const double mode_rub = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
+    const double stick_rub = mode_rub == 0.0 ? 1.0 : 0.0;
+    const double sign_rub = fabs(mode_rub) > 1.0 ? 0.0 : mode_rub;
+    const double held_force_rub = stick_rub != 0.0 ? aside->friction[0].force : 0.0;
 
     /* coordinates */
-    const double spring_force_by_guide_slide = side_0*spring_stiffness;
+    const double spring_force_by_guide_slide = side_0*p->spring_stiffness;
     const double inverse_spring_length = 1.0/spring_length;
-    const double spring_pull_by_guide_slide = -(inverse_spring_length *
-        inverse_spring_length)*side_0*spring_force + inverse_spring_length*spring_force_by_guide_slide;
+    const double spring_pull_by_guide_slide = -(inverse_spring_length * inverse_spring_length)*side_0*spring_force
+        + inverse_spring_length*spring_force_by_guide_slide;
 
     /* results */
     lin->value[0] = spring_pull + spring_pull_by_guide_slide*spring_span_x;
-    lin->value[1] = held_force_rub - rub_kinetic*sign_rub_2;
-    lin->value[2] = -guide_slide_rate*stick_rub_2;
-    lin->value[3] = stick_rub_2;
+    lin->value[1] = held_force_rub - p->rub_kinetic*sign_rub;
+    lin->value[2] = -guide_slide_rate*stick_rub;
+    lin->value[3] = stick_rub;
     lin->value[4] = 1.0;
     lin->p = p;
 }
@@ -62,21 +56,20 @@ int newton_factor(double eta, Linear *lin)
     const double by_q_guide_slide_guide_slide = lin->value[0];
     const double is_stick_rub_2 = lin->value[3];
 
-    /* parameters */
-    const double block_mass = p->block_mass;
-
     /* matrix */
-    const double n_guide_slide__guide_slide = block_mass + by_q_guide_slide_guide_slide*(eta * eta);
+    const double n_guide_slide__guide_slide = p->block_mass + by_q_guide_slide_guide_slide*(eta * eta);
 
     /* L U */
     const double scale_guide_slide = n_guide_slide__guide_slide;
-    if (!(fabs(scale_guide_slide) > 1e-13 * fabs(n_guide_slide__guide_slide))) return 1;
+    if (!(fabs(scale_guide_slide) > 1e-13 * fabs(n_guide_slide__guide_slide)))
+        return 1;
     const double inverse_pivot_guide_slide = 1.0/scale_guide_slide;
     lin->lu[0] = inverse_pivot_guide_slide;
-    const double scale_rub_2 = -inverse_pivot_guide_slide;
-    if (is_stick_rub_2 != 0.0 && !(fabs(scale_rub_2) > 1e-13 * fabs(scale_rub_2))) return 2;
-    const double inverse_pivot_rub_2 = is_stick_rub_2 != 0.0 ? 1.0/scale_rub_2 : 0.0;
-    lin->lu[1] = inverse_pivot_rub_2;
+    const double scale_rub = -inverse_pivot_guide_slide;
+    if (is_stick_rub_2 != 0.0 && !(scale_rub != 0.0 && isfinite(scale_rub)))
+        return 2;
+    const double inverse_pivot_rub = is_stick_rub_2 != 0.0 ? 1.0/scale_rub : 0.0;
+    lin->lu[1] = inverse_pivot_rub;
     return 0;
 }
 
@@ -87,14 +80,14 @@ void newton_substitute(const Linear *lin, double *x)
 {
     /* linearization */
     const double inverse_pivot_guide_slide = lin->lu[0];
-    const double inverse_pivot_rub_2 = lin->lu[1];
+    const double inverse_pivot_rub = lin->lu[1];
 
     /* forward */
     const double b_guide_slide = x[0];
     const double b_rub = -b_guide_slide*inverse_pivot_guide_slide + x[1];
 
     /* backward */
-    const double x_rub = b_rub*inverse_pivot_rub_2;
+    const double x_rub = b_rub*inverse_pivot_rub;
     x[1] = x_rub;
     const double x_guide_slide = inverse_pivot_guide_slide*(b_guide_slide - x_rub);
     x[0] = x_guide_slide;
@@ -114,16 +107,12 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     const double power_v_1_guide_slide = lin->value[1];
     const double power_1_rub = lin->value[2];
 
-    /* parameters */
-    const double block_mass = p->block_mass;
-    const double two_alpha_stick = p->two_alpha_stick;
-
     /* eta/kappa */
-    const double eta_stick = eta/(eta*two_alpha_stick + 1.0);
+    const double eta_stick = eta/(eta*p->two_alpha_stick + 1.0);
 
     /* right-hand side */
     double x[2];
-    x[0] = eta*(block_mass*r[1] - by_q_guide_slide_guide_slide*eta*r[0]);
+    x[0] = eta*(p->block_mass*r[1] - by_q_guide_slide_guide_slide*eta*r[0]);
     x[1] = eta_stick*r[1];
     newton_substitute(lin, x);
 

@@ -1,8 +1,7 @@
 /*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
-void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
-    double *all_v)
+void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     (void)t;
     (void)p;
@@ -28,8 +27,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 /*
  * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
  */
-void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
-    double *s_rate)
+void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
     (void)t;
     (void)p;
@@ -72,8 +70,8 @@ void closure_rates(const double t, const double *q, const double *v, const Param
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
 {
     (void)t;
     /* corners: the sides that are held, if any */
@@ -84,47 +82,38 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double guide_slide = q[0];
     const double guide_slide_rate = v[0];
 
-    /* parameters */
-    const double wall_x = p->wall_x;
-    const double spring_stiffness = p->spring_stiffness;
-    const double spring_free_length = p->spring_free_length;
-    const double rub_speed = p->rub_speed;
-    const double rub_static = p->rub_static;
-    const double rub_kinetic = p->rub_kinetic;
-    const double two_alpha_stick = p->two_alpha_stick;
-    const double inverse_block_mass = p->inverse_block_mass;
-
     /* directions, arms, drives */
-    const double spring_span_x = guide_slide - wall_x;
+    const double spring_span_x = guide_slide - p->wall_x;
     const double side_0 = side_of(side, g, 0, spring_span_x);
     const double spring_length = side_0*spring_span_x;
-    const double spring_force = spring_stiffness*(-spring_free_length + spring_length);
+    const double spring_force = p->spring_stiffness*(-p->spring_free_length + spring_length);
     const double spring_pull = spring_force/spring_length;
 
     /* friction: slip, or stick as a row */
-    const double slip_rub = guide_slide_rate - rub_speed;
+    const double slip_rub = guide_slide_rate - p->rub_speed;
     const double mode_rub = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
     const double stick_rub = mode_rub == 0.0 ? 1.0 : 0.0;
     const double sign_rub = fabs(mode_rub) > 1.0 ? 0.0 : mode_rub;
-    const double kinetic_rub = -rub_kinetic*sign_rub;
-    const double rhs_rub = -slip_rub*two_alpha_stick;
+    const double kinetic_rub = -p->rub_kinetic*sign_rub;
+    const double rhs_rub = -slip_rub*p->two_alpha_stick;
     aside->friction[0].v = slip_rub;
-    aside->friction[0].static_limit = rub_static;
-    aside->friction[0].speed = rub_speed;
+    aside->friction[0].static_limit = p->rub_static;
+    aside->friction[0].speed = p->rub_speed;
     aside->friction[0].force = kinetic_rub;
 
     /* L D L^T of the KKT matrix */
-    const double scale_rub = inverse_block_mass;
-    if (stick_rub != 0.0 && !(scale_rub > 1e-13 * scale_rub)) return 1;
+    const double scale_rub = p->inverse_block_mass;
+    if (stick_rub != 0.0 && !(scale_rub > 0.0 && scale_rub < INFINITY))
+        return 1;
     const double inverse_pivot_rub = stick_rub != 0.0 ? 1.0/scale_rub : 0.0;
 
     /* forward substitution */
     const double z_guide_slide = kinetic_rub - spring_pull*spring_span_x;
-    const double z_rub = -inverse_block_mass*z_guide_slide + rhs_rub;
+    const double z_rub = -p->inverse_block_mass*z_guide_slide + rhs_rub;
 
     /* backward substitution */
     const double lambda_rub = -inverse_pivot_rub*z_rub;
-    const double acceleration_guide_slide = -inverse_block_mass*lambda_rub + inverse_block_mass*z_guide_slide;
+    const double acceleration_guide_slide = -p->inverse_block_mass*lambda_rub + p->inverse_block_mass*z_guide_slide;
 
     /* results */
     a[0] = acceleration_guide_slide;
@@ -140,8 +129,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
 /*
  * Switching functions of the scene's own corners, in aside->g, and what the user watches, in aside->event.
  */
-void watched_functions(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, Aside *aside)
+void watched_functions(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    Aside *aside)
 {
     (void)t;
     (void)v;
@@ -149,11 +138,8 @@ void watched_functions(const double t, const double *q, const double *v, const M
     /* coordinates, velocities, time */
     const double guide_slide = q[0];
 
-    /* parameters */
-    const double wall_x = p->wall_x;
-
     /* directions, arms, drives */
-    const double spring_span_x = guide_slide - wall_x;
+    const double spring_span_x = guide_slide - p->wall_x;
     aside->g[0] = spring_span_x;
 }
 

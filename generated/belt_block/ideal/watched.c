@@ -10,10 +10,7 @@ void watched_ranges(const Range t, const Range *q, const Range *v, const Memory 
     /* coordinates, velocities, time */
     const Range guide_slide = q[0];
 
-    /* parameters */
-    const Range wall_x = only(p->wall_x);
-
     /* directions, arms, drives */
-    const Range spring_span_x = range_add(guide_slide, range_times(only(-1.0), wall_x));
+    const Range spring_span_x = range_add(guide_slide, range_times(only(-1.0), only(p->wall_x)));
     out[0] = spring_span_x;
 }

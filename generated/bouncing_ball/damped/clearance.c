@@ -3,34 +3,19 @@
  * Source: H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
  * Valid: a point or a line contact whose stiffness is known; penetrations small against the radii.
  * Options: dissipation: hunt_crossley.
+ * stiffness: force at unit penetration, N/m^n; exponent: exponent of the penetration; hysteresis: hysteresis
+ * damping factor a.
  */
-static inline void normal_fall_force(double delta, double ratio, const Parameters *p, const double *side,
-    double *g, double *F_n_out)
+static inline void hertz(double delta, double ratio, double stiffness, double exponent, double hysteresis,
+    const double *side, double *g, int corner, double *F_n_out)
 {
-    /* parameters */
-    const double damped_normal_stiffness = p->damped_normal_stiffness;
-    const double damped_normal_exponent = p->damped_normal_exponent;
-    const double damped_floor_hysteresis = p->damped_floor_hysteresis;
-
-    /* law of joint fall */
-    const double side_0 = side_of(side, g, 0, damped_floor_hysteresis*ratio + 1.0);
-    *F_n_out = damped_normal_stiffness*pow(delta, damped_normal_exponent)*(side_0 < 0.0 ? 0.0 :
-        damped_floor_hysteresis*ratio + 1.0);
-}
-
-/*
- * No friction in this joint.
- */
-static inline void friction_fall_force(double F_n, double v_t, const Parameters *p, const double *side,
-    double *g, double *F_t_out)
-{
-    (void)F_n;
-    (void)v_t;
-    (void)p;
-    (void)side;
-    (void)g;
-    /* no friction law */
-    *F_t_out = 0.0;
+    const double side_1 = side_of(side, g, corner, hysteresis*ratio + 1.0);
+    double larger_1;
+    if (side_1 < 0.0)
+        larger_1 = 0.0;
+    else
+        larger_1 = hysteresis*ratio + 1.0;
+    *F_n_out = stiffness*pow(delta, exponent)*larger_1;
 }
 
 /*
@@ -44,12 +29,13 @@ static inline PinForce dry_fall(double delta, double deltadot, double de_t, doub
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = (0.5)*delta + p->floor_radius;
+    const double a_i = 0.5*delta + p->floor_radius;
     const double a_j = -0.5*delta + p->R_j_floor;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
-    double F_n, F_along_t_dry;
-    normal_fall_force(max_of(delta, 0.0), ratio, p, side, g, &F_n);
-    friction_fall_force(F_n, v_t, p, side, g, &F_along_t_dry);
+    double F_n;
+    hertz(max_of(delta, 0.0), ratio, p->damped_normal_stiffness, p->damped_normal_exponent, p->damped_floor_hysteresis,
+        side, g, 0, &F_n);
+    const double F_along_t_dry = 0.0; /* no friction */
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};

@@ -3,14 +3,10 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double ball_mass = p->ball_mass;
-    const double ball_inertia = p->ball_inertia;
-
     /* M */
-    m[0] = ball_mass;
-    m[1] = ball_mass;
-    m[2] = ball_inertia;
+    m[0] = p->ball_mass;
+    m[1] = p->ball_mass;
+    m[2] = p->ball_inertia;
 }
 
 /*
@@ -58,8 +54,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t;
     (void)q;
@@ -100,13 +95,8 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double ball_vy = v[1];
     const double ball_omega = v[2];
 
-    /* parameters */
-    const double ball_mass = p->ball_mass;
-    const double ball_inertia = p->ball_inertia;
-    const double par_y = p->par_y;
-
     /* energy */
-    energy[0] = (0.5)*ball_inertia*(ball_omega * ball_omega) + (0.5)*ball_mass*(ball_vx * ball_vx) +
-        (0.5)*ball_mass*(ball_vy * ball_vy);
-    energy[1] = -ball_mass*ball_y*par_y;
+    energy[0] = 0.5*p->ball_inertia*(ball_omega * ball_omega) + 0.5*p->ball_mass*(ball_vx * ball_vx)
+        + 0.5*p->ball_mass*(ball_vy * ball_vy);
+    energy[1] = -p->ball_mass*ball_y*p->gravity_y;
 }

@@ -21,7 +21,7 @@ typedef struct {
     Lanes damped_normal_exponent;
     Lanes damped_normal_restitution;
     Lanes velocity_floor;
-    Lanes par_y;
+    Lanes gravity_y;
     Lanes R_j_floor;
     Lanes damped_floor_hysteresis;
     Lanes weight_ball_y;
@@ -50,30 +50,14 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
  * Source: H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
  * Valid: a point or a line contact whose stiffness is known; penetrations small against the radii.
  * Options: dissipation: hunt_crossley.
+ * stiffness: force at unit penetration, N/m^n; exponent: exponent of the penetration; hysteresis: hysteresis
+ * damping factor a.
  */
-static inline void normal_fall_force(Lanes delta, Lanes ratio, const LaneParameters *p, Lanes *F_n_out)
+static inline void hertz(Lanes delta, Lanes ratio, Lanes stiffness, Lanes exponent, Lanes hysteresis, Lanes *F_n_out)
 {
-    /* parameters */
-    const Lanes damped_normal_stiffness = p->damped_normal_stiffness;
-    const Lanes damped_normal_exponent = p->damped_normal_exponent;
-    const Lanes damped_floor_hysteresis = p->damped_floor_hysteresis;
-
-    /* law of joint fall */
-    const Lanes side_0 = lanes_sign_of(damped_floor_hysteresis*ratio + 1.0);
-    *F_n_out = damped_normal_stiffness*lanes_pow(delta, damped_normal_exponent)*pick(side_0 < 0.0,
-        all_of(0.0), damped_floor_hysteresis*ratio + 1.0);
-}
-
-/*
- * No friction in this joint.
- */
-static inline void friction_fall_force(Lanes F_n, Lanes v_t, const LaneParameters *p, Lanes *F_t_out)
-{
-    (void)F_n;
-    (void)v_t;
-    (void)p;
-    /* no friction law */
-    *F_t_out = all_of(0.0);
+    const Lanes side_1 = lanes_sign_of(hysteresis*ratio + 1.0);
+    const Lanes larger_1 = pick(side_1 < 0.0, all_of(0.0), hysteresis*ratio + 1.0);
+    *F_n_out = stiffness*lanes_pow(delta, exponent)*larger_1;
 }
 
 /* Dry contact in joint fall, as in clearance.c. */
@@ -81,12 +65,14 @@ static inline LanePinForce dry_fall(Lanes delta, Lanes deltadot, Lanes de_t, Lan
     const LaneLatch *latch, const LaneParameters *p)
 {
     const Lanes ratio = pick(latch->closed > 0.0, deltadot / latch->deltadot_minus, all_of(1.0));
-    const Lanes a_i = (0.5)*delta + p->floor_radius;
+    const Lanes a_i = 0.5*delta + p->floor_radius;
     const Lanes a_j = -0.5*delta + p->R_j_floor;
     const Lanes v_t = -a_i*omega_i + a_j*omega_j + de_t;
-    Lanes F_n, F_along_t_dry;
-    normal_fall_force(lanes_max_of(delta, all_of(0.0)), ratio, p, &F_n);
-    friction_fall_force(F_n, v_t, p, &F_along_t_dry);
+    Lanes F_n;
+    hertz(lanes_max_of(delta, all_of(0.0)), ratio, p->damped_normal_stiffness, p->damped_normal_exponent,
+        p->damped_floor_hysteresis, &F_n);
+    const Lanes F_along_t_dry = all_of(0.0); /* no friction */
+    (void)v_t;
     const Lanes M_i_dry = -F_along_t_dry*a_i;
     const Lanes M_j_dry = F_along_t_dry*a_j;
     return (LanePinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry};
@@ -149,8 +135,8 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
+static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
     (void)t;
     (void)rare;
@@ -161,29 +147,25 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes ball_y_rate = v[1];
     const Lanes ball_omega = v[2];
 
-    /* parameters */
-    const Lanes weight_ball_y = p->weight_ball_y;
-    const Lanes inverse_ball_mass = p->inverse_ball_mass;
-    const Lanes inverse_ball_inertia = p->inverse_ball_inertia;
-
     /* clearance joint fall */
     const Lanes e_fall_x = ball_x;
     const Lanes e_fall_y = ball_y;
     const Lanes edot_fall_x = ball_x_rate;
     const Lanes edot_fall_y = ball_y_rate;
-    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, all_of(0.0), ball_omega, &memory->latch[0], p, &aside->clearance[0]);
+    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, all_of(0.0), ball_omega, &memory->latch[0], p,
+        &aside->clearance[0]);
     const Lanes F_fall_x = aside->clearance[0].Fx;
     const Lanes F_fall_y = aside->clearance[0].Fy;
     const Lanes M_fall_second = aside->clearance[0].moment_second;
     aside->clearance[0].power = F_fall_x*edot_fall_x + F_fall_y*edot_fall_y + M_fall_second*ball_omega;
 
     /* forward substitution */
-    const Lanes z_ball_y = F_fall_y + weight_ball_y;
+    const Lanes z_ball_y = F_fall_y + p->weight_ball_y;
 
     /* backward substitution */
-    const Lanes acceleration_ball_theta = M_fall_second*inverse_ball_inertia;
-    const Lanes acceleration_ball_y = inverse_ball_mass*z_ball_y;
-    const Lanes acceleration_ball_x = F_fall_x*inverse_ball_mass;
+    const Lanes acceleration_ball_theta = M_fall_second*p->inverse_ball_inertia;
+    const Lanes acceleration_ball_y = p->inverse_ball_mass*z_ball_y;
+    const Lanes acceleration_ball_x = F_fall_x*p->inverse_ball_mass;
 
     /* results */
     a[0] = acceleration_ball_x;
@@ -198,8 +180,8 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
  * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
-static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
+static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
     (void)t;
     (void)q;

@@ -3,34 +3,12 @@
  * Source: H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
  * Valid: a point or a line contact whose stiffness is known; penetrations small against the radii.
  * Options: dissipation: none.
+ * stiffness: force at unit penetration, N/m^n; exponent: exponent of the penetration.
  */
-static inline void normal_fall_force(double delta, double ratio, const Parameters *p, const double *side,
-    double *g, double *F_n_out)
+static inline void hertz_none(double delta, double ratio, double stiffness, double exponent, double *F_n_out)
 {
     (void)ratio;
-    (void)side;
-    (void)g;
-    /* parameters */
-    const double elastic_normal_stiffness = p->elastic_normal_stiffness;
-    const double elastic_normal_exponent = p->elastic_normal_exponent;
-
-    /* law of joint fall */
-    *F_n_out = pow(delta, elastic_normal_exponent)*elastic_normal_stiffness;
-}
-
-/*
- * No friction in this joint.
- */
-static inline void friction_fall_force(double F_n, double v_t, const Parameters *p, const double *side,
-    double *g, double *F_t_out)
-{
-    (void)F_n;
-    (void)v_t;
-    (void)p;
-    (void)side;
-    (void)g;
-    /* no friction law */
-    *F_t_out = 0.0;
+    *F_n_out = pow(delta, exponent)*stiffness;
 }
 
 /*
@@ -44,12 +22,12 @@ static inline PinForce dry_fall(double delta, double deltadot, double de_t, doub
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = (0.5)*delta + p->floor_radius;
+    const double a_i = 0.5*delta + p->floor_radius;
     const double a_j = -0.5*delta + p->R_j_floor;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
-    double F_n, F_along_t_dry;
-    normal_fall_force(max_of(delta, 0.0), ratio, p, side, g, &F_n);
-    friction_fall_force(F_n, v_t, p, side, g, &F_along_t_dry);
+    double F_n;
+    hertz_none(max_of(delta, 0.0), ratio, p->elastic_normal_stiffness, p->elastic_normal_exponent, &F_n);
+    const double F_along_t_dry = 0.0; /* no friction */
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};

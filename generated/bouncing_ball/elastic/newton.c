@@ -1,4 +1,6 @@
-/* (F along n, F along t, M_i, M_j) of a joint with play and their derivatives by (e, deltadot, de_t, omega_i, omega_j). */
+/*
+ * (F along n, F along t, M_i, M_j) of a joint with play and their derivatives by (e, deltadot, de_t, omega_i, omega_j).
+ */
 typedef struct {
     double value[4], slope[4][5];
 } PinSlopes;
@@ -13,7 +15,8 @@ typedef struct {
  * From n, t to ground axes. Where e moves by de = (along n, along t) = (x, y), n turns by y/e: F by F rotated, and
  * deltadot, de_t by (de_t, -deltadot) y/e.
  */
-static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, double deltadot, double de_t, double per_e,
+static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, double deltadot, double de_t,
+    double per_e,
     double dF[4][6])
 {
     double by[4][6];
@@ -42,34 +45,28 @@ static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, do
 
 
 /*
- * Joint fall, dry: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t,
- * omega_i, omega_j (forward differentiation of the same steps).
+ * Dry: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t, omega_i,
+ * omega_j (forward differentiation of the same steps).
  */
-static inline void dry_slopes_fall(double e, double deltadot, double de_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, const double *side, double *g, PinSlopes *out)
+static inline void dry_slopes_hertz_none(double e, double deltadot, double de_t, double omega_i, double omega_j,
+    const Latch *latch, double stiffness, double exponent, double R_i, double R_j, double c, PinSlopes *out)
 {
     (void)deltadot;
     (void)de_t;
     (void)omega_i;
     (void)omega_j;
     (void)latch;
-    (void)side;
-    (void)g;
-    /* parameters */
-    const double elastic_normal_stiffness = p->elastic_normal_stiffness;
-    const double elastic_normal_exponent = p->elastic_normal_exponent;
-
     /* penetration, ratio of velocities, slip */
-    const double delta = e - p->floor_clearance;
+    const double delta = e - c;
     const double depth = max_of(delta, 0.0);
     const double depth_by_e = delta > 0.0 ? 1.0 : 0.0;
-    const double a_i = (0.5)*delta + p->floor_radius;
-    const double a_j = -0.5*delta + p->R_j_floor;
+    const double a_i = 0.5*delta + R_i;
+    const double a_j = -0.5*delta + R_j;
 
-    /* contact of joint fall */
-    const double power_depth = pow(depth, elastic_normal_exponent - 1.0);
-    const double F_n = depth*elastic_normal_stiffness*power_depth;
-    const double F_n_by_depth = elastic_normal_exponent*elastic_normal_stiffness*power_depth;
+    /* contact */
+    const double power_depth = pow(depth, exponent - 1.0);
+    const double F_n = depth*stiffness*power_depth;
+    const double F_n_by_depth = exponent*stiffness*power_depth;
     const double F_n_by_e = F_n_by_depth*depth_by_e;
     const double F_along_t_dry = 0.0;
     const double M_i_dry = -F_along_t_dry*a_i;
@@ -114,7 +111,8 @@ static void slopes_fall(double e, double deltadot, double de_t, double omega_i, 
     const double delta = e - p->floor_clearance;
     *out = (PinSlopes){0};
     if (side ? latch->closed : delta > 0.0)
-        dry_slopes_fall(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, out);
+        dry_slopes_hertz_none(e, deltadot, de_t, omega_i, omega_j, latch, p->elastic_normal_stiffness,
+            p->elastic_normal_exponent, p->floor_radius, p->R_j_floor, p->floor_clearance, out);
 }
 
 static void tangent_fall(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
@@ -162,12 +160,13 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double fall_moment_second = aside->clearance[0].moment_second;
 
     /* clearance joint fall */
-    const double e_fall_x_2 = ball_x;
-    const double e_fall_y_2 = ball_y;
-    const double edot_fall_x_2 = ball_x_rate;
-    const double edot_fall_y_2 = ball_y_rate;
+    const double e_fall_x = ball_x;
+    const double e_fall_y = ball_y;
+    const double edot_fall_x = ball_x_rate;
+    const double edot_fall_y = ball_y_rate;
     double change_fall[4][6];
-    tangent_fall(e_fall_x_2, e_fall_y_2, edot_fall_x_2, edot_fall_y_2, 0, ball_omega, &memory->latch[0], p, side, g, change_fall);
+    tangent_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, 0, ball_omega, &memory->latch[0], p, side, g,
+        change_fall);
     const double fall_Fx_by_e_x = change_fall[0][0];
     const double fall_Fx_by_e_y = change_fall[0][1];
     const double fall_Fx_by_de_x = change_fall[0][2];
@@ -200,16 +199,14 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     lin->value[12] = -fall_moment_second_by_de_x;
     lin->value[13] = -fall_moment_second_by_de_y;
     lin->value[14] = -fall_moment_second_by_omega_j;
-    lin->value[15] = ball_omega*fall_moment_second_by_e_x + ball_x_rate*fall_Fx_by_e_x +
-        ball_y_rate*fall_Fy_by_e_x;
-    lin->value[16] = ball_omega*fall_moment_second_by_e_y + ball_x_rate*fall_Fx_by_e_y +
-        ball_y_rate*fall_Fy_by_e_y;
-    lin->value[17] = ball_omega*fall_moment_second_by_omega_j + ball_x_rate*fall_Fx_by_omega_j +
-        ball_y_rate*fall_Fy_by_omega_j + fall_moment_second;
-    lin->value[18] = ball_omega*fall_moment_second_by_de_x + ball_x_rate*fall_Fx_by_de_x +
-        ball_y_rate*fall_Fy_by_de_x + fall_Fx;
-    lin->value[19] = ball_omega*fall_moment_second_by_de_y + ball_x_rate*fall_Fx_by_de_y +
-        ball_y_rate*fall_Fy_by_de_y + fall_Fy;
+    lin->value[15] = ball_omega*fall_moment_second_by_e_x + ball_x_rate*fall_Fx_by_e_x + ball_y_rate*fall_Fy_by_e_x;
+    lin->value[16] = ball_omega*fall_moment_second_by_e_y + ball_x_rate*fall_Fx_by_e_y + ball_y_rate*fall_Fy_by_e_y;
+    lin->value[17] = ball_omega*fall_moment_second_by_omega_j + ball_x_rate*fall_Fx_by_omega_j
+        + ball_y_rate*fall_Fy_by_omega_j + fall_moment_second;
+    lin->value[18] = ball_omega*fall_moment_second_by_de_x + ball_x_rate*fall_Fx_by_de_x + ball_y_rate*fall_Fy_by_de_x
+        + fall_Fx;
+    lin->value[19] = ball_omega*fall_moment_second_by_de_y + ball_x_rate*fall_Fx_by_de_y + ball_y_rate*fall_Fy_by_de_y
+        + fall_Fy;
     lin->p = p;
 }
 
@@ -239,24 +236,21 @@ int newton_factor(double eta, Linear *lin)
     const double by_v_ball_theta_ball_y = lin->value[13];
     const double by_v_ball_theta_ball_theta = lin->value[14];
 
-    /* parameters */
-    const double ball_mass = p->ball_mass;
-    const double ball_inertia = p->ball_inertia;
-
     /* matrix */
-    const double n_ball_x__ball_x = ball_mass + eta*(by_q_ball_x_ball_x*eta + by_v_ball_x_ball_x);
+    const double n_ball_x__ball_x = p->ball_mass + eta*(by_q_ball_x_ball_x*eta + by_v_ball_x_ball_x);
     const double n_ball_x__ball_y = eta*(by_q_ball_x_ball_y*eta + by_v_ball_x_ball_y);
     const double n_ball_x__ball_theta = by_v_ball_x_ball_theta*eta;
     const double n_ball_y__ball_x = eta*(by_q_ball_y_ball_x*eta + by_v_ball_y_ball_x);
-    const double n_ball_y__ball_y = ball_mass + eta*(by_q_ball_y_ball_y*eta + by_v_ball_y_ball_y);
+    const double n_ball_y__ball_y = p->ball_mass + eta*(by_q_ball_y_ball_y*eta + by_v_ball_y_ball_y);
     const double n_ball_y__ball_theta = by_v_ball_y_ball_theta*eta;
     const double n_ball_theta__ball_x = eta*(by_q_ball_theta_ball_x*eta + by_v_ball_theta_ball_x);
     const double n_ball_theta__ball_y = eta*(by_q_ball_theta_ball_y*eta + by_v_ball_theta_ball_y);
-    const double n_ball_theta__ball_theta = ball_inertia + by_v_ball_theta_ball_theta*eta;
+    const double n_ball_theta__ball_theta = p->ball_inertia + by_v_ball_theta_ball_theta*eta;
 
     /* L U */
     const double scale_ball_x = n_ball_x__ball_x;
-    if (!(fabs(scale_ball_x) > 1e-13 * fabs(n_ball_x__ball_x))) return 1;
+    if (!(fabs(scale_ball_x) > 1e-13 * fabs(n_ball_x__ball_x)))
+        return 1;
     const double inverse_pivot_ball_x = 1.0/scale_ball_x;
     lin->lu[0] = inverse_pivot_ball_x;
     const double l_ball_y__ball_x = inverse_pivot_ball_x*n_ball_y__ball_x;
@@ -266,17 +260,19 @@ int newton_factor(double eta, Linear *lin)
     lin->lu[3] = l_ball_theta__ball_x;
     lin->lu[4] = n_ball_x__ball_theta;
     const double scale_ball_y = -l_ball_y__ball_x*n_ball_x__ball_y + n_ball_y__ball_y;
-    if (!(fabs(scale_ball_y) > 1e-13 * fabs(n_ball_y__ball_y))) return 2;
+    if (!(fabs(scale_ball_y) > 1e-13 * fabs(n_ball_y__ball_y)))
+        return 2;
     const double inverse_pivot_ball_y = 1.0/scale_ball_y;
     lin->lu[5] = inverse_pivot_ball_y;
-    const double l_ball_theta__ball_y = inverse_pivot_ball_y*(-l_ball_theta__ball_x*n_ball_x__ball_y +
-        n_ball_theta__ball_y);
+    const double l_ball_theta__ball_y = inverse_pivot_ball_y*(-l_ball_theta__ball_x*n_ball_x__ball_y
+        + n_ball_theta__ball_y);
     lin->lu[6] = l_ball_theta__ball_y;
     const double u_ball_y__ball_theta = -l_ball_y__ball_x*n_ball_x__ball_theta + n_ball_y__ball_theta;
     lin->lu[7] = u_ball_y__ball_theta;
-    const double scale_ball_theta = -l_ball_theta__ball_x*n_ball_x__ball_theta -
-        l_ball_theta__ball_y*u_ball_y__ball_theta + n_ball_theta__ball_theta;
-    if (!(fabs(scale_ball_theta) > 1e-13 * fabs(n_ball_theta__ball_theta))) return 3;
+    const double scale_ball_theta = -l_ball_theta__ball_x*n_ball_x__ball_theta
+        - l_ball_theta__ball_y*u_ball_y__ball_theta + n_ball_theta__ball_theta;
+    if (!(fabs(scale_ball_theta) > 1e-13 * fabs(n_ball_theta__ball_theta)))
+        return 3;
     const double inverse_pivot_ball_theta = 1.0/scale_ball_theta;
     lin->lu[8] = inverse_pivot_ball_theta;
     return 0;
@@ -308,8 +304,8 @@ void newton_substitute(const Linear *lin, double *x)
     x[2] = x_ball_theta;
     const double x_ball_y = inverse_pivot_ball_y*(b_ball_y - u_ball_y__ball_theta*x_ball_theta);
     x[1] = x_ball_y;
-    const double x_ball_x = inverse_pivot_ball_x*(b_ball_x - n_ball_x__ball_theta*x_ball_theta -
-        n_ball_x__ball_y*x_ball_y);
+    const double x_ball_x = inverse_pivot_ball_x*(b_ball_x - n_ball_x__ball_theta*x_ball_theta
+        - n_ball_x__ball_y*x_ball_y);
     x[0] = x_ball_x;
 }
 
@@ -335,15 +331,11 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     const double power_v_2_ball_x = lin->value[18];
     const double power_v_2_ball_y = lin->value[19];
 
-    /* parameters */
-    const double ball_mass = p->ball_mass;
-    const double ball_inertia = p->ball_inertia;
-
     /* right-hand side */
     double x[3];
-    x[0] = eta*(ball_mass*r[3] - by_q_ball_x_ball_x*eta*r[0] - by_q_ball_x_ball_y*eta*r[1]);
-    x[1] = eta*(ball_mass*r[4] - by_q_ball_y_ball_x*eta*r[0] - by_q_ball_y_ball_y*eta*r[1]);
-    x[2] = eta*(ball_inertia*r[5] - by_q_ball_theta_ball_x*eta*r[0] - by_q_ball_theta_ball_y*eta*r[1]);
+    x[0] = eta*(p->ball_mass*r[3] - by_q_ball_x_ball_x*eta*r[0] - by_q_ball_x_ball_y*eta*r[1]);
+    x[1] = eta*(p->ball_mass*r[4] - by_q_ball_y_ball_x*eta*r[0] - by_q_ball_y_ball_y*eta*r[1]);
+    x[2] = eta*(p->ball_inertia*r[5] - by_q_ball_theta_ball_x*eta*r[0] - by_q_ball_theta_ball_y*eta*r[1]);
     newton_substitute(lin, x);
 
     /* solution */
@@ -355,8 +347,8 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[5] = x[2];
     u[6] = eta*r[6];
     u[7] = eta*r[7];
-    u[8] = eta*(power_q_2_ball_x*u[0] + power_q_2_ball_y*u[1] + power_v_2_ball_theta*u[5] +
-        power_v_2_ball_x*u[3] + power_v_2_ball_y*u[4] + r[8]);
+    u[8] = eta*(power_q_2_ball_x*u[0] + power_q_2_ball_y*u[1] + power_v_2_ball_theta*u[5] + power_v_2_ball_x*u[3]
+        + power_v_2_ball_y*u[4] + r[8]);
 }
 
 /* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {

@@ -12,7 +12,7 @@ typedef struct {
     Lanes ball_inertia;
     Lanes alpha;
     Lanes beta;
-    Lanes par_y;
+    Lanes gravity_y;
     Lanes weight_ball_y;
     Lanes two_alpha;
     Lanes beta_squared;
@@ -65,8 +65,8 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
+static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
     (void)t;
     (void)q;
@@ -88,8 +88,8 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
  * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
-static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
+static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
     (void)t;
     (void)q;

@@ -1,15 +1,13 @@
 /*
  * Bouncing ball, Hertz contact with hysteresis damping
- * mechanism bouncing_ball, scene ideal, from the YAML with sha256 ddbbdb569d27e2af35adb5d783bcae0a9ce6a8f16cf6d94e2fb65a4b9090f7b4
+ * mechanism bouncing_ball, scene ideal, from the YAML with sha256
+ * ddbbdb569d27e2af35adb5d783bcae0a9ce6a8f16cf6d94e2fb65a4b9090f7b4
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 3                 /* coordinates of all bodies */
 #define N_ROWS 2              /* constraint rows of the motion */
 #define N_ALL_ROWS 2          /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 0          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 0            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_X 1                 /* coordinates that are integrated */
 #define N_LOOPS 0             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 0             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 0            /* of the linearized equations */
+#define N_FACTORS 0           /* of their factors L and U */
+#define HAS_LANES 1           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,14 +43,21 @@
 #define N_GUESS 0             /* coordinates that the start guesses */
 #define N_SET 0               /* those that it sets */
 #define N_RATES 0             /* velocities that it sets */
-#define N_VALUES 0            /* of the linearized equations */
-#define N_FACTORS 0           /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double height;  /* parameters.height */    double ball_mass;  /* bodies.ball.mass */    double ball_inertia;  /* bodies.ball.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double par_y;  /* gravity.y */    double weight_ball_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_ball_inertia;  /* 1/M */    double inverse_ball_mass;  /* 1/M */} Parameters;
+typedef struct {
+    double height;  /* parameters.height, m */
+    double ball_mass;  /* bodies.ball.mass, kg */
+    double ball_inertia;  /* bodies.ball.inertia, kg m^2 */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double weight_ball_y;  /* weight, kg m/s^2 */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_ball_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_ball_mass;  /* 1/M, 1/kg */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

@@ -35,14 +35,11 @@ void newton_substitute(const Linear *lin, double *x)
     /* numbers of the run */
     const Parameters *const p = lin->p;
 
-    /* parameters */
-    const double inverse_ball_inertia = p->inverse_ball_inertia;
-
     /* forward */
     const double b_ball_theta = x[0];
 
     /* backward */
-    const double x_ball_theta = b_ball_theta*inverse_ball_inertia;
+    const double x_ball_theta = b_ball_theta*p->inverse_ball_inertia;
     x[0] = x_ball_theta;
 }
 
@@ -55,12 +52,9 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     /* numbers of the run */
     const Parameters *const p = lin->p;
 
-    /* parameters */
-    const double ball_inertia = p->ball_inertia;
-
     /* right-hand side */
     double x[1];
-    x[0] = ball_inertia*eta*r[1];
+    x[0] = p->ball_inertia*eta*r[1];
     newton_substitute(lin, x);
 
     /* solution */

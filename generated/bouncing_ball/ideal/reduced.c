@@ -1,8 +1,7 @@
 /*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
-void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
-    double *all_v)
+void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     (void)t;
     (void)p;
@@ -28,8 +27,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 /*
  * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
  */
-void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
-    double *s_rate)
+void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
     (void)t;
     (void)p;
@@ -72,8 +70,8 @@ void closure_rates(const double t, const double *q, const double *v, const Param
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
 {
     (void)t;
     (void)q;

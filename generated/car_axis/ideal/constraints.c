@@ -3,19 +3,13 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double axle_mass = p->axle_mass;
-    const double axle_inertia = p->axle_inertia;
-    const double road_mass = p->road_mass;
-    const double road_inertia = p->road_inertia;
-
     /* M */
-    m[0] = axle_mass;
-    m[1] = axle_mass;
-    m[2] = axle_inertia;
-    m[3] = road_mass;
-    m[4] = road_mass;
-    m[5] = road_inertia;
+    m[0] = p->axle_mass;
+    m[1] = p->axle_mass;
+    m[2] = p->axle_inertia;
+    m[3] = p->road_mass;
+    m[4] = p->road_mass;
+    m[5] = p->road_inertia;
 }
 
 /*
@@ -30,32 +24,25 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double road_x = q[3];
     const double road_y = q[4];
     const double road_theta = q[5];
-    const double time = t;
-
-    /* parameters */
-    const double length = p->length;
-    const double par_r = p->par_r;
-    const double omega = p->omega;
-    const double axle_head_x = p->axle_head_x;
-    const double road_head_x = p->road_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_road = cos(road_theta);
     const double sin_theta_road = sin(road_theta);
-    const double arm_road_head_x = cos_theta_road*road_head_x;
-    const double arm_road_head_y = road_head_x*sin_theta_road;
+    const double arm_road_head_x = cos_theta_road*p->road_head_s_x;
+    const double arm_road_head_y = p->road_head_s_x*sin_theta_road;
     const double cos_theta_axle = cos(axle_theta);
     const double sin_theta_axle = sin(axle_theta);
-    const double arm_axle_head_x = axle_head_x*cos_theta_axle;
-    const double arm_axle_head_y = axle_head_x*sin_theta_axle;
-    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double arm_axle_head_x = p->axle_head_s_x*cos_theta_axle;
+    const double arm_axle_head_y = p->axle_head_s_x*sin_theta_axle;
+    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
 
     /* rows */
     phi[0] = arm_road_head_x - road_x;  /* foot.x */
     phi[1] = arm_road_head_y - road_y;  /* foot.y */
+    /* slot.offset */
     phi[2] = arm_axle_head_x*cos_theta_road + arm_axle_head_y*sin_theta_road - arm_road_head_x*cos_theta_road
-        - arm_road_head_y*sin_theta_road - axle_x*cos_theta_road - axle_y*sin_theta_road +
-        cos_theta_road*road_x + road_y*sin_theta_road;  /* slot.offset */
+        - arm_road_head_y*sin_theta_road - axle_x*cos_theta_road - axle_y*sin_theta_road + cos_theta_road*road_x
+        + road_y*sin_theta_road;
     phi[3] = -bump_value + road_theta;  /* bump */
 }
 
@@ -73,19 +60,15 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
     const double road_y = q[4];
     const double road_theta = q[5];
 
-    /* parameters */
-    const double axle_head_x = p->axle_head_x;
-    const double road_head_x = p->road_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_road = cos(road_theta);
     const double sin_theta_road = sin(road_theta);
-    const double arm_road_head_x = cos_theta_road*road_head_x;
-    const double arm_road_head_y = road_head_x*sin_theta_road;
+    const double arm_road_head_x = cos_theta_road*p->road_head_s_x;
+    const double arm_road_head_y = p->road_head_s_x*sin_theta_road;
     const double cos_theta_axle = cos(axle_theta);
     const double sin_theta_axle = sin(axle_theta);
-    const double arm_axle_head_x = axle_head_x*cos_theta_axle;
-    const double arm_axle_head_y = axle_head_x*sin_theta_axle;
+    const double arm_axle_head_x = p->axle_head_s_x*cos_theta_axle;
+    const double arm_axle_head_y = p->axle_head_s_x*sin_theta_axle;
 
     /* non-zeros */
     phi_q[3] = -1.0;  /* d foot.x / d road_x */
@@ -97,8 +80,9 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
     phi_q[14] = arm_axle_head_x*sin_theta_road - arm_axle_head_y*cos_theta_road;  /* d slot.offset / d axle_theta */
     phi_q[15] = cos_theta_road;  /* d slot.offset / d road_x */
     phi_q[16] = sin_theta_road;  /* d slot.offset / d road_y */
-    phi_q[17] = -arm_axle_head_x*sin_theta_road + arm_axle_head_y*cos_theta_road + axle_x*sin_theta_road -
-        axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road;  /* d slot.offset / d road_theta */
+    /* d slot.offset / d road_theta */
+    phi_q[17] = -arm_axle_head_x*sin_theta_road + arm_axle_head_y*cos_theta_road + axle_x*sin_theta_road
+        - axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road;
     phi_q[23] = 1.0;  /* d bump / d road_theta */
 }
 
@@ -108,17 +92,9 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
     (void)q;
-    /* coordinates, velocities, time */
-    const double time = t;
-
-    /* parameters */
-    const double length = p->length;
-    const double par_r = p->par_r;
-    const double omega = p->omega;
-
     /* directions, arms, drives */
-    const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
-        sin(omega*time))/(length * length)));
+    const double bump_rate = p->omega*p->par_r*cos(p->omega*t)/(p->length*sqrt(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)));
 
     /* rows */
     nu[0] = 0.0;  /* foot.x */
@@ -130,8 +106,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     /* coordinates, velocities, time */
     const double axle_x = q[0];
@@ -146,39 +121,33 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double road_vx = v[3];
     const double road_vy = v[4];
     const double road_omega = v[5];
-    const double time = t;
-
-    /* parameters */
-    const double length = p->length;
-    const double par_r = p->par_r;
-    const double omega = p->omega;
-    const double axle_head_x = p->axle_head_x;
-    const double road_head_x = p->road_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_road = cos(road_theta);
     const double sin_theta_road = sin(road_theta);
-    const double arm_road_head_x = cos_theta_road*road_head_x;
-    const double arm_road_head_y = road_head_x*sin_theta_road;
+    const double arm_road_head_x = cos_theta_road*p->road_head_s_x;
+    const double arm_road_head_y = p->road_head_s_x*sin_theta_road;
     const double cos_theta_axle = cos(axle_theta);
     const double sin_theta_axle = sin(axle_theta);
-    const double arm_axle_head_x = axle_head_x*cos_theta_axle;
-    const double arm_axle_head_y = axle_head_x*sin_theta_axle;
-    const double bump_acceleration = -(omega * omega)*par_r*sin(omega*time)/(length*sqrt(1.0 - (par_r *
-        par_r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(par_r * par_r *
-        par_r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 -
-        (par_r * par_r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
+    const double arm_axle_head_x = p->axle_head_s_x*cos_theta_axle;
+    const double arm_axle_head_y = p->axle_head_s_x*sin_theta_axle;
+    const double bump_acceleration = -(p->omega * p->omega)*p->par_r*sin(p->omega*t)/(p->length*sqrt(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)))
+        + (p->omega * p->omega)*(p->par_r * p->par_r * p->par_r)*sin(p->omega*t)*(cos(p->omega*t)
+        * cos(p->omega*t))/((p->length * p->length * p->length)*pow(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length), 1.5));
 
     /* rows */
     gamma_rows[0] = arm_road_head_x*(road_omega * road_omega);  /* foot.x */
     gamma_rows[1] = arm_road_head_y*(road_omega * road_omega);  /* foot.y */
-    gamma_rows[2] = -axle_omega*(arm_axle_head_x*(-axle_omega*cos_theta_road + cos_theta_road*road_omega) -
-        arm_axle_head_y*(axle_omega*sin_theta_road - road_omega*sin_theta_road)) -
-        axle_vx*road_omega*sin_theta_road + axle_vy*cos_theta_road*road_omega -
-        cos_theta_road*road_omega*road_vy + road_omega*road_vx*sin_theta_road -
-        road_omega*(cos_theta_road*(arm_axle_head_x*axle_omega - axle_vy + road_omega*(-arm_axle_head_x +
-        axle_x - road_x) + road_vy) - sin_theta_road*(-arm_axle_head_y*axle_omega - axle_vx +
-        road_omega*(arm_axle_head_y - axle_y + road_y) + road_vx));  /* slot.offset */
+    /* slot.offset */
+    gamma_rows[2] = -axle_omega*(arm_axle_head_x*(-axle_omega*cos_theta_road + cos_theta_road*road_omega)
+        - arm_axle_head_y*(axle_omega*sin_theta_road - road_omega*sin_theta_road)) - axle_vx*road_omega*sin_theta_road
+        + axle_vy*cos_theta_road*road_omega - cos_theta_road*road_omega*road_vy + road_omega*road_vx*sin_theta_road
+        - road_omega*(cos_theta_road*(arm_axle_head_x*axle_omega - axle_vy
+        + road_omega*(-arm_axle_head_x + axle_x - road_x) + road_vy)
+        - sin_theta_road*(-arm_axle_head_y*axle_omega - axle_vx + road_omega*(arm_axle_head_y - axle_y + road_y)
+        + road_vx));
     gamma_rows[3] = bump_acceleration;  /* bump */
 }
 
@@ -188,11 +157,8 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)guess;
-    /* parameters */
-    const double set_axle_y = p->set_axle_y;
-
     /* start */
-    set[0] = set_axle_y;  /* start.set.axle.y */
+    set[0] = p->set_axle_y;  /* start.set.axle.y */
     set[1] = 0.0;  /* start.set.axle.theta */
     rates[0] = 0.0;  /* start.rates.axle.vy */
     rates[1] = 0.0;  /* start.rates.axle.omega */
@@ -220,36 +186,23 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double road_vy = v[4];
     const double road_omega = v[5];
 
-    /* parameters */
-    const double axle_mass = p->axle_mass;
-    const double axle_inertia = p->axle_inertia;
-    const double road_mass = p->road_mass;
-    const double road_inertia = p->road_inertia;
-    const double axle_head_x = p->axle_head_x;
-    const double road_head_x = p->road_head_x;
-    const double par_y = p->par_y;
-    const double left_stiffness = p->left_stiffness;
-    const double left_free_length = p->left_free_length;
-    const double right_stiffness = p->right_stiffness;
-    const double right_free_length = p->right_free_length;
-
     /* directions, arms, drives */
     const double cos_theta_road = cos(road_theta);
     const double sin_theta_road = sin(road_theta);
-    const double arm_road_head_x = cos_theta_road*road_head_x;
-    const double arm_road_head_y = road_head_x*sin_theta_road;
+    const double arm_road_head_x = cos_theta_road*p->road_head_s_x;
+    const double arm_road_head_y = p->road_head_s_x*sin_theta_road;
     const double cos_theta_axle = cos(axle_theta);
     const double sin_theta_axle = sin(axle_theta);
-    const double arm_axle_head_x = axle_head_x*cos_theta_axle;
-    const double arm_axle_head_y = axle_head_x*sin_theta_axle;
+    const double arm_axle_head_x = p->axle_head_s_x*cos_theta_axle;
+    const double arm_axle_head_y = p->axle_head_s_x*sin_theta_axle;
     const double left_span_x = -arm_axle_head_x + axle_x;
     const double left_span_y = -arm_axle_head_y + axle_y;
     const double left_length = sqrt((left_span_x * left_span_x) + (left_span_y * left_span_y));
-    const double left_force = left_stiffness*(-left_free_length + left_length);
+    const double left_force = p->left_stiffness*(-p->left_free_length + left_length);
     const double right_span_x = arm_axle_head_x - arm_road_head_x + axle_x - road_x;
     const double right_span_y = arm_axle_head_y - arm_road_head_y + axle_y - road_y;
     const double right_length = sqrt((right_span_x * right_span_x) + (right_span_y * right_span_y));
-    const double right_force = right_stiffness*(-right_free_length + right_length);
+    const double right_force = p->right_stiffness*(-p->right_free_length + right_length);
 
     /* multipliers */
     const double multiplier_foot_x = lambda[0];
@@ -271,10 +224,10 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     series[3] = right_length;  /* right.length */
 
     /* energy */
-    energy[0] = (0.5)*axle_inertia*(axle_omega * axle_omega) + (0.5)*axle_mass*(axle_vx * axle_vx) +
-        (0.5)*axle_mass*(axle_vy * axle_vy) + (0.5)*road_inertia*(road_omega * road_omega) +
-        (0.5)*road_mass*(road_vx * road_vx) + (0.5)*road_mass*(road_vy * road_vy);
-    energy[1] = -axle_mass*axle_y*par_y + (0.5)*left_stiffness*((-left_free_length + left_length) *
-        (-left_free_length + left_length)) - par_y*road_mass*road_y +
-        (0.5)*right_stiffness*((-right_free_length + right_length) * (-right_free_length + right_length));
+    energy[0] = 0.5*p->axle_inertia*(axle_omega * axle_omega) + 0.5*p->axle_mass*(axle_vx * axle_vx)
+        + 0.5*p->axle_mass*(axle_vy * axle_vy) + 0.5*p->road_inertia*(road_omega * road_omega)
+        + 0.5*p->road_mass*(road_vx * road_vx) + 0.5*p->road_mass*(road_vy * road_vy);
+    energy[1] = -p->axle_mass*axle_y*p->gravity_y + 0.5*p->left_stiffness*((-p->left_free_length + left_length)
+        * (-p->left_free_length + left_length)) - p->gravity_y*p->road_mass*road_y
+        + 0.5*p->right_stiffness*((-p->right_free_length + right_length) * (-p->right_free_length + right_length));
 }

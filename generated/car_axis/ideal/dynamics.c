@@ -3,8 +3,8 @@
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
+    Aside *aside)
 {
     /* coordinates, velocities, time */
     const double axle_x = q[0];
@@ -19,52 +19,33 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double road_vx = v[3];
     const double road_vy = v[4];
     const double road_omega = v[5];
-    const double time = t;
-
-    /* parameters */
-    const double length = p->length;
-    const double par_r = p->par_r;
-    const double omega = p->omega;
-    const double axle_head_x = p->axle_head_x;
-    const double road_head_x = p->road_head_x;
-    const double left_stiffness = p->left_stiffness;
-    const double left_free_length = p->left_free_length;
-    const double right_stiffness = p->right_stiffness;
-    const double right_free_length = p->right_free_length;
-    const double weight_axle_y = p->weight_axle_y;
-    const double weight_road_y = p->weight_road_y;
-    const double two_alpha = p->two_alpha;
-    const double beta_squared = p->beta_squared;
-    const double inverse_axle_mass = p->inverse_axle_mass;
-    const double inverse_axle_inertia = p->inverse_axle_inertia;
-    const double inverse_road_mass = p->inverse_road_mass;
-    const double inverse_road_inertia = p->inverse_road_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_road = cos(road_theta);
     const double sin_theta_road = sin(road_theta);
-    const double arm_road_head_x = cos_theta_road*road_head_x;
-    const double arm_road_head_y = road_head_x*sin_theta_road;
+    const double arm_road_head_x = cos_theta_road*p->road_head_s_x;
+    const double arm_road_head_y = p->road_head_s_x*sin_theta_road;
     const double cos_theta_axle = cos(axle_theta);
     const double sin_theta_axle = sin(axle_theta);
-    const double arm_axle_head_x = axle_head_x*cos_theta_axle;
-    const double arm_axle_head_y = axle_head_x*sin_theta_axle;
-    const double bump_value = asin(par_r*sin(omega*time)/length);
-    const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
-        sin(omega*time))/(length * length)));
-    const double bump_acceleration = -(omega * omega)*par_r*sin(omega*time)/(length*sqrt(1.0 - (par_r *
-        par_r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(par_r * par_r *
-        par_r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 -
-        (par_r * par_r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
+    const double arm_axle_head_x = p->axle_head_s_x*cos_theta_axle;
+    const double arm_axle_head_y = p->axle_head_s_x*sin_theta_axle;
+    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
+    const double bump_rate = p->omega*p->par_r*cos(p->omega*t)/(p->length*sqrt(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)));
+    const double bump_acceleration = -(p->omega * p->omega)*p->par_r*sin(p->omega*t)/(p->length*sqrt(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)))
+        + (p->omega * p->omega)*(p->par_r * p->par_r * p->par_r)*sin(p->omega*t)*(cos(p->omega*t)
+        * cos(p->omega*t))/((p->length * p->length * p->length)*pow(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length), 1.5));
     const double left_span_x = -arm_axle_head_x + axle_x;
     const double left_span_y = -arm_axle_head_y + axle_y;
     const double left_length = sqrt((left_span_x * left_span_x) + (left_span_y * left_span_y));
-    const double left_force = left_stiffness*(-left_free_length + left_length);
+    const double left_force = p->left_stiffness*(-p->left_free_length + left_length);
     const double left_pull = left_force/left_length;
     const double right_span_x = arm_axle_head_x - arm_road_head_x + axle_x - road_x;
     const double right_span_y = arm_axle_head_y - arm_road_head_y + axle_y - road_y;
     const double right_length = sqrt((right_span_x * right_span_x) + (right_span_y * right_span_y));
-    const double right_force = right_stiffness*(-right_free_length + right_length);
+    const double right_force = p->right_stiffness*(-p->right_free_length + right_length);
     const double right_pull = right_force/right_length;
 
     /* status */
@@ -73,89 +54,97 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
     const double phi_foot_x = arm_road_head_x - road_x;
     const double phi_dot_foot_x = -arm_road_head_y*road_omega - road_vx;
-    const double rhs_foot_x = arm_road_head_x*(road_omega * road_omega) - beta_squared*phi_foot_x -
-        phi_dot_foot_x*two_alpha;
+    const double rhs_foot_x = arm_road_head_x*(road_omega * road_omega) - p->beta_squared*phi_foot_x
+        - phi_dot_foot_x*p->two_alpha;
     aside->phi[0] = phi_foot_x;
     aside->phi_dot[0] = phi_dot_foot_x;
     const double phi_foot_y = arm_road_head_y - road_y;
     const double phi_dot_foot_y = arm_road_head_x*road_omega - road_vy;
-    const double rhs_foot_y = arm_road_head_y*(road_omega * road_omega) - beta_squared*phi_foot_y -
-        phi_dot_foot_y*two_alpha;
+    const double rhs_foot_y = arm_road_head_y*(road_omega * road_omega) - p->beta_squared*phi_foot_y
+        - phi_dot_foot_y*p->two_alpha;
     aside->phi[1] = phi_foot_y;
     aside->phi_dot[1] = phi_dot_foot_y;
-    const double phi_slot_offset = arm_axle_head_x*cos_theta_road + arm_axle_head_y*sin_theta_road -
-        arm_road_head_x*cos_theta_road - arm_road_head_y*sin_theta_road - axle_x*cos_theta_road -
-        axle_y*sin_theta_road + cos_theta_road*road_x + road_y*sin_theta_road;
-    const double phi_dot_slot_offset = axle_omega*(arm_axle_head_x*sin_theta_road -
-        arm_axle_head_y*cos_theta_road) - axle_vx*cos_theta_road - axle_vy*sin_theta_road +
-        cos_theta_road*road_vx + road_omega*(-arm_axle_head_x*sin_theta_road + arm_axle_head_y*cos_theta_road
-        + axle_x*sin_theta_road - axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road) +
-        road_vy*sin_theta_road;
-    const double rhs_slot_offset = -axle_omega*(arm_axle_head_x*(-axle_omega*cos_theta_road +
-        cos_theta_road*road_omega) - arm_axle_head_y*(axle_omega*sin_theta_road - road_omega*sin_theta_road))
-        - axle_vx*road_omega*sin_theta_road + axle_vy*cos_theta_road*road_omega - beta_squared*phi_slot_offset
-        - cos_theta_road*road_omega*road_vy - phi_dot_slot_offset*two_alpha +
-        road_omega*road_vx*sin_theta_road - road_omega*(cos_theta_road*(arm_axle_head_x*axle_omega - axle_vy +
-        road_omega*(-arm_axle_head_x + axle_x - road_x) + road_vy) -
-        sin_theta_road*(-arm_axle_head_y*axle_omega - axle_vx + road_omega*(arm_axle_head_y - axle_y + road_y)
+    const double phi_slot_offset = arm_axle_head_x*cos_theta_road + arm_axle_head_y*sin_theta_road
+        - arm_road_head_x*cos_theta_road - arm_road_head_y*sin_theta_road - axle_x*cos_theta_road
+        - axle_y*sin_theta_road + cos_theta_road*road_x + road_y*sin_theta_road;
+    const double phi_dot_slot_offset = axle_omega*(arm_axle_head_x*sin_theta_road - arm_axle_head_y*cos_theta_road)
+        - axle_vx*cos_theta_road - axle_vy*sin_theta_road + cos_theta_road*road_vx
+        + road_omega*(-arm_axle_head_x*sin_theta_road + arm_axle_head_y*cos_theta_road + axle_x*sin_theta_road
+        - axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road) + road_vy*sin_theta_road;
+    const double rhs_slot_offset = -axle_omega*(arm_axle_head_x*(-axle_omega*cos_theta_road
+        + cos_theta_road*road_omega) - arm_axle_head_y*(axle_omega*sin_theta_road - road_omega*sin_theta_road))
+        - axle_vx*road_omega*sin_theta_road + axle_vy*cos_theta_road*road_omega - p->beta_squared*phi_slot_offset
+        - cos_theta_road*road_omega*road_vy - phi_dot_slot_offset*p->two_alpha + road_omega*road_vx*sin_theta_road
+        - road_omega*(cos_theta_road*(arm_axle_head_x*axle_omega - axle_vy
+        + road_omega*(-arm_axle_head_x + axle_x - road_x) + road_vy)
+        - sin_theta_road*(-arm_axle_head_y*axle_omega - axle_vx + road_omega*(arm_axle_head_y - axle_y + road_y)
         + road_vx));
     aside->phi[2] = phi_slot_offset;
     aside->phi_dot[2] = phi_dot_slot_offset;
     const double phi_bump = -bump_value + road_theta;
     const double phi_dot_bump = -bump_rate + road_omega;
-    const double rhs_bump = -beta_squared*phi_bump + bump_acceleration - phi_dot_bump*two_alpha;
+    const double rhs_bump = -p->beta_squared*phi_bump + bump_acceleration - phi_dot_bump*p->two_alpha;
     aside->phi[3] = phi_bump;
     aside->phi_dot[3] = phi_dot_bump;
 
     /* L D L^T of the KKT matrix */
-    const double l_slot_offset__axle_x = -cos_theta_road*inverse_axle_mass;
-    const double l_slot_offset__axle_y = -inverse_axle_mass*sin_theta_road;
+    const double l_slot_offset__axle_x = -cos_theta_road*p->inverse_axle_mass;
+    const double l_slot_offset__axle_y = -p->inverse_axle_mass*sin_theta_road;
     const double w_slot_offset__axle_theta = arm_axle_head_x*sin_theta_road - arm_axle_head_y*cos_theta_road;
-    const double l_slot_offset__axle_theta = inverse_axle_inertia*w_slot_offset__axle_theta;
-    const double l_slot_offset__road_x = cos_theta_road*inverse_road_mass;
-    const double l_slot_offset__road_y = inverse_road_mass*sin_theta_road;
-    const double l_foot_x__road_theta = -arm_road_head_y*inverse_road_inertia;
-    const double l_foot_y__road_theta = arm_road_head_x*inverse_road_inertia;
+    const double l_slot_offset__axle_theta = p->inverse_axle_inertia*w_slot_offset__axle_theta;
+    const double l_slot_offset__road_x = cos_theta_road*p->inverse_road_mass;
+    const double l_slot_offset__road_y = p->inverse_road_mass*sin_theta_road;
+    const double l_foot_x__road_theta = -arm_road_head_y*p->inverse_road_inertia;
+    const double l_foot_y__road_theta = arm_road_head_x*p->inverse_road_inertia;
     const double w_slot_offset__road_theta = -arm_axle_head_x*sin_theta_road + arm_axle_head_y*cos_theta_road
         + axle_x*sin_theta_road - axle_y*cos_theta_road + cos_theta_road*road_y - road_x*sin_theta_road;
-    const double l_slot_offset__road_theta = inverse_road_inertia*w_slot_offset__road_theta;
-    const double scale_foot_x = -arm_road_head_y*l_foot_x__road_theta + inverse_road_mass;
-    const double scale_foot_y = arm_road_head_x*l_foot_y__road_theta + inverse_road_mass;
+    const double l_slot_offset__road_theta = p->inverse_road_inertia*w_slot_offset__road_theta;
+    const double scale_foot_x = -arm_road_head_y*l_foot_x__road_theta + p->inverse_road_mass;
+    const double scale_foot_y = arm_road_head_x*l_foot_y__road_theta + p->inverse_road_mass;
     const double pivot_foot_x__foot_y = -arm_road_head_y*l_foot_y__road_theta;
-    const double determinant_foot_x__foot_y = -(pivot_foot_x__foot_y * pivot_foot_x__foot_y) +
-        scale_foot_x*scale_foot_y;
-    if (!(scale_foot_x > 1e-08 * scale_foot_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_foot_x__foot_y > 1e-08 * scale_foot_y * scale_foot_x)) { pivot = 2; goto dependent; };
+    const double determinant_foot_x__foot_y = -(pivot_foot_x__foot_y * pivot_foot_x__foot_y)
+        + scale_foot_x*scale_foot_y;
+    if (!(scale_foot_x > 0.0 && scale_foot_x < INFINITY)) {
+        pivot = 1;
+        goto dependent;
+    }
+    if (!(determinant_foot_x__foot_y > 1e-08 * scale_foot_y * scale_foot_x)) {
+        pivot = 2;
+        goto dependent;
+    }
     const double inverse_foot_x__foot_y = -1.0/determinant_foot_x__foot_y;
     const double inverse_pivot_foot_x = inverse_foot_x__foot_y*scale_foot_y;
     const double inverse_pivot_foot_y = inverse_foot_x__foot_y*scale_foot_x;
     const double inverse_cross_foot_x__foot_y = -inverse_foot_x__foot_y*pivot_foot_x__foot_y;
     const double w_slot_offset__foot_x = arm_road_head_y*l_slot_offset__road_theta + l_slot_offset__road_x;
     const double w_slot_offset__foot_y = -arm_road_head_x*l_slot_offset__road_theta + l_slot_offset__road_y;
-    const double l_slot_offset__foot_x = inverse_cross_foot_x__foot_y*w_slot_offset__foot_y +
-        inverse_pivot_foot_x*w_slot_offset__foot_x;
-    const double l_slot_offset__foot_y = inverse_cross_foot_x__foot_y*w_slot_offset__foot_x +
-        inverse_pivot_foot_y*w_slot_offset__foot_y;
-    const double w_bump__foot_x = arm_road_head_y*inverse_road_inertia;
-    const double w_bump__foot_y = -arm_road_head_x*inverse_road_inertia;
-    const double l_bump__foot_x = inverse_cross_foot_x__foot_y*w_bump__foot_y +
-        inverse_pivot_foot_x*w_bump__foot_x;
-    const double l_bump__foot_y = inverse_cross_foot_x__foot_y*w_bump__foot_x +
-        inverse_pivot_foot_y*w_bump__foot_y;
-    const double scale_slot_offset = -cos_theta_road*l_slot_offset__axle_x +
-        cos_theta_road*l_slot_offset__road_x + l_slot_offset__axle_theta*w_slot_offset__axle_theta -
-        l_slot_offset__axle_y*sin_theta_road + l_slot_offset__road_theta*w_slot_offset__road_theta +
-        l_slot_offset__road_y*sin_theta_road;
-    const double scale_bump = inverse_road_inertia;
-    const double pivot_slot_offset = l_slot_offset__foot_x*w_slot_offset__foot_x +
-        l_slot_offset__foot_y*w_slot_offset__foot_y + scale_slot_offset;
+    const double l_slot_offset__foot_x = inverse_cross_foot_x__foot_y*w_slot_offset__foot_y
+        + inverse_pivot_foot_x*w_slot_offset__foot_x;
+    const double l_slot_offset__foot_y = inverse_cross_foot_x__foot_y*w_slot_offset__foot_x
+        + inverse_pivot_foot_y*w_slot_offset__foot_y;
+    const double w_bump__foot_x = arm_road_head_y*p->inverse_road_inertia;
+    const double w_bump__foot_y = -arm_road_head_x*p->inverse_road_inertia;
+    const double l_bump__foot_x = inverse_cross_foot_x__foot_y*w_bump__foot_y + inverse_pivot_foot_x*w_bump__foot_x;
+    const double l_bump__foot_y = inverse_cross_foot_x__foot_y*w_bump__foot_x + inverse_pivot_foot_y*w_bump__foot_y;
+    const double scale_slot_offset = -cos_theta_road*l_slot_offset__axle_x + cos_theta_road*l_slot_offset__road_x
+        + l_slot_offset__axle_theta*w_slot_offset__axle_theta - l_slot_offset__axle_y*sin_theta_road
+        + l_slot_offset__road_theta*w_slot_offset__road_theta + l_slot_offset__road_y*sin_theta_road;
+    const double scale_bump = p->inverse_road_inertia;
+    const double pivot_slot_offset = l_slot_offset__foot_x*w_slot_offset__foot_x
+        + l_slot_offset__foot_y*w_slot_offset__foot_y + scale_slot_offset;
     const double pivot_bump = l_bump__foot_x*w_bump__foot_x + l_bump__foot_y*w_bump__foot_y + scale_bump;
-    const double pivot_slot_offset__bump = inverse_road_inertia*w_slot_offset__road_theta +
-        l_bump__foot_x*w_slot_offset__foot_x + l_bump__foot_y*w_slot_offset__foot_y;
-    const double determinant_slot_offset__bump = pivot_bump*pivot_slot_offset - (pivot_slot_offset__bump *
-        pivot_slot_offset__bump);
-    if (!(pivot_slot_offset > 1e-08 * scale_slot_offset)) { pivot = 3; goto dependent; };
-    if (!(determinant_slot_offset__bump > 1e-08 * scale_bump * pivot_slot_offset)) { pivot = 4; goto dependent; };
+    const double pivot_slot_offset__bump = p->inverse_road_inertia*w_slot_offset__road_theta
+        + l_bump__foot_x*w_slot_offset__foot_x + l_bump__foot_y*w_slot_offset__foot_y;
+    const double determinant_slot_offset__bump = pivot_bump*pivot_slot_offset
+        - (pivot_slot_offset__bump * pivot_slot_offset__bump);
+    if (!(pivot_slot_offset > 1e-08 * scale_slot_offset)) {
+        pivot = 3;
+        goto dependent;
+    }
+    if (!(determinant_slot_offset__bump > 1e-08 * scale_bump * pivot_slot_offset)) {
+        pivot = 4;
+        goto dependent;
+    }
     const double inverse_slot_offset__bump = -1.0/determinant_slot_offset__bump;
     const double inverse_pivot_slot_offset = inverse_slot_offset__bump*pivot_bump;
     const double inverse_pivot_bump = inverse_slot_offset__bump*pivot_slot_offset;
@@ -163,42 +152,39 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
 
     /* forward substitution */
     const double z_axle_x = -left_pull*left_span_x - right_pull*right_span_x;
-    const double z_axle_y = -left_pull*left_span_y - right_pull*right_span_y + weight_axle_y;
-    const double z_axle_theta = arm_axle_head_x*left_pull*left_span_y -
-        arm_axle_head_x*right_pull*right_span_y - arm_axle_head_y*left_pull*left_span_x +
-        arm_axle_head_y*right_pull*right_span_x;
+    const double z_axle_y = -left_pull*left_span_y - right_pull*right_span_y + p->weight_axle_y;
+    const double z_axle_theta = arm_axle_head_x*left_pull*left_span_y - arm_axle_head_x*right_pull*right_span_y
+        - arm_axle_head_y*left_pull*left_span_x + arm_axle_head_y*right_pull*right_span_x;
     const double z_road_x = right_pull*right_span_x;
-    const double z_road_y = right_pull*right_span_y + weight_road_y;
-    const double z_road_theta = arm_road_head_x*right_pull*right_span_y -
-        arm_road_head_y*right_pull*right_span_x;
-    const double z_foot_x = inverse_road_mass*z_road_x - l_foot_x__road_theta*z_road_theta + rhs_foot_x;
-    const double z_foot_y = inverse_road_mass*z_road_y - l_foot_y__road_theta*z_road_theta + rhs_foot_y;
-    const double z_slot_offset = -l_slot_offset__axle_theta*z_axle_theta - l_slot_offset__axle_x*z_axle_x -
-        l_slot_offset__axle_y*z_axle_y - l_slot_offset__foot_x*z_foot_x - l_slot_offset__foot_y*z_foot_y -
-        l_slot_offset__road_theta*z_road_theta - l_slot_offset__road_x*z_road_x -
-        l_slot_offset__road_y*z_road_y + rhs_slot_offset;
-    const double z_bump = -inverse_road_inertia*z_road_theta - l_bump__foot_x*z_foot_x -
-        l_bump__foot_y*z_foot_y + rhs_bump;
+    const double z_road_y = right_pull*right_span_y + p->weight_road_y;
+    const double z_road_theta = arm_road_head_x*right_pull*right_span_y - arm_road_head_y*right_pull*right_span_x;
+    const double z_foot_x = p->inverse_road_mass*z_road_x - l_foot_x__road_theta*z_road_theta + rhs_foot_x;
+    const double z_foot_y = p->inverse_road_mass*z_road_y - l_foot_y__road_theta*z_road_theta + rhs_foot_y;
+    const double z_slot_offset = -l_slot_offset__axle_theta*z_axle_theta - l_slot_offset__axle_x*z_axle_x
+        - l_slot_offset__axle_y*z_axle_y - l_slot_offset__foot_x*z_foot_x - l_slot_offset__foot_y*z_foot_y
+        - l_slot_offset__road_theta*z_road_theta - l_slot_offset__road_x*z_road_x - l_slot_offset__road_y*z_road_y
+        + rhs_slot_offset;
+    const double z_bump = -p->inverse_road_inertia*z_road_theta - l_bump__foot_x*z_foot_x - l_bump__foot_y*z_foot_y
+        + rhs_bump;
 
     /* backward substitution */
     const double lambda_bump = inverse_cross_slot_offset__bump*z_slot_offset + inverse_pivot_bump*z_bump;
-    const double lambda_slot_offset = inverse_cross_slot_offset__bump*z_bump +
-        inverse_pivot_slot_offset*z_slot_offset;
-    const double lambda_foot_y = inverse_cross_foot_x__foot_y*z_foot_x + inverse_pivot_foot_y*z_foot_y -
-        l_bump__foot_y*lambda_bump - l_slot_offset__foot_y*lambda_slot_offset;
-    const double lambda_foot_x = inverse_cross_foot_x__foot_y*z_foot_y + inverse_pivot_foot_x*z_foot_x -
-        l_bump__foot_x*lambda_bump - l_slot_offset__foot_x*lambda_slot_offset;
-    const double acceleration_road_theta = -inverse_road_inertia*lambda_bump +
-        inverse_road_inertia*z_road_theta - l_foot_x__road_theta*lambda_foot_x -
-        l_foot_y__road_theta*lambda_foot_y - l_slot_offset__road_theta*lambda_slot_offset;
-    const double acceleration_road_y = inverse_road_mass*lambda_foot_y + inverse_road_mass*z_road_y -
-        l_slot_offset__road_y*lambda_slot_offset;
-    const double acceleration_road_x = inverse_road_mass*lambda_foot_x + inverse_road_mass*z_road_x -
-        l_slot_offset__road_x*lambda_slot_offset;
-    const double acceleration_axle_theta = inverse_axle_inertia*z_axle_theta -
-        l_slot_offset__axle_theta*lambda_slot_offset;
-    const double acceleration_axle_y = inverse_axle_mass*z_axle_y - l_slot_offset__axle_y*lambda_slot_offset;
-    const double acceleration_axle_x = inverse_axle_mass*z_axle_x - l_slot_offset__axle_x*lambda_slot_offset;
+    const double lambda_slot_offset = inverse_cross_slot_offset__bump*z_bump + inverse_pivot_slot_offset*z_slot_offset;
+    const double lambda_foot_y = inverse_cross_foot_x__foot_y*z_foot_x + inverse_pivot_foot_y*z_foot_y
+        - l_bump__foot_y*lambda_bump - l_slot_offset__foot_y*lambda_slot_offset;
+    const double lambda_foot_x = inverse_cross_foot_x__foot_y*z_foot_y + inverse_pivot_foot_x*z_foot_x
+        - l_bump__foot_x*lambda_bump - l_slot_offset__foot_x*lambda_slot_offset;
+    const double acceleration_road_theta = -p->inverse_road_inertia*lambda_bump + p->inverse_road_inertia*z_road_theta
+        - l_foot_x__road_theta*lambda_foot_x - l_foot_y__road_theta*lambda_foot_y
+        - l_slot_offset__road_theta*lambda_slot_offset;
+    const double acceleration_road_y = p->inverse_road_mass*lambda_foot_y + p->inverse_road_mass*z_road_y
+        - l_slot_offset__road_y*lambda_slot_offset;
+    const double acceleration_road_x = p->inverse_road_mass*lambda_foot_x + p->inverse_road_mass*z_road_x
+        - l_slot_offset__road_x*lambda_slot_offset;
+    const double acceleration_axle_theta = p->inverse_axle_inertia*z_axle_theta
+        - l_slot_offset__axle_theta*lambda_slot_offset;
+    const double acceleration_axle_y = p->inverse_axle_mass*z_axle_y - l_slot_offset__axle_y*lambda_slot_offset;
+    const double acceleration_axle_x = p->inverse_axle_mass*z_axle_x - l_slot_offset__axle_x*lambda_slot_offset;
 
     /* results */
     a[0] = acceleration_axle_x;
@@ -217,11 +203,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     dependent: {
         double force[N_Q], rhs[N_ROWS];
         force[0] = -left_pull*left_span_x - right_pull*right_span_x;
-        force[1] = -left_pull*left_span_y - right_pull*right_span_y + weight_axle_y;
-        force[2] = arm_axle_head_x*left_pull*left_span_y - arm_axle_head_x*right_pull*right_span_y -
-        arm_axle_head_y*left_pull*left_span_x + arm_axle_head_y*right_pull*right_span_x;
+        force[1] = -left_pull*left_span_y - right_pull*right_span_y + p->weight_axle_y;
+        force[2] = arm_axle_head_x*left_pull*left_span_y - arm_axle_head_x*right_pull*right_span_y
+            - arm_axle_head_y*left_pull*left_span_x + arm_axle_head_y*right_pull*right_span_x;
         force[3] = right_pull*right_span_x;
-        force[4] = right_pull*right_span_y + weight_road_y;
+        force[4] = right_pull*right_span_y + p->weight_road_y;
         force[5] = arm_road_head_x*right_pull*right_span_y - arm_road_head_y*right_pull*right_span_x;
         rhs[0] = rhs_foot_x;
         rhs[1] = rhs_foot_y;

@@ -1,15 +1,13 @@
 /*
  * car axis on a bumpy road (IVP test set)
- * mechanism car_axis, scene ideal, from the YAML with sha256 27bc1ed978b03a2998003e93863092bd7f8153fd519f0ee731603b508116784b
+ * mechanism car_axis, scene ideal, from the YAML with sha256
+ * 27bc1ed978b03a2998003e93863092bd7f8153fd519f0ee731603b508116784b
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 6                 /* coordinates of all bodies */
 #define N_ROWS 4              /* constraint rows of the motion */
 #define N_ALL_ROWS 4          /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 0          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 4            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_X 3                 /* coordinates that are integrated */
 #define N_LOOPS 1             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 1             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 27           /* of the linearized equations */
+#define N_FACTORS 15          /* of their factors L and U */
+#define HAS_LANES 1           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,14 +43,44 @@
 #define N_GUESS 0             /* coordinates that the start guesses */
 #define N_SET 2               /* those that it sets */
 #define N_RATES 2             /* velocities that it sets */
-#define N_VALUES 27           /* of the linearized equations */
-#define N_FACTORS 15          /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double length;  /* parameters.length */    double half_mass;  /* parameters.half_mass */    double par_r;  /* parameters.r */    double omega;  /* parameters.omega */    double axle_mass;  /* bodies.axle.mass */    double axle_inertia;  /* bodies.axle.inertia */    double road_mass;  /* bodies.road.mass */    double road_inertia;  /* bodies.road.inertia */    double axle_length;  /* bodies.axle.length */    double road_length;  /* bodies.road.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slot_direction_y;  /* joints.slot.direction.y */    double par_y;  /* gravity.y */    double left_stiffness;  /* forces.left.stiffness */    double left_free_length;  /* forces.left.free_length */    double right_stiffness;  /* forces.right.stiffness */    double right_free_length;  /* forces.right.free_length */    double set_axle_y;  /* start.set.axle.y */    double axle_head_x;  /* point from the centre of mass */    double road_head_x;  /* point from the centre of mass */    double weight_axle_y;  /* weight */    double weight_road_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_axle_mass;  /* 1/M */    double inverse_axle_inertia;  /* 1/M */    double inverse_road_mass;  /* 1/M */    double inverse_road_inertia;  /* 1/M */    double axle_tail_span_x;  /* vector in its frame */    double road_head_span_x;  /* vector in its frame */    double inertia_road_road;  /* sum of m w.w */    double mass_bump_bump;  /* constant of M */    double weight_road__across;  /* weight */} Parameters;
+typedef struct {
+    double length;  /* parameters.length, m */
+    double half_mass;  /* parameters.half_mass, kg */
+    double par_r;  /* parameters.r, m */
+    double omega;  /* parameters.omega, 1/s */
+    double axle_mass;  /* bodies.axle.mass, kg */
+    double axle_inertia;  /* bodies.axle.inertia, kg m^2 */
+    double road_mass;  /* bodies.road.mass, kg */
+    double road_inertia;  /* bodies.road.inertia, kg m^2 */
+    double axle_length;  /* bodies.axle.length, m */
+    double road_length;  /* bodies.road.length, m */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double slot_direction_y;  /* joints.slot.direction.y, 1 */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double left_stiffness;  /* forces.left.stiffness, kg/s^2 */
+    double left_free_length;  /* forces.left.free_length, m */
+    double right_stiffness;  /* forces.right.stiffness, kg/s^2 */
+    double right_free_length;  /* forces.right.free_length, m */
+    double set_axle_y;  /* start.set.axle.y, m */
+    double axle_head_s_x;  /* point from the centre of mass, m */
+    double road_head_s_x;  /* point from the centre of mass, m */
+    double weight_axle_y;  /* weight, kg m/s^2 */
+    double weight_road_y;  /* weight, kg m/s^2 */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_axle_mass;  /* 1/M, 1/kg */
+    double inverse_axle_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_road_mass;  /* 1/M, 1/kg */
+    double inverse_road_inertia;  /* 1/M, 1/(kg m^2) */
+    double axle_tail_span_x;  /* vector in its frame, m */
+    double road_head_span_x;  /* vector in its frame, m */
+    double inertia_road_road;  /* sum of m w.w, kg m^2 */
+    double mass_bump_bump;  /* constant of M, kg m^2 */
+    double weight_road__across;  /* weight, kg m^2/s^2 */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

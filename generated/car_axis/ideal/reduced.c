@@ -1,11 +1,9 @@
 /*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
-void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
-    double *all_v)
+void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double axle_x = q[0];
     const double axle_x_rate = v[0];
     const double axle_y = q[1];
@@ -13,23 +11,17 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double axle_theta = q[2];
     const double axle_omega = v[2];
 
-    /* parameters */
-    const double length = p->length;
-    const double par_r = p->par_r;
-    const double omega = p->omega;
-    const double road_head_x = p->road_head_x;
-
     /* directions, arms, drives */
-    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
     const Four angles_0 = {bump_value, bump_value, bump_value, bump_value};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_road = cosines_0[0];
     const double sin_theta_road = sines_0[0];
-    const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
-        sin(omega*time))/(length * length)));
-    const double span_road_com_x = cos_theta_road*road_head_x;
-    const double span_road_com_y = road_head_x*sin_theta_road;
+    const double bump_rate = p->omega*p->par_r*cos(p->omega*t)/(p->length*sqrt(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)));
+    const double span_road_com_x = cos_theta_road*p->road_head_s_x;
+    const double span_road_com_y = p->road_head_s_x*sin_theta_road;
     const double road_vx = -bump_rate*span_road_com_y;
     const double road_vy = bump_rate*span_road_com_x;
 
@@ -51,8 +43,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 /*
  * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
  */
-void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
-    double *s_rate)
+void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
     (void)t;
     (void)p;
@@ -76,8 +67,8 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 /*
  * Their second rates a, from absolute all_a.
  */
-void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const
-    Parameters *p, double *a)
+void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
+    double *a)
 {
     (void)t;
     (void)q;
@@ -95,19 +86,12 @@ void reduce_accelerations(const double t, const double *q, const double *v, cons
 void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double axle_x = q[0];
     const double axle_y = q[1];
     const double axle_theta = q[2];
 
-    /* parameters */
-    const double length = p->length;
-    const double par_r = p->par_r;
-    const double omega = p->omega;
-    const double axle_tail_span_x = p->axle_tail_span_x;
-
     /* directions, arms, drives */
-    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
     const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -115,12 +99,13 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     const double sin_theta_road = sines_0[0];
     const double cos_theta_axle = cosines_0[1];
     const double sin_theta_axle = sines_0[1];
-    const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
-    const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
+    const double span_axle_tail_x = p->axle_tail_span_x*cos_theta_axle;
+    const double span_axle_tail_y = p->axle_tail_span_x*sin_theta_axle;
 
     /* rows */
-    out[0] = -axle_x*cos_theta_road - axle_y*sin_theta_road - cos_theta_road*span_axle_tail_x -
-        sin_theta_road*span_axle_tail_y;  /* slot.offset */
+    /* slot.offset */
+    out[0] = -axle_x*cos_theta_road - axle_y*sin_theta_road - cos_theta_road*span_axle_tail_x
+        - sin_theta_road*span_axle_tail_y;
 }
 
 /*
@@ -129,7 +114,6 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double axle_x = q[0];
     const double axle_x_rate = v[0];
     const double axle_y = q[1];
@@ -137,14 +121,8 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     const double axle_theta = q[2];
     const double axle_omega = v[2];
 
-    /* parameters */
-    const double length = p->length;
-    const double par_r = p->par_r;
-    const double omega = p->omega;
-    const double axle_tail_span_x = p->axle_tail_span_x;
-
     /* directions, arms, drives */
-    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
     const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -152,15 +130,16 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     const double sin_theta_road = sines_0[0];
     const double cos_theta_axle = cosines_0[1];
     const double sin_theta_axle = sines_0[1];
-    const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
-        sin(omega*time))/(length * length)));
-    const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
-    const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
+    const double bump_rate = p->omega*p->par_r*cos(p->omega*t)/(p->length*sqrt(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)));
+    const double span_axle_tail_x = p->axle_tail_span_x*cos_theta_axle;
+    const double span_axle_tail_y = p->axle_tail_span_x*sin_theta_axle;
 
     /* rows */
-    out[0] = axle_omega*(cos_theta_road*span_axle_tail_y - sin_theta_road*span_axle_tail_x) -
-        axle_x_rate*cos_theta_road - axle_y_rate*sin_theta_road + bump_rate*cos_theta_road*(-axle_y -
-        span_axle_tail_y) - bump_rate*sin_theta_road*(-axle_x - span_axle_tail_x);  /* slot.offset */
+    /* slot.offset */
+    out[0] = axle_omega*(cos_theta_road*span_axle_tail_y - sin_theta_road*span_axle_tail_x)
+        - axle_x_rate*cos_theta_road - axle_y_rate*sin_theta_road
+        + bump_rate*cos_theta_road*(-axle_y - span_axle_tail_y) - bump_rate*sin_theta_road*(-axle_x - span_axle_tail_x);
 }
 
 /*
@@ -168,11 +147,10 @@ void closure_rates(const double t, const double *q, const double *v, const Param
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double axle_x = q[0];
     const double axle_x_rate = v[0];
     const double axle_y = q[1];
@@ -180,24 +158,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double axle_theta = q[2];
     const double axle_omega = v[2];
 
-    /* parameters */
-    const double length = p->length;
-    const double par_r = p->par_r;
-    const double omega = p->omega;
-    const double left_stiffness = p->left_stiffness;
-    const double left_free_length = p->left_free_length;
-    const double right_stiffness = p->right_stiffness;
-    const double right_free_length = p->right_free_length;
-    const double weight_axle_y = p->weight_axle_y;
-    const double inverse_axle_mass = p->inverse_axle_mass;
-    const double inverse_axle_inertia = p->inverse_axle_inertia;
-    const double axle_tail_span_x = p->axle_tail_span_x;
-    const double road_head_span_x = p->road_head_span_x;
-    const double mass_bump_bump = p->mass_bump_bump;
-    const double weight_road__across = p->weight_road__across;
-
     /* directions, arms, drives */
-    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
     const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -205,66 +167,68 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double sin_theta_road = sines_0[0];
     const double cos_theta_axle = cosines_0[1];
     const double sin_theta_axle = sines_0[1];
-    const double bump_rate = omega*par_r*cos(omega*time)/(length*sqrt(1.0 - (par_r * par_r)*(sin(omega*time) *
-        sin(omega*time))/(length * length)));
-    const double bump_acceleration = -(omega * omega)*par_r*sin(omega*time)/(length*sqrt(1.0 - (par_r *
-        par_r)*(sin(omega*time) * sin(omega*time))/(length * length))) + (omega * omega)*(par_r * par_r *
-        par_r)*sin(omega*time)*(cos(omega*time) * cos(omega*time))/((length * length * length)*pow(1.0 -
-        (par_r * par_r)*(sin(omega*time) * sin(omega*time))/(length * length), 1.5));
-    const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
-    const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
+    const double bump_rate = p->omega*p->par_r*cos(p->omega*t)/(p->length*sqrt(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)));
+    const double bump_acceleration = -(p->omega * p->omega)*p->par_r*sin(p->omega*t)/(p->length*sqrt(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)))
+        + (p->omega * p->omega)*(p->par_r * p->par_r * p->par_r)*sin(p->omega*t)*(cos(p->omega*t)
+        * cos(p->omega*t))/((p->length * p->length * p->length)*pow(1.0
+        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length), 1.5));
+    const double span_axle_tail_x = p->axle_tail_span_x*cos_theta_axle;
+    const double span_axle_tail_y = p->axle_tail_span_x*sin_theta_axle;
     const double axle_tail_x = axle_x + span_axle_tail_x;
     const double axle_tail_y = axle_y + span_axle_tail_y;
     const double left_length = sqrt((axle_tail_x * axle_tail_x) + (axle_tail_y * axle_tail_y));
-    const double left_force = left_stiffness*(-left_free_length + left_length);
+    const double left_force = p->left_stiffness*(-p->left_free_length + left_length);
     const double left_pull = left_force/left_length;
-    const double span_road_head_x = cos_theta_road*road_head_span_x;
-    const double span_road_head_y = road_head_span_x*sin_theta_road;
-    const double axle_head_x_2 = axle_x - span_axle_tail_x;
+    const double span_road_head_x = cos_theta_road*p->road_head_span_x;
+    const double span_road_head_y = p->road_head_span_x*sin_theta_road;
+    const double axle_head_x = axle_x - span_axle_tail_x;
     const double axle_head_y = axle_y - span_axle_tail_y;
-    const double right_span_x = axle_head_x_2 - span_road_head_x;
+    const double right_span_x = axle_head_x - span_road_head_x;
     const double right_span_y = axle_head_y - span_road_head_y;
     const double right_length = sqrt((right_span_x * right_span_x) + (right_span_y * right_span_y));
-    const double right_force = right_stiffness*(-right_free_length + right_length);
+    const double right_force = p->right_stiffness*(-p->right_free_length + right_length);
     const double right_pull = right_force/right_length;
 
     /* status */
     int pivot = 0;
 
     /* constraints: gamma */
-    const double rhs_slot_offset = -axle_omega*(axle_omega*cos_theta_road*span_axle_tail_x +
-        axle_omega*sin_theta_road*span_axle_tail_y) - bump_acceleration*(cos_theta_road*(-axle_y -
-        span_axle_tail_y) - sin_theta_road*(-axle_x - span_axle_tail_x)) + (bump_rate *
-        bump_rate)*cos_theta_road*(-axle_x - span_axle_tail_x) + (bump_rate *
-        bump_rate)*sin_theta_road*(-axle_y - span_axle_tail_y) -
-        2.0*bump_rate*cos_theta_road*(-axle_omega*span_axle_tail_x - axle_y_rate) +
-        2.0*bump_rate*sin_theta_road*(axle_omega*span_axle_tail_y - axle_x_rate);
+    const double rhs_slot_offset = -axle_omega*(axle_omega*cos_theta_road*span_axle_tail_x
+        + axle_omega*sin_theta_road*span_axle_tail_y) - bump_acceleration*(cos_theta_road*(-axle_y - span_axle_tail_y)
+        - sin_theta_road*(-axle_x - span_axle_tail_x)) + (bump_rate * bump_rate)*cos_theta_road*(-axle_x
+        - span_axle_tail_x) + (bump_rate * bump_rate)*sin_theta_road*(-axle_y - span_axle_tail_y)
+        - 2.0*bump_rate*cos_theta_road*(-axle_omega*span_axle_tail_x - axle_y_rate)
+        + 2.0*bump_rate*sin_theta_road*(axle_omega*span_axle_tail_y - axle_x_rate);
 
     /* L D L^T of the KKT matrix */
-    const double l_slot_offset__axle_x = -cos_theta_road*inverse_axle_mass;
-    const double l_slot_offset__axle_y = -inverse_axle_mass*sin_theta_road;
-    const double w_slot_offset__axle_theta = cos_theta_road*span_axle_tail_y -
-        sin_theta_road*span_axle_tail_x;
-    const double l_slot_offset__axle_theta = inverse_axle_inertia*w_slot_offset__axle_theta;
-    const double scale_slot_offset = -cos_theta_road*l_slot_offset__axle_x +
-        l_slot_offset__axle_theta*w_slot_offset__axle_theta - l_slot_offset__axle_y*sin_theta_road;
-    if (!(scale_slot_offset > 1e-08 * scale_slot_offset)) { pivot = 1; goto dependent; };
+    const double l_slot_offset__axle_x = -cos_theta_road*p->inverse_axle_mass;
+    const double l_slot_offset__axle_y = -p->inverse_axle_mass*sin_theta_road;
+    const double w_slot_offset__axle_theta = cos_theta_road*span_axle_tail_y - sin_theta_road*span_axle_tail_x;
+    const double l_slot_offset__axle_theta = p->inverse_axle_inertia*w_slot_offset__axle_theta;
+    const double scale_slot_offset = -cos_theta_road*l_slot_offset__axle_x
+        + l_slot_offset__axle_theta*w_slot_offset__axle_theta - l_slot_offset__axle_y*sin_theta_road;
+    if (!(scale_slot_offset > 0.0 && scale_slot_offset < INFINITY)) {
+        pivot = 1;
+        goto dependent;
+    }
     const double inverse_pivot_slot_offset = 1.0/scale_slot_offset;
 
     /* forward substitution */
     const double z_axle_x = -axle_tail_x*left_pull - right_pull*right_span_x;
-    const double z_axle_y = -axle_tail_y*left_pull - right_pull*right_span_y + weight_axle_y;
-    const double z_axle_theta = span_axle_tail_x*(-axle_tail_y*left_pull + right_pull*right_span_y) -
-        span_axle_tail_y*(-axle_tail_x*left_pull + right_pull*right_span_x);
-    const double z_slot_offset = -l_slot_offset__axle_theta*z_axle_theta - l_slot_offset__axle_x*z_axle_x -
-        l_slot_offset__axle_y*z_axle_y + rhs_slot_offset;
+    const double z_axle_y = -axle_tail_y*left_pull - right_pull*right_span_y + p->weight_axle_y;
+    const double z_axle_theta = span_axle_tail_x*(-axle_tail_y*left_pull + right_pull*right_span_y)
+        - span_axle_tail_y*(-axle_tail_x*left_pull + right_pull*right_span_x);
+    const double z_slot_offset = -l_slot_offset__axle_theta*z_axle_theta - l_slot_offset__axle_x*z_axle_x
+        - l_slot_offset__axle_y*z_axle_y + rhs_slot_offset;
 
     /* backward substitution */
     const double lambda_slot_offset = -inverse_pivot_slot_offset*z_slot_offset;
-    const double acceleration_axle_theta = inverse_axle_inertia*z_axle_theta -
-        l_slot_offset__axle_theta*lambda_slot_offset;
-    const double acceleration_axle_y = inverse_axle_mass*z_axle_y - l_slot_offset__axle_y*lambda_slot_offset;
-    const double acceleration_axle_x = inverse_axle_mass*z_axle_x - l_slot_offset__axle_x*lambda_slot_offset;
+    const double acceleration_axle_theta = p->inverse_axle_inertia*z_axle_theta
+        - l_slot_offset__axle_theta*lambda_slot_offset;
+    const double acceleration_axle_y = p->inverse_axle_mass*z_axle_y - l_slot_offset__axle_y*lambda_slot_offset;
+    const double acceleration_axle_x = p->inverse_axle_mass*z_axle_x - l_slot_offset__axle_x*lambda_slot_offset;
 
     /* results */
     a[0] = acceleration_axle_x;
@@ -277,10 +241,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     dependent:
     pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
     powers:
-    aside->power[0] = -aside->lambda[0]*(-bump_rate*cos_theta_road*(-axle_y - span_axle_tail_y) +
-        bump_rate*sin_theta_road*(-axle_x - span_axle_tail_x)) + bump_rate*(bump_acceleration*mass_bump_bump -
-        cos_theta_road*weight_road__across + right_pull*right_span_x*span_road_head_y -
-        right_pull*right_span_y*span_road_head_x);
+    aside->power[0] = -aside->lambda[0]*(-bump_rate*cos_theta_road*(-axle_y - span_axle_tail_y)
+        + bump_rate*sin_theta_road*(-axle_x - span_axle_tail_x))
+        + bump_rate*(bump_acceleration*p->mass_bump_bump - cos_theta_road*p->weight_road__across
+        + right_pull*right_span_x*span_road_head_y - right_pull*right_span_y*span_road_head_x);
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
     return pivot;
@@ -294,19 +258,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double axle_theta = q[2];
 
-    /* parameters */
-    const double length = p->length;
-    const double par_r = p->par_r;
-    const double omega = p->omega;
-    const double inverse_axle_mass = p->inverse_axle_mass;
-    const double inverse_axle_inertia = p->inverse_axle_inertia;
-    const double axle_tail_span_x = p->axle_tail_span_x;
-
     /* directions, arms, drives */
-    const double bump_value = asin(par_r*sin(omega*time)/length);
+    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
     const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -314,28 +269,28 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double sin_theta_road = sines_0[0];
     const double cos_theta_axle = cosines_0[1];
     const double sin_theta_axle = sines_0[1];
-    const double span_axle_tail_x = axle_tail_span_x*cos_theta_axle;
-    const double span_axle_tail_y = axle_tail_span_x*sin_theta_axle;
+    const double span_axle_tail_x = p->axle_tail_span_x*cos_theta_axle;
+    const double span_axle_tail_y = p->axle_tail_span_x*sin_theta_axle;
 
     /* right-hand side */
     const double r_slot_offset = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double l_slot_offset__axle_x_2 = -cos_theta_road*inverse_axle_mass;
-    const double l_slot_offset__axle_y_2 = -inverse_axle_mass*sin_theta_road;
-    const double w_slot_offset__axle_theta_2 = cos_theta_road*span_axle_tail_y -
-        sin_theta_road*span_axle_tail_x;
-    const double l_slot_offset__axle_theta_2 = inverse_axle_inertia*w_slot_offset__axle_theta_2;
-    const double scale_slot_offset_2 = -cos_theta_road*l_slot_offset__axle_x_2 +
-        l_slot_offset__axle_theta_2*w_slot_offset__axle_theta_2 - l_slot_offset__axle_y_2*sin_theta_road;
-    if (!(scale_slot_offset_2 > 1e-13 * scale_slot_offset_2)) return 1;
-    const double inverse_pivot_slot_offset_2 = 1.0/scale_slot_offset_2;
+    const double l_slot_offset__axle_x = -cos_theta_road*p->inverse_axle_mass;
+    const double l_slot_offset__axle_y = -p->inverse_axle_mass*sin_theta_road;
+    const double w_slot_offset__axle_theta = cos_theta_road*span_axle_tail_y - sin_theta_road*span_axle_tail_x;
+    const double l_slot_offset__axle_theta = p->inverse_axle_inertia*w_slot_offset__axle_theta;
+    const double scale_slot_offset = -cos_theta_road*l_slot_offset__axle_x
+        + l_slot_offset__axle_theta*w_slot_offset__axle_theta - l_slot_offset__axle_y*sin_theta_road;
+    if (!(scale_slot_offset > 0.0 && scale_slot_offset < INFINITY))
+        return 1;
+    const double inverse_pivot_slot_offset = 1.0/scale_slot_offset;
 
     /* backward substitution */
-    const double step_lambda_slot_offset = -inverse_pivot_slot_offset_2*r_slot_offset;
-    const double step_acceleration_axle_theta = -l_slot_offset__axle_theta_2*step_lambda_slot_offset;
-    const double step_acceleration_axle_y = -l_slot_offset__axle_y_2*step_lambda_slot_offset;
-    const double step_acceleration_axle_x = -l_slot_offset__axle_x_2*step_lambda_slot_offset;
+    const double step_lambda_slot_offset = -inverse_pivot_slot_offset*r_slot_offset;
+    const double step_acceleration_axle_theta = -l_slot_offset__axle_theta*step_lambda_slot_offset;
+    const double step_acceleration_axle_y = -l_slot_offset__axle_y*step_lambda_slot_offset;
+    const double step_acceleration_axle_x = -l_slot_offset__axle_x*step_lambda_slot_offset;
 
     /* results */
     x[0] = step_acceleration_axle_x;

@@ -3,24 +3,16 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double crank_mass = p->crank_mass;
-    const double crank_inertia = p->crank_inertia;
-    const double coupler_mass = p->coupler_mass;
-    const double coupler_inertia = p->coupler_inertia;
-    const double rocker_mass = p->rocker_mass;
-    const double rocker_inertia = p->rocker_inertia;
-
     /* M */
-    m[0] = crank_mass;
-    m[1] = crank_mass;
-    m[2] = crank_inertia;
-    m[3] = coupler_mass;
-    m[4] = coupler_mass;
-    m[5] = coupler_inertia;
-    m[6] = rocker_mass;
-    m[7] = rocker_mass;
-    m[8] = rocker_inertia;
+    m[0] = p->crank_mass;
+    m[1] = p->crank_mass;
+    m[2] = p->crank_inertia;
+    m[3] = p->coupler_mass;
+    m[4] = p->coupler_mass;
+    m[5] = p->coupler_inertia;
+    m[6] = p->rocker_mass;
+    m[7] = p->rocker_mass;
+    m[8] = p->rocker_inertia;
 }
 
 /*
@@ -38,29 +30,21 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double rocker_x = q[6];
     const double rocker_y = q[7];
     const double rocker_theta = q[8];
-    const double time = t;
-
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_x = p->crank_head_x;
-    const double coupler_head_x = p->coupler_head_x;
-    const double rocker_head_x = p->rocker_head_x;
-    const double B0_x = p->B0_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
-    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
+    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
     const double cos_theta_coupler = cos(coupler_theta);
     const double sin_theta_coupler = sin(coupler_theta);
-    const double arm_coupler_head_x = cos_theta_coupler*coupler_head_x;
-    const double arm_coupler_head_y = coupler_head_x*sin_theta_coupler;
+    const double arm_coupler_head_x = cos_theta_coupler*p->coupler_head_s_x;
+    const double arm_coupler_head_y = p->coupler_head_s_x*sin_theta_coupler;
     const double cos_theta_rocker = cos(rocker_theta);
     const double sin_theta_rocker = sin(rocker_theta);
-    const double arm_rocker_head_x = cos_theta_rocker*rocker_head_x;
-    const double arm_rocker_head_y = rocker_head_x*sin_theta_rocker;
-    const double motor_value = omega*time + 1.5707963267948966;
+    const double arm_rocker_head_x = cos_theta_rocker*p->rocker_head_s_x;
+    const double arm_rocker_head_y = p->rocker_head_s_x*sin_theta_rocker;
+    const double motor_value = p->omega*t + 1.5707963267948966;
 
     /* rows */
     phi[0] = arm_crank_head_x - crank_x;  /* A0.x */
@@ -69,7 +53,7 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     phi[3] = arm_coupler_head_y + arm_crank_head_y - coupler_y + crank_y;  /* A.y */
     phi[4] = arm_coupler_head_x - arm_rocker_head_x + coupler_x - rocker_x;  /* B.x */
     phi[5] = arm_coupler_head_y - arm_rocker_head_y + coupler_y - rocker_y;  /* B.y */
-    phi[6] = B0_x + arm_rocker_head_x - rocker_x;  /* B0.x */
+    phi[6] = p->B0_x + arm_rocker_head_x - rocker_x;  /* B0.x */
     phi[7] = arm_rocker_head_y - rocker_y;  /* B0.y */
     phi[8] = crank_theta - motor_value;  /* motor */
 }
@@ -85,24 +69,19 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
     const double coupler_theta = q[5];
     const double rocker_theta = q[8];
 
-    /* parameters */
-    const double crank_head_x = p->crank_head_x;
-    const double coupler_head_x = p->coupler_head_x;
-    const double rocker_head_x = p->rocker_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
-    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
+    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
     const double cos_theta_coupler = cos(coupler_theta);
     const double sin_theta_coupler = sin(coupler_theta);
-    const double arm_coupler_head_x = cos_theta_coupler*coupler_head_x;
-    const double arm_coupler_head_y = coupler_head_x*sin_theta_coupler;
+    const double arm_coupler_head_x = cos_theta_coupler*p->coupler_head_s_x;
+    const double arm_coupler_head_y = p->coupler_head_s_x*sin_theta_coupler;
     const double cos_theta_rocker = cos(rocker_theta);
     const double sin_theta_rocker = sin(rocker_theta);
-    const double arm_rocker_head_x = cos_theta_rocker*rocker_head_x;
-    const double arm_rocker_head_y = rocker_head_x*sin_theta_rocker;
+    const double arm_rocker_head_x = cos_theta_rocker*p->rocker_head_s_x;
+    const double arm_rocker_head_y = p->rocker_head_s_x*sin_theta_rocker;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d A0.x / d crank_x */
@@ -139,11 +118,8 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 {
     (void)t;
     (void)q;
-    /* parameters */
-    const double omega = p->omega;
-
     /* directions, arms, drives */
-    const double motor_rate = omega;
+    const double motor_rate = p->omega;
 
     /* rows */
     nu[0] = 0.0;  /* A0.x */
@@ -160,8 +136,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -172,37 +147,34 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double rocker_theta = q[8];
     const double rocker_omega = v[8];
 
-    /* parameters */
-    const double crank_head_x = p->crank_head_x;
-    const double coupler_head_x = p->coupler_head_x;
-    const double rocker_head_x = p->rocker_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
-    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
+    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
     const double cos_theta_coupler = cos(coupler_theta);
     const double sin_theta_coupler = sin(coupler_theta);
-    const double arm_coupler_head_x = cos_theta_coupler*coupler_head_x;
-    const double arm_coupler_head_y = coupler_head_x*sin_theta_coupler;
+    const double arm_coupler_head_x = cos_theta_coupler*p->coupler_head_s_x;
+    const double arm_coupler_head_y = p->coupler_head_s_x*sin_theta_coupler;
     const double cos_theta_rocker = cos(rocker_theta);
     const double sin_theta_rocker = sin(rocker_theta);
-    const double arm_rocker_head_x = cos_theta_rocker*rocker_head_x;
-    const double arm_rocker_head_y = rocker_head_x*sin_theta_rocker;
+    const double arm_rocker_head_x = cos_theta_rocker*p->rocker_head_s_x;
+    const double arm_rocker_head_y = p->rocker_head_s_x*sin_theta_rocker;
     const double motor_acceleration = 0.0;
 
     /* rows */
     gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* A0.x */
     gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* A0.y */
-    gamma_rows[2] = arm_coupler_head_x*(coupler_omega * coupler_omega) + arm_crank_head_x*(crank_omega *
-        crank_omega);  /* A.x */
-    gamma_rows[3] = arm_coupler_head_y*(coupler_omega * coupler_omega) + arm_crank_head_y*(crank_omega *
-        crank_omega);  /* A.y */
-    gamma_rows[4] = arm_coupler_head_x*(coupler_omega * coupler_omega) - arm_rocker_head_x*(rocker_omega *
-        rocker_omega);  /* B.x */
-    gamma_rows[5] = arm_coupler_head_y*(coupler_omega * coupler_omega) - arm_rocker_head_y*(rocker_omega *
-        rocker_omega);  /* B.y */
+    /* A.x */
+    gamma_rows[2] = arm_coupler_head_x*(coupler_omega * coupler_omega) + arm_crank_head_x*(crank_omega * crank_omega);
+    /* A.y */
+    gamma_rows[3] = arm_coupler_head_y*(coupler_omega * coupler_omega) + arm_crank_head_y*(crank_omega * crank_omega);
+    /* B.x */
+    gamma_rows[4] = arm_coupler_head_x*(coupler_omega * coupler_omega)
+        - arm_rocker_head_x*(rocker_omega * rocker_omega);
+    /* B.y */
+    gamma_rows[5] = arm_coupler_head_y*(coupler_omega * coupler_omega)
+        - arm_rocker_head_y*(rocker_omega * rocker_omega);
     gamma_rows[6] = arm_rocker_head_x*(rocker_omega * rocker_omega);  /* B0.x */
     gamma_rows[7] = arm_rocker_head_y*(rocker_omega * rocker_omega);  /* B0.y */
     gamma_rows[8] = motor_acceleration;  /* motor */
@@ -215,13 +187,9 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 {
     (void)set;
     (void)rates;
-    /* parameters */
-    const double guess_coupler_theta = p->guess_coupler_theta;
-    const double guess_rocker_theta = p->guess_rocker_theta;
-
     /* start */
-    guess[0] = guess_coupler_theta;  /* start.guess.coupler.theta */
-    guess[1] = guess_rocker_theta;  /* start.guess.rocker.theta */
+    guess[0] = p->guess_coupler_theta;  /* start.guess.coupler.theta */
+    guess[1] = p->guess_rocker_theta;  /* start.guess.rocker.theta */
 }
 
 /*
@@ -246,15 +214,6 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double rocker_vx = v[6];
     const double rocker_vy = v[7];
     const double rocker_omega = v[8];
-
-    /* parameters */
-    const double crank_mass = p->crank_mass;
-    const double crank_inertia = p->crank_inertia;
-    const double coupler_mass = p->coupler_mass;
-    const double coupler_inertia = p->coupler_inertia;
-    const double rocker_mass = p->rocker_mass;
-    const double rocker_inertia = p->rocker_inertia;
-    const double par_y = p->par_y;
 
     /* multipliers */
     const double multiplier_A0_x = lambda[0];
@@ -283,10 +242,11 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     torques[0] = -multiplier_motor;  /* motor */
 
     /* energy */
-    energy[0] = (0.5)*coupler_inertia*(coupler_omega * coupler_omega) + (0.5)*coupler_mass*(coupler_vx *
-        coupler_vx) + (0.5)*coupler_mass*(coupler_vy * coupler_vy) + (0.5)*crank_inertia*(crank_omega *
-        crank_omega) + (0.5)*crank_mass*(crank_vx * crank_vx) + (0.5)*crank_mass*(crank_vy * crank_vy) +
-        (0.5)*rocker_inertia*(rocker_omega * rocker_omega) + (0.5)*rocker_mass*(rocker_vx * rocker_vx) +
-        (0.5)*rocker_mass*(rocker_vy * rocker_vy);
-    energy[1] = -coupler_mass*coupler_y*par_y - crank_mass*crank_y*par_y - par_y*rocker_mass*rocker_y;
+    energy[0] = 0.5*p->coupler_inertia*(coupler_omega * coupler_omega) + 0.5*p->coupler_mass*(coupler_vx * coupler_vx)
+        + 0.5*p->coupler_mass*(coupler_vy * coupler_vy) + 0.5*p->crank_inertia*(crank_omega * crank_omega)
+        + 0.5*p->crank_mass*(crank_vx * crank_vx) + 0.5*p->crank_mass*(crank_vy * crank_vy)
+        + 0.5*p->rocker_inertia*(rocker_omega * rocker_omega) + 0.5*p->rocker_mass*(rocker_vx * rocker_vx)
+        + 0.5*p->rocker_mass*(rocker_vy * rocker_vy);
+    energy[1] = -p->coupler_mass*coupler_y*p->gravity_y - p->crank_mass*crank_y*p->gravity_y
+        - p->gravity_y*p->rocker_mass*rocker_y;
 }

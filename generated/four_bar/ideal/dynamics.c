@@ -3,8 +3,8 @@
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma - 2 alpha Phi_dot - beta^2 Phi]   (physics.md, section 1).
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
-    double *a, Aside *aside)
+int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
+    Aside *aside)
 {
     /* coordinates, velocities, time */
     const double crank_x = q[0];
@@ -25,41 +25,22 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double rocker_vx = v[6];
     const double rocker_vy = v[7];
     const double rocker_omega = v[8];
-    const double time = t;
-
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_x = p->crank_head_x;
-    const double coupler_head_x = p->coupler_head_x;
-    const double rocker_head_x = p->rocker_head_x;
-    const double B0_x = p->B0_x;
-    const double weight_crank_y = p->weight_crank_y;
-    const double weight_coupler_y = p->weight_coupler_y;
-    const double weight_rocker_y = p->weight_rocker_y;
-    const double two_alpha = p->two_alpha;
-    const double beta_squared = p->beta_squared;
-    const double inverse_crank_mass = p->inverse_crank_mass;
-    const double inverse_coupler_mass = p->inverse_coupler_mass;
-    const double inverse_rocker_mass = p->inverse_rocker_mass;
-    const double inverse_coupler_inertia = p->inverse_coupler_inertia;
-    const double inverse_rocker_inertia = p->inverse_rocker_inertia;
-    const double inverse_crank_inertia = p->inverse_crank_inertia;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
-    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
+    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
     const double cos_theta_coupler = cos(coupler_theta);
     const double sin_theta_coupler = sin(coupler_theta);
-    const double arm_coupler_head_x = cos_theta_coupler*coupler_head_x;
-    const double arm_coupler_head_y = coupler_head_x*sin_theta_coupler;
+    const double arm_coupler_head_x = cos_theta_coupler*p->coupler_head_s_x;
+    const double arm_coupler_head_y = p->coupler_head_s_x*sin_theta_coupler;
     const double cos_theta_rocker = cos(rocker_theta);
     const double sin_theta_rocker = sin(rocker_theta);
-    const double arm_rocker_head_x = cos_theta_rocker*rocker_head_x;
-    const double arm_rocker_head_y = rocker_head_x*sin_theta_rocker;
-    const double motor_value = omega*time + 1.5707963267948966;
-    const double motor_rate = omega;
+    const double arm_rocker_head_x = cos_theta_rocker*p->rocker_head_s_x;
+    const double arm_rocker_head_y = p->rocker_head_s_x*sin_theta_rocker;
+    const double motor_value = p->omega*t + 1.5707963267948966;
+    const double motor_rate = p->omega;
     const double motor_acceleration = 0.0;
 
     /* status */
@@ -68,212 +49,232 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
     const double phi_A0_x = arm_crank_head_x - crank_x;
     const double phi_dot_A0_x = -arm_crank_head_y*crank_omega - crank_vx;
-    const double rhs_A0_x = arm_crank_head_x*(crank_omega * crank_omega) - beta_squared*phi_A0_x -
-        phi_dot_A0_x*two_alpha;
+    const double rhs_A0_x = arm_crank_head_x*(crank_omega * crank_omega) - p->beta_squared*phi_A0_x
+        - phi_dot_A0_x*p->two_alpha;
     aside->phi[0] = phi_A0_x;
     aside->phi_dot[0] = phi_dot_A0_x;
     const double phi_A0_y = arm_crank_head_y - crank_y;
     const double phi_dot_A0_y = arm_crank_head_x*crank_omega - crank_vy;
-    const double rhs_A0_y = arm_crank_head_y*(crank_omega * crank_omega) - beta_squared*phi_A0_y -
-        phi_dot_A0_y*two_alpha;
+    const double rhs_A0_y = arm_crank_head_y*(crank_omega * crank_omega) - p->beta_squared*phi_A0_y
+        - phi_dot_A0_y*p->two_alpha;
     aside->phi[1] = phi_A0_y;
     aside->phi_dot[1] = phi_dot_A0_y;
     const double phi_A_x = arm_coupler_head_x + arm_crank_head_x - coupler_x + crank_x;
-    const double phi_dot_A_x = -arm_coupler_head_y*coupler_omega - arm_crank_head_y*crank_omega - coupler_vx +
-        crank_vx;
-    const double rhs_A_x = arm_coupler_head_x*(coupler_omega * coupler_omega) + arm_crank_head_x*(crank_omega
-        * crank_omega) - beta_squared*phi_A_x - phi_dot_A_x*two_alpha;
+    const double phi_dot_A_x = -arm_coupler_head_y*coupler_omega - arm_crank_head_y*crank_omega - coupler_vx + crank_vx;
+    const double rhs_A_x = arm_coupler_head_x*(coupler_omega * coupler_omega)
+        + arm_crank_head_x*(crank_omega * crank_omega) - p->beta_squared*phi_A_x - phi_dot_A_x*p->two_alpha;
     aside->phi[2] = phi_A_x;
     aside->phi_dot[2] = phi_dot_A_x;
     const double phi_A_y = arm_coupler_head_y + arm_crank_head_y - coupler_y + crank_y;
-    const double phi_dot_A_y = arm_coupler_head_x*coupler_omega + arm_crank_head_x*crank_omega - coupler_vy +
-        crank_vy;
-    const double rhs_A_y = arm_coupler_head_y*(coupler_omega * coupler_omega) + arm_crank_head_y*(crank_omega
-        * crank_omega) - beta_squared*phi_A_y - phi_dot_A_y*two_alpha;
+    const double phi_dot_A_y = arm_coupler_head_x*coupler_omega + arm_crank_head_x*crank_omega - coupler_vy + crank_vy;
+    const double rhs_A_y = arm_coupler_head_y*(coupler_omega * coupler_omega)
+        + arm_crank_head_y*(crank_omega * crank_omega) - p->beta_squared*phi_A_y - phi_dot_A_y*p->two_alpha;
     aside->phi[3] = phi_A_y;
     aside->phi_dot[3] = phi_dot_A_y;
     const double phi_B_x = arm_coupler_head_x - arm_rocker_head_x + coupler_x - rocker_x;
     const double phi_dot_B_x = -arm_coupler_head_y*coupler_omega + arm_rocker_head_y*rocker_omega + coupler_vx
         - rocker_vx;
-    const double rhs_B_x = arm_coupler_head_x*(coupler_omega * coupler_omega) -
-        arm_rocker_head_x*(rocker_omega * rocker_omega) - beta_squared*phi_B_x - phi_dot_B_x*two_alpha;
+    const double rhs_B_x = arm_coupler_head_x*(coupler_omega * coupler_omega)
+        - arm_rocker_head_x*(rocker_omega * rocker_omega) - p->beta_squared*phi_B_x - phi_dot_B_x*p->two_alpha;
     aside->phi[4] = phi_B_x;
     aside->phi_dot[4] = phi_dot_B_x;
     const double phi_B_y = arm_coupler_head_y - arm_rocker_head_y + coupler_y - rocker_y;
     const double phi_dot_B_y = arm_coupler_head_x*coupler_omega - arm_rocker_head_x*rocker_omega + coupler_vy
         - rocker_vy;
-    const double rhs_B_y = arm_coupler_head_y*(coupler_omega * coupler_omega) -
-        arm_rocker_head_y*(rocker_omega * rocker_omega) - beta_squared*phi_B_y - phi_dot_B_y*two_alpha;
+    const double rhs_B_y = arm_coupler_head_y*(coupler_omega * coupler_omega)
+        - arm_rocker_head_y*(rocker_omega * rocker_omega) - p->beta_squared*phi_B_y - phi_dot_B_y*p->two_alpha;
     aside->phi[5] = phi_B_y;
     aside->phi_dot[5] = phi_dot_B_y;
-    const double phi_B0_x = B0_x + arm_rocker_head_x - rocker_x;
+    const double phi_B0_x = p->B0_x + arm_rocker_head_x - rocker_x;
     const double phi_dot_B0_x = -arm_rocker_head_y*rocker_omega - rocker_vx;
-    const double rhs_B0_x = arm_rocker_head_x*(rocker_omega * rocker_omega) - beta_squared*phi_B0_x -
-        phi_dot_B0_x*two_alpha;
+    const double rhs_B0_x = arm_rocker_head_x*(rocker_omega * rocker_omega) - p->beta_squared*phi_B0_x
+        - phi_dot_B0_x*p->two_alpha;
     aside->phi[6] = phi_B0_x;
     aside->phi_dot[6] = phi_dot_B0_x;
     const double phi_B0_y = arm_rocker_head_y - rocker_y;
     const double phi_dot_B0_y = arm_rocker_head_x*rocker_omega - rocker_vy;
-    const double rhs_B0_y = arm_rocker_head_y*(rocker_omega * rocker_omega) - beta_squared*phi_B0_y -
-        phi_dot_B0_y*two_alpha;
+    const double rhs_B0_y = arm_rocker_head_y*(rocker_omega * rocker_omega) - p->beta_squared*phi_B0_y
+        - phi_dot_B0_y*p->two_alpha;
     aside->phi[7] = phi_B0_y;
     aside->phi_dot[7] = phi_dot_B0_y;
     const double phi_motor = crank_theta - motor_value;
     const double phi_dot_motor = crank_omega - motor_rate;
-    const double rhs_motor = -beta_squared*phi_motor + motor_acceleration - phi_dot_motor*two_alpha;
+    const double rhs_motor = -p->beta_squared*phi_motor + motor_acceleration - phi_dot_motor*p->two_alpha;
     aside->phi[8] = phi_motor;
     aside->phi_dot[8] = phi_dot_motor;
 
     /* L D L^T of the KKT matrix */
-    const double l_B_x__coupler_theta = -arm_coupler_head_y*inverse_coupler_inertia;
-    const double l_B_y__coupler_theta = arm_coupler_head_x*inverse_coupler_inertia;
-    const double l_A_x__coupler_theta = -arm_coupler_head_y*inverse_coupler_inertia;
-    const double l_A_y__coupler_theta = arm_coupler_head_x*inverse_coupler_inertia;
-    const double l_B0_x__rocker_theta = -arm_rocker_head_y*inverse_rocker_inertia;
-    const double l_B0_y__rocker_theta = arm_rocker_head_x*inverse_rocker_inertia;
-    const double l_B_x__rocker_theta = arm_rocker_head_y*inverse_rocker_inertia;
-    const double l_B_y__rocker_theta = -arm_rocker_head_x*inverse_rocker_inertia;
-    const double scale_B0_x = -arm_rocker_head_y*l_B0_x__rocker_theta + inverse_rocker_mass;
-    const double scale_B0_y = arm_rocker_head_x*l_B0_y__rocker_theta + inverse_rocker_mass;
+    const double l_B_x__coupler_theta = -arm_coupler_head_y*p->inverse_coupler_inertia;
+    const double l_B_y__coupler_theta = arm_coupler_head_x*p->inverse_coupler_inertia;
+    const double l_A_x__coupler_theta = -arm_coupler_head_y*p->inverse_coupler_inertia;
+    const double l_A_y__coupler_theta = arm_coupler_head_x*p->inverse_coupler_inertia;
+    const double l_B0_x__rocker_theta = -arm_rocker_head_y*p->inverse_rocker_inertia;
+    const double l_B0_y__rocker_theta = arm_rocker_head_x*p->inverse_rocker_inertia;
+    const double l_B_x__rocker_theta = arm_rocker_head_y*p->inverse_rocker_inertia;
+    const double l_B_y__rocker_theta = -arm_rocker_head_x*p->inverse_rocker_inertia;
+    const double scale_B0_x = -arm_rocker_head_y*l_B0_x__rocker_theta + p->inverse_rocker_mass;
+    const double scale_B0_y = arm_rocker_head_x*l_B0_y__rocker_theta + p->inverse_rocker_mass;
     const double pivot_B0_x__B0_y = -arm_rocker_head_y*l_B0_y__rocker_theta;
     const double determinant_B0_x__B0_y = -(pivot_B0_x__B0_y * pivot_B0_x__B0_y) + scale_B0_x*scale_B0_y;
-    if (!(scale_B0_x > 1e-08 * scale_B0_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_B0_x__B0_y > 1e-08 * scale_B0_y * scale_B0_x)) { pivot = 2; goto dependent; };
+    if (!(scale_B0_x > 0.0 && scale_B0_x < INFINITY)) {
+        pivot = 1;
+        goto dependent;
+    }
+    if (!(determinant_B0_x__B0_y > 1e-08 * scale_B0_y * scale_B0_x)) {
+        pivot = 2;
+        goto dependent;
+    }
     const double inverse_B0_x__B0_y = -1.0/determinant_B0_x__B0_y;
     const double inverse_pivot_B0_x = inverse_B0_x__B0_y*scale_B0_y;
     const double inverse_pivot_B0_y = inverse_B0_x__B0_y*scale_B0_x;
     const double inverse_cross_B0_x__B0_y = -inverse_B0_x__B0_y*pivot_B0_x__B0_y;
-    const double w_B_x__B0_x = arm_rocker_head_y*l_B_x__rocker_theta - inverse_rocker_mass;
+    const double w_B_x__B0_x = arm_rocker_head_y*l_B_x__rocker_theta - p->inverse_rocker_mass;
     const double w_B_x__B0_y = -arm_rocker_head_x*l_B_x__rocker_theta;
     const double l_B_x__B0_x = inverse_cross_B0_x__B0_y*w_B_x__B0_y + inverse_pivot_B0_x*w_B_x__B0_x;
     const double l_B_x__B0_y = inverse_cross_B0_x__B0_y*w_B_x__B0_x + inverse_pivot_B0_y*w_B_x__B0_y;
     const double w_B_y__B0_x = arm_rocker_head_y*l_B_y__rocker_theta;
-    const double w_B_y__B0_y = -arm_rocker_head_x*l_B_y__rocker_theta - inverse_rocker_mass;
+    const double w_B_y__B0_y = -arm_rocker_head_x*l_B_y__rocker_theta - p->inverse_rocker_mass;
     const double l_B_y__B0_x = inverse_cross_B0_x__B0_y*w_B_y__B0_y + inverse_pivot_B0_x*w_B_y__B0_x;
     const double l_B_y__B0_y = inverse_cross_B0_x__B0_y*w_B_y__B0_x + inverse_pivot_B0_y*w_B_y__B0_y;
     const double scale_B_x = -arm_coupler_head_y*l_B_x__coupler_theta + arm_rocker_head_y*l_B_x__rocker_theta
-        + inverse_coupler_mass + inverse_rocker_mass;
-    const double scale_B_y = arm_coupler_head_x*l_B_y__coupler_theta - arm_rocker_head_x*l_B_y__rocker_theta +
-        inverse_coupler_mass + inverse_rocker_mass;
+        + p->inverse_coupler_mass + p->inverse_rocker_mass;
+    const double scale_B_y = arm_coupler_head_x*l_B_y__coupler_theta - arm_rocker_head_x*l_B_y__rocker_theta
+        + p->inverse_coupler_mass + p->inverse_rocker_mass;
     const double pivot_B_x = l_B_x__B0_x*w_B_x__B0_x + l_B_x__B0_y*w_B_x__B0_y + scale_B_x;
     const double pivot_B_y = l_B_y__B0_x*w_B_y__B0_x + l_B_y__B0_y*w_B_y__B0_y + scale_B_y;
-    const double pivot_B_x__B_y = -arm_coupler_head_y*l_B_y__coupler_theta +
-        arm_rocker_head_y*l_B_y__rocker_theta + l_B_y__B0_x*w_B_x__B0_x + l_B_y__B0_y*w_B_x__B0_y;
+    const double pivot_B_x__B_y = -arm_coupler_head_y*l_B_y__coupler_theta + arm_rocker_head_y*l_B_y__rocker_theta
+        + l_B_y__B0_x*w_B_x__B0_x + l_B_y__B0_y*w_B_x__B0_y;
     const double determinant_B_x__B_y = pivot_B_x*pivot_B_y - (pivot_B_x__B_y * pivot_B_x__B_y);
-    if (!(pivot_B_x > 1e-08 * scale_B_x)) { pivot = 3; goto dependent; };
-    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * pivot_B_x)) { pivot = 4; goto dependent; };
+    if (!(pivot_B_x > 1e-08 * scale_B_x)) {
+        pivot = 3;
+        goto dependent;
+    }
+    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * pivot_B_x)) {
+        pivot = 4;
+        goto dependent;
+    }
     const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
     const double inverse_pivot_B_x = inverse_B_x__B_y*pivot_B_y;
     const double inverse_pivot_B_y = inverse_B_x__B_y*pivot_B_x;
     const double inverse_cross_B_x__B_y = -inverse_B_x__B_y*pivot_B_x__B_y;
-    const double w_A_x__B_x = arm_coupler_head_y*l_A_x__coupler_theta + inverse_coupler_mass;
+    const double w_A_x__B_x = arm_coupler_head_y*l_A_x__coupler_theta + p->inverse_coupler_mass;
     const double w_A_x__B_y = -arm_coupler_head_x*l_A_x__coupler_theta;
     const double l_A_x__B_x = inverse_cross_B_x__B_y*w_A_x__B_y + inverse_pivot_B_x*w_A_x__B_x;
     const double l_A_x__B_y = inverse_cross_B_x__B_y*w_A_x__B_x + inverse_pivot_B_y*w_A_x__B_y;
     const double w_A_y__B_x = arm_coupler_head_y*l_A_y__coupler_theta;
-    const double w_A_y__B_y = -arm_coupler_head_x*l_A_y__coupler_theta + inverse_coupler_mass;
+    const double w_A_y__B_y = -arm_coupler_head_x*l_A_y__coupler_theta + p->inverse_coupler_mass;
     const double l_A_y__B_x = inverse_cross_B_x__B_y*w_A_y__B_y + inverse_pivot_B_x*w_A_y__B_x;
     const double l_A_y__B_y = inverse_cross_B_x__B_y*w_A_y__B_x + inverse_pivot_B_y*w_A_y__B_y;
-    const double l_A0_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
-    const double l_A0_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
-    const double l_A_x__crank_theta = -arm_crank_head_y*inverse_crank_inertia;
-    const double l_A_y__crank_theta = arm_crank_head_x*inverse_crank_inertia;
-    const double scale_A0_x = -arm_crank_head_y*l_A0_x__crank_theta + inverse_crank_mass;
-    const double scale_A0_y = arm_crank_head_x*l_A0_y__crank_theta + inverse_crank_mass;
+    const double l_A0_x__crank_theta = -arm_crank_head_y*p->inverse_crank_inertia;
+    const double l_A0_y__crank_theta = arm_crank_head_x*p->inverse_crank_inertia;
+    const double l_A_x__crank_theta = -arm_crank_head_y*p->inverse_crank_inertia;
+    const double l_A_y__crank_theta = arm_crank_head_x*p->inverse_crank_inertia;
+    const double scale_A0_x = -arm_crank_head_y*l_A0_x__crank_theta + p->inverse_crank_mass;
+    const double scale_A0_y = arm_crank_head_x*l_A0_y__crank_theta + p->inverse_crank_mass;
     const double pivot_A0_x__A0_y = -arm_crank_head_y*l_A0_y__crank_theta;
     const double determinant_A0_x__A0_y = -(pivot_A0_x__A0_y * pivot_A0_x__A0_y) + scale_A0_x*scale_A0_y;
-    if (!(scale_A0_x > 1e-08 * scale_A0_x)) { pivot = 5; goto dependent; };
-    if (!(determinant_A0_x__A0_y > 1e-08 * scale_A0_y * scale_A0_x)) { pivot = 6; goto dependent; };
+    if (!(scale_A0_x > 0.0 && scale_A0_x < INFINITY)) {
+        pivot = 5;
+        goto dependent;
+    }
+    if (!(determinant_A0_x__A0_y > 1e-08 * scale_A0_y * scale_A0_x)) {
+        pivot = 6;
+        goto dependent;
+    }
     const double inverse_A0_x__A0_y = -1.0/determinant_A0_x__A0_y;
     const double inverse_pivot_A0_x = inverse_A0_x__A0_y*scale_A0_y;
     const double inverse_pivot_A0_y = inverse_A0_x__A0_y*scale_A0_x;
     const double inverse_cross_A0_x__A0_y = -inverse_A0_x__A0_y*pivot_A0_x__A0_y;
-    const double w_motor__A0_x = arm_crank_head_y*inverse_crank_inertia;
-    const double w_motor__A0_y = -arm_crank_head_x*inverse_crank_inertia;
+    const double w_motor__A0_x = arm_crank_head_y*p->inverse_crank_inertia;
+    const double w_motor__A0_y = -arm_crank_head_x*p->inverse_crank_inertia;
     const double l_motor__A0_x = inverse_cross_A0_x__A0_y*w_motor__A0_y + inverse_pivot_A0_x*w_motor__A0_x;
     const double l_motor__A0_y = inverse_cross_A0_x__A0_y*w_motor__A0_x + inverse_pivot_A0_y*w_motor__A0_y;
-    const double w_A_x__A0_x = arm_crank_head_y*l_A_x__crank_theta + inverse_crank_mass;
+    const double w_A_x__A0_x = arm_crank_head_y*l_A_x__crank_theta + p->inverse_crank_mass;
     const double w_A_x__A0_y = -arm_crank_head_x*l_A_x__crank_theta;
     const double l_A_x__A0_x = inverse_cross_A0_x__A0_y*w_A_x__A0_y + inverse_pivot_A0_x*w_A_x__A0_x;
     const double l_A_x__A0_y = inverse_cross_A0_x__A0_y*w_A_x__A0_x + inverse_pivot_A0_y*w_A_x__A0_y;
     const double w_A_y__A0_x = arm_crank_head_y*l_A_y__crank_theta;
-    const double w_A_y__A0_y = -arm_crank_head_x*l_A_y__crank_theta + inverse_crank_mass;
+    const double w_A_y__A0_y = -arm_crank_head_x*l_A_y__crank_theta + p->inverse_crank_mass;
     const double l_A_y__A0_x = inverse_cross_A0_x__A0_y*w_A_y__A0_y + inverse_pivot_A0_x*w_A_y__A0_x;
     const double l_A_y__A0_y = inverse_cross_A0_x__A0_y*w_A_y__A0_x + inverse_pivot_A0_y*w_A_y__A0_y;
-    const double scale_motor = inverse_crank_inertia;
-    const double scale_A_x = -arm_coupler_head_y*l_A_x__coupler_theta - arm_crank_head_y*l_A_x__crank_theta +
-        inverse_coupler_mass + inverse_crank_mass;
+    const double scale_motor = p->inverse_crank_inertia;
+    const double scale_A_x = -arm_coupler_head_y*l_A_x__coupler_theta - arm_crank_head_y*l_A_x__crank_theta
+        + p->inverse_coupler_mass + p->inverse_crank_mass;
     const double pivot_motor = l_motor__A0_x*w_motor__A0_x + l_motor__A0_y*w_motor__A0_y + scale_motor;
-    const double pivot_A_x = l_A_x__A0_x*w_A_x__A0_x + l_A_x__A0_y*w_A_x__A0_y + l_A_x__B_x*w_A_x__B_x +
-        l_A_x__B_y*w_A_x__B_y + scale_A_x;
-    const double pivot_motor__A_x = l_A_x__A0_x*w_motor__A0_x + l_A_x__A0_y*w_motor__A0_y +
-        l_A_x__crank_theta;
+    const double pivot_A_x = l_A_x__A0_x*w_A_x__A0_x + l_A_x__A0_y*w_A_x__A0_y + l_A_x__B_x*w_A_x__B_x
+        + l_A_x__B_y*w_A_x__B_y + scale_A_x;
+    const double pivot_motor__A_x = l_A_x__A0_x*w_motor__A0_x + l_A_x__A0_y*w_motor__A0_y + l_A_x__crank_theta;
     const double determinant_motor__A_x = pivot_A_x*pivot_motor - (pivot_motor__A_x * pivot_motor__A_x);
-    if (!(pivot_motor > 1e-08 * scale_motor)) { pivot = 7; goto dependent; };
-    if (!(determinant_motor__A_x > 1e-08 * scale_A_x * pivot_motor)) { pivot = 8; goto dependent; };
+    if (!(pivot_motor > 1e-08 * scale_motor)) {
+        pivot = 7;
+        goto dependent;
+    }
+    if (!(determinant_motor__A_x > 1e-08 * scale_A_x * pivot_motor)) {
+        pivot = 8;
+        goto dependent;
+    }
     const double inverse_motor__A_x = -1.0/determinant_motor__A_x;
     const double inverse_pivot_motor = inverse_motor__A_x*pivot_A_x;
     const double inverse_pivot_A_x = inverse_motor__A_x*pivot_motor;
     const double inverse_cross_motor__A_x = -inverse_motor__A_x*pivot_motor__A_x;
     const double w_A_y__motor = -l_A_y__A0_x*w_motor__A0_x - l_A_y__A0_y*w_motor__A0_y - l_A_y__crank_theta;
-    const double w_A_y__A_x = arm_coupler_head_y*l_A_y__coupler_theta + arm_crank_head_y*l_A_y__crank_theta -
-        l_A_y__A0_x*w_A_x__A0_x - l_A_y__A0_y*w_A_x__A0_y - l_A_y__B_x*w_A_x__B_x - l_A_y__B_y*w_A_x__B_y;
+    const double w_A_y__A_x = arm_coupler_head_y*l_A_y__coupler_theta + arm_crank_head_y*l_A_y__crank_theta
+        - l_A_y__A0_x*w_A_x__A0_x - l_A_y__A0_y*w_A_x__A0_y - l_A_y__B_x*w_A_x__B_x - l_A_y__B_y*w_A_x__B_y;
     const double l_A_y__motor = inverse_cross_motor__A_x*w_A_y__A_x + inverse_pivot_motor*w_A_y__motor;
     const double l_A_y__A_x = inverse_cross_motor__A_x*w_A_y__motor + inverse_pivot_A_x*w_A_y__A_x;
-    const double scale_A_y = arm_coupler_head_x*l_A_y__coupler_theta + arm_crank_head_x*l_A_y__crank_theta +
-        inverse_coupler_mass + inverse_crank_mass;
-    const double pivot_A_y = l_A_y__A0_x*w_A_y__A0_x + l_A_y__A0_y*w_A_y__A0_y + l_A_y__A_x*w_A_y__A_x +
-        l_A_y__B_x*w_A_y__B_x + l_A_y__B_y*w_A_y__B_y + l_A_y__motor*w_A_y__motor + scale_A_y;
-    if (!(pivot_A_y > 1e-08 * scale_A_y)) { pivot = 9; goto dependent; };
+    const double scale_A_y = arm_coupler_head_x*l_A_y__coupler_theta + arm_crank_head_x*l_A_y__crank_theta
+        + p->inverse_coupler_mass + p->inverse_crank_mass;
+    const double pivot_A_y = l_A_y__A0_x*w_A_y__A0_x + l_A_y__A0_y*w_A_y__A0_y + l_A_y__A_x*w_A_y__A_x
+        + l_A_y__B_x*w_A_y__B_x + l_A_y__B_y*w_A_y__B_y + l_A_y__motor*w_A_y__motor + scale_A_y;
+    if (!(pivot_A_y > 1e-08 * scale_A_y)) {
+        pivot = 9;
+        goto dependent;
+    }
     const double inverse_pivot_A_y = 1.0/pivot_A_y;
 
     /* forward substitution */
-    const double z_B0_y = inverse_rocker_mass*weight_rocker_y + rhs_B0_y;
+    const double z_B0_y = p->inverse_rocker_mass*p->weight_rocker_y + rhs_B0_y;
     const double z_B_x = -l_B_x__B0_x*rhs_B0_x - l_B_x__B0_y*z_B0_y + rhs_B_x;
-    const double z_B_y = -inverse_coupler_mass*weight_coupler_y + inverse_rocker_mass*weight_rocker_y -
-        l_B_y__B0_x*rhs_B0_x - l_B_y__B0_y*z_B0_y + rhs_B_y;
-    const double z_A0_y = inverse_crank_mass*weight_crank_y + rhs_A0_y;
+    const double z_B_y = -p->inverse_coupler_mass*p->weight_coupler_y + p->inverse_rocker_mass*p->weight_rocker_y
+        - l_B_y__B0_x*rhs_B0_x - l_B_y__B0_y*z_B0_y + rhs_B_y;
+    const double z_A0_y = p->inverse_crank_mass*p->weight_crank_y + rhs_A0_y;
     const double z_motor = -l_motor__A0_x*rhs_A0_x - l_motor__A0_y*z_A0_y + rhs_motor;
-    const double z_A_x = -l_A_x__A0_x*rhs_A0_x - l_A_x__A0_y*z_A0_y - l_A_x__B_x*z_B_x - l_A_x__B_y*z_B_y +
-        rhs_A_x;
-    const double z_A_y = inverse_coupler_mass*weight_coupler_y - inverse_crank_mass*weight_crank_y -
-        l_A_y__A0_x*rhs_A0_x - l_A_y__A0_y*z_A0_y - l_A_y__A_x*z_A_x - l_A_y__B_x*z_B_x - l_A_y__B_y*z_B_y -
-        l_A_y__motor*z_motor + rhs_A_y;
+    const double z_A_x = -l_A_x__A0_x*rhs_A0_x - l_A_x__A0_y*z_A0_y - l_A_x__B_x*z_B_x - l_A_x__B_y*z_B_y + rhs_A_x;
+    const double z_A_y = p->inverse_coupler_mass*p->weight_coupler_y - p->inverse_crank_mass*p->weight_crank_y
+        - l_A_y__A0_x*rhs_A0_x - l_A_y__A0_y*z_A0_y - l_A_y__A_x*z_A_x - l_A_y__B_x*z_B_x - l_A_y__B_y*z_B_y
+        - l_A_y__motor*z_motor + rhs_A_y;
 
     /* backward substitution */
     const double lambda_A_y = -inverse_pivot_A_y*z_A_y;
-    const double lambda_A_x = inverse_cross_motor__A_x*z_motor + inverse_pivot_A_x*z_A_x -
-        l_A_y__A_x*lambda_A_y;
-    const double lambda_motor = inverse_cross_motor__A_x*z_A_x + inverse_pivot_motor*z_motor -
-        l_A_y__motor*lambda_A_y;
-    const double lambda_A0_y = inverse_cross_A0_x__A0_y*rhs_A0_x + inverse_pivot_A0_y*z_A0_y -
-        l_A_x__A0_y*lambda_A_x - l_A_y__A0_y*lambda_A_y - l_motor__A0_y*lambda_motor;
-    const double lambda_A0_x = inverse_cross_A0_x__A0_y*z_A0_y + inverse_pivot_A0_x*rhs_A0_x -
-        l_A_x__A0_x*lambda_A_x - l_A_y__A0_x*lambda_A_y - l_motor__A0_x*lambda_motor;
-    const double acceleration_crank_theta = -inverse_crank_inertia*lambda_motor -
-        l_A0_x__crank_theta*lambda_A0_x - l_A0_y__crank_theta*lambda_A0_y - l_A_x__crank_theta*lambda_A_x -
-        l_A_y__crank_theta*lambda_A_y;
-    const double lambda_B_y = inverse_cross_B_x__B_y*z_B_x + inverse_pivot_B_y*z_B_y - l_A_x__B_y*lambda_A_x -
-        l_A_y__B_y*lambda_A_y;
-    const double lambda_B_x = inverse_cross_B_x__B_y*z_B_y + inverse_pivot_B_x*z_B_x - l_A_x__B_x*lambda_A_x -
-        l_A_y__B_x*lambda_A_y;
-    const double lambda_B0_y = inverse_cross_B0_x__B0_y*rhs_B0_x + inverse_pivot_B0_y*z_B0_y -
-        l_B_x__B0_y*lambda_B_x - l_B_y__B0_y*lambda_B_y;
-    const double lambda_B0_x = inverse_cross_B0_x__B0_y*z_B0_y + inverse_pivot_B0_x*rhs_B0_x -
-        l_B_x__B0_x*lambda_B_x - l_B_y__B0_x*lambda_B_y;
-    const double acceleration_rocker_theta = -l_B0_x__rocker_theta*lambda_B0_x -
-        l_B0_y__rocker_theta*lambda_B0_y - l_B_x__rocker_theta*lambda_B_x - l_B_y__rocker_theta*lambda_B_y;
-    const double acceleration_coupler_theta = -l_A_x__coupler_theta*lambda_A_x -
-        l_A_y__coupler_theta*lambda_A_y - l_B_x__coupler_theta*lambda_B_x - l_B_y__coupler_theta*lambda_B_y;
-    const double acceleration_rocker_y = inverse_rocker_mass*lambda_B0_y + inverse_rocker_mass*lambda_B_y +
-        inverse_rocker_mass*weight_rocker_y;
-    const double acceleration_rocker_x = inverse_rocker_mass*lambda_B0_x + inverse_rocker_mass*lambda_B_x;
-    const double acceleration_coupler_y = inverse_coupler_mass*lambda_A_y - inverse_coupler_mass*lambda_B_y +
-        inverse_coupler_mass*weight_coupler_y;
-    const double acceleration_coupler_x = inverse_coupler_mass*lambda_A_x - inverse_coupler_mass*lambda_B_x;
-    const double acceleration_crank_y = inverse_crank_mass*lambda_A0_y - inverse_crank_mass*lambda_A_y +
-        inverse_crank_mass*weight_crank_y;
-    const double acceleration_crank_x = inverse_crank_mass*lambda_A0_x - inverse_crank_mass*lambda_A_x;
+    const double lambda_A_x = inverse_cross_motor__A_x*z_motor + inverse_pivot_A_x*z_A_x - l_A_y__A_x*lambda_A_y;
+    const double lambda_motor = inverse_cross_motor__A_x*z_A_x + inverse_pivot_motor*z_motor - l_A_y__motor*lambda_A_y;
+    const double lambda_A0_y = inverse_cross_A0_x__A0_y*rhs_A0_x + inverse_pivot_A0_y*z_A0_y - l_A_x__A0_y*lambda_A_x
+        - l_A_y__A0_y*lambda_A_y - l_motor__A0_y*lambda_motor;
+    const double lambda_A0_x = inverse_cross_A0_x__A0_y*z_A0_y + inverse_pivot_A0_x*rhs_A0_x - l_A_x__A0_x*lambda_A_x
+        - l_A_y__A0_x*lambda_A_y - l_motor__A0_x*lambda_motor;
+    const double acceleration_crank_theta = -p->inverse_crank_inertia*lambda_motor - l_A0_x__crank_theta*lambda_A0_x
+        - l_A0_y__crank_theta*lambda_A0_y - l_A_x__crank_theta*lambda_A_x - l_A_y__crank_theta*lambda_A_y;
+    const double lambda_B_y = inverse_cross_B_x__B_y*z_B_x + inverse_pivot_B_y*z_B_y - l_A_x__B_y*lambda_A_x
+        - l_A_y__B_y*lambda_A_y;
+    const double lambda_B_x = inverse_cross_B_x__B_y*z_B_y + inverse_pivot_B_x*z_B_x - l_A_x__B_x*lambda_A_x
+        - l_A_y__B_x*lambda_A_y;
+    const double lambda_B0_y = inverse_cross_B0_x__B0_y*rhs_B0_x + inverse_pivot_B0_y*z_B0_y - l_B_x__B0_y*lambda_B_x
+        - l_B_y__B0_y*lambda_B_y;
+    const double lambda_B0_x = inverse_cross_B0_x__B0_y*z_B0_y + inverse_pivot_B0_x*rhs_B0_x - l_B_x__B0_x*lambda_B_x
+        - l_B_y__B0_x*lambda_B_y;
+    const double acceleration_rocker_theta = -l_B0_x__rocker_theta*lambda_B0_x - l_B0_y__rocker_theta*lambda_B0_y
+        - l_B_x__rocker_theta*lambda_B_x - l_B_y__rocker_theta*lambda_B_y;
+    const double acceleration_coupler_theta = -l_A_x__coupler_theta*lambda_A_x - l_A_y__coupler_theta*lambda_A_y
+        - l_B_x__coupler_theta*lambda_B_x - l_B_y__coupler_theta*lambda_B_y;
+    const double acceleration_rocker_y = p->inverse_rocker_mass*lambda_B0_y + p->inverse_rocker_mass*lambda_B_y
+        + p->inverse_rocker_mass*p->weight_rocker_y;
+    const double acceleration_rocker_x = p->inverse_rocker_mass*lambda_B0_x + p->inverse_rocker_mass*lambda_B_x;
+    const double acceleration_coupler_y = p->inverse_coupler_mass*lambda_A_y - p->inverse_coupler_mass*lambda_B_y
+        + p->inverse_coupler_mass*p->weight_coupler_y;
+    const double acceleration_coupler_x = p->inverse_coupler_mass*lambda_A_x - p->inverse_coupler_mass*lambda_B_x;
+    const double acceleration_crank_y = p->inverse_crank_mass*lambda_A0_y - p->inverse_crank_mass*lambda_A_y
+        + p->inverse_crank_mass*p->weight_crank_y;
+    const double acceleration_crank_x = p->inverse_crank_mass*lambda_A0_x - p->inverse_crank_mass*lambda_A_x;
 
     /* results */
     a[0] = acceleration_crank_x;
@@ -300,13 +301,13 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     dependent: {
         double force[N_Q], rhs[N_ROWS];
         force[0] = 0.0;
-        force[1] = weight_crank_y;
+        force[1] = p->weight_crank_y;
         force[2] = 0.0;
         force[3] = 0.0;
-        force[4] = weight_coupler_y;
+        force[4] = p->weight_coupler_y;
         force[5] = 0.0;
         force[6] = 0.0;
-        force[7] = weight_rocker_y;
+        force[7] = p->weight_rocker_y;
         force[8] = 0.0;
         rhs[0] = rhs_A0_x;
         rhs[1] = rhs_A0_y;

@@ -1,15 +1,13 @@
 /*
  * four-bar linkage, a crank-rocker
- * mechanism four_bar, scene ideal, from the YAML with sha256 890fe941776a3a447d1bb36d2608867a0f47f9f4874406a96206722550bb1476
+ * mechanism four_bar, scene ideal, from the YAML with sha256
+ * 890fe941776a3a447d1bb36d2608867a0f47f9f4874406a96206722550bb1476
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 0          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 1   /* the same, where they follow */
 #define N_Q 9                 /* coordinates of all bodies */
 #define N_ROWS 9              /* constraint rows of the motion */
 #define N_ALL_ROWS 9          /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 0          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 0            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 0          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 1   /* the same, where they follow */
 #define N_X 2                 /* coordinates that are integrated */
 #define N_LOOPS 2             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 1             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 2       /* rows that are solved together */
+#define N_VALUES 0            /* of the linearized equations */
+#define N_FACTORS 0           /* of their factors L and U */
+#define HAS_LANES 0           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,14 +43,58 @@
 #define N_GUESS 2             /* coordinates that the start guesses */
 #define N_SET 0               /* those that it sets */
 #define N_RATES 0             /* velocities that it sets */
-#define N_VALUES 0            /* of the linearized equations */
-#define N_FACTORS 0           /* of their factors L and U */
-#define HAS_LANES 0           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double omega;  /* parameters.omega */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double coupler_mass;  /* bodies.coupler.mass */    double coupler_inertia;  /* bodies.coupler.inertia */    double rocker_mass;  /* bodies.rocker.mass */    double rocker_inertia;  /* bodies.rocker.inertia */    double crank_length;  /* bodies.crank.length */    double coupler_length;  /* bodies.coupler.length */    double coupler_points_tracer_x;  /* bodies.coupler.points.tracer.x */    double coupler_points_tracer_y;  /* bodies.coupler.points.tracer.y */    double rocker_length;  /* bodies.rocker.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double B0_x;  /* ground.B0.x */    double par_y;  /* gravity.y */    double guess_coupler_theta;  /* start.guess.coupler.theta */    double guess_rocker_theta;  /* start.guess.rocker.theta */    double crank_head_x;  /* point from the centre of mass */    double coupler_head_x;  /* point from the centre of mass */    double coupler_tracer_x;  /* point from the centre of mass */    double rocker_head_x;  /* point from the centre of mass */    double weight_crank_y;  /* weight */    double weight_coupler_y;  /* weight */    double weight_rocker_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_crank_mass;  /* 1/M */    double inverse_coupler_mass;  /* 1/M */    double inverse_rocker_mass;  /* 1/M */    double inverse_coupler_inertia;  /* 1/M */    double inverse_rocker_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double crank_head_span_x;  /* vector in its frame */    double coupler_head_span_x;  /* vector in its frame */    double rocker_head_span_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_coupler;  /* sum of m w.w */    double inertia_coupler_coupler;  /* sum of m w.w */    double inertia_rocker_rocker;  /* sum of m w.w */    double mass_motor_motor;  /* constant of M */    double mass_coupler_coupler;  /* constant of M */    double mass_rocker_rocker;  /* constant of M */    double weight_crank__across;  /* weight */    double weight_coupler__across;  /* weight */    double weight_rocker__across;  /* weight */    double inverse_mass_rocker_rocker;  /* 1/M */    double inverse_mass_coupler_coupler;  /* 1/M */} Parameters;
+typedef struct {
+    double omega;  /* parameters.omega, 1/s */
+    double crank_mass;  /* bodies.crank.mass, kg */
+    double crank_inertia;  /* bodies.crank.inertia, kg m^2 */
+    double coupler_mass;  /* bodies.coupler.mass, kg */
+    double coupler_inertia;  /* bodies.coupler.inertia, kg m^2 */
+    double rocker_mass;  /* bodies.rocker.mass, kg */
+    double rocker_inertia;  /* bodies.rocker.inertia, kg m^2 */
+    double crank_length;  /* bodies.crank.length, m */
+    double coupler_length;  /* bodies.coupler.length, m */
+    double coupler_points_tracer_x;  /* bodies.coupler.points.tracer.x, m */
+    double coupler_points_tracer_y;  /* bodies.coupler.points.tracer.y, m */
+    double rocker_length;  /* bodies.rocker.length, m */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double B0_x;  /* ground.B0.x, m */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double guess_coupler_theta;  /* start.guess.coupler.theta, rad */
+    double guess_rocker_theta;  /* start.guess.rocker.theta, rad */
+    double crank_head_s_x;  /* point from the centre of mass, m */
+    double coupler_head_s_x;  /* point from the centre of mass, m */
+    double coupler_tracer_s_x;  /* point from the centre of mass, m */
+    double rocker_head_s_x;  /* point from the centre of mass, m */
+    double weight_crank_y;  /* weight, kg m/s^2 */
+    double weight_coupler_y;  /* weight, kg m/s^2 */
+    double weight_rocker_y;  /* weight, kg m/s^2 */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_crank_mass;  /* 1/M, 1/kg */
+    double inverse_coupler_mass;  /* 1/M, 1/kg */
+    double inverse_rocker_mass;  /* 1/M, 1/kg */
+    double inverse_coupler_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_rocker_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_crank_inertia;  /* 1/M, 1/(kg m^2) */
+    double crank_head_span_x;  /* vector in its frame, m */
+    double coupler_head_span_x;  /* vector in its frame, m */
+    double rocker_head_span_x;  /* vector in its frame, m */
+    double inertia_crank_crank;  /* sum of m w.w, kg m^2 */
+    double inertia_crank_coupler;  /* sum of m w.w, kg m^2 */
+    double inertia_coupler_coupler;  /* sum of m w.w, kg m^2 */
+    double inertia_rocker_rocker;  /* sum of m w.w, kg m^2 */
+    double mass_motor_motor;  /* constant of M, kg m^2 */
+    double mass_coupler_coupler;  /* constant of M, kg m^2 */
+    double mass_rocker_rocker;  /* constant of M, kg m^2 */
+    double weight_crank__across;  /* weight, kg m^2/s^2 */
+    double weight_coupler__across;  /* weight, kg m^2/s^2 */
+    double weight_rocker__across;  /* weight, kg m^2/s^2 */
+    double inverse_mass_rocker_rocker;  /* 1/M, 1/(kg m^2) */
+    double inverse_mass_coupler_coupler;  /* 1/M, 1/(kg m^2) */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

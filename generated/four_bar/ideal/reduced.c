@@ -1,26 +1,16 @@
 /*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
-void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
-    double *all_v)
+void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double rocker_theta = q[0];
     const double rocker_omega = v[0];
     const double coupler_theta = q[1];
     const double coupler_omega = v[1];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_x = p->crank_head_x;
-    const double coupler_head_x = p->coupler_head_x;
-    const double rocker_head_x = p->rocker_head_x;
-    const double B0_x = p->B0_x;
-    const double crank_head_span_x = p->crank_head_span_x;
-
     /* directions, arms, drives */
-    const double motor_value = omega*time + 1.5707963267948966;
+    const double motor_value = p->omega*t + 1.5707963267948966;
     const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -30,22 +20,22 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double sin_theta_rocker = sines_0[1];
     const double cos_theta_coupler = cosines_0[2];
     const double sin_theta_coupler = sines_0[2];
-    const double motor_rate = omega;
-    const double span_crank_com_x = cos_theta_crank*crank_head_x;
-    const double span_crank_com_y = crank_head_x*sin_theta_crank;
+    const double motor_rate = p->omega;
+    const double span_crank_com_x = cos_theta_crank*p->crank_head_s_x;
+    const double span_crank_com_y = p->crank_head_s_x*sin_theta_crank;
     const double crank_vx = -motor_rate*span_crank_com_y;
     const double crank_vy = motor_rate*span_crank_com_x;
-    const double span_rocker_com_x = cos_theta_rocker*rocker_head_x;
-    const double span_rocker_com_y = rocker_head_x*sin_theta_rocker;
-    const double rocker_x = B0_x + span_rocker_com_x;
+    const double span_rocker_com_x = cos_theta_rocker*p->rocker_head_s_x;
+    const double span_rocker_com_y = p->rocker_head_s_x*sin_theta_rocker;
+    const double rocker_x = p->B0_x + span_rocker_com_x;
     const double rocker_vx = -rocker_omega*span_rocker_com_y;
     const double rocker_vy = rocker_omega*span_rocker_com_x;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
     const double crank_head_vx = -motor_rate*span_crank_head_y;
     const double crank_head_vy = motor_rate*span_crank_head_x;
-    const double span_coupler_com_x = cos_theta_coupler*coupler_head_x;
-    const double span_coupler_com_y = coupler_head_x*sin_theta_coupler;
+    const double span_coupler_com_x = cos_theta_coupler*p->coupler_head_s_x;
+    const double span_coupler_com_y = p->coupler_head_s_x*sin_theta_coupler;
     const double coupler_x = span_coupler_com_x + span_crank_head_x;
     const double coupler_vx = -coupler_omega*span_coupler_com_y + crank_head_vx;
     const double coupler_y = span_coupler_com_y + span_crank_head_y;
@@ -75,8 +65,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 /*
  * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
  */
-void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
-    double *s_rate)
+void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
     (void)t;
     (void)p;
@@ -96,8 +85,8 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 /*
  * Their second rates a, from absolute all_a.
  */
-void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const
-    Parameters *p, double *a)
+void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
+    double *a)
 {
     (void)t;
     (void)q;
@@ -114,19 +103,11 @@ void reduce_accelerations(const double t, const double *q, const double *v, cons
 void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double rocker_theta = q[0];
     const double coupler_theta = q[1];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double B0_x = p->B0_x;
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double coupler_head_span_x = p->coupler_head_span_x;
-    const double rocker_head_span_x = p->rocker_head_span_x;
-
     /* directions, arms, drives */
-    const double motor_value = omega*time + 1.5707963267948966;
+    const double motor_value = p->omega*t + 1.5707963267948966;
     const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -136,15 +117,15 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     const double sin_theta_rocker = sines_0[1];
     const double cos_theta_coupler = cosines_0[2];
     const double sin_theta_coupler = sines_0[2];
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
-    const double span_coupler_head_x = cos_theta_coupler*coupler_head_span_x;
-    const double span_coupler_head_y = coupler_head_span_x*sin_theta_coupler;
-    const double span_rocker_head_x = cos_theta_rocker*rocker_head_span_x;
-    const double span_rocker_head_y = rocker_head_span_x*sin_theta_rocker;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
+    const double span_coupler_head_x = cos_theta_coupler*p->coupler_head_span_x;
+    const double span_coupler_head_y = p->coupler_head_span_x*sin_theta_coupler;
+    const double span_rocker_head_x = cos_theta_rocker*p->rocker_head_span_x;
+    const double span_rocker_head_y = p->rocker_head_span_x*sin_theta_rocker;
 
     /* rows */
-    out[0] = -B0_x + span_coupler_head_x + span_crank_head_x - span_rocker_head_x;  /* B.x */
+    out[0] = -p->B0_x + span_coupler_head_x + span_crank_head_x - span_rocker_head_x;  /* B.x */
     out[1] = span_coupler_head_y + span_crank_head_y - span_rocker_head_y;  /* B.y */
 }
 
@@ -154,20 +135,13 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double rocker_theta = q[0];
     const double rocker_omega = v[0];
     const double coupler_theta = q[1];
     const double coupler_omega = v[1];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double coupler_head_span_x = p->coupler_head_span_x;
-    const double rocker_head_span_x = p->rocker_head_span_x;
-
     /* directions, arms, drives */
-    const double motor_value = omega*time + 1.5707963267948966;
+    const double motor_value = p->omega*t + 1.5707963267948966;
     const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -177,19 +151,19 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     const double sin_theta_rocker = sines_0[1];
     const double cos_theta_coupler = cosines_0[2];
     const double sin_theta_coupler = sines_0[2];
-    const double motor_rate = omega;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
-    const double span_coupler_head_x = cos_theta_coupler*coupler_head_span_x;
-    const double span_coupler_head_y = coupler_head_span_x*sin_theta_coupler;
-    const double span_rocker_head_x = cos_theta_rocker*rocker_head_span_x;
-    const double span_rocker_head_y = rocker_head_span_x*sin_theta_rocker;
+    const double motor_rate = p->omega;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
+    const double span_coupler_head_x = cos_theta_coupler*p->coupler_head_span_x;
+    const double span_coupler_head_y = p->coupler_head_span_x*sin_theta_coupler;
+    const double span_rocker_head_x = cos_theta_rocker*p->rocker_head_span_x;
+    const double span_rocker_head_y = p->rocker_head_span_x*sin_theta_rocker;
 
     /* rows */
-    out[0] = -coupler_omega*span_coupler_head_y - motor_rate*span_crank_head_y +
-        rocker_omega*span_rocker_head_y;  /* B.x */
-    out[1] = coupler_omega*span_coupler_head_x + motor_rate*span_crank_head_x -
-        rocker_omega*span_rocker_head_x;  /* B.y */
+    /* B.x */
+    out[0] = -coupler_omega*span_coupler_head_y - motor_rate*span_crank_head_y + rocker_omega*span_rocker_head_y;
+    /* B.y */
+    out[1] = coupler_omega*span_coupler_head_x + motor_rate*span_crank_head_x - rocker_omega*span_rocker_head_x;
 }
 
 /*
@@ -197,31 +171,17 @@ void closure_rates(const double t, const double *q, const double *v, const Param
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double rocker_theta = q[0];
     const double rocker_omega = v[0];
     const double coupler_theta = q[1];
     const double coupler_omega = v[1];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double coupler_head_span_x = p->coupler_head_span_x;
-    const double rocker_head_span_x = p->rocker_head_span_x;
-    const double inertia_crank_coupler = p->inertia_crank_coupler;
-    const double mass_motor_motor = p->mass_motor_motor;
-    const double weight_crank__across = p->weight_crank__across;
-    const double weight_coupler__across = p->weight_coupler__across;
-    const double weight_rocker__across = p->weight_rocker__across;
-    const double inverse_mass_rocker_rocker = p->inverse_mass_rocker_rocker;
-    const double inverse_mass_coupler_coupler = p->inverse_mass_coupler_coupler;
-
     /* directions, arms, drives */
-    const double motor_value = omega*time + 1.5707963267948966;
+    const double motor_value = p->omega*t + 1.5707963267948966;
     const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -231,68 +191,73 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double sin_theta_rocker = sines_0[1];
     const double cos_theta_coupler = cosines_0[2];
     const double sin_theta_coupler = sines_0[2];
-    const double motor_rate = omega;
+    const double motor_rate = p->omega;
     const double motor_acceleration = 0.0;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
-    const double span_coupler_head_x = cos_theta_coupler*coupler_head_span_x;
-    const double span_coupler_head_y = coupler_head_span_x*sin_theta_coupler;
-    const double span_rocker_head_x = cos_theta_rocker*rocker_head_span_x;
-    const double span_rocker_head_y = rocker_head_span_x*sin_theta_rocker;
-    const double cos_coupler_less_crank = cos_theta_coupler*cos_theta_crank +
-        sin_theta_coupler*sin_theta_crank;
-    const double sin_coupler_less_crank = -cos_theta_coupler*sin_theta_crank +
-        cos_theta_crank*sin_theta_coupler;
-    const double dot_crank_coupler = cos_coupler_less_crank*inertia_crank_coupler;
-    const double cross_crank_coupler = inertia_crank_coupler*sin_coupler_less_crank;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
+    const double span_coupler_head_x = cos_theta_coupler*p->coupler_head_span_x;
+    const double span_coupler_head_y = p->coupler_head_span_x*sin_theta_coupler;
+    const double span_rocker_head_x = cos_theta_rocker*p->rocker_head_span_x;
+    const double span_rocker_head_y = p->rocker_head_span_x*sin_theta_rocker;
+    const double cos_coupler_less_crank = cos_theta_coupler*cos_theta_crank + sin_theta_coupler*sin_theta_crank;
+    const double sin_coupler_less_crank = -cos_theta_coupler*sin_theta_crank + cos_theta_crank*sin_theta_coupler;
+    const double dot_crank_coupler = cos_coupler_less_crank*p->inertia_crank_coupler;
+    const double cross_crank_coupler = p->inertia_crank_coupler*sin_coupler_less_crank;
 
     /* status */
     int pivot = 0;
 
     /* constraints: gamma */
-    const double rhs_B_x = (coupler_omega * coupler_omega)*span_coupler_head_x +
-        motor_acceleration*span_crank_head_y + (motor_rate * motor_rate)*span_crank_head_x - (rocker_omega *
-        rocker_omega)*span_rocker_head_x;
-    const double rhs_B_y = (coupler_omega * coupler_omega)*span_coupler_head_y -
-        motor_acceleration*span_crank_head_x + (motor_rate * motor_rate)*span_crank_head_y - (rocker_omega *
-        rocker_omega)*span_rocker_head_y;
+    const double rhs_B_x = (coupler_omega * coupler_omega)*span_coupler_head_x + motor_acceleration*span_crank_head_y
+        + (motor_rate * motor_rate)*span_crank_head_x - (rocker_omega * rocker_omega)*span_rocker_head_x;
+    const double rhs_B_y = (coupler_omega * coupler_omega)*span_coupler_head_y - motor_acceleration*span_crank_head_x
+        + (motor_rate * motor_rate)*span_crank_head_y - (rocker_omega * rocker_omega)*span_rocker_head_y;
 
     /* L D L^T of the KKT matrix */
-    const double l_B_x__rocker_theta = inverse_mass_rocker_rocker*span_rocker_head_y;
-    const double l_B_y__rocker_theta = -inverse_mass_rocker_rocker*span_rocker_head_x;
-    const double l_B_x__coupler_theta = -inverse_mass_coupler_coupler*span_coupler_head_y;
-    const double l_B_y__coupler_theta = inverse_mass_coupler_coupler*span_coupler_head_x;
-    const double scale_B_x = -l_B_x__coupler_theta*span_coupler_head_y +
-        l_B_x__rocker_theta*span_rocker_head_y;
-    const double scale_B_y = l_B_y__coupler_theta*span_coupler_head_x -
-        l_B_y__rocker_theta*span_rocker_head_x;
-    const double pivot_B_x__B_y = -l_B_y__coupler_theta*span_coupler_head_y +
-        l_B_y__rocker_theta*span_rocker_head_y;
+    const double l_B_x__rocker_theta = p->inverse_mass_rocker_rocker*span_rocker_head_y;
+    const double l_B_y__rocker_theta = -p->inverse_mass_rocker_rocker*span_rocker_head_x;
+    const double l_B_x__coupler_theta = -p->inverse_mass_coupler_coupler*span_coupler_head_y;
+    const double l_B_y__coupler_theta = p->inverse_mass_coupler_coupler*span_coupler_head_x;
+    const double scale_B_x = -l_B_x__coupler_theta*span_coupler_head_y + l_B_x__rocker_theta*span_rocker_head_y;
+    const double scale_B_y = l_B_y__coupler_theta*span_coupler_head_x - l_B_y__rocker_theta*span_rocker_head_x;
+    const double pivot_B_x__B_y = -l_B_y__coupler_theta*span_coupler_head_y + l_B_y__rocker_theta*span_rocker_head_y;
     const double determinant_B_x__B_y = -(pivot_B_x__B_y * pivot_B_x__B_y) + scale_B_x*scale_B_y;
-    if (!(scale_B_x > 1e-08 * scale_B_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * scale_B_x)) { pivot = 2; goto dependent; };
+    if (!(scale_B_x > 0.0 && scale_B_x < INFINITY)) {
+        pivot = 1;
+        goto dependent;
+    }
+    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * scale_B_x)) {
+        pivot = 2;
+        goto dependent;
+    }
     const double size_B_x = scale_B_x + scale_B_y;
-    if (!(scale_B_x > 1e-10 * size_B_x)) { pivot = 1; goto dependent; };
-    if (!(determinant_B_x__B_y > 1e-10 * size_B_x * scale_B_x)) { pivot = 2; goto dependent; };
+    if (!(scale_B_x > 1e-10 * size_B_x)) {
+        pivot = 1;
+        goto dependent;
+    }
+    if (!(determinant_B_x__B_y > 1e-10 * size_B_x * scale_B_x)) {
+        pivot = 2;
+        goto dependent;
+    }
     const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
     const double inverse_pivot_B_x = inverse_B_x__B_y*scale_B_y;
     const double inverse_pivot_B_y = inverse_B_x__B_y*scale_B_x;
     const double inverse_cross_B_x__B_y = -inverse_B_x__B_y*pivot_B_x__B_y;
 
     /* forward substitution */
-    const double z_rocker_theta = cos_theta_rocker*weight_rocker__across;
-    const double z_coupler_theta = cos_theta_coupler*weight_coupler__across - cross_crank_coupler*(motor_rate
-        * motor_rate) - dot_crank_coupler*motor_acceleration;
+    const double z_rocker_theta = cos_theta_rocker*p->weight_rocker__across;
+    const double z_coupler_theta = cos_theta_coupler*p->weight_coupler__across
+        - cross_crank_coupler*(motor_rate * motor_rate) - dot_crank_coupler*motor_acceleration;
     const double z_B_x = -l_B_x__coupler_theta*z_coupler_theta - l_B_x__rocker_theta*z_rocker_theta + rhs_B_x;
     const double z_B_y = -l_B_y__coupler_theta*z_coupler_theta - l_B_y__rocker_theta*z_rocker_theta + rhs_B_y;
 
     /* backward substitution */
     const double lambda_B_y = inverse_cross_B_x__B_y*z_B_x + inverse_pivot_B_y*z_B_y;
     const double lambda_B_x = inverse_cross_B_x__B_y*z_B_y + inverse_pivot_B_x*z_B_x;
-    const double acceleration_coupler_theta = inverse_mass_coupler_coupler*z_coupler_theta -
-        l_B_x__coupler_theta*lambda_B_x - l_B_y__coupler_theta*lambda_B_y;
-    const double acceleration_rocker_theta = inverse_mass_rocker_rocker*z_rocker_theta -
-        l_B_x__rocker_theta*lambda_B_x - l_B_y__rocker_theta*lambda_B_y;
+    const double acceleration_coupler_theta = p->inverse_mass_coupler_coupler*z_coupler_theta
+        - l_B_x__coupler_theta*lambda_B_x - l_B_y__coupler_theta*lambda_B_y;
+    const double acceleration_rocker_theta = p->inverse_mass_rocker_rocker*z_rocker_theta
+        - l_B_x__rocker_theta*lambda_B_x - l_B_y__rocker_theta*lambda_B_y;
 
     /* results */
     a[0] = acceleration_rocker_theta;
@@ -305,10 +270,9 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     dependent:
     pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
     powers:
-    aside->power[0] = -aside->lambda[0]*motor_rate*span_crank_head_y +
-        aside->lambda[1]*motor_rate*span_crank_head_x + motor_rate*(a[1]*dot_crank_coupler -
-        cos_theta_crank*weight_crank__across - (coupler_omega * coupler_omega)*cross_crank_coupler +
-        mass_motor_motor*motor_acceleration);
+    aside->power[0] = -aside->lambda[0]*motor_rate*span_crank_head_y + aside->lambda[1]*motor_rate*span_crank_head_x
+        + motor_rate*(a[1]*dot_crank_coupler - cos_theta_crank*p->weight_crank__across
+        - (coupler_omega * coupler_omega)*cross_crank_coupler + p->mass_motor_motor*motor_acceleration);
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
     return pivot;
@@ -326,12 +290,6 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double rocker_theta = q[0];
     const double coupler_theta = q[1];
 
-    /* parameters */
-    const double coupler_head_span_x = p->coupler_head_span_x;
-    const double rocker_head_span_x = p->rocker_head_span_x;
-    const double inverse_mass_rocker_rocker = p->inverse_mass_rocker_rocker;
-    const double inverse_mass_coupler_coupler = p->inverse_mass_coupler_coupler;
-
     /* directions, arms, drives */
     const Four angles_0 = {rocker_theta, coupler_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
@@ -340,44 +298,45 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double sin_theta_rocker = sines_0[0];
     const double cos_theta_coupler = cosines_0[1];
     const double sin_theta_coupler = sines_0[1];
-    const double span_coupler_head_x = cos_theta_coupler*coupler_head_span_x;
-    const double span_coupler_head_y = coupler_head_span_x*sin_theta_coupler;
-    const double span_rocker_head_x = cos_theta_rocker*rocker_head_span_x;
-    const double span_rocker_head_y = rocker_head_span_x*sin_theta_rocker;
+    const double span_coupler_head_x = cos_theta_coupler*p->coupler_head_span_x;
+    const double span_coupler_head_y = p->coupler_head_span_x*sin_theta_coupler;
+    const double span_rocker_head_x = cos_theta_rocker*p->rocker_head_span_x;
+    const double span_rocker_head_y = p->rocker_head_span_x*sin_theta_rocker;
 
     /* right-hand side */
     const double r_B_x = r[0];
     const double r_B_y = r[1];
 
     /* L D L^T of the KKT matrix */
-    const double l_B_x__rocker_theta_2 = inverse_mass_rocker_rocker*span_rocker_head_y;
-    const double l_B_y__rocker_theta_2 = -inverse_mass_rocker_rocker*span_rocker_head_x;
-    const double l_B_x__coupler_theta_2 = -inverse_mass_coupler_coupler*span_coupler_head_y;
-    const double l_B_y__coupler_theta_2 = inverse_mass_coupler_coupler*span_coupler_head_x;
-    const double scale_B_x_2 = -l_B_x__coupler_theta_2*span_coupler_head_y +
-        l_B_x__rocker_theta_2*span_rocker_head_y;
-    const double scale_B_y_2 = l_B_y__coupler_theta_2*span_coupler_head_x -
-        l_B_y__rocker_theta_2*span_rocker_head_x;
-    const double pivot_B_x__B_y_2 = -l_B_y__coupler_theta_2*span_coupler_head_y +
-        l_B_y__rocker_theta_2*span_rocker_head_y;
-    const double determinant_B_x__B_y_2 = -(pivot_B_x__B_y_2 * pivot_B_x__B_y_2) + scale_B_x_2*scale_B_y_2;
-    if (!(scale_B_x_2 > 1e-13 * scale_B_x_2)) return 1;
-    if (!(determinant_B_x__B_y_2 > 1e-13 * scale_B_y_2 * scale_B_x_2)) return 2;
-    const double size_B_x_2 = scale_B_x_2 + scale_B_y_2;
-    if (!(scale_B_x_2 > 1e-10 * size_B_x_2)) return 1;
-    if (!(determinant_B_x__B_y_2 > 1e-10 * size_B_x_2 * scale_B_x_2)) return 2;
-    const double inverse_B_x__B_y_2 = -1.0/determinant_B_x__B_y_2;
-    const double inverse_pivot_B_x_2 = inverse_B_x__B_y_2*scale_B_y_2;
-    const double inverse_pivot_B_y_2 = inverse_B_x__B_y_2*scale_B_x_2;
-    const double inverse_cross_B_x__B_y_2 = -inverse_B_x__B_y_2*pivot_B_x__B_y_2;
+    const double l_B_x__rocker_theta = p->inverse_mass_rocker_rocker*span_rocker_head_y;
+    const double l_B_y__rocker_theta = -p->inverse_mass_rocker_rocker*span_rocker_head_x;
+    const double l_B_x__coupler_theta = -p->inverse_mass_coupler_coupler*span_coupler_head_y;
+    const double l_B_y__coupler_theta = p->inverse_mass_coupler_coupler*span_coupler_head_x;
+    const double scale_B_x = -l_B_x__coupler_theta*span_coupler_head_y + l_B_x__rocker_theta*span_rocker_head_y;
+    const double scale_B_y = l_B_y__coupler_theta*span_coupler_head_x - l_B_y__rocker_theta*span_rocker_head_x;
+    const double pivot_B_x__B_y = -l_B_y__coupler_theta*span_coupler_head_y + l_B_y__rocker_theta*span_rocker_head_y;
+    const double determinant_B_x__B_y = -(pivot_B_x__B_y * pivot_B_x__B_y) + scale_B_x*scale_B_y;
+    if (!(scale_B_x > 0.0 && scale_B_x < INFINITY))
+        return 1;
+    if (!(determinant_B_x__B_y > 1e-13 * scale_B_y * scale_B_x))
+        return 2;
+    const double size_B_x = scale_B_x + scale_B_y;
+    if (!(scale_B_x > 1e-10 * size_B_x))
+        return 1;
+    if (!(determinant_B_x__B_y > 1e-10 * size_B_x * scale_B_x))
+        return 2;
+    const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
+    const double inverse_pivot_B_x = inverse_B_x__B_y*scale_B_y;
+    const double inverse_pivot_B_y = inverse_B_x__B_y*scale_B_x;
+    const double inverse_cross_B_x__B_y = -inverse_B_x__B_y*pivot_B_x__B_y;
 
     /* backward substitution */
-    const double step_lambda_B_y = inverse_cross_B_x__B_y_2*r_B_x + inverse_pivot_B_y_2*r_B_y;
-    const double step_lambda_B_x = inverse_cross_B_x__B_y_2*r_B_y + inverse_pivot_B_x_2*r_B_x;
-    const double step_acceleration_coupler_theta = -l_B_x__coupler_theta_2*step_lambda_B_x -
-        l_B_y__coupler_theta_2*step_lambda_B_y;
-    const double step_acceleration_rocker_theta = -l_B_x__rocker_theta_2*step_lambda_B_x -
-        l_B_y__rocker_theta_2*step_lambda_B_y;
+    const double step_lambda_B_y = inverse_cross_B_x__B_y*r_B_x + inverse_pivot_B_y*r_B_y;
+    const double step_lambda_B_x = inverse_cross_B_x__B_y*r_B_y + inverse_pivot_B_x*r_B_x;
+    const double step_acceleration_coupler_theta = -l_B_x__coupler_theta*step_lambda_B_x
+        - l_B_y__coupler_theta*step_lambda_B_y;
+    const double step_acceleration_rocker_theta = -l_B_x__rocker_theta*step_lambda_B_x
+        - l_B_y__rocker_theta*step_lambda_B_y;
 
     /* results */
     x[0] = step_acceleration_rocker_theta;

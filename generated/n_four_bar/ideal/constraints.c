@@ -3,34 +3,22 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double crank0_mass = p->crank0_mass;
-    const double crank0_inertia = p->crank0_inertia;
-    const double crank1_mass = p->crank1_mass;
-    const double crank1_inertia = p->crank1_inertia;
-    const double crank2_mass = p->crank2_mass;
-    const double crank2_inertia = p->crank2_inertia;
-    const double coupler1_mass = p->coupler1_mass;
-    const double coupler1_inertia = p->coupler1_inertia;
-    const double coupler2_mass = p->coupler2_mass;
-    const double coupler2_inertia = p->coupler2_inertia;
-
     /* M */
-    m[0] = crank0_mass;
-    m[1] = crank0_mass;
-    m[2] = crank0_inertia;
-    m[3] = crank1_mass;
-    m[4] = crank1_mass;
-    m[5] = crank1_inertia;
-    m[6] = crank2_mass;
-    m[7] = crank2_mass;
-    m[8] = crank2_inertia;
-    m[9] = coupler1_mass;
-    m[10] = coupler1_mass;
-    m[11] = coupler1_inertia;
-    m[12] = coupler2_mass;
-    m[13] = coupler2_mass;
-    m[14] = coupler2_inertia;
+    m[0] = p->crank0_mass;
+    m[1] = p->crank0_mass;
+    m[2] = p->crank0_inertia;
+    m[3] = p->crank1_mass;
+    m[4] = p->crank1_mass;
+    m[5] = p->crank1_inertia;
+    m[6] = p->crank2_mass;
+    m[7] = p->crank2_mass;
+    m[8] = p->crank2_inertia;
+    m[9] = p->coupler1_mass;
+    m[10] = p->coupler1_mass;
+    m[11] = p->coupler1_inertia;
+    m[12] = p->coupler2_mass;
+    m[13] = p->coupler2_mass;
+    m[14] = p->coupler2_inertia;
 }
 
 /*
@@ -56,43 +44,34 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double coupler2_y = q[13];
     const double coupler2_theta = q[14];
 
-    /* parameters */
-    const double crank0_head_x = p->crank0_head_x;
-    const double crank1_head_x = p->crank1_head_x;
-    const double crank2_head_x = p->crank2_head_x;
-    const double coupler1_head_x = p->coupler1_head_x;
-    const double coupler2_head_x = p->coupler2_head_x;
-    const double O1_x = p->O1_x;
-    const double O2_x = p->O2_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank0 = cos(crank0_theta);
     const double sin_theta_crank0 = sin(crank0_theta);
-    const double arm_crank0_head_x = cos_theta_crank0*crank0_head_x;
-    const double arm_crank0_head_y = crank0_head_x*sin_theta_crank0;
+    const double arm_crank0_head_x = cos_theta_crank0*p->crank0_head_s_x;
+    const double arm_crank0_head_y = p->crank0_head_s_x*sin_theta_crank0;
     const double cos_theta_crank1 = cos(crank1_theta);
     const double sin_theta_crank1 = sin(crank1_theta);
-    const double arm_crank1_head_x = cos_theta_crank1*crank1_head_x;
-    const double arm_crank1_head_y = crank1_head_x*sin_theta_crank1;
+    const double arm_crank1_head_x = cos_theta_crank1*p->crank1_head_s_x;
+    const double arm_crank1_head_y = p->crank1_head_s_x*sin_theta_crank1;
     const double cos_theta_crank2 = cos(crank2_theta);
     const double sin_theta_crank2 = sin(crank2_theta);
-    const double arm_crank2_head_x = cos_theta_crank2*crank2_head_x;
-    const double arm_crank2_head_y = crank2_head_x*sin_theta_crank2;
+    const double arm_crank2_head_x = cos_theta_crank2*p->crank2_head_s_x;
+    const double arm_crank2_head_y = p->crank2_head_s_x*sin_theta_crank2;
     const double cos_theta_coupler1 = cos(coupler1_theta);
     const double sin_theta_coupler1 = sin(coupler1_theta);
-    const double arm_coupler1_head_x = cos_theta_coupler1*coupler1_head_x;
-    const double arm_coupler1_head_y = coupler1_head_x*sin_theta_coupler1;
+    const double arm_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_s_x;
+    const double arm_coupler1_head_y = p->coupler1_head_s_x*sin_theta_coupler1;
     const double cos_theta_coupler2 = cos(coupler2_theta);
     const double sin_theta_coupler2 = sin(coupler2_theta);
-    const double arm_coupler2_head_x = cos_theta_coupler2*coupler2_head_x;
-    const double arm_coupler2_head_y = coupler2_head_x*sin_theta_coupler2;
+    const double arm_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_s_x;
+    const double arm_coupler2_head_y = p->coupler2_head_s_x*sin_theta_coupler2;
 
     /* rows */
     phi[0] = arm_crank0_head_x - crank0_x;  /* O0.x */
     phi[1] = arm_crank0_head_y - crank0_y;  /* O0.y */
-    phi[2] = O1_x + arm_crank1_head_x - crank1_x;  /* O1.x */
+    phi[2] = p->O1_x + arm_crank1_head_x - crank1_x;  /* O1.x */
     phi[3] = arm_crank1_head_y - crank1_y;  /* O1.y */
-    phi[4] = O2_x + arm_crank2_head_x - crank2_x;  /* O2.x */
+    phi[4] = p->O2_x + arm_crank2_head_x - crank2_x;  /* O2.x */
     phi[5] = arm_crank2_head_y - crank2_y;  /* O2.y */
     phi[6] = arm_coupler1_head_x + arm_crank0_head_x - coupler1_x + crank0_x;  /* A0.x */
     phi[7] = arm_coupler1_head_y + arm_crank0_head_y - coupler1_y + crank0_y;  /* A0.y */
@@ -117,34 +96,27 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
     const double coupler1_theta = q[11];
     const double coupler2_theta = q[14];
 
-    /* parameters */
-    const double crank0_head_x = p->crank0_head_x;
-    const double crank1_head_x = p->crank1_head_x;
-    const double crank2_head_x = p->crank2_head_x;
-    const double coupler1_head_x = p->coupler1_head_x;
-    const double coupler2_head_x = p->coupler2_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank0 = cos(crank0_theta);
     const double sin_theta_crank0 = sin(crank0_theta);
-    const double arm_crank0_head_x = cos_theta_crank0*crank0_head_x;
-    const double arm_crank0_head_y = crank0_head_x*sin_theta_crank0;
+    const double arm_crank0_head_x = cos_theta_crank0*p->crank0_head_s_x;
+    const double arm_crank0_head_y = p->crank0_head_s_x*sin_theta_crank0;
     const double cos_theta_crank1 = cos(crank1_theta);
     const double sin_theta_crank1 = sin(crank1_theta);
-    const double arm_crank1_head_x = cos_theta_crank1*crank1_head_x;
-    const double arm_crank1_head_y = crank1_head_x*sin_theta_crank1;
+    const double arm_crank1_head_x = cos_theta_crank1*p->crank1_head_s_x;
+    const double arm_crank1_head_y = p->crank1_head_s_x*sin_theta_crank1;
     const double cos_theta_crank2 = cos(crank2_theta);
     const double sin_theta_crank2 = sin(crank2_theta);
-    const double arm_crank2_head_x = cos_theta_crank2*crank2_head_x;
-    const double arm_crank2_head_y = crank2_head_x*sin_theta_crank2;
+    const double arm_crank2_head_x = cos_theta_crank2*p->crank2_head_s_x;
+    const double arm_crank2_head_y = p->crank2_head_s_x*sin_theta_crank2;
     const double cos_theta_coupler1 = cos(coupler1_theta);
     const double sin_theta_coupler1 = sin(coupler1_theta);
-    const double arm_coupler1_head_x = cos_theta_coupler1*coupler1_head_x;
-    const double arm_coupler1_head_y = coupler1_head_x*sin_theta_coupler1;
+    const double arm_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_s_x;
+    const double arm_coupler1_head_y = p->coupler1_head_s_x*sin_theta_coupler1;
     const double cos_theta_coupler2 = cos(coupler2_theta);
     const double sin_theta_coupler2 = sin(coupler2_theta);
-    const double arm_coupler2_head_x = cos_theta_coupler2*coupler2_head_x;
-    const double arm_coupler2_head_y = coupler2_head_x*sin_theta_coupler2;
+    const double arm_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_s_x;
+    const double arm_coupler2_head_y = p->coupler2_head_s_x*sin_theta_coupler2;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d O0.x / d crank0_x */
@@ -221,8 +193,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -237,34 +208,27 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double coupler2_theta = q[14];
     const double coupler2_omega = v[14];
 
-    /* parameters */
-    const double crank0_head_x = p->crank0_head_x;
-    const double crank1_head_x = p->crank1_head_x;
-    const double crank2_head_x = p->crank2_head_x;
-    const double coupler1_head_x = p->coupler1_head_x;
-    const double coupler2_head_x = p->coupler2_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank0 = cos(crank0_theta);
     const double sin_theta_crank0 = sin(crank0_theta);
-    const double arm_crank0_head_x = cos_theta_crank0*crank0_head_x;
-    const double arm_crank0_head_y = crank0_head_x*sin_theta_crank0;
+    const double arm_crank0_head_x = cos_theta_crank0*p->crank0_head_s_x;
+    const double arm_crank0_head_y = p->crank0_head_s_x*sin_theta_crank0;
     const double cos_theta_crank1 = cos(crank1_theta);
     const double sin_theta_crank1 = sin(crank1_theta);
-    const double arm_crank1_head_x = cos_theta_crank1*crank1_head_x;
-    const double arm_crank1_head_y = crank1_head_x*sin_theta_crank1;
+    const double arm_crank1_head_x = cos_theta_crank1*p->crank1_head_s_x;
+    const double arm_crank1_head_y = p->crank1_head_s_x*sin_theta_crank1;
     const double cos_theta_crank2 = cos(crank2_theta);
     const double sin_theta_crank2 = sin(crank2_theta);
-    const double arm_crank2_head_x = cos_theta_crank2*crank2_head_x;
-    const double arm_crank2_head_y = crank2_head_x*sin_theta_crank2;
+    const double arm_crank2_head_x = cos_theta_crank2*p->crank2_head_s_x;
+    const double arm_crank2_head_y = p->crank2_head_s_x*sin_theta_crank2;
     const double cos_theta_coupler1 = cos(coupler1_theta);
     const double sin_theta_coupler1 = sin(coupler1_theta);
-    const double arm_coupler1_head_x = cos_theta_coupler1*coupler1_head_x;
-    const double arm_coupler1_head_y = coupler1_head_x*sin_theta_coupler1;
+    const double arm_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_s_x;
+    const double arm_coupler1_head_y = p->coupler1_head_s_x*sin_theta_coupler1;
     const double cos_theta_coupler2 = cos(coupler2_theta);
     const double sin_theta_coupler2 = sin(coupler2_theta);
-    const double arm_coupler2_head_x = cos_theta_coupler2*coupler2_head_x;
-    const double arm_coupler2_head_y = coupler2_head_x*sin_theta_coupler2;
+    const double arm_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_s_x;
+    const double arm_coupler2_head_y = p->coupler2_head_s_x*sin_theta_coupler2;
 
     /* rows */
     gamma_rows[0] = arm_crank0_head_x*(crank0_omega * crank0_omega);  /* O0.x */
@@ -273,22 +237,30 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     gamma_rows[3] = arm_crank1_head_y*(crank1_omega * crank1_omega);  /* O1.y */
     gamma_rows[4] = arm_crank2_head_x*(crank2_omega * crank2_omega);  /* O2.x */
     gamma_rows[5] = arm_crank2_head_y*(crank2_omega * crank2_omega);  /* O2.y */
-    gamma_rows[6] = arm_coupler1_head_x*(coupler1_omega * coupler1_omega) + arm_crank0_head_x*(crank0_omega *
-        crank0_omega);  /* A0.x */
-    gamma_rows[7] = arm_coupler1_head_y*(coupler1_omega * coupler1_omega) + arm_crank0_head_y*(crank0_omega *
-        crank0_omega);  /* A0.y */
-    gamma_rows[8] = arm_coupler1_head_x*(coupler1_omega * coupler1_omega) - arm_crank1_head_x*(crank1_omega *
-        crank1_omega);  /* B1.x */
-    gamma_rows[9] = arm_coupler1_head_y*(coupler1_omega * coupler1_omega) - arm_crank1_head_y*(crank1_omega *
-        crank1_omega);  /* B1.y */
-    gamma_rows[10] = arm_coupler2_head_x*(coupler2_omega * coupler2_omega) + arm_crank1_head_x*(crank1_omega *
-        crank1_omega);  /* A1.x */
-    gamma_rows[11] = arm_coupler2_head_y*(coupler2_omega * coupler2_omega) + arm_crank1_head_y*(crank1_omega *
-        crank1_omega);  /* A1.y */
-    gamma_rows[12] = arm_coupler2_head_x*(coupler2_omega * coupler2_omega) - arm_crank2_head_x*(crank2_omega *
-        crank2_omega);  /* B2.x */
-    gamma_rows[13] = arm_coupler2_head_y*(coupler2_omega * coupler2_omega) - arm_crank2_head_y*(crank2_omega *
-        crank2_omega);  /* B2.y */
+    /* A0.x */
+    gamma_rows[6] = arm_coupler1_head_x*(coupler1_omega * coupler1_omega)
+        + arm_crank0_head_x*(crank0_omega * crank0_omega);
+    /* A0.y */
+    gamma_rows[7] = arm_coupler1_head_y*(coupler1_omega * coupler1_omega)
+        + arm_crank0_head_y*(crank0_omega * crank0_omega);
+    /* B1.x */
+    gamma_rows[8] = arm_coupler1_head_x*(coupler1_omega * coupler1_omega)
+        - arm_crank1_head_x*(crank1_omega * crank1_omega);
+    /* B1.y */
+    gamma_rows[9] = arm_coupler1_head_y*(coupler1_omega * coupler1_omega)
+        - arm_crank1_head_y*(crank1_omega * crank1_omega);
+    /* A1.x */
+    gamma_rows[10] = arm_coupler2_head_x*(coupler2_omega * coupler2_omega)
+        + arm_crank1_head_x*(crank1_omega * crank1_omega);
+    /* A1.y */
+    gamma_rows[11] = arm_coupler2_head_y*(coupler2_omega * coupler2_omega)
+        + arm_crank1_head_y*(crank1_omega * crank1_omega);
+    /* B2.x */
+    gamma_rows[12] = arm_coupler2_head_x*(coupler2_omega * coupler2_omega)
+        - arm_crank2_head_x*(crank2_omega * crank2_omega);
+    /* B2.y */
+    gamma_rows[13] = arm_coupler2_head_y*(coupler2_omega * coupler2_omega)
+        - arm_crank2_head_y*(crank2_omega * crank2_omega);
 }
 
 /*
@@ -296,19 +268,13 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
  */
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
-    /* parameters */
-    const double guess_crank1_theta = p->guess_crank1_theta;
-    const double guess_crank2_theta = p->guess_crank2_theta;
-    const double set_crank0_theta = p->set_crank0_theta;
-    const double rates_crank0_omega = p->rates_crank0_omega;
-
     /* start */
-    guess[0] = guess_crank1_theta;  /* start.guess.crank1.theta */
-    guess[1] = guess_crank2_theta;  /* start.guess.crank2.theta */
+    guess[0] = p->guess_crank1_theta;  /* start.guess.crank1.theta */
+    guess[1] = p->guess_crank2_theta;  /* start.guess.crank2.theta */
     guess[2] = 0.0;  /* start.guess.coupler1.theta */
     guess[3] = 0.0;  /* start.guess.coupler2.theta */
-    set[0] = set_crank0_theta;  /* start.set.crank0.theta */
-    rates[0] = rates_crank0_omega;  /* start.rates.crank0.omega */
+    set[0] = p->set_crank0_theta;  /* start.set.crank0.theta */
+    rates[0] = p->rates_crank0_omega;  /* start.rates.crank0.omega */
 }
 
 /*
@@ -342,19 +308,6 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double coupler2_vx = v[12];
     const double coupler2_vy = v[13];
     const double coupler2_omega = v[14];
-
-    /* parameters */
-    const double crank0_mass = p->crank0_mass;
-    const double crank0_inertia = p->crank0_inertia;
-    const double crank1_mass = p->crank1_mass;
-    const double crank1_inertia = p->crank1_inertia;
-    const double crank2_mass = p->crank2_mass;
-    const double crank2_inertia = p->crank2_inertia;
-    const double coupler1_mass = p->coupler1_mass;
-    const double coupler1_inertia = p->coupler1_inertia;
-    const double coupler2_mass = p->coupler2_mass;
-    const double coupler2_inertia = p->coupler2_inertia;
-    const double par_y = p->par_y;
 
     /* multipliers */
     const double multiplier_O0_x = lambda[0];
@@ -396,14 +349,15 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     reactions[20] = 0.0;  /* B2.M */
 
     /* energy */
-    energy[0] = (0.5)*coupler1_inertia*(coupler1_omega * coupler1_omega) + (0.5)*coupler1_mass*(coupler1_vx *
-        coupler1_vx) + (0.5)*coupler1_mass*(coupler1_vy * coupler1_vy) +
-        (0.5)*coupler2_inertia*(coupler2_omega * coupler2_omega) + (0.5)*coupler2_mass*(coupler2_vx *
-        coupler2_vx) + (0.5)*coupler2_mass*(coupler2_vy * coupler2_vy) + (0.5)*crank0_inertia*(crank0_omega *
-        crank0_omega) + (0.5)*crank0_mass*(crank0_vx * crank0_vx) + (0.5)*crank0_mass*(crank0_vy * crank0_vy)
-        + (0.5)*crank1_inertia*(crank1_omega * crank1_omega) + (0.5)*crank1_mass*(crank1_vx * crank1_vx) +
-        (0.5)*crank1_mass*(crank1_vy * crank1_vy) + (0.5)*crank2_inertia*(crank2_omega * crank2_omega) +
-        (0.5)*crank2_mass*(crank2_vx * crank2_vx) + (0.5)*crank2_mass*(crank2_vy * crank2_vy);
-    energy[1] = -coupler1_mass*coupler1_y*par_y - coupler2_mass*coupler2_y*par_y - crank0_mass*crank0_y*par_y
-        - crank1_mass*crank1_y*par_y - crank2_mass*crank2_y*par_y;
+    energy[0] = 0.5*p->coupler1_inertia*(coupler1_omega * coupler1_omega)
+        + 0.5*p->coupler1_mass*(coupler1_vx * coupler1_vx) + 0.5*p->coupler1_mass*(coupler1_vy * coupler1_vy)
+        + 0.5*p->coupler2_inertia*(coupler2_omega * coupler2_omega) + 0.5*p->coupler2_mass*(coupler2_vx * coupler2_vx)
+        + 0.5*p->coupler2_mass*(coupler2_vy * coupler2_vy) + 0.5*p->crank0_inertia*(crank0_omega * crank0_omega)
+        + 0.5*p->crank0_mass*(crank0_vx * crank0_vx) + 0.5*p->crank0_mass*(crank0_vy * crank0_vy)
+        + 0.5*p->crank1_inertia*(crank1_omega * crank1_omega) + 0.5*p->crank1_mass*(crank1_vx * crank1_vx)
+        + 0.5*p->crank1_mass*(crank1_vy * crank1_vy) + 0.5*p->crank2_inertia*(crank2_omega * crank2_omega)
+        + 0.5*p->crank2_mass*(crank2_vx * crank2_vx) + 0.5*p->crank2_mass*(crank2_vy * crank2_vy);
+    energy[1] = -p->coupler1_mass*coupler1_y*p->gravity_y - p->coupler2_mass*coupler2_y*p->gravity_y
+        - p->crank0_mass*crank0_y*p->gravity_y - p->crank1_mass*crank1_y*p->gravity_y
+        - p->crank2_mass*crank2_y*p->gravity_y;
 }

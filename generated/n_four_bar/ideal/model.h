@@ -1,15 +1,13 @@
 /*
  * N-four-bar, N = 2 (IFToMM A02)
- * mechanism n_four_bar, scene ideal, from the YAML with sha256 826c2d3a5019b84151898efe2e6ef086f55ee2834af23be8d7d765ceed490e94
+ * mechanism n_four_bar, scene ideal, from the YAML with sha256
+ * 826c2d3a5019b84151898efe2e6ef086f55ee2834af23be8d7d765ceed490e94
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 15                /* coordinates of all bodies */
 #define N_ROWS 14             /* constraint rows of the motion */
 #define N_ALL_ROWS 14         /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 0          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 0            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_X 5                 /* coordinates that are integrated */
 #define N_LOOPS 4             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 1             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 45           /* of the linearized equations */
+#define N_FACTORS 41          /* of their factors L and U */
+#define HAS_LANES 1           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,14 +43,84 @@
 #define N_GUESS 4             /* coordinates that the start guesses */
 #define N_SET 1               /* those that it sets */
 #define N_RATES 1             /* velocities that it sets */
-#define N_VALUES 45           /* of the linearized equations */
-#define N_FACTORS 41          /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double length;  /* parameters.length */    double mass;  /* parameters.mass */    double inertia;  /* parameters.inertia */    double crank0_mass;  /* bodies.crank0.mass */    double crank0_inertia;  /* bodies.crank0.inertia */    double crank1_mass;  /* bodies.crank1.mass */    double crank1_inertia;  /* bodies.crank1.inertia */    double crank2_mass;  /* bodies.crank2.mass */    double crank2_inertia;  /* bodies.crank2.inertia */    double coupler1_mass;  /* bodies.coupler1.mass */    double coupler1_inertia;  /* bodies.coupler1.inertia */    double coupler2_mass;  /* bodies.coupler2.mass */    double coupler2_inertia;  /* bodies.coupler2.inertia */    double crank0_length;  /* bodies.crank0.length */    double crank1_length;  /* bodies.crank1.length */    double crank2_length;  /* bodies.crank2.length */    double coupler1_length;  /* bodies.coupler1.length */    double coupler2_length;  /* bodies.coupler2.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O1_x;  /* ground.O1.x */    double O2_x;  /* ground.O2.x */    double par_y;  /* gravity.y */    double guess_crank1_theta;  /* start.guess.crank1.theta */    double guess_crank2_theta;  /* start.guess.crank2.theta */    double set_crank0_theta;  /* start.set.crank0.theta */    double rates_crank0_omega;  /* start.rates.crank0.omega */    double crank0_head_x;  /* point from the centre of mass */    double crank1_head_x;  /* point from the centre of mass */    double crank2_head_x;  /* point from the centre of mass */    double coupler1_head_x;  /* point from the centre of mass */    double coupler2_head_x;  /* point from the centre of mass */    double weight_crank0_y;  /* weight */    double weight_crank1_y;  /* weight */    double weight_crank2_y;  /* weight */    double weight_coupler1_y;  /* weight */    double weight_coupler2_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_crank0_mass;  /* 1/M */    double inverse_crank2_mass;  /* 1/M */    double inverse_coupler1_mass;  /* 1/M */    double inverse_coupler2_mass;  /* 1/M */    double inverse_crank1_mass;  /* 1/M */    double inverse_crank0_inertia;  /* 1/M */    double inverse_crank2_inertia;  /* 1/M */    double inverse_coupler1_inertia;  /* 1/M */    double inverse_coupler2_inertia;  /* 1/M */    double inverse_crank1_inertia;  /* 1/M */    double crank0_head_span_x;  /* vector in its frame */    double crank1_head_span_x;  /* vector in its frame */    double coupler2_head_span_x;  /* vector in its frame */    double crank2_head_span_x;  /* vector in its frame */    double coupler1_head_span_x;  /* vector in its frame */    double inertia_crank0_crank0;  /* sum of m w.w */    double inertia_crank1_crank1;  /* sum of m w.w */    double inertia_crank2_crank2;  /* sum of m w.w */    double inertia_crank0_coupler1;  /* sum of m w.w */    double inertia_coupler1_coupler1;  /* sum of m w.w */    double inertia_crank1_coupler2;  /* sum of m w.w */    double inertia_coupler2_coupler2;  /* sum of m w.w */    double mass_crank0_crank0;  /* constant of M */    double mass_crank1_crank1;  /* constant of M */    double mass_crank2_crank2;  /* constant of M */    double mass_coupler1_coupler1;  /* constant of M */    double mass_coupler2_coupler2;  /* constant of M */    double weight_crank0__across;  /* weight */    double weight_crank1__across;  /* weight */    double weight_crank2__across;  /* weight */    double weight_coupler1__across;  /* weight */    double weight_coupler2__across;  /* weight */    double inverse_mass_crank2_crank2;  /* 1/M */    double inverse_mass_coupler2_coupler2;  /* 1/M */    double inverse_mass_crank0_crank0;  /* 1/M */} Parameters;
+typedef struct {
+    double length;  /* parameters.length, m */
+    double mass;  /* parameters.mass, kg */
+    double inertia;  /* parameters.inertia, kg m^2 */
+    double crank0_mass;  /* bodies.crank0.mass, kg */
+    double crank0_inertia;  /* bodies.crank0.inertia, kg m^2 */
+    double crank1_mass;  /* bodies.crank1.mass, kg */
+    double crank1_inertia;  /* bodies.crank1.inertia, kg m^2 */
+    double crank2_mass;  /* bodies.crank2.mass, kg */
+    double crank2_inertia;  /* bodies.crank2.inertia, kg m^2 */
+    double coupler1_mass;  /* bodies.coupler1.mass, kg */
+    double coupler1_inertia;  /* bodies.coupler1.inertia, kg m^2 */
+    double coupler2_mass;  /* bodies.coupler2.mass, kg */
+    double coupler2_inertia;  /* bodies.coupler2.inertia, kg m^2 */
+    double crank0_length;  /* bodies.crank0.length, m */
+    double crank1_length;  /* bodies.crank1.length, m */
+    double crank2_length;  /* bodies.crank2.length, m */
+    double coupler1_length;  /* bodies.coupler1.length, m */
+    double coupler2_length;  /* bodies.coupler2.length, m */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double O1_x;  /* ground.O1.x, m */
+    double O2_x;  /* ground.O2.x, m */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double guess_crank1_theta;  /* start.guess.crank1.theta, rad */
+    double guess_crank2_theta;  /* start.guess.crank2.theta, rad */
+    double set_crank0_theta;  /* start.set.crank0.theta, rad */
+    double rates_crank0_omega;  /* start.rates.crank0.omega, 1/s */
+    double crank0_head_s_x;  /* point from the centre of mass, m */
+    double crank1_head_s_x;  /* point from the centre of mass, m */
+    double crank2_head_s_x;  /* point from the centre of mass, m */
+    double coupler1_head_s_x;  /* point from the centre of mass, m */
+    double coupler2_head_s_x;  /* point from the centre of mass, m */
+    double weight_crank0_y;  /* weight, kg m/s^2 */
+    double weight_crank1_y;  /* weight, kg m/s^2 */
+    double weight_crank2_y;  /* weight, kg m/s^2 */
+    double weight_coupler1_y;  /* weight, kg m/s^2 */
+    double weight_coupler2_y;  /* weight, kg m/s^2 */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_crank0_mass;  /* 1/M, 1/kg */
+    double inverse_crank2_mass;  /* 1/M, 1/kg */
+    double inverse_coupler1_mass;  /* 1/M, 1/kg */
+    double inverse_coupler2_mass;  /* 1/M, 1/kg */
+    double inverse_crank1_mass;  /* 1/M, 1/kg */
+    double inverse_crank0_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_crank2_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_coupler1_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_coupler2_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_crank1_inertia;  /* 1/M, 1/(kg m^2) */
+    double crank0_head_span_x;  /* vector in its frame, m */
+    double crank1_head_span_x;  /* vector in its frame, m */
+    double coupler2_head_span_x;  /* vector in its frame, m */
+    double crank2_head_span_x;  /* vector in its frame, m */
+    double coupler1_head_span_x;  /* vector in its frame, m */
+    double inertia_crank0_crank0;  /* sum of m w.w, kg m^2 */
+    double inertia_crank1_crank1;  /* sum of m w.w, kg m^2 */
+    double inertia_crank2_crank2;  /* sum of m w.w, kg m^2 */
+    double inertia_crank0_coupler1;  /* sum of m w.w, kg m^2 */
+    double inertia_coupler1_coupler1;  /* sum of m w.w, kg m^2 */
+    double inertia_crank1_coupler2;  /* sum of m w.w, kg m^2 */
+    double inertia_coupler2_coupler2;  /* sum of m w.w, kg m^2 */
+    double mass_crank0_crank0;  /* constant of M, kg m^2 */
+    double mass_crank1_crank1;  /* constant of M, kg m^2 */
+    double mass_crank2_crank2;  /* constant of M, kg m^2 */
+    double mass_coupler1_coupler1;  /* constant of M, kg m^2 */
+    double mass_coupler2_coupler2;  /* constant of M, kg m^2 */
+    double weight_crank0__across;  /* weight, kg m^2/s^2 */
+    double weight_crank1__across;  /* weight, kg m^2/s^2 */
+    double weight_crank2__across;  /* weight, kg m^2/s^2 */
+    double weight_coupler1__across;  /* weight, kg m^2/s^2 */
+    double weight_coupler2__across;  /* weight, kg m^2/s^2 */
+    double inverse_mass_crank2_crank2;  /* 1/M, 1/(kg m^2) */
+    double inverse_mass_coupler2_coupler2;  /* 1/M, 1/(kg m^2) */
+    double inverse_mass_crank0_crank0;  /* 1/M, 1/(kg m^2) */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

@@ -3,44 +3,54 @@
  * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
  * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
  * Options: geometry: external.
+ * exponent: exponent of the penetration; K: contact stiffness; hysteresis: hysteresis damping factor a.
  */
-static inline void normal_A_force(double delta, double ratio, const Parameters *p, const double *side,
-    double *g, double *F_n_out)
+static inline void lankarani_nikravesh(double delta, double ratio, double exponent, double K, double hysteresis,
+    const double *side, double *g, int corner, double *F_n_out)
 {
-    /* parameters */
-    const double dry_normal_exponent = p->dry_normal_exponent;
-    const double dry_pin_K = p->dry_pin_K;
-    const double dry_pin_hysteresis = p->dry_pin_hysteresis;
-
-    /* law of joint A */
-    const double side_0 = side_of(side, g, 0, dry_pin_hysteresis*ratio + 1.0);
-    *F_n_out = pow(delta, dry_normal_exponent)*dry_pin_K*(side_0 < 0.0 ? 0.0 : dry_pin_hysteresis*ratio +
-        1.0);
+    const double side_1 = side_of(side, g, corner, hysteresis*ratio + 1.0);
+    double larger_1;
+    if (side_1 < 0.0)
+        larger_1 = 0.0;
+    else
+        larger_1 = hysteresis*ratio + 1.0;
+    *F_n_out = pow(delta, exponent)*K*larger_1;
 }
 
 /*
  * modified Coulomb friction.
  * Source: physics.md section 3, after J. A. C. Ambrosio.
  * Valid: sliding; creeps below v1 where Coulomb's law would stick.
+ * mu: coefficient of friction; v0: slip below which there is no friction; friction_slope: 1/(v1 - v0).
  */
-static inline void friction_A_force(double F_n, double v_t, const Parameters *p, const double *side,
-    double *g, double *F_t_out)
+static inline void modified_coulomb(double F_n, double v_t, double mu, double v0, double friction_slope,
+    const double *side, double *g, int corner, double *F_t_out)
 {
-    /* parameters */
-    const double dry_friction_mu = p->dry_friction_mu;
-    const double dry_friction_v0 = p->dry_friction_v0;
-    const double dry_pin_friction_slope = p->dry_pin_friction_slope;
-
-    /* law of joint A */
-    const double side_1 = side_of(side, g, 1, -dry_pin_friction_slope*(-dry_friction_v0 - v_t) + 1.0);
-    const double side_2 = side_of(side, g, 2, (side_1 < 0.0 ? 1.0 : dry_pin_friction_slope*(-dry_friction_v0 -
-        v_t)));
-    const double side_3 = side_of(side, g, 3, -dry_pin_friction_slope*(-dry_friction_v0 + v_t) + 1.0);
-    const double side_4 = side_of(side, g, 4, (side_3 < 0.0 ? 1.0 : dry_pin_friction_slope*(-dry_friction_v0 +
-        v_t)));
-    *F_t_out = -F_n*dry_friction_mu*(-(side_2 < 0.0 ? 0.0 : (side_1 < 0.0 ? 1.0 :
-        dry_pin_friction_slope*(-dry_friction_v0 - v_t))) + (side_4 < 0.0 ? 0.0 : (side_3 < 0.0 ? 1.0 :
-        dry_pin_friction_slope*(-dry_friction_v0 + v_t))));
+    const double side_1 = side_of(side, g, corner, -friction_slope*(-v0 - v_t) + 1.0);
+    double smaller_1;
+    if (side_1 < 0.0)
+        smaller_1 = 1.0;
+    else
+        smaller_1 = friction_slope*(-v0 - v_t);
+    const double side_2 = side_of(side, g, corner + 1, smaller_1);
+    const double side_3 = side_of(side, g, corner + 2, -friction_slope*(-v0 + v_t) + 1.0);
+    double smaller_2;
+    if (side_3 < 0.0)
+        smaller_2 = 1.0;
+    else
+        smaller_2 = friction_slope*(-v0 + v_t);
+    const double side_4 = side_of(side, g, corner + 3, smaller_2);
+    double larger_1;
+    if (side_2 < 0.0)
+        larger_1 = 0.0;
+    else
+        larger_1 = smaller_1;
+    double larger_2;
+    if (side_4 < 0.0)
+        larger_2 = 0.0;
+    else
+        larger_2 = smaller_2;
+    *F_t_out = -F_n*mu*(-larger_1 + larger_2);
 }
 
 /*
@@ -54,12 +64,15 @@ static inline PinForce dry_A(double delta, double deltadot, double de_t, double 
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = (0.5)*delta + p->pin_radius;
+    const double a_i = 0.5*delta + p->pin_radius;
     const double a_j = -0.5*delta + p->R_j_pin;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
-    double F_n, F_along_t_dry;
-    normal_A_force(max_of(delta, 0.0), ratio, p, side, g, &F_n);
-    friction_A_force(F_n, v_t, p, side, g, &F_along_t_dry);
+    double F_n;
+    lankarani_nikravesh(max_of(delta, 0.0), ratio, p->dry_normal_exponent, p->dry_pin_K, p->dry_pin_hysteresis, side,
+        g, 0, &F_n);
+    double F_along_t_dry;
+    modified_coulomb(F_n, v_t, p->dry_friction_mu, p->dry_friction_v0, p->dry_pin_friction_slope, side, g, 1,
+        &F_along_t_dry);
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
@@ -87,51 +100,6 @@ static void clearance_A(double e_x, double e_y, double de_x, double de_y, double
 }
 
 /*
- * Lankarani and Nikravesh: Hertz stiffness with hysteresis damping.
- * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
- * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
- * Options: geometry: external.
- */
-static inline void normal_B_force(double delta, double ratio, const Parameters *p, const double *side,
-    double *g, double *F_n_out)
-{
-    /* parameters */
-    const double dry_normal_exponent = p->dry_normal_exponent;
-    const double dry_pin_K = p->dry_pin_K;
-    const double dry_pin_hysteresis = p->dry_pin_hysteresis;
-
-    /* law of joint B */
-    const double side_5 = side_of(side, g, 5, dry_pin_hysteresis*ratio + 1.0);
-    *F_n_out = pow(delta, dry_normal_exponent)*dry_pin_K*(side_5 < 0.0 ? 0.0 : dry_pin_hysteresis*ratio +
-        1.0);
-}
-
-/*
- * modified Coulomb friction.
- * Source: physics.md section 3, after J. A. C. Ambrosio.
- * Valid: sliding; creeps below v1 where Coulomb's law would stick.
- */
-static inline void friction_B_force(double F_n, double v_t, const Parameters *p, const double *side,
-    double *g, double *F_t_out)
-{
-    /* parameters */
-    const double dry_friction_mu = p->dry_friction_mu;
-    const double dry_friction_v0 = p->dry_friction_v0;
-    const double dry_pin_friction_slope = p->dry_pin_friction_slope;
-
-    /* law of joint B */
-    const double side_6 = side_of(side, g, 6, -dry_pin_friction_slope*(-dry_friction_v0 - v_t) + 1.0);
-    const double side_7 = side_of(side, g, 7, (side_6 < 0.0 ? 1.0 : dry_pin_friction_slope*(-dry_friction_v0 -
-        v_t)));
-    const double side_8 = side_of(side, g, 8, -dry_pin_friction_slope*(-dry_friction_v0 + v_t) + 1.0);
-    const double side_9 = side_of(side, g, 9, (side_8 < 0.0 ? 1.0 : dry_pin_friction_slope*(-dry_friction_v0 +
-        v_t)));
-    *F_t_out = -F_n*dry_friction_mu*(-(side_7 < 0.0 ? 0.0 : (side_6 < 0.0 ? 1.0 :
-        dry_pin_friction_slope*(-dry_friction_v0 - v_t))) + (side_9 < 0.0 ? 0.0 : (side_8 < 0.0 ? 1.0 :
-        dry_pin_friction_slope*(-dry_friction_v0 + v_t))));
-}
-
-/*
  * Dry contact in joint B (physics.md, section 3); none for delta < 0, where a step may look that ends
  * at the separation.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
@@ -142,12 +110,15 @@ static inline PinForce dry_B(double delta, double deltadot, double de_t, double 
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = (0.5)*delta + p->pin_radius;
+    const double a_i = 0.5*delta + p->pin_radius;
     const double a_j = -0.5*delta + p->R_j_pin;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
-    double F_n, F_along_t_dry;
-    normal_B_force(max_of(delta, 0.0), ratio, p, side, g, &F_n);
-    friction_B_force(F_n, v_t, p, side, g, &F_along_t_dry);
+    double F_n;
+    lankarani_nikravesh(max_of(delta, 0.0), ratio, p->dry_normal_exponent, p->dry_pin_K, p->dry_pin_hysteresis, side,
+        g, 5, &F_n);
+    double F_along_t_dry;
+    modified_coulomb(F_n, v_t, p->dry_friction_mu, p->dry_friction_v0, p->dry_pin_friction_slope, side, g, 6,
+        &F_along_t_dry);
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};

@@ -50,19 +50,19 @@ typedef struct {
     Lanes dry_friction_v0;
     Lanes dry_friction_v1;
     Lanes velocity_floor;
-    Lanes par_y;
+    Lanes gravity_y;
     Lanes guess_L2_theta;
     Lanes guess_L3_theta;
     Lanes guess_L6_theta;
     Lanes guess_L7_theta;
     Lanes guess_L8_theta;
-    Lanes L1_head_x;
-    Lanes L2_head_x;
-    Lanes L3_head_x;
-    Lanes L4_head_x;
-    Lanes L6_head_x;
-    Lanes L7_head_x;
-    Lanes L8_head_x;
+    Lanes L1_head_s_x;
+    Lanes L2_head_s_x;
+    Lanes L3_head_s_x;
+    Lanes L4_head_s_x;
+    Lanes L6_head_s_x;
+    Lanes L7_head_s_x;
+    Lanes L8_head_s_x;
     Lanes R_j_pin;
     Lanes dry_pin_K;
     Lanes dry_pin_hysteresis;
@@ -155,42 +155,33 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
  * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
  * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
  * Options: geometry: external.
+ * exponent: exponent of the penetration; K: contact stiffness; hysteresis: hysteresis damping factor a.
  */
-static inline void normal_A_force(Lanes delta, Lanes ratio, const LaneParameters *p, Lanes *F_n_out)
+static inline void lankarani_nikravesh(Lanes delta, Lanes ratio, Lanes exponent, Lanes K, Lanes hysteresis,
+    Lanes *F_n_out)
 {
-    /* parameters */
-    const Lanes dry_normal_exponent = p->dry_normal_exponent;
-    const Lanes dry_pin_K = p->dry_pin_K;
-    const Lanes dry_pin_hysteresis = p->dry_pin_hysteresis;
-
-    /* law of joint A */
-    const Lanes side_0 = lanes_sign_of(dry_pin_hysteresis*ratio + 1.0);
-    *F_n_out = lanes_pow(delta, dry_normal_exponent)*dry_pin_K*pick(side_0 < 0.0, all_of(0.0),
-        dry_pin_hysteresis*ratio + 1.0);
+    const Lanes side_1 = lanes_sign_of(hysteresis*ratio + 1.0);
+    const Lanes larger_1 = pick(side_1 < 0.0, all_of(0.0), hysteresis*ratio + 1.0);
+    *F_n_out = lanes_pow(delta, exponent)*K*larger_1;
 }
 
 /*
  * modified Coulomb friction.
  * Source: physics.md section 3, after J. A. C. Ambrosio.
  * Valid: sliding; creeps below v1 where Coulomb's law would stick.
+ * mu: coefficient of friction; v0: slip below which there is no friction; friction_slope: 1/(v1 - v0).
  */
-static inline void friction_A_force(Lanes F_n, Lanes v_t, const LaneParameters *p, Lanes *F_t_out)
+static inline void modified_coulomb(Lanes F_n, Lanes v_t, Lanes mu, Lanes v0, Lanes friction_slope, Lanes *F_t_out)
 {
-    /* parameters */
-    const Lanes dry_friction_mu = p->dry_friction_mu;
-    const Lanes dry_friction_v0 = p->dry_friction_v0;
-    const Lanes dry_pin_friction_slope = p->dry_pin_friction_slope;
-
-    /* law of joint A */
-    const Lanes side_1 = lanes_sign_of(-dry_pin_friction_slope*(-dry_friction_v0 - v_t) + 1.0);
-    const Lanes side_2 = lanes_sign_of(pick(side_1 < 0.0, all_of(1.0),
-        dry_pin_friction_slope*(-dry_friction_v0 - v_t)));
-    const Lanes side_3 = lanes_sign_of(-dry_pin_friction_slope*(-dry_friction_v0 + v_t) + 1.0);
-    const Lanes side_4 = lanes_sign_of(pick(side_3 < 0.0, all_of(1.0),
-        dry_pin_friction_slope*(-dry_friction_v0 + v_t)));
-    *F_t_out = -F_n*dry_friction_mu*(-pick(side_2 < 0.0, all_of(0.0), pick(side_1 < 0.0, all_of(1.0),
-        dry_pin_friction_slope*(-dry_friction_v0 - v_t))) + pick(side_4 < 0.0, all_of(0.0), pick(side_3 < 0.0,
-        all_of(1.0), dry_pin_friction_slope*(-dry_friction_v0 + v_t))));
+    const Lanes side_1 = lanes_sign_of(-friction_slope*(-v0 - v_t) + 1.0);
+    const Lanes smaller_1 = pick(side_1 < 0.0, all_of(1.0), friction_slope*(-v0 - v_t));
+    const Lanes side_2 = lanes_sign_of(smaller_1);
+    const Lanes side_3 = lanes_sign_of(-friction_slope*(-v0 + v_t) + 1.0);
+    const Lanes smaller_2 = pick(side_3 < 0.0, all_of(1.0), friction_slope*(-v0 + v_t));
+    const Lanes side_4 = lanes_sign_of(smaller_2);
+    const Lanes larger_1 = pick(side_2 < 0.0, all_of(0.0), smaller_1);
+    const Lanes larger_2 = pick(side_4 < 0.0, all_of(0.0), smaller_2);
+    *F_t_out = -F_n*mu*(-larger_1 + larger_2);
 }
 
 /* Dry contact in joint A, as in clearance.c. */
@@ -198,12 +189,14 @@ static inline LanePinForce dry_A(Lanes delta, Lanes deltadot, Lanes de_t, Lanes 
     const LaneLatch *latch, const LaneParameters *p)
 {
     const Lanes ratio = pick(latch->closed > 0.0, deltadot / latch->deltadot_minus, all_of(1.0));
-    const Lanes a_i = (0.5)*delta + p->pin_radius;
+    const Lanes a_i = 0.5*delta + p->pin_radius;
     const Lanes a_j = -0.5*delta + p->R_j_pin;
     const Lanes v_t = -a_i*omega_i + a_j*omega_j + de_t;
-    Lanes F_n, F_along_t_dry;
-    normal_A_force(lanes_max_of(delta, all_of(0.0)), ratio, p, &F_n);
-    friction_A_force(F_n, v_t, p, &F_along_t_dry);
+    Lanes F_n;
+    lankarani_nikravesh(lanes_max_of(delta, all_of(0.0)), ratio, p->dry_normal_exponent, p->dry_pin_K,
+        p->dry_pin_hysteresis, &F_n);
+    Lanes F_along_t_dry;
+    modified_coulomb(F_n, v_t, p->dry_friction_mu, p->dry_friction_v0, p->dry_pin_friction_slope, &F_along_t_dry);
     const Lanes M_i_dry = -F_along_t_dry*a_i;
     const Lanes M_j_dry = F_along_t_dry*a_j;
     return (LanePinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry};
@@ -233,60 +226,19 @@ static void clearance_A(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omeg
         .deltadot = deltadot, .delta = delta, .moment_first = F.M_i, .moment_second = F.M_j};
 }
 
-/*
- * Lankarani and Nikravesh: Hertz stiffness with hysteresis damping.
- * Source: H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376.
- * Valid: c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal.
- * Options: geometry: external.
- */
-static inline void normal_B_force(Lanes delta, Lanes ratio, const LaneParameters *p, Lanes *F_n_out)
-{
-    /* parameters */
-    const Lanes dry_normal_exponent = p->dry_normal_exponent;
-    const Lanes dry_pin_K = p->dry_pin_K;
-    const Lanes dry_pin_hysteresis = p->dry_pin_hysteresis;
-
-    /* law of joint B */
-    const Lanes side_5 = lanes_sign_of(dry_pin_hysteresis*ratio + 1.0);
-    *F_n_out = lanes_pow(delta, dry_normal_exponent)*dry_pin_K*pick(side_5 < 0.0, all_of(0.0),
-        dry_pin_hysteresis*ratio + 1.0);
-}
-
-/*
- * modified Coulomb friction.
- * Source: physics.md section 3, after J. A. C. Ambrosio.
- * Valid: sliding; creeps below v1 where Coulomb's law would stick.
- */
-static inline void friction_B_force(Lanes F_n, Lanes v_t, const LaneParameters *p, Lanes *F_t_out)
-{
-    /* parameters */
-    const Lanes dry_friction_mu = p->dry_friction_mu;
-    const Lanes dry_friction_v0 = p->dry_friction_v0;
-    const Lanes dry_pin_friction_slope = p->dry_pin_friction_slope;
-
-    /* law of joint B */
-    const Lanes side_6 = lanes_sign_of(-dry_pin_friction_slope*(-dry_friction_v0 - v_t) + 1.0);
-    const Lanes side_7 = lanes_sign_of(pick(side_6 < 0.0, all_of(1.0),
-        dry_pin_friction_slope*(-dry_friction_v0 - v_t)));
-    const Lanes side_8 = lanes_sign_of(-dry_pin_friction_slope*(-dry_friction_v0 + v_t) + 1.0);
-    const Lanes side_9 = lanes_sign_of(pick(side_8 < 0.0, all_of(1.0),
-        dry_pin_friction_slope*(-dry_friction_v0 + v_t)));
-    *F_t_out = -F_n*dry_friction_mu*(-pick(side_7 < 0.0, all_of(0.0), pick(side_6 < 0.0, all_of(1.0),
-        dry_pin_friction_slope*(-dry_friction_v0 - v_t))) + pick(side_9 < 0.0, all_of(0.0), pick(side_8 < 0.0,
-        all_of(1.0), dry_pin_friction_slope*(-dry_friction_v0 + v_t))));
-}
-
 /* Dry contact in joint B, as in clearance.c. */
 static inline LanePinForce dry_B(Lanes delta, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
     const LaneLatch *latch, const LaneParameters *p)
 {
     const Lanes ratio = pick(latch->closed > 0.0, deltadot / latch->deltadot_minus, all_of(1.0));
-    const Lanes a_i = (0.5)*delta + p->pin_radius;
+    const Lanes a_i = 0.5*delta + p->pin_radius;
     const Lanes a_j = -0.5*delta + p->R_j_pin;
     const Lanes v_t = -a_i*omega_i + a_j*omega_j + de_t;
-    Lanes F_n, F_along_t_dry;
-    normal_B_force(lanes_max_of(delta, all_of(0.0)), ratio, p, &F_n);
-    friction_B_force(F_n, v_t, p, &F_along_t_dry);
+    Lanes F_n;
+    lankarani_nikravesh(lanes_max_of(delta, all_of(0.0)), ratio, p->dry_normal_exponent, p->dry_pin_K,
+        p->dry_pin_hysteresis, &F_n);
+    Lanes F_along_t_dry;
+    modified_coulomb(F_n, v_t, p->dry_friction_mu, p->dry_friction_v0, p->dry_pin_friction_slope, &F_along_t_dry);
     const Lanes M_i_dry = -F_along_t_dry*a_i;
     const Lanes M_j_dry = F_along_t_dry*a_j;
     return (LanePinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry};
@@ -326,10 +278,6 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     const Lanes L6_theta = q[0];
     const Lanes L8_theta = q[2];
 
-    /* parameters */
-    const Lanes L6_head_span_x = p->L6_head_span_x;
-    const Lanes L8_head_span_x = p->L8_head_span_x;
-
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
     sines_and_cosines(L6_theta, &sines_0, &cosines_0, rare);
@@ -337,8 +285,8 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     sines_and_cosines(L8_theta, &sines_1, &cosines_1, rare);
     const Lanes cos_theta_L6 = cosines_0;
     const Lanes cos_theta_L8 = cosines_1;
-    const Lanes span_L6_head_x = L6_head_span_x*cos_theta_L6;
-    const Lanes span_L8_head_x = L8_head_span_x*cos_theta_L8;
+    const Lanes span_L6_head_x = p->L6_head_span_x*cos_theta_L6;
+    const Lanes span_L8_head_x = p->L8_head_span_x*cos_theta_L8;
 
     /* rows */
     out[0] = -span_L6_head_x - span_L8_head_x;  /* guide.offset */
@@ -357,10 +305,6 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     const Lanes L8_theta = q[2];
     const Lanes L8_omega = v[2];
 
-    /* parameters */
-    const Lanes L6_head_span_x = p->L6_head_span_x;
-    const Lanes L8_head_span_x = p->L8_head_span_x;
-
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
     sines_and_cosines(L6_theta, &sines_0, &cosines_0, rare);
@@ -368,8 +312,8 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     sines_and_cosines(L8_theta, &sines_1, &cosines_1, rare);
     const Lanes sin_theta_L6 = sines_0;
     const Lanes sin_theta_L8 = sines_1;
-    const Lanes span_L6_head_y = L6_head_span_x*sin_theta_L6;
-    const Lanes span_L8_head_y = L8_head_span_x*sin_theta_L8;
+    const Lanes span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
+    const Lanes span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
 
     /* rows */
     out[0] = L6_omega*span_L6_head_y + L8_omega*span_L8_head_y;  /* guide.offset */
@@ -380,11 +324,10 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
+static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
     /* coordinates, velocities, time */
-    const Lanes time = t;
     const Lanes L6_theta = q[0];
     const Lanes L6_omega = v[0];
     const Lanes L7_theta = q[1];
@@ -396,42 +339,9 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes L3_theta = q[4];
     const Lanes L3_omega = v[4];
 
-    /* parameters */
-    const Lanes omega = p->omega;
-    const Lanes omega4 = p->omega4;
-    const Lanes O4_y = p->O4_y;
-    const Lanes O6_x = p->O6_x;
-    const Lanes L6_head_span_x = p->L6_head_span_x;
-    const Lanes L7_tail_span_x = p->L7_tail_span_x;
-    const Lanes L8_head_span_x = p->L8_head_span_x;
-    const Lanes L1_head_span_x = p->L1_head_span_x;
-    const Lanes L2_tail_span_x = p->L2_tail_span_x;
-    const Lanes L4_head_span_x = p->L4_head_span_x;
-    const Lanes L3_tail_span_x = p->L3_tail_span_x;
-    const Lanes inertia_L6_L7 = p->inertia_L6_L7;
-    const Lanes inertia_L6_L2 = p->inertia_L6_L2;
-    const Lanes inertia_L7_L2 = p->inertia_L7_L2;
-    const Lanes inertia_L6_L3 = p->inertia_L6_L3;
-    const Lanes inertia_L7_L3 = p->inertia_L7_L3;
-    const Lanes inertia_L6_L8 = p->inertia_L6_L8;
-    const Lanes mass_crank1_crank1 = p->mass_crank1_crank1;
-    const Lanes mass_L6_L6 = p->mass_L6_L6;
-    const Lanes mass_L7_L7 = p->mass_L7_L7;
-    const Lanes mass_L3_L3 = p->mass_L3_L3;
-    const Lanes mass_crank4_crank4 = p->mass_crank4_crank4;
-    const Lanes weight_L1__across = p->weight_L1__across;
-    const Lanes weight_L6__across = p->weight_L6__across;
-    const Lanes weight_L7__across = p->weight_L7__across;
-    const Lanes weight_L2__across = p->weight_L2__across;
-    const Lanes weight_L3__across = p->weight_L3__across;
-    const Lanes weight_L4__across = p->weight_L4__across;
-    const Lanes weight_L8__across = p->weight_L8__across;
-    const Lanes inverse_mass_L8_L8 = p->inverse_mass_L8_L8;
-    const Lanes inverse_mass_L2_L2 = p->inverse_mass_L2_L2;
-
     /* directions, arms, drives */
-    const Lanes crank1_value = omega*time - 0.689754120388159;
-    const Lanes crank4_value = omega4*time + 3.4814082589530893;
+    const Lanes crank1_value = p->omega*t - 0.689754120388159;
+    const Lanes crank4_value = p->omega4*t + 3.4814082589530893;
     Lanes sines_0, cosines_0;
     sines_and_cosines(crank1_value, &sines_0, &cosines_0, rare);
     Lanes sines_1, cosines_1;
@@ -460,68 +370,68 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes sin_theta_L2 = sines_5;
     const Lanes cos_theta_L3 = cosines_6;
     const Lanes sin_theta_L3 = sines_6;
-    const Lanes crank1_rate = omega;
+    const Lanes crank1_rate = p->omega;
     const Lanes crank1_acceleration = all_of(0.0);
-    const Lanes crank4_rate = omega4;
+    const Lanes crank4_rate = p->omega4;
     const Lanes crank4_acceleration = all_of(0.0);
-    const Lanes span_L6_head_x = L6_head_span_x*cos_theta_L6;
-    const Lanes span_L6_head_y = L6_head_span_x*sin_theta_L6;
-    const Lanes L6_head_x_2 = O6_x + span_L6_head_x;
+    const Lanes span_L6_head_x = p->L6_head_span_x*cos_theta_L6;
+    const Lanes span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
+    const Lanes L6_head_x = p->O6_x + span_L6_head_x;
     const Lanes L6_head_vx = -L6_omega*span_L6_head_y;
     const Lanes L6_head_vy = L6_omega*span_L6_head_x;
-    const Lanes span_L7_tail_x = L7_tail_span_x*cos_theta_L7;
-    const Lanes span_L7_tail_y = L7_tail_span_x*sin_theta_L7;
-    const Lanes L7_tail_x = L6_head_x_2 + span_L7_tail_x;
+    const Lanes span_L7_tail_x = p->L7_tail_span_x*cos_theta_L7;
+    const Lanes span_L7_tail_y = p->L7_tail_span_x*sin_theta_L7;
+    const Lanes L7_tail_x = L6_head_x + span_L7_tail_x;
     const Lanes L7_tail_vx = L6_head_vx - L7_omega*span_L7_tail_y;
     const Lanes L7_tail_y = span_L6_head_y + span_L7_tail_y;
     const Lanes L7_tail_vy = L6_head_vy + L7_omega*span_L7_tail_x;
-    const Lanes span_L8_head_x = L8_head_span_x*cos_theta_L8;
-    const Lanes span_L8_head_y = L8_head_span_x*sin_theta_L8;
-    const Lanes span_L1_head_x = L1_head_span_x*cos_theta_L1;
-    const Lanes span_L1_head_y = L1_head_span_x*sin_theta_L1;
+    const Lanes span_L8_head_x = p->L8_head_span_x*cos_theta_L8;
+    const Lanes span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
+    const Lanes span_L1_head_x = p->L1_head_span_x*cos_theta_L1;
+    const Lanes span_L1_head_y = p->L1_head_span_x*sin_theta_L1;
     const Lanes L1_head_vx = -crank1_rate*span_L1_head_y;
     const Lanes L1_head_vy = crank1_rate*span_L1_head_x;
-    const Lanes span_L2_tail_x = L2_tail_span_x*cos_theta_L2;
-    const Lanes span_L2_tail_y = L2_tail_span_x*sin_theta_L2;
+    const Lanes span_L2_tail_x = p->L2_tail_span_x*cos_theta_L2;
+    const Lanes span_L2_tail_y = p->L2_tail_span_x*sin_theta_L2;
     const Lanes L2_tail_x = L7_tail_x + span_L2_tail_x;
     const Lanes L2_tail_vx = -L2_omega*span_L2_tail_y + L7_tail_vx;
     const Lanes L2_tail_y = L7_tail_y + span_L2_tail_y;
     const Lanes L2_tail_vy = L2_omega*span_L2_tail_x + L7_tail_vy;
-    const Lanes span_L4_head_x = L4_head_span_x*cos_theta_L4;
-    const Lanes span_L4_head_y = L4_head_span_x*sin_theta_L4;
+    const Lanes span_L4_head_x = p->L4_head_span_x*cos_theta_L4;
+    const Lanes span_L4_head_y = p->L4_head_span_x*sin_theta_L4;
     const Lanes L4_head_vx = -crank4_rate*span_L4_head_y;
-    const Lanes L4_head_y = O4_y + span_L4_head_y;
+    const Lanes L4_head_y = p->O4_y + span_L4_head_y;
     const Lanes L4_head_vy = crank4_rate*span_L4_head_x;
-    const Lanes span_L3_tail_x = L3_tail_span_x*cos_theta_L3;
-    const Lanes span_L3_tail_y = L3_tail_span_x*sin_theta_L3;
+    const Lanes span_L3_tail_x = p->L3_tail_span_x*cos_theta_L3;
+    const Lanes span_L3_tail_y = p->L3_tail_span_x*sin_theta_L3;
     const Lanes L3_tail_x = L7_tail_x + span_L3_tail_x;
     const Lanes L3_tail_vx = -L3_omega*span_L3_tail_y + L7_tail_vx;
     const Lanes L3_tail_y = L7_tail_y + span_L3_tail_y;
     const Lanes L3_tail_vy = L3_omega*span_L3_tail_x + L7_tail_vy;
     const Lanes cos_L7_less_L6 = cos_theta_L6*cos_theta_L7 + sin_theta_L6*sin_theta_L7;
     const Lanes sin_L7_less_L6 = cos_theta_L6*sin_theta_L7 - cos_theta_L7*sin_theta_L6;
-    const Lanes dot_L6_L7 = cos_L7_less_L6*inertia_L6_L7;
-    const Lanes cross_L6_L7 = inertia_L6_L7*sin_L7_less_L6;
+    const Lanes dot_L6_L7 = cos_L7_less_L6*p->inertia_L6_L7;
+    const Lanes cross_L6_L7 = p->inertia_L6_L7*sin_L7_less_L6;
     const Lanes cos_L2_less_L6 = cos_theta_L2*cos_theta_L6 + sin_theta_L2*sin_theta_L6;
     const Lanes sin_L2_less_L6 = -cos_theta_L2*sin_theta_L6 + cos_theta_L6*sin_theta_L2;
-    const Lanes dot_L6_L2 = cos_L2_less_L6*inertia_L6_L2;
-    const Lanes cross_L6_L2 = inertia_L6_L2*sin_L2_less_L6;
+    const Lanes dot_L6_L2 = cos_L2_less_L6*p->inertia_L6_L2;
+    const Lanes cross_L6_L2 = p->inertia_L6_L2*sin_L2_less_L6;
     const Lanes cos_L2_less_L7 = cos_theta_L2*cos_theta_L7 + sin_theta_L2*sin_theta_L7;
     const Lanes sin_L2_less_L7 = -cos_theta_L2*sin_theta_L7 + cos_theta_L7*sin_theta_L2;
-    const Lanes dot_L7_L2 = cos_L2_less_L7*inertia_L7_L2;
-    const Lanes cross_L7_L2 = inertia_L7_L2*sin_L2_less_L7;
+    const Lanes dot_L7_L2 = cos_L2_less_L7*p->inertia_L7_L2;
+    const Lanes cross_L7_L2 = p->inertia_L7_L2*sin_L2_less_L7;
     const Lanes cos_L3_less_L6 = cos_theta_L3*cos_theta_L6 + sin_theta_L3*sin_theta_L6;
     const Lanes sin_L3_less_L6 = -cos_theta_L3*sin_theta_L6 + cos_theta_L6*sin_theta_L3;
-    const Lanes dot_L6_L3 = cos_L3_less_L6*inertia_L6_L3;
-    const Lanes cross_L6_L3 = inertia_L6_L3*sin_L3_less_L6;
+    const Lanes dot_L6_L3 = cos_L3_less_L6*p->inertia_L6_L3;
+    const Lanes cross_L6_L3 = p->inertia_L6_L3*sin_L3_less_L6;
     const Lanes cos_L3_less_L7 = cos_theta_L3*cos_theta_L7 + sin_theta_L3*sin_theta_L7;
     const Lanes sin_L3_less_L7 = -cos_theta_L3*sin_theta_L7 + cos_theta_L7*sin_theta_L3;
-    const Lanes dot_L7_L3 = cos_L3_less_L7*inertia_L7_L3;
-    const Lanes cross_L7_L3 = inertia_L7_L3*sin_L3_less_L7;
+    const Lanes dot_L7_L3 = cos_L3_less_L7*p->inertia_L7_L3;
+    const Lanes cross_L7_L3 = p->inertia_L7_L3*sin_L3_less_L7;
     const Lanes cos_L8_less_L6 = cos_theta_L6*cos_theta_L8 + sin_theta_L6*sin_theta_L8;
     const Lanes sin_L8_less_L6 = cos_theta_L6*sin_theta_L8 - cos_theta_L8*sin_theta_L6;
-    const Lanes dot_L6_L8 = cos_L8_less_L6*inertia_L6_L8;
-    const Lanes cross_L6_L8 = inertia_L6_L8*sin_L8_less_L6;
+    const Lanes dot_L6_L8 = cos_L8_less_L6*p->inertia_L6_L8;
+    const Lanes cross_L6_L8 = p->inertia_L6_L8*sin_L8_less_L6;
 
     /* clearance joint A */
     const Lanes e_A_x = L2_tail_x - span_L1_head_x;
@@ -548,62 +458,61 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     aside->clearance[1].power = F_B_x*edot_B_x + F_B_y*edot_B_y + L3_omega*M_B_second + M_B_first*crank4_rate;
 
     /* constraints: gamma */
-    const Lanes rhs_guide_offset = -(L6_omega * L6_omega)*span_L6_head_x - (L8_omega *
-        L8_omega)*span_L8_head_x;
+    const Lanes rhs_guide_offset = -(L6_omega * L6_omega)*span_L6_head_x - (L8_omega * L8_omega)*span_L8_head_x;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_L6_theta__L8_theta = dot_L6_L8*inverse_mass_L8_L8;
-    const Lanes l_guide_offset__L8_theta = inverse_mass_L8_L8*span_L8_head_y;
-    const Lanes l_L7_theta__L2_theta = dot_L7_L2*inverse_mass_L2_L2;
-    const Lanes l_L6_theta__L2_theta = dot_L6_L2*inverse_mass_L2_L2;
-    const Lanes pivot_L7_theta = -dot_L7_L2*l_L7_theta__L2_theta + mass_L7_L7;
-    const Lanes determinant_L7_theta__L3_theta = -(dot_L7_L3 * dot_L7_L3) + mass_L3_L3*pivot_L7_theta;
+    const Lanes l_L6_theta__L8_theta = dot_L6_L8*p->inverse_mass_L8_L8;
+    const Lanes l_guide_offset__L8_theta = p->inverse_mass_L8_L8*span_L8_head_y;
+    const Lanes l_L7_theta__L2_theta = dot_L7_L2*p->inverse_mass_L2_L2;
+    const Lanes l_L6_theta__L2_theta = dot_L6_L2*p->inverse_mass_L2_L2;
+    const Lanes pivot_L7_theta = -dot_L7_L2*l_L7_theta__L2_theta + p->mass_L7_L7;
+    const Lanes determinant_L7_theta__L3_theta = -(dot_L7_L3 * dot_L7_L3) + p->mass_L3_L3*pivot_L7_theta;
     const Lanes inverse_L7_theta__L3_theta = 1.0/determinant_L7_theta__L3_theta;
-    const Lanes inverse_pivot_L7_theta = inverse_L7_theta__L3_theta*mass_L3_L3;
+    const Lanes inverse_pivot_L7_theta = inverse_L7_theta__L3_theta*p->mass_L3_L3;
     const Lanes inverse_pivot_L3_theta = inverse_L7_theta__L3_theta*pivot_L7_theta;
     const Lanes inverse_cross_L7_theta__L3_theta = -dot_L7_L3*inverse_L7_theta__L3_theta;
     const Lanes w_L6_theta__L7_theta = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta;
-    const Lanes l_L6_theta__L7_theta = dot_L6_L3*inverse_cross_L7_theta__L3_theta +
-        inverse_pivot_L7_theta*w_L6_theta__L7_theta;
-    const Lanes l_L6_theta__L3_theta = dot_L6_L3*inverse_pivot_L3_theta +
-        inverse_cross_L7_theta__L3_theta*w_L6_theta__L7_theta;
+    const Lanes l_L6_theta__L7_theta = dot_L6_L3*inverse_cross_L7_theta__L3_theta
+        + inverse_pivot_L7_theta*w_L6_theta__L7_theta;
+    const Lanes l_L6_theta__L3_theta = dot_L6_L3*inverse_pivot_L3_theta
+        + inverse_cross_L7_theta__L3_theta*w_L6_theta__L7_theta;
     const Lanes inverse_pivot_L6_theta = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta - dot_L6_L3*l_L6_theta__L3_theta
-        - dot_L6_L8*l_L6_theta__L8_theta - l_L6_theta__L7_theta*w_L6_theta__L7_theta + mass_L6_L6);
+        - dot_L6_L8*l_L6_theta__L8_theta - l_L6_theta__L7_theta*w_L6_theta__L7_theta + p->mass_L6_L6);
     const Lanes w_guide_offset__L6_theta = -dot_L6_L8*l_guide_offset__L8_theta + span_L6_head_y;
     const Lanes l_guide_offset__L6_theta = inverse_pivot_L6_theta*w_guide_offset__L6_theta;
-    const Lanes scale_guide_offset = l_guide_offset__L6_theta*w_guide_offset__L6_theta +
-        l_guide_offset__L8_theta*span_L8_head_y;
-    *rare |= ~(scale_guide_offset > 1e-08 * scale_guide_offset);
+    const Lanes scale_guide_offset = l_guide_offset__L6_theta*w_guide_offset__L6_theta
+        + l_guide_offset__L8_theta*span_L8_head_y;
+    *rare |= ~((scale_guide_offset > 0.0) & (scale_guide_offset < INFINITY));
     const Lanes inverse_pivot_guide_offset = 1.0/scale_guide_offset;
 
     /* forward substitution */
-    const Lanes z_L8_theta = -(L6_omega * L6_omega)*cross_L6_L8 + cos_theta_L8*weight_L8__across;
+    const Lanes z_L8_theta = -(L6_omega * L6_omega)*cross_L6_L8 + cos_theta_L8*p->weight_L8__across;
     const Lanes z_L2_theta = -F_A_x*span_L2_tail_y + F_A_y*span_L2_tail_x - (L6_omega * L6_omega)*cross_L6_L2
-        - (L7_omega * L7_omega)*cross_L7_L2 + M_A_second + cos_theta_L2*weight_L2__across;
-    const Lanes z_L7_theta = (L2_omega * L2_omega)*cross_L7_L2 + (L3_omega * L3_omega)*cross_L7_L3 - (L6_omega
-        * L6_omega)*cross_L6_L7 + cos_theta_L7*weight_L7__across - l_L7_theta__L2_theta*z_L2_theta +
-        span_L7_tail_x*(F_A_y + F_B_y) - span_L7_tail_y*(F_A_x + F_B_x);
+        - (L7_omega * L7_omega)*cross_L7_L2 + M_A_second + cos_theta_L2*p->weight_L2__across;
+    const Lanes z_L7_theta = (L2_omega * L2_omega)*cross_L7_L2 + (L3_omega * L3_omega)*cross_L7_L3
+        - (L6_omega * L6_omega)*cross_L6_L7 + cos_theta_L7*p->weight_L7__across - l_L7_theta__L2_theta*z_L2_theta
+        + span_L7_tail_x*(F_A_y + F_B_y) - span_L7_tail_y*(F_A_x + F_B_x);
     const Lanes z_L3_theta = -F_B_x*span_L3_tail_y + F_B_y*span_L3_tail_x - (L6_omega * L6_omega)*cross_L6_L3
-        - (L7_omega * L7_omega)*cross_L7_L3 + M_B_second + cos_theta_L3*weight_L3__across;
-    const Lanes z_L6_theta = (L2_omega * L2_omega)*cross_L6_L2 + (L3_omega * L3_omega)*cross_L6_L3 + (L7_omega
-        * L7_omega)*cross_L6_L7 + (L8_omega * L8_omega)*cross_L6_L8 + cos_theta_L6*weight_L6__across -
-        l_L6_theta__L2_theta*z_L2_theta - l_L6_theta__L3_theta*z_L3_theta - l_L6_theta__L7_theta*z_L7_theta -
-        l_L6_theta__L8_theta*z_L8_theta + span_L6_head_x*(F_A_y + F_B_y) - span_L6_head_y*(F_A_x + F_B_x);
-    const Lanes z_guide_offset = -l_guide_offset__L6_theta*z_L6_theta - l_guide_offset__L8_theta*z_L8_theta +
-        rhs_guide_offset;
+        - (L7_omega * L7_omega)*cross_L7_L3 + M_B_second + cos_theta_L3*p->weight_L3__across;
+    const Lanes z_L6_theta = (L2_omega * L2_omega)*cross_L6_L2 + (L3_omega * L3_omega)*cross_L6_L3
+        + (L7_omega * L7_omega)*cross_L6_L7 + (L8_omega * L8_omega)*cross_L6_L8 + cos_theta_L6*p->weight_L6__across
+        - l_L6_theta__L2_theta*z_L2_theta - l_L6_theta__L3_theta*z_L3_theta - l_L6_theta__L7_theta*z_L7_theta
+        - l_L6_theta__L8_theta*z_L8_theta + span_L6_head_x*(F_A_y + F_B_y) - span_L6_head_y*(F_A_x + F_B_x);
+    const Lanes z_guide_offset = -l_guide_offset__L6_theta*z_L6_theta - l_guide_offset__L8_theta*z_L8_theta
+        + rhs_guide_offset;
 
     /* backward substitution */
     const Lanes lambda_guide_offset = -inverse_pivot_guide_offset*z_guide_offset;
-    const Lanes acceleration_L6_theta = inverse_pivot_L6_theta*z_L6_theta -
-        l_guide_offset__L6_theta*lambda_guide_offset;
-    const Lanes acceleration_L3_theta = -acceleration_L6_theta*l_L6_theta__L3_theta +
-        inverse_cross_L7_theta__L3_theta*z_L7_theta + inverse_pivot_L3_theta*z_L3_theta;
-    const Lanes acceleration_L7_theta = -acceleration_L6_theta*l_L6_theta__L7_theta +
-        inverse_cross_L7_theta__L3_theta*z_L3_theta + inverse_pivot_L7_theta*z_L7_theta;
-    const Lanes acceleration_L2_theta = -acceleration_L6_theta*l_L6_theta__L2_theta -
-        acceleration_L7_theta*l_L7_theta__L2_theta + inverse_mass_L2_L2*z_L2_theta;
-    const Lanes acceleration_L8_theta = -acceleration_L6_theta*l_L6_theta__L8_theta +
-        inverse_mass_L8_L8*z_L8_theta - l_guide_offset__L8_theta*lambda_guide_offset;
+    const Lanes acceleration_L6_theta = inverse_pivot_L6_theta*z_L6_theta
+        - l_guide_offset__L6_theta*lambda_guide_offset;
+    const Lanes acceleration_L3_theta = -acceleration_L6_theta*l_L6_theta__L3_theta
+        + inverse_cross_L7_theta__L3_theta*z_L7_theta + inverse_pivot_L3_theta*z_L3_theta;
+    const Lanes acceleration_L7_theta = -acceleration_L6_theta*l_L6_theta__L7_theta
+        + inverse_cross_L7_theta__L3_theta*z_L3_theta + inverse_pivot_L7_theta*z_L7_theta;
+    const Lanes acceleration_L2_theta = -acceleration_L6_theta*l_L6_theta__L2_theta
+        - acceleration_L7_theta*l_L7_theta__L2_theta + p->inverse_mass_L2_L2*z_L2_theta;
+    const Lanes acceleration_L8_theta = -acceleration_L6_theta*l_L6_theta__L8_theta + p->inverse_mass_L8_L8*z_L8_theta
+        - l_guide_offset__L8_theta*lambda_guide_offset;
 
     /* results */
     a[0] = acceleration_L6_theta;
@@ -614,10 +523,10 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     aside->lambda[0] = lambda_guide_offset;
 
     /* a pivot vanished: rows depend on each other here */
-    aside->power[0] = crank1_rate*(-F_A_x*span_L1_head_y + F_A_y*span_L1_head_x - M_A_first -
-        cos_theta_L1*weight_L1__across + crank1_acceleration*mass_crank1_crank1) +
-        crank4_rate*(-F_B_x*span_L4_head_y + F_B_y*span_L4_head_x - M_B_first - cos_theta_L4*weight_L4__across
-        + crank4_acceleration*mass_crank4_crank4);
+    aside->power[0] = crank1_rate*(-F_A_x*span_L1_head_y + F_A_y*span_L1_head_x - M_A_first
+        - cos_theta_L1*p->weight_L1__across + crank1_acceleration*p->mass_crank1_crank1)
+        + crank4_rate*(-F_B_x*span_L4_head_y + F_B_y*span_L4_head_x - M_B_first - cos_theta_L4*p->weight_L4__across
+        + crank4_acceleration*p->mass_crank4_crank4);
     aside->power[1] = all_of(0.0);
     aside->power[2] = aside->clearance[0].power + aside->clearance[1].power;
 }
@@ -626,8 +535,8 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
  * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
-static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
+static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
     (void)t;
     (void)memory;
@@ -639,21 +548,6 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes L8_omega = v[2];
     const Lanes L2_theta = q[3];
     const Lanes L3_theta = q[4];
-
-    /* parameters */
-    const Lanes L6_head_span_x = p->L6_head_span_x;
-    const Lanes L8_head_span_x = p->L8_head_span_x;
-    const Lanes inertia_L6_L7 = p->inertia_L6_L7;
-    const Lanes inertia_L6_L2 = p->inertia_L6_L2;
-    const Lanes inertia_L7_L2 = p->inertia_L7_L2;
-    const Lanes inertia_L6_L3 = p->inertia_L6_L3;
-    const Lanes inertia_L7_L3 = p->inertia_L7_L3;
-    const Lanes inertia_L6_L8 = p->inertia_L6_L8;
-    const Lanes mass_L6_L6 = p->mass_L6_L6;
-    const Lanes mass_L7_L7 = p->mass_L7_L7;
-    const Lanes mass_L3_L3 = p->mass_L3_L3;
-    const Lanes inverse_mass_L8_L8 = p->inverse_mass_L8_L8;
-    const Lanes inverse_mass_L2_L2 = p->inverse_mass_L2_L2;
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
@@ -676,72 +570,71 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes sin_theta_L2 = sines_3;
     const Lanes cos_theta_L3 = cosines_4;
     const Lanes sin_theta_L3 = sines_4;
-    const Lanes span_L6_head_x = L6_head_span_x*cos_theta_L6;
-    const Lanes span_L6_head_y = L6_head_span_x*sin_theta_L6;
-    const Lanes span_L8_head_x = L8_head_span_x*cos_theta_L8;
-    const Lanes span_L8_head_y = L8_head_span_x*sin_theta_L8;
+    const Lanes span_L6_head_x = p->L6_head_span_x*cos_theta_L6;
+    const Lanes span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
+    const Lanes span_L8_head_x = p->L8_head_span_x*cos_theta_L8;
+    const Lanes span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
     const Lanes cos_L7_less_L6 = cos_theta_L6*cos_theta_L7 + sin_theta_L6*sin_theta_L7;
-    const Lanes dot_L6_L7 = cos_L7_less_L6*inertia_L6_L7;
+    const Lanes dot_L6_L7 = cos_L7_less_L6*p->inertia_L6_L7;
     const Lanes cos_L2_less_L6 = cos_theta_L2*cos_theta_L6 + sin_theta_L2*sin_theta_L6;
-    const Lanes dot_L6_L2 = cos_L2_less_L6*inertia_L6_L2;
+    const Lanes dot_L6_L2 = cos_L2_less_L6*p->inertia_L6_L2;
     const Lanes cos_L2_less_L7 = cos_theta_L2*cos_theta_L7 + sin_theta_L2*sin_theta_L7;
-    const Lanes dot_L7_L2 = cos_L2_less_L7*inertia_L7_L2;
+    const Lanes dot_L7_L2 = cos_L2_less_L7*p->inertia_L7_L2;
     const Lanes cos_L3_less_L6 = cos_theta_L3*cos_theta_L6 + sin_theta_L3*sin_theta_L6;
-    const Lanes dot_L6_L3 = cos_L3_less_L6*inertia_L6_L3;
+    const Lanes dot_L6_L3 = cos_L3_less_L6*p->inertia_L6_L3;
     const Lanes cos_L3_less_L7 = cos_theta_L3*cos_theta_L7 + sin_theta_L3*sin_theta_L7;
-    const Lanes dot_L7_L3 = cos_L3_less_L7*inertia_L7_L3;
+    const Lanes dot_L7_L3 = cos_L3_less_L7*p->inertia_L7_L3;
     const Lanes cos_L8_less_L6 = cos_theta_L6*cos_theta_L8 + sin_theta_L6*sin_theta_L8;
-    const Lanes dot_L6_L8 = cos_L8_less_L6*inertia_L6_L8;
+    const Lanes dot_L6_L8 = cos_L8_less_L6*p->inertia_L6_L8;
 
     /* Phi and Phi_dot */
     const Lanes phi_guide_offset = -span_L6_head_x - span_L8_head_x;
     const Lanes phi_dot_guide_offset = L6_omega*span_L6_head_y + L8_omega*span_L8_head_y;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_L6_theta__L8_theta_4 = dot_L6_L8*inverse_mass_L8_L8;
-    const Lanes l_guide_offset__L8_theta_4 = inverse_mass_L8_L8*span_L8_head_y;
-    const Lanes l_L7_theta__L2_theta_4 = dot_L7_L2*inverse_mass_L2_L2;
-    const Lanes l_L6_theta__L2_theta_4 = dot_L6_L2*inverse_mass_L2_L2;
-    const Lanes pivot_L7_theta_3 = -dot_L7_L2*l_L7_theta__L2_theta_4 + mass_L7_L7;
-    const Lanes determinant_L7_theta__L3_theta_3 = -(dot_L7_L3 * dot_L7_L3) + mass_L3_L3*pivot_L7_theta_3;
-    const Lanes inverse_L7_theta__L3_theta_3 = 1.0/determinant_L7_theta__L3_theta_3;
-    const Lanes inverse_pivot_L7_theta_4 = inverse_L7_theta__L3_theta_3*mass_L3_L3;
-    const Lanes inverse_pivot_L3_theta_4 = inverse_L7_theta__L3_theta_3*pivot_L7_theta_3;
-    const Lanes inverse_cross_L7_theta__L3_theta_3 = -dot_L7_L3*inverse_L7_theta__L3_theta_3;
-    const Lanes w_L6_theta__L7_theta_3 = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta_4;
-    const Lanes l_L6_theta__L7_theta_4 = dot_L6_L3*inverse_cross_L7_theta__L3_theta_3 +
-        inverse_pivot_L7_theta_4*w_L6_theta__L7_theta_3;
-    const Lanes l_L6_theta__L3_theta_4 = dot_L6_L3*inverse_pivot_L3_theta_4 +
-        inverse_cross_L7_theta__L3_theta_3*w_L6_theta__L7_theta_3;
-    const Lanes inverse_pivot_L6_theta_4 = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta_4 -
-        dot_L6_L3*l_L6_theta__L3_theta_4 - dot_L6_L8*l_L6_theta__L8_theta_4 -
-        l_L6_theta__L7_theta_4*w_L6_theta__L7_theta_3 + mass_L6_L6);
-    const Lanes w_guide_offset__L6_theta_3 = -dot_L6_L8*l_guide_offset__L8_theta_4 + span_L6_head_y;
-    const Lanes l_guide_offset__L6_theta_4 = inverse_pivot_L6_theta_4*w_guide_offset__L6_theta_3;
-    const Lanes scale_guide_offset_4 = l_guide_offset__L6_theta_4*w_guide_offset__L6_theta_3 +
-        l_guide_offset__L8_theta_4*span_L8_head_y;
-    *rare |= ~(scale_guide_offset_4 > 1e-10 * scale_guide_offset_4);
-    const Lanes inverse_pivot_guide_offset_4 = 1.0/scale_guide_offset_4;
+    const Lanes l_L6_theta__L8_theta = dot_L6_L8*p->inverse_mass_L8_L8;
+    const Lanes l_guide_offset__L8_theta = p->inverse_mass_L8_L8*span_L8_head_y;
+    const Lanes l_L7_theta__L2_theta = dot_L7_L2*p->inverse_mass_L2_L2;
+    const Lanes l_L6_theta__L2_theta = dot_L6_L2*p->inverse_mass_L2_L2;
+    const Lanes pivot_L7_theta = -dot_L7_L2*l_L7_theta__L2_theta + p->mass_L7_L7;
+    const Lanes determinant_L7_theta__L3_theta = -(dot_L7_L3 * dot_L7_L3) + p->mass_L3_L3*pivot_L7_theta;
+    const Lanes inverse_L7_theta__L3_theta = 1.0/determinant_L7_theta__L3_theta;
+    const Lanes inverse_pivot_L7_theta = inverse_L7_theta__L3_theta*p->mass_L3_L3;
+    const Lanes inverse_pivot_L3_theta = inverse_L7_theta__L3_theta*pivot_L7_theta;
+    const Lanes inverse_cross_L7_theta__L3_theta = -dot_L7_L3*inverse_L7_theta__L3_theta;
+    const Lanes w_L6_theta__L7_theta = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta;
+    const Lanes l_L6_theta__L7_theta = dot_L6_L3*inverse_cross_L7_theta__L3_theta
+        + inverse_pivot_L7_theta*w_L6_theta__L7_theta;
+    const Lanes l_L6_theta__L3_theta = dot_L6_L3*inverse_pivot_L3_theta
+        + inverse_cross_L7_theta__L3_theta*w_L6_theta__L7_theta;
+    const Lanes inverse_pivot_L6_theta = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta - dot_L6_L3*l_L6_theta__L3_theta
+        - dot_L6_L8*l_L6_theta__L8_theta - l_L6_theta__L7_theta*w_L6_theta__L7_theta + p->mass_L6_L6);
+    const Lanes w_guide_offset__L6_theta = -dot_L6_L8*l_guide_offset__L8_theta + span_L6_head_y;
+    const Lanes l_guide_offset__L6_theta = inverse_pivot_L6_theta*w_guide_offset__L6_theta;
+    const Lanes scale_guide_offset = l_guide_offset__L6_theta*w_guide_offset__L6_theta
+        + l_guide_offset__L8_theta*span_L8_head_y;
+    *rare |= ~((scale_guide_offset > 0.0) & (scale_guide_offset < INFINITY));
+    const Lanes inverse_pivot_guide_offset = 1.0/scale_guide_offset;
 
     /* backward substitution */
-    const Lanes dq_lambda_guide_offset = -inverse_pivot_guide_offset_4*phi_guide_offset;
-    const Lanes dq_acceleration_L6_theta = -dq_lambda_guide_offset*l_guide_offset__L6_theta_4;
-    const Lanes dq_acceleration_L3_theta = -dq_acceleration_L6_theta*l_L6_theta__L3_theta_4;
-    const Lanes dq_acceleration_L7_theta = -dq_acceleration_L6_theta*l_L6_theta__L7_theta_4;
-    const Lanes dq_acceleration_L2_theta = -dq_acceleration_L6_theta*l_L6_theta__L2_theta_4 -
-        dq_acceleration_L7_theta*l_L7_theta__L2_theta_4;
-    const Lanes dq_acceleration_L8_theta = -dq_acceleration_L6_theta*l_L6_theta__L8_theta_4 -
-        dq_lambda_guide_offset*l_guide_offset__L8_theta_4;
+    const Lanes dq_lambda_guide_offset = -inverse_pivot_guide_offset*phi_guide_offset;
+    const Lanes dq_acceleration_L6_theta = -dq_lambda_guide_offset*l_guide_offset__L6_theta;
+    const Lanes dq_acceleration_L3_theta = -dq_acceleration_L6_theta*l_L6_theta__L3_theta;
+    const Lanes dq_acceleration_L7_theta = -dq_acceleration_L6_theta*l_L6_theta__L7_theta;
+    const Lanes dq_acceleration_L2_theta = -dq_acceleration_L6_theta*l_L6_theta__L2_theta
+        - dq_acceleration_L7_theta*l_L7_theta__L2_theta;
+    const Lanes dq_acceleration_L8_theta = -dq_acceleration_L6_theta*l_L6_theta__L8_theta
+        - dq_lambda_guide_offset*l_guide_offset__L8_theta;
 
     /* backward substitution */
-    const Lanes dv_lambda_guide_offset = -inverse_pivot_guide_offset_4*phi_dot_guide_offset;
-    const Lanes dv_acceleration_L6_theta = -dv_lambda_guide_offset*l_guide_offset__L6_theta_4;
-    const Lanes dv_acceleration_L3_theta = -dv_acceleration_L6_theta*l_L6_theta__L3_theta_4;
-    const Lanes dv_acceleration_L7_theta = -dv_acceleration_L6_theta*l_L6_theta__L7_theta_4;
-    const Lanes dv_acceleration_L2_theta = -dv_acceleration_L6_theta*l_L6_theta__L2_theta_4 -
-        dv_acceleration_L7_theta*l_L7_theta__L2_theta_4;
-    const Lanes dv_acceleration_L8_theta = -dv_acceleration_L6_theta*l_L6_theta__L8_theta_4 -
-        dv_lambda_guide_offset*l_guide_offset__L8_theta_4;
+    const Lanes dv_lambda_guide_offset = -inverse_pivot_guide_offset*phi_dot_guide_offset;
+    const Lanes dv_acceleration_L6_theta = -dv_lambda_guide_offset*l_guide_offset__L6_theta;
+    const Lanes dv_acceleration_L3_theta = -dv_acceleration_L6_theta*l_L6_theta__L3_theta;
+    const Lanes dv_acceleration_L7_theta = -dv_acceleration_L6_theta*l_L6_theta__L7_theta;
+    const Lanes dv_acceleration_L2_theta = -dv_acceleration_L6_theta*l_L6_theta__L2_theta
+        - dv_acceleration_L7_theta*l_L7_theta__L2_theta;
+    const Lanes dv_acceleration_L8_theta = -dv_acceleration_L6_theta*l_L6_theta__L8_theta
+        - dv_lambda_guide_offset*l_guide_offset__L8_theta;
 
     /* results */
     dq[0] = dq_acceleration_L6_theta;

@@ -3,49 +3,31 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double L1_mass = p->L1_mass;
-    const double L1_inertia = p->L1_inertia;
-    const double L2_mass = p->L2_mass;
-    const double L2_inertia = p->L2_inertia;
-    const double L3_mass = p->L3_mass;
-    const double L3_inertia = p->L3_inertia;
-    const double L4_mass = p->L4_mass;
-    const double L4_inertia = p->L4_inertia;
-    const double L6_mass = p->L6_mass;
-    const double L6_inertia = p->L6_inertia;
-    const double L7_mass = p->L7_mass;
-    const double L7_inertia = p->L7_inertia;
-    const double L8_mass = p->L8_mass;
-    const double L8_inertia = p->L8_inertia;
-    const double S9_mass = p->S9_mass;
-    const double S9_inertia = p->S9_inertia;
-
     /* M */
-    m[0] = L1_mass;
-    m[1] = L1_mass;
-    m[2] = L1_inertia;
-    m[3] = L2_mass;
-    m[4] = L2_mass;
-    m[5] = L2_inertia;
-    m[6] = L3_mass;
-    m[7] = L3_mass;
-    m[8] = L3_inertia;
-    m[9] = L4_mass;
-    m[10] = L4_mass;
-    m[11] = L4_inertia;
-    m[12] = L6_mass;
-    m[13] = L6_mass;
-    m[14] = L6_inertia;
-    m[15] = L7_mass;
-    m[16] = L7_mass;
-    m[17] = L7_inertia;
-    m[18] = L8_mass;
-    m[19] = L8_mass;
-    m[20] = L8_inertia;
-    m[21] = S9_mass;
-    m[22] = S9_mass;
-    m[23] = S9_inertia;
+    m[0] = p->L1_mass;
+    m[1] = p->L1_mass;
+    m[2] = p->L1_inertia;
+    m[3] = p->L2_mass;
+    m[4] = p->L2_mass;
+    m[5] = p->L2_inertia;
+    m[6] = p->L3_mass;
+    m[7] = p->L3_mass;
+    m[8] = p->L3_inertia;
+    m[9] = p->L4_mass;
+    m[10] = p->L4_mass;
+    m[11] = p->L4_inertia;
+    m[12] = p->L6_mass;
+    m[13] = p->L6_mass;
+    m[14] = p->L6_inertia;
+    m[15] = p->L7_mass;
+    m[16] = p->L7_mass;
+    m[17] = p->L7_inertia;
+    m[18] = p->L8_mass;
+    m[19] = p->L8_mass;
+    m[20] = p->L8_inertia;
+    m[21] = p->S9_mass;
+    m[22] = p->S9_mass;
+    m[23] = p->S9_inertia;
 }
 
 /*
@@ -78,58 +60,44 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double S9_x = q[21];
     const double S9_y = q[22];
     const double S9_theta = q[23];
-    const double time = t;
-
-    /* parameters */
-    const double omega = p->omega;
-    const double omega4 = p->omega4;
-    const double L1_head_x = p->L1_head_x;
-    const double L2_head_x = p->L2_head_x;
-    const double L3_head_x = p->L3_head_x;
-    const double L4_head_x = p->L4_head_x;
-    const double L6_head_x = p->L6_head_x;
-    const double L7_head_x = p->L7_head_x;
-    const double L8_head_x = p->L8_head_x;
-    const double O4_y = p->O4_y;
-    const double O6_x = p->O6_x;
 
     /* directions, arms, drives */
     const double cos_theta_L1 = cos(L1_theta);
     const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_head_x = L1_head_x*cos_theta_L1;
-    const double arm_L1_head_y = L1_head_x*sin_theta_L1;
+    const double arm_L1_head_x = p->L1_head_s_x*cos_theta_L1;
+    const double arm_L1_head_y = p->L1_head_s_x*sin_theta_L1;
     const double cos_theta_L4 = cos(L4_theta);
     const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_head_x = L4_head_x*cos_theta_L4;
-    const double arm_L4_head_y = L4_head_x*sin_theta_L4;
+    const double arm_L4_head_x = p->L4_head_s_x*cos_theta_L4;
+    const double arm_L4_head_y = p->L4_head_s_x*sin_theta_L4;
     const double cos_theta_L2 = cos(L2_theta);
     const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_head_x = L2_head_x*cos_theta_L2;
-    const double arm_L2_head_y = L2_head_x*sin_theta_L2;
+    const double arm_L2_head_x = p->L2_head_s_x*cos_theta_L2;
+    const double arm_L2_head_y = p->L2_head_s_x*sin_theta_L2;
     const double cos_theta_L3 = cos(L3_theta);
     const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_head_x = L3_head_x*cos_theta_L3;
-    const double arm_L3_head_y = L3_head_x*sin_theta_L3;
+    const double arm_L3_head_x = p->L3_head_s_x*cos_theta_L3;
+    const double arm_L3_head_y = p->L3_head_s_x*sin_theta_L3;
     const double cos_theta_L7 = cos(L7_theta);
     const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_head_x = L7_head_x*cos_theta_L7;
-    const double arm_L7_head_y = L7_head_x*sin_theta_L7;
+    const double arm_L7_head_x = p->L7_head_s_x*cos_theta_L7;
+    const double arm_L7_head_y = p->L7_head_s_x*sin_theta_L7;
     const double cos_theta_L6 = cos(L6_theta);
     const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = L6_head_x*cos_theta_L6;
-    const double arm_L6_head_y = L6_head_x*sin_theta_L6;
+    const double arm_L6_head_x = p->L6_head_s_x*cos_theta_L6;
+    const double arm_L6_head_y = p->L6_head_s_x*sin_theta_L6;
     const double cos_theta_L8 = cos(L8_theta);
     const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_head_x = L8_head_x*cos_theta_L8;
-    const double arm_L8_head_y = L8_head_x*sin_theta_L8;
-    const double crank1_value = omega*time - 0.689754120388159;
-    const double crank4_value = omega4*time + 3.4814082589530893;
+    const double arm_L8_head_x = p->L8_head_s_x*cos_theta_L8;
+    const double arm_L8_head_y = p->L8_head_s_x*sin_theta_L8;
+    const double crank1_value = p->omega*t - 0.689754120388159;
+    const double crank4_value = p->omega4*t + 3.4814082589530893;
 
     /* rows */
     phi[0] = -L1_x + arm_L1_head_x;  /* O1.x */
     phi[1] = -L1_y + arm_L1_head_y;  /* O1.y */
     phi[2] = -L4_x + arm_L4_head_x;  /* O4.x */
-    phi[3] = -L4_y + O4_y + arm_L4_head_y;  /* O4.y */
+    phi[3] = -L4_y + p->O4_y + arm_L4_head_y;  /* O4.y */
     phi[4] = L1_x - L2_x + arm_L1_head_x + arm_L2_head_x;  /* A.x */
     phi[5] = L1_y - L2_y + arm_L1_head_y + arm_L2_head_y;  /* A.y */
     phi[6] = -L3_x + L4_x + arm_L3_head_x + arm_L4_head_x;  /* B.x */
@@ -142,12 +110,12 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     phi[13] = -L6_y + L7_y - arm_L6_head_y + arm_L7_head_y;  /* Q6.y */
     phi[14] = L7_x - L8_x + arm_L7_head_x + arm_L8_head_x;  /* Q8.x */
     phi[15] = L7_y - L8_y + arm_L7_head_y + arm_L8_head_y;  /* Q8.y */
-    phi[16] = -L6_x + O6_x + arm_L6_head_x;  /* O6.x */
+    phi[16] = -L6_x + p->O6_x + arm_L6_head_x;  /* O6.x */
     phi[17] = -L6_y + arm_L6_head_y;  /* O6.y */
     phi[18] = L8_x - S9_x + arm_L8_head_x;  /* slider.x */
     phi[19] = L8_y - S9_y + arm_L8_head_y;  /* slider.y */
-    phi[20] = O6_x - S9_x;  /* guide.offset */
-    phi[21] = S9_theta - 0.5*3.141592653589793;  /* guide.angle */
+    phi[20] = p->O6_x - S9_x;  /* guide.offset */
+    phi[21] = S9_theta - 0.5*PI;  /* guide.angle */
     phi[22] = L1_theta - crank1_value;  /* crank1 */
     phi[23] = L4_theta - crank4_value;  /* crank4 */
 }
@@ -167,44 +135,35 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
     const double L7_theta = q[17];
     const double L8_theta = q[20];
 
-    /* parameters */
-    const double L1_head_x = p->L1_head_x;
-    const double L2_head_x = p->L2_head_x;
-    const double L3_head_x = p->L3_head_x;
-    const double L4_head_x = p->L4_head_x;
-    const double L6_head_x = p->L6_head_x;
-    const double L7_head_x = p->L7_head_x;
-    const double L8_head_x = p->L8_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_L1 = cos(L1_theta);
     const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_head_x = L1_head_x*cos_theta_L1;
-    const double arm_L1_head_y = L1_head_x*sin_theta_L1;
+    const double arm_L1_head_x = p->L1_head_s_x*cos_theta_L1;
+    const double arm_L1_head_y = p->L1_head_s_x*sin_theta_L1;
     const double cos_theta_L4 = cos(L4_theta);
     const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_head_x = L4_head_x*cos_theta_L4;
-    const double arm_L4_head_y = L4_head_x*sin_theta_L4;
+    const double arm_L4_head_x = p->L4_head_s_x*cos_theta_L4;
+    const double arm_L4_head_y = p->L4_head_s_x*sin_theta_L4;
     const double cos_theta_L2 = cos(L2_theta);
     const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_head_x = L2_head_x*cos_theta_L2;
-    const double arm_L2_head_y = L2_head_x*sin_theta_L2;
+    const double arm_L2_head_x = p->L2_head_s_x*cos_theta_L2;
+    const double arm_L2_head_y = p->L2_head_s_x*sin_theta_L2;
     const double cos_theta_L3 = cos(L3_theta);
     const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_head_x = L3_head_x*cos_theta_L3;
-    const double arm_L3_head_y = L3_head_x*sin_theta_L3;
+    const double arm_L3_head_x = p->L3_head_s_x*cos_theta_L3;
+    const double arm_L3_head_y = p->L3_head_s_x*sin_theta_L3;
     const double cos_theta_L7 = cos(L7_theta);
     const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_head_x = L7_head_x*cos_theta_L7;
-    const double arm_L7_head_y = L7_head_x*sin_theta_L7;
+    const double arm_L7_head_x = p->L7_head_s_x*cos_theta_L7;
+    const double arm_L7_head_y = p->L7_head_s_x*sin_theta_L7;
     const double cos_theta_L6 = cos(L6_theta);
     const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = L6_head_x*cos_theta_L6;
-    const double arm_L6_head_y = L6_head_x*sin_theta_L6;
+    const double arm_L6_head_x = p->L6_head_s_x*cos_theta_L6;
+    const double arm_L6_head_y = p->L6_head_s_x*sin_theta_L6;
     const double cos_theta_L8 = cos(L8_theta);
     const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_head_x = L8_head_x*cos_theta_L8;
-    const double arm_L8_head_y = L8_head_x*sin_theta_L8;
+    const double arm_L8_head_x = p->L8_head_s_x*cos_theta_L8;
+    const double arm_L8_head_y = p->L8_head_s_x*sin_theta_L8;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d O1.x / d L1_x */
@@ -286,13 +245,9 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 {
     (void)t;
     (void)q;
-    /* parameters */
-    const double omega = p->omega;
-    const double omega4 = p->omega4;
-
     /* directions, arms, drives */
-    const double crank1_rate = omega;
-    const double crank4_rate = omega4;
+    const double crank1_rate = p->omega;
+    const double crank4_rate = p->omega4;
 
     /* rows */
     nu[0] = 0.0;  /* O1.x */
@@ -324,8 +279,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -344,44 +298,35 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double L8_theta = q[20];
     const double L8_omega = v[20];
 
-    /* parameters */
-    const double L1_head_x = p->L1_head_x;
-    const double L2_head_x = p->L2_head_x;
-    const double L3_head_x = p->L3_head_x;
-    const double L4_head_x = p->L4_head_x;
-    const double L6_head_x = p->L6_head_x;
-    const double L7_head_x = p->L7_head_x;
-    const double L8_head_x = p->L8_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_L1 = cos(L1_theta);
     const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_head_x = L1_head_x*cos_theta_L1;
-    const double arm_L1_head_y = L1_head_x*sin_theta_L1;
+    const double arm_L1_head_x = p->L1_head_s_x*cos_theta_L1;
+    const double arm_L1_head_y = p->L1_head_s_x*sin_theta_L1;
     const double cos_theta_L4 = cos(L4_theta);
     const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_head_x = L4_head_x*cos_theta_L4;
-    const double arm_L4_head_y = L4_head_x*sin_theta_L4;
+    const double arm_L4_head_x = p->L4_head_s_x*cos_theta_L4;
+    const double arm_L4_head_y = p->L4_head_s_x*sin_theta_L4;
     const double cos_theta_L2 = cos(L2_theta);
     const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_head_x = L2_head_x*cos_theta_L2;
-    const double arm_L2_head_y = L2_head_x*sin_theta_L2;
+    const double arm_L2_head_x = p->L2_head_s_x*cos_theta_L2;
+    const double arm_L2_head_y = p->L2_head_s_x*sin_theta_L2;
     const double cos_theta_L3 = cos(L3_theta);
     const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_head_x = L3_head_x*cos_theta_L3;
-    const double arm_L3_head_y = L3_head_x*sin_theta_L3;
+    const double arm_L3_head_x = p->L3_head_s_x*cos_theta_L3;
+    const double arm_L3_head_y = p->L3_head_s_x*sin_theta_L3;
     const double cos_theta_L7 = cos(L7_theta);
     const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_head_x = L7_head_x*cos_theta_L7;
-    const double arm_L7_head_y = L7_head_x*sin_theta_L7;
+    const double arm_L7_head_x = p->L7_head_s_x*cos_theta_L7;
+    const double arm_L7_head_y = p->L7_head_s_x*sin_theta_L7;
     const double cos_theta_L6 = cos(L6_theta);
     const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = L6_head_x*cos_theta_L6;
-    const double arm_L6_head_y = L6_head_x*sin_theta_L6;
+    const double arm_L6_head_x = p->L6_head_s_x*cos_theta_L6;
+    const double arm_L6_head_y = p->L6_head_s_x*sin_theta_L6;
     const double cos_theta_L8 = cos(L8_theta);
     const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_head_x = L8_head_x*cos_theta_L8;
-    const double arm_L8_head_y = L8_head_x*sin_theta_L8;
+    const double arm_L8_head_x = p->L8_head_s_x*cos_theta_L8;
+    const double arm_L8_head_y = p->L8_head_s_x*sin_theta_L8;
     const double crank1_acceleration = 0.0;
     const double crank4_acceleration = 0.0;
 
@@ -419,19 +364,12 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 {
     (void)set;
     (void)rates;
-    /* parameters */
-    const double guess_L2_theta = p->guess_L2_theta;
-    const double guess_L3_theta = p->guess_L3_theta;
-    const double guess_L6_theta = p->guess_L6_theta;
-    const double guess_L7_theta = p->guess_L7_theta;
-    const double guess_L8_theta = p->guess_L8_theta;
-
     /* start */
-    guess[0] = guess_L2_theta;  /* start.guess.L2.theta */
-    guess[1] = guess_L3_theta;  /* start.guess.L3.theta */
-    guess[2] = guess_L6_theta;  /* start.guess.L6.theta */
-    guess[3] = guess_L7_theta;  /* start.guess.L7.theta */
-    guess[4] = guess_L8_theta;  /* start.guess.L8.theta */
+    guess[0] = p->guess_L2_theta;  /* start.guess.L2.theta */
+    guess[1] = p->guess_L3_theta;  /* start.guess.L3.theta */
+    guess[2] = p->guess_L6_theta;  /* start.guess.L6.theta */
+    guess[3] = p->guess_L7_theta;  /* start.guess.L7.theta */
+    guess[4] = p->guess_L8_theta;  /* start.guess.L8.theta */
 }
 
 /*
@@ -476,25 +414,6 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double S9_vx = v[21];
     const double S9_vy = v[22];
     const double S9_omega = v[23];
-
-    /* parameters */
-    const double L1_mass = p->L1_mass;
-    const double L1_inertia = p->L1_inertia;
-    const double L2_mass = p->L2_mass;
-    const double L2_inertia = p->L2_inertia;
-    const double L3_mass = p->L3_mass;
-    const double L3_inertia = p->L3_inertia;
-    const double L4_mass = p->L4_mass;
-    const double L4_inertia = p->L4_inertia;
-    const double L6_mass = p->L6_mass;
-    const double L6_inertia = p->L6_inertia;
-    const double L7_mass = p->L7_mass;
-    const double L7_inertia = p->L7_inertia;
-    const double L8_mass = p->L8_mass;
-    const double L8_inertia = p->L8_inertia;
-    const double S9_mass = p->S9_mass;
-    const double S9_inertia = p->S9_inertia;
-    const double par_y = p->par_y;
 
     /* multipliers */
     const double multiplier_O1_x = lambda[0];
@@ -560,15 +479,16 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     torques[1] = -multiplier_crank4;  /* crank4 */
 
     /* energy */
-    energy[0] = (0.5)*L1_inertia*(L1_omega * L1_omega) + (0.5)*L1_mass*(L1_vx * L1_vx) + (0.5)*L1_mass*(L1_vy
-        * L1_vy) + (0.5)*L2_inertia*(L2_omega * L2_omega) + (0.5)*L2_mass*(L2_vx * L2_vx) +
-        (0.5)*L2_mass*(L2_vy * L2_vy) + (0.5)*L3_inertia*(L3_omega * L3_omega) + (0.5)*L3_mass*(L3_vx * L3_vx)
-        + (0.5)*L3_mass*(L3_vy * L3_vy) + (0.5)*L4_inertia*(L4_omega * L4_omega) + (0.5)*L4_mass*(L4_vx *
-        L4_vx) + (0.5)*L4_mass*(L4_vy * L4_vy) + (0.5)*L6_inertia*(L6_omega * L6_omega) + (0.5)*L6_mass*(L6_vx
-        * L6_vx) + (0.5)*L6_mass*(L6_vy * L6_vy) + (0.5)*L7_inertia*(L7_omega * L7_omega) +
-        (0.5)*L7_mass*(L7_vx * L7_vx) + (0.5)*L7_mass*(L7_vy * L7_vy) + (0.5)*L8_inertia*(L8_omega * L8_omega)
-        + (0.5)*L8_mass*(L8_vx * L8_vx) + (0.5)*L8_mass*(L8_vy * L8_vy) + (0.5)*S9_inertia*(S9_omega *
-        S9_omega) + (0.5)*S9_mass*(S9_vx * S9_vx) + (0.5)*S9_mass*(S9_vy * S9_vy);
-    energy[1] = -L1_mass*L1_y*par_y - L2_mass*L2_y*par_y - L3_mass*L3_y*par_y - L4_mass*L4_y*par_y -
-        L6_mass*L6_y*par_y - L7_mass*L7_y*par_y - L8_mass*L8_y*par_y - S9_mass*S9_y*par_y;
+    energy[0] = 0.5*p->L1_inertia*(L1_omega * L1_omega) + 0.5*p->L1_mass*(L1_vx * L1_vx)
+        + 0.5*p->L1_mass*(L1_vy * L1_vy) + 0.5*p->L2_inertia*(L2_omega * L2_omega) + 0.5*p->L2_mass*(L2_vx * L2_vx)
+        + 0.5*p->L2_mass*(L2_vy * L2_vy) + 0.5*p->L3_inertia*(L3_omega * L3_omega) + 0.5*p->L3_mass*(L3_vx * L3_vx)
+        + 0.5*p->L3_mass*(L3_vy * L3_vy) + 0.5*p->L4_inertia*(L4_omega * L4_omega) + 0.5*p->L4_mass*(L4_vx * L4_vx)
+        + 0.5*p->L4_mass*(L4_vy * L4_vy) + 0.5*p->L6_inertia*(L6_omega * L6_omega) + 0.5*p->L6_mass*(L6_vx * L6_vx)
+        + 0.5*p->L6_mass*(L6_vy * L6_vy) + 0.5*p->L7_inertia*(L7_omega * L7_omega) + 0.5*p->L7_mass*(L7_vx * L7_vx)
+        + 0.5*p->L7_mass*(L7_vy * L7_vy) + 0.5*p->L8_inertia*(L8_omega * L8_omega) + 0.5*p->L8_mass*(L8_vx * L8_vx)
+        + 0.5*p->L8_mass*(L8_vy * L8_vy) + 0.5*p->S9_inertia*(S9_omega * S9_omega) + 0.5*p->S9_mass*(S9_vx * S9_vx)
+        + 0.5*p->S9_mass*(S9_vy * S9_vy);
+    energy[1] = -p->L1_mass*L1_y*p->gravity_y - p->L2_mass*L2_y*p->gravity_y - p->L3_mass*L3_y*p->gravity_y
+        - p->L4_mass*L4_y*p->gravity_y - p->L6_mass*L6_y*p->gravity_y - p->L7_mass*L7_y*p->gravity_y
+        - p->L8_mass*L8_y*p->gravity_y - p->S9_mass*S9_y*p->gravity_y;
 }

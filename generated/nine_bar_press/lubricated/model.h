@@ -1,15 +1,13 @@
 /*
  * 2-DOF nine-bar press with play in joints A and B
- * mechanism nine_bar_press, scene lubricated, from the YAML with sha256 febebffbc57d813ee64233a43860a86e87c2f0ecff80a72653d127fbfd0f9a36
+ * mechanism nine_bar_press, scene lubricated, from the YAML with sha256
+ * febebffbc57d813ee64233a43860a86e87c2f0ecff80a72653d127fbfd0f9a36
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 24                /* coordinates of all bodies */
 #define N_ROWS 20             /* constraint rows of the motion */
 #define N_ALL_ROWS 24         /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 16         /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 0            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_X 5                 /* coordinates that are integrated */
 #define N_LOOPS 1             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 1             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 67           /* of the linearized equations */
+#define N_FACTORS 21          /* of their factors L and U */
+#define HAS_LANES 1           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,14 +43,140 @@
 #define N_GUESS 5             /* coordinates that the start guesses */
 #define N_SET 0               /* those that it sets */
 #define N_RATES 0             /* velocities that it sets */
-#define N_VALUES 67           /* of the linearized equations */
-#define N_FACTORS 21          /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double omega;  /* parameters.omega */    double omega4;  /* parameters.omega4 */    double l5;  /* parameters.l5 */    double c;  /* parameters.c */    double L1_mass;  /* bodies.L1.mass */    double L1_inertia;  /* bodies.L1.inertia */    double L2_mass;  /* bodies.L2.mass */    double L2_inertia;  /* bodies.L2.inertia */    double L3_mass;  /* bodies.L3.mass */    double L3_inertia;  /* bodies.L3.inertia */    double L4_mass;  /* bodies.L4.mass */    double L4_inertia;  /* bodies.L4.inertia */    double L6_mass;  /* bodies.L6.mass */    double L6_inertia;  /* bodies.L6.inertia */    double L7_mass;  /* bodies.L7.mass */    double L7_inertia;  /* bodies.L7.inertia */    double L8_mass;  /* bodies.L8.mass */    double L8_inertia;  /* bodies.L8.inertia */    double S9_mass;  /* bodies.S9.mass */    double S9_inertia;  /* bodies.S9.inertia */    double L1_length;  /* bodies.L1.length */    double L2_length;  /* bodies.L2.length */    double L3_length;  /* bodies.L3.length */    double L4_length;  /* bodies.L4.length */    double L6_length;  /* bodies.L6.length */    double L7_length;  /* bodies.L7.length */    double L8_length;  /* bodies.L8.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double O4_y;  /* ground.O4.y */    double O6_x;  /* ground.O6.x */    double guide_axis_y;  /* joints.guide.axis.y */    double pin_radius;  /* bearings.pin.radius */    double pin_clearance;  /* bearings.pin.clearance */    double pin_length;  /* bearings.pin.length */    double aluminium_E;  /* materials.aluminium.E */    double aluminium_nu;  /* materials.aluminium.nu */    double oil_normal_restitution;  /* contacts.oil.normal.restitution */    double oil_normal_exponent;  /* contacts.oil.normal.exponent */    double oil_friction_mu;  /* contacts.oil.friction.mu */    double oil_friction_v0;  /* contacts.oil.friction.v0 */    double oil_friction_v1;  /* contacts.oil.friction.v1 */    double oil_film_viscosity;  /* contacts.oil.film.viscosity */    double velocity_floor;  /* contacts.oil.velocity_floor */    double oil_transition;  /* contacts.oil.transition */    double par_y;  /* gravity.y */    double guess_L2_theta;  /* start.guess.L2.theta */    double guess_L3_theta;  /* start.guess.L3.theta */    double guess_L6_theta;  /* start.guess.L6.theta */    double guess_L7_theta;  /* start.guess.L7.theta */    double guess_L8_theta;  /* start.guess.L8.theta */    double L1_head_x;  /* point from the centre of mass */    double L2_head_x;  /* point from the centre of mass */    double L3_head_x;  /* point from the centre of mass */    double L4_head_x;  /* point from the centre of mass */    double L6_head_x;  /* point from the centre of mass */    double L7_head_x;  /* point from the centre of mass */    double L8_head_x;  /* point from the centre of mass */    double R_j_pin;  /* journal radius */    double oil_pin_K;  /* contact stiffness */    double oil_pin_hysteresis;  /* hysteresis damping factor a */    double oil_pin_friction_slope;  /* 1/(v1 - v0) */    double oil_pin_S;  /* film factor 6 mu R_j^3 L/c^2 */    double weight_L1_y;  /* weight */    double weight_L2_y;  /* weight */    double weight_L3_y;  /* weight */    double weight_L4_y;  /* weight */    double weight_L6_y;  /* weight */    double weight_L7_y;  /* weight */    double weight_L8_y;  /* weight */    double weight_S9_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_L1_mass;  /* 1/M */    double inverse_L2_mass;  /* 1/M */    double inverse_L3_mass;  /* 1/M */    double inverse_L4_mass;  /* 1/M */    double inverse_S9_mass;  /* 1/M */    double inverse_S9_inertia;  /* 1/M */    double inverse_L2_inertia;  /* 1/M */    double inverse_L3_inertia;  /* 1/M */    double inverse_L6_mass;  /* 1/M */    double inverse_L8_mass;  /* 1/M */    double inverse_L1_inertia;  /* 1/M */    double inverse_L4_inertia;  /* 1/M */    double inverse_L6_inertia;  /* 1/M */    double inverse_L7_mass;  /* 1/M */    double inverse_L8_inertia;  /* 1/M */    double inverse_L7_inertia;  /* 1/M */    double inverse_pin_clearance;  /* 1/pin_clearance */    double inverse_oil_transition;  /* 1/oil_transition */    double L6_head_span_x;  /* vector in its frame */    double L7_com_span_x;  /* vector in its frame */    double L7_tail_span_x;  /* vector in its frame */    double L2_com_span_x;  /* vector in its frame */    double L3_com_span_x;  /* vector in its frame */    double L8_head_span_x;  /* vector in its frame */    double L1_head_span_x;  /* vector in its frame */    double L2_tail_span_x;  /* vector in its frame */    double L4_head_span_x;  /* vector in its frame */    double L3_tail_span_x;  /* vector in its frame */    double inertia_L1_L1;  /* sum of m w.w */    double inertia_L6_L6;  /* sum of m w.w */    double inertia_L6_L7;  /* sum of m w.w */    double inertia_L6_L2;  /* sum of m w.w */    double inertia_L7_L7;  /* sum of m w.w */    double inertia_L7_L2;  /* sum of m w.w */    double inertia_L2_L2;  /* sum of m w.w */    double inertia_L6_L3;  /* sum of m w.w */    double inertia_L7_L3;  /* sum of m w.w */    double inertia_L3_L3;  /* sum of m w.w */    double inertia_L4_L4;  /* sum of m w.w */    double inertia_L6_L8;  /* sum of m w.w */    double inertia_L8_L8;  /* sum of m w.w */    double mass_crank1_crank1;  /* constant of M */    double mass_L6_L6;  /* constant of M */    double mass_L7_L7;  /* constant of M */    double mass_L2_L2;  /* constant of M */    double mass_L3_L3;  /* constant of M */    double mass_crank4_crank4;  /* constant of M */    double mass_L8_L8;  /* constant of M */    double weight_L1__across;  /* weight */    double weight_L6__across;  /* weight */    double weight_L7__across;  /* weight */    double weight_L2__across;  /* weight */    double weight_L3__across;  /* weight */    double weight_L4__across;  /* weight */    double weight_L8__across;  /* weight */    double inverse_mass_L8_L8;  /* 1/M */    double inverse_mass_L2_L2;  /* 1/M */} Parameters;
+typedef struct {
+    double omega;  /* parameters.omega, 1/s */
+    double omega4;  /* parameters.omega4, 1/s */
+    double l5;  /* parameters.l5, m */
+    double c;  /* parameters.c, m */
+    double L1_mass;  /* bodies.L1.mass, kg */
+    double L1_inertia;  /* bodies.L1.inertia, kg m^2 */
+    double L2_mass;  /* bodies.L2.mass, kg */
+    double L2_inertia;  /* bodies.L2.inertia, kg m^2 */
+    double L3_mass;  /* bodies.L3.mass, kg */
+    double L3_inertia;  /* bodies.L3.inertia, kg m^2 */
+    double L4_mass;  /* bodies.L4.mass, kg */
+    double L4_inertia;  /* bodies.L4.inertia, kg m^2 */
+    double L6_mass;  /* bodies.L6.mass, kg */
+    double L6_inertia;  /* bodies.L6.inertia, kg m^2 */
+    double L7_mass;  /* bodies.L7.mass, kg */
+    double L7_inertia;  /* bodies.L7.inertia, kg m^2 */
+    double L8_mass;  /* bodies.L8.mass, kg */
+    double L8_inertia;  /* bodies.L8.inertia, kg m^2 */
+    double S9_mass;  /* bodies.S9.mass, kg */
+    double S9_inertia;  /* bodies.S9.inertia, kg m^2 */
+    double L1_length;  /* bodies.L1.length, m */
+    double L2_length;  /* bodies.L2.length, m */
+    double L3_length;  /* bodies.L3.length, m */
+    double L4_length;  /* bodies.L4.length, m */
+    double L6_length;  /* bodies.L6.length, m */
+    double L7_length;  /* bodies.L7.length, m */
+    double L8_length;  /* bodies.L8.length, m */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double O4_y;  /* ground.O4.y, m */
+    double O6_x;  /* ground.O6.x, m */
+    double guide_axis_y;  /* joints.guide.axis.y, 1 */
+    double pin_radius;  /* bearings.pin.radius, m */
+    double pin_clearance;  /* bearings.pin.clearance, m */
+    double pin_length;  /* bearings.pin.length, m */
+    double aluminium_E;  /* materials.aluminium.E, kg/(m s^2) */
+    double aluminium_nu;  /* materials.aluminium.nu, 1 */
+    double oil_normal_restitution;  /* contacts.oil.normal.restitution, 1 */
+    double oil_normal_exponent;  /* contacts.oil.normal.exponent, 1 */
+    double oil_friction_mu;  /* contacts.oil.friction.mu, 1 */
+    double oil_friction_v0;  /* contacts.oil.friction.v0, m/s */
+    double oil_friction_v1;  /* contacts.oil.friction.v1, m/s */
+    double oil_film_viscosity;  /* contacts.oil.film.viscosity, kg/(m s) */
+    double velocity_floor;  /* contacts.oil.velocity_floor, m/s */
+    double oil_transition;  /* contacts.oil.transition, m */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double guess_L2_theta;  /* start.guess.L2.theta, rad */
+    double guess_L3_theta;  /* start.guess.L3.theta, rad */
+    double guess_L6_theta;  /* start.guess.L6.theta, rad */
+    double guess_L7_theta;  /* start.guess.L7.theta, rad */
+    double guess_L8_theta;  /* start.guess.L8.theta, rad */
+    double L1_head_s_x;  /* point from the centre of mass, m */
+    double L2_head_s_x;  /* point from the centre of mass, m */
+    double L3_head_s_x;  /* point from the centre of mass, m */
+    double L4_head_s_x;  /* point from the centre of mass, m */
+    double L6_head_s_x;  /* point from the centre of mass, m */
+    double L7_head_s_x;  /* point from the centre of mass, m */
+    double L8_head_s_x;  /* point from the centre of mass, m */
+    double R_j_pin;  /* journal radius, m */
+    double oil_pin_K;  /* contact stiffness, kg/(m^(1/2) s^2) */
+    double oil_pin_hysteresis;  /* hysteresis damping factor a, 1 */
+    double oil_pin_friction_slope;  /* 1/(v1 - v0), s/m */
+    double oil_pin_S;  /* film factor 6 mu R_j^3 L/c^2, kg m/s */
+    double weight_L1_y;  /* weight, kg m/s^2 */
+    double weight_L2_y;  /* weight, kg m/s^2 */
+    double weight_L3_y;  /* weight, kg m/s^2 */
+    double weight_L4_y;  /* weight, kg m/s^2 */
+    double weight_L6_y;  /* weight, kg m/s^2 */
+    double weight_L7_y;  /* weight, kg m/s^2 */
+    double weight_L8_y;  /* weight, kg m/s^2 */
+    double weight_S9_y;  /* weight, kg m/s^2 */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_L1_mass;  /* 1/M, 1/kg */
+    double inverse_L2_mass;  /* 1/M, 1/kg */
+    double inverse_L3_mass;  /* 1/M, 1/kg */
+    double inverse_L4_mass;  /* 1/M, 1/kg */
+    double inverse_S9_mass;  /* 1/M, 1/kg */
+    double inverse_S9_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_L2_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_L3_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_L6_mass;  /* 1/M, 1/kg */
+    double inverse_L8_mass;  /* 1/M, 1/kg */
+    double inverse_L1_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_L4_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_L6_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_L7_mass;  /* 1/M, 1/kg */
+    double inverse_L8_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_L7_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_pin_clearance;  /* 1/pin_clearance, 1/m */
+    double inverse_oil_transition;  /* 1/oil_transition, 1/m */
+    double L6_head_span_x;  /* vector in its frame, m */
+    double L7_com_span_x;  /* vector in its frame, m */
+    double L7_tail_span_x;  /* vector in its frame, m */
+    double L2_com_span_x;  /* vector in its frame, m */
+    double L3_com_span_x;  /* vector in its frame, m */
+    double L8_head_span_x;  /* vector in its frame, m */
+    double L1_head_span_x;  /* vector in its frame, m */
+    double L2_tail_span_x;  /* vector in its frame, m */
+    double L4_head_span_x;  /* vector in its frame, m */
+    double L3_tail_span_x;  /* vector in its frame, m */
+    double inertia_L1_L1;  /* sum of m w.w, kg m^2 */
+    double inertia_L6_L6;  /* sum of m w.w, kg m^2 */
+    double inertia_L6_L7;  /* sum of m w.w, kg m^2 */
+    double inertia_L6_L2;  /* sum of m w.w, kg m^2 */
+    double inertia_L7_L7;  /* sum of m w.w, kg m^2 */
+    double inertia_L7_L2;  /* sum of m w.w, kg m^2 */
+    double inertia_L2_L2;  /* sum of m w.w, kg m^2 */
+    double inertia_L6_L3;  /* sum of m w.w, kg m^2 */
+    double inertia_L7_L3;  /* sum of m w.w, kg m^2 */
+    double inertia_L3_L3;  /* sum of m w.w, kg m^2 */
+    double inertia_L4_L4;  /* sum of m w.w, kg m^2 */
+    double inertia_L6_L8;  /* sum of m w.w, kg m^2 */
+    double inertia_L8_L8;  /* sum of m w.w, kg m^2 */
+    double mass_crank1_crank1;  /* constant of M, kg m^2 */
+    double mass_L6_L6;  /* constant of M, kg m^2 */
+    double mass_L7_L7;  /* constant of M, kg m^2 */
+    double mass_L2_L2;  /* constant of M, kg m^2 */
+    double mass_L3_L3;  /* constant of M, kg m^2 */
+    double mass_crank4_crank4;  /* constant of M, kg m^2 */
+    double mass_L8_L8;  /* constant of M, kg m^2 */
+    double weight_L1__across;  /* weight, kg m^2/s^2 */
+    double weight_L6__across;  /* weight, kg m^2/s^2 */
+    double weight_L7__across;  /* weight, kg m^2/s^2 */
+    double weight_L2__across;  /* weight, kg m^2/s^2 */
+    double weight_L3__across;  /* weight, kg m^2/s^2 */
+    double weight_L4__across;  /* weight, kg m^2/s^2 */
+    double weight_L8__across;  /* weight, kg m^2/s^2 */
+    double inverse_mass_L8_L8;  /* 1/M, 1/(kg m^2) */
+    double inverse_mass_L2_L2;  /* 1/M, 1/(kg m^2) */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"
@@ -54,8 +186,7 @@ static const unsigned char event_stops[] = {0};
 static const int guess_place[] = {5, 8, 14, 17, 20};
 static const int set_place[] = {0};
 static const int rate_place[] = {0};
-static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1,
-    0, 0, 0};
+static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0};
 static const int kept_row[] = {0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
 static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
 static const short watched[] = {0};

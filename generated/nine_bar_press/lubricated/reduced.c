@@ -1,11 +1,9 @@
 /*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
-void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
-    double *all_v)
+void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double L6_theta = q[0];
     const double L6_omega = v[0];
     const double L7_theta = q[1];
@@ -17,25 +15,9 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double L3_theta = q[4];
     const double L3_omega = v[4];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double omega4 = p->omega4;
-    const double L1_head_x = p->L1_head_x;
-    const double L4_head_x = p->L4_head_x;
-    const double L6_head_x = p->L6_head_x;
-    const double L8_head_x = p->L8_head_x;
-    const double O4_y = p->O4_y;
-    const double O6_x = p->O6_x;
-    const double L6_head_span_x = p->L6_head_span_x;
-    const double L7_com_span_x = p->L7_com_span_x;
-    const double L7_tail_span_x = p->L7_tail_span_x;
-    const double L2_com_span_x = p->L2_com_span_x;
-    const double L3_com_span_x = p->L3_com_span_x;
-    const double L8_head_span_x = p->L8_head_span_x;
-
     /* directions, arms, drives */
-    const double crank1_value = omega*time - 0.689754120388159;
-    const double crank4_value = omega4*time + 3.4814082589530893;
+    const double crank1_value = p->omega*t - 0.689754120388159;
+    const double crank4_value = p->omega4*t + 3.4814082589530893;
     const Four angles_0 = {crank1_value, crank4_value, L6_theta, L7_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -56,64 +38,64 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double sin_theta_L2 = sines_1[1];
     const double cos_theta_L3 = cosines_1[2];
     const double sin_theta_L3 = sines_1[2];
-    const double crank1_rate = omega;
-    const double crank4_rate = omega4;
-    const double span_L1_com_x = L1_head_x*cos_theta_L1;
-    const double span_L1_com_y = L1_head_x*sin_theta_L1;
+    const double crank1_rate = p->omega;
+    const double crank4_rate = p->omega4;
+    const double span_L1_com_x = p->L1_head_s_x*cos_theta_L1;
+    const double span_L1_com_y = p->L1_head_s_x*sin_theta_L1;
     const double L1_vx = -crank1_rate*span_L1_com_y;
     const double L1_vy = crank1_rate*span_L1_com_x;
-    const double span_L4_com_x = L4_head_x*cos_theta_L4;
-    const double span_L4_com_y = L4_head_x*sin_theta_L4;
+    const double span_L4_com_x = p->L4_head_s_x*cos_theta_L4;
+    const double span_L4_com_y = p->L4_head_s_x*sin_theta_L4;
     const double L4_vx = -crank4_rate*span_L4_com_y;
-    const double L4_y = O4_y + span_L4_com_y;
+    const double L4_y = p->O4_y + span_L4_com_y;
     const double L4_vy = crank4_rate*span_L4_com_x;
-    const double span_L6_com_x = L6_head_x*cos_theta_L6;
-    const double span_L6_com_y = L6_head_x*sin_theta_L6;
-    const double L6_x = O6_x + span_L6_com_x;
+    const double span_L6_com_x = p->L6_head_s_x*cos_theta_L6;
+    const double span_L6_com_y = p->L6_head_s_x*sin_theta_L6;
+    const double L6_x = p->O6_x + span_L6_com_x;
     const double L6_vx = -L6_omega*span_L6_com_y;
     const double L6_vy = L6_omega*span_L6_com_x;
-    const double span_L6_head_x = L6_head_span_x*cos_theta_L6;
-    const double span_L6_head_y = L6_head_span_x*sin_theta_L6;
-    const double L6_head_x_2 = O6_x + span_L6_head_x;
+    const double span_L6_head_x = p->L6_head_span_x*cos_theta_L6;
+    const double span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
+    const double L6_head_x = p->O6_x + span_L6_head_x;
     const double L6_head_vx = -L6_omega*span_L6_head_y;
     const double L6_head_vy = L6_omega*span_L6_head_x;
-    const double span_L7_com_x = L7_com_span_x*cos_theta_L7;
-    const double span_L7_com_y = L7_com_span_x*sin_theta_L7;
-    const double L7_x = L6_head_x_2 + span_L7_com_x;
+    const double span_L7_com_x = p->L7_com_span_x*cos_theta_L7;
+    const double span_L7_com_y = p->L7_com_span_x*sin_theta_L7;
+    const double L7_x = L6_head_x + span_L7_com_x;
     const double L7_vx = L6_head_vx - L7_omega*span_L7_com_y;
     const double L7_y = span_L6_head_y + span_L7_com_y;
     const double L7_vy = L6_head_vy + L7_omega*span_L7_com_x;
-    const double span_L8_com_x = L8_head_x*cos_theta_L8;
-    const double span_L8_com_y = L8_head_x*sin_theta_L8;
-    const double L8_x = L6_head_x_2 + span_L8_com_x;
+    const double span_L8_com_x = p->L8_head_s_x*cos_theta_L8;
+    const double span_L8_com_y = p->L8_head_s_x*sin_theta_L8;
+    const double L8_x = L6_head_x + span_L8_com_x;
     const double L8_vx = L6_head_vx - L8_omega*span_L8_com_y;
     const double L8_y = span_L6_head_y + span_L8_com_y;
     const double L8_vy = L6_head_vy + L8_omega*span_L8_com_x;
-    const double span_L7_tail_x = L7_tail_span_x*cos_theta_L7;
-    const double span_L7_tail_y = L7_tail_span_x*sin_theta_L7;
-    const double L7_tail_x = L6_head_x_2 + span_L7_tail_x;
+    const double span_L7_tail_x = p->L7_tail_span_x*cos_theta_L7;
+    const double span_L7_tail_y = p->L7_tail_span_x*sin_theta_L7;
+    const double L7_tail_x = L6_head_x + span_L7_tail_x;
     const double L7_tail_vx = L6_head_vx - L7_omega*span_L7_tail_y;
     const double L7_tail_y = span_L6_head_y + span_L7_tail_y;
     const double L7_tail_vy = L6_head_vy + L7_omega*span_L7_tail_x;
-    const double span_L2_com_x = L2_com_span_x*cos_theta_L2;
-    const double span_L2_com_y = L2_com_span_x*sin_theta_L2;
+    const double span_L2_com_x = p->L2_com_span_x*cos_theta_L2;
+    const double span_L2_com_y = p->L2_com_span_x*sin_theta_L2;
     const double L2_x = L7_tail_x + span_L2_com_x;
     const double L2_vx = -L2_omega*span_L2_com_y + L7_tail_vx;
     const double L2_y = L7_tail_y + span_L2_com_y;
     const double L2_vy = L2_omega*span_L2_com_x + L7_tail_vy;
-    const double span_L3_com_x = L3_com_span_x*cos_theta_L3;
-    const double span_L3_com_y = L3_com_span_x*sin_theta_L3;
+    const double span_L3_com_x = p->L3_com_span_x*cos_theta_L3;
+    const double span_L3_com_y = p->L3_com_span_x*sin_theta_L3;
     const double L3_x = L7_tail_x + span_L3_com_x;
     const double L3_vx = -L3_omega*span_L3_com_y + L7_tail_vx;
     const double L3_y = L7_tail_y + span_L3_com_y;
     const double L3_vy = L3_omega*span_L3_com_x + L7_tail_vy;
-    const double span_L8_head_x = L8_head_span_x*cos_theta_L8;
-    const double span_L8_head_y = L8_head_span_x*sin_theta_L8;
-    const double L8_head_x_2 = L6_head_x_2 + span_L8_head_x;
+    const double span_L8_head_x = p->L8_head_span_x*cos_theta_L8;
+    const double span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
+    const double L8_head_x = L6_head_x + span_L8_head_x;
     const double L8_head_vx = L6_head_vx - L8_omega*span_L8_head_y;
     const double L8_head_y = span_L6_head_y + span_L8_head_y;
     const double L8_head_vy = L6_head_vy + L8_omega*span_L8_head_x;
-    const double S9_theta = (0.5)*3.141592653589793;
+    const double S9_theta = 0.5*PI;
     const double S9_omega = 0.0;
 
     /* bodies */
@@ -159,7 +141,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     all_v[19] = L8_vy;
     all_q[20] = L8_theta;
     all_v[20] = L8_omega;
-    all_q[21] = L8_head_x_2;
+    all_q[21] = L8_head_x;
     all_v[21] = L8_head_vx;
     all_q[22] = L8_head_y;
     all_v[22] = L8_head_vy;
@@ -170,8 +152,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 /*
  * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
  */
-void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
-    double *s_rate)
+void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
     (void)t;
     (void)p;
@@ -203,8 +184,8 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 /*
  * Their second rates a, from absolute all_a.
  */
-void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const
-    Parameters *p, double *a)
+void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
+    double *a)
 {
     (void)t;
     (void)q;
@@ -228,18 +209,14 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     const double L6_theta = q[0];
     const double L8_theta = q[2];
 
-    /* parameters */
-    const double L6_head_span_x = p->L6_head_span_x;
-    const double L8_head_span_x = p->L8_head_span_x;
-
     /* directions, arms, drives */
     const Four angles_0 = {L6_theta, L8_theta, L8_theta, L8_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_L6 = cosines_0[0];
     const double cos_theta_L8 = cosines_0[1];
-    const double span_L6_head_x = L6_head_span_x*cos_theta_L6;
-    const double span_L8_head_x = L8_head_span_x*cos_theta_L8;
+    const double span_L6_head_x = p->L6_head_span_x*cos_theta_L6;
+    const double span_L8_head_x = p->L8_head_span_x*cos_theta_L8;
 
     /* rows */
     out[0] = -span_L6_head_x - span_L8_head_x;  /* guide.offset */
@@ -257,18 +234,14 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     const double L8_theta = q[2];
     const double L8_omega = v[2];
 
-    /* parameters */
-    const double L6_head_span_x = p->L6_head_span_x;
-    const double L8_head_span_x = p->L8_head_span_x;
-
     /* directions, arms, drives */
     const Four angles_0 = {L6_theta, L8_theta, L8_theta, L8_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double sin_theta_L6 = sines_0[0];
     const double sin_theta_L8 = sines_0[1];
-    const double span_L6_head_y = L6_head_span_x*sin_theta_L6;
-    const double span_L8_head_y = L8_head_span_x*sin_theta_L8;
+    const double span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
+    const double span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
 
     /* rows */
     out[0] = L6_omega*span_L6_head_y + L8_omega*span_L8_head_y;  /* guide.offset */
@@ -279,15 +252,14 @@ void closure_rates(const double t, const double *q, const double *v, const Param
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
 {
     /* corners: the sides that are held, if any */
     const double *const side = memory->held ? memory->side : NULL;
     double *const g = aside->g;
 
     /* coordinates, velocities, time */
-    const double time = t;
     const double L6_theta = q[0];
     const double L6_omega = v[0];
     const double L7_theta = q[1];
@@ -299,42 +271,9 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double L3_theta = q[4];
     const double L3_omega = v[4];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double omega4 = p->omega4;
-    const double O4_y = p->O4_y;
-    const double O6_x = p->O6_x;
-    const double L6_head_span_x = p->L6_head_span_x;
-    const double L7_tail_span_x = p->L7_tail_span_x;
-    const double L8_head_span_x = p->L8_head_span_x;
-    const double L1_head_span_x = p->L1_head_span_x;
-    const double L2_tail_span_x = p->L2_tail_span_x;
-    const double L4_head_span_x = p->L4_head_span_x;
-    const double L3_tail_span_x = p->L3_tail_span_x;
-    const double inertia_L6_L7 = p->inertia_L6_L7;
-    const double inertia_L6_L2 = p->inertia_L6_L2;
-    const double inertia_L7_L2 = p->inertia_L7_L2;
-    const double inertia_L6_L3 = p->inertia_L6_L3;
-    const double inertia_L7_L3 = p->inertia_L7_L3;
-    const double inertia_L6_L8 = p->inertia_L6_L8;
-    const double mass_crank1_crank1 = p->mass_crank1_crank1;
-    const double mass_L6_L6 = p->mass_L6_L6;
-    const double mass_L7_L7 = p->mass_L7_L7;
-    const double mass_L3_L3 = p->mass_L3_L3;
-    const double mass_crank4_crank4 = p->mass_crank4_crank4;
-    const double weight_L1__across = p->weight_L1__across;
-    const double weight_L6__across = p->weight_L6__across;
-    const double weight_L7__across = p->weight_L7__across;
-    const double weight_L2__across = p->weight_L2__across;
-    const double weight_L3__across = p->weight_L3__across;
-    const double weight_L4__across = p->weight_L4__across;
-    const double weight_L8__across = p->weight_L8__across;
-    const double inverse_mass_L8_L8 = p->inverse_mass_L8_L8;
-    const double inverse_mass_L2_L2 = p->inverse_mass_L2_L2;
-
     /* directions, arms, drives */
-    const double crank1_value = omega*time - 0.689754120388159;
-    const double crank4_value = omega4*time + 3.4814082589530893;
+    const double crank1_value = p->omega*t - 0.689754120388159;
+    const double crank4_value = p->omega4*t + 3.4814082589530893;
     const Four angles_0 = {crank1_value, crank4_value, L6_theta, L7_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -355,68 +294,68 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double sin_theta_L2 = sines_1[1];
     const double cos_theta_L3 = cosines_1[2];
     const double sin_theta_L3 = sines_1[2];
-    const double crank1_rate = omega;
+    const double crank1_rate = p->omega;
     const double crank1_acceleration = 0.0;
-    const double crank4_rate = omega4;
+    const double crank4_rate = p->omega4;
     const double crank4_acceleration = 0.0;
-    const double span_L6_head_x = L6_head_span_x*cos_theta_L6;
-    const double span_L6_head_y = L6_head_span_x*sin_theta_L6;
-    const double L6_head_x_2 = O6_x + span_L6_head_x;
+    const double span_L6_head_x = p->L6_head_span_x*cos_theta_L6;
+    const double span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
+    const double L6_head_x = p->O6_x + span_L6_head_x;
     const double L6_head_vx = -L6_omega*span_L6_head_y;
     const double L6_head_vy = L6_omega*span_L6_head_x;
-    const double span_L7_tail_x = L7_tail_span_x*cos_theta_L7;
-    const double span_L7_tail_y = L7_tail_span_x*sin_theta_L7;
-    const double L7_tail_x = L6_head_x_2 + span_L7_tail_x;
+    const double span_L7_tail_x = p->L7_tail_span_x*cos_theta_L7;
+    const double span_L7_tail_y = p->L7_tail_span_x*sin_theta_L7;
+    const double L7_tail_x = L6_head_x + span_L7_tail_x;
     const double L7_tail_vx = L6_head_vx - L7_omega*span_L7_tail_y;
     const double L7_tail_y = span_L6_head_y + span_L7_tail_y;
     const double L7_tail_vy = L6_head_vy + L7_omega*span_L7_tail_x;
-    const double span_L8_head_x = L8_head_span_x*cos_theta_L8;
-    const double span_L8_head_y = L8_head_span_x*sin_theta_L8;
-    const double span_L1_head_x = L1_head_span_x*cos_theta_L1;
-    const double span_L1_head_y = L1_head_span_x*sin_theta_L1;
+    const double span_L8_head_x = p->L8_head_span_x*cos_theta_L8;
+    const double span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
+    const double span_L1_head_x = p->L1_head_span_x*cos_theta_L1;
+    const double span_L1_head_y = p->L1_head_span_x*sin_theta_L1;
     const double L1_head_vx = -crank1_rate*span_L1_head_y;
     const double L1_head_vy = crank1_rate*span_L1_head_x;
-    const double span_L2_tail_x = L2_tail_span_x*cos_theta_L2;
-    const double span_L2_tail_y = L2_tail_span_x*sin_theta_L2;
+    const double span_L2_tail_x = p->L2_tail_span_x*cos_theta_L2;
+    const double span_L2_tail_y = p->L2_tail_span_x*sin_theta_L2;
     const double L2_tail_x = L7_tail_x + span_L2_tail_x;
     const double L2_tail_vx = -L2_omega*span_L2_tail_y + L7_tail_vx;
     const double L2_tail_y = L7_tail_y + span_L2_tail_y;
     const double L2_tail_vy = L2_omega*span_L2_tail_x + L7_tail_vy;
-    const double span_L4_head_x = L4_head_span_x*cos_theta_L4;
-    const double span_L4_head_y = L4_head_span_x*sin_theta_L4;
+    const double span_L4_head_x = p->L4_head_span_x*cos_theta_L4;
+    const double span_L4_head_y = p->L4_head_span_x*sin_theta_L4;
     const double L4_head_vx = -crank4_rate*span_L4_head_y;
-    const double L4_head_y = O4_y + span_L4_head_y;
+    const double L4_head_y = p->O4_y + span_L4_head_y;
     const double L4_head_vy = crank4_rate*span_L4_head_x;
-    const double span_L3_tail_x = L3_tail_span_x*cos_theta_L3;
-    const double span_L3_tail_y = L3_tail_span_x*sin_theta_L3;
+    const double span_L3_tail_x = p->L3_tail_span_x*cos_theta_L3;
+    const double span_L3_tail_y = p->L3_tail_span_x*sin_theta_L3;
     const double L3_tail_x = L7_tail_x + span_L3_tail_x;
     const double L3_tail_vx = -L3_omega*span_L3_tail_y + L7_tail_vx;
     const double L3_tail_y = L7_tail_y + span_L3_tail_y;
     const double L3_tail_vy = L3_omega*span_L3_tail_x + L7_tail_vy;
     const double cos_L7_less_L6 = cos_theta_L6*cos_theta_L7 + sin_theta_L6*sin_theta_L7;
     const double sin_L7_less_L6 = cos_theta_L6*sin_theta_L7 - cos_theta_L7*sin_theta_L6;
-    const double dot_L6_L7 = cos_L7_less_L6*inertia_L6_L7;
-    const double cross_L6_L7 = inertia_L6_L7*sin_L7_less_L6;
+    const double dot_L6_L7 = cos_L7_less_L6*p->inertia_L6_L7;
+    const double cross_L6_L7 = p->inertia_L6_L7*sin_L7_less_L6;
     const double cos_L2_less_L6 = cos_theta_L2*cos_theta_L6 + sin_theta_L2*sin_theta_L6;
     const double sin_L2_less_L6 = -cos_theta_L2*sin_theta_L6 + cos_theta_L6*sin_theta_L2;
-    const double dot_L6_L2 = cos_L2_less_L6*inertia_L6_L2;
-    const double cross_L6_L2 = inertia_L6_L2*sin_L2_less_L6;
+    const double dot_L6_L2 = cos_L2_less_L6*p->inertia_L6_L2;
+    const double cross_L6_L2 = p->inertia_L6_L2*sin_L2_less_L6;
     const double cos_L2_less_L7 = cos_theta_L2*cos_theta_L7 + sin_theta_L2*sin_theta_L7;
     const double sin_L2_less_L7 = -cos_theta_L2*sin_theta_L7 + cos_theta_L7*sin_theta_L2;
-    const double dot_L7_L2 = cos_L2_less_L7*inertia_L7_L2;
-    const double cross_L7_L2 = inertia_L7_L2*sin_L2_less_L7;
+    const double dot_L7_L2 = cos_L2_less_L7*p->inertia_L7_L2;
+    const double cross_L7_L2 = p->inertia_L7_L2*sin_L2_less_L7;
     const double cos_L3_less_L6 = cos_theta_L3*cos_theta_L6 + sin_theta_L3*sin_theta_L6;
     const double sin_L3_less_L6 = -cos_theta_L3*sin_theta_L6 + cos_theta_L6*sin_theta_L3;
-    const double dot_L6_L3 = cos_L3_less_L6*inertia_L6_L3;
-    const double cross_L6_L3 = inertia_L6_L3*sin_L3_less_L6;
+    const double dot_L6_L3 = cos_L3_less_L6*p->inertia_L6_L3;
+    const double cross_L6_L3 = p->inertia_L6_L3*sin_L3_less_L6;
     const double cos_L3_less_L7 = cos_theta_L3*cos_theta_L7 + sin_theta_L3*sin_theta_L7;
     const double sin_L3_less_L7 = -cos_theta_L3*sin_theta_L7 + cos_theta_L7*sin_theta_L3;
-    const double dot_L7_L3 = cos_L3_less_L7*inertia_L7_L3;
-    const double cross_L7_L3 = inertia_L7_L3*sin_L3_less_L7;
+    const double dot_L7_L3 = cos_L3_less_L7*p->inertia_L7_L3;
+    const double cross_L7_L3 = p->inertia_L7_L3*sin_L3_less_L7;
     const double cos_L8_less_L6 = cos_theta_L6*cos_theta_L8 + sin_theta_L6*sin_theta_L8;
     const double sin_L8_less_L6 = cos_theta_L6*sin_theta_L8 - cos_theta_L8*sin_theta_L6;
-    const double dot_L6_L8 = cos_L8_less_L6*inertia_L6_L8;
-    const double cross_L6_L8 = inertia_L6_L8*sin_L8_less_L6;
+    const double dot_L6_L8 = cos_L8_less_L6*p->inertia_L6_L8;
+    const double cross_L6_L8 = p->inertia_L6_L8*sin_L8_less_L6;
 
     /* status */
     int pivot = 0;
@@ -426,7 +365,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double e_A_y = L2_tail_y - span_L1_head_y;
     const double edot_A_x = -L1_head_vx + L2_tail_vx;
     const double edot_A_y = -L1_head_vy + L2_tail_vy;
-    clearance_A(e_A_x, e_A_y, edot_A_x, edot_A_y, crank1_rate, L2_omega, &memory->latch[0], p, side, g, &aside->clearance[0]);
+    clearance_A(e_A_x, e_A_y, edot_A_x, edot_A_y, crank1_rate, L2_omega, &memory->latch[0], p, side, g,
+        &aside->clearance[0]);
     const double F_A_x = aside->clearance[0].Fx;
     const double F_A_y = aside->clearance[0].Fy;
     const double M_A_first = aside->clearance[0].moment_first;
@@ -438,7 +378,8 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double e_B_y = L3_tail_y - L4_head_y;
     const double edot_B_x = L3_tail_vx - L4_head_vx;
     const double edot_B_y = L3_tail_vy - L4_head_vy;
-    clearance_B(e_B_x, e_B_y, edot_B_x, edot_B_y, crank4_rate, L3_omega, &memory->latch[1], p, side, g, &aside->clearance[1]);
+    clearance_B(e_B_x, e_B_y, edot_B_x, edot_B_y, crank4_rate, L3_omega, &memory->latch[1], p, side, g,
+        &aside->clearance[1]);
     const double F_B_x = aside->clearance[1].Fx;
     const double F_B_y = aside->clearance[1].Fy;
     const double M_B_first = aside->clearance[1].moment_first;
@@ -446,63 +387,64 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     aside->clearance[1].power = F_B_x*edot_B_x + F_B_y*edot_B_y + L3_omega*M_B_second + M_B_first*crank4_rate;
 
     /* constraints: gamma */
-    const double rhs_guide_offset = -(L6_omega * L6_omega)*span_L6_head_x - (L8_omega *
-        L8_omega)*span_L8_head_x;
+    const double rhs_guide_offset = -(L6_omega * L6_omega)*span_L6_head_x - (L8_omega * L8_omega)*span_L8_head_x;
 
     /* L D L^T of the KKT matrix */
-    const double l_L6_theta__L8_theta = dot_L6_L8*inverse_mass_L8_L8;
-    const double l_guide_offset__L8_theta = inverse_mass_L8_L8*span_L8_head_y;
-    const double l_L7_theta__L2_theta = dot_L7_L2*inverse_mass_L2_L2;
-    const double l_L6_theta__L2_theta = dot_L6_L2*inverse_mass_L2_L2;
-    const double pivot_L7_theta = -dot_L7_L2*l_L7_theta__L2_theta + mass_L7_L7;
-    const double determinant_L7_theta__L3_theta = -(dot_L7_L3 * dot_L7_L3) + mass_L3_L3*pivot_L7_theta;
+    const double l_L6_theta__L8_theta = dot_L6_L8*p->inverse_mass_L8_L8;
+    const double l_guide_offset__L8_theta = p->inverse_mass_L8_L8*span_L8_head_y;
+    const double l_L7_theta__L2_theta = dot_L7_L2*p->inverse_mass_L2_L2;
+    const double l_L6_theta__L2_theta = dot_L6_L2*p->inverse_mass_L2_L2;
+    const double pivot_L7_theta = -dot_L7_L2*l_L7_theta__L2_theta + p->mass_L7_L7;
+    const double determinant_L7_theta__L3_theta = -(dot_L7_L3 * dot_L7_L3) + p->mass_L3_L3*pivot_L7_theta;
     const double inverse_L7_theta__L3_theta = 1.0/determinant_L7_theta__L3_theta;
-    const double inverse_pivot_L7_theta = inverse_L7_theta__L3_theta*mass_L3_L3;
+    const double inverse_pivot_L7_theta = inverse_L7_theta__L3_theta*p->mass_L3_L3;
     const double inverse_pivot_L3_theta = inverse_L7_theta__L3_theta*pivot_L7_theta;
     const double inverse_cross_L7_theta__L3_theta = -dot_L7_L3*inverse_L7_theta__L3_theta;
     const double w_L6_theta__L7_theta = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta;
-    const double l_L6_theta__L7_theta = dot_L6_L3*inverse_cross_L7_theta__L3_theta +
-        inverse_pivot_L7_theta*w_L6_theta__L7_theta;
-    const double l_L6_theta__L3_theta = dot_L6_L3*inverse_pivot_L3_theta +
-        inverse_cross_L7_theta__L3_theta*w_L6_theta__L7_theta;
-    const double inverse_pivot_L6_theta = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta -
-        dot_L6_L3*l_L6_theta__L3_theta - dot_L6_L8*l_L6_theta__L8_theta -
-        l_L6_theta__L7_theta*w_L6_theta__L7_theta + mass_L6_L6);
+    const double l_L6_theta__L7_theta = dot_L6_L3*inverse_cross_L7_theta__L3_theta
+        + inverse_pivot_L7_theta*w_L6_theta__L7_theta;
+    const double l_L6_theta__L3_theta = dot_L6_L3*inverse_pivot_L3_theta
+        + inverse_cross_L7_theta__L3_theta*w_L6_theta__L7_theta;
+    const double inverse_pivot_L6_theta = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta - dot_L6_L3*l_L6_theta__L3_theta
+        - dot_L6_L8*l_L6_theta__L8_theta - l_L6_theta__L7_theta*w_L6_theta__L7_theta + p->mass_L6_L6);
     const double w_guide_offset__L6_theta = -dot_L6_L8*l_guide_offset__L8_theta + span_L6_head_y;
     const double l_guide_offset__L6_theta = inverse_pivot_L6_theta*w_guide_offset__L6_theta;
-    const double scale_guide_offset = l_guide_offset__L6_theta*w_guide_offset__L6_theta +
-        l_guide_offset__L8_theta*span_L8_head_y;
-    if (!(scale_guide_offset > 1e-08 * scale_guide_offset)) { pivot = 1; goto dependent; };
+    const double scale_guide_offset = l_guide_offset__L6_theta*w_guide_offset__L6_theta
+        + l_guide_offset__L8_theta*span_L8_head_y;
+    if (!(scale_guide_offset > 0.0 && scale_guide_offset < INFINITY)) {
+        pivot = 1;
+        goto dependent;
+    }
     const double inverse_pivot_guide_offset = 1.0/scale_guide_offset;
 
     /* forward substitution */
-    const double z_L8_theta = -(L6_omega * L6_omega)*cross_L6_L8 + cos_theta_L8*weight_L8__across;
+    const double z_L8_theta = -(L6_omega * L6_omega)*cross_L6_L8 + cos_theta_L8*p->weight_L8__across;
     const double z_L2_theta = -F_A_x*span_L2_tail_y + F_A_y*span_L2_tail_x - (L6_omega * L6_omega)*cross_L6_L2
-        - (L7_omega * L7_omega)*cross_L7_L2 + M_A_second + cos_theta_L2*weight_L2__across;
-    const double z_L7_theta = (L2_omega * L2_omega)*cross_L7_L2 + (L3_omega * L3_omega)*cross_L7_L3 -
-        (L6_omega * L6_omega)*cross_L6_L7 + cos_theta_L7*weight_L7__across - l_L7_theta__L2_theta*z_L2_theta +
-        span_L7_tail_x*(F_A_y + F_B_y) - span_L7_tail_y*(F_A_x + F_B_x);
+        - (L7_omega * L7_omega)*cross_L7_L2 + M_A_second + cos_theta_L2*p->weight_L2__across;
+    const double z_L7_theta = (L2_omega * L2_omega)*cross_L7_L2 + (L3_omega * L3_omega)*cross_L7_L3
+        - (L6_omega * L6_omega)*cross_L6_L7 + cos_theta_L7*p->weight_L7__across - l_L7_theta__L2_theta*z_L2_theta
+        + span_L7_tail_x*(F_A_y + F_B_y) - span_L7_tail_y*(F_A_x + F_B_x);
     const double z_L3_theta = -F_B_x*span_L3_tail_y + F_B_y*span_L3_tail_x - (L6_omega * L6_omega)*cross_L6_L3
-        - (L7_omega * L7_omega)*cross_L7_L3 + M_B_second + cos_theta_L3*weight_L3__across;
-    const double z_L6_theta = (L2_omega * L2_omega)*cross_L6_L2 + (L3_omega * L3_omega)*cross_L6_L3 +
-        (L7_omega * L7_omega)*cross_L6_L7 + (L8_omega * L8_omega)*cross_L6_L8 + cos_theta_L6*weight_L6__across
+        - (L7_omega * L7_omega)*cross_L7_L3 + M_B_second + cos_theta_L3*p->weight_L3__across;
+    const double z_L6_theta = (L2_omega * L2_omega)*cross_L6_L2 + (L3_omega * L3_omega)*cross_L6_L3
+        + (L7_omega * L7_omega)*cross_L6_L7 + (L8_omega * L8_omega)*cross_L6_L8 + cos_theta_L6*p->weight_L6__across
         - l_L6_theta__L2_theta*z_L2_theta - l_L6_theta__L3_theta*z_L3_theta - l_L6_theta__L7_theta*z_L7_theta
         - l_L6_theta__L8_theta*z_L8_theta + span_L6_head_x*(F_A_y + F_B_y) - span_L6_head_y*(F_A_x + F_B_x);
-    const double z_guide_offset = -l_guide_offset__L6_theta*z_L6_theta - l_guide_offset__L8_theta*z_L8_theta +
-        rhs_guide_offset;
+    const double z_guide_offset = -l_guide_offset__L6_theta*z_L6_theta - l_guide_offset__L8_theta*z_L8_theta
+        + rhs_guide_offset;
 
     /* backward substitution */
     const double lambda_guide_offset = -inverse_pivot_guide_offset*z_guide_offset;
-    const double acceleration_L6_theta = inverse_pivot_L6_theta*z_L6_theta -
-        l_guide_offset__L6_theta*lambda_guide_offset;
-    const double acceleration_L3_theta = -acceleration_L6_theta*l_L6_theta__L3_theta +
-        inverse_cross_L7_theta__L3_theta*z_L7_theta + inverse_pivot_L3_theta*z_L3_theta;
-    const double acceleration_L7_theta = -acceleration_L6_theta*l_L6_theta__L7_theta +
-        inverse_cross_L7_theta__L3_theta*z_L3_theta + inverse_pivot_L7_theta*z_L7_theta;
-    const double acceleration_L2_theta = -acceleration_L6_theta*l_L6_theta__L2_theta -
-        acceleration_L7_theta*l_L7_theta__L2_theta + inverse_mass_L2_L2*z_L2_theta;
-    const double acceleration_L8_theta = -acceleration_L6_theta*l_L6_theta__L8_theta +
-        inverse_mass_L8_L8*z_L8_theta - l_guide_offset__L8_theta*lambda_guide_offset;
+    const double acceleration_L6_theta = inverse_pivot_L6_theta*z_L6_theta
+        - l_guide_offset__L6_theta*lambda_guide_offset;
+    const double acceleration_L3_theta = -acceleration_L6_theta*l_L6_theta__L3_theta
+        + inverse_cross_L7_theta__L3_theta*z_L7_theta + inverse_pivot_L3_theta*z_L3_theta;
+    const double acceleration_L7_theta = -acceleration_L6_theta*l_L6_theta__L7_theta
+        + inverse_cross_L7_theta__L3_theta*z_L3_theta + inverse_pivot_L7_theta*z_L7_theta;
+    const double acceleration_L2_theta = -acceleration_L6_theta*l_L6_theta__L2_theta
+        - acceleration_L7_theta*l_L7_theta__L2_theta + p->inverse_mass_L2_L2*z_L2_theta;
+    const double acceleration_L8_theta = -acceleration_L6_theta*l_L6_theta__L8_theta + p->inverse_mass_L8_L8*z_L8_theta
+        - l_guide_offset__L8_theta*lambda_guide_offset;
 
     /* results */
     a[0] = acceleration_L6_theta;
@@ -517,10 +459,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     dependent:
     pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
     powers:
-    aside->power[0] = crank1_rate*(-F_A_x*span_L1_head_y + F_A_y*span_L1_head_x - M_A_first -
-        cos_theta_L1*weight_L1__across + crank1_acceleration*mass_crank1_crank1) +
-        crank4_rate*(-F_B_x*span_L4_head_y + F_B_y*span_L4_head_x - M_B_first - cos_theta_L4*weight_L4__across
-        + crank4_acceleration*mass_crank4_crank4);
+    aside->power[0] = crank1_rate*(-F_A_x*span_L1_head_y + F_A_y*span_L1_head_x - M_A_first
+        - cos_theta_L1*p->weight_L1__across + crank1_acceleration*p->mass_crank1_crank1)
+        + crank4_rate*(-F_B_x*span_L4_head_y + F_B_y*span_L4_head_x - M_B_first - cos_theta_L4*p->weight_L4__across
+        + crank4_acceleration*p->mass_crank4_crank4);
     aside->power[1] = 0.0;
     aside->power[2] = aside->clearance[0].power + aside->clearance[1].power;
     return pivot;
@@ -541,21 +483,6 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double L2_theta = q[3];
     const double L3_theta = q[4];
 
-    /* parameters */
-    const double L6_head_span_x = p->L6_head_span_x;
-    const double L8_head_span_x = p->L8_head_span_x;
-    const double inertia_L6_L7 = p->inertia_L6_L7;
-    const double inertia_L6_L2 = p->inertia_L6_L2;
-    const double inertia_L7_L2 = p->inertia_L7_L2;
-    const double inertia_L6_L3 = p->inertia_L6_L3;
-    const double inertia_L7_L3 = p->inertia_L7_L3;
-    const double inertia_L6_L8 = p->inertia_L6_L8;
-    const double mass_L6_L6 = p->mass_L6_L6;
-    const double mass_L7_L7 = p->mass_L7_L7;
-    const double mass_L3_L3 = p->mass_L3_L3;
-    const double inverse_mass_L8_L8 = p->inverse_mass_L8_L8;
-    const double inverse_mass_L2_L2 = p->inverse_mass_L2_L2;
-
     /* directions, arms, drives */
     const Four angles_0 = {L6_theta, L7_theta, L8_theta, L2_theta};
     Four sines_0, cosines_0;
@@ -573,59 +500,59 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double sin_theta_L2 = sines_0[3];
     const double cos_theta_L3 = cosines_1[0];
     const double sin_theta_L3 = sines_1[0];
-    const double span_L6_head_y = L6_head_span_x*sin_theta_L6;
-    const double span_L8_head_y = L8_head_span_x*sin_theta_L8;
+    const double span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
+    const double span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
     const double cos_L7_less_L6 = cos_theta_L6*cos_theta_L7 + sin_theta_L6*sin_theta_L7;
-    const double dot_L6_L7 = cos_L7_less_L6*inertia_L6_L7;
+    const double dot_L6_L7 = cos_L7_less_L6*p->inertia_L6_L7;
     const double cos_L2_less_L6 = cos_theta_L2*cos_theta_L6 + sin_theta_L2*sin_theta_L6;
-    const double dot_L6_L2 = cos_L2_less_L6*inertia_L6_L2;
+    const double dot_L6_L2 = cos_L2_less_L6*p->inertia_L6_L2;
     const double cos_L2_less_L7 = cos_theta_L2*cos_theta_L7 + sin_theta_L2*sin_theta_L7;
-    const double dot_L7_L2 = cos_L2_less_L7*inertia_L7_L2;
+    const double dot_L7_L2 = cos_L2_less_L7*p->inertia_L7_L2;
     const double cos_L3_less_L6 = cos_theta_L3*cos_theta_L6 + sin_theta_L3*sin_theta_L6;
-    const double dot_L6_L3 = cos_L3_less_L6*inertia_L6_L3;
+    const double dot_L6_L3 = cos_L3_less_L6*p->inertia_L6_L3;
     const double cos_L3_less_L7 = cos_theta_L3*cos_theta_L7 + sin_theta_L3*sin_theta_L7;
-    const double dot_L7_L3 = cos_L3_less_L7*inertia_L7_L3;
+    const double dot_L7_L3 = cos_L3_less_L7*p->inertia_L7_L3;
     const double cos_L8_less_L6 = cos_theta_L6*cos_theta_L8 + sin_theta_L6*sin_theta_L8;
-    const double dot_L6_L8 = cos_L8_less_L6*inertia_L6_L8;
+    const double dot_L6_L8 = cos_L8_less_L6*p->inertia_L6_L8;
 
     /* right-hand side */
     const double r_guide_offset = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double l_L6_theta__L8_theta_2 = dot_L6_L8*inverse_mass_L8_L8;
-    const double l_guide_offset__L8_theta_2 = inverse_mass_L8_L8*span_L8_head_y;
-    const double l_L7_theta__L2_theta_2 = dot_L7_L2*inverse_mass_L2_L2;
-    const double l_L6_theta__L2_theta_2 = dot_L6_L2*inverse_mass_L2_L2;
-    const double pivot_L7_theta_2 = -dot_L7_L2*l_L7_theta__L2_theta_2 + mass_L7_L7;
-    const double determinant_L7_theta__L3_theta_2 = -(dot_L7_L3 * dot_L7_L3) + mass_L3_L3*pivot_L7_theta_2;
-    const double inverse_L7_theta__L3_theta_2 = 1.0/determinant_L7_theta__L3_theta_2;
-    const double inverse_pivot_L7_theta_2 = inverse_L7_theta__L3_theta_2*mass_L3_L3;
-    const double inverse_pivot_L3_theta_2 = inverse_L7_theta__L3_theta_2*pivot_L7_theta_2;
-    const double inverse_cross_L7_theta__L3_theta_2 = -dot_L7_L3*inverse_L7_theta__L3_theta_2;
-    const double w_L6_theta__L7_theta_2 = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta_2;
-    const double l_L6_theta__L7_theta_2 = dot_L6_L3*inverse_cross_L7_theta__L3_theta_2 +
-        inverse_pivot_L7_theta_2*w_L6_theta__L7_theta_2;
-    const double l_L6_theta__L3_theta_2 = dot_L6_L3*inverse_pivot_L3_theta_2 +
-        inverse_cross_L7_theta__L3_theta_2*w_L6_theta__L7_theta_2;
-    const double inverse_pivot_L6_theta_2 = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta_2 -
-        dot_L6_L3*l_L6_theta__L3_theta_2 - dot_L6_L8*l_L6_theta__L8_theta_2 -
-        l_L6_theta__L7_theta_2*w_L6_theta__L7_theta_2 + mass_L6_L6);
-    const double w_guide_offset__L6_theta_2 = -dot_L6_L8*l_guide_offset__L8_theta_2 + span_L6_head_y;
-    const double l_guide_offset__L6_theta_2 = inverse_pivot_L6_theta_2*w_guide_offset__L6_theta_2;
-    const double scale_guide_offset_2 = l_guide_offset__L6_theta_2*w_guide_offset__L6_theta_2 +
-        l_guide_offset__L8_theta_2*span_L8_head_y;
-    if (!(scale_guide_offset_2 > 1e-13 * scale_guide_offset_2)) return 1;
-    const double inverse_pivot_guide_offset_2 = 1.0/scale_guide_offset_2;
+    const double l_L6_theta__L8_theta = dot_L6_L8*p->inverse_mass_L8_L8;
+    const double l_guide_offset__L8_theta = p->inverse_mass_L8_L8*span_L8_head_y;
+    const double l_L7_theta__L2_theta = dot_L7_L2*p->inverse_mass_L2_L2;
+    const double l_L6_theta__L2_theta = dot_L6_L2*p->inverse_mass_L2_L2;
+    const double pivot_L7_theta = -dot_L7_L2*l_L7_theta__L2_theta + p->mass_L7_L7;
+    const double determinant_L7_theta__L3_theta = -(dot_L7_L3 * dot_L7_L3) + p->mass_L3_L3*pivot_L7_theta;
+    const double inverse_L7_theta__L3_theta = 1.0/determinant_L7_theta__L3_theta;
+    const double inverse_pivot_L7_theta = inverse_L7_theta__L3_theta*p->mass_L3_L3;
+    const double inverse_pivot_L3_theta = inverse_L7_theta__L3_theta*pivot_L7_theta;
+    const double inverse_cross_L7_theta__L3_theta = -dot_L7_L3*inverse_L7_theta__L3_theta;
+    const double w_L6_theta__L7_theta = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta;
+    const double l_L6_theta__L7_theta = dot_L6_L3*inverse_cross_L7_theta__L3_theta
+        + inverse_pivot_L7_theta*w_L6_theta__L7_theta;
+    const double l_L6_theta__L3_theta = dot_L6_L3*inverse_pivot_L3_theta
+        + inverse_cross_L7_theta__L3_theta*w_L6_theta__L7_theta;
+    const double inverse_pivot_L6_theta = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta - dot_L6_L3*l_L6_theta__L3_theta
+        - dot_L6_L8*l_L6_theta__L8_theta - l_L6_theta__L7_theta*w_L6_theta__L7_theta + p->mass_L6_L6);
+    const double w_guide_offset__L6_theta = -dot_L6_L8*l_guide_offset__L8_theta + span_L6_head_y;
+    const double l_guide_offset__L6_theta = inverse_pivot_L6_theta*w_guide_offset__L6_theta;
+    const double scale_guide_offset = l_guide_offset__L6_theta*w_guide_offset__L6_theta
+        + l_guide_offset__L8_theta*span_L8_head_y;
+    if (!(scale_guide_offset > 0.0 && scale_guide_offset < INFINITY))
+        return 1;
+    const double inverse_pivot_guide_offset = 1.0/scale_guide_offset;
 
     /* backward substitution */
-    const double step_lambda_guide_offset = -inverse_pivot_guide_offset_2*r_guide_offset;
-    const double step_acceleration_L6_theta = -l_guide_offset__L6_theta_2*step_lambda_guide_offset;
-    const double step_acceleration_L3_theta = -l_L6_theta__L3_theta_2*step_acceleration_L6_theta;
-    const double step_acceleration_L7_theta = -l_L6_theta__L7_theta_2*step_acceleration_L6_theta;
-    const double step_acceleration_L2_theta = -l_L6_theta__L2_theta_2*step_acceleration_L6_theta -
-        l_L7_theta__L2_theta_2*step_acceleration_L7_theta;
-    const double step_acceleration_L8_theta = -l_L6_theta__L8_theta_2*step_acceleration_L6_theta -
-        l_guide_offset__L8_theta_2*step_lambda_guide_offset;
+    const double step_lambda_guide_offset = -inverse_pivot_guide_offset*r_guide_offset;
+    const double step_acceleration_L6_theta = -l_guide_offset__L6_theta*step_lambda_guide_offset;
+    const double step_acceleration_L3_theta = -l_L6_theta__L3_theta*step_acceleration_L6_theta;
+    const double step_acceleration_L7_theta = -l_L6_theta__L7_theta*step_acceleration_L6_theta;
+    const double step_acceleration_L2_theta = -l_L6_theta__L2_theta*step_acceleration_L6_theta
+        - l_L7_theta__L2_theta*step_acceleration_L7_theta;
+    const double step_acceleration_L8_theta = -l_L6_theta__L8_theta*step_acceleration_L6_theta
+        - l_guide_offset__L8_theta*step_lambda_guide_offset;
 
     /* results */
     x[0] = step_acceleration_L6_theta;

@@ -1,15 +1,13 @@
 /*
  * simple pendulum (IFToMM A01)
- * mechanism pendulum, scene ideal, from the YAML with sha256 cffac5b14bb71839656f5fba5f5c861a4419ab0d638c7e3e96405a19a3d70ae6
+ * mechanism pendulum, scene ideal, from the YAML with sha256
+ * cffac5b14bb71839656f5fba5f5c861a4419ab0d638c7e3e96405a19a3d70ae6
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 3                 /* coordinates of all bodies */
 #define N_ROWS 1              /* constraint rows of the motion */
 #define N_ALL_ROWS 1          /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 0          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 0            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_X 3                 /* coordinates that are integrated */
 #define N_LOOPS 1             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 1             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 7            /* of the linearized equations */
+#define N_FACTORS 5           /* of their factors L and U */
+#define HAS_LANES 1           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,14 +43,25 @@
 #define N_GUESS 0             /* coordinates that the start guesses */
 #define N_SET 2               /* those that it sets */
 #define N_RATES 1             /* velocities that it sets */
-#define N_VALUES 7            /* of the linearized equations */
-#define N_FACTORS 5           /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double par_g;  /* parameters.g */    double length;  /* parameters.length */    double bob_mass;  /* bodies.bob.mass */    double bob_inertia;  /* bodies.bob.inertia */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double rod_length;  /* joints.rod.length */    double par_y;  /* gravity.y */    double set_bob_x;  /* start.set.bob.x */    double rod_half_inverse_length;  /* of joint rod */    double weight_bob_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_bob_inertia;  /* 1/M */    double inverse_bob_mass;  /* 1/M */} Parameters;
+typedef struct {
+    double par_g;  /* parameters.g, m/s^2 */
+    double length;  /* parameters.length, m */
+    double bob_mass;  /* bodies.bob.mass, kg */
+    double bob_inertia;  /* bodies.bob.inertia, kg m^2 */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double rod_length;  /* joints.rod.length, m */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double set_bob_x;  /* start.set.bob.x, m */
+    double rod_half_inverse_length;  /* of joint rod, 1/m */
+    double weight_bob_y;  /* weight, kg m/s^2 */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_bob_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_bob_mass;  /* 1/M, 1/kg */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

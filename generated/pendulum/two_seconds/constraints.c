@@ -3,14 +3,10 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double bob_mass = p->bob_mass;
-    const double bob_inertia = p->bob_inertia;
-
     /* M */
-    m[0] = bob_mass;
-    m[1] = bob_mass;
-    m[2] = bob_inertia;
+    m[0] = p->bob_mass;
+    m[1] = p->bob_mass;
+    m[2] = p->bob_inertia;
 }
 
 /*
@@ -23,13 +19,10 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double bob_x = q[0];
     const double bob_y = q[1];
 
-    /* parameters */
-    const double rod_length = p->rod_length;
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-
     /* rows */
-    phi[0] = (bob_x * bob_x)*rod_half_inverse_length + (bob_y * bob_y)*rod_half_inverse_length -
-        0.5*rod_length;  /* rod.length */
+    /* rod.length */
+    phi[0] = (bob_x * bob_x)*p->rod_half_inverse_length + (bob_y * bob_y)*p->rod_half_inverse_length
+        - 0.5*p->rod_length;
 }
 
 /*
@@ -42,12 +35,9 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
     const double bob_x = q[0];
     const double bob_y = q[1];
 
-    /* parameters */
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-
     /* non-zeros */
-    phi_q[0] = 2.0*bob_x*rod_half_inverse_length;  /* d rod.length / d bob_x */
-    phi_q[1] = 2.0*bob_y*rod_half_inverse_length;  /* d rod.length / d bob_y */
+    phi_q[0] = 2.0*bob_x*p->rod_half_inverse_length;  /* d rod.length / d bob_x */
+    phi_q[1] = 2.0*bob_y*p->rod_half_inverse_length;  /* d rod.length / d bob_y */
 }
 
 /*
@@ -65,8 +55,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t;
     (void)q;
@@ -74,12 +63,10 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double bob_vx = v[0];
     const double bob_vy = v[1];
 
-    /* parameters */
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-
     /* rows */
-    gamma_rows[0] = -2.0*(bob_vx * bob_vx)*rod_half_inverse_length - 2.0*(bob_vy *
-        bob_vy)*rod_half_inverse_length;  /* rod.length */
+    /* rod.length */
+    gamma_rows[0] = -2.0*(bob_vx * bob_vx)*p->rod_half_inverse_length
+        - 2.0*(bob_vy * bob_vy)*p->rod_half_inverse_length;
 }
 
 /*
@@ -88,11 +75,8 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)guess;
-    /* parameters */
-    const double set_bob_x = p->set_bob_x;
-
     /* start */
-    set[0] = set_bob_x;  /* start.set.bob.x */
+    set[0] = p->set_bob_x;  /* start.set.bob.x */
     set[1] = 0.0;  /* start.set.bob.theta */
     rates[0] = 0.0;  /* start.rates.bob.omega */
 }
@@ -114,22 +98,16 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double bob_vy = v[1];
     const double bob_omega = v[2];
 
-    /* parameters */
-    const double bob_mass = p->bob_mass;
-    const double bob_inertia = p->bob_inertia;
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-    const double par_y = p->par_y;
-
     /* multipliers */
     const double multiplier_rod_length = lambda[0];
 
     /* reactions */
-    reactions[0] = -2.0*bob_x*multiplier_rod_length*rod_half_inverse_length;  /* rod.Fx */
-    reactions[1] = -2.0*bob_y*multiplier_rod_length*rod_half_inverse_length;  /* rod.Fy */
+    reactions[0] = -2.0*bob_x*multiplier_rod_length*p->rod_half_inverse_length;  /* rod.Fx */
+    reactions[1] = -2.0*bob_y*multiplier_rod_length*p->rod_half_inverse_length;  /* rod.Fy */
     reactions[2] = 0.0;  /* rod.M */
 
     /* energy */
-    energy[0] = (0.5)*bob_inertia*(bob_omega * bob_omega) + (0.5)*bob_mass*(bob_vx * bob_vx) +
-        (0.5)*bob_mass*(bob_vy * bob_vy);
-    energy[1] = -bob_mass*bob_y*par_y;
+    energy[0] = 0.5*p->bob_inertia*(bob_omega * bob_omega) + 0.5*p->bob_mass*(bob_vx * bob_vx)
+        + 0.5*p->bob_mass*(bob_vy * bob_vy);
+    energy[1] = -p->bob_mass*bob_y*p->gravity_y;
 }

@@ -14,7 +14,7 @@ typedef struct {
     Lanes alpha;
     Lanes beta;
     Lanes rod_length;
-    Lanes par_y;
+    Lanes gravity_y;
     Lanes set_bob_x;
     Lanes rod_half_inverse_length;
     Lanes weight_bob_y;
@@ -47,13 +47,10 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     const Lanes bob_x = q[0];
     const Lanes bob_y = q[1];
 
-    /* parameters */
-    const Lanes rod_length = p->rod_length;
-    const Lanes rod_half_inverse_length = p->rod_half_inverse_length;
-
     /* rows */
-    out[0] = (bob_x * bob_x)*rod_half_inverse_length + (bob_y * bob_y)*rod_half_inverse_length -
-        0.5*rod_length;  /* rod.length */
+    /* rod.length */
+    out[0] = (bob_x * bob_x)*p->rod_half_inverse_length + (bob_y * bob_y)*p->rod_half_inverse_length
+        - 0.5*p->rod_length;
 }
 
 /*
@@ -70,11 +67,9 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     const Lanes bob_y = q[1];
     const Lanes bob_y_rate = v[1];
 
-    /* parameters */
-    const Lanes rod_half_inverse_length = p->rod_half_inverse_length;
-
     /* rows */
-    out[0] = 2.0*bob_x*bob_x_rate*rod_half_inverse_length + 2.0*bob_y*bob_y_rate*rod_half_inverse_length;  /* rod.length */
+    /* rod.length */
+    out[0] = 2.0*bob_x*bob_x_rate*p->rod_half_inverse_length + 2.0*bob_y*bob_y_rate*p->rod_half_inverse_length;
 }
 
 /*
@@ -82,8 +77,8 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
+static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
     (void)t;
     (void)memory;
@@ -93,31 +88,25 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes bob_y = q[1];
     const Lanes bob_y_rate = v[1];
 
-    /* parameters */
-    const Lanes rod_half_inverse_length = p->rod_half_inverse_length;
-    const Lanes weight_bob_y = p->weight_bob_y;
-    const Lanes inverse_bob_mass = p->inverse_bob_mass;
-
     /* constraints: gamma */
-    const Lanes rhs_rod_length = -2.0*(bob_x_rate * bob_x_rate)*rod_half_inverse_length - 2.0*(bob_y_rate *
-        bob_y_rate)*rod_half_inverse_length;
+    const Lanes rhs_rod_length = -2.0*(bob_x_rate * bob_x_rate)*p->rod_half_inverse_length
+        - 2.0*(bob_y_rate * bob_y_rate)*p->rod_half_inverse_length;
 
     /* L D L^T of the KKT matrix */
-    const Lanes w_rod_length__bob_x = 2.0*bob_x*rod_half_inverse_length;
-    const Lanes l_rod_length__bob_x = inverse_bob_mass*w_rod_length__bob_x;
-    const Lanes w_rod_length__bob_y = 2.0*bob_y*rod_half_inverse_length;
-    const Lanes l_rod_length__bob_y = inverse_bob_mass*w_rod_length__bob_y;
-    const Lanes scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x +
-        l_rod_length__bob_y*w_rod_length__bob_y;
-    *rare |= ~(scale_rod_length > 1e-08 * scale_rod_length);
+    const Lanes w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
+    const Lanes l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
+    const Lanes w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
+    const Lanes l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
+    const Lanes scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
+    *rare |= ~((scale_rod_length > 0.0) & (scale_rod_length < INFINITY));
     const Lanes inverse_pivot_rod_length = 1.0/scale_rod_length;
 
     /* forward substitution */
-    const Lanes z_rod_length = -l_rod_length__bob_y*weight_bob_y + rhs_rod_length;
+    const Lanes z_rod_length = -l_rod_length__bob_y*p->weight_bob_y + rhs_rod_length;
 
     /* backward substitution */
     const Lanes lambda_rod_length = -inverse_pivot_rod_length*z_rod_length;
-    const Lanes acceleration_bob_y = inverse_bob_mass*weight_bob_y - l_rod_length__bob_y*lambda_rod_length;
+    const Lanes acceleration_bob_y = p->inverse_bob_mass*p->weight_bob_y - l_rod_length__bob_y*lambda_rod_length;
     const Lanes acceleration_bob_x = -l_rod_length__bob_x*lambda_rod_length;
     const Lanes acceleration_bob_theta = all_of(0.0);
 
@@ -137,8 +126,8 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
  * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
-static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
+static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
     (void)t;
     (void)memory;
@@ -148,37 +137,31 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes bob_y = q[1];
     const Lanes bob_y_rate = v[1];
 
-    /* parameters */
-    const Lanes rod_length = p->rod_length;
-    const Lanes rod_half_inverse_length = p->rod_half_inverse_length;
-    const Lanes inverse_bob_mass = p->inverse_bob_mass;
-
     /* Phi and Phi_dot */
-    const Lanes phi_rod_length = (bob_x * bob_x)*rod_half_inverse_length + (bob_y *
-        bob_y)*rod_half_inverse_length - 0.5*rod_length;
-    const Lanes phi_dot_rod_length = 2.0*bob_x*bob_x_rate*rod_half_inverse_length +
-        2.0*bob_y*bob_y_rate*rod_half_inverse_length;
+    const Lanes phi_rod_length = (bob_x * bob_x)*p->rod_half_inverse_length
+        + (bob_y * bob_y)*p->rod_half_inverse_length - 0.5*p->rod_length;
+    const Lanes phi_dot_rod_length = 2.0*bob_x*bob_x_rate*p->rod_half_inverse_length
+        + 2.0*bob_y*bob_y_rate*p->rod_half_inverse_length;
 
     /* L D L^T of the KKT matrix */
-    const Lanes w_rod_length__bob_x_3 = 2.0*bob_x*rod_half_inverse_length;
-    const Lanes l_rod_length__bob_x_4 = inverse_bob_mass*w_rod_length__bob_x_3;
-    const Lanes w_rod_length__bob_y_3 = 2.0*bob_y*rod_half_inverse_length;
-    const Lanes l_rod_length__bob_y_4 = inverse_bob_mass*w_rod_length__bob_y_3;
-    const Lanes scale_rod_length_4 = l_rod_length__bob_x_4*w_rod_length__bob_x_3 +
-        l_rod_length__bob_y_4*w_rod_length__bob_y_3;
-    *rare |= ~(scale_rod_length_4 > 1e-10 * scale_rod_length_4);
-    const Lanes inverse_pivot_rod_length_4 = 1.0/scale_rod_length_4;
+    const Lanes w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
+    const Lanes l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
+    const Lanes w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
+    const Lanes l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
+    const Lanes scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
+    *rare |= ~((scale_rod_length > 0.0) & (scale_rod_length < INFINITY));
+    const Lanes inverse_pivot_rod_length = 1.0/scale_rod_length;
 
     /* backward substitution */
-    const Lanes dq_lambda_rod_length = -inverse_pivot_rod_length_4*phi_rod_length;
-    const Lanes dq_acceleration_bob_y = -dq_lambda_rod_length*l_rod_length__bob_y_4;
-    const Lanes dq_acceleration_bob_x = -dq_lambda_rod_length*l_rod_length__bob_x_4;
+    const Lanes dq_lambda_rod_length = -inverse_pivot_rod_length*phi_rod_length;
+    const Lanes dq_acceleration_bob_y = -dq_lambda_rod_length*l_rod_length__bob_y;
+    const Lanes dq_acceleration_bob_x = -dq_lambda_rod_length*l_rod_length__bob_x;
     const Lanes dq_acceleration_bob_theta = all_of(0.0);
 
     /* backward substitution */
-    const Lanes dv_lambda_rod_length = -inverse_pivot_rod_length_4*phi_dot_rod_length;
-    const Lanes dv_acceleration_bob_y = -dv_lambda_rod_length*l_rod_length__bob_y_4;
-    const Lanes dv_acceleration_bob_x = -dv_lambda_rod_length*l_rod_length__bob_x_4;
+    const Lanes dv_lambda_rod_length = -inverse_pivot_rod_length*phi_dot_rod_length;
+    const Lanes dv_acceleration_bob_y = -dv_lambda_rod_length*l_rod_length__bob_y;
+    const Lanes dv_acceleration_bob_x = -dv_lambda_rod_length*l_rod_length__bob_x;
     const Lanes dv_acceleration_bob_theta = all_of(0.0);
 
     /* results */

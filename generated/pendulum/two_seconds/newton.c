@@ -16,18 +16,14 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double a_bob_y = a[1];
     const double held_lambda_rod_length = aside->lambda[0];
 
-    /* parameters */
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-    const double two_alpha = p->two_alpha;
-
     /* results */
-    lin->value[0] = 2.0*bob_x*rod_half_inverse_length;
-    lin->value[1] = 2.0*bob_y*rod_half_inverse_length;
-    lin->value[2] = 2.0*a_bob_x*rod_half_inverse_length + 2.0*bob_x_rate*rod_half_inverse_length*two_alpha;
-    lin->value[3] = 2.0*a_bob_y*rod_half_inverse_length + 2.0*bob_y_rate*rod_half_inverse_length*two_alpha;
-    lin->value[4] = 2.0*held_lambda_rod_length*rod_half_inverse_length;
-    lin->value[5] = 4.0*bob_x_rate*rod_half_inverse_length;
-    lin->value[6] = 4.0*bob_y_rate*rod_half_inverse_length;
+    lin->value[0] = 2.0*bob_x*p->rod_half_inverse_length;
+    lin->value[1] = 2.0*bob_y*p->rod_half_inverse_length;
+    lin->value[2] = 2.0*a_bob_x*p->rod_half_inverse_length + 2.0*bob_x_rate*p->rod_half_inverse_length*p->two_alpha;
+    lin->value[3] = 2.0*a_bob_y*p->rod_half_inverse_length + 2.0*bob_y_rate*p->rod_half_inverse_length*p->two_alpha;
+    lin->value[4] = 2.0*held_lambda_rod_length*p->rod_half_inverse_length;
+    lin->value[5] = 4.0*bob_x_rate*p->rod_half_inverse_length;
+    lin->value[6] = 4.0*bob_y_rate*p->rod_half_inverse_length;
     lin->p = p;
 }
 
@@ -49,40 +45,38 @@ int newton_factor(double eta, Linear *lin)
     const double by_v_rod_length_bob_x = lin->value[5];
     const double by_v_rod_length_bob_y = lin->value[6];
 
-    /* parameters */
-    const double bob_mass = p->bob_mass;
-    const double two_alpha = p->two_alpha;
-    const double beta_squared = p->beta_squared;
-
     /* eta/kappa */
-    const double eta_row = eta/(eta*(beta_squared*eta + two_alpha) + 1.0);
+    const double eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
 
     /* matrix */
-    const double n_bob_x__bob_x = bob_mass + by_q_bob_x_bob_x*(eta * eta);
-    const double n_bob_y__bob_y = bob_mass + by_q_bob_x_bob_x*(eta * eta);
-    const double n_rod_length__bob_x = eta_row*(by_q_rod_length_bob_x*eta + by_v_rod_length_bob_x) +
-        phi_rod_length_bob_x;
-    const double n_rod_length__bob_y = eta_row*(by_q_rod_length_bob_y*eta + by_v_rod_length_bob_y) +
-        phi_rod_length_bob_y;
+    const double n_bob_x__bob_x = p->bob_mass + by_q_bob_x_bob_x*(eta * eta);
+    const double n_bob_y__bob_y = p->bob_mass + by_q_bob_x_bob_x*(eta * eta);
+    const double n_rod_length__bob_x = eta_row*(by_q_rod_length_bob_x*eta + by_v_rod_length_bob_x)
+        + phi_rod_length_bob_x;
+    const double n_rod_length__bob_y = eta_row*(by_q_rod_length_bob_y*eta + by_v_rod_length_bob_y)
+        + phi_rod_length_bob_y;
 
     /* L U */
     const double scale_bob_x = n_bob_x__bob_x;
-    if (!(fabs(scale_bob_x) > 1e-13 * fabs(n_bob_x__bob_x))) return 1;
+    if (!(fabs(scale_bob_x) > 1e-13 * fabs(n_bob_x__bob_x)))
+        return 1;
     const double inverse_pivot_bob_x = 1.0/scale_bob_x;
     lin->lu[0] = inverse_pivot_bob_x;
-    const double l_rod_length__bob_x_3 = inverse_pivot_bob_x*n_rod_length__bob_x;
-    lin->lu[1] = l_rod_length__bob_x_3;
+    const double l_rod_length__bob_x = inverse_pivot_bob_x*n_rod_length__bob_x;
+    lin->lu[1] = l_rod_length__bob_x;
     const double scale_bob_y = n_bob_y__bob_y;
-    if (!(fabs(scale_bob_y) > 1e-13 * fabs(n_bob_y__bob_y))) return 2;
+    if (!(fabs(scale_bob_y) > 1e-13 * fabs(n_bob_y__bob_y)))
+        return 2;
     const double inverse_pivot_bob_y = 1.0/scale_bob_y;
     lin->lu[2] = inverse_pivot_bob_y;
-    const double l_rod_length__bob_y_3 = inverse_pivot_bob_y*n_rod_length__bob_y;
-    lin->lu[3] = l_rod_length__bob_y_3;
-    const double scale_rod_length_3 = -l_rod_length__bob_x_3*phi_rod_length_bob_x -
-        l_rod_length__bob_y_3*phi_rod_length_bob_y;
-    if (!(fabs(scale_rod_length_3) > 1e-13 * fabs(scale_rod_length_3))) return 4;
-    const double inverse_pivot_rod_length_3 = 1.0/scale_rod_length_3;
-    lin->lu[4] = inverse_pivot_rod_length_3;
+    const double l_rod_length__bob_y = inverse_pivot_bob_y*n_rod_length__bob_y;
+    lin->lu[3] = l_rod_length__bob_y;
+    const double scale_rod_length = -l_rod_length__bob_x*phi_rod_length_bob_x
+        - l_rod_length__bob_y*phi_rod_length_bob_y;
+    if (!(scale_rod_length != 0.0 && isfinite(scale_rod_length)))
+        return 4;
+    const double inverse_pivot_rod_length = 1.0/scale_rod_length;
+    lin->lu[4] = inverse_pivot_rod_length;
     return 0;
 }
 
@@ -98,28 +92,25 @@ void newton_substitute(const Linear *lin, double *x)
     const double phi_rod_length_bob_x = lin->value[0];
     const double phi_rod_length_bob_y = lin->value[1];
     const double inverse_pivot_bob_x = lin->lu[0];
-    const double l_rod_length__bob_x_3 = lin->lu[1];
+    const double l_rod_length__bob_x = lin->lu[1];
     const double inverse_pivot_bob_y = lin->lu[2];
-    const double l_rod_length__bob_y_3 = lin->lu[3];
-    const double inverse_pivot_rod_length_3 = lin->lu[4];
-
-    /* parameters */
-    const double inverse_bob_inertia = p->inverse_bob_inertia;
+    const double l_rod_length__bob_y = lin->lu[3];
+    const double inverse_pivot_rod_length = lin->lu[4];
 
     /* forward */
     const double b_bob_theta = x[2];
     const double b_bob_x = x[0];
     const double b_bob_y = x[1];
-    const double b_rod_length = -b_bob_x*l_rod_length__bob_x_3 - b_bob_y*l_rod_length__bob_y_3 + x[3];
+    const double b_rod_length = -b_bob_x*l_rod_length__bob_x - b_bob_y*l_rod_length__bob_y + x[3];
 
     /* backward */
-    const double x_rod_length = b_rod_length*inverse_pivot_rod_length_3;
+    const double x_rod_length = b_rod_length*inverse_pivot_rod_length;
     x[3] = x_rod_length;
     const double x_bob_y = inverse_pivot_bob_y*(b_bob_y - phi_rod_length_bob_y*x_rod_length);
     x[1] = x_bob_y;
     const double x_bob_x = inverse_pivot_bob_x*(b_bob_x - phi_rod_length_bob_x*x_rod_length);
     x[0] = x_bob_x;
-    const double x_bob_theta = b_bob_theta*inverse_bob_inertia;
+    const double x_bob_theta = b_bob_theta*p->inverse_bob_inertia;
     x[2] = x_bob_theta;
 }
 
@@ -139,24 +130,18 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     const double by_q_rod_length_bob_y = lin->value[3];
     const double by_q_bob_x_bob_x = lin->value[4];
 
-    /* parameters */
-    const double bob_mass = p->bob_mass;
-    const double bob_inertia = p->bob_inertia;
-    const double two_alpha = p->two_alpha;
-    const double beta_squared = p->beta_squared;
-
     /* eta/kappa */
-    const double eta_row = eta/(eta*(beta_squared*eta + two_alpha) + 1.0);
+    const double eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
 
     /* right-hand side */
     double x[4];
-    const double shifted_bob_x = -beta_squared*eta*r[0] + r[3];
-    const double shifted_bob_y = -beta_squared*eta*r[1] + r[4];
-    x[0] = eta*(bob_mass*r[3] - by_q_bob_x_bob_x*eta*r[0]);
-    x[1] = eta*(bob_mass*r[4] - by_q_bob_x_bob_x*eta*r[1]);
-    x[2] = bob_inertia*eta*r[5];
-    x[3] = eta_row*(-by_q_rod_length_bob_x*eta*r[0] - by_q_rod_length_bob_y*eta*r[1] +
-        phi_rod_length_bob_x*shifted_bob_x + phi_rod_length_bob_y*shifted_bob_y);
+    const double shifted_bob_x = -p->beta_squared*eta*r[0] + r[3];
+    const double shifted_bob_y = -p->beta_squared*eta*r[1] + r[4];
+    x[0] = eta*(p->bob_mass*r[3] - by_q_bob_x_bob_x*eta*r[0]);
+    x[1] = eta*(p->bob_mass*r[4] - by_q_bob_x_bob_x*eta*r[1]);
+    x[2] = p->bob_inertia*eta*r[5];
+    x[3] = eta_row*(-by_q_rod_length_bob_x*eta*r[0] - by_q_rod_length_bob_y*eta*r[1]
+        + phi_rod_length_bob_x*shifted_bob_x + phi_rod_length_bob_y*shifted_bob_y);
     newton_substitute(lin, x);
 
     /* solution */
@@ -213,37 +198,32 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double bob_y = q[1];
     const double bob_y_rate = v[1];
 
-    /* parameters */
-    const double rod_length = p->rod_length;
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-    const double inverse_bob_mass = p->inverse_bob_mass;
-
     /* Phi and Phi_dot */
-    const double phi_rod_length = (bob_x * bob_x)*rod_half_inverse_length + (bob_y *
-        bob_y)*rod_half_inverse_length - 0.5*rod_length;
-    const double phi_dot_rod_length = 2.0*bob_x*bob_x_rate*rod_half_inverse_length +
-        2.0*bob_y*bob_y_rate*rod_half_inverse_length;
+    const double phi_rod_length = (bob_x * bob_x)*p->rod_half_inverse_length
+        + (bob_y * bob_y)*p->rod_half_inverse_length - 0.5*p->rod_length;
+    const double phi_dot_rod_length = 2.0*bob_x*bob_x_rate*p->rod_half_inverse_length
+        + 2.0*bob_y*bob_y_rate*p->rod_half_inverse_length;
 
     /* L D L^T of the KKT matrix */
-    const double w_rod_length__bob_x_3 = 2.0*bob_x*rod_half_inverse_length;
-    const double l_rod_length__bob_x_4 = inverse_bob_mass*w_rod_length__bob_x_3;
-    const double w_rod_length__bob_y_3 = 2.0*bob_y*rod_half_inverse_length;
-    const double l_rod_length__bob_y_4 = inverse_bob_mass*w_rod_length__bob_y_3;
-    const double scale_rod_length_4 = l_rod_length__bob_x_4*w_rod_length__bob_x_3 +
-        l_rod_length__bob_y_4*w_rod_length__bob_y_3;
-    if (!(scale_rod_length_4 > 1e-10 * scale_rod_length_4)) return 1;
-    const double inverse_pivot_rod_length_4 = 1.0/scale_rod_length_4;
+    const double w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
+    const double l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
+    const double w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
+    const double l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
+    const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
+    if (!(scale_rod_length > 0.0 && scale_rod_length < INFINITY))
+        return 1;
+    const double inverse_pivot_rod_length = 1.0/scale_rod_length;
 
     /* backward substitution */
-    const double dq_lambda_rod_length = -inverse_pivot_rod_length_4*phi_rod_length;
-    const double dq_acceleration_bob_y = -dq_lambda_rod_length*l_rod_length__bob_y_4;
-    const double dq_acceleration_bob_x = -dq_lambda_rod_length*l_rod_length__bob_x_4;
+    const double dq_lambda_rod_length = -inverse_pivot_rod_length*phi_rod_length;
+    const double dq_acceleration_bob_y = -dq_lambda_rod_length*l_rod_length__bob_y;
+    const double dq_acceleration_bob_x = -dq_lambda_rod_length*l_rod_length__bob_x;
     const double dq_acceleration_bob_theta = 0.0;
 
     /* backward substitution */
-    const double dv_lambda_rod_length = -inverse_pivot_rod_length_4*phi_dot_rod_length;
-    const double dv_acceleration_bob_y = -dv_lambda_rod_length*l_rod_length__bob_y_4;
-    const double dv_acceleration_bob_x = -dv_lambda_rod_length*l_rod_length__bob_x_4;
+    const double dv_lambda_rod_length = -inverse_pivot_rod_length*phi_dot_rod_length;
+    const double dv_acceleration_bob_y = -dv_lambda_rod_length*l_rod_length__bob_y;
+    const double dv_acceleration_bob_x = -dv_lambda_rod_length*l_rod_length__bob_x;
     const double dv_acceleration_bob_theta = 0.0;
 
     /* results */

@@ -1,8 +1,7 @@
 /*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
-void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
-    double *all_v)
+void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     (void)t;
     (void)p;
@@ -26,8 +25,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 /*
  * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
  */
-void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
-    double *s_rate)
+void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
     (void)t;
     (void)p;
@@ -51,8 +49,8 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 /*
  * Their second rates a, from absolute all_a.
  */
-void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const
-    Parameters *p, double *a)
+void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
+    double *a)
 {
     (void)t;
     (void)q;
@@ -74,13 +72,10 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     const double bob_x = q[0];
     const double bob_y = q[1];
 
-    /* parameters */
-    const double rod_length = p->rod_length;
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-
     /* rows */
-    out[0] = (bob_x * bob_x)*rod_half_inverse_length + (bob_y * bob_y)*rod_half_inverse_length -
-        0.5*rod_length;  /* rod.length */
+    /* rod.length */
+    out[0] = (bob_x * bob_x)*p->rod_half_inverse_length + (bob_y * bob_y)*p->rod_half_inverse_length
+        - 0.5*p->rod_length;
 }
 
 /*
@@ -95,11 +90,9 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     const double bob_y = q[1];
     const double bob_y_rate = v[1];
 
-    /* parameters */
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-
     /* rows */
-    out[0] = 2.0*bob_x*bob_x_rate*rod_half_inverse_length + 2.0*bob_y*bob_y_rate*rod_half_inverse_length;  /* rod.length */
+    /* rod.length */
+    out[0] = 2.0*bob_x*bob_x_rate*p->rod_half_inverse_length + 2.0*bob_y*bob_y_rate*p->rod_half_inverse_length;
 }
 
 /*
@@ -107,8 +100,8 @@ void closure_rates(const double t, const double *q, const double *v, const Param
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
     const double bob_x = q[0];
@@ -116,34 +109,31 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double bob_y = q[1];
     const double bob_y_rate = v[1];
 
-    /* parameters */
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-    const double weight_bob_y = p->weight_bob_y;
-    const double inverse_bob_mass = p->inverse_bob_mass;
-
     /* status */
     int pivot = 0;
 
     /* constraints: gamma */
-    const double rhs_rod_length = -2.0*(bob_x_rate * bob_x_rate)*rod_half_inverse_length - 2.0*(bob_y_rate *
-        bob_y_rate)*rod_half_inverse_length;
+    const double rhs_rod_length = -2.0*(bob_x_rate * bob_x_rate)*p->rod_half_inverse_length
+        - 2.0*(bob_y_rate * bob_y_rate)*p->rod_half_inverse_length;
 
     /* L D L^T of the KKT matrix */
-    const double w_rod_length__bob_x = 2.0*bob_x*rod_half_inverse_length;
-    const double l_rod_length__bob_x = inverse_bob_mass*w_rod_length__bob_x;
-    const double w_rod_length__bob_y = 2.0*bob_y*rod_half_inverse_length;
-    const double l_rod_length__bob_y = inverse_bob_mass*w_rod_length__bob_y;
-    const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x +
-        l_rod_length__bob_y*w_rod_length__bob_y;
-    if (!(scale_rod_length > 1e-08 * scale_rod_length)) { pivot = 1; goto dependent; };
+    const double w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
+    const double l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
+    const double w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
+    const double l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
+    const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
+    if (!(scale_rod_length > 0.0 && scale_rod_length < INFINITY)) {
+        pivot = 1;
+        goto dependent;
+    }
     const double inverse_pivot_rod_length = 1.0/scale_rod_length;
 
     /* forward substitution */
-    const double z_rod_length = -l_rod_length__bob_y*weight_bob_y + rhs_rod_length;
+    const double z_rod_length = -l_rod_length__bob_y*p->weight_bob_y + rhs_rod_length;
 
     /* backward substitution */
     const double lambda_rod_length = -inverse_pivot_rod_length*z_rod_length;
-    const double acceleration_bob_y = inverse_bob_mass*weight_bob_y - l_rod_length__bob_y*lambda_rod_length;
+    const double acceleration_bob_y = p->inverse_bob_mass*p->weight_bob_y - l_rod_length__bob_y*lambda_rod_length;
     const double acceleration_bob_x = -l_rod_length__bob_x*lambda_rod_length;
     const double acceleration_bob_theta = 0.0;
 
@@ -176,27 +166,23 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double bob_x = q[0];
     const double bob_y = q[1];
 
-    /* parameters */
-    const double rod_half_inverse_length = p->rod_half_inverse_length;
-    const double inverse_bob_mass = p->inverse_bob_mass;
-
     /* right-hand side */
     const double r_rod_length = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double w_rod_length__bob_x_2 = 2.0*bob_x*rod_half_inverse_length;
-    const double l_rod_length__bob_x_2 = inverse_bob_mass*w_rod_length__bob_x_2;
-    const double w_rod_length__bob_y_2 = 2.0*bob_y*rod_half_inverse_length;
-    const double l_rod_length__bob_y_2 = inverse_bob_mass*w_rod_length__bob_y_2;
-    const double scale_rod_length_2 = l_rod_length__bob_x_2*w_rod_length__bob_x_2 +
-        l_rod_length__bob_y_2*w_rod_length__bob_y_2;
-    if (!(scale_rod_length_2 > 1e-13 * scale_rod_length_2)) return 1;
-    const double inverse_pivot_rod_length_2 = 1.0/scale_rod_length_2;
+    const double w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
+    const double l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
+    const double w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
+    const double l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
+    const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
+    if (!(scale_rod_length > 0.0 && scale_rod_length < INFINITY))
+        return 1;
+    const double inverse_pivot_rod_length = 1.0/scale_rod_length;
 
     /* backward substitution */
-    const double step_lambda_rod_length = -inverse_pivot_rod_length_2*r_rod_length;
-    const double step_acceleration_bob_y = -l_rod_length__bob_y_2*step_lambda_rod_length;
-    const double step_acceleration_bob_x = -l_rod_length__bob_x_2*step_lambda_rod_length;
+    const double step_lambda_rod_length = -inverse_pivot_rod_length*r_rod_length;
+    const double step_acceleration_bob_y = -l_rod_length__bob_y*step_lambda_rod_length;
+    const double step_acceleration_bob_x = -l_rod_length__bob_x*step_lambda_rod_length;
     const double step_acceleration_bob_theta = 0.0;
 
     /* results */

@@ -3,29 +3,19 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double crank_mass = p->crank_mass;
-    const double crank_inertia = p->crank_inertia;
-    const double rod_mass = p->rod_mass;
-    const double rod_inertia = p->rod_inertia;
-    const double table_mass = p->table_mass;
-    const double table_inertia = p->table_inertia;
-    const double arm_mass = p->arm_mass;
-    const double arm_inertia = p->arm_inertia;
-
     /* M */
-    m[0] = crank_mass;
-    m[1] = crank_mass;
-    m[2] = crank_inertia;
-    m[3] = rod_mass;
-    m[4] = rod_mass;
-    m[5] = rod_inertia;
-    m[6] = table_mass;
-    m[7] = table_mass;
-    m[8] = table_inertia;
-    m[9] = arm_mass;
-    m[10] = arm_mass;
-    m[11] = arm_inertia;
+    m[0] = p->crank_mass;
+    m[1] = p->crank_mass;
+    m[2] = p->crank_inertia;
+    m[3] = p->rod_mass;
+    m[4] = p->rod_mass;
+    m[5] = p->rod_inertia;
+    m[6] = p->table_mass;
+    m[7] = p->table_mass;
+    m[8] = p->table_inertia;
+    m[9] = p->arm_mass;
+    m[10] = p->arm_mass;
+    m[11] = p->arm_inertia;
 }
 
 /*
@@ -46,33 +36,25 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double arm_x = q[9];
     const double arm_y = q[10];
     const double arm_theta = q[11];
-    const double time = t;
-
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_x = p->crank_head_x;
-    const double rod_head_x = p->rod_head_x;
-    const double table_points_top_y = p->table_points_top_y;
-    const double arm_head_x = p->arm_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
-    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
+    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
-    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*p->rod_head_s_x;
+    const double arm_rod_head_y = p->rod_head_s_x*sin_theta_rod;
     const double cos_theta_table = cos(table_theta);
     const double sin_theta_table = sin(table_theta);
-    const double arm_table_top_x = -sin_theta_table*table_points_top_y;
-    const double arm_table_top_y = cos_theta_table*table_points_top_y;
+    const double arm_table_top_x = -sin_theta_table*p->table_points_top_y;
+    const double arm_table_top_y = cos_theta_table*p->table_points_top_y;
     const double cos_theta_arm = cos(arm_theta);
     const double sin_theta_arm = sin(arm_theta);
-    const double arm_arm_head_x = arm_head_x*cos_theta_arm;
-    const double arm_arm_head_y = arm_head_x*sin_theta_arm;
-    const double motor_value = omega*time;
+    const double arm_arm_head_x = p->arm_head_s_x*cos_theta_arm;
+    const double arm_arm_head_y = p->arm_head_s_x*sin_theta_arm;
+    const double motor_value = p->omega*t;
 
     /* rows */
     phi[0] = arm_crank_head_x - crank_x;  /* shaft.x */
@@ -82,7 +64,7 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     phi[4] = arm_rod_head_x + rod_x - table_x;  /* pin.x */
     phi[5] = arm_rod_head_y + rod_y - table_y;  /* pin.y */
     phi[6] = -table_x;  /* guide.offset */
-    phi[7] = table_theta - 0.5*3.141592653589793;  /* guide.angle */
+    phi[7] = table_theta - 0.5*PI;  /* guide.angle */
     phi[8] = arm_arm_head_x + arm_table_top_x - arm_x + table_x;  /* pivot.x */
     phi[9] = arm_arm_head_y + arm_table_top_y - arm_y + table_y;  /* pivot.y */
     phi[10] = crank_theta - motor_value;  /* motor */
@@ -100,29 +82,23 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
     const double table_theta = q[8];
     const double arm_theta = q[11];
 
-    /* parameters */
-    const double crank_head_x = p->crank_head_x;
-    const double rod_head_x = p->rod_head_x;
-    const double table_points_top_y = p->table_points_top_y;
-    const double arm_head_x = p->arm_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
-    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
+    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
-    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*p->rod_head_s_x;
+    const double arm_rod_head_y = p->rod_head_s_x*sin_theta_rod;
     const double cos_theta_table = cos(table_theta);
     const double sin_theta_table = sin(table_theta);
-    const double arm_table_top_x = -sin_theta_table*table_points_top_y;
-    const double arm_table_top_y = cos_theta_table*table_points_top_y;
+    const double arm_table_top_x = -sin_theta_table*p->table_points_top_y;
+    const double arm_table_top_y = cos_theta_table*p->table_points_top_y;
     const double cos_theta_arm = cos(arm_theta);
     const double sin_theta_arm = sin(arm_theta);
-    const double arm_arm_head_x = arm_head_x*cos_theta_arm;
-    const double arm_arm_head_y = arm_head_x*sin_theta_arm;
+    const double arm_arm_head_x = p->arm_head_s_x*cos_theta_arm;
+    const double arm_arm_head_y = p->arm_head_s_x*sin_theta_arm;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d shaft.x / d crank_x */
@@ -163,11 +139,8 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 {
     (void)t;
     (void)q;
-    /* parameters */
-    const double omega = p->omega;
-
     /* directions, arms, drives */
-    const double motor_rate = omega;
+    const double motor_rate = p->omega;
 
     /* rows */
     nu[0] = 0.0;  /* shaft.x */
@@ -186,8 +159,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -200,36 +172,32 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double arm_theta = q[11];
     const double arm_omega = v[11];
 
-    /* parameters */
-    const double crank_head_x = p->crank_head_x;
-    const double rod_head_x = p->rod_head_x;
-    const double table_points_top_y = p->table_points_top_y;
-    const double arm_head_x = p->arm_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
-    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
+    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
-    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*p->rod_head_s_x;
+    const double arm_rod_head_y = p->rod_head_s_x*sin_theta_rod;
     const double cos_theta_table = cos(table_theta);
     const double sin_theta_table = sin(table_theta);
-    const double arm_table_top_x = -sin_theta_table*table_points_top_y;
-    const double arm_table_top_y = cos_theta_table*table_points_top_y;
+    const double arm_table_top_x = -sin_theta_table*p->table_points_top_y;
+    const double arm_table_top_y = cos_theta_table*p->table_points_top_y;
     const double cos_theta_arm = cos(arm_theta);
     const double sin_theta_arm = sin(arm_theta);
-    const double arm_arm_head_x = arm_head_x*cos_theta_arm;
-    const double arm_arm_head_y = arm_head_x*sin_theta_arm;
+    const double arm_arm_head_x = p->arm_head_s_x*cos_theta_arm;
+    const double arm_arm_head_y = p->arm_head_s_x*sin_theta_arm;
     const double motor_acceleration = 0.0;
 
     /* rows */
     gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* shaft.x */
     gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* shaft.y */
-    gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega * rod_omega);  /* crankpin.x */
-    gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega * rod_omega);  /* crankpin.y */
+    /* crankpin.x */
+    gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega * rod_omega);
+    /* crankpin.y */
+    gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega * rod_omega);
     gamma_rows[4] = arm_rod_head_x*(rod_omega * rod_omega);  /* pin.x */
     gamma_rows[5] = arm_rod_head_y*(rod_omega * rod_omega);  /* pin.y */
     gamma_rows[6] = 0.0;  /* guide.offset */
@@ -245,13 +213,9 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
     (void)rates;
-    /* parameters */
-    const double guess_rod_theta = p->guess_rod_theta;
-    const double set_arm_theta = p->set_arm_theta;
-
     /* start */
-    guess[0] = guess_rod_theta;  /* start.guess.rod.theta */
-    set[0] = set_arm_theta;  /* start.set.arm.theta */
+    guess[0] = p->guess_rod_theta;  /* start.guess.rod.theta */
+    set[0] = p->set_arm_theta;  /* start.set.arm.theta */
 }
 
 /*
@@ -280,17 +244,6 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double arm_vx = v[9];
     const double arm_vy = v[10];
     const double arm_omega = v[11];
-
-    /* parameters */
-    const double crank_mass = p->crank_mass;
-    const double crank_inertia = p->crank_inertia;
-    const double rod_mass = p->rod_mass;
-    const double rod_inertia = p->rod_inertia;
-    const double table_mass = p->table_mass;
-    const double table_inertia = p->table_inertia;
-    const double arm_mass = p->arm_mass;
-    const double arm_inertia = p->arm_inertia;
-    const double par_y = p->par_y;
 
     /* multipliers */
     const double multiplier_shaft_x = lambda[0];
@@ -324,12 +277,12 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     torques[0] = -multiplier_motor;  /* motor */
 
     /* energy */
-    energy[0] = (0.5)*arm_inertia*(arm_omega * arm_omega) + (0.5)*arm_mass*(arm_vx * arm_vx) +
-        (0.5)*arm_mass*(arm_vy * arm_vy) + (0.5)*crank_inertia*(crank_omega * crank_omega) +
-        (0.5)*crank_mass*(crank_vx * crank_vx) + (0.5)*crank_mass*(crank_vy * crank_vy) +
-        (0.5)*rod_inertia*(rod_omega * rod_omega) + (0.5)*rod_mass*(rod_vx * rod_vx) + (0.5)*rod_mass*(rod_vy
-        * rod_vy) + (0.5)*table_inertia*(table_omega * table_omega) + (0.5)*table_mass*(table_vx * table_vx) +
-        (0.5)*table_mass*(table_vy * table_vy);
-    energy[1] = -arm_mass*arm_y*par_y - crank_mass*crank_y*par_y - par_y*rod_mass*rod_y -
-        par_y*table_mass*table_y;
+    energy[0] = 0.5*p->arm_inertia*(arm_omega * arm_omega) + 0.5*p->arm_mass*(arm_vx * arm_vx)
+        + 0.5*p->arm_mass*(arm_vy * arm_vy) + 0.5*p->crank_inertia*(crank_omega * crank_omega)
+        + 0.5*p->crank_mass*(crank_vx * crank_vx) + 0.5*p->crank_mass*(crank_vy * crank_vy)
+        + 0.5*p->rod_inertia*(rod_omega * rod_omega) + 0.5*p->rod_mass*(rod_vx * rod_vx)
+        + 0.5*p->rod_mass*(rod_vy * rod_vy) + 0.5*p->table_inertia*(table_omega * table_omega)
+        + 0.5*p->table_mass*(table_vx * table_vx) + 0.5*p->table_mass*(table_vy * table_vy);
+    energy[1] = -p->arm_mass*arm_y*p->gravity_y - p->crank_mass*crank_y*p->gravity_y - p->gravity_y*p->rod_mass*rod_y
+        - p->gravity_y*p->table_mass*table_y;
 }

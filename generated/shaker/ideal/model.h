@@ -1,15 +1,13 @@
 /*
  * Slider-crank shaker with an inverted pendulum
- * mechanism shaker, scene ideal, from the YAML with sha256 d058bcc84cd8db0cfa3b59880ed1601bea9854aec13609101c9934218ed8e6e0
+ * mechanism shaker, scene ideal, from the YAML with sha256
+ * d058bcc84cd8db0cfa3b59880ed1601bea9854aec13609101c9934218ed8e6e0
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 12                /* coordinates of all bodies */
 #define N_ROWS 11             /* constraint rows of the motion */
 #define N_ALL_ROWS 11         /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 0          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 0            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_X 1                 /* coordinates that are integrated */
 #define N_LOOPS 0             /* constraint rows of these */
 #define N_CHAIN 1             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 0             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 1       /* rows that are solved together */
+#define N_VALUES 6            /* of the linearized equations */
+#define N_FACTORS 1           /* of their factors L and U */
+#define HAS_LANES 0           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,14 +43,63 @@
 #define N_GUESS 1             /* coordinates that the start guesses */
 #define N_SET 1               /* those that it sets */
 #define N_RATES 0             /* velocities that it sets */
-#define N_VALUES 6            /* of the linearized equations */
-#define N_FACTORS 1           /* of their factors L and U */
-#define HAS_LANES 0           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double omega;  /* parameters.omega */    double tilt;  /* parameters.tilt */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double table_mass;  /* bodies.table.mass */    double table_inertia;  /* bodies.table.inertia */    double arm_mass;  /* bodies.arm.mass */    double arm_inertia;  /* bodies.arm.inertia */    double crank_length;  /* bodies.crank.length */    double rod_length;  /* bodies.rod.length */    double table_points_top_y;  /* bodies.table.points.top.y */    double arm_length;  /* bodies.arm.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double guide_axis_y;  /* joints.guide.axis.y */    double par_y;  /* gravity.y */    double guess_rod_theta;  /* start.guess.rod.theta */    double set_arm_theta;  /* start.set.arm.theta */    double crank_head_x;  /* point from the centre of mass */    double rod_head_x;  /* point from the centre of mass */    double arm_head_x;  /* point from the centre of mass */    double weight_crank_y;  /* weight */    double weight_rod_y;  /* weight */    double weight_table_y;  /* weight */    double weight_arm_y;  /* weight */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_arm_mass;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_table_mass;  /* 1/M */    double inverse_arm_inertia;  /* 1/M */    double inverse_table_inertia;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double crank_head_span_x;  /* vector in its frame */    double rod_head_span_x;  /* vector in its frame */    double table_top_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_rod;  /* sum of m w.w */    double inertia_rod_rod;  /* sum of m w.w */    double inertia_crank_arm;  /* sum of m w.w */    double inertia_rod_arm;  /* sum of m w.w */    double inertia_arm_arm;  /* sum of m w.w */    double mass_motor_motor;  /* constant of M */    double mass_rod_rod;  /* constant of M */    double mass_arm_arm;  /* constant of M */    double weight_crank__across;  /* weight */    double weight_rod__across;  /* weight */    double weight_arm__across;  /* weight */    double inverse_mass_arm_arm;  /* 1/M */} Parameters;
+typedef struct {
+    double omega;  /* parameters.omega, 1/s */
+    double tilt;  /* parameters.tilt, 1 */
+    double crank_mass;  /* bodies.crank.mass, kg */
+    double crank_inertia;  /* bodies.crank.inertia, kg m^2 */
+    double rod_mass;  /* bodies.rod.mass, kg */
+    double rod_inertia;  /* bodies.rod.inertia, kg m^2 */
+    double table_mass;  /* bodies.table.mass, kg */
+    double table_inertia;  /* bodies.table.inertia, kg m^2 */
+    double arm_mass;  /* bodies.arm.mass, kg */
+    double arm_inertia;  /* bodies.arm.inertia, kg m^2 */
+    double crank_length;  /* bodies.crank.length, m */
+    double rod_length;  /* bodies.rod.length, m */
+    double table_points_top_y;  /* bodies.table.points.top.y, m */
+    double arm_length;  /* bodies.arm.length, m */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double guide_axis_y;  /* joints.guide.axis.y, 1 */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double guess_rod_theta;  /* start.guess.rod.theta, rad */
+    double set_arm_theta;  /* start.set.arm.theta, rad */
+    double crank_head_s_x;  /* point from the centre of mass, m */
+    double rod_head_s_x;  /* point from the centre of mass, m */
+    double arm_head_s_x;  /* point from the centre of mass, m */
+    double weight_crank_y;  /* weight, kg m/s^2 */
+    double weight_rod_y;  /* weight, kg m/s^2 */
+    double weight_table_y;  /* weight, kg m/s^2 */
+    double weight_arm_y;  /* weight, kg m/s^2 */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_arm_mass;  /* 1/M, 1/kg */
+    double inverse_crank_mass;  /* 1/M, 1/kg */
+    double inverse_rod_mass;  /* 1/M, 1/kg */
+    double inverse_table_mass;  /* 1/M, 1/kg */
+    double inverse_arm_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_table_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_rod_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_crank_inertia;  /* 1/M, 1/(kg m^2) */
+    double crank_head_span_x;  /* vector in its frame, m */
+    double rod_head_span_x;  /* vector in its frame, m */
+    double table_top_in_frame_x;  /* vector in its frame, m */
+    double inertia_crank_crank;  /* sum of m w.w, kg m^2 */
+    double inertia_crank_rod;  /* sum of m w.w, kg m^2 */
+    double inertia_rod_rod;  /* sum of m w.w, kg m^2 */
+    double inertia_crank_arm;  /* sum of m w.w, kg m^2 */
+    double inertia_rod_arm;  /* sum of m w.w, kg m^2 */
+    double inertia_arm_arm;  /* sum of m w.w, kg m^2 */
+    double mass_motor_motor;  /* constant of M, kg m^2 */
+    double mass_rod_rod;  /* constant of M, kg m^2 */
+    double mass_arm_arm;  /* constant of M, kg m^2 */
+    double weight_crank__across;  /* weight, kg m^2/s^2 */
+    double weight_rod__across;  /* weight, kg m^2/s^2 */
+    double weight_arm__across;  /* weight, kg m^2/s^2 */
+    double inverse_mass_arm_arm;  /* 1/M, 1/(kg m^2) */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

@@ -20,34 +20,23 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double rod_theta_third = v[3];
     const double a_arm_theta = a[0];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double inertia_crank_rod = p->inertia_crank_rod;
-    const double inertia_crank_arm = p->inertia_crank_arm;
-    const double inertia_rod_arm = p->inertia_rod_arm;
-    const double mass_motor_motor = p->mass_motor_motor;
-    const double mass_rod_rod = p->mass_rod_rod;
-    const double weight_crank__across = p->weight_crank__across;
-    const double weight_rod__across = p->weight_rod__across;
-    const double weight_arm__across = p->weight_arm__across;
-
     /* directions, arms, drives */
-    const double motor_rate = omega;
+    const double motor_rate = p->omega;
     const double motor_acceleration = 0.0;
     const double cos_theta_arm = cos(arm_theta);
     const double sin_theta_arm = sin(arm_theta);
     const double cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
     const double sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const double dot_crank_rod = cos_rod_less_crank*inertia_crank_rod;
-    const double cross_crank_rod = inertia_crank_rod*sin_rod_less_crank;
+    const double dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
+    const double cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
     const double cos_arm_less_crank = cos_theta_arm*cos_theta_crank + sin_theta_arm*sin_theta_crank;
     const double sin_arm_less_crank = -cos_theta_arm*sin_theta_crank + cos_theta_crank*sin_theta_arm;
-    const double dot_crank_arm = cos_arm_less_crank*inertia_crank_arm;
-    const double cross_crank_arm = inertia_crank_arm*sin_arm_less_crank;
+    const double dot_crank_arm = cos_arm_less_crank*p->inertia_crank_arm;
+    const double cross_crank_arm = p->inertia_crank_arm*sin_arm_less_crank;
     const double cos_arm_less_rod = cos_theta_arm*cos_theta_rod + sin_theta_arm*sin_theta_rod;
     const double sin_arm_less_rod = -cos_theta_arm*sin_theta_rod + cos_theta_rod*sin_theta_arm;
-    const double dot_rod_arm = cos_arm_less_rod*inertia_rod_arm;
-    const double cross_rod_arm = inertia_rod_arm*sin_arm_less_rod;
+    const double dot_rod_arm = cos_arm_less_rod*p->inertia_rod_arm;
+    const double cross_rod_arm = p->inertia_rod_arm*sin_arm_less_rod;
 
     /* coordinates */
     const double cross_crank_arm_by_time = -dot_crank_arm*motor_rate;
@@ -62,30 +51,32 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double dot_crank_rod_by_time = cross_crank_rod*motor_rate - cross_crank_rod*rod_omega;
 
     /* results */
-    lin->value[0] = -cross_crank_arm*motor_acceleration - cross_rod_arm*rod_theta_second +
-        dot_crank_arm*(motor_rate * motor_rate) + dot_rod_arm*(rod_omega * rod_omega) +
-        sin_theta_arm*weight_arm__across;
-    lin->value[1] = 2.0*cross_crank_arm*motor_acceleration*motor_rate + cross_crank_arm_by_time*(motor_rate *
-        motor_rate) + 2.0*cross_rod_arm*rod_omega*rod_theta_second + cross_rod_arm_by_time*(rod_omega *
-        rod_omega) + dot_crank_arm_by_time*motor_acceleration + dot_rod_arm*rod_theta_third +
-        dot_rod_arm_by_time*rod_theta_second;
-    lin->value[2] = -a_arm_theta*cross_crank_arm*motor_rate - a_arm_theta*cross_rod_arm*rod_omega - (arm_omega
-        * arm_omega)*dot_crank_arm*motor_rate - (arm_omega * arm_omega)*dot_rod_arm*rod_omega;
+    lin->value[0] = -cross_crank_arm*motor_acceleration - cross_rod_arm*rod_theta_second
+        + dot_crank_arm*(motor_rate * motor_rate) + dot_rod_arm*(rod_omega * rod_omega)
+        + sin_theta_arm*p->weight_arm__across;
+    lin->value[1] = 2.0*cross_crank_arm*motor_acceleration*motor_rate
+        + cross_crank_arm_by_time*(motor_rate * motor_rate) + 2.0*cross_rod_arm*rod_omega*rod_theta_second
+        + cross_rod_arm_by_time*(rod_omega * rod_omega) + dot_crank_arm_by_time*motor_acceleration
+        + dot_rod_arm*rod_theta_third + dot_rod_arm_by_time*rod_theta_second;
+    lin->value[2] = -a_arm_theta*cross_crank_arm*motor_rate - a_arm_theta*cross_rod_arm*rod_omega
+        - (arm_omega * arm_omega)*dot_crank_arm*motor_rate - (arm_omega * arm_omega)*dot_rod_arm*rod_omega;
     lin->value[3] = -2.0*arm_omega*cross_crank_arm*motor_rate - 2.0*arm_omega*cross_rod_arm*rod_omega;
     lin->value[4] = dot_crank_arm*motor_rate + dot_rod_arm*rod_omega;
-    lin->value[5] = a_arm_theta*dot_crank_arm_by_time*motor_rate + a_arm_theta*dot_rod_arm_by_time*rod_omega -
-        (arm_omega * arm_omega)*cross_crank_arm_by_time*motor_rate - (arm_omega *
-        arm_omega)*cross_rod_arm_by_time*rod_omega - cos_theta_crank_by_time*motor_rate*weight_crank__across -
-        cos_theta_rod_by_time*rod_omega*weight_rod__across + cross_crank_rod_by_time*((motor_rate *
-        motor_rate)*rod_omega - motor_rate*(rod_omega * rod_omega)) +
-        dot_crank_rod_by_time*(motor_acceleration*rod_omega + motor_rate*rod_theta_second) +
-        motor_acceleration*(a_arm_theta*dot_crank_arm - (arm_omega * arm_omega)*cross_crank_arm -
-        cos_theta_crank*weight_crank__across + 2.0*cross_crank_rod*motor_rate*rod_omega -
-        cross_crank_rod*(rod_omega * rod_omega) + dot_crank_rod*rod_theta_second +
-        mass_motor_motor*motor_acceleration) + rod_theta_second*(a_arm_theta*dot_rod_arm - (arm_omega *
-        arm_omega)*cross_rod_arm - cos_theta_rod*weight_rod__across + cross_crank_rod*(motor_rate *
-        motor_rate) - 2.0*cross_crank_rod*motor_rate*rod_omega + dot_crank_rod*motor_acceleration +
-        mass_rod_rod*rod_theta_second) + rod_theta_third*(dot_crank_rod*motor_rate + mass_rod_rod*rod_omega);
+    lin->value[5] = a_arm_theta*dot_crank_arm_by_time*motor_rate + a_arm_theta*dot_rod_arm_by_time*rod_omega
+        - (arm_omega * arm_omega)*cross_crank_arm_by_time*motor_rate
+        - (arm_omega * arm_omega)*cross_rod_arm_by_time*rod_omega
+        - cos_theta_crank_by_time*motor_rate*p->weight_crank__across
+        - cos_theta_rod_by_time*rod_omega*p->weight_rod__across
+        + cross_crank_rod_by_time*((motor_rate * motor_rate)*rod_omega - motor_rate*(rod_omega * rod_omega))
+        + dot_crank_rod_by_time*(motor_acceleration*rod_omega + motor_rate*rod_theta_second)
+        + motor_acceleration*(a_arm_theta*dot_crank_arm - (arm_omega * arm_omega)*cross_crank_arm
+        - cos_theta_crank*p->weight_crank__across + 2.0*cross_crank_rod*motor_rate*rod_omega
+        - cross_crank_rod*(rod_omega * rod_omega) + dot_crank_rod*rod_theta_second
+        + p->mass_motor_motor*motor_acceleration) + rod_theta_second*(a_arm_theta*dot_rod_arm
+        - (arm_omega * arm_omega)*cross_rod_arm - cos_theta_rod*p->weight_rod__across
+        + cross_crank_rod*(motor_rate * motor_rate) - 2.0*cross_crank_rod*motor_rate*rod_omega
+        + dot_crank_rod*motor_acceleration + p->mass_rod_rod*rod_theta_second)
+        + rod_theta_third*(dot_crank_rod*motor_rate + p->mass_rod_rod*rod_omega);
     lin->p = p;
 }
 
@@ -101,15 +92,13 @@ int newton_factor(double eta, Linear *lin)
     /* linearization */
     const double by_q_arm_theta_arm_theta = lin->value[0];
 
-    /* parameters */
-    const double mass_arm_arm = p->mass_arm_arm;
-
     /* matrix */
-    const double n_arm_theta__arm_theta = by_q_arm_theta_arm_theta*(eta * eta) + mass_arm_arm;
+    const double n_arm_theta__arm_theta = by_q_arm_theta_arm_theta*(eta * eta) + p->mass_arm_arm;
 
     /* L U */
     const double scale_arm_theta = n_arm_theta__arm_theta;
-    if (!(fabs(scale_arm_theta) > 1e-13 * fabs(n_arm_theta__arm_theta))) return 1;
+    if (!(fabs(scale_arm_theta) > 1e-13 * fabs(n_arm_theta__arm_theta)))
+        return 1;
     const double inverse_pivot_arm_theta = 1.0/scale_arm_theta;
     lin->lu[0] = inverse_pivot_arm_theta;
     return 0;
@@ -147,19 +136,16 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     const double power_0_arm_theta = lin->value[4];
     const double power_t_0 = lin->value[5];
 
-    /* parameters */
-    const double mass_arm_arm = p->mass_arm_arm;
-
     /* right-hand side */
     double x[1];
-    x[0] = eta*(-by_q_arm_theta_arm_theta*eta*r[0] - by_t_arm_theta*s + mass_arm_arm*r[1]);
+    x[0] = eta*(-by_q_arm_theta_arm_theta*eta*r[0] - by_t_arm_theta*s + p->mass_arm_arm*r[1]);
     newton_substitute(lin, x);
 
     /* solution */
     u[0] = eta*(r[0] + x[0]);
     u[1] = x[0];
-    u[2] = eta*(power_q_0_arm_theta*u[0] + power_t_0*s + power_v_0_arm_theta*u[1] + r[2]) +
-        power_0_arm_theta*(-eta*r[1] + x[0]);
+    u[2] = eta*(power_q_0_arm_theta*u[0] + power_t_0*s + power_v_0_arm_theta*u[1] + r[2])
+        + power_0_arm_theta*(-eta*r[1] + x[0]);
     u[3] = eta*r[3];
     u[4] = eta*r[4];
 }

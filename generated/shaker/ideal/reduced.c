@@ -1,11 +1,9 @@
 /*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
-void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
-    double *all_v)
+void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double rod_theta = q[1];
     const double rod_omega = v[1];
     const double arm_theta = q[0];
@@ -15,49 +13,40 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double cos_theta_rod = q[4];
     const double sin_theta_rod = q[5];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_x = p->crank_head_x;
-    const double rod_head_x = p->rod_head_x;
-    const double arm_head_x = p->arm_head_x;
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double rod_head_span_x = p->rod_head_span_x;
-    const double table_top_x = p->table_top_x;
-
     /* directions, arms, drives */
     const Four angles_0 = {arm_theta, arm_theta, arm_theta, arm_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_arm = cosines_0[0];
     const double sin_theta_arm = sines_0[0];
-    const double motor_value = omega*time;
-    const double motor_rate = omega;
-    const double span_crank_com_x = cos_theta_crank*crank_head_x;
-    const double span_crank_com_y = crank_head_x*sin_theta_crank;
+    const double motor_value = p->omega*t;
+    const double motor_rate = p->omega;
+    const double span_crank_com_x = cos_theta_crank*p->crank_head_s_x;
+    const double span_crank_com_y = p->crank_head_s_x*sin_theta_crank;
     const double crank_vx = -motor_rate*span_crank_com_y;
     const double crank_vy = motor_rate*span_crank_com_x;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
     const double crank_head_vx = -motor_rate*span_crank_head_y;
     const double crank_head_vy = motor_rate*span_crank_head_x;
-    const double span_rod_com_x = cos_theta_rod*rod_head_x;
-    const double span_rod_com_y = rod_head_x*sin_theta_rod;
+    const double span_rod_com_x = cos_theta_rod*p->rod_head_s_x;
+    const double span_rod_com_y = p->rod_head_s_x*sin_theta_rod;
     const double rod_x = span_crank_head_x + span_rod_com_x;
     const double rod_vx = crank_head_vx - rod_omega*span_rod_com_y;
     const double rod_y = span_crank_head_y + span_rod_com_y;
     const double rod_vy = crank_head_vy + rod_omega*span_rod_com_x;
-    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
-    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
-    const double rod_head_x_2 = span_crank_head_x + span_rod_head_x;
+    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
+    const double rod_head_x = span_crank_head_x + span_rod_head_x;
     const double rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
     const double rod_head_y = span_crank_head_y + span_rod_head_y;
     const double rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
-    const double table_theta = (0.5)*3.141592653589793;
+    const double table_theta = 0.5*PI;
     const double table_omega = 0.0;
-    const double table_top_x_2 = rod_head_x_2 + table_top_x;
-    const double span_arm_com_x = arm_head_x*cos_theta_arm;
-    const double span_arm_com_y = arm_head_x*sin_theta_arm;
-    const double arm_x = span_arm_com_x + table_top_x_2;
+    const double table_top_x = rod_head_x + p->table_top_in_frame_x;
+    const double span_arm_com_x = p->arm_head_s_x*cos_theta_arm;
+    const double span_arm_com_y = p->arm_head_s_x*sin_theta_arm;
+    const double arm_x = span_arm_com_x + table_top_x;
     const double arm_vx = -arm_omega*span_arm_com_y + rod_head_vx;
     const double arm_y = rod_head_y + span_arm_com_y;
     const double arm_vy = arm_omega*span_arm_com_x + rod_head_vy;
@@ -75,7 +64,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     all_v[4] = rod_vy;
     all_q[5] = rod_theta;
     all_v[5] = rod_omega;
-    all_q[6] = rod_head_x_2;
+    all_q[6] = rod_head_x;
     all_v[6] = rod_head_vx;
     all_q[7] = rod_head_y;
     all_v[7] = rod_head_vy;
@@ -92,8 +81,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 /*
  * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
  */
-void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
-    double *s_rate)
+void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
     (void)t;
     (void)p;
@@ -140,8 +128,8 @@ void closure_rates(const double t, const double *q, const double *v, const Param
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
 {
     (void)t;
     (void)memory;
@@ -155,54 +143,42 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double sin_theta_rod = q[5];
     const double rod_theta_second = v[2];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double inertia_crank_rod = p->inertia_crank_rod;
-    const double inertia_crank_arm = p->inertia_crank_arm;
-    const double inertia_rod_arm = p->inertia_rod_arm;
-    const double mass_motor_motor = p->mass_motor_motor;
-    const double mass_rod_rod = p->mass_rod_rod;
-    const double weight_crank__across = p->weight_crank__across;
-    const double weight_rod__across = p->weight_rod__across;
-    const double weight_arm__across = p->weight_arm__across;
-    const double inverse_mass_arm_arm = p->inverse_mass_arm_arm;
-
     /* directions, arms, drives */
     const Four angles_0 = {arm_theta, arm_theta, arm_theta, arm_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_arm = cosines_0[0];
     const double sin_theta_arm = sines_0[0];
-    const double motor_rate = omega;
+    const double motor_rate = p->omega;
     const double motor_acceleration = 0.0;
     const double cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
     const double sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const double dot_crank_rod = cos_rod_less_crank*inertia_crank_rod;
-    const double cross_crank_rod = inertia_crank_rod*sin_rod_less_crank;
+    const double dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
+    const double cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
     const double cos_arm_less_crank = cos_theta_arm*cos_theta_crank + sin_theta_arm*sin_theta_crank;
     const double sin_arm_less_crank = -cos_theta_arm*sin_theta_crank + cos_theta_crank*sin_theta_arm;
-    const double dot_crank_arm = cos_arm_less_crank*inertia_crank_arm;
-    const double cross_crank_arm = inertia_crank_arm*sin_arm_less_crank;
+    const double dot_crank_arm = cos_arm_less_crank*p->inertia_crank_arm;
+    const double cross_crank_arm = p->inertia_crank_arm*sin_arm_less_crank;
     const double cos_arm_less_rod = cos_theta_arm*cos_theta_rod + sin_theta_arm*sin_theta_rod;
     const double sin_arm_less_rod = -cos_theta_arm*sin_theta_rod + cos_theta_rod*sin_theta_arm;
-    const double dot_rod_arm = cos_arm_less_rod*inertia_rod_arm;
-    const double cross_rod_arm = inertia_rod_arm*sin_arm_less_rod;
+    const double dot_rod_arm = cos_arm_less_rod*p->inertia_rod_arm;
+    const double cross_rod_arm = p->inertia_rod_arm*sin_arm_less_rod;
 
     /* forward substitution */
-    const double z_arm_theta = cos_theta_arm*weight_arm__across - cross_crank_arm*(motor_rate * motor_rate) -
-        cross_rod_arm*(rod_omega * rod_omega) - dot_crank_arm*motor_acceleration -
-        dot_rod_arm*rod_theta_second;
+    const double z_arm_theta = cos_theta_arm*p->weight_arm__across - cross_crank_arm*(motor_rate * motor_rate)
+        - cross_rod_arm*(rod_omega * rod_omega) - dot_crank_arm*motor_acceleration - dot_rod_arm*rod_theta_second;
 
     /* backward substitution */
-    const double acceleration_arm_theta = inverse_mass_arm_arm*z_arm_theta;
+    const double acceleration_arm_theta = p->inverse_mass_arm_arm*z_arm_theta;
 
     /* results */
     a[0] = acceleration_arm_theta;
-    aside->power[0] = motor_rate*(a[0]*dot_crank_arm - (arm_omega * arm_omega)*cross_crank_arm -
-        cos_theta_crank*weight_crank__across - cross_crank_rod*(rod_omega * rod_omega) +
-        dot_crank_rod*rod_theta_second + mass_motor_motor*motor_acceleration) + rod_omega*(a[0]*dot_rod_arm -
-        (arm_omega * arm_omega)*cross_rod_arm - cos_theta_rod*weight_rod__across + cross_crank_rod*(motor_rate
-        * motor_rate) + dot_crank_rod*motor_acceleration + mass_rod_rod*rod_theta_second);
+    aside->power[0] = motor_rate*(a[0]*dot_crank_arm - (arm_omega * arm_omega)*cross_crank_arm
+        - cos_theta_crank*p->weight_crank__across - cross_crank_rod*(rod_omega * rod_omega)
+        + dot_crank_rod*rod_theta_second + p->mass_motor_motor*motor_acceleration)
+        + rod_omega*(a[0]*dot_rod_arm - (arm_omega * arm_omega)*cross_rod_arm - cos_theta_rod*p->weight_rod__across
+        + cross_crank_rod*(motor_rate * motor_rate) + dot_crank_rod*motor_acceleration
+        + p->mass_rod_rod*rod_theta_second);
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
     return 0;
@@ -234,14 +210,10 @@ void chain_directions(const double t, const double *q, const Memory *memory, con
 {
     (void)memory;
     /* coordinates, velocities, time */
-    const double time = t;
     const double rod_theta = q[1];
 
-    /* parameters */
-    const double omega = p->omega;
-
     /* directions, arms, drives */
-    const double motor_value = omega*time;
+    const double motor_value = p->omega*t;
 
     /* directions */
     const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
@@ -258,8 +230,8 @@ void chain_directions(const double t, const double *q, const Memory *memory, con
  * step = newton + bend, Phi_c bend = Phi_cc[newton, newton]/2. `row`: the number, from 1, of the row with
  * the largest |Phi|. Returns 0, or the number of a row that depends on others here.
  */
-int chain_step(const double t, const double *q, const Memory *memory, const Parameters *p, double *step,
-    double *bend, int *row)
+int chain_step(const double t, const double *q, const Memory *memory, const Parameters *p, double *step, double *bend,
+    int *row)
 {
     (void)t;
     (void)memory;
@@ -268,14 +240,10 @@ int chain_step(const double t, const double *q, const Memory *memory, const Para
     const double cos_theta_rod = q[4];
     const double sin_theta_rod = q[5];
 
-    /* parameters */
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double rod_head_span_x = p->rod_head_span_x;
-
     /* directions, arms, drives */
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
-    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
 
     /* closures of the chains */
     const double phi_guide_offset = -span_crank_head_x - span_rod_head_x;
@@ -286,15 +254,15 @@ int chain_step(const double t, const double *q, const Memory *memory, const Para
     /* groups of rows that are solved one after the other */
     const double pivot_guide_offset = span_rod_head_y;
     const double size_guide_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__rod_theta)) return 1;
+    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__rod_theta))
+        return 1;
     const double inverse_guide_offset = 1.0/pivot_guide_offset;
 
     /* Newton's step */
     const double newton_rod_theta = inverse_guide_offset*phi_guide_offset;
 
     /* what the rows' curvature adds */
-    const double bend_rod_theta = (0.5)*inverse_guide_offset*(newton_rod_theta *
-        newton_rod_theta)*span_rod_head_x;
+    const double bend_rod_theta = 0.5*inverse_guide_offset*(newton_rod_theta * newton_rod_theta)*span_rod_head_x;
     step[0] = bend_rod_theta + newton_rod_theta;
     bend[0] = bend_rod_theta;
     return 0;
@@ -315,32 +283,28 @@ int chain_rates(const double t, const double *q, const Memory *memory, const Par
     const double cos_theta_rod = q[4];
     const double sin_theta_rod = q[5];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double rod_head_span_x = p->rod_head_span_x;
-
     /* directions, arms, drives */
-    const double motor_rate = omega;
+    const double motor_rate = p->omega;
     const double motor_acceleration = 0.0;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
-    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
-    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
+    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
 
     /* groups of rows that are solved one after the other */
-    const double pivot_guide_offset_2 = span_rod_head_y;
-    const double size_guide_offset__rod_theta_2 = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_guide_offset_2) > 3.162277660168379e-07 * size_guide_offset__rod_theta_2)) return 1;
-    const double inverse_guide_offset_2 = 1.0/pivot_guide_offset_2;
+    const double pivot_guide_offset = span_rod_head_y;
+    const double size_guide_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
+    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__rod_theta))
+        return 1;
+    const double inverse_guide_offset = 1.0/pivot_guide_offset;
 
     /* rates */
-    const double rate_rod_theta = -inverse_guide_offset_2*motor_rate*span_crank_head_y;
+    const double rate_rod_theta = -inverse_guide_offset*motor_rate*span_crank_head_y;
     const double rod_omega = rate_rod_theta;
 
     /* second rates */
-    const double second_rod_theta = inverse_guide_offset_2*(-motor_acceleration*span_crank_head_y -
-        (motor_rate * motor_rate)*span_crank_head_x - (rod_omega * rod_omega)*span_rod_head_x);
+    const double second_rod_theta = inverse_guide_offset*(-motor_acceleration*span_crank_head_y
+        - (motor_rate * motor_rate)*span_crank_head_x - (rod_omega * rod_omega)*span_rod_head_x);
 
     /* results */
     v[1] = rod_omega;
@@ -365,35 +329,30 @@ int chain_third(const double t, const double *q, const double *v, const Memory *
     const double sin_theta_rod = q[5];
     const double rod_theta_second = v[2];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double rod_head_span_x = p->rod_head_span_x;
-
     /* directions, arms, drives */
-    const double motor_rate = omega;
+    const double motor_rate = p->omega;
     const double motor_acceleration = 0.0;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
-    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
-    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
+    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
 
     /* groups of rows that are solved one after the other */
-    const double pivot_guide_offset_3 = span_rod_head_y;
-    const double size_guide_offset__rod_theta_3 = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_guide_offset_3) > 3.162277660168379e-07 * size_guide_offset__rod_theta_3)) return 1;
-    const double inverse_guide_offset_3 = 1.0/pivot_guide_offset_3;
+    const double pivot_guide_offset = span_rod_head_y;
+    const double size_guide_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
+    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__rod_theta))
+        return 1;
+    const double inverse_guide_offset = 1.0/pivot_guide_offset;
 
     /* third rates */
     const double span_crank_head_x_by_time = -motor_rate*span_crank_head_y;
     const double span_crank_head_y_by_time = motor_rate*span_crank_head_x;
     const double span_rod_head_x_by_time = -rod_omega*span_rod_head_y;
     const double span_rod_head_y_by_time = rod_omega*span_rod_head_x;
-    const double third_rod_theta =
-        inverse_guide_offset_3*(-2.0*motor_acceleration*motor_rate*span_crank_head_x -
-        motor_acceleration*span_crank_head_y_by_time - (motor_rate * motor_rate)*span_crank_head_x_by_time -
-        (rod_omega * rod_omega)*span_rod_head_x_by_time - 2.0*rod_omega*rod_theta_second*span_rod_head_x -
-        rod_theta_second*span_rod_head_y_by_time);
+    const double third_rod_theta = inverse_guide_offset*(-2.0*motor_acceleration*motor_rate*span_crank_head_x
+        - motor_acceleration*span_crank_head_y_by_time - (motor_rate * motor_rate)*span_crank_head_x_by_time
+        - (rod_omega * rod_omega)*span_rod_head_x_by_time - 2.0*rod_omega*rod_theta_second*span_rod_head_x
+        - rod_theta_second*span_rod_head_y_by_time);
     out[0] = third_rod_theta;
     return 0;
 }

@@ -3,24 +3,16 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double crank_mass = p->crank_mass;
-    const double crank_inertia = p->crank_inertia;
-    const double rod_mass = p->rod_mass;
-    const double rod_inertia = p->rod_inertia;
-    const double slider_mass = p->slider_mass;
-    const double slider_inertia = p->slider_inertia;
-
     /* M */
-    m[0] = crank_mass;
-    m[1] = crank_mass;
-    m[2] = crank_inertia;
-    m[3] = rod_mass;
-    m[4] = rod_mass;
-    m[5] = rod_inertia;
-    m[6] = slider_mass;
-    m[7] = slider_mass;
-    m[8] = slider_inertia;
+    m[0] = p->crank_mass;
+    m[1] = p->crank_mass;
+    m[2] = p->crank_inertia;
+    m[3] = p->rod_mass;
+    m[4] = p->rod_mass;
+    m[5] = p->rod_inertia;
+    m[6] = p->slider_mass;
+    m[7] = p->slider_mass;
+    m[8] = p->slider_inertia;
 }
 
 /*
@@ -38,23 +30,17 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double slider_x = q[6];
     const double slider_y = q[7];
     const double slider_theta = q[8];
-    const double time = t;
-
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_x = p->crank_head_x;
-    const double rod_head_x = p->rod_head_x;
 
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
-    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
+    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
-    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
-    const double motor_value = omega*time;
+    const double arm_rod_head_x = cos_theta_rod*p->rod_head_s_x;
+    const double arm_rod_head_y = p->rod_head_s_x*sin_theta_rod;
+    const double motor_value = p->omega*t;
 
     /* rows */
     phi[0] = arm_crank_head_x - crank_x;  /* O.x */
@@ -78,19 +64,15 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
     const double crank_theta = q[2];
     const double rod_theta = q[5];
 
-    /* parameters */
-    const double crank_head_x = p->crank_head_x;
-    const double rod_head_x = p->rod_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
-    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
+    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
-    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*p->rod_head_s_x;
+    const double arm_rod_head_y = p->rod_head_s_x*sin_theta_rod;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d O.x / d crank_x */
@@ -123,11 +105,8 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 {
     (void)t;
     (void)q;
-    /* parameters */
-    const double omega = p->omega;
-
     /* directions, arms, drives */
-    const double motor_rate = omega;
+    const double motor_rate = p->omega;
 
     /* rows */
     nu[0] = 0.0;  /* O.x */
@@ -144,8 +123,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -154,26 +132,24 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double rod_theta = q[5];
     const double rod_omega = v[5];
 
-    /* parameters */
-    const double crank_head_x = p->crank_head_x;
-    const double rod_head_x = p->rod_head_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_head_x;
-    const double arm_crank_head_y = crank_head_x*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
+    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_head_x = cos_theta_rod*rod_head_x;
-    const double arm_rod_head_y = rod_head_x*sin_theta_rod;
+    const double arm_rod_head_x = cos_theta_rod*p->rod_head_s_x;
+    const double arm_rod_head_y = p->rod_head_s_x*sin_theta_rod;
     const double motor_acceleration = 0.0;
 
     /* rows */
     gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* O.x */
     gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* O.y */
-    gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega * rod_omega);  /* crankpin.x */
-    gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega * rod_omega);  /* crankpin.y */
+    /* crankpin.x */
+    gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega * rod_omega);
+    /* crankpin.y */
+    gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega * rod_omega);
     gamma_rows[4] = arm_rod_head_x*(rod_omega * rod_omega);  /* wristpin.x */
     gamma_rows[5] = arm_rod_head_y*(rod_omega * rod_omega);  /* wristpin.y */
     gamma_rows[6] = 0.0;  /* cylinder.offset */
@@ -188,12 +164,9 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 {
     (void)set;
     (void)rates;
-    /* parameters */
-    const double guess_slider_x = p->guess_slider_x;
-
     /* start */
     guess[0] = 0.0;  /* start.guess.rod.theta */
-    guess[1] = guess_slider_x;  /* start.guess.slider.x */
+    guess[1] = p->guess_slider_x;  /* start.guess.slider.x */
 }
 
 /*
@@ -217,14 +190,6 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double slider_vy = v[7];
     const double slider_omega = v[8];
 
-    /* parameters */
-    const double crank_mass = p->crank_mass;
-    const double crank_inertia = p->crank_inertia;
-    const double rod_mass = p->rod_mass;
-    const double rod_inertia = p->rod_inertia;
-    const double slider_mass = p->slider_mass;
-    const double slider_inertia = p->slider_inertia;
-
     /* multipliers */
     const double multiplier_O_x = lambda[0];
     const double multiplier_O_y = lambda[1];
@@ -247,10 +212,10 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     torques[0] = -multiplier_motor;  /* motor */
 
     /* energy */
-    energy[0] = (0.5)*crank_inertia*(crank_omega * crank_omega) + (0.5)*crank_mass*(crank_vx * crank_vx) +
-        (0.5)*crank_mass*(crank_vy * crank_vy) + (0.5)*rod_inertia*(rod_omega * rod_omega) +
-        (0.5)*rod_mass*(rod_vx * rod_vx) + (0.5)*rod_mass*(rod_vy * rod_vy) +
-        (0.5)*slider_inertia*(slider_omega * slider_omega) + (0.5)*slider_mass*(slider_vx * slider_vx) +
-        (0.5)*slider_mass*(slider_vy * slider_vy);
+    energy[0] = 0.5*p->crank_inertia*(crank_omega * crank_omega) + 0.5*p->crank_mass*(crank_vx * crank_vx)
+        + 0.5*p->crank_mass*(crank_vy * crank_vy) + 0.5*p->rod_inertia*(rod_omega * rod_omega)
+        + 0.5*p->rod_mass*(rod_vx * rod_vx) + 0.5*p->rod_mass*(rod_vy * rod_vy)
+        + 0.5*p->slider_inertia*(slider_omega * slider_omega) + 0.5*p->slider_mass*(slider_vx * slider_vx)
+        + 0.5*p->slider_mass*(slider_vy * slider_vy);
     energy[1] = 0.0;
 }

@@ -1,15 +1,13 @@
 /*
  * slider-crank mechanism with play in the slider's pin
- * mechanism slider_crank, scene dry, from the YAML with sha256 7d0ee75732fc8db361d73dbcc9252363a5631ed216b7197196ca1cd59efe75c0
+ * mechanism slider_crank, scene dry, from the YAML with sha256
+ * 7d0ee75732fc8db361d73dbcc9252363a5631ed216b7197196ca1cd59efe75c0
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 9                 /* coordinates of all bodies */
 #define N_ROWS 7              /* constraint rows of the motion */
 #define N_ALL_ROWS 9          /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 5          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 0            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_X 2                 /* coordinates that are integrated */
 #define N_LOOPS 0             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 0             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 21           /* of the linearized equations */
+#define N_FACTORS 4           /* of their factors L and U */
+#define HAS_LANES 1           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,14 +43,57 @@
 #define N_GUESS 2             /* coordinates that the start guesses */
 #define N_SET 0               /* those that it sets */
 #define N_RATES 0             /* velocities that it sets */
-#define N_VALUES 21           /* of the linearized equations */
-#define N_FACTORS 4           /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double omega;  /* parameters.omega */    double c;  /* parameters.c */    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double slider_mass;  /* bodies.slider.mass */    double slider_inertia;  /* bodies.slider.inertia */    double crank_length;  /* bodies.crank.length */    double rod_length;  /* bodies.rod.length */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double cylinder_axis_x;  /* joints.cylinder.axis.x */    double pin_radius;  /* bearings.pin.radius */    double pin_clearance;  /* bearings.pin.clearance */    double pin_length;  /* bearings.pin.length */    double steel_E;  /* materials.steel.E */    double steel_nu;  /* materials.steel.nu */    double dry_normal_restitution;  /* contacts.dry.normal.restitution */    double dry_normal_exponent;  /* contacts.dry.normal.exponent */    double dry_friction_mu;  /* contacts.dry.friction.mu */    double dry_friction_v0;  /* contacts.dry.friction.v0 */    double dry_friction_v1;  /* contacts.dry.friction.v1 */    double velocity_floor;  /* contacts.dry.velocity_floor */    double guess_slider_x;  /* start.guess.slider.x */    double crank_head_x;  /* point from the centre of mass */    double rod_head_x;  /* point from the centre of mass */    double R_j_pin;  /* journal radius */    double dry_pin_K;  /* contact stiffness */    double dry_pin_hysteresis;  /* hysteresis damping factor a */    double dry_pin_friction_slope;  /* 1/(v1 - v0) */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_slider_mass;  /* 1/M */    double inverse_rod_mass;  /* 1/M */    double inverse_slider_inertia;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double crank_head_span_x;  /* vector in its frame */    double rod_head_span_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_rod;  /* sum of m w.w */    double inertia_rod_rod;  /* sum of m w.w */    double mass_motor_motor;  /* constant of M */    double mass_rod_rod;  /* constant of M */    double inverse_mass_rod_rod;  /* 1/M */} Parameters;
+typedef struct {
+    double omega;  /* parameters.omega, 1/s */
+    double c;  /* parameters.c, m */
+    double crank_mass;  /* bodies.crank.mass, kg */
+    double crank_inertia;  /* bodies.crank.inertia, kg m^2 */
+    double rod_mass;  /* bodies.rod.mass, kg */
+    double rod_inertia;  /* bodies.rod.inertia, kg m^2 */
+    double slider_mass;  /* bodies.slider.mass, kg */
+    double slider_inertia;  /* bodies.slider.inertia, kg m^2 */
+    double crank_length;  /* bodies.crank.length, m */
+    double rod_length;  /* bodies.rod.length, m */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double cylinder_axis_x;  /* joints.cylinder.axis.x, 1 */
+    double pin_radius;  /* bearings.pin.radius, m */
+    double pin_clearance;  /* bearings.pin.clearance, m */
+    double pin_length;  /* bearings.pin.length, m */
+    double steel_E;  /* materials.steel.E, kg/(m s^2) */
+    double steel_nu;  /* materials.steel.nu, 1 */
+    double dry_normal_restitution;  /* contacts.dry.normal.restitution, 1 */
+    double dry_normal_exponent;  /* contacts.dry.normal.exponent, 1 */
+    double dry_friction_mu;  /* contacts.dry.friction.mu, 1 */
+    double dry_friction_v0;  /* contacts.dry.friction.v0, m/s */
+    double dry_friction_v1;  /* contacts.dry.friction.v1, m/s */
+    double velocity_floor;  /* contacts.dry.velocity_floor, m/s */
+    double guess_slider_x;  /* start.guess.slider.x, m */
+    double crank_head_s_x;  /* point from the centre of mass, m */
+    double rod_head_s_x;  /* point from the centre of mass, m */
+    double R_j_pin;  /* journal radius, m */
+    double dry_pin_K;  /* contact stiffness, kg/(m^(1/2) s^2) */
+    double dry_pin_hysteresis;  /* hysteresis damping factor a, 1 */
+    double dry_pin_friction_slope;  /* 1/(v1 - v0), s/m */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_slider_mass;  /* 1/M, 1/kg */
+    double inverse_rod_mass;  /* 1/M, 1/kg */
+    double inverse_slider_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_crank_mass;  /* 1/M, 1/kg */
+    double inverse_rod_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_crank_inertia;  /* 1/M, 1/(kg m^2) */
+    double crank_head_span_x;  /* vector in its frame, m */
+    double rod_head_span_x;  /* vector in its frame, m */
+    double inertia_crank_crank;  /* sum of m w.w, kg m^2 */
+    double inertia_crank_rod;  /* sum of m w.w, kg m^2 */
+    double inertia_rod_rod;  /* sum of m w.w, kg m^2 */
+    double mass_motor_motor;  /* constant of M, kg m^2 */
+    double mass_rod_rod;  /* constant of M, kg m^2 */
+    double inverse_mass_rod_rod;  /* 1/M, 1/(kg m^2) */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

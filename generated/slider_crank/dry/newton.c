@@ -1,4 +1,6 @@
-/* (F along n, F along t, M_i, M_j) of a joint with play and their derivatives by (e, deltadot, de_t, omega_i, omega_j). */
+/*
+ * (F along n, F along t, M_i, M_j) of a joint with play and their derivatives by (e, deltadot, de_t, omega_i, omega_j).
+ */
 typedef struct {
     double value[4], slope[4][5];
 } PinSlopes;
@@ -13,7 +15,8 @@ typedef struct {
  * From n, t to ground axes. Where e moves by de = (along n, along t) = (x, y), n turns by y/e: F by F rotated, and
  * deltadot, de_t by (de_t, -deltadot) y/e.
  */
-static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, double deltadot, double de_t, double per_e,
+static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, double deltadot, double de_t,
+    double per_e,
     double dF[4][6])
 {
     double by[4][6];
@@ -42,54 +45,89 @@ static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, do
 
 
 /*
- * Joint wristpin, dry: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t,
- * omega_i, omega_j (forward differentiation of the same steps).
+ * Dry: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t, omega_i,
+ * omega_j (forward differentiation of the same steps).
  */
-static inline void dry_slopes_wristpin(double e, double deltadot, double de_t, double omega_i, double omega_j,
-    const Latch *latch, const Parameters *p, const double *side, double *g, PinSlopes *out)
+static inline void dry_slopes_lankarani_nikravesh_modified_coulomb(double e, double deltadot, double de_t, double
+    omega_i, double omega_j, const Latch *latch, double exponent, double mu, double v0, double R_i, double R_j, double
+    c, double K, double hysteresis, double friction_slope, const double *side, double *g, int corner, PinSlopes *out)
 {
-    /* parameters */
-    const double dry_normal_exponent = p->dry_normal_exponent;
-    const double dry_pin_K = p->dry_pin_K;
-    const double dry_pin_hysteresis = p->dry_pin_hysteresis;
-    const double dry_friction_mu = p->dry_friction_mu;
-    const double dry_friction_v0 = p->dry_friction_v0;
-    const double dry_pin_friction_slope = p->dry_pin_friction_slope;
-
     /* penetration, ratio of velocities, slip */
-    const double delta = e - p->pin_clearance;
+    const double delta = e - c;
     const double depth = max_of(delta, 0.0);
     const double depth_by_e = delta > 0.0 ? 1.0 : 0.0;
     const double ratio = latch->closed ? deltadot/latch->deltadot_minus : 1.0;
     const double ratio_by_deltadot = latch->closed ? 1.0/latch->deltadot_minus : 0.0;
-    const double a_i = (0.5)*delta + p->pin_radius;
-    const double a_j = -0.5*delta + p->R_j_pin;
+    const double a_i = 0.5*delta + R_i;
+    const double a_j = -0.5*delta + R_j;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     const double v_t_by_e = -0.5*omega_i - 0.5*omega_j;
 
-    /* contact of joint wristpin */
-    const double side_0 = side_of(side, g, 0, dry_pin_hysteresis*ratio + 1.0);
-    const double power_depth = pow(depth, dry_normal_exponent - 1.0);
-    const double F_n = depth*dry_pin_K*power_depth*(side_0 < 0.0 ? 0.0 : dry_pin_hysteresis*ratio + 1.0);
-    const double F_n_by_depth = dry_normal_exponent*dry_pin_K*power_depth*(side_0 < 0.0 ? 0.0 :
-        dry_pin_hysteresis*ratio + 1.0);
-    const double F_n_by_ratio = depth*dry_pin_K*power_depth*(side_0 < 0.0 ? 0.0 : dry_pin_hysteresis);
+    /* contact */
+    const double side_1 = side_of(side, g, corner, hysteresis*ratio + 1.0);
+    const double power_depth = pow(depth, exponent - 1.0);
+    double larger_1;
+    if (side_1 < 0.0)
+        larger_1 = 0.0;
+    else
+        larger_1 = hysteresis*ratio + 1.0;
+    const double F_n = depth*K*power_depth*larger_1;
+    const double F_n_by_depth = exponent*K*power_depth*larger_1;
+    double branch_1;
+    if (side_1 < 0.0)
+        branch_1 = 0.0;
+    else
+        branch_1 = hysteresis;
+    const double F_n_by_ratio = depth*K*power_depth*branch_1;
     const double F_n_by_e = F_n_by_depth*depth_by_e;
     const double F_n_by_deltadot = F_n_by_ratio*ratio_by_deltadot;
-    const double side_1 = side_of(side, g, 1, -dry_pin_friction_slope*(-dry_friction_v0 - v_t) + 1.0);
-    const double side_2 = side_of(side, g, 2, (side_1 < 0.0 ? 1.0 : dry_pin_friction_slope*(-dry_friction_v0 -
-        v_t)));
-    const double side_3 = side_of(side, g, 3, -dry_pin_friction_slope*(-dry_friction_v0 + v_t) + 1.0);
-    const double side_4 = side_of(side, g, 4, (side_3 < 0.0 ? 1.0 : dry_pin_friction_slope*(-dry_friction_v0 +
-        v_t)));
-    const double F_t = -F_n*dry_friction_mu*(-(side_2 < 0.0 ? 0.0 : (side_1 < 0.0 ? 1.0 :
-        dry_pin_friction_slope*(-dry_friction_v0 - v_t))) + (side_4 < 0.0 ? 0.0 : (side_3 < 0.0 ? 1.0 :
-        dry_pin_friction_slope*(-dry_friction_v0 + v_t))));
-    const double F_t_by_F_n = -dry_friction_mu*(-(side_2 < 0.0 ? 0.0 : (side_1 < 0.0 ? 1.0 :
-        dry_pin_friction_slope*(-dry_friction_v0 - v_t))) + (side_4 < 0.0 ? 0.0 : (side_3 < 0.0 ? 1.0 :
-        dry_pin_friction_slope*(-dry_friction_v0 + v_t))));
-    const double F_t_by_v_t = -F_n*dry_friction_mu*(-(side_2 < 0.0 ? 0.0 : (side_1 < 0.0 ? 0.0 :
-        -dry_pin_friction_slope)) + (side_4 < 0.0 ? 0.0 : (side_3 < 0.0 ? 0.0 : dry_pin_friction_slope)));
+    const double side_2 = side_of(side, g, corner + 1, -friction_slope*(-v0 - v_t) + 1.0);
+    double smaller_1;
+    if (side_2 < 0.0)
+        smaller_1 = 1.0;
+    else
+        smaller_1 = friction_slope*(-v0 - v_t);
+    const double side_3 = side_of(side, g, corner + 2, smaller_1);
+    const double side_4 = side_of(side, g, corner + 3, -friction_slope*(-v0 + v_t) + 1.0);
+    double smaller_2;
+    if (side_4 < 0.0)
+        smaller_2 = 1.0;
+    else
+        smaller_2 = friction_slope*(-v0 + v_t);
+    const double side_5 = side_of(side, g, corner + 4, smaller_2);
+    double larger_2;
+    if (side_3 < 0.0)
+        larger_2 = 0.0;
+    else
+        larger_2 = smaller_1;
+    double larger_3;
+    if (side_5 < 0.0)
+        larger_3 = 0.0;
+    else
+        larger_3 = smaller_2;
+    const double F_t = -F_n*mu*(-larger_2 + larger_3);
+    const double F_t_by_F_n = -mu*(-larger_2 + larger_3);
+    double branch_2;
+    if (side_2 < 0.0)
+        branch_2 = 0.0;
+    else
+        branch_2 = -friction_slope;
+    double branch_3;
+    if (side_3 < 0.0)
+        branch_3 = 0.0;
+    else
+        branch_3 = branch_2;
+    double branch_4;
+    if (side_4 < 0.0)
+        branch_4 = 0.0;
+    else
+        branch_4 = friction_slope;
+    double branch_5;
+    if (side_5 < 0.0)
+        branch_5 = 0.0;
+    else
+        branch_5 = branch_4;
+    const double F_t_by_v_t = -F_n*mu*(-branch_3 + branch_5);
     const double F_t_by_e = F_n_by_e*F_t_by_F_n + F_t_by_v_t*v_t_by_e;
     const double F_t_by_deltadot = F_n_by_deltadot*F_t_by_F_n;
     const double F_t_by_omega_i = -F_t_by_v_t*a_i;
@@ -145,7 +183,9 @@ static void slopes_wristpin(double e, double deltadot, double de_t, double omega
     const double delta = e - p->pin_clearance;
     *out = (PinSlopes){0};
     if (side ? latch->closed : delta > 0.0)
-        dry_slopes_wristpin(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, out);
+        dry_slopes_lankarani_nikravesh_modified_coulomb(e, deltadot, de_t, omega_i, omega_j, latch,
+            p->dry_normal_exponent, p->dry_friction_mu, p->dry_friction_v0, p->pin_radius, p->R_j_pin,
+            p->pin_clearance, p->dry_pin_K, p->dry_pin_hysteresis, p->dry_pin_friction_slope, side, g, 0, out);
 }
 
 static void tangent_wristpin(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
@@ -181,7 +221,6 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     double g[N_SWITCHES + 1];
 
     /* coordinates, velocities, time */
-    const double time = t;
     const double cylinder_slide = q[0];
     const double cylinder_slide_rate = v[0];
     const double rod_theta = q[1];
@@ -191,105 +230,98 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double wristpin_Fy = aside->clearance[0].Fy;
     const double wristpin_moment_first = aside->clearance[0].moment_first;
 
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double rod_head_span_x = p->rod_head_span_x;
-    const double inertia_crank_rod = p->inertia_crank_rod;
-    const double mass_motor_motor = p->mass_motor_motor;
-
     /* directions, arms, drives */
-    const double motor_value = omega*time;
-    const double motor_rate = omega;
+    const double motor_value = p->omega*t;
+    const double motor_rate = p->omega;
     const double motor_acceleration = 0.0;
     const double cos_theta_crank = cos(motor_value);
     const double sin_theta_crank = sin(motor_value);
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
     const double slider_omega = 0.0;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
     const double crank_head_vx = -motor_rate*span_crank_head_y;
     const double crank_head_vy = motor_rate*span_crank_head_x;
-    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
-    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
-    const double rod_head_x_2 = span_crank_head_x + span_rod_head_x;
+    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
+    const double rod_head_x = span_crank_head_x + span_rod_head_x;
     const double rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
     const double rod_head_y = span_crank_head_y + span_rod_head_y;
     const double rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
     const double cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
     const double sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const double dot_crank_rod = cos_rod_less_crank*inertia_crank_rod;
-    const double cross_crank_rod = inertia_crank_rod*sin_rod_less_crank;
+    const double dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
+    const double cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
 
     /* clearance joint wristpin */
-    const double e_wristpin_x_2 = cylinder_slide - rod_head_x_2;
-    const double e_wristpin_y_2 = -rod_head_y;
-    const double edot_wristpin_x_2 = cylinder_slide_rate - rod_head_vx;
-    const double edot_wristpin_y_2 = -rod_head_vy;
+    const double e_wristpin_x = cylinder_slide - rod_head_x;
+    const double e_wristpin_y = -rod_head_y;
+    const double edot_wristpin_x = cylinder_slide_rate - rod_head_vx;
+    const double edot_wristpin_y = -rod_head_vy;
     double change_wristpin[4][6];
-    tangent_wristpin(e_wristpin_x_2, e_wristpin_y_2, edot_wristpin_x_2, edot_wristpin_y_2, rod_omega, slider_omega, &memory->latch[0], p, side, g, change_wristpin);
+    tangent_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega,
+        &memory->latch[0], p, side, g, change_wristpin);
     const double rod_head_x_2_by_time = -motor_rate*span_crank_head_y;
     const double rod_head_y_by_time = motor_rate*span_crank_head_x;
     const double rod_head_vx_by_rod_theta = -rod_omega*span_rod_head_x;
-    const double rod_head_vx_by_time = -motor_acceleration*span_crank_head_y - (motor_rate *
-        motor_rate)*span_crank_head_x;
+    const double rod_head_vx_by_time = -motor_acceleration*span_crank_head_y
+        - (motor_rate * motor_rate)*span_crank_head_x;
     const double rod_head_vy_by_rod_theta = -rod_omega*span_rod_head_y;
-    const double rod_head_vy_by_time = motor_acceleration*span_crank_head_x - (motor_rate *
-        motor_rate)*span_crank_head_y;
+    const double rod_head_vy_by_time = motor_acceleration*span_crank_head_x
+        - (motor_rate * motor_rate)*span_crank_head_y;
     const double wristpin_Fx_by_e_x = change_wristpin[0][0];
     const double wristpin_Fx_by_e_y = change_wristpin[0][1];
     const double wristpin_Fx_by_de_x = change_wristpin[0][2];
     const double wristpin_Fx_by_de_y = change_wristpin[0][3];
     const double wristpin_Fx_by_omega_i = change_wristpin[0][4];
-    const double wristpin_Fx_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fx_by_de_x -
-        rod_head_vy_by_rod_theta*wristpin_Fx_by_de_y - span_rod_head_x*wristpin_Fx_by_e_y +
-        span_rod_head_y*wristpin_Fx_by_e_x;
-    const double wristpin_Fx_by_time = -rod_head_vx_by_time*wristpin_Fx_by_de_x -
-        rod_head_vy_by_time*wristpin_Fx_by_de_y - rod_head_x_2_by_time*wristpin_Fx_by_e_x -
-        rod_head_y_by_time*wristpin_Fx_by_e_y;
-    const double wristpin_Fx_by_rod_omega = -span_rod_head_x*wristpin_Fx_by_de_y +
-        span_rod_head_y*wristpin_Fx_by_de_x + wristpin_Fx_by_omega_i;
+    const double wristpin_Fx_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fx_by_de_x
+        - rod_head_vy_by_rod_theta*wristpin_Fx_by_de_y - span_rod_head_x*wristpin_Fx_by_e_y
+        + span_rod_head_y*wristpin_Fx_by_e_x;
+    const double wristpin_Fx_by_time = -rod_head_vx_by_time*wristpin_Fx_by_de_x
+        - rod_head_vy_by_time*wristpin_Fx_by_de_y - rod_head_x_2_by_time*wristpin_Fx_by_e_x
+        - rod_head_y_by_time*wristpin_Fx_by_e_y;
+    const double wristpin_Fx_by_rod_omega = -span_rod_head_x*wristpin_Fx_by_de_y + span_rod_head_y*wristpin_Fx_by_de_x
+        + wristpin_Fx_by_omega_i;
     const double wristpin_Fy_by_e_x = change_wristpin[1][0];
     const double wristpin_Fy_by_e_y = change_wristpin[1][1];
     const double wristpin_Fy_by_de_x = change_wristpin[1][2];
     const double wristpin_Fy_by_de_y = change_wristpin[1][3];
     const double wristpin_Fy_by_omega_i = change_wristpin[1][4];
-    const double wristpin_Fy_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fy_by_de_x -
-        rod_head_vy_by_rod_theta*wristpin_Fy_by_de_y - span_rod_head_x*wristpin_Fy_by_e_y +
-        span_rod_head_y*wristpin_Fy_by_e_x;
-    const double wristpin_Fy_by_time = -rod_head_vx_by_time*wristpin_Fy_by_de_x -
-        rod_head_vy_by_time*wristpin_Fy_by_de_y - rod_head_x_2_by_time*wristpin_Fy_by_e_x -
-        rod_head_y_by_time*wristpin_Fy_by_e_y;
-    const double wristpin_Fy_by_rod_omega = -span_rod_head_x*wristpin_Fy_by_de_y +
-        span_rod_head_y*wristpin_Fy_by_de_x + wristpin_Fy_by_omega_i;
+    const double wristpin_Fy_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fy_by_de_x
+        - rod_head_vy_by_rod_theta*wristpin_Fy_by_de_y - span_rod_head_x*wristpin_Fy_by_e_y
+        + span_rod_head_y*wristpin_Fy_by_e_x;
+    const double wristpin_Fy_by_time = -rod_head_vx_by_time*wristpin_Fy_by_de_x
+        - rod_head_vy_by_time*wristpin_Fy_by_de_y - rod_head_x_2_by_time*wristpin_Fy_by_e_x
+        - rod_head_y_by_time*wristpin_Fy_by_e_y;
+    const double wristpin_Fy_by_rod_omega = -span_rod_head_x*wristpin_Fy_by_de_y + span_rod_head_y*wristpin_Fy_by_de_x
+        + wristpin_Fy_by_omega_i;
     const double wristpin_moment_first_by_e_x = change_wristpin[2][0];
     const double wristpin_moment_first_by_e_y = change_wristpin[2][1];
     const double wristpin_moment_first_by_de_x = change_wristpin[2][2];
     const double wristpin_moment_first_by_de_y = change_wristpin[2][3];
     const double wristpin_moment_first_by_omega_i = change_wristpin[2][4];
     const double wristpin_moment_first_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_moment_first_by_de_x
-        - rod_head_vy_by_rod_theta*wristpin_moment_first_by_de_y -
-        span_rod_head_x*wristpin_moment_first_by_e_y + span_rod_head_y*wristpin_moment_first_by_e_x;
-    const double wristpin_moment_first_by_time = -rod_head_vx_by_time*wristpin_moment_first_by_de_x -
-        rod_head_vy_by_time*wristpin_moment_first_by_de_y - rod_head_x_2_by_time*wristpin_moment_first_by_e_x
+        - rod_head_vy_by_rod_theta*wristpin_moment_first_by_de_y - span_rod_head_x*wristpin_moment_first_by_e_y
+        + span_rod_head_y*wristpin_moment_first_by_e_x;
+    const double wristpin_moment_first_by_time = -rod_head_vx_by_time*wristpin_moment_first_by_de_x
+        - rod_head_vy_by_time*wristpin_moment_first_by_de_y - rod_head_x_2_by_time*wristpin_moment_first_by_e_x
         - rod_head_y_by_time*wristpin_moment_first_by_e_y;
-    const double wristpin_moment_first_by_rod_omega = -span_rod_head_x*wristpin_moment_first_by_de_y +
-        span_rod_head_y*wristpin_moment_first_by_de_x + wristpin_moment_first_by_omega_i;
+    const double wristpin_moment_first_by_rod_omega = -span_rod_head_x*wristpin_moment_first_by_de_y
+        + span_rod_head_y*wristpin_moment_first_by_de_x + wristpin_moment_first_by_omega_i;
     const double wristpin_moment_second_by_e_x = change_wristpin[3][0];
     const double wristpin_moment_second_by_e_y = change_wristpin[3][1];
     const double wristpin_moment_second_by_de_x = change_wristpin[3][2];
     const double wristpin_moment_second_by_de_y = change_wristpin[3][3];
     const double wristpin_moment_second_by_omega_i = change_wristpin[3][4];
-    const double wristpin_moment_second_by_rod_theta =
-        -rod_head_vx_by_rod_theta*wristpin_moment_second_by_de_x -
-        rod_head_vy_by_rod_theta*wristpin_moment_second_by_de_y -
-        span_rod_head_x*wristpin_moment_second_by_e_y + span_rod_head_y*wristpin_moment_second_by_e_x;
-    const double wristpin_moment_second_by_time = -rod_head_vx_by_time*wristpin_moment_second_by_de_x -
-        rod_head_vy_by_time*wristpin_moment_second_by_de_y -
-        rod_head_x_2_by_time*wristpin_moment_second_by_e_x - rod_head_y_by_time*wristpin_moment_second_by_e_y;
-    const double wristpin_moment_second_by_rod_omega = -span_rod_head_x*wristpin_moment_second_by_de_y +
-        span_rod_head_y*wristpin_moment_second_by_de_x + wristpin_moment_second_by_omega_i;
+    const double wristpin_moment_second_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_moment_second_by_de_x
+        - rod_head_vy_by_rod_theta*wristpin_moment_second_by_de_y - span_rod_head_x*wristpin_moment_second_by_e_y
+        + span_rod_head_y*wristpin_moment_second_by_e_x;
+    const double wristpin_moment_second_by_time = -rod_head_vx_by_time*wristpin_moment_second_by_de_x
+        - rod_head_vy_by_time*wristpin_moment_second_by_de_y - rod_head_x_2_by_time*wristpin_moment_second_by_e_x
+        - rod_head_y_by_time*wristpin_moment_second_by_e_y;
+    const double wristpin_moment_second_by_rod_omega = -span_rod_head_x*wristpin_moment_second_by_de_y
+        + span_rod_head_y*wristpin_moment_second_by_de_x + wristpin_moment_second_by_omega_i;
 
     /* coordinates */
     const double cross_crank_rod_by_time = -dot_crank_rod*motor_rate;
@@ -302,55 +334,50 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     /* results */
     lin->value[0] = -wristpin_Fx_by_e_x;
     lin->value[1] = -wristpin_Fx_by_rod_theta;
-    lin->value[2] = -cross_crank_rod*motor_acceleration + dot_crank_rod*(motor_rate * motor_rate) -
-        span_rod_head_x*wristpin_Fx + span_rod_head_x*wristpin_Fy_by_rod_theta -
-        span_rod_head_y*wristpin_Fx_by_rod_theta - span_rod_head_y*wristpin_Fy -
-        wristpin_moment_first_by_rod_theta;
-    lin->value[3] = span_rod_head_x*wristpin_Fy_by_e_x - span_rod_head_y*wristpin_Fx_by_e_x -
-        wristpin_moment_first_by_e_x;
+    lin->value[2] = -cross_crank_rod*motor_acceleration + dot_crank_rod*(motor_rate * motor_rate)
+        - span_rod_head_x*wristpin_Fx + span_rod_head_x*wristpin_Fy_by_rod_theta
+        - span_rod_head_y*wristpin_Fx_by_rod_theta - span_rod_head_y*wristpin_Fy - wristpin_moment_first_by_rod_theta;
+    lin->value[3] = span_rod_head_x*wristpin_Fy_by_e_x - span_rod_head_y*wristpin_Fx_by_e_x
+        - wristpin_moment_first_by_e_x;
     lin->value[4] = -wristpin_Fx_by_de_x;
     lin->value[5] = -wristpin_Fx_by_rod_omega;
-    lin->value[6] = span_rod_head_x*wristpin_Fy_by_de_x - span_rod_head_y*wristpin_Fx_by_de_x -
-        wristpin_moment_first_by_de_x;
-    lin->value[7] = span_rod_head_x*wristpin_Fy_by_rod_omega - span_rod_head_y*wristpin_Fx_by_rod_omega -
-        wristpin_moment_first_by_rod_omega;
+    lin->value[6] = span_rod_head_x*wristpin_Fy_by_de_x - span_rod_head_y*wristpin_Fx_by_de_x
+        - wristpin_moment_first_by_de_x;
+    lin->value[7] = span_rod_head_x*wristpin_Fy_by_rod_omega - span_rod_head_y*wristpin_Fx_by_rod_omega
+        - wristpin_moment_first_by_rod_omega;
     lin->value[8] = -wristpin_Fx_by_time;
-    lin->value[9] = 2.0*cross_crank_rod*motor_acceleration*motor_rate + cross_crank_rod_by_time*(motor_rate *
-        motor_rate) + dot_crank_rod_by_time*motor_acceleration + span_rod_head_x*wristpin_Fy_by_time -
-        span_rod_head_y*wristpin_Fx_by_time - wristpin_moment_first_by_time;
-    lin->value[10] = -a_rod_theta*cross_crank_rod*motor_rate - dot_crank_rod*motor_rate*(rod_omega *
-        rod_omega) + motor_rate*span_crank_head_x*wristpin_Fy_by_rod_theta -
-        motor_rate*span_crank_head_y*wristpin_Fx_by_rod_theta;
-    lin->value[11] = motor_rate*span_crank_head_x*wristpin_Fy_by_e_x -
-        motor_rate*span_crank_head_y*wristpin_Fx_by_e_x;
-    lin->value[12] = -rod_head_vx_by_rod_theta*wristpin_Fx - rod_head_vy*wristpin_Fy_by_rod_theta -
-        rod_head_vy_by_rod_theta*wristpin_Fy + rod_omega*wristpin_moment_first_by_rod_theta +
-        slider_omega*wristpin_moment_second_by_rod_theta + wristpin_Fx_by_rod_theta*(cylinder_slide_rate -
-        rod_head_vx);
-    lin->value[13] = -rod_head_vy*wristpin_Fy_by_e_x + rod_omega*wristpin_moment_first_by_e_x +
-        slider_omega*wristpin_moment_second_by_e_x + wristpin_Fx_by_e_x*(cylinder_slide_rate - rod_head_vx);
-    lin->value[14] = -2.0*cross_crank_rod*motor_rate*rod_omega +
-        motor_rate*span_crank_head_x*wristpin_Fy_by_rod_omega -
-        motor_rate*span_crank_head_y*wristpin_Fx_by_rod_omega;
-    lin->value[15] = motor_rate*span_crank_head_x*wristpin_Fy_by_de_x -
-        motor_rate*span_crank_head_y*wristpin_Fx_by_de_x;
-    lin->value[16] = -rod_head_vy*wristpin_Fy_by_de_x + rod_omega*wristpin_moment_first_by_de_x +
-        slider_omega*wristpin_moment_second_by_de_x + wristpin_Fx + wristpin_Fx_by_de_x*(cylinder_slide_rate -
-        rod_head_vx);
-    lin->value[17] = -rod_head_vy*wristpin_Fy_by_rod_omega + rod_omega*wristpin_moment_first_by_rod_omega +
-        slider_omega*wristpin_moment_second_by_rod_omega - span_rod_head_x*wristpin_Fy +
-        span_rod_head_y*wristpin_Fx + wristpin_Fx_by_rod_omega*(cylinder_slide_rate - rod_head_vx) +
-        wristpin_moment_first;
+    lin->value[9] = 2.0*cross_crank_rod*motor_acceleration*motor_rate
+        + cross_crank_rod_by_time*(motor_rate * motor_rate) + dot_crank_rod_by_time*motor_acceleration
+        + span_rod_head_x*wristpin_Fy_by_time - span_rod_head_y*wristpin_Fx_by_time - wristpin_moment_first_by_time;
+    lin->value[10] = -a_rod_theta*cross_crank_rod*motor_rate - dot_crank_rod*motor_rate*(rod_omega * rod_omega)
+        + motor_rate*span_crank_head_x*wristpin_Fy_by_rod_theta - motor_rate*span_crank_head_y*wristpin_Fx_by_rod_theta;
+    lin->value[11] = motor_rate*span_crank_head_x*wristpin_Fy_by_e_x - motor_rate*span_crank_head_y*wristpin_Fx_by_e_x;
+    lin->value[12] = -rod_head_vx_by_rod_theta*wristpin_Fx - rod_head_vy*wristpin_Fy_by_rod_theta
+        - rod_head_vy_by_rod_theta*wristpin_Fy + rod_omega*wristpin_moment_first_by_rod_theta
+        + slider_omega*wristpin_moment_second_by_rod_theta + wristpin_Fx_by_rod_theta*(cylinder_slide_rate
+        - rod_head_vx);
+    lin->value[13] = -rod_head_vy*wristpin_Fy_by_e_x + rod_omega*wristpin_moment_first_by_e_x
+        + slider_omega*wristpin_moment_second_by_e_x + wristpin_Fx_by_e_x*(cylinder_slide_rate - rod_head_vx);
+    lin->value[14] = -2.0*cross_crank_rod*motor_rate*rod_omega + motor_rate*span_crank_head_x*wristpin_Fy_by_rod_omega
+        - motor_rate*span_crank_head_y*wristpin_Fx_by_rod_omega;
+    lin->value[15] = motor_rate*span_crank_head_x*wristpin_Fy_by_de_x
+        - motor_rate*span_crank_head_y*wristpin_Fx_by_de_x;
+    lin->value[16] = -rod_head_vy*wristpin_Fy_by_de_x + rod_omega*wristpin_moment_first_by_de_x
+        + slider_omega*wristpin_moment_second_by_de_x + wristpin_Fx
+        + wristpin_Fx_by_de_x*(cylinder_slide_rate - rod_head_vx);
+    lin->value[17] = -rod_head_vy*wristpin_Fy_by_rod_omega + rod_omega*wristpin_moment_first_by_rod_omega
+        + slider_omega*wristpin_moment_second_by_rod_omega - span_rod_head_x*wristpin_Fy + span_rod_head_y*wristpin_Fx
+        + wristpin_Fx_by_rod_omega*(cylinder_slide_rate - rod_head_vx) + wristpin_moment_first;
     lin->value[18] = dot_crank_rod*motor_rate;
-    lin->value[19] = a_rod_theta*dot_crank_rod_by_time*motor_rate -
-        cross_crank_rod_by_time*motor_rate*(rod_omega * rod_omega) +
-        motor_acceleration*(a_rod_theta*dot_crank_rod - cross_crank_rod*(rod_omega * rod_omega) +
-        mass_motor_motor*motor_acceleration + span_crank_head_x*wristpin_Fy - span_crank_head_y*wristpin_Fx) +
-        motor_rate*span_crank_head_x*wristpin_Fy_by_time + motor_rate*span_crank_head_x_by_time*wristpin_Fy -
-        motor_rate*span_crank_head_y*wristpin_Fx_by_time - motor_rate*span_crank_head_y_by_time*wristpin_Fx;
-    lin->value[20] = -rod_head_vx_by_time*wristpin_Fx - rod_head_vy*wristpin_Fy_by_time -
-        rod_head_vy_by_time*wristpin_Fy + rod_omega*wristpin_moment_first_by_time +
-        slider_omega*wristpin_moment_second_by_time + wristpin_Fx_by_time*(cylinder_slide_rate - rod_head_vx);
+    lin->value[19] = a_rod_theta*dot_crank_rod_by_time*motor_rate
+        - cross_crank_rod_by_time*motor_rate*(rod_omega * rod_omega)
+        + motor_acceleration*(a_rod_theta*dot_crank_rod - cross_crank_rod*(rod_omega * rod_omega)
+        + p->mass_motor_motor*motor_acceleration + span_crank_head_x*wristpin_Fy - span_crank_head_y*wristpin_Fx)
+        + motor_rate*span_crank_head_x*wristpin_Fy_by_time + motor_rate*span_crank_head_x_by_time*wristpin_Fy
+        - motor_rate*span_crank_head_y*wristpin_Fx_by_time - motor_rate*span_crank_head_y_by_time*wristpin_Fx;
+    lin->value[20] = -rod_head_vx_by_time*wristpin_Fx - rod_head_vy*wristpin_Fy_by_time
+        - rod_head_vy_by_time*wristpin_Fy + rod_omega*wristpin_moment_first_by_time
+        + slider_omega*wristpin_moment_second_by_time + wristpin_Fx_by_time*(cylinder_slide_rate - rod_head_vx);
     lin->p = p;
 }
 
@@ -373,31 +400,26 @@ int newton_factor(double eta, Linear *lin)
     const double by_v_rod_theta_cylinder_slide = lin->value[6];
     const double by_v_rod_theta_rod_theta = lin->value[7];
 
-    /* parameters */
-    const double slider_mass = p->slider_mass;
-    const double mass_rod_rod = p->mass_rod_rod;
-
     /* matrix */
-    const double n_cylinder_slide__cylinder_slide = eta*(by_q_cylinder_slide_cylinder_slide*eta +
-        by_v_cylinder_slide_cylinder_slide) + slider_mass;
-    const double n_cylinder_slide__rod_theta = eta*(by_q_cylinder_slide_rod_theta*eta +
-        by_v_cylinder_slide_rod_theta);
-    const double n_rod_theta__cylinder_slide = eta*(by_q_rod_theta_cylinder_slide*eta +
-        by_v_rod_theta_cylinder_slide);
-    const double n_rod_theta__rod_theta = eta*(by_q_rod_theta_rod_theta*eta + by_v_rod_theta_rod_theta) +
-        mass_rod_rod;
+    const double n_cylinder_slide__cylinder_slide = eta*(by_q_cylinder_slide_cylinder_slide*eta
+        + by_v_cylinder_slide_cylinder_slide) + p->slider_mass;
+    const double n_cylinder_slide__rod_theta = eta*(by_q_cylinder_slide_rod_theta*eta + by_v_cylinder_slide_rod_theta);
+    const double n_rod_theta__cylinder_slide = eta*(by_q_rod_theta_cylinder_slide*eta + by_v_rod_theta_cylinder_slide);
+    const double n_rod_theta__rod_theta = eta*(by_q_rod_theta_rod_theta*eta + by_v_rod_theta_rod_theta)
+        + p->mass_rod_rod;
 
     /* L U */
     const double scale_cylinder_slide = n_cylinder_slide__cylinder_slide;
-    if (!(fabs(scale_cylinder_slide) > 1e-13 * fabs(n_cylinder_slide__cylinder_slide))) return 1;
+    if (!(fabs(scale_cylinder_slide) > 1e-13 * fabs(n_cylinder_slide__cylinder_slide)))
+        return 1;
     const double inverse_pivot_cylinder_slide = 1.0/scale_cylinder_slide;
     lin->lu[0] = inverse_pivot_cylinder_slide;
     const double l_rod_theta__cylinder_slide = inverse_pivot_cylinder_slide*n_rod_theta__cylinder_slide;
     lin->lu[1] = l_rod_theta__cylinder_slide;
     lin->lu[2] = n_cylinder_slide__rod_theta;
-    const double scale_rod_theta = -l_rod_theta__cylinder_slide*n_cylinder_slide__rod_theta +
-        n_rod_theta__rod_theta;
-    if (!(fabs(scale_rod_theta) > 1e-13 * fabs(n_rod_theta__rod_theta))) return 2;
+    const double scale_rod_theta = -l_rod_theta__cylinder_slide*n_cylinder_slide__rod_theta + n_rod_theta__rod_theta;
+    if (!(fabs(scale_rod_theta) > 1e-13 * fabs(n_rod_theta__rod_theta)))
+        return 2;
     const double inverse_pivot_rod_theta = 1.0/scale_rod_theta;
     lin->lu[3] = inverse_pivot_rod_theta;
     return 0;
@@ -421,8 +443,8 @@ void newton_substitute(const Linear *lin, double *x)
     /* backward */
     const double x_rod_theta = b_rod_theta*inverse_pivot_rod_theta;
     x[1] = x_rod_theta;
-    const double x_cylinder_slide = inverse_pivot_cylinder_slide*(b_cylinder_slide -
-        n_cylinder_slide__rod_theta*x_rod_theta);
+    const double x_cylinder_slide = inverse_pivot_cylinder_slide*(b_cylinder_slide
+        - n_cylinder_slide__rod_theta*x_rod_theta);
     x[0] = x_cylinder_slide;
 }
 
@@ -453,16 +475,12 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     const double power_t_0 = lin->value[19];
     const double power_t_2 = lin->value[20];
 
-    /* parameters */
-    const double slider_mass = p->slider_mass;
-    const double mass_rod_rod = p->mass_rod_rod;
-
     /* right-hand side */
     double x[2];
-    x[0] = eta*(-by_q_cylinder_slide_cylinder_slide*eta*r[0] - by_q_cylinder_slide_rod_theta*eta*r[1] -
-        by_t_cylinder_slide*s + r[2]*slider_mass);
+    x[0] = eta*(-by_q_cylinder_slide_cylinder_slide*eta*r[0] - by_q_cylinder_slide_rod_theta*eta*r[1]
+        - by_t_cylinder_slide*s + r[2]*p->slider_mass);
     x[1] = eta*(-by_q_rod_theta_cylinder_slide*eta*r[0] - by_q_rod_theta_rod_theta*eta*r[1] - by_t_rod_theta*s
-        + mass_rod_rod*r[3]);
+        + p->mass_rod_rod*r[3]);
     newton_substitute(lin, x);
 
     /* solution */
@@ -470,12 +488,11 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[2] = x[0];
     u[1] = eta*(r[1] + x[1]);
     u[3] = x[1];
-    u[4] = eta*(power_q_0_cylinder_slide*u[0] + power_q_0_rod_theta*u[1] + power_t_0*s +
-        power_v_0_cylinder_slide*u[2] + power_v_0_rod_theta*u[3] + r[4]) + power_0_rod_theta*(-eta*r[3] +
-        x[1]);
+    u[4] = eta*(power_q_0_cylinder_slide*u[0] + power_q_0_rod_theta*u[1] + power_t_0*s + power_v_0_cylinder_slide*u[2]
+        + power_v_0_rod_theta*u[3] + r[4]) + power_0_rod_theta*(-eta*r[3] + x[1]);
     u[5] = eta*r[5];
-    u[6] = eta*(power_q_2_cylinder_slide*u[0] + power_q_2_rod_theta*u[1] + power_t_2*s +
-        power_v_2_cylinder_slide*u[2] + power_v_2_rod_theta*u[3] + r[6]);
+    u[6] = eta*(power_q_2_cylinder_slide*u[0] + power_q_2_rod_theta*u[1] + power_t_2*s + power_v_2_cylinder_slide*u[2]
+        + power_v_2_rod_theta*u[3] + r[6]);
 }
 
 /* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {

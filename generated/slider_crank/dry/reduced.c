@@ -1,24 +1,16 @@
 /*
  * Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.
  */
-void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q,
-    double *all_v)
+void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double cylinder_slide = q[0];
     const double cylinder_slide_rate = v[0];
     const double rod_theta = q[1];
     const double rod_omega = v[1];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_x = p->crank_head_x;
-    const double rod_head_x = p->rod_head_x;
-    const double crank_head_span_x = p->crank_head_span_x;
-
     /* directions, arms, drives */
-    const double motor_value = omega*time;
+    const double motor_value = p->omega*t;
     const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -26,21 +18,21 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double sin_theta_crank = sines_0[0];
     const double cos_theta_rod = cosines_0[1];
     const double sin_theta_rod = sines_0[1];
-    const double motor_rate = omega;
-    const double span_crank_com_x = cos_theta_crank*crank_head_x;
-    const double span_crank_com_y = crank_head_x*sin_theta_crank;
+    const double motor_rate = p->omega;
+    const double span_crank_com_x = cos_theta_crank*p->crank_head_s_x;
+    const double span_crank_com_y = p->crank_head_s_x*sin_theta_crank;
     const double crank_vx = -motor_rate*span_crank_com_y;
     const double crank_vy = motor_rate*span_crank_com_x;
     const double slider_y = 0.0;
     const double slider_vy = 0.0;
     const double slider_theta = 0.0;
     const double slider_omega = 0.0;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
     const double crank_head_vx = -motor_rate*span_crank_head_y;
     const double crank_head_vy = motor_rate*span_crank_head_x;
-    const double span_rod_com_x = cos_theta_rod*rod_head_x;
-    const double span_rod_com_y = rod_head_x*sin_theta_rod;
+    const double span_rod_com_x = cos_theta_rod*p->rod_head_s_x;
+    const double span_rod_com_y = p->rod_head_s_x*sin_theta_rod;
     const double rod_x = span_crank_head_x + span_rod_com_x;
     const double rod_vx = crank_head_vx - rod_omega*span_rod_com_y;
     const double rod_y = span_crank_head_y + span_rod_com_y;
@@ -70,8 +62,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 /*
  * Tree coordinates s and their rates of an absolute state; what the tree does not have is not looked at.
  */
-void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s,
-    double *s_rate)
+void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
     (void)t;
     (void)p;
@@ -118,31 +109,21 @@ void closure_rates(const double t, const double *q, const double *v, const Param
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const
-    Parameters *p, double *a, Aside *aside)
+int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
+    double *a, Aside *aside)
 {
     /* corners: the sides that are held, if any */
     const double *const side = memory->held ? memory->side : NULL;
     double *const g = aside->g;
 
     /* coordinates, velocities, time */
-    const double time = t;
     const double cylinder_slide = q[0];
     const double cylinder_slide_rate = v[0];
     const double rod_theta = q[1];
     const double rod_omega = v[1];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double inverse_slider_mass = p->inverse_slider_mass;
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double rod_head_span_x = p->rod_head_span_x;
-    const double inertia_crank_rod = p->inertia_crank_rod;
-    const double mass_motor_motor = p->mass_motor_motor;
-    const double inverse_mass_rod_rod = p->inverse_mass_rod_rod;
-
     /* directions, arms, drives */
-    const double motor_value = omega*time;
+    const double motor_value = p->omega*t;
     const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -150,50 +131,51 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double sin_theta_crank = sines_0[0];
     const double cos_theta_rod = cosines_0[1];
     const double sin_theta_rod = sines_0[1];
-    const double motor_rate = omega;
+    const double motor_rate = p->omega;
     const double motor_acceleration = 0.0;
     const double slider_omega = 0.0;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
     const double crank_head_vx = -motor_rate*span_crank_head_y;
     const double crank_head_vy = motor_rate*span_crank_head_x;
-    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
-    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
-    const double rod_head_x_2 = span_crank_head_x + span_rod_head_x;
+    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
+    const double rod_head_x = span_crank_head_x + span_rod_head_x;
     const double rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
     const double rod_head_y = span_crank_head_y + span_rod_head_y;
     const double rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
     const double cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
     const double sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const double dot_crank_rod = cos_rod_less_crank*inertia_crank_rod;
-    const double cross_crank_rod = inertia_crank_rod*sin_rod_less_crank;
+    const double dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
+    const double cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
 
     /* clearance joint wristpin */
-    const double e_wristpin_x = cylinder_slide - rod_head_x_2;
+    const double e_wristpin_x = cylinder_slide - rod_head_x;
     const double e_wristpin_y = -rod_head_y;
     const double edot_wristpin_x = cylinder_slide_rate - rod_head_vx;
     const double edot_wristpin_y = -rod_head_vy;
-    clearance_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega, &memory->latch[0], p, side, g, &aside->clearance[0]);
+    clearance_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega,
+        &memory->latch[0], p, side, g, &aside->clearance[0]);
     const double F_wristpin_x = aside->clearance[0].Fx;
     const double F_wristpin_y = aside->clearance[0].Fy;
     const double M_wristpin_first = aside->clearance[0].moment_first;
     const double M_wristpin_second = aside->clearance[0].moment_second;
-    aside->clearance[0].power = F_wristpin_x*edot_wristpin_x + F_wristpin_y*edot_wristpin_y +
-        M_wristpin_first*rod_omega + M_wristpin_second*slider_omega;
+    aside->clearance[0].power = F_wristpin_x*edot_wristpin_x + F_wristpin_y*edot_wristpin_y
+        + M_wristpin_first*rod_omega + M_wristpin_second*slider_omega;
 
     /* forward substitution */
     const double z_rod_theta = F_wristpin_x*span_rod_head_y - F_wristpin_y*span_rod_head_x + M_wristpin_first
         - cross_crank_rod*(motor_rate * motor_rate) - dot_crank_rod*motor_acceleration;
 
     /* backward substitution */
-    const double acceleration_rod_theta = inverse_mass_rod_rod*z_rod_theta;
-    const double acceleration_cylinder_slide = F_wristpin_x*inverse_slider_mass;
+    const double acceleration_rod_theta = p->inverse_mass_rod_rod*z_rod_theta;
+    const double acceleration_cylinder_slide = F_wristpin_x*p->inverse_slider_mass;
 
     /* results */
     a[0] = acceleration_cylinder_slide;
     a[1] = acceleration_rod_theta;
-    aside->power[0] = motor_rate*(-F_wristpin_x*span_crank_head_y + F_wristpin_y*span_crank_head_x +
-        a[1]*dot_crank_rod - cross_crank_rod*(rod_omega * rod_omega) + mass_motor_motor*motor_acceleration);
+    aside->power[0] = motor_rate*(-F_wristpin_x*span_crank_head_y + F_wristpin_y*span_crank_head_x + a[1]*dot_crank_rod
+        - cross_crank_rod*(rod_omega * rod_omega) + p->mass_motor_motor*motor_acceleration);
     aside->power[1] = 0.0;
     aside->power[2] = aside->clearance[0].power;
     return 0;

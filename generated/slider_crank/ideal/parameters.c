@@ -4,73 +4,45 @@
 void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
-    const double omega = is_given[0] ? given[0] : 62.83185307179586;  /* parameters.omega */
-    p->omega = omega;
-    const double c = is_given[1] ? given[1] : 0.0002;  /* parameters.c */
-    p->c = c;
-    const double crank_mass = is_given[2] ? given[2] : 0.3;  /* bodies.crank.mass */
-    p->crank_mass = crank_mass;
-    const double crank_inertia = is_given[3] ? given[3] : 0.0001;  /* bodies.crank.inertia */
-    p->crank_inertia = crank_inertia;
-    const double rod_mass = is_given[4] ? given[4] : 0.21;  /* bodies.rod.mass */
-    p->rod_mass = rod_mass;
-    const double rod_inertia = is_given[5] ? given[5] : 0.00025;  /* bodies.rod.inertia */
-    p->rod_inertia = rod_inertia;
-    const double slider_mass = is_given[6] ? given[6] : 0.14;  /* bodies.slider.mass */
-    p->slider_mass = slider_mass;
-    const double slider_inertia = is_given[7] ? given[7] : 0.0001;  /* bodies.slider.inertia */
-    p->slider_inertia = slider_inertia;
-    const double crank_length = is_given[8] ? given[8] : 0.05;  /* bodies.crank.length */
-    p->crank_length = crank_length;
-    const double rod_length = is_given[9] ? given[9] : 0.12;  /* bodies.rod.length */
-    p->rod_length = rod_length;
-    const double alpha = is_given[10] ? given[10] : 50.0;  /* baumgarte.alpha */
-    p->alpha = alpha;
-    const double beta = is_given[11] ? given[11] : 50.0;  /* baumgarte.beta */
-    p->beta = beta;
-    const double cylinder_axis_x = is_given[12] ? given[12] : 1.0;  /* joints.cylinder.axis.x */
-    p->cylinder_axis_x = cylinder_axis_x;
-    const double guess_slider_x = is_given[13] ? given[13] : 0.17;  /* start.guess.slider.x */
-    p->guess_slider_x = guess_slider_x;
+    p->omega = is_given[0] ? given[0] : 62.83185307179586;  /* parameters.omega */
+    p->c = is_given[1] ? given[1] : 0.0002;  /* parameters.c */
+    p->crank_mass = is_given[2] ? given[2] : 0.3;  /* bodies.crank.mass */
+    p->crank_inertia = is_given[3] ? given[3] : 0.0001;  /* bodies.crank.inertia */
+    p->rod_mass = is_given[4] ? given[4] : 0.21;  /* bodies.rod.mass */
+    p->rod_inertia = is_given[5] ? given[5] : 0.00025;  /* bodies.rod.inertia */
+    p->slider_mass = is_given[6] ? given[6] : 0.14;  /* bodies.slider.mass */
+    p->slider_inertia = is_given[7] ? given[7] : 0.0001;  /* bodies.slider.inertia */
+    p->crank_length = is_given[8] ? given[8] : 0.05;  /* bodies.crank.length */
+    p->rod_length = is_given[9] ? given[9] : 0.12;  /* bodies.rod.length */
+    p->alpha = is_given[10] ? given[10] : 50.0;  /* baumgarte.alpha */
+    p->beta = is_given[11] ? given[11] : 50.0;  /* baumgarte.beta */
+    p->cylinder_axis_x = is_given[12] ? given[12] : 1.0;  /* joints.cylinder.axis.x */
+    p->guess_slider_x = is_given[13] ? given[13] : 0.17;  /* start.guess.slider.x */
 
     /* derived */
-    const double crank_head_x = (0.5)*crank_length;  /* point from the centre of mass */
-    p->crank_head_x = crank_head_x;
-    const double rod_head_x = (0.5)*rod_length;  /* point from the centre of mass */
-    p->rod_head_x = rod_head_x;
-    const double two_alpha = 2.0*alpha;  /* 2 alpha */
-    p->two_alpha = two_alpha;
-    const double beta_squared = (beta * beta);  /* beta^2 */
-    p->beta_squared = beta_squared;
-    const double inverse_slider_mass = 1.0/slider_mass;  /* 1/M */
-    p->inverse_slider_mass = inverse_slider_mass;
-    const double inverse_slider_inertia = 1.0/slider_inertia;  /* 1/M */
-    p->inverse_slider_inertia = inverse_slider_inertia;
-    const double inverse_crank_mass = 1.0/crank_mass;  /* 1/M */
-    p->inverse_crank_mass = inverse_crank_mass;
-    const double inverse_rod_mass = 1.0/rod_mass;  /* 1/M */
-    p->inverse_rod_mass = inverse_rod_mass;
-    const double inverse_rod_inertia = 1.0/rod_inertia;  /* 1/M */
-    p->inverse_rod_inertia = inverse_rod_inertia;
-    const double inverse_crank_inertia = 1.0/crank_inertia;  /* 1/M */
-    p->inverse_crank_inertia = inverse_crank_inertia;
-    const double crank_head_span_x = 2.0*crank_head_x;  /* vector in its frame */
-    p->crank_head_span_x = crank_head_span_x;
-    const double rod_head_span_x = 2.0*rod_head_x;  /* vector in its frame */
-    p->rod_head_span_x = rod_head_span_x;
-    const double inertia_crank_crank = (crank_head_span_x * crank_head_span_x)*rod_mass + (crank_head_span_x *
-        crank_head_span_x)*slider_mass + (crank_head_x * crank_head_x)*crank_mass;  /* sum of m w.w */
-    p->inertia_crank_crank = inertia_crank_crank;
-    const double inertia_crank_rod = crank_head_span_x*rod_head_span_x*slider_mass +
-        crank_head_span_x*rod_head_x*rod_mass;  /* sum of m w.w */
-    p->inertia_crank_rod = inertia_crank_rod;
-    const double inertia_rod_rod = (rod_head_span_x * rod_head_span_x)*slider_mass + (rod_head_x *
-        rod_head_x)*rod_mass;  /* sum of m w.w */
-    p->inertia_rod_rod = inertia_rod_rod;
-    const double mass_motor_motor = crank_inertia + inertia_crank_crank;  /* constant of M */
-    p->mass_motor_motor = mass_motor_motor;
-    const double mass_rod_rod = inertia_rod_rod + rod_inertia;  /* constant of M */
-    p->mass_rod_rod = mass_rod_rod;
-    const double inverse_mass_rod_rod = 1.0/mass_rod_rod;  /* 1/M */
-    p->inverse_mass_rod_rod = inverse_mass_rod_rod;
+    p->crank_head_s_x = 0.5*p->crank_length;  /* point from the centre of mass */
+    p->rod_head_s_x = 0.5*p->rod_length;  /* point from the centre of mass */
+    p->two_alpha = 2.0*p->alpha;  /* 2 alpha */
+    p->beta_squared = (p->beta * p->beta);  /* beta^2 */
+    p->inverse_slider_mass = 1.0/p->slider_mass;  /* 1/M */
+    p->inverse_slider_inertia = 1.0/p->slider_inertia;  /* 1/M */
+    p->inverse_crank_mass = 1.0/p->crank_mass;  /* 1/M */
+    p->inverse_rod_mass = 1.0/p->rod_mass;  /* 1/M */
+    p->inverse_rod_inertia = 1.0/p->rod_inertia;  /* 1/M */
+    p->inverse_crank_inertia = 1.0/p->crank_inertia;  /* 1/M */
+    p->crank_head_span_x = 2.0*p->crank_head_s_x;  /* vector in its frame */
+    p->rod_head_span_x = 2.0*p->rod_head_s_x;  /* vector in its frame */
+    /* sum of m w.w */
+    p->inertia_crank_crank = (p->crank_head_span_x * p->crank_head_span_x)*p->rod_mass
+        + (p->crank_head_span_x * p->crank_head_span_x)*p->slider_mass
+        + (p->crank_head_s_x * p->crank_head_s_x)*p->crank_mass;
+    /* sum of m w.w */
+    p->inertia_crank_rod = p->crank_head_span_x*p->rod_head_span_x*p->slider_mass
+        + p->crank_head_span_x*p->rod_head_s_x*p->rod_mass;
+    /* sum of m w.w */
+    p->inertia_rod_rod = (p->rod_head_span_x * p->rod_head_span_x)*p->slider_mass
+        + (p->rod_head_s_x * p->rod_head_s_x)*p->rod_mass;
+    p->mass_motor_motor = p->crank_inertia + p->inertia_crank_crank;  /* constant of M */
+    p->mass_rod_rod = p->inertia_rod_rod + p->rod_inertia;  /* constant of M */
+    p->inverse_mass_rod_rod = 1.0/p->mass_rod_rod;  /* 1/M */
 }

@@ -2,20 +2,13 @@
  * Newton's step and the rates of the tree's coordinates q: Phi_q step = Phi, Phi_q rates = nu.
  * `worst`: the largest |Phi|. Returns 0, or the number of a row that depends on others here.
  */
-int close_step(const double t, const double *q, const Parameters *p, double *step, double *rates,
-    double *worst)
+int close_step(const double t, const double *q, const Parameters *p, double *step, double *rates, double *worst)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double rod_theta = q[0];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double rod_head_span_x = p->rod_head_span_x;
-
     /* directions, arms, drives */
-    const double motor_value = omega*time;
+    const double motor_value = p->omega*t;
     const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -23,11 +16,11 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     const double sin_theta_crank = sines_0[0];
     const double cos_theta_rod = cosines_0[1];
     const double sin_theta_rod = sines_0[1];
-    const double motor_rate = omega;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
-    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
-    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
+    const double motor_rate = p->omega;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
+    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
 
     /* closures */
     const double phi_cylinder_offset = span_crank_head_y + span_rod_head_y;
@@ -35,7 +28,8 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     /* groups of rows that are solved one after the other */
     const double pivot_cylinder_offset = span_rod_head_x;
     const double size_cylinder_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_cylinder_offset) > 3.162277660168379e-07 * size_cylinder_offset__rod_theta)) return 1;
+    if (!(fabs(pivot_cylinder_offset) > 3.162277660168379e-07 * size_cylinder_offset__rod_theta))
+        return 1;
     const double inverse_cylinder_offset = 1.0/pivot_cylinder_offset;
 
     /* Newton's step */
@@ -61,19 +55,11 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     double *all_v, double *all_a, double *worst)
 {
     /* coordinates, velocities, time */
-    const double time = t;
     const double rod_theta = q[0];
     const double rod_omega = v[0];
 
-    /* parameters */
-    const double omega = p->omega;
-    const double crank_head_x = p->crank_head_x;
-    const double rod_head_x = p->rod_head_x;
-    const double crank_head_span_x = p->crank_head_span_x;
-    const double rod_head_span_x = p->rod_head_span_x;
-
     /* directions, arms, drives */
-    const double motor_value = omega*time;
+    const double motor_value = p->omega*t;
     const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -81,25 +67,25 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     const double sin_theta_crank = sines_0[0];
     const double cos_theta_rod = cosines_0[1];
     const double sin_theta_rod = sines_0[1];
-    const double motor_rate = omega;
+    const double motor_rate = p->omega;
     const double motor_acceleration = 0.0;
-    const double span_crank_com_x = cos_theta_crank*crank_head_x;
-    const double span_crank_com_y = crank_head_x*sin_theta_crank;
+    const double span_crank_com_x = cos_theta_crank*p->crank_head_s_x;
+    const double span_crank_com_y = p->crank_head_s_x*sin_theta_crank;
     const double crank_vx = -motor_rate*span_crank_com_y;
     const double crank_vy = motor_rate*span_crank_com_x;
-    const double span_crank_head_x = cos_theta_crank*crank_head_span_x;
-    const double span_crank_head_y = crank_head_span_x*sin_theta_crank;
+    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
     const double crank_head_vx = -motor_rate*span_crank_head_y;
     const double crank_head_vy = motor_rate*span_crank_head_x;
-    const double span_rod_com_x = cos_theta_rod*rod_head_x;
-    const double span_rod_com_y = rod_head_x*sin_theta_rod;
+    const double span_rod_com_x = cos_theta_rod*p->rod_head_s_x;
+    const double span_rod_com_y = p->rod_head_s_x*sin_theta_rod;
     const double rod_x = span_crank_head_x + span_rod_com_x;
     const double rod_vx = crank_head_vx - rod_omega*span_rod_com_y;
     const double rod_y = span_crank_head_y + span_rod_com_y;
     const double rod_vy = crank_head_vy + rod_omega*span_rod_com_x;
-    const double span_rod_head_x = cos_theta_rod*rod_head_span_x;
-    const double span_rod_head_y = rod_head_span_x*sin_theta_rod;
-    const double rod_head_x_2 = span_crank_head_x + span_rod_head_x;
+    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
+    const double rod_head_x = span_crank_head_x + span_rod_head_x;
     const double rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
     const double rod_head_y = span_crank_head_y + span_rod_head_y;
     const double rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
@@ -119,7 +105,7 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     all_v[4] = rod_vy;
     all_q[5] = rod_theta;
     all_v[5] = rod_omega;
-    all_q[6] = rod_head_x_2;
+    all_q[6] = rod_head_x;
     all_v[6] = rod_head_vx;
     all_q[7] = rod_head_y;
     all_v[7] = rod_head_vy;
@@ -132,27 +118,28 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     *worst = max_of(*worst, fabs(phi_dot_cylinder_offset));
 
     /* groups of rows that are solved one after the other */
-    const double pivot_cylinder_offset_2 = span_rod_head_x;
-    const double size_cylinder_offset__rod_theta_2 = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_cylinder_offset_2) > 3.162277660168379e-07 * size_cylinder_offset__rod_theta_2)) return 1;
-    const double inverse_cylinder_offset_2 = 1.0/pivot_cylinder_offset_2;
+    const double pivot_cylinder_offset = span_rod_head_x;
+    const double size_cylinder_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
+    if (!(fabs(pivot_cylinder_offset) > 3.162277660168379e-07 * size_cylinder_offset__rod_theta))
+        return 1;
+    const double inverse_cylinder_offset = 1.0/pivot_cylinder_offset;
 
     /* accelerations */
-    const double second_rod_theta = inverse_cylinder_offset_2*(-motor_acceleration*span_crank_head_x +
-        (motor_rate * motor_rate)*span_crank_head_y + (rod_omega * rod_omega)*span_rod_head_y);
+    const double second_rod_theta = inverse_cylinder_offset*(-motor_acceleration*span_crank_head_x
+        + (motor_rate * motor_rate)*span_crank_head_y + (rod_omega * rod_omega)*span_rod_head_y);
     a[0] = second_rod_theta;
     all_a[0] = -motor_acceleration*span_crank_com_y - (motor_rate * motor_rate)*span_crank_com_x;
     all_a[1] = motor_acceleration*span_crank_com_x - (motor_rate * motor_rate)*span_crank_com_y;
     all_a[2] = motor_acceleration;
-    all_a[3] = -motor_acceleration*span_crank_head_y - (motor_rate * motor_rate)*span_crank_head_x -
-        (rod_omega * rod_omega)*span_rod_com_x - second_rod_theta*span_rod_com_y;
-    all_a[4] = motor_acceleration*span_crank_head_x - (motor_rate * motor_rate)*span_crank_head_y - (rod_omega
-        * rod_omega)*span_rod_com_y + second_rod_theta*span_rod_com_x;
+    all_a[3] = -motor_acceleration*span_crank_head_y - (motor_rate * motor_rate)*span_crank_head_x
+        - (rod_omega * rod_omega)*span_rod_com_x - second_rod_theta*span_rod_com_y;
+    all_a[4] = motor_acceleration*span_crank_head_x - (motor_rate * motor_rate)*span_crank_head_y
+        - (rod_omega * rod_omega)*span_rod_com_y + second_rod_theta*span_rod_com_x;
     all_a[5] = second_rod_theta;
-    all_a[6] = -motor_acceleration*span_crank_head_y - (motor_rate * motor_rate)*span_crank_head_x -
-        (rod_omega * rod_omega)*span_rod_head_x - second_rod_theta*span_rod_head_y;
-    all_a[7] = motor_acceleration*span_crank_head_x - (motor_rate * motor_rate)*span_crank_head_y - (rod_omega
-        * rod_omega)*span_rod_head_y + second_rod_theta*span_rod_head_x;
+    all_a[6] = -motor_acceleration*span_crank_head_y - (motor_rate * motor_rate)*span_crank_head_x
+        - (rod_omega * rod_omega)*span_rod_head_x - second_rod_theta*span_rod_head_y;
+    all_a[7] = motor_acceleration*span_crank_head_x - (motor_rate * motor_rate)*span_crank_head_y
+        - (rod_omega * rod_omega)*span_rod_head_y + second_rod_theta*span_rod_head_x;
     all_a[8] = 0.0;
     return 0;
 }

@@ -3,19 +3,13 @@
  */
 void mass_matrix(const Parameters *p, double *m)
 {
-    /* parameters */
-    const double crank_mass = p->crank_mass;
-    const double crank_inertia = p->crank_inertia;
-    const double rod_mass = p->rod_mass;
-    const double rod_inertia = p->rod_inertia;
-
     /* M */
-    m[0] = crank_mass;
-    m[1] = crank_mass;
-    m[2] = crank_inertia;
-    m[3] = rod_mass;
-    m[4] = rod_mass;
-    m[5] = rod_inertia;
+    m[0] = p->crank_mass;
+    m[1] = p->crank_mass;
+    m[2] = p->crank_inertia;
+    m[3] = p->rod_mass;
+    m[4] = p->rod_mass;
+    m[5] = p->rod_inertia;
 }
 
 /*
@@ -32,19 +26,15 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double rod_y = q[4];
     const double rod_theta = q[5];
 
-    /* parameters */
-    const double crank_length = p->crank_length;
-    const double rod_points_crankpin_x = p->rod_points_crankpin_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_length;
-    const double arm_crank_head_y = crank_length*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_length;
+    const double arm_crank_head_y = p->crank_length*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_crankpin_x = cos_theta_rod*rod_points_crankpin_x;
-    const double arm_rod_crankpin_y = rod_points_crankpin_x*sin_theta_rod;
+    const double arm_rod_crankpin_x = cos_theta_rod*p->rod_points_crankpin_x;
+    const double arm_rod_crankpin_y = p->rod_points_crankpin_x*sin_theta_rod;
 
     /* rows */
     phi[0] = -crank_x;  /* O.x */
@@ -64,19 +54,15 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
     const double crank_theta = q[2];
     const double rod_theta = q[5];
 
-    /* parameters */
-    const double crank_length = p->crank_length;
-    const double rod_points_crankpin_x = p->rod_points_crankpin_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_length;
-    const double arm_crank_head_y = crank_length*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_length;
+    const double arm_crank_head_y = p->crank_length*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_crankpin_x = cos_theta_rod*rod_points_crankpin_x;
-    const double arm_rod_crankpin_y = rod_points_crankpin_x*sin_theta_rod;
+    const double arm_rod_crankpin_x = cos_theta_rod*p->rod_points_crankpin_x;
+    const double arm_rod_crankpin_y = p->rod_points_crankpin_x*sin_theta_rod;
 
     /* non-zeros */
     phi_q[0] = -1.0;  /* d O.x / d crank_x */
@@ -111,8 +97,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 /*
  * gamma: Phi_q a = gamma.
  */
-void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p,
-    double *gamma_rows)
+void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
     (void)t;
     /* coordinates, velocities, time */
@@ -121,25 +106,23 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double rod_theta = q[5];
     const double rod_omega = v[5];
 
-    /* parameters */
-    const double crank_length = p->crank_length;
-    const double rod_points_crankpin_x = p->rod_points_crankpin_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*crank_length;
-    const double arm_crank_head_y = crank_length*sin_theta_crank;
+    const double arm_crank_head_x = cos_theta_crank*p->crank_length;
+    const double arm_crank_head_y = p->crank_length*sin_theta_crank;
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_crankpin_x = cos_theta_rod*rod_points_crankpin_x;
-    const double arm_rod_crankpin_y = rod_points_crankpin_x*sin_theta_rod;
+    const double arm_rod_crankpin_x = cos_theta_rod*p->rod_points_crankpin_x;
+    const double arm_rod_crankpin_y = p->rod_points_crankpin_x*sin_theta_rod;
 
     /* rows */
     gamma_rows[0] = 0.0;  /* O.x */
     gamma_rows[1] = 0.0;  /* O.y */
-    gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) - arm_rod_crankpin_x*(rod_omega * rod_omega);  /* pin.x */
-    gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) - arm_rod_crankpin_y*(rod_omega * rod_omega);  /* pin.y */
+    /* pin.x */
+    gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) - arm_rod_crankpin_x*(rod_omega * rod_omega);
+    /* pin.y */
+    gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) - arm_rod_crankpin_y*(rod_omega * rod_omega);
     gamma_rows[4] = 0.0;  /* slider.offset */
 }
 
@@ -148,15 +131,10 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
  */
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
-    /* parameters */
-    const double guess_rod_theta = p->guess_rod_theta;
-    const double guess_rod_x = p->guess_rod_x;
-    const double set_crank_theta = p->set_crank_theta;
-
     /* start */
-    guess[0] = guess_rod_theta;  /* start.guess.rod.theta */
-    guess[1] = guess_rod_x;  /* start.guess.rod.x */
-    set[0] = set_crank_theta;  /* start.set.crank.theta */
+    guess[0] = p->guess_rod_theta;  /* start.guess.rod.theta */
+    guess[1] = p->guess_rod_x;  /* start.guess.rod.x */
+    set[0] = p->set_crank_theta;  /* start.set.crank.theta */
     rates[0] = 0.0;  /* start.rates.crank.omega */
 }
 
@@ -183,37 +161,22 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     const double rod_vy = v[4];
     const double rod_omega = v[5];
 
-    /* parameters */
-    const double crank_mass = p->crank_mass;
-    const double crank_inertia = p->crank_inertia;
-    const double rod_mass = p->rod_mass;
-    const double rod_inertia = p->rod_inertia;
-    const double crank_points_middle_x = p->crank_points_middle_x;
-    const double rod_points_middle_x = p->rod_points_middle_x;
-    const double coil_stiffness = p->coil_stiffness;
-    const double coil_free_length = p->coil_free_length;
-    const double coil_damping = p->coil_damping;
-    const double push_value_x = p->push_value_x;
-
     /* directions, arms, drives */
     const double cos_theta_crank = cos(crank_theta);
     const double sin_theta_crank = sin(crank_theta);
     const double cos_theta_rod = cos(rod_theta);
     const double sin_theta_rod = sin(rod_theta);
-    const double arm_crank_middle_x = cos_theta_crank*crank_points_middle_x;
-    const double arm_crank_middle_y = crank_points_middle_x*sin_theta_crank;
-    const double arm_rod_middle_x = cos_theta_rod*rod_points_middle_x;
-    const double arm_rod_middle_y = rod_points_middle_x*sin_theta_rod;
+    const double arm_crank_middle_x = cos_theta_crank*p->crank_points_middle_x;
+    const double arm_crank_middle_y = p->crank_points_middle_x*sin_theta_crank;
+    const double arm_rod_middle_x = cos_theta_rod*p->rod_points_middle_x;
+    const double arm_rod_middle_y = p->rod_points_middle_x*sin_theta_rod;
     const double coil_span_x = -arm_crank_middle_x + arm_rod_middle_x - crank_x + rod_x;
     const double coil_span_y = -arm_crank_middle_y + arm_rod_middle_y - crank_y + rod_y;
-    const double coil_span_rate_x = arm_crank_middle_y*crank_omega - arm_rod_middle_y*rod_omega - crank_vx +
-        rod_vx;
-    const double coil_span_rate_y = -arm_crank_middle_x*crank_omega + arm_rod_middle_x*rod_omega - crank_vy +
-        rod_vy;
+    const double coil_span_rate_x = arm_crank_middle_y*crank_omega - arm_rod_middle_y*rod_omega - crank_vx + rod_vx;
+    const double coil_span_rate_y = -arm_crank_middle_x*crank_omega + arm_rod_middle_x*rod_omega - crank_vy + rod_vy;
     const double coil_length = sqrt((coil_span_x * coil_span_x) + (coil_span_y * coil_span_y));
     const double coil_length_rate = (coil_span_rate_x*coil_span_x + coil_span_rate_y*coil_span_y)/coil_length;
-    const double coil_force = coil_damping*coil_length_rate + coil_stiffness*(-coil_free_length +
-        coil_length);
+    const double coil_force = p->coil_damping*coil_length_rate + p->coil_stiffness*(-p->coil_free_length + coil_length);
 
     /* multipliers */
     const double multiplier_O_x = lambda[0];
@@ -234,13 +197,13 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     reactions[8] = 0.0;  /* slider.M */
     series[0] = coil_force;  /* coil.F */
     series[1] = coil_length;  /* coil.length */
-    series[2] = push_value_x;  /* push.Fx */
+    series[2] = p->push_value_x;  /* push.Fx */
     series[3] = 0.0;  /* push.Fy */
-    series[4] = fabs(push_value_x);  /* push.F */
+    series[4] = fabs(p->push_value_x);  /* push.F */
 
     /* energy */
-    energy[0] = (0.5)*crank_inertia*(crank_omega * crank_omega) + (0.5)*crank_mass*(crank_vx * crank_vx) +
-        (0.5)*crank_mass*(crank_vy * crank_vy) + (0.5)*rod_inertia*(rod_omega * rod_omega) +
-        (0.5)*rod_mass*(rod_vx * rod_vx) + (0.5)*rod_mass*(rod_vy * rod_vy);
-    energy[1] = (0.5)*coil_stiffness*((-coil_free_length + coil_length) * (-coil_free_length + coil_length));
+    energy[0] = 0.5*p->crank_inertia*(crank_omega * crank_omega) + 0.5*p->crank_mass*(crank_vx * crank_vx)
+        + 0.5*p->crank_mass*(crank_vy * crank_vy) + 0.5*p->rod_inertia*(rod_omega * rod_omega)
+        + 0.5*p->rod_mass*(rod_vx * rod_vx) + 0.5*p->rod_mass*(rod_vy * rod_vy);
+    energy[1] = 0.5*p->coil_stiffness*((-p->coil_free_length + coil_length) * (-p->coil_free_length + coil_length));
 }

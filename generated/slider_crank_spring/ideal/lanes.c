@@ -65,10 +65,6 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     const Lanes crank_theta = q[0];
     const Lanes rod_theta = q[1];
 
-    /* parameters */
-    const Lanes crank_length = p->crank_length;
-    const Lanes rod_com_span_x = p->rod_com_span_x;
-
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
     sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
@@ -76,8 +72,8 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
     sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
     const Lanes sin_theta_crank = sines_0;
     const Lanes sin_theta_rod = sines_1;
-    const Lanes span_crank_head_y = crank_length*sin_theta_crank;
-    const Lanes span_rod_com_y = rod_com_span_x*sin_theta_rod;
+    const Lanes span_crank_head_y = p->crank_length*sin_theta_crank;
+    const Lanes span_rod_com_y = p->rod_com_span_x*sin_theta_rod;
 
     /* rows */
     out[0] = span_crank_head_y + span_rod_com_y;  /* slider.offset */
@@ -96,10 +92,6 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     const Lanes rod_theta = q[1];
     const Lanes rod_omega = v[1];
 
-    /* parameters */
-    const Lanes crank_length = p->crank_length;
-    const Lanes rod_com_span_x = p->rod_com_span_x;
-
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
     sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
@@ -107,8 +99,8 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
     sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
     const Lanes cos_theta_crank = cosines_0;
     const Lanes cos_theta_rod = cosines_1;
-    const Lanes span_crank_head_x = cos_theta_crank*crank_length;
-    const Lanes span_rod_com_x = cos_theta_rod*rod_com_span_x;
+    const Lanes span_crank_head_x = cos_theta_crank*p->crank_length;
+    const Lanes span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
 
     /* rows */
     out[0] = crank_omega*span_crank_head_x + rod_omega*span_rod_com_x;  /* slider.offset */
@@ -119,8 +111,8 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
  * [M Phi_q^T; Phi_q 0][a; lambda] = [g; gamma] with M, Phi_q, g in these coordinates; drifts are projected away.
  * Returns 0, or the number of the pivot that vanished where the rows contradict each other.
  */
-static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
+static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
     (void)t;
     (void)memory;
@@ -129,20 +121,6 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes crank_omega = v[0];
     const Lanes rod_theta = q[1];
     const Lanes rod_omega = v[1];
-
-    /* parameters */
-    const Lanes crank_length = p->crank_length;
-    const Lanes crank_points_middle_x = p->crank_points_middle_x;
-    const Lanes coil_stiffness = p->coil_stiffness;
-    const Lanes coil_free_length = p->coil_free_length;
-    const Lanes coil_damping = p->coil_damping;
-    const Lanes push_value_x = p->push_value_x;
-    const Lanes rod_com_span_x = p->rod_com_span_x;
-    const Lanes rod_middle_span_x = p->rod_middle_span_x;
-    const Lanes rod_tip_span_x = p->rod_tip_span_x;
-    const Lanes inertia_crank_rod = p->inertia_crank_rod;
-    const Lanes mass_rod_rod = p->mass_rod_rod;
-    const Lanes inverse_mass_crank_crank = p->inverse_mass_crank_crank;
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
@@ -153,18 +131,18 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes sin_theta_crank = sines_0;
     const Lanes cos_theta_rod = cosines_1;
     const Lanes sin_theta_rod = sines_1;
-    const Lanes span_crank_head_x = cos_theta_crank*crank_length;
-    const Lanes span_crank_head_y = crank_length*sin_theta_crank;
+    const Lanes span_crank_head_x = cos_theta_crank*p->crank_length;
+    const Lanes span_crank_head_y = p->crank_length*sin_theta_crank;
     const Lanes crank_head_vx = -crank_omega*span_crank_head_y;
     const Lanes crank_head_vy = crank_omega*span_crank_head_x;
-    const Lanes span_rod_com_x = cos_theta_rod*rod_com_span_x;
-    const Lanes span_rod_com_y = rod_com_span_x*sin_theta_rod;
-    const Lanes span_crank_middle_x = cos_theta_crank*crank_points_middle_x;
-    const Lanes span_crank_middle_y = crank_points_middle_x*sin_theta_crank;
+    const Lanes span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
+    const Lanes span_rod_com_y = p->rod_com_span_x*sin_theta_rod;
+    const Lanes span_crank_middle_x = cos_theta_crank*p->crank_points_middle_x;
+    const Lanes span_crank_middle_y = p->crank_points_middle_x*sin_theta_crank;
     const Lanes crank_middle_vx = -crank_omega*span_crank_middle_y;
     const Lanes crank_middle_vy = crank_omega*span_crank_middle_x;
-    const Lanes span_rod_middle_x = cos_theta_rod*rod_middle_span_x;
-    const Lanes span_rod_middle_y = rod_middle_span_x*sin_theta_rod;
+    const Lanes span_rod_middle_x = cos_theta_rod*p->rod_middle_span_x;
+    const Lanes span_rod_middle_y = p->rod_middle_span_x*sin_theta_rod;
     const Lanes rod_middle_x = span_crank_head_x + span_rod_middle_x;
     const Lanes rod_middle_vx = crank_head_vx - rod_omega*span_rod_middle_y;
     const Lanes rod_middle_y = span_crank_head_y + span_rod_middle_y;
@@ -175,46 +153,46 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes coil_span_rate_y = -crank_middle_vy + rod_middle_vy;
     const Lanes coil_length = lanes_sqrt((coil_span_x * coil_span_x) + (coil_span_y * coil_span_y));
     const Lanes coil_length_rate = (coil_span_rate_x*coil_span_x + coil_span_rate_y*coil_span_y)/coil_length;
-    const Lanes coil_force = coil_damping*coil_length_rate + coil_stiffness*(-coil_free_length + coil_length);
+    const Lanes coil_force = p->coil_damping*coil_length_rate + p->coil_stiffness*(-p->coil_free_length + coil_length);
     const Lanes coil_pull = coil_force/coil_length;
-    const Lanes span_rod_tip_y = rod_tip_span_x*sin_theta_rod;
+    const Lanes span_rod_tip_y = p->rod_tip_span_x*sin_theta_rod;
     const Lanes rod_tip_vx = crank_head_vx - rod_omega*span_rod_tip_y;
     const Lanes cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
     const Lanes sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const Lanes dot_crank_rod = cos_rod_less_crank*inertia_crank_rod;
-    const Lanes cross_crank_rod = inertia_crank_rod*sin_rod_less_crank;
+    const Lanes dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
+    const Lanes cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
 
     /* constraints: gamma */
-    const Lanes rhs_slider_offset = (crank_omega * crank_omega)*span_crank_head_y + (rod_omega *
-        rod_omega)*span_rod_com_y;
+    const Lanes rhs_slider_offset = (crank_omega * crank_omega)*span_crank_head_y
+        + (rod_omega * rod_omega)*span_rod_com_y;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_rod_theta__crank_theta = dot_crank_rod*inverse_mass_crank_crank;
-    const Lanes l_slider_offset__crank_theta = inverse_mass_crank_crank*span_crank_head_x;
-    const Lanes inverse_pivot_rod_theta = 1.0/(-dot_crank_rod*l_rod_theta__crank_theta + mass_rod_rod);
+    const Lanes l_rod_theta__crank_theta = dot_crank_rod*p->inverse_mass_crank_crank;
+    const Lanes l_slider_offset__crank_theta = p->inverse_mass_crank_crank*span_crank_head_x;
+    const Lanes inverse_pivot_rod_theta = 1.0/(-dot_crank_rod*l_rod_theta__crank_theta + p->mass_rod_rod);
     const Lanes w_slider_offset__rod_theta = -dot_crank_rod*l_slider_offset__crank_theta + span_rod_com_x;
     const Lanes l_slider_offset__rod_theta = inverse_pivot_rod_theta*w_slider_offset__rod_theta;
-    const Lanes scale_slider_offset = l_slider_offset__crank_theta*span_crank_head_x +
-        l_slider_offset__rod_theta*w_slider_offset__rod_theta;
-    *rare |= ~(scale_slider_offset > 1e-08 * scale_slider_offset);
+    const Lanes scale_slider_offset = l_slider_offset__crank_theta*span_crank_head_x
+        + l_slider_offset__rod_theta*w_slider_offset__rod_theta;
+    *rare |= ~((scale_slider_offset > 0.0) & (scale_slider_offset < INFINITY));
     const Lanes inverse_pivot_slider_offset = 1.0/scale_slider_offset;
 
     /* forward substitution */
-    const Lanes z_crank_theta = -coil_pull*coil_span_x*span_crank_middle_y -
-        coil_pull*coil_span_y*span_crank_head_x + coil_pull*coil_span_y*span_crank_middle_x +
-        cross_crank_rod*(rod_omega * rod_omega) - span_crank_head_y*(-coil_pull*coil_span_x + push_value_x);
-    const Lanes z_rod_theta = coil_pull*coil_span_x*span_rod_middle_y -
-        coil_pull*coil_span_y*span_rod_middle_x - (crank_omega * crank_omega)*cross_crank_rod -
-        l_rod_theta__crank_theta*z_crank_theta - push_value_x*span_rod_tip_y;
-    const Lanes z_slider_offset = -l_slider_offset__crank_theta*z_crank_theta -
-        l_slider_offset__rod_theta*z_rod_theta + rhs_slider_offset;
+    const Lanes z_crank_theta = -coil_pull*coil_span_x*span_crank_middle_y - coil_pull*coil_span_y*span_crank_head_x
+        + coil_pull*coil_span_y*span_crank_middle_x + cross_crank_rod*(rod_omega * rod_omega)
+        - span_crank_head_y*(-coil_pull*coil_span_x + p->push_value_x);
+    const Lanes z_rod_theta = coil_pull*coil_span_x*span_rod_middle_y - coil_pull*coil_span_y*span_rod_middle_x
+        - (crank_omega * crank_omega)*cross_crank_rod - l_rod_theta__crank_theta*z_crank_theta
+        - p->push_value_x*span_rod_tip_y;
+    const Lanes z_slider_offset = -l_slider_offset__crank_theta*z_crank_theta - l_slider_offset__rod_theta*z_rod_theta
+        + rhs_slider_offset;
 
     /* backward substitution */
     const Lanes lambda_slider_offset = -inverse_pivot_slider_offset*z_slider_offset;
-    const Lanes acceleration_rod_theta = inverse_pivot_rod_theta*z_rod_theta -
-        l_slider_offset__rod_theta*lambda_slider_offset;
-    const Lanes acceleration_crank_theta = -acceleration_rod_theta*l_rod_theta__crank_theta +
-        inverse_mass_crank_crank*z_crank_theta - l_slider_offset__crank_theta*lambda_slider_offset;
+    const Lanes acceleration_rod_theta = inverse_pivot_rod_theta*z_rod_theta
+        - l_slider_offset__rod_theta*lambda_slider_offset;
+    const Lanes acceleration_crank_theta = -acceleration_rod_theta*l_rod_theta__crank_theta
+        + p->inverse_mass_crank_crank*z_crank_theta - l_slider_offset__crank_theta*lambda_slider_offset;
 
     /* results */
     a[0] = acceleration_crank_theta;
@@ -223,7 +201,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 
     /* a pivot vanished: rows depend on each other here */
     aside->power[0] = all_of(0.0);
-    aside->power[1] = -coil_damping*(coil_length_rate * coil_length_rate) + push_value_x*rod_tip_vx;
+    aside->power[1] = -p->coil_damping*(coil_length_rate * coil_length_rate) + p->push_value_x*rod_tip_vx;
     aside->power[2] = all_of(0.0);
 }
 
@@ -231,8 +209,8 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
  * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
-static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const
-    LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
+static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
+    const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
     (void)t;
     (void)memory;
@@ -241,13 +219,6 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes crank_omega = v[0];
     const Lanes rod_theta = q[1];
     const Lanes rod_omega = v[1];
-
-    /* parameters */
-    const Lanes crank_length = p->crank_length;
-    const Lanes rod_com_span_x = p->rod_com_span_x;
-    const Lanes inertia_crank_rod = p->inertia_crank_rod;
-    const Lanes mass_rod_rod = p->mass_rod_rod;
-    const Lanes inverse_mass_crank_crank = p->inverse_mass_crank_crank;
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
@@ -258,39 +229,39 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes sin_theta_crank = sines_0;
     const Lanes cos_theta_rod = cosines_1;
     const Lanes sin_theta_rod = sines_1;
-    const Lanes span_crank_head_x = cos_theta_crank*crank_length;
-    const Lanes span_crank_head_y = crank_length*sin_theta_crank;
-    const Lanes span_rod_com_x = cos_theta_rod*rod_com_span_x;
-    const Lanes span_rod_com_y = rod_com_span_x*sin_theta_rod;
+    const Lanes span_crank_head_x = cos_theta_crank*p->crank_length;
+    const Lanes span_crank_head_y = p->crank_length*sin_theta_crank;
+    const Lanes span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
+    const Lanes span_rod_com_y = p->rod_com_span_x*sin_theta_rod;
     const Lanes cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
-    const Lanes dot_crank_rod = cos_rod_less_crank*inertia_crank_rod;
+    const Lanes dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
 
     /* Phi and Phi_dot */
     const Lanes phi_slider_offset = span_crank_head_y + span_rod_com_y;
     const Lanes phi_dot_slider_offset = crank_omega*span_crank_head_x + rod_omega*span_rod_com_x;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_rod_theta__crank_theta_4 = dot_crank_rod*inverse_mass_crank_crank;
-    const Lanes l_slider_offset__crank_theta_4 = inverse_mass_crank_crank*span_crank_head_x;
-    const Lanes inverse_pivot_rod_theta_4 = 1.0/(-dot_crank_rod*l_rod_theta__crank_theta_4 + mass_rod_rod);
-    const Lanes w_slider_offset__rod_theta_3 = -dot_crank_rod*l_slider_offset__crank_theta_4 + span_rod_com_x;
-    const Lanes l_slider_offset__rod_theta_4 = inverse_pivot_rod_theta_4*w_slider_offset__rod_theta_3;
-    const Lanes scale_slider_offset_4 = l_slider_offset__crank_theta_4*span_crank_head_x +
-        l_slider_offset__rod_theta_4*w_slider_offset__rod_theta_3;
-    *rare |= ~(scale_slider_offset_4 > 1e-10 * scale_slider_offset_4);
-    const Lanes inverse_pivot_slider_offset_4 = 1.0/scale_slider_offset_4;
+    const Lanes l_rod_theta__crank_theta = dot_crank_rod*p->inverse_mass_crank_crank;
+    const Lanes l_slider_offset__crank_theta = p->inverse_mass_crank_crank*span_crank_head_x;
+    const Lanes inverse_pivot_rod_theta = 1.0/(-dot_crank_rod*l_rod_theta__crank_theta + p->mass_rod_rod);
+    const Lanes w_slider_offset__rod_theta = -dot_crank_rod*l_slider_offset__crank_theta + span_rod_com_x;
+    const Lanes l_slider_offset__rod_theta = inverse_pivot_rod_theta*w_slider_offset__rod_theta;
+    const Lanes scale_slider_offset = l_slider_offset__crank_theta*span_crank_head_x
+        + l_slider_offset__rod_theta*w_slider_offset__rod_theta;
+    *rare |= ~((scale_slider_offset > 0.0) & (scale_slider_offset < INFINITY));
+    const Lanes inverse_pivot_slider_offset = 1.0/scale_slider_offset;
 
     /* backward substitution */
-    const Lanes dq_lambda_slider_offset = -inverse_pivot_slider_offset_4*phi_slider_offset;
-    const Lanes dq_acceleration_rod_theta = -dq_lambda_slider_offset*l_slider_offset__rod_theta_4;
-    const Lanes dq_acceleration_crank_theta = -dq_acceleration_rod_theta*l_rod_theta__crank_theta_4 -
-        dq_lambda_slider_offset*l_slider_offset__crank_theta_4;
+    const Lanes dq_lambda_slider_offset = -inverse_pivot_slider_offset*phi_slider_offset;
+    const Lanes dq_acceleration_rod_theta = -dq_lambda_slider_offset*l_slider_offset__rod_theta;
+    const Lanes dq_acceleration_crank_theta = -dq_acceleration_rod_theta*l_rod_theta__crank_theta
+        - dq_lambda_slider_offset*l_slider_offset__crank_theta;
 
     /* backward substitution */
-    const Lanes dv_lambda_slider_offset = -inverse_pivot_slider_offset_4*phi_dot_slider_offset;
-    const Lanes dv_acceleration_rod_theta = -dv_lambda_slider_offset*l_slider_offset__rod_theta_4;
-    const Lanes dv_acceleration_crank_theta = -dv_acceleration_rod_theta*l_rod_theta__crank_theta_4 -
-        dv_lambda_slider_offset*l_slider_offset__crank_theta_4;
+    const Lanes dv_lambda_slider_offset = -inverse_pivot_slider_offset*phi_dot_slider_offset;
+    const Lanes dv_acceleration_rod_theta = -dv_lambda_slider_offset*l_slider_offset__rod_theta;
+    const Lanes dv_acceleration_crank_theta = -dv_acceleration_rod_theta*l_rod_theta__crank_theta
+        - dv_lambda_slider_offset*l_slider_offset__crank_theta;
 
     /* results */
     dq[0] = dq_acceleration_crank_theta;

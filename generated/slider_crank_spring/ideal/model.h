@@ -1,15 +1,13 @@
 /*
  * slider-crank with a spring-damper between crank and rod (SUNDIALS idasSlCrank)
- * mechanism slider_crank_spring, scene ideal, from the YAML with sha256 8af7975d33b9bef0773af2a11cc5ba231336a93f4303a7ad8eb8877bd068ba23
+ * mechanism slider_crank_spring, scene ideal, from the YAML with sha256
+ * 8af7975d33b9bef0773af2a11cc5ba231336a93f4303a7ad8eb8877bd068ba23
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_Q 6                 /* coordinates of all bodies */
 #define N_ROWS 5              /* constraint rows of the motion */
 #define N_ALL_ROWS 5          /* rows of the closed linkage */
@@ -20,6 +18,11 @@
 #define N_SWITCHES 0          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */
 #define N_SERIES 5            /* results of force elements */
+#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
+#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
 #define N_X 2                 /* coordinates that are integrated */
 #define N_LOOPS 1             /* constraint rows of these */
 #define N_CHAIN 0             /* coordinates that drives determine through loops */
@@ -28,6 +31,9 @@
 #define TREE_PIVOTS 0         /* statuses of chains follow these */
 #define RESCUED 1             /* pivots may vanish: all bodies' equations help */
 #define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 19           /* of the linearized equations */
+#define N_FACTORS 8           /* of their factors L and U */
+#define HAS_LANES 1           /* runs go side by side */
 #define N_CORNERS 0           /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */
@@ -37,14 +43,44 @@
 #define N_GUESS 2             /* coordinates that the start guesses */
 #define N_SET 1               /* those that it sets */
 #define N_RATES 1             /* velocities that it sets */
-#define N_VALUES 19           /* of the linearized equations */
-#define N_FACTORS 8           /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {    double crank_mass;  /* bodies.crank.mass */    double crank_inertia;  /* bodies.crank.inertia */    double rod_mass;  /* bodies.rod.mass */    double rod_inertia;  /* bodies.rod.inertia */    double crank_length;  /* bodies.crank.length */    double crank_points_middle_x;  /* bodies.crank.points.middle.x */    double rod_points_crankpin_x;  /* bodies.rod.points.crankpin.x */    double rod_points_middle_x;  /* bodies.rod.points.middle.x */    double rod_points_tip_x;  /* bodies.rod.points.tip.x */    double alpha;  /* baumgarte.alpha */    double beta;  /* baumgarte.beta */    double slider_direction_x;  /* joints.slider.direction.x */    double coil_stiffness;  /* forces.coil.stiffness */    double coil_free_length;  /* forces.coil.free_length */    double coil_damping;  /* forces.coil.damping */    double push_value_x;  /* forces.push.value.x */    double guess_rod_theta;  /* start.guess.rod.theta */    double guess_rod_x;  /* start.guess.rod.x */    double set_crank_theta;  /* start.set.crank.theta */    double two_alpha;  /* 2 alpha */    double beta_squared;  /* beta^2 */    double inverse_rod_mass;  /* 1/M */    double inverse_crank_mass;  /* 1/M */    double inverse_crank_inertia;  /* 1/M */    double inverse_rod_inertia;  /* 1/M */    double rod_com_span_x;  /* vector in its frame */    double rod_middle_span_x;  /* vector in its frame */    double rod_tip_span_x;  /* vector in its frame */    double inertia_crank_crank;  /* sum of m w.w */    double inertia_crank_rod;  /* sum of m w.w */    double inertia_rod_rod;  /* sum of m w.w */    double mass_crank_crank;  /* constant of M */    double mass_rod_rod;  /* constant of M */    double inverse_mass_crank_crank;  /* 1/M */} Parameters;
+typedef struct {
+    double crank_mass;  /* bodies.crank.mass, kg */
+    double crank_inertia;  /* bodies.crank.inertia, kg m^2 */
+    double rod_mass;  /* bodies.rod.mass, kg */
+    double rod_inertia;  /* bodies.rod.inertia, kg m^2 */
+    double crank_length;  /* bodies.crank.length, m */
+    double crank_points_middle_x;  /* bodies.crank.points.middle.x, m */
+    double rod_points_crankpin_x;  /* bodies.rod.points.crankpin.x, m */
+    double rod_points_middle_x;  /* bodies.rod.points.middle.x, m */
+    double rod_points_tip_x;  /* bodies.rod.points.tip.x, m */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double slider_direction_x;  /* joints.slider.direction.x, 1 */
+    double coil_stiffness;  /* forces.coil.stiffness, kg/s^2 */
+    double coil_free_length;  /* forces.coil.free_length, m */
+    double coil_damping;  /* forces.coil.damping, kg/s */
+    double push_value_x;  /* forces.push.value.x, kg m/s^2 */
+    double guess_rod_theta;  /* start.guess.rod.theta, rad */
+    double guess_rod_x;  /* start.guess.rod.x, m */
+    double set_crank_theta;  /* start.set.crank.theta, rad */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_rod_mass;  /* 1/M, 1/kg */
+    double inverse_crank_mass;  /* 1/M, 1/kg */
+    double inverse_crank_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_rod_inertia;  /* 1/M, 1/(kg m^2) */
+    double rod_com_span_x;  /* vector in its frame, m */
+    double rod_middle_span_x;  /* vector in its frame, m */
+    double rod_tip_span_x;  /* vector in its frame, m */
+    double inertia_crank_crank;  /* sum of m w.w, kg m^2 */
+    double inertia_crank_rod;  /* sum of m w.w, kg m^2 */
+    double inertia_rod_rod;  /* sum of m w.w, kg m^2 */
+    double mass_crank_crank;  /* constant of M, kg m^2 */
+    double mass_rod_rod;  /* constant of M, kg m^2 */
+    double inverse_mass_crank_crank;  /* 1/M, 1/(kg m^2) */
+} Parameters;
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"

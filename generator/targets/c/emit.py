@@ -13,12 +13,13 @@ from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.ledger import tell
 from gudgeon.generator.kernels.program import Program
-from gudgeon.generator.targets.c import functions, ranges_printer
+from gudgeon.generator.targets.c import functions, ranges_printer, readme
 from gudgeon.generator.targets.c import lanes as lanes_code
 from gudgeon.generator.targets.c.describe import describe
+from gudgeon.generator.targets.c.layout import within
 from gudgeon.generator.targets.c.model_header import header_values, known_bounds
 from gudgeon.generator.targets.c.newton import newton_code, tangent_code
-from gudgeon.generator.targets.c.play import clearance_code
+from gudgeon.generator.targets.c.play import clearances_code
 from gudgeon.generator.targets.c.reduced import reduced_code
 
 MAIN = "scene.c"
@@ -28,11 +29,12 @@ def emit(program: Program) -> KernelSource:
     """The whole scene as C text with its description."""
     model, tree, integrated = program.model, program.tree, program.integrated
     prepare = closed_linkage.prepare_kernel(model)
-    files = _files(program, prepare)
-    beside = lanes_code.lanes_code(program, render) if program.has_lanes else {}
+    files = _files(program, prepare) | (lanes_code.lanes_code(program, render) if program.has_lanes else {})
+    files = {name: within(text) for name, text in files.items()}
+    files[readme.NAME] = readme.readme(program, files)
     course = program.course
     return describe(
-        model, files=files | beside, main=MAIN,
+        model, files=files, main=MAIN,
         pivots=program.kkt.pivots, start_pivots=course.pivots if course else (), motion_pivots=integrated.pivots,
         operations=_operations(program, prepare),
         tree=tree.system.unknowns if tree else (), chain=integrated.chain,
@@ -41,7 +43,7 @@ def emit(program: Program) -> KernelSource:
             model, program.kkt, course.solved if course else integrated.kkt, integrated.system,
             course.groups if course else (),
         ),
-        lanes=lanes_code.MAIN if beside else "",
+        lanes=lanes_code.MAIN if program.has_lanes else "",
     )  # fmt: skip
 
 
@@ -50,7 +52,7 @@ def _files(program: Program, prepare: Kernel) -> dict[str, str]:
     files = {
         "parameters.c": _kernels(prepare),
         "constraints.c": _kernels(*program.closed),
-        "clearance.c": "\n".join(clearance_code(pin, render) for pin in program.pins),
+        "clearance.c": clearances_code(program, render),
         "dynamics.c": _kernels(*program.right_hand_side),
         "reduced.c": reduced_code(program.model, program.tree, render, _kernels) if program.tree else "",
         "newton.c": _linearized(program),
@@ -68,7 +70,7 @@ def _linearized(program: Program) -> str:
     methods = program.methods
     if methods is None:
         return ""
-    slopes = tangent_code(program.pins, methods.slopes, render)
+    slopes = tangent_code(program.pins, methods, render)
     return slopes + newton_code(methods.newton, render) + functions.kernel(methods.closing)
 
 
@@ -104,9 +106,12 @@ def _kernels(*kernels: Kernel) -> str:
 def _all(program: Program, *prepare: Kernel) -> list[Kernel]:
     tree, extra = program.tree, program.methods or program.course
     kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ()), *prepare]
-    return [*kernels, *(extra.kernels if extra else ()), *(kernel for pin in program.pins for kernel in pin.laws)]
+    return [*kernels, *(extra.kernels if extra else ()), *program.laws]
 
 
 def _operations(program: Program, prepare: Kernel) -> dict[str, int]:
-    """Of each function, as `check -v` tells them."""
-    return {kernel.name: kernel.operations for kernel in _all(program, prepare)}
+    """Of each function, as `check -v` tells them; of laws those of each joint."""
+    calls = [(pin.clearance.name, *call) for pin in program.pins for call in pin.laws.items()]
+    laws = {f"{role}_{joint}_force": call.kernel for joint, role, call in calls}
+    own = {kernel.name: kernel for kernel in _all(program, prepare) if kernel not in program.laws}
+    return {name: kernel.operations for name, kernel in (own | laws).items()}

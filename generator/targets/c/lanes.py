@@ -10,6 +10,7 @@ from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.solvers.contact_slopes import in_place
 from gudgeon.generator.targets.c import lanes_printer
 from gudgeon.generator.targets.c.model_header import deepest
+from gudgeon.generator.targets.c.play import call_of_film, calls_of_dry
 
 MAIN = "lanes.c"
 _WANTED = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
@@ -19,11 +20,10 @@ def lanes_code(program: Program, render: Callable[..., str]) -> dict[str, str]:
     """The file: kernels as the single runs have them, before sines are put side by side."""
     assert program.tree and program.methods
     model = program.model
-    pins = [_pin(pin, render) for pin in program.pins]
+    pins = [*map(lanes_printer.kernel, program.laws), *(_pin(pin, render) for pin in program.pins)]
     kernels = (*program.tree.plain, program.methods.plain_closing)
     wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
-    parameters = [entry.symbol.name for entry in model.slots.entries.values()]
-    parameters += [symbol.name for symbol in model.slots.derived]
+    parameters = [model.slots.field(symbol) for symbol in model.slots.members()]
     text = "\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)])
     return {MAIN: render("lanes.c.jinja", parameters=parameters, deepest=_deepest(model), kernels=text)}
 
@@ -34,12 +34,16 @@ def _deepest(model: Model) -> list[str]:
 
 
 def _pin(pin: Pin, render: Callable[..., str]) -> str:
-    """Law functions, then the joint's own."""
+    """What happens round the laws of a joint."""
     clearance = pin.clearance
     steps = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
-    parts = {name: "\n".join(map(lanes_printer.line, getattr(pin, name))) for name in steps}
-    own = render(
+    parts = {name: lanes_printer.statements(getattr(pin, name)) for name in steps}
+    if clearance.normal is not None:
+        given = ("lanes_max_of(delta, all_of(0.0))", "ratio")
+        parts["dry_law"] = calls_of_dry(pin, given, "Lanes", sides=False)
+    if clearance.film is not None:
+        parts["film_law"] = call_of_film(pin, "Lanes", sides=False)
+    return render(
         "play/lane_pin.c.jinja", joint=clearance.name, dry=clearance.normal is not None,
         film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio", **parts,
     )  # fmt: skip
-    return "\n".join([*(lanes_printer.kernel(kernel) for kernel in pin.laws), own])

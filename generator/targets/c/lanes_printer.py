@@ -6,11 +6,14 @@ single run decides by branching is picked by masks; where it would go another wa
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import sympy as sp
 
+from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section
+from gudgeon.generator.ir.readable import lines, readable
 from gudgeon.generator.ir.signatures import SIDES
 from gudgeon.generator.ir.sine_pairs import lane_by_lane
 from gudgeon.generator.ir.statements import (
@@ -27,7 +30,9 @@ from gudgeon.generator.ir.statements import (
     Status,
 )
 from gudgeon.generator.ir.values import Chosen, Place, Test, Value
+from gudgeon.generator.kernels.shared import CORNER
 from gudgeon.generator.targets.c import functions, printer
+from gudgeon.generator.targets.c.printer import Text
 
 _TYPES = {
     "double": "Lanes", "const double": "const Lanes", "double *": "Lanes *", "const double *": "const Lanes *",
@@ -77,42 +82,70 @@ class LanesPrinter(printer.CPrinter):
         return f"(lanes_fabs({self._vector(expr.args[0])}) + 1e-150)"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
+        if expr in self.of.branches:
+            return self.of.branches[expr]
         side, a, b = map(self._vector, expr.args)
         return f"pick({side} < 0.0, {b}, {a})"
 
 
-_printer = LanesPrinter({"math_macros": {}})
+class LaneLines(functions.Lines):
+    """Lines that both have. Raises ValueError for one that nobody has thought of."""
+
+    printer: LanesPrinter
+
+    def __init__(self, printer: LanesPrinter) -> None:
+        super().__init__(printer, "Lanes")
+
+    def expression(self, value: Value) -> str:
+        """A vector."""
+        match value:
+            case sp.Basic():
+                return self.printer._vector(value)
+            case Chosen():
+                then, otherwise = self.expression(value.then), self.expression(value.otherwise)
+                return f"pick({self.test(value.test)}, {then}, {otherwise})"
+            case _:
+                return super().expression(value)
+
+    def test(self, item: Test) -> str:
+        """A mask; bounds are numbers where they can be."""
+        plain = Text(self.printer)
+        if not item.of_itself:
+            return plain.test(item)
+        value = plain.expression(item.value)
+        size = f"lanes_fabs({value})" if item.size else value
+        return f"({size} > 0.0) & ({size} < INFINITY)"
+
+    def _lines(self, item: Line) -> Sequence[str]:
+        match item:
+            case Branch():
+                head = f"{'const Lanes ' * item.local}{self.printer.called(item.target)}"
+                side, then, otherwise = map(self.expression, (item.side, item.then, item.otherwise))
+                return [f"{head} = pick({side} < 0.0, {otherwise}, {then});"]
+            case Guard(test=Test() as test, only=None):
+                return [f"*rare |= ~({self.test(test)});"]
+            case Call():
+                passed = (x for x in (*item.given, *item.results) if x not in _HELD)
+                given = [self.handed_over(x) if isinstance(x, Place) else self.expression(x) for x in passed]
+                return [f"{item.function}({', '.join(given)});"]
+            case Largest():
+                name = f"*{item.target}"
+                texts = [f"{name} = lanes_max_of({name}, lanes_fabs({self.expression(x)}));" for x in item.values]
+                return [f"{name} = all_of(0.0);", *texts]
+            case Sines():
+                return super()._lines(item)
+        raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")
 
 
 def expression(value: Value) -> str:
-    """A vector."""
-    match value:
-        case sp.Basic():
-            return _printer._vector(value)
-        case Chosen():
-            return f"pick({printer.test(value.test)}, {expression(value.then)}, {expression(value.otherwise)})"
-        case _:
-            return printer.expression(value)
+    """A vector that is not in a function of its own."""
+    return LaneLines(LanesPrinter()).expression(value)
 
 
-def line(item: Line) -> str:
-    """Any line that both have. Raises ValueError for one that nobody has thought of."""
-    match item:
-        case Statement():
-            return functions.assignment(item, expression(item.value), "Lanes")
-        case Guard(test=Test() as test, only=None):
-            return f"    *rare |= ~({printer.test(test)});"
-        case Call():
-            passed = (x for x in (*item.given, *item.results) if x not in _HELD)
-            given = [functions.handed_over(x) if isinstance(x, Place) else expression(x) for x in passed]
-            return f"    {item.function}({', '.join(given)});"
-        case Largest():
-            name = f"*{item.target}"
-            texts = [f"{name} = lanes_max_of({name}, lanes_fabs({expression(x)}));" for x in item.values]
-            return "\n".join(f"    {text}" for text in (f"{name} = all_of(0.0);", *texts))
-        case Sines():
-            return functions.line(item)
-    raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")
+def statements(items: Sequence[Statement]) -> str:
+    """Those that stand in a function of a template."""
+    own = lines(items)
+    return "\n".join(map(LaneLines(LanesPrinter(own)).line, own.sections[0].statements)) if own.sections else ""
 
 
 def kernel(item: Kernel) -> str:
@@ -122,11 +155,12 @@ def kernel(item: Kernel) -> str:
         Section(section.title, tuple(x for x in section.statements if not isinstance(x, _LEFT_OUT)))
         for section in grouped.sections
     )
-    arguments = tuple(Argument(_TYPES.get(a.type, a.type), a.name) for a in item.arguments if a not in SIDES)
+    arguments = tuple(Argument(_TYPES.get(a.type, a.type), a.name) for a in item.arguments if a not in (*SIDES, CORNER))
     sections = tuple(section for section in kept if section.statements)
     lanes = replace(item, sections=sections, arguments=arguments, returns="void")
     told = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
-    return functions.function(lanes, line, frozenset([_RARE.name] if told else []))
+    own = readable(lanes)
+    return functions.function(lanes, LaneLines(LanesPrinter(own)), own, frozenset([_RARE.name] if told else []))
 
 
 def motion_kernel(item: Kernel) -> str:

@@ -16,7 +16,9 @@ from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.time_terms import count_terms
 from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR, SINGULAR
-from gudgeon.generator.targets.c import functions, printer
+from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.c.fields import parameter_fields
+from gudgeon.generator.targets.c.layout import broken
 
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # of which each rate is the derivative
 _OF_JOINTS = {
@@ -30,12 +32,10 @@ _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_sq
 def header_values(program: Program) -> dict[str, Any]:
     """What the template of model.h is filled with."""
     model = program.model
-    mechanism, info = model.scene.mechanism, model.symbols.info
-    slots = [(entry.symbol.name, printer.comment_text(entry.address)) for entry in model.slots.entries.values()]
-    derived = [(symbol.name, printer.comment_text(info[symbol].meaning)) for symbol in model.slots.derived]
+    mechanism = model.scene.mechanism
     return {
         "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
-        "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": slots + derived,
+        "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": parameter_fields(model.slots),
         "sizes": _defines(sizes(program)), "tables": _tables(program), "of_joints": _of_joints(model),
         "gains": _gains(program),
     }  # fmt: skip
@@ -43,14 +43,13 @@ def header_values(program: Program) -> dict[str, Any]:
 
 def sizes(program: Program) -> dict[str, tuple[int | float, str]]:
     """Numbers by name, with what they count: those that are 0 leave out what they count."""
-    model, integrated, chain, start = program.model, program.integrated, program.integrated.chain, _start(program.model)
-    system, methods, course, tree = integrated.system, program.methods, program.course, program.tree
-    switches = max(model.symbols.switches.count, system.model.symbols.switches.count)
-    newton, bounds = methods.newton if methods else None, known_bounds(program)
+    return _of_linkage(program) | _of_motion(program) | _of_watch(program) | _of_start(program)
+
+
+def _of_linkage(program: Program) -> dict[str, tuple[int | float, str]]:
+    model = program.model
+    switches = max(model.symbols.switches.count, program.integrated.system.model.symbols.switches.count)
     return {
-        "INTEGRATES": (int(program.integrates), "1; 0: no freedom is left, positions follow from the drives"),
-        "TREE": (int(tree is not None), "1: in coordinates of a tree of bodies; 0: in those of all bodies"),
-        "POSITIONS_IN_TREE": (int(course is not None and course.rows is not None), "the same, where they follow"),
         "N_Q": (len(model.q), "coordinates of all bodies"),
         "N_ROWS": (len(model.rows), "constraint rows of the motion"),
         "N_ALL_ROWS": (len(model.all_rows), "rows of the closed linkage"),
@@ -61,6 +60,18 @@ def sizes(program: Program) -> dict[str, tuple[int | float, str]]:
         "N_SWITCHES": (switches, "corners of min, max, abs and sign"),
         "N_USER_EVENTS": (len(model.events), "expressions whose zeros are watched"),
         "N_SERIES": (len(outputs.element_series(model)), "results of force elements"),
+        "SINGULAR": (SINGULAR, "share of a row that is left where it depends on others"),
+        "NEARLY_SINGULAR": (NEARLY_SINGULAR, "the same, where it nearly does"),
+    }  # fmt: skip
+
+
+def _of_motion(program: Program) -> dict[str, tuple[int | float, str]]:
+    integrated, chain, course, tree = program.integrated, program.integrated.chain, program.course, program.tree
+    system, newton = integrated.system, program.methods.newton if program.methods else None
+    return {
+        "INTEGRATES": (int(program.integrates), "1; 0: no freedom is left, positions follow from the drives"),
+        "TREE": (int(tree is not None), "1: in coordinates of a tree of bodies; 0: in those of all bodies"),
+        "POSITIONS_IN_TREE": (int(course is not None and course.rows is not None), "the same, where they follow"),
         "N_X": (len(system.q), "coordinates that are integrated"),
         "N_LOOPS": (len(system.rows), "constraint rows of these"),
         "N_CHAIN": (len(system.known), "coordinates that drives determine through loops"),
@@ -69,20 +80,30 @@ def sizes(program: Program) -> dict[str, tuple[int | float, str]]:
         "TREE_PIVOTS": (len(integrated.pivots) - len(chain.rows) if chain else 0, "statuses of chains follow these"),
         "RESCUED": (int(tree is not None and tree.rescued), "pivots may vanish: all bodies' equations help"),
         "LARGEST_BLOCK": (_largest_block(program), "rows that are solved together"),
-        "N_CORNERS": (integrated.jumps.count if integrated.jumps else 0, "corners of drives, whose rate jumps there"),
+        "N_VALUES": (newton.values.size if newton else 0, "of the linearized equations"),
+        "N_FACTORS": (newton.factors.size if newton else 0, "of their factors L and U"),
+        "HAS_LANES": (int(program.has_lanes), "runs go side by side"),
+    }  # fmt: skip
+
+
+def _of_watch(program: Program) -> dict[str, tuple[int | float, str]]:
+    model, jumps, bounds = program.model, program.integrated.jumps, known_bounds(program)
+    return {
+        "N_CORNERS": (jumps.count if jumps else 0, "corners of drives, whose rate jumps there"),
         "RATE_JUMPS": (int(has_jumps(model)), "the rate of some drive may jump"),
         "N_WATCHED": (len(watched_corners(program)) + len(model.events), "corners of expressions, and events"),
         "KNOWN_BOUNDS": (int(bounds is not None), "bounds of what is watched are known over ranges of the state"),
         "WATCHES_STATE": (int(bounds is not None and reads_state(bounds)), "they hang on more than time"),
         "N_TERMS": (count_terms(program.terms), "terms of time alone, which may hide within a step"),
+    }  # fmt: skip
+
+
+def _of_start(program: Program) -> dict[str, tuple[int | float, str]]:
+    start = _start(program.model)
+    return {
         "N_GUESS": (len(start["guess_place"]), "coordinates that the start guesses"),
         "N_SET": (len(start["set_place"]), "those that it sets"),
         "N_RATES": (len(start["rate_place"]), "velocities that it sets"),
-        "N_VALUES": (newton.values.size if newton else 0, "of the linearized equations"),
-        "N_FACTORS": (newton.factors.size if newton else 0, "of their factors L and U"),
-        "HAS_LANES": (int(program.has_lanes), "runs go side by side"),
-        "SINGULAR": (SINGULAR, "share of a row that is left where it depends on others"),
-        "NEARLY_SINGULAR": (NEARLY_SINGULAR, "the same, where it nearly does"),
     }  # fmt: skip
 
 
@@ -137,7 +158,7 @@ def _tables(program: Program) -> list[str]:
 
 def _table(kind: str, name: str, values: Iterable[int]) -> str:
     """An empty one holds a number that nobody reads."""
-    return functions.wrapped(f"static const {kind} {name}[] = {{{', '.join(map(str, values)) or 0}}};")
+    return "\n".join(broken(f"static const {kind} {name}[] = {{{', '.join(map(str, values)) or 0}}};"))
 
 
 def _watched(program: Program) -> dict[tuple[str, str], Sequence[int]]:
@@ -185,7 +206,7 @@ def _of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
         "deepest": [deepest(c) for c in model.clearances],
         "slowest_impact": [c.velocity_floor for c in model.clearances],
     }
-    read = {s: sp.Symbol(f"p->{s.name}") for s in model.symbols.info}
+    read = {s: sp.Symbol(info.home) for s, info in model.symbols.info.items() if info.home}
     return [
         (_OF_JOINTS[name], name, [printer.expression(sp.sympify(x).xreplace(read)) for x in some])
         for name, some in values.items()

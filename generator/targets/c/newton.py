@@ -6,14 +6,15 @@ import textwrap
 from collections.abc import Callable, Mapping, Sequence
 
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.program import Methods
+from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import functions
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
-_CALL = "(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, {});"
+_STATE = ("e", "deltadot", "de_t", "omega_i", "omega_j", "latch")
 _CLOSED = "side ? latch->closed : delta > 0.0"
 _BLENDING = """
 /* F = share F + (1 - share) film, slopes as well; `share` with its derivative by e. */
@@ -36,35 +37,38 @@ def newton_code(newton: Newton, render: Render) -> str:
     return render(
         "newton.c.jinja", kernels="\n".join(map(functions.kernel, kernels)),
         tables=[(name, _table(entries)) for name, entries in newton.tables.items()],
-        counts=[*counts, ("n_nodes".upper(), newton.nodes)],
+        counts=[*counts, ("N_NODES", newton.nodes)],
     )  # fmt: skip
 
 
-def tangent_code(pins: Sequence[Pin], slopes: Mapping[str, Sequence[Kernel]], render: Render) -> str:
-    """`tangent_<joint>` of every joint with play."""
+def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render) -> str:
+    """`tangent_<joint>` of every joint with play, behind the derivatives that they share."""
     if not pins:
         return ""
     blending = _BLENDING if any(pin.has_transition for pin in pins) else ""
-    parts = [render("play/pin_slopes.c.jinja", blending=blending)]
+    parts = [render("play/pin_slopes.c.jinja", blending=blending), *map(functions.kernel, methods.sloping)]
     for clearance in (pin.clearance for pin in pins):
         c = f"p->{clearance.pair.c}"
-        parts += map(functions.kernel, slopes[clearance.name])
-        parts.append(render("play/tangent.c.jinja", joint=clearance.name, c=c, slopes=_slopes(clearance, c)))
+        slopes = _slopes(clearance, c, methods.slopes[clearance.name])
+        parts.append(render("play/tangent.c.jinja", joint=clearance.name, c=c, slopes=slopes))
     return "\n".join(parts)
 
 
-def _slopes(clearance: Clearance, c: str) -> str:
+def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> str:
     """Which part acts, as in the joint's own function (clearance_*.c.jinja)."""
-    dry, film = (f"{part}_slopes_{clearance.name}{_CALL}" for part in ("dry", "film"))
+
+    def call(part: str, result: str, *given: str) -> str:
+        return functions.shared_call(calls[part], given or _STATE, (result,))
+
     if clearance.normal is None:
-        return f"    {film.format('out')}"
+        return f"    {call('film', 'out')}"
     lines = [f"const double delta = e - {c};"]
     if clearance.film is None:
-        lines += ["*out = (PinSlopes){0};", f"if ({_CLOSED})", f"    {dry.format('out')}"]
+        lines += ["*out = (PinSlopes){0};", f"if ({_CLOSED})", f"    {call('dry', 'out')}"]
     else:
-        lines += [f"if (!({_CLOSED})) {{", f"    {film.format('out')}", "    return;", "}"]
-        lines += [dry.format("out"), "double share[2];", f"share_slope_{clearance.name}(delta, p, side, g, share);"]
-        lines += ["if (share[0] < 1.0) {", "    PinSlopes film;", f"    {film.format('&film')}"]
+        lines += [f"if (!({_CLOSED})) {{", f"    {call('film', 'out')}", "    return;", "}"]
+        lines += [call("dry", "out"), "double share[2];", call("share", "share", "delta")]
+        lines += ["if (share[0] < 1.0) {", "    PinSlopes film;", f"    {call('film', '&film')}"]
         lines += ["    blend_slopes(out, &film, share);", "}"]
     return textwrap.indent("\n".join(lines), "    ")
 

@@ -6,7 +6,9 @@ from collections.abc import Callable, Sequence
 
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions
+from gudgeon.generator.targets.c.layout import broken
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
@@ -21,16 +23,23 @@ _STORE = """\
 _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
 
 
+def clearances_code(program: Program, render: Render) -> str:
+    """The laws, then each joint's own functions; nothing where no joint has play."""
+    parts = [*map(functions.kernel, program.laws), *(clearance_code(pin, render) for pin in program.pins)]
+    return "\n".join(parts)
+
+
 def clearance_code(pin: Pin, render: Render) -> str:
-    """Law functions, then the joint's own function."""
+    """What happens round the laws of a joint."""
     joint, clearance = pin.clearance.name, pin.clearance
-    parts = [functions.kernel(kernel) for kernel in pin.laws]
+    parts = []
     if clearance.normal is not None:
         ratio = {"ratio": _RATIO, "ratio_name": "unclipped" if clearance.clip_ratio else "ratio"}
         steps = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
+        steps["law"] = calls_of_dry(pin, ("max_of(delta, 0.0)", "ratio"), "double")
         parts.append(render("play/dry.c.jinja", joint=joint, **ratio, **steps))
     if clearance.film is not None:
-        steps = {"before": _lines(pin.before_film), "after": _lines(pin.after_film)}
+        steps = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": call_of_film(pin, "double")}
         parts.append(render("play/film.c.jinja", joint=joint, **steps))
     parts.append(
         render(
@@ -41,8 +50,32 @@ def clearance_code(pin: Pin, render: Render) -> str:
     return "\n".join(parts)
 
 
+def calls_of_dry(pin: Pin, given: Sequence[str], number: str, sides: bool = True) -> str:
+    """Normal force, then friction, if there is any."""
+    lines = [f"{number} F_n;", functions.shared_call(pin.laws["normal"], given, ("&F_n",), sides)]
+    if "friction" in pin.laws:
+        friction = functions.shared_call(pin.laws["friction"], ("F_n", "v_t"), ("&F_along_t_dry",), sides)
+        lines += [f"{number} F_along_t_dry;", friction]
+    else:
+        zero = "0.0" if number == "double" else "all_of(0.0)"
+        lines.append(f"const {number} F_along_t_dry = {zero}; /* no friction */")
+        lines += ["(void)v_t;"] * (number == "Lanes")
+    return _wrapped(lines)
+
+
+def call_of_film(pin: Pin, number: str, sides: bool = True) -> str:
+    """Its forces, and the torque of shear where that is read."""
+    results = ("&F_r", "&F_along_t_film", "&T0")
+    call = functions.shared_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), results, sides)
+    return _wrapped([f"{number} F_r, F_along_t_film, T0;", call, "(void)T0; /* read only with shear */"])
+
+
+def _wrapped(lines: Sequence[str]) -> str:
+    return "\n".join(part for line in lines for part in broken(f"    {line}"))
+
+
 def _lines(statements: Sequence[Statement]) -> str:
-    return "\n".join(map(functions.line, statements))
+    return functions.statements(statements)
 
 
 def _template(pin: Pin) -> str:

@@ -9,11 +9,34 @@ import sys
 import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
+from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Value
+
+_PLAIN = Readable(())
 
 
 class CPrinter(C99CodePrinter):
-    """C99 with doubles written to round-trip, small powers as products, NaN-keeping min and max."""
+    """C99 with doubles written to round-trip, small powers as products, NaN-keeping min and max.
+
+    `of`: the function that is written, with what it calls its symbols and branches.
+    """
+
+    def __init__(self, of: Readable = _PLAIN) -> None:
+        super().__init__({"math_macros": {}})  # M_PI_2 and the like are not in C11
+        self.of = of
+
+    def called(self, name: str) -> str:
+        """What a symbol or local is called in this function."""
+        return self.of.names.get(name, name)
+
+    def _print_Symbol(self, expr: sp.Symbol) -> str:
+        return self.called(expr.name)
+
+    def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+        """A number such as 0.5 needs no brackets."""
+        if item.is_Rational and item.p > 0 and re.fullmatch(r"[0-9.e+]+", text := self._print(item)):
+            return text
+        return str(super().parenthesize(item, level, strict))
 
     def _print_Float(self, expr: sp.Float) -> str:
         return _double(expr)
@@ -21,7 +44,10 @@ class CPrinter(C99CodePrinter):
     def _print_NumberSymbol(self, expr: sp.NumberSymbol) -> str:
         return repr(float(expr))
 
-    _print_Pi = _print_Exp1 = _print_NumberSymbol
+    _print_Exp1 = _print_NumberSymbol
+
+    def _print_Pi(self, expr: sp.Expr) -> str:
+        return "PI"
 
     def _print_Integer(self, expr: sp.Integer) -> str:
         return f"{int(expr)}.0" if abs(int(expr)) < 10**300 else _double(expr)
@@ -93,15 +119,24 @@ class CPrinter(C99CodePrinter):
         return f"({self._print(expr.args[0])} >= 0.0 ? 1.0 : 0.0)"
 
     def _print_SideOf(self, expr: sp.Expr) -> str:
-        """From switches.py."""
-        return f"side_of(side, g, {int(expr.args[0])}, {self._print(expr.args[1])})"
+        """From corners.py."""
+        return f"side_of(side, g, {self.corner(int(expr.args[0]))}, {self._print(expr.args[1])})"
+
+    def corner(self, index: int) -> str:
+        """Its number, or how far behind the function's first one it is."""
+        if self.of.first_corner is None:
+            return str(index)
+        further = index - self.of.first_corner
+        return f"corner + {further}" if further else "corner"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
-        """From switches.py."""
+        """From corners.py."""
         return f"(fabs({self._print(expr.args[0])}) + 1e-150)"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
         """Not below zero picks the first: a NaN stays in it."""
+        if expr in self.of.branches:
+            return self.of.branches[expr]
         side, a, b = (self._print(argument) for argument in expr.args)
         return f"({side} < 0.0 ? {b} : {a})"
 
@@ -137,29 +172,43 @@ def _double(number: sp.Expr) -> str:
     return repr(value) if math.isfinite(value) else f"{'-' if value < 0 else ''}INFINITY"
 
 
-_printer = CPrinter({"math_macros": {}})  # M_PI_2 and the like are not in C11
+class Text:
+    """Values of one function as text."""
+
+    def __init__(self, printer: CPrinter) -> None:
+        self.printer = printer
+
+    def place(self, place: Place) -> str:
+        """Where a number lives."""
+        return self.printer.called(place.text)
+
+    def expression(self, value: Value) -> str:
+        """C text of a value."""
+        match value:
+            case Place():
+                return self.place(value)
+            case Chosen():
+                then, otherwise = self.expression(value.then), self.expression(value.otherwise)
+                return f"{self.test(value.test)} ? {then} : {otherwise}"
+            case Sum():
+                return " + ".join(map(self.place, value.places))
+            case Given():
+                return f"is_given[{value.k}] ? given[{value.k}] : {self.expression(value.default)}"
+            case _:
+                return self.printer.doprint(value)
+
+    def test(self, item: Test) -> str:
+        """A comparison; the numbers of its bound as they are."""
+        value = self.expression(item.value)
+        left = f"fabs({value})" if item.size else value
+        if item.of_itself:
+            return f"{left} > 0.0 && {value} < INFINITY" if not item.size else f"{value} != 0.0 && isfinite({value})"
+        bound = " * ".join(repr(x) if isinstance(x, float) else self.expression(x) for x in item.bound)
+        return f"{left} {item.relation} {bound}" if item.relation else left
 
 
-def expression(value: Value) -> str:
-    """C text of a value."""
-    match value:
-        case Place():
-            return value.text
-        case Chosen():
-            return f"{test(value.test)} ? {expression(value.then)} : {expression(value.otherwise)}"
-        case Sum():
-            return " + ".join(place.text for place in value.places)
-        case Given():
-            return f"is_given[{value.k}] ? given[{value.k}] : {expression(value.default)}"
-        case _:
-            return _printer.doprint(value)
-
-
-def test(item: Test) -> str:
-    """A comparison; the numbers of its bound as they are."""
-    left = f"fabs({expression(item.value)})" if item.size else expression(item.value)
-    bound = " * ".join(repr(x) if isinstance(x, float) else expression(x) for x in item.bound)
-    return f"{left} {item.relation} {bound}" if item.relation else left
+_text = Text(CPrinter())
+expression, test = _text.expression, _text.test
 
 
 def comment_text(text: str) -> str:

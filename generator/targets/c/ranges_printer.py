@@ -1,4 +1,4 @@
-"""Kernels a second time, for ranges: the same statements, with bounds and slopes for numbers (ranges.c)."""
+"""Kernels a second time, for ranges: the same statements with bounds and slopes for numbers (engine/watch/ranges.h)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from dataclasses import replace
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import Argument, Kernel
-from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.readable import NUMBERS, readable
+from gudgeon.generator.ir.values import Value
 from gudgeon.generator.targets.c import functions, printer
 
 _TYPES = {"const double": "const Range", "const double *": "const Range *", "Aside *": "Range *"}
@@ -17,6 +18,11 @@ _RANGES = {"q", "v", "t"}  # what a range is handed over for; everything else is
 
 class RangesPrinter(printer.CPrinter):
     """Every operation is a call; what no symbol is in stays a number."""
+
+    def called(self, name: str) -> str:
+        """A number of the run is the range of one."""
+        text = super().called(name)
+        return f"only({text})" if text.startswith(NUMBERS) else text
 
     def _range(self, expr: sp.Expr) -> str:
         text: str = self._print(expr)
@@ -87,21 +93,22 @@ class RangesPrinter(printer.CPrinter):
         return self._call("pick", *expr.args)
 
 
-_printer = RangesPrinter({"math_macros": {}})
+class _RangeLines(functions.Lines):
+    """Statements whose locals are ranges."""
+
+    printer: RangesPrinter
+
+    def expression(self, value: Value) -> str:
+        """A range."""
+        if isinstance(value, sp.Basic):
+            return self.printer._range(value)
+        text = super().expression(value)
+        return text if value.names & _RANGES else f"only({text})"
 
 
 def kernel(item: Kernel) -> str:
     """The function with ranges for its time, coordinates and velocities, and numbers for its parameters."""
     arguments = tuple(Argument(_TYPES.get(a.type, a.type), _NAMES.get(a.name, a.name)) for a in item.arguments)
-    return functions.function(replace(item, arguments=arguments), _line, called=True)
-
-
-def _line(item: Line) -> str:
-    if not isinstance(item, Statement):
-        return functions.line(item)
-    if isinstance(item.value, sp.Basic):
-        text = _printer._range(item.value)
-    else:
-        text = printer.expression(item.value)
-        text = text if item.value.names & _RANGES else f"only({text})"
-    return functions.assignment(item, text, "Range")
+    ranged = replace(item, arguments=arguments)
+    own = readable(ranged, branching=False)
+    return functions.function(ranged, _RangeLines(RangesPrinter(own), "Range"), own, called=True)

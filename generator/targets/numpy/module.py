@@ -86,7 +86,7 @@ class NumPyModel(ClosedLinkage):
 
     def __init__(self, program: Program) -> None:
         super().__init__(program.model)
-        parts = [*map(pin, program.pins), function(program.dynamics)]
+        parts = [*map(function, program.laws), *map(pin, program.pins), function(program.dynamics)]
         self.program = program
         self.source += "\n\n" + "\n\n\n".join(parts) + "\n"
         self.functions = _defined(self.source)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from gudgeon.generator.kernels.play import Pin
-from gudgeon.generator.targets.numpy.printer import docstring, function, indented, lines
+from gudgeon.generator.kernels.shared import SharedCall
+from gudgeon.generator.targets.numpy.printer import docstring, indented, lines, name
 
 _DRY = ("F_n", "F_along_t_dry", "M_i_dry", "M_j_dry")
 _FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
 
 
 def pin(own: Pin) -> str:
-    """`clearance_<joint>`, behind its laws. A contact is closed where the journal is deeper than the bearing."""
+    """`clearance_<joint>`. A contact is closed where the journal is deeper than the bearing."""
     joint, clearance = own.clearance.name, own.clearance
     body = [*docstring([f"Force of joint {joint} on the journal, from the eccentricity e and its rate."])]
     body += lines(own.gap)
@@ -26,20 +27,24 @@ def pin(own: Pin) -> str:
              "out.ex, out.ey, out.e, out.deltadot, out.delta = e_x, e_y, e, deltadot, delta",
              "out.moment_first, out.moment_second, out.power = F[2], F[3], 0.0"]  # fmt: skip
     head = f"def clearance_{joint}(e_x, e_y, de_x, de_y, omega_i, omega_j, latch, p, out):"
-    return "\n\n\n".join([*map(function, own.laws), "\n".join([head, *indented(body)])])
+    return "\n".join([head, *indented(body)])
 
 
 def _dry(own: Pin) -> list[str]:
     """At δ > 0; before an onset is accepted the impact velocity is that of the moment: ratio 1."""
-    joint, ratio = own.clearance.name, "unclipped" if own.clearance.clip_ratio else "ratio"
+    ratio = "unclipped" if own.clearance.clip_ratio else "ratio"
     return [
         f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0", *lines(own.before_dry),
-        f"F_n = normal_{joint}_force(delta, ratio, p)", f"F_along_t_dry = friction_{joint}_force(F_n, v_t, p)",
+        f"F_n = {_call(own.laws['normal'], 'delta', 'ratio')}",
+        f"F_along_t_dry = {_call(own.laws['friction'], 'F_n', 'v_t') if 'friction' in own.laws else '0.0'}",
         *lines(own.after_dry), f"F = -F_n, {', '.join(_DRY[1:])}",
     ]  # fmt: skip
 
 
 def _film(own: Pin) -> list[str]:
-    joint = own.clearance.name
-    called = f"F_r, F_along_t_film, T0 = film_{joint}_force(epsilon, w_n, w_t, p)"
+    called = f"F_r, F_along_t_film, T0 = {_call(own.laws['film'], 'epsilon', 'w_n', 'w_t')}"
     return [*lines(own.before_film), called, *lines(own.after_film)]
+
+
+def _call(call: SharedCall, *given: str) -> str:
+    return f"{call.kernel.name}({', '.join([*given, *map(name, call.numbers)])})"

@@ -8,7 +8,10 @@ from collections.abc import Iterable, Sequence
 import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
+from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.kernels import Kernel
+from gudgeon.generator.ir.readable import Readable, readable
+from gudgeon.generator.ir.readable import lines as readable_lines
 from gudgeon.generator.ir.statements import (
     Call,
     Guard,
@@ -28,6 +31,7 @@ _NAMES = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan
           "Abs": "abs", "Size": "abs"}  # fmt: skip
 _NOWHERE = (Status, Jump, Rescue, Sides)  # what deals with vanished pivots and held corners
 _HELD = (Place("side"), Place("g"))
+_SIDES = ("side", "g", "corner")
 
 
 def name(text: str) -> str:
@@ -41,8 +45,16 @@ def name(text: str) -> str:
 class NumPyPrinter(PythonCodePrinter):
     """Numbers and arrays alike: what C decides by a condition is chosen by np.where."""
 
+    def __init__(self, of: Readable) -> None:
+        super().__init__({"fully_qualified_modules": False})
+        self.of = of
+
+    def called(self, text: str) -> str:
+        """A local or place of C, by what it is called in this function."""
+        return name(self.of.names.get(text, text))
+
     def _print_Symbol(self, expr: sp.Symbol) -> str:
-        return name(expr.name)
+        return self.called(expr.name)
 
     def _print_Float(self, expr: sp.Float) -> str:
         return repr(float(expr))
@@ -53,7 +65,10 @@ class NumPyPrinter(PythonCodePrinter):
     def _print_NumberSymbol(self, expr: sp.NumberSymbol) -> str:
         return repr(float(expr))
 
-    _print_Pi = _print_Exp1 = _print_NumberSymbol
+    _print_Exp1 = _print_NumberSymbol
+
+    def _print_Pi(self, expr: sp.Expr) -> str:
+        return "np.pi"
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
         base, exponent = expr.as_base_exp()
@@ -89,6 +104,8 @@ class NumPyPrinter(PythonCodePrinter):
         return f"(np.abs({self._print(expr.args[0])}) + 1e-150)"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
+        if expr in self.of.branches:
+            return self.called(self.of.branches[expr])
         side, a, b = map(self._print, expr.args)
         return f"np.where({side} < 0, {b}, {a})"
 
@@ -110,65 +127,78 @@ class NumPyPrinter(PythonCodePrinter):
         return f"({x} - 1e-9*(1 + np.abs({x})))"
 
 
-_printer = NumPyPrinter({"fully_qualified_modules": False})
+class Lines:
+    """Lines of one function, without an indent. Raises ValueError for one that nobody has thought of."""
+
+    def __init__(self, of: Readable) -> None:
+        self.printer = NumPyPrinter(of)
+
+    def text(self, items: Iterable[Line]) -> list[str]:
+        """All that has a counterpart."""
+        return [text for item in items if not isinstance(item, _NOWHERE) for text in self._lines(item)]
+
+    def expression(self, value: Value) -> str:
+        """A value."""
+        match value:
+            case Place():
+                return self.printer.called(value.text)
+            case Chosen():
+                then, otherwise = self.expression(value.then), self.expression(value.otherwise)
+                return f"np.where({self._test(value.test)}, {then}, {otherwise})"
+            case Sum():
+                return " + ".join(name(place.text) for place in value.places)
+            case Given():
+                return f"given[{value.k}] if is_given[{value.k}] else {self.expression(value.default)}"
+            case _:
+                return str(self.printer.doprint(value))
+
+    def _test(self, item: Test) -> str:
+        value = self.expression(item.value)
+        left = f"np.abs({value})" if item.size else value
+        if item.of_itself:
+            return f"0 < {left} < np.inf"
+        bound = " * ".join(repr(x) if isinstance(x, float) else self.expression(x) for x in item.bound)
+        return f"{left} {item.relation} {bound}" if item.relation else left
+
+    def _lines(self, item: Line) -> list[str]:
+        match item:
+            case Statement():
+                return [f"{self.printer.called(item.target)} = {self.expression(item.value)}"]
+            case Branch():
+                side, then, otherwise = map(self.expression, (item.side, item.then, item.otherwise))
+                return [f"{self.printer.called(item.target)} = np.where({side} < 0, {otherwise}, {then})"]
+            case When():
+                return [f"if {self._test(item.test)}:", *(f"    {text}" for text in self._lines(item.statement))]
+            case Call():
+                given = [self.expression(x) for x in (*item.given, *item.results) if x not in _HELD]
+                return [f"{item.function}({', '.join(given)})"]
+            case Guard(test=Test() as test):
+                only = f"{self._test(item.only)} and " if item.only else ""
+                return [f"if {only}not ({self._test(test)}):", f"    return {item.number}"]
+            case Largest():
+                inner = ", ".join(f"np.abs({self.expression(x)})" for x in item.values)
+                return [f"{item.target}[0] = max({inner}, 0.0)"] if item.values else [f"{item.target}[0] = 0.0"]
+            case Return():
+                return ["return 0"]
+        raise ValueError(f"a line of a function that has no counterpart in Python: {item}")
 
 
-def expression(value: Value) -> str:
-    """A value."""
-    match value:
-        case Place():
-            return name(value.text)
-        case Chosen():
-            then, otherwise = expression(value.then), expression(value.otherwise)
-            return f"np.where({_test(value.test)}, {then}, {otherwise})"
-        case Sum():
-            return " + ".join(name(place.text) for place in value.places)
-        case Given():
-            return f"given[{value.k}] if is_given[{value.k}] else {expression(value.default)}"
-        case _:
-            return str(_printer.doprint(value))
-
-
-def _test(item: Test) -> str:
-    left = f"np.abs({expression(item.value)})" if item.size else expression(item.value)
-    bound = " * ".join(repr(x) if isinstance(x, float) else expression(x) for x in item.bound)
-    return f"{left} {item.relation} {bound}" if item.relation else left
-
-
-def lines(items: Iterable[Line]) -> list[str]:
-    """As text, without an indent. Raises ValueError for a line that nobody has thought of."""
-    return [text for item in items if not isinstance(item, _NOWHERE) for text in _lines(item)]
-
-
-def _lines(item: Line) -> list[str]:
-    match item:
-        case Statement():
-            return [f"{name(item.target)} = {expression(item.value)}"]
-        case When():
-            return [f"if {_test(item.test)}:", *(f"    {text}" for text in _lines(item.statement))]
-        case Call():
-            given = [expression(x) for x in (*item.given, *item.results) if x not in _HELD]
-            return [f"{item.function}({', '.join(given)})"]
-        case Guard(test=Test() as test):
-            only = f"{_test(item.only)} and " if item.only else ""
-            return [f"if {only}not ({_test(test)}):", f"    return {item.number}"]
-        case Largest():
-            inner = ", ".join(f"np.abs({expression(x)})" for x in item.values)
-            return [f"{item.target}[0] = max({inner}, 0.0)"] if item.values else [f"{item.target}[0] = 0.0"]
-        case Return():
-            return ["return 0"]
-    raise ValueError(f"a line of a function that has no counterpart in Python: {item}")
+def lines(items: Sequence[Statement]) -> list[str]:
+    """Statements that stand in a function that is no kernel."""
+    own = readable_lines(items)
+    return Lines(own).text(line for section in own.sections for line in section.statements)
 
 
 def function(kernel: Kernel) -> str:
     """A whole one; numbers that C hands back through pointers are returned."""
     stored = [line.target for section in kernel.sections for line in section.statements if isinstance(line, Statement)]
     returned = [a.name for a in kernel.arguments if f"*{a.name}" in stored]
-    given = [name(a.name) for a in kernel.arguments if Place(a.name) not in _HELD and a.name not in returned]
+    given = [name(a.name) for a in kernel.arguments if a.name not in (*_SIDES, *returned)]
     text = [f"def {kernel.name}({', '.join(given)}):", *indented(docstring(kernel.doc))]
-    for section in kernel.sections:
-        body = lines(section.statements)
-        text += indented([f"# {section.title}", *body]) if body else []
+    own = readable(kernel)
+    for section in own.sections:
+        body = Lines(own).text(section.statements)
+        text += indented([*[f"# {section.title}"] * bool(section.title), *body]) if body else []
     return "\n".join([*text, *([f"    return {', '.join(returned)}"] if returned else [])])
 
 

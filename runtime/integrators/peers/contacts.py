@@ -1,6 +1,6 @@
 """Joints with play in a run that Python drives: latches, events on a step's interpolant, peaks.
 
-Written anew, not after templates/c/run/events.c.jinja: a cross-check must not share what it checks. The root is
+Written anew, not after engine/watch/events.c: a cross-check must not share what it checks. The root is
 sought on the method's own dense output and not by its built-in event search, since SciPy's and CVODE's see changes
 of sign between ends of steps only and so lose a contact that begins and ends within one step.
 """

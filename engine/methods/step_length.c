@@ -1,0 +1,135 @@
+/*
+ * How long a step is, and by which method: error control by component, and the choice between the explicit and the
+ * stiff method from what the steps themselves measure.
+ */
+enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
+    SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
+#define LONG_RUN 1e4  /* s: an end further away than this says nothing about the shortest step that makes sense */
+#define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
+#define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
+#define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
+
+/* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
+static void change_method(Run *run)
+{
+    const int stiff = run->method->stiff;
+    if (!stiff)
+        run->patience = run->since > 400 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
+    run->h_stiff = stiff ? run->h : 0.0;
+    run->method = stiff ? EXPLICIT : IMPLICIT;
+    run->votes = 0;
+    run->since = 0;
+}
+
+/* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
+static void choose(Run *run)
+{
+    /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
+    const int slower = run->since > 8 && run->since < 200 && run->h < WORTH * run->h_stiff;
+    const int stiff = run->method->stiff;
+    const int against = stiff ? run->stability < SLACK : run->stability > run->method->bounded || slower;
+    run->votes = against ? run->votes + 1 : 0;
+    run->since++;
+    if (run->automatic && run->votes >= (stiff ? run->patience : 3))
+        change_method(run);
+}
+
+/* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
+static void next_length(Run *run, const Step *step, int again, int whole)
+{
+    const double error = max_of(1e-12, step->error), power = step->method->power;
+    double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
+    if (!step->method->stiff && run->stability > 1.0)
+        factor = min_of(factor, 1.1 * step->method->bounded / run->stability);
+    factor = min_of(again ? 1.0 : step->looked ? 2.0 : 6.0, max_of(0.3, factor));
+    run->error_before = max_of(1e-4, error);
+    if (run->first)
+        *run->first = step->h;
+    run->first = NULL;
+    if (step->h * factor > run->h || (whole && run->skip < 0) || factor < 1.0)
+        run->h = step->h * factor;
+}
+
+/* One accepted step towards t_end; the next step's length in run->h. Events are not looked for here. */
+static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step)
+{
+    const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
+    const double least = 16.0 * DBL_EPSILON * far;
+    double h = run->fixed > 0.0 ? run->fixed : run->h;
+    int again = 0, shortened = 0, given_up = 0;
+    if (run->skip >= 0 && run->fixed <= 0.0)
+        h = min_of(h, run->pace);
+    if (h > left * (1.0 - 1e-9))
+        h = left;
+    const double longest = h;
+    for (;;) {
+        const Method *method = step->method = run->method;
+        const int status = method->try(run, h, p, step);
+        if (status == STOPPED || (status && run->fixed > 0.0))
+            return status;
+        if (!status && step->error <= run->accept && !method->stiff && run->fixed <= 0.0
+            && run->stability > method->unstable) {
+            run->rejected++;
+            if (run->automatic && !given_up)
+                change_method(run);
+            else
+                h *= method->bounded / run->stability;
+            continue;
+        }
+        if (!status && step->error <= run->accept && is_unresolved(run, step, p) && run->fixed <= 0.0
+            && shortened++ < SHORTENED) {
+            again = 1;
+            run->rejected++;
+            h *= 0.25;
+            continue;
+        }
+        const int wanted = !status && step->error <= run->accept && run->fixed <= 0.0;
+        const double pulse = wanted ? missed_pulse(run, step, p) : 0.0;
+        if (pulse > 0.0 && shortened++ < SHORTENED) {
+            again = 1;
+            run->rejected++;
+            h *= max_of(0.25, 0.5 * pulse);
+            continue;
+        }
+        if (!status && step->error <= run->accept) {
+            next_length(run, step, again, h < left);
+            /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
+            run->crawl = h < 256.0 * least ? run->crawl + 1 : 0;
+            return run->crawl > MAX_CRAWL ? TOO_SMALL : 0;
+        }
+        again = 1;
+        run->rejected++;
+        h *= status ? 0.25 : min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -method->power)));
+        if (h > least)
+            continue;
+        if (N_SWITCHES > 0 && status == NOT_FINITE && run->memory.held) {
+            run->memory.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
+            h = longest;
+            continue;
+        }
+        if (!run->automatic || !method->stiff || given_up++)
+            return status ? status : TOO_SMALL;
+        change_method(run); /* its matrix is singular where rows depend on each other; the other one knows a way */
+        h = longest;
+    }
+}
+
+/* A first step from the size of the motion's first two rates. */
+static int first_size(Run *run, double left, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
+    Aside aside;
+    for (int k = 0; k < 2 * N_X; k++)
+        one = max_of(one, fabs(run->dy[k]) * run->weight[k]);
+    double h = min_of(one > 0.0 ? 1.0 / one : INFINITY, 1e-2 * left);
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    if (status)
+        return status;
+    for (int k = 0; k < 2 * N_X; k++)
+        two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
+    const double most = max_of(sqrt(two), one);
+    run->h = min_of(1e-2 * left, max_of(most > 0.0 ? pow(0.01, 0.125) / most : left, h));
+    return 0;
+}

@@ -1,0 +1,66 @@
+"""The fields of Parameters: what each number is, its unit, and under which address a user sets it."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import sympy as sp
+
+from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.targets.c.printer import comment_text
+from gudgeon.language.units import DIMENSIONLESS, Dimension
+
+_BASE = (("kg", "mass"), ("m", "length"), ("s", "time"))
+
+
+def parameter_fields(slots: Slots) -> list[tuple[str, str]]:
+    """Name and comment of each field, in the order of the struct."""
+    known: dict[sp.Symbol, Dimension | None] = {}
+    fields = []
+    for entry in slots.entries.values():
+        known[entry.symbol] = entry.dimension
+        turn = entry.address.endswith(".theta") and entry.dimension == DIMENSIONLESS
+        unit = "rad" if turn else unit_text(entry.dimension)
+        fields.append((slots.field(entry.symbol), comment_text(f"{entry.address}, {unit}")))
+    for symbol, value in slots.derived.items():
+        known[symbol] = _dimension(value, known)
+        own = known[symbol]
+        told = (slots.symbols.info[symbol].meaning, unit_text(own) if own else "")
+        fields.append((slots.field(symbol), comment_text(", ".join(filter(None, told)))))
+    return fields
+
+
+def unit_text(dimension: Dimension) -> str:
+    """In SI base units: kg m^2/s^2; 1 of a plain number, rad too."""
+
+    def powers(sign: int) -> str:
+        named = ((unit, sign * getattr(dimension, what)) for unit, what in _BASE)
+        return " ".join(
+            unit if n == 1 else f"{unit}^{n}" if n.denominator == 1 else f"{unit}^({n})" for unit, n in named if n > 0
+        )
+
+    above, below = powers(1), powers(-1)
+    many = f"({below})" if " " in below else below
+    return f"{above or 1}/{many}" if below else above or "1"
+
+
+def _dimension(value: sp.Expr, known: dict[sp.Symbol, Dimension | None]) -> Dimension | None:
+    """Of a derived number; None where an exponent is a number of the run, and with it the dimension."""
+    if value.is_Symbol:
+        return known.get(value)
+    if value.is_Add:
+        return next((d for term in value.args if (d := _dimension(term, known))), DIMENSIONLESS)
+    if value.is_Mul:
+        product: Dimension | None = DIMENSIONLESS
+        for factor in value.args:
+            own = _dimension(factor, known)
+            product = product * own if product and own else None
+        return product
+    if value.is_Pow:
+        base, exponent = _dimension(value.base, known), value.exp
+        if base is None or base == DIMENSIONLESS:
+            return base
+        return base ** Fraction(int(exponent.p), int(exponent.q)) if exponent.is_Rational else None
+    if isinstance(value, (sp.Max, sp.Min, sp.Abs)):
+        return _dimension(value.args[0], known)
+    return DIMENSIONLESS

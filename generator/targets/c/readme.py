@@ -1,0 +1,106 @@
+"""README.md of a scene's folder: which file to read first, and what each holds."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping, Sized
+
+from gudgeon.generator.kernels.program import Program
+
+NAME = "README.md"
+# In the order in which they are to be read.
+_EQUATIONS = {
+    "model.h": "sizes, `Parameters` (every number, with its unit and its address in the YAML), and small tables",
+    "parameters.c": "`prepare`: defaults of all numbers, and what follows from them",
+    "constraints.c": "Φ, Φ_q, ν, γ and M of the closed linkage; where the start is; joint forces and other outputs",
+    "clearance.c": "joints with play: each law once, as a function of its numbers, then each joint's force",
+    "dynamics.c": "accelerations and multipliers in all coordinates, [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …], as they are "
+                  "taught; written out for this linkage",
+    "reduced.c": "the same motion in few coordinates: there and back, and the accelerations that are integrated",
+}  # fmt: skip
+_NUMERICS = {
+    "newton.c": "derivatives of the equations of motion, Newton's matrix solved (for `rodas5p`), and a step onto the "
+                "constraints",
+    "positions.c": "no freedom is left: a step of Newton's method to the positions at a time, then velocities and "
+                   "accelerations",
+    "watched.c": "bounds over ranges of time and state: of what a step must not miss",
+    "lanes.c": "the same functions for several runs side by side in vectors; to the same bits",
+    "scene.c": "all files together, with what the engine adds to them: this one is compiled",
+    "kernel.json": "names of everything for the Python runtime: coordinates, addresses, results",
+}  # fmt: skip
+_ENGINE = (
+    "Time loops, methods, contacts, events and batches are the same for all scenes: plain C in the folder `engine`, of "
+    "which `engine/engine.c` is the table of contents. It reads the sizes in `model.h`."
+)
+_COMPILED = "With `ROOT=..` where `gudgeon emit` wrote this, or gudgeon's own folder, which holds `engine` too:"
+
+
+def readme(program: Program, files: Mapping[str, str], others: Collection[str] = ("kernel.json",)) -> str:
+    """Markdown over a scene's files; of one that is new here its own first comment."""
+    mechanism, scene = program.model.scene.mechanism, program.model.scene
+    names = [*files, *others]
+    equations = [name for name in _EQUATIONS if name in names]
+    rest = [name for name in _NUMERICS if name in names]
+    rest = [*(name for name in names if name not in (*equations, *rest)), *rest]
+    told = _EQUATIONS | _NUMERICS
+    return "\n".join([
+        f"# {_plain(mechanism.title or mechanism.name)}: scene {scene.name}", "",
+        f"C that gudgeon wrote for the mechanism `{mechanism.name}`. {_sizes(program)}", "",
+        *_first(equations), "", "## The equations, in the order in which they are to be read", "",
+        *(f"- `{name}`: {told[name]}" for name in equations), "", "## How they are solved", "",
+        *(f"- `{name}`: {told.get(name) or _comment(files.get(name, ''))}" for name in rest), "",
+        *_calls(program, names),
+    ])  # fmt: skip
+
+
+def _sizes(program: Program) -> str:
+    model, system = program.model, program.integrated.system
+    left = f"{_count(system.q, 'coordinate')}, {_count(system.rows, 'row')}"
+    return (
+        f"{_count(model.bodies, 'body', 'bodies')} with {_count(model.q, 'coordinate')}, "
+        f"{_count(model.rows, 'row')} of constraints, {_count(model.clearances, 'joint')} with play. "
+        f"What is integrated: {left if program.integrates else 'nothing, for drives say all'}."
+    )
+
+
+def _count(some: Sized, one: str, many: str = "") -> str:
+    return f"{len(some)} {one if len(some) == 1 else many or one + 's'}"
+
+
+def _first(equations: list[str]) -> list[str]:
+    main = "reduced.c" if "reduced.c" in equations else "dynamics.c"
+    return [
+        f"Read `model.h` first, for the names, then `dynamics.c`, which is the textbook's{_shorter(main)}.",
+        "Units are SI; `q` and `v` are positions and velocities, `p` is the `Parameters` of a run.",
+    ]
+
+
+def _shorter(main: str) -> str:
+    return ", and `reduced.c`, which is what runs" if main == "reduced.c" else ""
+
+
+def _calls(program: Program, names: Collection[str]) -> list[str]:
+    """How it is compiled and called."""
+    runs = "`gudgeon_run_start`, then `gudgeon_rk4_run` or `gudgeon_adaptive_run`" if program.integrates else (
+        "`gudgeon_course_begin`, then `gudgeon_kinematic`"
+    )  # fmt: skip
+    lanes = ["`lanes.c` is a library of its own, compiled in the same way without the engine."] * ("lanes.c" in names)
+    return [
+        "## How it is called", "", _ENGINE, "", _COMPILED, "", "```",
+        "cc -O1 -std=c11 -ffp-contract=off -fPIC -shared -I. -I$ROOT scene.c $ROOT/engine/engine.c -lm -o scene.so",
+        "```", "", *lanes,
+        "What is called from outside is declared in `engine/scene/calls.h`: `gudgeon_prepare` fills the parameters, "
+        f"`gudgeon_start` closes the linkage, `gudgeon_rhs` is the right-hand side; a run is {runs}. "
+        "From Python all of it is `gudgeon.load(…).simulate(…)`.", "",
+    ]  # fmt: skip
+
+
+def _plain(text: str) -> str:
+    """One line that cannot be more than text."""
+    return re.sub(r"[\\`*_<>\[\]#|]", r"\\\g<0>", " ".join(text.split()))
+
+
+def _comment(text: str) -> str:
+    """The first sentence of a file's first comment."""
+    found = re.search(r"/\*(.*?)(\*/|[.:;]\s)", text, re.S)
+    return " ".join(found[1].replace("\n *", " ").split()) if found else "more of it"

@@ -1,0 +1,155 @@
+"""The emitted C as a page that is read: its blemishes by name, laws once a scene, a README that names each file."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.generator.pipeline import generate
+from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.generator.targets.c.layout import WIDTH, broken, within
+
+SHIPPED = Path(str(resources.files("gudgeon.mechanisms")))
+VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
+FILES = {path.stem: path for folder in (VALID, SHIPPED) for path in sorted(folder.glob("*.yaml"))}
+SCENES = [(name, scene) for name, path in FILES.items() for scene in read_mechanism(path.read_bytes(), name).scenes]
+every_scene = pytest.mark.parametrize(("name", "scene"), SCENES)
+
+KERNELS = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "newton.c", "lanes.c")
+# What a reader stumbles over; in every file, or in what is printed from equations.
+ANYWHERE = {
+    "an empty statement behind a jump": r"goto \w+; *\};",
+    "a number in brackets as a factor": r"\(\d+\.\d+\)\*",
+    "a number compared with a share of itself": r"\b(\w+)\)? > [\d.e-]+ \* (?:lanes_)?(?:fabs\()?\1\b",
+    "pi by its digits": r"(?<!PI )\b3\.14159\d+",
+    "a name that another has taken": r"\bp->par_[xy]\b|\b\w+_[xy]_2\b",
+}
+IN_KERNELS = {
+    "a copy of an argument": r"const (?:double|Lanes|Range) (?:(\w+) = p->\1|\w+ = t);",
+    "a conditional in a conditional": r"\?[^;?{,]*\?[^;]*;",
+    "a number of the run copied before it is kept": r"const double (\w+) = [^;]*;[^\n]*\n    p->\1 = \1;",
+}
+
+
+@cache
+def emitted(name: str, scene: str) -> KernelSource:
+    return generate(FILES[name].read_bytes(), name, scene)
+
+
+def c_files(name: str, scene: str) -> dict[str, str]:
+    return {file: text for file, text in emitted(name, scene).files.items() if file.endswith((".c", ".h"))}
+
+
+@every_scene
+def test_no_line_is_too_long(name: str, scene: str) -> None:
+    for file, text in c_files(name, scene).items():
+        assert [line for line in text.split("\n") if len(line) > WIDTH] == [], file
+
+
+@every_scene
+def test_no_blemish(name: str, scene: str) -> None:
+    for file, text in c_files(name, scene).items():
+        bare = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+        for blemish, pattern in (ANYWHERE | (IN_KERNELS if file in KERNELS else {})).items():
+            found = re.search(pattern, bare)
+            assert found is None, f"{file}: {blemish}: {found[0]}"
+
+
+@every_scene
+def test_each_number_has_a_line_that_says_what_it_is(name: str, scene: str) -> None:
+    source = emitted(name, scene)
+    struct = re.search(r"typedef struct \{\n([^}]*)\} Parameters;", source.files["model.h"])
+    assert struct
+    fields = re.sub(r"^( *)/\* (.*) \*/\n( *double \w+;)$", r"\3  /* \2 */", struct[1], flags=re.M)
+    lines = [re.fullmatch(r"    double \w+;  /\* (.+) \*/", line) for line in fields.splitlines()]
+    assert len(lines) == len(source.slots) + len(source.derived) and all(lines)
+    for slot, line in zip(source.slots, lines, strict=False):
+        assert line and re.fullmatch(re.escape(slot.address) + r", [\w^/() -]+", line[1])
+
+
+@every_scene
+def test_a_law_stands_once(name: str, scene: str) -> None:
+    """What joints differ in are its numbers: no function of a law has a joint's name."""
+    source = emitted(name, scene)
+    for file in ("clearance.c", "newton.c", "lanes.c"):
+        text = source.files.get(file, "")
+        bodies = re.findall(r"static inline void (\w+)\((?:[^{]*)\)\n(\{.*?^\})", text, flags=re.S | re.M)
+        assert len(dict(bodies)) == len(bodies) == len({body for _, body in bodies}), file
+        for joint in source.clearances:
+            assert not [function for function, _ in bodies if re.search(rf"_{joint.name}(_|$)", function)], file
+
+
+def test_two_joints_call_the_same_law() -> None:
+    text = emitted("nine_bar_press", "lubricated").files["clearance.c"]
+    firsts = {"lankarani_nikravesh": (0, 8), "modified_coulomb": (1, 9), "pinkus_sternlicht": (5, 13)}
+    for law, corners in firsts.items():
+        assert len(re.findall(rf"static inline void {law}\(", text)) == 1
+        called = re.findall(rf"^    {law}\(([^;]*)\);", text, flags=re.M)
+        assert [int(k) for call in called for k in re.findall(r"g,\s+(\d+),\s+&", call)] == list(corners)
+        assert all("p->oil_" in call for call in called)
+
+
+def test_joints_with_other_bearings_and_contacts_share_a_law(tmp_path: Path) -> None:
+    """Each is given its own numbers: with those of the first ones the motion is that of the shipped scene."""
+    text = FILES["nine_bar_press"].read_text(encoding="utf-8")
+    pin, oil = re.search(r"  pin: (.*)\n", text), re.search(r"  dry:\n(    .*\n)+", text)
+    assert pin and oil
+    able = oil[0].replace("  dry:", "  able:") + (
+        "    film: {law: pinkus_sternlicht, viscosity: 100 cP}\n    transition: 5 um\n"
+    )
+    text = text.replace("contacts:\n", f"  wide: {pin[1]}\n\ncontacts:\n{able}")
+    text = text.replace("B: {bearing: pin, contact: oil}", "B: {bearing: wide, contact: able}")
+    path = tmp_path / "press.yaml"
+    path.write_text(text, encoding="utf-8")
+    other, shipped = gudgeon.load(path, "lubricated"), gudgeon.load("nine_bar_press", "lubricated")
+    code = other.source.files["clearance.c"]
+    for law in ("lankarani_nikravesh", "modified_coulomb", "pinkus_sternlicht"):
+        first, second = re.findall(rf"^    {law}\(([^;]*)\);", code, flags=re.M)
+        assert len(re.findall(rf"void {law}\w*\(", code)) == 1
+        assert "p->oil_" in first and "p->able_" in second and not re.search("p->(oil|pin)_", second)
+    rng, start = np.random.default_rng(7), shipped.start()
+    for _ in range(8):
+        away = [scale * rng.normal(size=24) for scale in (3e-4, 0.1)]  # A and B in the film and in contact
+        y = np.concatenate([start.q + away[0], start.v + away[1]])
+        np.testing.assert_allclose(other.rhs(0.0, y), shipped.rhs(0.0, y), rtol=1e-9, atol=1e-9)
+
+
+def test_laws_of_other_options_are_other_functions() -> None:
+    text = VALID.joinpath("slider_crank.yaml").read_text(encoding="utf-8")
+    assert text.count("shear: true") == 1
+    shear, plain = (generate(x.encode(), "f", "oiled").files["clearance.c"]
+                    for x in (text, text.replace("shear: true", "shear: false")))  # fmt: skip
+    assert "void pinkus_sternlicht_shear_relative(" in shear and "void pinkus_sternlicht_relative(" in plain
+
+
+@every_scene
+def test_readme_names_every_file(name: str, scene: str) -> None:
+    source = emitted(name, scene)
+    text = source.files["README.md"]
+    told = re.findall(r"^- `([\w.]+)`: \S.*$", text, flags=re.M)
+    assert sorted(told) == sorted({*source.files, "kernel.json"} - {"README.md"})
+    assert text.startswith("# ") and "Read `model.h` first" in text
+
+
+def test_long_lines_are_broken_where_the_fewest_brackets_are_open() -> None:
+    line = "    x = " + " + ".join(f"a{k}*(b{k} - c{k})" for k in range(12)) + ";"
+    lines = broken(line)
+    assert max(map(len, lines)) <= WIDTH and all(part.startswith("        + ") for part in lines[1:])
+    assert "".join(part.strip() + " " for part in lines).split() == line.split()
+    number = f"    y = a*{'9' * 150}.0*(b + c);"
+    assert "".join(broken(number)).replace(" ", "") == number.replace(" ", "")
+
+
+def test_comments_are_wrapped_and_code_in_front_of_them_is_not() -> None:
+    words = "word " * 40
+    text = f"/*\n * {words}\n */\nint a;  /* {words}*/\n    * 1{'0' * 150}.0;\n"
+    fitted = within(text)
+    assert re.sub(r"[\s*]", "", fitted).count("word") == 80 and f"    * 1{'0' * 150}.0;\n" in fitted
+    assert [line for line in fitted.split("\n") if len(line) > WIDTH] == [f"    * 1{'0' * 150}.0;"]
