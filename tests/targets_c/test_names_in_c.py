@@ -115,7 +115,7 @@ def with_parameters(names: Iterable[str]) -> bytes:
 @pytest.mark.parametrize("scene", ["ideal", "oiled"])
 def test_parameters_named_as_emitted_code_and_macros(scene: str, tmp_path: Path) -> None:
     names = vocabulary() | {name for name in TRIED if accepted(name)}
-    assert {"aside", "max_of", "Parameters", "N_ROWS", "TREE", "Real", "UNSTABLE"} <= names
+    assert {"aside", "max_of", "Parameters", "N_ROWS", "TREE", "Real", "LONG_RUN"} <= names
     check_c(generate(with_parameters(names), "f", scene), tmp_path)
 
 
