@@ -1,6 +1,6 @@
 """The table of contents: YAML → Mechanism → Scene → Model → Program → KernelSource, a call each.
 
-Where `seconds` is given, each stage notes there how long it took.
+Where `seconds` is given, each stage notes there how long it took; `begun` is told model.h before the rest is written.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from gudgeon.generator.targets.numpy.module import NumPyModel
 
 Overrides = Mapping[str, str | float | bool]
 Seconds = dict[str, float]
+Begun = Callable[[str], None]
 
 
 def derive(
@@ -43,20 +44,22 @@ TARGETS: Mapping[str, Callable[[Model], Any]] = {
 }
 
 
-def in_c(model: Model, formulation: str = "reduced", seconds: Seconds | None = None) -> KernelSource:
+def in_c(
+    model: Model, formulation: str = "reduced", seconds: Seconds | None = None, begun: Begun | None = None
+) -> KernelSource:
     """The C of a model, with the names of everything in it."""
     with _stage("functions", seconds):
         program = make_program(model, formulation)
     with _stage("C", seconds):
-        return emit(program)
+        return emit(program, begun)
 
 
 def generate(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, formulation: str = "reduced",
-    seconds: Seconds | None = None,
+    seconds: Seconds | None = None, begun: Begun | None = None,
 ) -> KernelSource:  # fmt: skip
     """The C of one scene of a mechanism file."""
-    return in_c(derive(data, file, scene, overrides, seconds), formulation, seconds)
+    return in_c(derive(data, file, scene, overrides, seconds), formulation, seconds, begun)
 
 
 @contextmanager

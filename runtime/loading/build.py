@@ -18,8 +18,9 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
+from gudgeon.loading.ahead import HEADER, OBJECT, Ahead, unit_line
 from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
-from gudgeon.loading.engine import UNIT, declarations, engine_digest, include_flags
+from gudgeon.loading.engine import UNIT, declarations, engine_digest
 from gudgeon.waiting.imports import CFFI, whole
 from gudgeon.waiting.programs import Programs
 from gudgeon.waiting.working import working
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     import subprocess
 
 LIBRARY = "kernels.so"
-SCENE, LOOPS, WRAPPER = "scene.o", "engine.o", "wrapper.o"
+SCENE, LOOPS, WRAPPER = "scene.o", OBJECT, "wrapper.o"
 ASKS = 'extern "Python" int gudgeon_python_asks(void *);\n'  # what C calls to ask Python (integrators/asking.py)
 FULL = {
     "No space left on device": errno.ENOSPC, "Disk quota exceeded": errno.EDQUOT, "File too large": errno.EFBIG,
@@ -39,11 +40,13 @@ _lock = Lock()
 
 
 def compile_kernels(
-    source: KernelSource, *, portable: bool = False, rebuild: bool = False, cache: Cache | None = None
-) -> ModuleType:
+    source: KernelSource, *, portable: bool = False, rebuild: bool = False, cache: Cache | None = None,
+    ahead: Ahead | None = None,
+) -> ModuleType:  # fmt: skip
     """The library of a kernel source, compiled if the cache has none; the module has `ffi` and `lib`.
 
     portable: no instructions that only this CPU has. rebuild: compile even if the cache has it.
+    ahead: where the engine may be under way already.
     Raises BuildError if there is no compiler or no Python.h, or if the C does not compile or load.
     """
     cache = cache or default_cache()
@@ -56,7 +59,7 @@ def compile_kernels(
 
     def build(folder: Path) -> None:
         with working(f"compiling {source.mechanism}, scene {source.scene}"):
-            _build(source, key, portable, folder)
+            _build(source, key, portable, folder, ahead)
 
     entry = cache.fetch("libraries", key, build, renew=rebuild)
     try:
@@ -123,7 +126,7 @@ def _copy(entry: Path, folder: Path) -> None:
     (folder / LIBRARY).write_bytes((entry / LIBRARY).read_bytes())
 
 
-def _build(source: KernelSource, key: str, portable: bool, folder: Path) -> None:
+def _build(source: KernelSource, key: str, portable: bool, folder: Path, ahead: Ahead | None) -> None:
     """Write the C files and the wrapper into the folder, compile them there, each on its own, and link them.
 
     The scene and the engine are under way while cffi is imported and writes its wrapper. What the wrapper does is to
@@ -133,10 +136,12 @@ def _build(source: KernelSource, key: str, portable: bool, folder: Path) -> None
     flags = [*command, *compiler.flags(portable)]
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
+    units = {SCENE: source.main} if source.cdef else {SCENE: source.main, LOOPS: str(UNIT)}
+    lines = {name: unit_line(command, portable, unit, name) for name, unit in units.items()}
+    early, header = None if source.cdef else ahead, source.files.get(HEADER, "")
     with Programs() as programs:
-        units = {SCENE: source.main} if source.cdef else {SCENE: source.main, LOOPS: str(UNIT)}
-        hidden = [*flags, "-fvisibility=hidden", *include_flags()]
-        made = [(_begin(programs, [*hidden, "-c", unit, "-o", name], folder), name) for name, unit in units.items()]
+        under_way = {LOOPS} if early and early.is_under_way(header, lines[LOOPS]) else set()
+        made = [(_begin(programs, line, folder), name) for name, line in lines.items() if name not in under_way]
         whole(*CFFI)
         from cffi import FFI
 
@@ -148,6 +153,8 @@ def _build(source: KernelSource, key: str, portable: bool, folder: Path) -> None
         paths = (f"-I{path}" for path in includes)
         wrapper = _begin(programs, [*flags, "-O0", *paths, "-c", "wrapper.c", "-o", WRAPPER], folder)
         made.append((wrapper, WRAPPER))
+        if under_way and early and not early.take(header, lines[LOOPS], folder / LOOPS):
+            made.append((_begin(programs, lines[LOOPS], folder), LOOPS))  # here it says what is wrong
         failed = [finished for process, name in made if (finished := _finish(programs, process, folder / name))]
         link = [*command, *compiler.link_flags(), *units, WRAPPER, "-o", LIBRARY, "-lm"]
         if not failed and (finished := _finish(programs, _begin(programs, link, folder), folder / LIBRARY)):

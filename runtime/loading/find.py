@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import stat
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
@@ -98,8 +98,12 @@ def kernel_source(
     formulation: str = "reduced",
     regenerate: bool = False,
     cache: Cache | None = None,
+    begun: Callable[[str], None] | None = None,
 ) -> tuple[KernelSource, str]:
-    """The C of a scene and where it came from: the cache, the committed files, or a derivation just made."""
+    """The C of a scene and where it came from: the cache, the committed files, or a derivation just made.
+
+    begun: told its model.h as soon as a derivation knows it.
+    """
     if formulation not in FORMULATIONS:
         raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
     scene, overrides, cache = scene or DEFAULT_SCENE, overrides or {}, cache or default_cache()
@@ -113,7 +117,7 @@ def kernel_source(
             source = committed(file.stem, scene, sha256(data).hexdigest())
         origin = "generated" if source else "derived"
         if source is None:
-            source = derived(data, file, scene, overrides, formulation)
+            source = derived(data, file, scene, overrides, formulation, begun=begun)
         source = replace(source, overrides=tuple(sorted(overrides.items())))
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
@@ -123,17 +127,17 @@ def kernel_source(
 
 def derived(
     data: bytes, file: Path, scene: str, overrides: Overrides | None = None, formulation: str = "reduced",
-    seconds: dict[str, float] | None = None,
+    seconds: dict[str, float] | None = None, begun: Callable[[str], None] | None = None,
 ) -> KernelSource:  # fmt: skip
     """The C of a scene, derived now; each stage notes its seconds where somebody wants them."""
     with working(f"deriving {file.stem}, scene {scene}"):
-        begun = perf_counter()
+        start = perf_counter()
         whole(*GENERATOR)
         from gudgeon.generator.pipeline import generate
 
-        if seconds is not None and (took := perf_counter() - begun) > 0.01:
+        if seconds is not None and (took := perf_counter() - start) > 0.01:
             seconds["loading SymPy"] = took
-        return generate(data, str(file), scene, overrides, formulation, seconds)
+        return generate(data, str(file), scene, overrides, formulation, seconds, begun)
 
 
 def model_key(data: bytes, scene: str, overrides: Overrides, formulation: str) -> str:

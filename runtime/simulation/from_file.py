@@ -7,6 +7,7 @@ from pathlib import Path
 from time import perf_counter
 
 from gudgeon.language.wanted import flag, text
+from gudgeon.loading.ahead import Ahead
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.find import Loading, Overrides, find_mechanism, kernel_source, override_values, read_bytes
 from gudgeon.simulation.simulation import Simulation
@@ -57,11 +58,12 @@ def load_bytes(
     """`load` of the bytes of a file; `start`: when reading them began (perf_counter)."""
     read = perf_counter()
     start = read if start is None else start
-    source, origin = kernel_source(
-        data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate
-    )
-    have_source = perf_counter()
-    module = compile_kernels(source, portable=portable, rebuild=regenerate)
+    with Ahead(portable) as ahead:
+        source, origin = kernel_source(
+            data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, begun=ahead.begin
+        )
+        have_source = perf_counter()
+        module = compile_kernels(source, portable=portable, rebuild=regenerate, ahead=ahead)
     have_module = perf_counter()
 
     whole(*RUNTIME)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -25,11 +26,14 @@ from gudgeon.generator.targets.c.reduced import reduced_code
 MAIN = "scene.c"
 
 
-def emit(program: Program) -> KernelSource:
-    """The whole scene as C text with its description."""
+def emit(program: Program, begun: Callable[[str], None] | None = None) -> KernelSource:
+    """The whole scene as C text with its description; `begun` is told model.h as soon as it is known."""
     model, tree, integrated = program.model, program.tree, program.integrated
     prepare = closed_linkage.prepare_kernel(model)
-    files = _files(program, prepare) | (lanes_code.lanes_code(program, render) if program.has_lanes else {})
+    header = within(render("model.h.jinja", **header_values(program)))
+    if begun:
+        begun(header)
+    files = _files(program, prepare, header) | (lanes_code.lanes_code(program, render) if program.has_lanes else {})
     files = {name: within(text) for name, text in files.items()}
     files[readme.NAME] = readme.readme(program, files)
     course = program.course
@@ -47,7 +51,7 @@ def emit(program: Program) -> KernelSource:
     )  # fmt: skip
 
 
-def _files(program: Program, prepare: Kernel) -> dict[str, str]:
+def _files(program: Program, prepare: Kernel, header: str) -> dict[str, str]:
     """The texts, in the order in which they are read; MAIN includes the others and what the engine adds."""
     files = {
         "parameters.c": _kernels(prepare),
@@ -62,7 +66,7 @@ def _files(program: Program, prepare: Kernel) -> dict[str, str]:
     files = {name: text for name, text in files.items() if text}
     includes = ("model.h", "engine/scene/kernels.h", "engine/scene/trigonometry.h", *files, "engine/scene/scene.c")
     main = "".join(f'#include "{name}"\n' for name in includes)
-    return {MAIN: main, "model.h": render("model.h.jinja", **header_values(program)), **files}
+    return {MAIN: main, "model.h": header, **files}
 
 
 def _linearized(program: Program) -> str:
