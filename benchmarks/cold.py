@@ -21,8 +21,8 @@ from time import perf_counter
 from benchmarks.rhs import machine
 
 # (scene, seconds that are asked for)
-SCENES = (("andrews_squeezer", "ideal", 3.0), ("nine_bar_press", "ideal", 5.0), ("nine_bar_press", "dry", 5.0),
-          ("nine_bar_press", "lubricated", 5.0))  # fmt: skip
+SCENES = (("andrews_squeezer", "ideal", 3.0), ("four_bar", "ideal", 3.0), ("nine_bar_press", "ideal", 5.0),
+          ("nine_bar_press", "dry", 5.0), ("nine_bar_press", "lubricated", 5.0))  # fmt: skip
 WARM = 0.3  # s
 START = """
 import json, resource, sys
