@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import textwrap
 from collections.abc import Iterator
 
@@ -72,6 +71,7 @@ def _fitting(line: str) -> list[str]:
         star = f"{indent} * "
         told = textwrap.wrap(bare[3:-3], WIDTH, initial_indent=star, subsequent_indent=star)
         return [f"{indent}/*", *told, f"{indent} */"]
-    if (behind := re.fullmatch(r"(.*?\S) */\* (.*) \*/", line)) and "/*" not in behind[1]:
-        return [*_fitting(f"{indent}/* {behind[2]} */"), *_fitting(behind[1])]
+    code, mark, told_behind = line.rpartition("/* ")
+    if mark and told_behind.endswith(" */") and code.strip() and "/*" not in code:
+        return [*_fitting(f"{indent}/* {told_behind}"), *_fitting(code.rstrip())]
     return [line] if line.startswith("#") else broken(line)

@@ -34,7 +34,7 @@ class CPrinter(C99CodePrinter):
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
         """A number such as 0.5 needs no brackets."""
-        if item.is_Rational and item.p > 0 and re.fullmatch(r"[0-9.e+]+", text := self._print(item)):
+        if item.is_Rational and item.p > 0 and "/" not in (text := self._print(item)):
             return text
         return str(super().parenthesize(item, level, strict))
 

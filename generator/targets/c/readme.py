@@ -102,5 +102,6 @@ def _plain(text: str) -> str:
 
 def _comment(text: str) -> str:
     """The first sentence of a file's first comment."""
-    found = re.search(r"/\*(.*?)(\*/|[.:;]\s)", text, re.S)
-    return " ".join(found[1].replace("\n *", " ").split()) if found else "more of it"
+    _, _, told = text.partition("/*")
+    lines = [line.strip().removeprefix("*").strip() for line in told.partition("*/")[0].splitlines()]
+    return " ".join(filter(None, lines)).partition(". ")[0] or "more of it"
