@@ -35,8 +35,9 @@ def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Ma
     asked: list[tuple[bytes, str, str, Mapping[str, object]]] = []
 
     def generate(
-        data: bytes, file: str, scene: str, overrides: Mapping[str, object], formulation: str, seconds: object
-    ) -> KernelSource:
+        data: bytes, file: str, scene: str, overrides: Mapping[str, object], formulation: str, seconds: object,
+        begun: object,
+    ) -> KernelSource:  # fmt: skip
         asked.append((data, file, scene, overrides))
         return tiny(scene=scene, sha256=sha256(data).hexdigest())
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -14,6 +15,7 @@ import gudgeon
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.generator.targets.c import layout
 from gudgeon.generator.targets.c.layout import WIDTH, broken, within
 
 SHIPPED = Path(str(resources.files("gudgeon.mechanisms")))
@@ -153,3 +155,19 @@ def test_comments_are_wrapped_and_code_in_front_of_them_is_not() -> None:
     fitted = within(text)
     assert re.sub(r"[\s*]", "", fitted).count("word") == 80 and f"    * 1{'0' * 150}.0;\n" in fitted
     assert [line for line in fitted.split("\n") if len(line) > WIDTH] == [f"    * 1{'0' * 150}.0;"]
+
+
+def test_a_line_of_a_megabyte_is_read_a_few_times_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each break looks at places up to the width, not at all that follows."""
+    looked, places = 0, layout._places
+
+    def counted(line: str) -> Iterator[tuple[float, int]]:
+        nonlocal looked
+        for place in places(line):
+            looked += 1
+            yield place
+
+    monkeypatch.setattr(layout, "_places", counted)
+    terms = 100_000
+    lines = broken("    y = " + " + ".join(f"x_{k}" for k in range(terms)) + ";")
+    assert max(map(len, lines)) <= WIDTH and looked < 3 * terms

@@ -24,8 +24,12 @@ def broken(line: str, width: int = WIDTH) -> list[str]:
 
 def _place(line: str, first: int, width: int) -> int:
     """Where a line is broken: in its latter half if it can be, as far out of brackets and as late as it can be."""
-    every = [(depth, place) for depth, place in _places(line) if place > first + len(_INDENT)]
-    found = [(depth, place) for depth, place in every if place <= width] or every[:1]
+    found: list[tuple[float, int]] = []
+    for depth, place in _places(line):
+        if place > width and found:
+            break  # of a line of a megabyte no more is read than of a short one
+        if place > first + len(_INDENT):
+            found.append((depth, place))
     late = [(depth, place) for depth, place in found if place > width // 2] or found
     return min(late, key=lambda x: (x[0], -x[1]))[1] if late else 0
 
@@ -38,7 +42,7 @@ def _places(line: str) -> Iterator[tuple[float, int]]:
             depth -= 1
         if line.startswith(_BEFORE, k):
             yield depth + (line[k + 1] in "*/") / 2, k + 1  # a sum sooner than a product in it
-        elif any(line.endswith(mark, 0, k) for mark in _AFTER) and line[k:].strip(" ,;"):
+        elif any(line.endswith(mark, 0, k) for mark in _AFTER) and line[k : k + 8].strip(" ,;"):  # not at its end
             yield depth, k
         elif c == _TIGHT and k and (line[k - 1].isalnum() or line[k - 1] in "_)]"):
             yield depth + 100, k
