@@ -19,18 +19,7 @@ void from_absolute(double t, const double *all, Memory *memory, const Parameters
         y[k] = all[k];
 }
 
-int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
-    double *worst)
-{
-    return closing_step(t, y, y + N_X, memory, p, dq, dv, worst);
-}
-
-int linearize_state(double t, const double *y, Memory *memory, const Parameters *p, const double *a,
-    const Aside *aside, Linear *lin)
-{
-    linearize(t, y, y + N_X, memory, p, a, aside, lin);
-    return 0;
-}
+#include "undriven.c"
 
 int accept_state(double t, const double *y, Memory *memory, const Parameters *p, const Aside *aside, double *phi_max,
     double *phi_dot_max)

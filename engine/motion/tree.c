@@ -26,15 +26,4 @@ void from_absolute(double t, const double *all, Memory *memory, const Parameters
         y[2 * N_X + k] = all[2 * N_Q + k];
 }
 
-int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
-    double *worst)
-{
-    return closing_step(t, y, y + N_X, memory, p, dq, dv, worst);
-}
-
-int linearize_state(double t, const double *y, Memory *memory, const Parameters *p, const double *a,
-    const Aside *aside, Linear *lin)
-{
-    linearize(t, y, y + N_X, memory, p, a, aside, lin);
-    return 0;
-}
+#include "undriven.c"

@@ -38,24 +38,24 @@ ETA, ETA_ROW, ETA_STICK = (sp.Symbol(name, real=True) for name in ("eta", "eta_r
 
 
 class Newton:
-    """The kernels of one system; `prefix` tells them from those of another system in the same library."""
+    """The kernels of one system."""
 
-    def __init__(self, system: System, prefix: str = "") -> None:
-        self.system, self.model, self.prefix = system, system.model, prefix
+    def __init__(self, system: System) -> None:
+        self.system, self.model = system, system.model
         self.n, self.m = len(system.q), len(system.rows)
         self.nodes = self.n + self.m + len(system.frictions)
         named = [row.name for row in system.rows] + [friction.name for friction in system.frictions]
         self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named]
         self.values = Pool(system.model.symbols, "lin->value")
         self.factors = Pool(system.model.symbols, "lin->lu")
-        self.lin = Argument(f"const {prefix.title()}Linear *", "lin")
+        self.lin = Argument("const Linear *", "lin")
         self.linearize = self._linearize()
         self.factor = self._factor()
         self.substitute = self._substitute()
         self.solve = self._solve()
 
     def _builder(self, name: str, doc: Sequence[str]) -> KernelBuilder:
-        return KernelBuilder(self.model.symbols, self.prefix + name, doc)
+        return KernelBuilder(self.model.symbols, name, doc)
 
     def _linearize(self) -> Kernel:
         """All parts at a state, into `lin->value`; afterwards `self.parts` is in symbols that read them there."""
@@ -214,7 +214,7 @@ class Newton:
             b[i].append(-sp.Symbol("s") * value)
         for i, terms in enumerate(b):
             build.out(f"x[{i}]", self._scale(i) * sp.Add(*terms))
-        build.line(Call(f"{self.prefix}newton_substitute", (Place("lin"),), (Place("x"),)))
+        build.line(Call("newton_substitute", (Place("lin"),), (Place("x"),)))
         build.section("solution")
         for k in range(n):
             build.out(f"u[{k}]", ETA * (r_q[k] + sp.Symbol(f"x[{k}]")))

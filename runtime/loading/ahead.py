@@ -48,7 +48,7 @@ class Ahead:
 
     def take(self, header: str, line: list[str], made: Path) -> bool:
         """Waits for the object of this very header and line and moves it to its place; False: there is none."""
-        if self._begun is None or self._folder is None or self._begun[:2] != (header, line):
+        if self._begun is None or self._folder is None or not self.is_under_way(header, line):
             return False
         self._programs.wait(self._begun[2])
         if self._begun[2].returncode:

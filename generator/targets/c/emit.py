@@ -1,4 +1,4 @@
-"""A model as C: the texts, their cffi declarations, and the names of everything in them."""
+"""A model as C: the texts, and the names of everything in them."""
 
 from __future__ import annotations
 
@@ -30,11 +30,12 @@ def emit(program: Program, begun: Callable[[str], None] | None = None) -> Kernel
     """The whole scene as C text with its description; `begun` is told model.h as soon as it is known."""
     model, tree, integrated = program.model, program.tree, program.integrated
     prepare = closed_linkage.prepare_kernel(model)
-    header = within(render("model.h.jinja", **header_values(program)))
+    bounds = known_bounds(program)
+    header = within(render("model.h.jinja", **header_values(program, bounds)))
     if begun:
         begun(header)
-    files = _files(program, prepare, header) | (lanes_code.lanes_code(program, render) if program.has_lanes else {})
-    files = {name: within(text) for name, text in files.items()}
+    lanes = lanes_code.lanes_code(program, render) if program.has_lanes else {}
+    files = {name: within(text) for name, text in (_files(program, prepare, header, bounds) | lanes).items()}
     files[readme.NAME] = readme.readme(program, files)
     course = program.course
     return describe(
@@ -47,11 +48,11 @@ def emit(program: Program, begun: Callable[[str], None] | None = None) -> Kernel
             model, program.kkt, course.solved if course else integrated.kkt, integrated.system,
             course.groups if course else (),
         ),
-        lanes=lanes_code.MAIN if program.has_lanes else "",
+        lanes=lanes_code.MAIN if lanes else "",
     )  # fmt: skip
 
 
-def _files(program: Program, prepare: Kernel, header: str) -> dict[str, str]:
+def _files(program: Program, prepare: Kernel, header: str, bounds: Kernel | None) -> dict[str, str]:
     """The texts, in the order in which they are read; MAIN includes the others and what the engine adds."""
     files = {
         "parameters.c": _kernels(prepare),
@@ -61,7 +62,7 @@ def _files(program: Program, prepare: Kernel, header: str) -> dict[str, str]:
         "reduced.c": reduced_code(program.model, program.tree, render, _kernels) if program.tree else "",
         "newton.c": _linearized(program),
         "positions.c": _kernels(*program.course.kernels) if program.course else "",
-        "watched.c": _bounds(program),
+        "watched.c": _bounds(program, bounds),
     }
     files = {name: text for name, text in files.items() if text}
     includes = ("model.h", "engine/scene/kernels.h", "engine/scene/trigonometry.h", *files, "engine/scene/scene.c")
@@ -78,10 +79,10 @@ def _linearized(program: Program) -> str:
     return slopes + newton_code(methods.newton, render) + functions.kernel(methods.closing)
 
 
-def _bounds(program: Program) -> str:
+def _bounds(program: Program, watched: Kernel | None) -> str:
     """Bounds over ranges of time and state: of terms of time, corners of drives, what is watched."""
     jumps = program.integrated.jumps if program.integrates else None
-    kernels = [program.terms, known_bounds(program), jumps.ranges if jumps else None]
+    kernels = [program.terms, watched, jumps.ranges if jumps else None]
     values = functions.kernel(jumps.values) + "\n" if jumps else ""
     return values + "\n".join(ranges_printer.kernel(kernel) for kernel in kernels if kernel)
 

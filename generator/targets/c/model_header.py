@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import sympy as sp
@@ -11,6 +11,7 @@ from gudgeon.generator.equations.events import SIGNS
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import has_jumps
 from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import outputs
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
@@ -19,6 +20,8 @@ from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR, SINGULAR
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.fields import parameter_fields
 from gudgeon.generator.targets.c.layout import broken
+
+Sizes = dict[str, tuple[int | float, str]]
 
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # of which each rate is the derivative
 _OF_JOINTS = {
@@ -29,24 +32,24 @@ _OF_JOINTS = {
 _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_squared", "stick": "stick_gain"}
 
 
-def header_values(program: Program) -> dict[str, Any]:
-    """What the template of model.h is filled with."""
-    model = program.model
+def header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
+    """What the template of model.h is filled with; `bounds`: those of `known_bounds`."""
+    model, of_scene = program.model, sizes(program, bounds)
     mechanism = model.scene.mechanism
     return {
         "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
         "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": parameter_fields(model.slots),
-        "sizes": _defines(sizes(program)), "tables": _tables(program), "of_joints": _of_joints(model),
+        "sizes": _defines(of_scene), "tables": _tables(program, of_scene), "of_joints": _of_joints(model),
         "gains": _gains(program),
     }  # fmt: skip
 
 
-def sizes(program: Program) -> dict[str, tuple[int | float, str]]:
+def sizes(program: Program, bounds: Kernel | None) -> Sizes:
     """Numbers by name, with what they count: those that are 0 leave out what they count."""
-    return _of_linkage(program) | _of_motion(program) | _of_watch(program) | _of_start(program)
+    return _of_linkage(program) | _of_motion(program) | _of_watch(program, bounds) | _of_start(program)
 
 
-def _of_linkage(program: Program) -> dict[str, tuple[int | float, str]]:
+def _of_linkage(program: Program) -> Sizes:
     model = program.model
     switches = max(model.symbols.switches.count, program.integrated.system.model.symbols.switches.count)
     return {
@@ -65,7 +68,7 @@ def _of_linkage(program: Program) -> dict[str, tuple[int | float, str]]:
     }  # fmt: skip
 
 
-def _of_motion(program: Program) -> dict[str, tuple[int | float, str]]:
+def _of_motion(program: Program) -> Sizes:
     integrated, chain, course, tree = program.integrated, program.integrated.chain, program.course, program.tree
     system, newton = integrated.system, program.methods.newton if program.methods else None
     return {
@@ -86,8 +89,8 @@ def _of_motion(program: Program) -> dict[str, tuple[int | float, str]]:
     }  # fmt: skip
 
 
-def _of_watch(program: Program) -> dict[str, tuple[int | float, str]]:
-    model, jumps, bounds = program.model, program.integrated.jumps, known_bounds(program)
+def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
+    model, jumps = program.model, program.integrated.jumps
     return {
         "N_CORNERS": (jumps.count if jumps else 0, "corners of drives, whose rate jumps there"),
         "RATE_JUMPS": (int(has_jumps(model)), "the rate of some drive may jump"),
@@ -98,7 +101,7 @@ def _of_watch(program: Program) -> dict[str, tuple[int | float, str]]:
     }  # fmt: skip
 
 
-def _of_start(program: Program) -> dict[str, tuple[int | float, str]]:
+def _of_start(program: Program) -> Sizes:
     start = _start(program.model)
     return {
         "N_GUESS": (len(start["guess_place"]), "coordinates that the start guesses"),
@@ -107,7 +110,7 @@ def _of_start(program: Program) -> dict[str, tuple[int | float, str]]:
     }  # fmt: skip
 
 
-def known_bounds(program: Program) -> Any:
+def known_bounds(program: Program) -> Kernel | None:
     """The kernel that bounds what is watched, if it hangs on neither forces nor driven chains."""
     model, corners = program.model, watched_corners(program)
     watched = program.integrated.watched if program.integrates else program.watched if model.events else None
@@ -134,12 +137,12 @@ def _largest_block(program: Program) -> int:
     return max(rows.largest if rows else 0, chains.square.largest if chains else 0)
 
 
-def _defines(values: Mapping[str, tuple[int | float, str]]) -> list[str]:
+def _defines(values: Sizes) -> list[str]:
     width = max(len(f"{name} {value}") for name, (value, _) in values.items())
     return [f"#define {f'{name} {value}':<{width}} /* {meaning} */" for name, (value, meaning) in values.items()]
 
 
-def _tables(program: Program) -> list[str]:
+def _tables(program: Program, of_scene: Sizes) -> list[str]:
     model, start = program.model, _start(program.model)
     place = {row.name: r for r, row in enumerate(model.all_rows)}
     tables: dict[tuple[str, str], Sequence[int]] = {
@@ -152,7 +155,7 @@ def _tables(program: Program) -> list[str]:
         ("unsigned char", "is_angle"): program.integrated.angles,
     }  # fmt: skip
     if program.integrates:
-        tables |= _watched(program) | {("int", "friction_of_pivot"): _friction_pivots(program.integrated.kkt)}
+        tables |= _watched(program, of_scene) | {("int", "friction_of_pivot"): _friction_pivots(program.integrated.kkt)}
     return [_table(kind, name, values) for (kind, name), values in tables.items()]
 
 
@@ -161,9 +164,9 @@ def _table(kind: str, name: str, values: Iterable[int]) -> str:
     return "\n".join(broken(f"static const {kind} {name}[] = {{{', '.join(map(str, values)) or 0}}};"))
 
 
-def _watched(program: Program) -> dict[tuple[str, str], Sequence[int]]:
+def _watched(program: Program, of_scene: Sizes) -> dict[tuple[str, str], Sequence[int]]:
     """Margins of the scene's own corners and of user events, in C's order of margins; which corners' branches meet."""
-    count = {name: value for name, (value, _) in sizes(program).items()}
+    count = {name: value for name, (value, _) in of_scene.items()}
     first = int(count["N_CLEARANCES"] + count["N_SWITCHES"] + count["N_FRICTIONS"])
     margins = [int(count["N_CLEARANCES"]) + k for k in program.integrated.corners]
     margins += range(first, first + int(count["N_USER_EVENTS"]))
