@@ -11,7 +11,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         return status;
     inner_peaks(run, step, share, p);
     turn_passed(run, step);
-    for (int k = 2 * N_X; k < N_Y; k++)
+    for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++)
         run->turned_over += fabs(step->y[k] - run->y[k]);
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = step->y[k];

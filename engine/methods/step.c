@@ -79,8 +79,10 @@ static void weigh(Run *run)
     const double of_speed[2] = {1.0 / lengths, 1.0 / angles};
     for (int k = 0; k < 2 * N_X; k++)
         run->weight[k] = run->inverse_scale[k] * (k < N_X ? 1.0 : of_speed[is_angle[k - N_X]]);
-    for (int k = 2 * N_X; k < N_Y; k++)
+    for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++)
         run->weight[k] = 1.0 / (run->work_scale * run->turned_over);
+    for (int k = FIRST_STATE; k < N_Y; k++) /* deflections, as lengths are */
+        run->weight[k] = run->inverse_scale[0] * (is_angle[0] ? run->least[1] / run->least[0] : 1.0);
 }
 
 static int all_finite(const double *x, int n)

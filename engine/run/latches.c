@@ -26,6 +26,8 @@ static void close_joint(Run *run, int i, double t, double deltadot, double floor
     run->memory.latch[i].deltadot_minus = max_of(deltadot, floor);
     run->compressing[i] = 1;
     run->rising[i] = 1;
+    for (int k = 0; k < LAW_STATES; k++) /* nothing is bent yet */
+        run->y[FIRST_STATE + i * LAW_STATES + k] = 0.0;
     run->onsets++;
     run->open[i] = (Impact){t, NAN, run->memory.latch[i].deltadot_minus, 0.0, t, i};
 }

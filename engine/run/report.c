@@ -13,6 +13,8 @@ static void store_sample(const Run *run, double t, const double *now, const Para
     }
     for (int k = 0; k < N_FRICTIONS; k++)
         latched[i * MEMORY + N_CLEARANCES + k] = run->memory.mode[k];
+    for (int k = 0; k < N_STATES; k++)
+        latched[i * MEMORY + N_MEMORY - N_STATES + k] = now[FIRST_STATE + k];
 }
 
 void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state)

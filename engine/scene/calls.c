@@ -21,6 +21,11 @@ void read_memory(const double *sample, Memory *memory)
     }
     for (int i = 0; i < N_FRICTIONS; i++)
         memory->mode[i] = sample[N_CLEARANCES + i];
+#if LAW_STATES
+    for (int k = 0; k < N_STATES; k++)
+        memory->latch[k / LAW_STATES].state[k % LAW_STATES] =
+            isnan(sample[N_MEMORY - N_STATES + k]) ? 0.0 : sample[N_MEMORY - N_STATES + k];
+#endif
     for (int i = 0; i < N_USER_EVENTS; i++)
         memory->event_side[i] = 0;
     memory->held = 0;
@@ -97,7 +102,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             y[k] = q[i * N_Q + k];
             y[N_Q + k] = v[i * N_Q + k];
         }
-        read_memory(memory + i * (N_CLEARANCES + N_FRICTIONS), &now);
+        read_memory(memory + i * N_MEMORY, &now);
         const int status = state_equation(t[i], y, &now, p, dy, &aside);
         if (status) {
             *failed = i;

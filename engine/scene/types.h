@@ -12,10 +12,11 @@
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1) /* an array's length: C knows none of 0 */
 
 enum {
-    N_MEMORY = N_CLEARANCES + N_FRICTIONS,
+    N_STATES = N_CLEARANCES * LAW_STATES, /* inner states of laws, joint by joint, behind the works of what is integrated */
+    N_MEMORY = N_CLEARANCES + N_FRICTIONS + N_STATES,
     N_WORK = 3,             /* work of drives, of force elements, of clearance forces */
     N_S = 2 * N_Q + N_WORK, /* state of all bodies: q, v, works */
-    N_Y = 2 * N_X + N_WORK  /* state that is integrated */
+    N_Y = 2 * N_X + N_WORK + N_STATES  /* state that is integrated */
 };
 
 /* Statuses of a run that is no longer wanted, or no longer advances, ...; positive ones are pivots, 0 is well. */
@@ -40,6 +41,9 @@ typedef struct {
 typedef struct {
     int closed;
     double deltadot_minus;
+#if LAW_STATES
+    double state[LAW_STATES]; /* of its laws, at the state that is looked at */
+#endif
 } Latch;
 
 #if N_CHAIN
@@ -84,11 +88,17 @@ typedef struct {
     double ex, ey, e, deltadot, v_t;     /* m, m/s */
     double moment_first, moment_second;  /* about each body's pin centre, N*m */
     double delta, power;                 /* m, W */
+#if LAW_STATES
+    double state_rate[LAW_STATES];       /* of the laws' inner states, each unit a second */
+#endif
 } Clearance;
 
 /* The force of a joint with play along n and t on the journal, moments about both pin centres, slip. */
 typedef struct {
     double n, t, M_i, M_j, v_t;
+#if LAW_STATES
+    double state_rate[LAW_STATES];
+#endif
 } PinForce;
 
 /* What dynamics() computes beside the accelerations. Arrays of length one where there is none. */

@@ -36,6 +36,8 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
     turn_passed(run, step); /* held until the step is taken: what lies inside it is on this side */
     for (int k = 0; k < 2 * N_X && !status; k++)
         most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->weight[k]);
+    for (int k = FIRST_STATE; k < N_Y && !status; k++)
+        most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->weight[k]);
     if (!status && most < HARMLESS) {
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];

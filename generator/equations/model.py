@@ -84,6 +84,11 @@ class Model:
     def degrees_of_freedom(self) -> int:
         return len(self.q) - len(self.rows)
 
+    @property
+    def law_states(self) -> int:
+        """Inner states of the laws of a joint with play, of the one that has most."""
+        return max((len(clearance.states) for clearance in self.clearances), default=0)
+
     @cached_property
     def masses(self) -> tuple[sp.Expr, ...]:
         """The diagonal of M, in the order of q."""

@@ -10,7 +10,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
-from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES, Law, LawInputs, PairSymbols, laws
+from gudgeon.generator.kinds.laws.law import VARIABLES, Law, LawInputs, PairSymbols, State, laws
 from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.language.units import VELOCITY
@@ -50,6 +50,11 @@ class Clearance:
     velocity_floor: sp.Expr
     clip_ratio: bool
     constants: Mapping[str, sp.Expr]  # what a report prints: K, S, …
+
+    @property
+    def states(self) -> tuple[State, ...]:
+        """Inner states of its laws: only those of friction have any so far."""
+        return self.friction.law.states if self.friction else ()
 
     @property
     def eccentricity(self) -> tuple[sp.Expr, sp.Expr]:
@@ -110,7 +115,7 @@ def _pair(name: str, bearing: Bearing, slots: Slots) -> PairSymbols:
 
 def _law(use: LawUse, role: str, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEquations:
     law = laws()[use.law]
-    variables = {name: sp.Symbol(name, real=True) for name in VARIABLES[role]}
+    variables = {name: sp.Symbol(name, real=True) for name in (*VARIABLES[role], *(s.name for s in law.states))}
     parameters = {name: slots.use(quantity) for name, quantity in use.quantities.items()}
     derived: dict[str, sp.Expr] = {}
 
@@ -119,7 +124,7 @@ def _law(use: LawUse, role: str, pair: PairSymbols, slots: Slots, derive: Derive
         return derived[name]
 
     steps = law.build(LawInputs(parameters, use.options, pair, variables, told))
-    missing = set(RESULTS[role]) - set(steps)
+    missing = set(law.results) - set(steps)
     if missing:
         raise TypeError(f"law {law.name} returns no {', '.join(sorted(missing))}")
     return LawEquations(law, use.options, tuple(variables.values()), steps, parameters, derived)

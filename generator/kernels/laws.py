@@ -11,7 +11,6 @@ from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
 from gudgeon.generator.ir.signatures import PARAMETERS, SIDES
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
-from gudgeon.generator.kinds.laws.law import RESULTS
 
 
 def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedCall]:
@@ -42,7 +41,7 @@ def law_name(equations: LawEquations) -> str:
 def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
     """Abbreviations become locals, results `*F_…` pointers; the law says its source and validity."""
     law = equations.law
-    results = RESULTS[law.role]
+    results = law.results
     build = KernelBuilder(model.symbols, law_name(equations), _doc(equations))
     build.section("")
     for name, equation in equations.steps.items():

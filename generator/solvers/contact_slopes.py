@@ -20,7 +20,6 @@ from gudgeon.generator.ir.reciprocals import hoisted
 from gudgeon.generator.ir.signatures import PARAMETERS, SIDES, ZERO
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
-from gudgeon.generator.kinds.laws.law import RESULTS
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
 DEPTH = sp.Symbol("depth", real=True)  # what the normal law is given for δ
@@ -63,7 +62,7 @@ class _Slopes:
             symbol, value = sp.Symbol(name, real=True), hoisted(self.model.slots, sp.sympify(equation))
             self.build.line(Statement(name, inner.shared(inner.held(value))))
             inner.know(symbol, inner.gradient(value, symbol))
-            if name in RESULTS[equations.law.role]:
+            if name in equations.law.results:
                 results[name] = symbol
                 self.tangents.know(symbol, self.tangents.through(inner.of(symbol)))
         return results
@@ -114,7 +113,8 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     F_n = slopes.law(normal, (DEPTH, contact.ratio))["F_n"]
     tangential = contact.of_part(contact.F_along_t, "dry")
     if clearance.friction is not None:
-        force = slopes.law(clearance.friction, (F_n, contact.v_t))["F_t"]
+        states = [sp.Symbol(f"latch->state[{k}]", real=True) for k in range(len(clearance.states))]  # as they are
+        force = slopes.law(clearance.friction, (F_n, contact.v_t, *states))["F_t"]
     slopes.step(Step(tangential, ZERO if clearance.friction is None else force))
     moments = contact.after_dry()
     for step in moments:

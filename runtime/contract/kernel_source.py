@@ -12,7 +12,7 @@ from dataclasses import MISSING, asdict, dataclass, fields
 from typing import Any
 
 from gudgeon.contract.ledger import Story
-from gudgeon.contract.methods import INTEGRATORS, KINEMATIC
+from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES
 from gudgeon.contract.stored import as_text, complete, shorten
 
 
@@ -173,6 +173,7 @@ class KernelSource:
     events: tuple[EventInfo, ...] = ()
     story: Story = Story()  # how the equations became what is integrated (check -v)
     written: tuple[WrittenInfo, ...] = ()
+    states: tuple[str, ...] = ()  # inner states of laws, "A.z", as many a joint with play; "": none
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
@@ -183,10 +184,17 @@ class KernelSource:
         return len(self.coordinates) - len(self.rows)
 
     @property
+    def n_memory(self) -> int:
+        """What a sample remembers: an impact velocity a joint with play, a mode a friction, then inner states."""
+        return len(self.clearances) + len(self.frictions) + len(self.states)
+
+    @property
     def methods(self) -> tuple[str, ...]:
         """What runs this scene: the integrators, or where nothing is left to be integrated the other one."""
         integrates = self.degrees_of_freedom or self.clearances or self.frictions
-        return INTEGRATORS if integrates else (KINEMATIC,)
+        if not integrates:
+            return (KINEMATIC,)
+        return tuple(name for name in INTEGRATORS if not (self.states and name in NEED_SLOPES))
 
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""

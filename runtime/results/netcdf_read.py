@@ -243,10 +243,11 @@ def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, ord
 def _columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype: Any = float) -> Array:
     values = np.empty((samples, len(names)), dtype)
     for column, name in enumerate(names):
-        values[:, column] = stored[name]
+        values[:, column] = stored[name] if name else np.nan
     return values
 
 
 def _memory_names(source: KernelSource) -> list[str]:
     """The series that hold what the right-hand side remembers."""
-    return [f"{joint.name}.deltadot_minus" for joint in source.clearances] + [f"{f}.mode" for f in source.frictions]
+    latches = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
+    return [*latches, *(f"{f}.mode" for f in source.frictions), *source.states]

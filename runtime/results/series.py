@@ -60,8 +60,9 @@ class Series:
 def catalogue(source: KernelSource) -> dict[str, Series]:
     """All the names of a scene in the order in which they are listed and stored."""
     found: dict[str, Series] = {}
-    for part in (_bodies, _points, _joints, _clearances, _drives, _elements, _frictions, _multipliers, _balance):
+    for part in (_bodies, _points, _joints, _clearances, _states, _drives, _elements, _frictions, _multipliers):
         found.update(part(source))
+    found.update(_balance(source))
     for name, tree in source.outputs.items():
         if not missing(source, tree, found):
             found[name] = _output(source, name, tree, found)
@@ -169,6 +170,15 @@ def _clearances(source: KernelSource) -> Iterator[tuple[str, Series]]:
         yield f"{joint.name}.state", Series("", f"0 free, 1 impact, 2 contact{at}", state)
         latched = partial(_column, array="memory", column=k)
         yield f"{joint.name}.deltadot_minus", Series("m/s", f"rate of penetration at the last onset{at}", latched)
+
+
+def _states(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Inner states of laws, as samples remember them."""
+    first = len(source.clearances) + len(source.frictions)
+    for k, name in enumerate(source.states):
+        if name:
+            compute = partial(_column, array="memory", column=first + k)
+            yield name, Series("m", "inner state of the joint's law of friction", compute)
 
 
 def _penetration(run: Result, joint: ClearanceInfo) -> Array:

@@ -38,7 +38,7 @@ def own(source: KernelSource, start: Any) -> State:
     state = taken(start.state, "start.state", (clearances,), dtype=CODE, own=True)
     if state.size and (state.min() < 0 or state.max() > 2):
         raise BadValueError("start.state: expected 0 (free), 1 (impact) or 2 (contact) for each joint with play")
-    memory = taken(start.memory, "start.memory", (clearances + len(source.frictions),), own=True)
+    memory = taken(start.memory, "start.memory", (source.n_memory,), own=True)
     _check_memory(source, state, memory)
     return replace(
         start,

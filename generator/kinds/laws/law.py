@@ -53,6 +53,17 @@ RESULTS: Mapping[str, tuple[str, ...]] = {"normal": ("F_n",), "friction": ("F_t"
 
 
 @dataclass(frozen=True)
+class State:
+    """An inner state of a law, a length (m): 0 at each onset, then integrated with the motion while in contact.
+
+    `build` reads it as a variable of that name and returns its rate (m/s) as `<name>_rate`.
+    """
+
+    name: str
+    meaning: str
+
+
+@dataclass(frozen=True)
 class Law:
     """A force law. `build(inputs: LawInputs)` returns the role's RESULTS by name, as SymPy.
 
@@ -66,6 +77,12 @@ class Law:
     validity: str
     fields: tuple[Field, ...]  # the keys beside `law`
     build: Callable[..., Any]
+    states: tuple[State, ...] = ()
+
+    @property
+    def results(self) -> tuple[str, ...]:
+        """What `build` returns: what all of its role do, then rates."""
+        return (*RESULTS[self.role], *(f"{state.name}_rate" for state in self.states))
 
     @property
     def parameters(self) -> tuple[Field, ...]:

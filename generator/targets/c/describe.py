@@ -78,8 +78,17 @@ def describe(
         tree=tree, closures=closures, motion_pivots=motion_pivots, formulation=formulation,
         chain=chain.names if chain else (), chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
-        written=tuple(_written(model)), story=story, lanes=lanes,
+        written=tuple(_written(model)), states=_states(model), story=story, lanes=lanes,
     )  # fmt: skip
+
+
+def _states(model: Model) -> tuple[str, ...]:
+    """As C has them in memory, as many for each joint: "" is none."""
+    return tuple(
+        f"{c.name}.{c.states[k].name}" if k < len(c.states) else ""
+        for c in model.clearances
+        for k in range(model.law_states)
+    )
 
 
 def _joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int]) -> tuple[JointInfo, ...]:

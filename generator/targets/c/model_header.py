@@ -59,6 +59,7 @@ def _of_linkage(program: Program) -> Sizes:
         "N_JOINTS": (len(outputs.kept_joints(model)), "joints without play"),
         "N_DRIVES": (len(model.scene.mechanism.drives), "drives"),
         "N_CLEARANCES": (len(model.clearances), "joints with play"),
+        "LAW_STATES": (model.law_states, "inner states of the laws of a joint with play, at most"),
         "N_FRICTIONS": (len(model.frictions), "slips that friction may hold"),
         "N_SWITCHES": (switches, "corners of min, max, abs and sign"),
         "N_USER_EVENTS": (len(model.events), "expressions whose zeros are watched"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
@@ -19,7 +20,7 @@ _ARGUMENTS = (
 _STORE = """\
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
-        .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};"""
+        .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0%s};"""
 _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
 
 
@@ -37,6 +38,7 @@ def clearance_code(pin: Pin, render: Render) -> str:
         ratio = {"ratio": _RATIO, "ratio_name": "unclipped" if clearance.clip_ratio else "ratio"}
         steps = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
         steps["law"] = calls_of_dry(pin, ("max_of(delta, 0.0)", "ratio"), "double")
+        steps["rates"] = _braced("rate", clearance)
         parts.append(render("play/dry.c.jinja", joint=joint, **ratio, **steps))
     if clearance.film is not None:
         steps = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": call_of_film(pin, "double")}
@@ -44,18 +46,32 @@ def clearance_code(pin: Pin, render: Render) -> str:
     parts.append(
         render(
             _template(pin), joint=joint, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
-            store=_STORE, first=pin.corners.start, last=pin.corners.stop,
+            store=_store(clearance), first=pin.corners.start, last=pin.corners.stop,
         )
     )  # fmt: skip
     return "\n".join(parts)
+
+
+def _store(clearance: Clearance) -> str:
+    rates = _braced("F.state_rate", clearance)
+    return _STORE % (f", .state_rate = {rates}" if rates else "")
+
+
+def _braced(array: str, clearance: Clearance) -> str:
+    """The rates of the inner states of its laws as an initializer; "" where there are none."""
+    rates = [f"{array}[{k}]" for k in range(len(clearance.states))]
+    return f"{{{', '.join(rates)}}}" if rates else ""
 
 
 def calls_of_dry(pin: Pin, given: Sequence[str], number: str, sides: bool = True) -> str:
     """Normal force, then friction, if there is any."""
     lines = [f"{number} F_n;", functions.shared_call(pin.laws["normal"], given, ("&F_n",), sides)]
     if "friction" in pin.laws:
-        friction = functions.shared_call(pin.laws["friction"], ("F_n", "v_t"), ("&F_along_t_dry",), sides)
-        lines += [f"{number} F_along_t_dry;", friction]
+        states = range(len(pin.clearance.states))
+        given, told = [f"latch->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
+        results = ("&F_along_t_dry", *told)
+        lines.append(f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};")
+        lines.append(functions.shared_call(pin.laws["friction"], ("F_n", "v_t", *given), results, sides))
     else:
         zero = "0.0" if number == "double" else "all_of(0.0)"
         lines.append(f"const {number} F_along_t_dry = {zero}; /* no friction */")

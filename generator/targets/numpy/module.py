@@ -92,23 +92,28 @@ class NumPyModel(ClosedLinkage):
         self.functions = _defined(self.source)
 
     def dynamics(
-        self, t: float, q: ArrayLike, v: ArrayLike, p: SimpleNamespace, latches: ArrayLike = (), modes: ArrayLike = ()
-    ) -> SimpleNamespace:
+        self, t: float, q: ArrayLike, v: ArrayLike, p: SimpleNamespace, latches: ArrayLike = (), modes: ArrayLike = (),
+        states: ArrayLike = 0.0,
+    ) -> SimpleNamespace:  # fmt: skip
         """Accelerations a (n,), multipliers `lambda_`, forces `clearance`, powers: [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …].
 
         `latches` (joints with play,): rate (m/s) with which a contact closed, NaN while it is open; `modes`
-        (frictions,): 0 stick, ±1 slip. `status` is 0, or the number of the pivot that vanished.
+        (frictions,): 0 stick, ±1 slip; `states` (joints with play, most states of a law): the laws' inner states, m,
+        whose rates are `clearance[i].state_rate`. `status` is 0, or the number of the pivot that vanished.
         """
         model = self.model
         rates = np.resize(np.asarray([*np.atleast_1d(latches), np.nan], dtype=float), len(model.clearances))
+        bent = np.broadcast_to(np.asarray(states, dtype=float), (len(model.clearances), model.law_states)).tolist()
         memory = SimpleNamespace(
-            latch=[SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x)) for x in rates],
+            latch=[SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), state=z)
+                   for x, z in zip(rates, bent, strict=True)],
             mode=np.resize(np.asarray([*np.atleast_1d(modes), 0.0], dtype=float), len(model.frictions)).tolist(),
-        )
+        )  # fmt: skip
         m = len(model.rows)
         aside = SimpleNamespace(
             a=np.zeros(self.n), lambda_=np.zeros(m), phi=np.zeros(m), phi_dot=np.zeros(m), power=np.zeros(3),
-            event=np.zeros(len(model.events)), clearance=[SimpleNamespace() for _ in model.clearances],
+            event=np.zeros(len(model.events)),
+            clearance=[SimpleNamespace(state_rate=[0.0] * model.law_states) for _ in model.clearances],
             friction=[SimpleNamespace() for _ in model.frictions], status=0,
         )  # fmt: skip
         with np.errstate(all="ignore"):

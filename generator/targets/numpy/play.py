@@ -32,11 +32,13 @@ def pin(own: Pin) -> str:
 
 def _dry(own: Pin) -> list[str]:
     """At δ > 0; before an onset is accepted the impact velocity is that of the moment: ratio 1."""
-    ratio = "unclipped" if own.clearance.clip_ratio else "ratio"
+    ratio, states = "unclipped" if own.clearance.clip_ratio else "ratio", range(len(own.clearance.states))
+    given, told = [f"latch.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
+    rubs = _call(own.laws["friction"], "F_n", "v_t", *given) if "friction" in own.laws else "0.0"
     return [
         f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0", *lines(own.before_dry),
         f"F_n = {_call(own.laws['normal'], 'delta', 'ratio')}",
-        f"F_along_t_dry = {_call(own.laws['friction'], 'F_n', 'v_t') if 'friction' in own.laws else '0.0'}",
+        f"{', '.join(['F_along_t_dry', *told])} = {rubs}",
         *lines(own.after_dry), f"F = -F_n, {', '.join(_DRY[1:])}",
     ]  # fmt: skip
 

@@ -1,0 +1,44 @@
+"""Dahl's friction: the surfaces' asperities bend like bristles before they slide, so that contact can stick.
+
+    F_t = −c_f F_n z/z_s,   ż = v_t − |v_t| z/z_s
+
+z is the bristles' deflection, 0 at each onset; it tends to ±z_s, where the force is Coulomb's. As in tyres the
+bristles are as stiff as the load makes them, c_f F_n/z_s: at an onset, where there is none, nothing is stiff.
+P. R. Dahl, Aerospace Corporation TOR-0158(3107-18)-1 (1968), exponent 1; C. Canudas de Wit, P. Tsiotras, Proc. 38th
+IEEE Conf. Decision and Control (1999) 3746-3751, for the load.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.field import Bound, number
+from gudgeon.generator.kinds.laws.law import Law, LawInputs, State
+from gudgeon.language.units import DIMENSIONLESS, LENGTH
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_t (N) on the journal, along t; z_rate (m/s)."""
+    import sympy as sp
+
+    v_t, z = s.variables["v_t"], s.variables["z"]
+    share = z * s.derive("bristles", 1 / s.parameters["presliding"], "1/z_s")
+    return {"F_t": -s.parameters["mu"] * s.variables["F_n"] * share, "z_rate": v_t - sp.Abs(v_t) * share}
+
+
+LAW = Law(
+    name="dahl",
+    role="friction",
+    title="Dahl's friction, with the deflection of bristles",
+    source="P. R. Dahl (1968), exponent 1; load as in C. Canudas de Wit, P. Tsiotras (1999)",
+    validity="presliding and sliding; no difference between static and kinetic friction",
+    fields=(
+        number("mu", "coefficient of friction", DIMENSIONLESS, symbol="c_f", required=True, bounds=(Bound(">=", 0.0),)),
+        number(
+            "presliding", "deflection at which it slides", LENGTH,
+            symbol="z_s", required=True, bounds=(Bound(">", 0.0),),
+        ),
+    ),
+    build=build,
+    states=(State("z", "deflection of the bristles"),),
+)  # fmt: skip

@@ -1,0 +1,101 @@
+"""Inner states of laws: Dahl's bristles in a joint with play."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.errors import BadValueError
+from gudgeon.loading.shipped import shipped_file
+from gudgeon.results.results import Result
+from gudgeon.simulation.simulation import Simulation
+
+pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+COULOMB = "{law: modified_coulomb, mu: 0.15, v0: 1e-4 m/s, v1: 1e-3 m/s}"
+PRESLIDING = 20e-6
+Press = Callable[..., Simulation]
+
+
+@pytest.fixture(scope="module")
+def press(tmp_path_factory: pytest.TempPathFactory) -> Press:
+    text = shipped_file("nine_bar_press").read_text(encoding="utf-8")
+    assert COULOMB in text
+    file = tmp_path_factory.mktemp("states") / "press.yaml"
+    file.write_text(text.replace(COULOMB, "{law: dahl, mu: 0.15, presliding: 20 um}"), encoding="utf-8")
+    return cache(lambda formulation="reduced": gudgeon.load(file, "dry", formulation=formulation))
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_bristles_follow_the_slip(press: Press, formulation: str) -> None:
+    """The force is the law's of the stored state, and between onsets the state obeys its equation."""
+    fine = press(formulation).simulate(0.012, output=24000, rtol=1e-10)
+    for joint in ("A", "B"):
+        z, slip, closed = fine[f"{joint}.z"], fine[f"{joint}.vt"], fine[f"{joint}.state"] > 0
+        force = -0.15 * fine[f"{joint}.Fn"] * z / PRESLIDING * closed
+        np.testing.assert_allclose(fine[f"{joint}.Ft"], force, atol=1e-12)
+        assert 0.5 * PRESLIDING < abs(z).max() < PRESLIDING
+        inside = closed[:-2] & closed[1:-1] & closed[2:] & (fine[f"{joint}.deltadot_minus"][:-2] ==
+                                                            fine[f"{joint}.deltadot_minus"][2:])  # fmt: skip
+        rate = ((z[2:] - z[:-2]) / (fine.t[2:] - fine.t[:-2]))[inside]
+        expected = (slip - abs(slip) * z / PRESLIDING)[1:-1][inside]
+        assert inside.sum() > 50
+        np.testing.assert_allclose(rate, expected, atol=3e-3 * abs(expected).max())
+
+
+def test_the_functions_of_numpy_agree(press: Press) -> None:
+    """Force and rate of the state, in contact and bent, as the compiled functions have them."""
+    simulation = press()
+    model, start, rng = simulation.model.numpy(), simulation.start(), np.random.default_rng(3)
+    p, bent = model.prepare(), np.array([[7e-6], [-1.2e-5]])
+    q, v = start.q + rng.normal(0, 3e-4, start.q.size), start.v + rng.normal(0, 0.1, start.v.size)
+    got = model.dynamics(0.1, q, v, p, [0.05, 0.2], states=bent)
+    want = simulation.compiled.rhs(0.1, np.concatenate([q, v]), simulation.p, memory=[0.05, 0.2, *bent.ravel()])
+    np.testing.assert_allclose(got.a, want[q.size : 2 * q.size], rtol=0, atol=1e-12 * abs(got.a).max())
+    assert any(joint.delta > 0 for joint in got.clearance)
+    for joint, (z,) in zip(got.clearance, bent, strict=True):
+        in_contact = joint.delta > 0
+        rate = (joint.v_t - abs(joint.v_t) * z / PRESLIDING) * in_contact
+        np.testing.assert_allclose(joint.state_rate, [rate], rtol=1e-13)
+        np.testing.assert_allclose(joint.F_t, -0.15 * -joint.F_n * z / PRESLIDING * in_contact, rtol=1e-13)
+
+
+def test_methods_and_formulations_agree(press: Press) -> None:
+    exact = press().simulate(0.012, output=20, rtol=1e-12)
+    others = [press("full").simulate(0.012, output=20, rtol=1e-12)]
+    others += [press().simulate(0.012, output=20, method="rk4", step=1e-7)]
+    for run in others:
+        assert abs(run["S9.y"] - exact["S9.y"]).max() < 1e-9
+        assert abs(run["A.z"] - exact["A.z"]).max() < 1e-3 * PRESLIDING
+
+
+def test_a_run_goes_on_with_its_states(press: Press) -> None:
+    """In contact: as bent as it was; a state that is forgotten would be 0."""
+    whole = press().simulate(0.012, output=2400, rtol=1e-12)
+    k = int(np.flatnonzero(whole["A.state"] > 0)[3])
+    begun = press().simulate(output=whole.t[: k + 1], rtol=1e-12)
+    assert begun.final.memory[2] == begun["A.z"][-1] != 0.0
+    rest = press().simulate(output=whole.t[k:], rtol=1e-12, start=begun.final)
+    assert abs(rest["A.z"][:20] - whole["A.z"][k:][:20]).max() < 1e-4 * PRESLIDING
+
+
+def test_batches_and_files_hold_them(press: Press, tmp_path: Path) -> None:
+    batch = press().simulate_many({"c": [3e-4, 5e-4]}, t_end=0.01, output=50)
+    for k, c in enumerate((3e-4, 5e-4)):
+        run = press().simulate(0.01, output=50, parameters={"c": c})
+        assert (run["A.z"] == batch["A.z"][k]).all()
+    run.save(tmp_path / "z.nc")
+    assert (Result.load(tmp_path / "z.nc")["A.z"] == run["A.z"]).all()
+
+
+@pytest.mark.parametrize("method", ["rodas5p", "scipy:Radau"])
+def test_methods_that_need_slopes_are_refused(press: Press, method: str) -> None:
+    with pytest.raises(BadValueError, match="rk4, dop853 fit"):
+        press().simulate(0.01, method=method)
+    with pytest.raises(ValueError, match="inner state"):
+        press("full").compiled.jacobian(0.0, np.zeros(48), press("full").p)
