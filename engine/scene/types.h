@@ -12,10 +12,10 @@
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1) /* an array's length: C knows none of 0 */
 
 enum {
-    N_STATES = N_CLEARANCES * LAW_STATES, /* inner states of laws, joint by joint, behind the works of what is integrated */
+    N_STATES = N_CLEARANCES * LAW_STATES, /* inner states of laws, joint by joint, behind the works in y */
     N_MEMORY = N_CLEARANCES + N_FRICTIONS + N_STATES,
-    N_WORK = 3,             /* work of drives, of force elements, of clearance forces */
-    N_S = 2 * N_Q + N_WORK, /* state of all bodies: q, v, works */
+    N_WORK = 3,                        /* work of drives, of force elements, of clearance forces */
+    N_S = 2 * N_Q + N_WORK,            /* state of all bodies: q, v, works */
     N_Y = 2 * N_X + N_WORK + N_STATES  /* state that is integrated */
 };
 

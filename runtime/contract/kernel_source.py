@@ -189,6 +189,13 @@ class KernelSource:
         return len(self.clearances) + len(self.frictions) + len(self.states)
 
     @property
+    def no_slopes(self) -> str:
+        """Why there is no Jacobian; "" where there is one."""
+        if self.methods == (KINEMATIC,):
+            return "without a degree of freedom nothing is integrated"
+        return "a law has an inner state, whose slopes are not derived" if self.states else ""
+
+    @property
     def methods(self) -> tuple[str, ...]:
         """What runs this scene: the integrators, or where nothing is left to be integrated the other one."""
         integrates = self.degrees_of_freedom or self.clearances or self.frictions

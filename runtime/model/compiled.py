@@ -48,11 +48,9 @@ class CompiledModel:
     """The library of one scene. `p` is what `prepare` returns: slots, then derived numbers."""
 
     def __init__(self, source: KernelSource, module: ModuleType, portable: bool = False) -> None:
-        self.source = source
-        self.portable = portable  # how its library was compiled, and others beside it will be
+        self.source, self.portable = source, portable  # how its library was compiled, and others beside it will be
         self.__dict__.update(lib=module.lib, ffi=module.ffi)
-        self.n = len(source.coordinates)
-        self.n_p = len(source.slots) + len(source.derived)
+        self.n, self.n_p = len(source.coordinates), len(source.slots) + len(source.derived)
         self.n_memory = source.n_memory
         self._free = np.full(max(self.n_memory, 1), np.nan)
         self._free.flags.writeable = False
@@ -167,7 +165,8 @@ class CompiledModel:
         Contacts, the sides of corners and the modes of friction are those of this state. Raises SingularError
         where rows depend on each other, ValueError where nothing is integrated.
         """
-        self._check_slopes()
+        if why := self.source.no_slopes:
+            raise ValueError(f"this scene has no Jacobian: {why}")
         J, f_t = np.empty((2 * self.n + N_WORK,) * 2), np.empty(2 * self.n + N_WORK)
         status = self.lib.gudgeon_jacobian(time(t), *self._point(y, memory, p), self._out(J), self._out(f_t))
         self.check_node(status, t)
@@ -177,19 +176,13 @@ class CompiledModel:
         self, t: float, y: ArrayLike, p: ArrayLike, eta: float, s: float, r: ArrayLike, memory: ArrayLike | None = None
     ) -> Array:
         """u, (2n + 3,), with u/η − J u = r + s f_t: a linear solve as the implicit methods do it."""
-        self._check_slopes()
+        if why := self.source.no_slopes:
+            raise ValueError(f"this scene has no Jacobian: {why}")
         u = np.empty(2 * self.n + N_WORK)
         right, eta, s = self.pointer(taken(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
         status = self.lib.gudgeon_newton(time(t), *self._point(y, memory, p), eta, s, right, self._out(u))
         self.check_node(status, t)
         return u
-
-    def _check_slopes(self) -> None:
-        """Raises ValueError where there is no Jacobian."""
-        if not hasattr(self.lib, "gudgeon_jacobian"):
-            raise ValueError("this scene has no Jacobian: without a degree of freedom nothing is integrated")
-        if self.source.states:
-            raise ValueError("this scene has no Jacobian: a law has an inner state, whose slopes are not derived")
 
     def check_node(self, status: int, t: float) -> None:
         """Raises SingularError for what the linearized equations return: −k is the k-th coordinate, row or friction."""
