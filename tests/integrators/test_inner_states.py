@@ -12,6 +12,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError
+from gudgeon.generator.targets.latex.write import equations_text
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
@@ -99,3 +100,9 @@ def test_methods_that_need_slopes_are_refused(press: Press, method: str) -> None
         press().simulate(0.01, method=method)
     with pytest.raises(ValueError, match="inner state"):
         press("full").compiled.jacobian(0.0, np.zeros(48), press("full").p)
+
+
+def test_a_class_reads_its_equation(press: Press) -> None:
+    text = equations_text(press().model)
+    assert r"\eq{\dot{z}}{v_{t}" in text
+    assert "is the deflection of the bristles, 0 at each onset" in text

@@ -22,7 +22,7 @@ def build(s: LawInputs) -> dict[str, Any]:
     import sympy as sp
 
     v_t, z = s.variables["v_t"], s.variables["z"]
-    share = z * s.derive("bristles", 1 / s.parameters["presliding"], "1/z_s")
+    share = z * 1 / s.parameters["presliding"]
     return {"F_t": -s.parameters["mu"] * s.variables["F_n"] * share, "z_rate": v_t - sp.Abs(v_t) * share}
 
 

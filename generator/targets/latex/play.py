@@ -65,8 +65,9 @@ class JointWithPlay:
         for name, value in constants.items():
             yield value, _LAW_LETTERS.get(name) or word(name)
         for equations, _ in self.laws():
+            own = _LAW_LETTERS | {f"{state.name}_rate": letter(state.name, dots=1) for state in equations.law.states}
             for name in equations.steps:
-                yield self.result(equations, name), _LAW_LETTERS.get(name) or word(name)
+                yield self.result(equations, name), own.get(name) or word(name)
 
     def _slot(self, quantity: Quantity) -> sp.Expr:
         entry = self.model.slots.entries.get(quantity.address)
@@ -205,6 +206,9 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
         paragraph(f"Option {option.name}: {_word(equations.options[option.name])} ({option.meaning}).")
         for option in law.options
     ]
+    for state in law.states:
+        told = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
+        blocks.append(paragraph(letter(state.name), told))
     return [*blocks, *joint.shown(joint.steps(equations))]
 
 
