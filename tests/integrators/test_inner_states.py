@@ -12,7 +12,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError
-from gudgeon.generator.targets.latex.write import equations_text
+from gudgeon.generator.targets.latex import equations_tex
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
@@ -103,6 +103,6 @@ def test_methods_that_need_slopes_are_refused(press: Press, method: str) -> None
 
 
 def test_a_class_reads_its_equation(press: Press) -> None:
-    text = equations_text(press().model)
+    text = equations_tex(press().model)
     assert r"\eq{\dot{z}}{v_{t}" in text
     assert "is the deflection of the bristles, 0 at each onset" in text
