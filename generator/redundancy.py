@@ -16,9 +16,9 @@ from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model, Redundancy
 from gudgeon.generator.targets.numpy.module import ClosedLinkage
-from gudgeon.model.assembly import search
+from gudgeon.assembly.start import search
 from gudgeon.model.compiled import Array
-from gudgeon.model.rank import RANK, rank, tied
+from gudgeon.assembly.rank import RANK, rank, tied
 
 SAMPLES = 3
 REACH = 0.05  # rad or share of the size, how far from the start the other configurations are sought

@@ -26,7 +26,7 @@ from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators.failure import NOT_FINITE, failure
 from gudgeon.integrators.session import Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.model.assembly import mechanism_sizes
+from gudgeon.assembly.start import mechanism_sizes
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import number
 

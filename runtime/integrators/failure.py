@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
-from gudgeon.model.assembly import mechanism_size
+from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.dead_centre import nearly_dependent_rows
+from gudgeon.assembly.dead_centre import nearly_dependent_rows
 from gudgeon.model.steep import steep_force
 from gudgeon.model.written import of_time, rate_reason, reason, trees
 

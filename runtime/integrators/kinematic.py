@@ -18,7 +18,7 @@ from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, drive
 from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
-from gudgeon.model.assembly import mechanism_size
+from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array
 from gudgeon.model.written import rate_reason, reason, reason_between
 from gudgeon.waiting.asking import Asker

@@ -12,7 +12,7 @@ import numpy as np
 from gudgeon.errors import SolverError
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.redundant_rows import contradiction
+from gudgeon.assembly.redundant_rows import contradiction
 from gudgeon.model.written import with_odd_outputs
 from gudgeon.results.results import Result
 from gudgeon.simulation.diagnose import diagnose, energy_balance, unbalanced

@@ -25,7 +25,7 @@ import numpy as np
 from gudgeon.errors import SolverError
 from gudgeon.integrators.adaptive import SMALLEST, lengths
 from gudgeon.integrators.projection import project
-from gudgeon.model.assembly import mechanism_size
+from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array
 
 if TYPE_CHECKING:

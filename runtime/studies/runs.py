@@ -13,7 +13,7 @@ import numpy as np
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.adaptive import SMALLEST
 from gudgeon.integrators.trajectory import Progress
-from gudgeon.model.assembly import mechanism_size
+from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array
 from gudgeon.model.default_step import scene_end, scene_step
 from gudgeon.model.parameters import prepare

@@ -27,7 +27,7 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import Expr, evaluate
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import UNIT, declarations, include_flags
-from gudgeon.model.assembly import assemble
+from gudgeon.assembly.start import assemble
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.waiting.asking import NAME

@@ -12,7 +12,7 @@ from gudgeon.contract.ledger import Story
 from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.reduction.tree import choose_tree
 from gudgeon.generator.reduction.tree_cost import Estimate
-from gudgeon.model.rank import rank
+from gudgeon.assembly.rank import rank
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import numpy_linkage
 from tests.oracles.linkage_yaml import to_yaml

@@ -13,7 +13,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
-from gudgeon.model.assembly import assemble, mechanism_size, search
+from gudgeon.assembly.start import assemble, mechanism_size, search
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
 

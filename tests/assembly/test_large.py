@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gudgeon.model import large, rank
-from gudgeon.model.assembly import smallest
+from gudgeon.assembly.start import smallest
 from gudgeon.model.compiled import Array
 
 N = 30  # squares: 183 coordinates

@@ -14,8 +14,8 @@ import numpy as np
 
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.large import LARGE, dependent_step, nearest_step, smallest_step
-from gudgeon.model.rank import tied
+from gudgeon.assembly.large import LARGE, dependent_step, nearest_step, smallest_step
+from gudgeon.assembly.rank import tied
 from gudgeon.model.written import reason
 
 MAX_STEPS = 60

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.errors import AssemblyError, SolverError
-from gudgeon.model.assembly import mechanism_size
+from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.rank import rank
+from gudgeon.assembly.rank import rank
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Problem, Trajectory
