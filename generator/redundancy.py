@@ -11,53 +11,29 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from gudgeon.assembly.rank import RANK, rank, tied
+from gudgeon.assembly.start import search
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model, Redundancy
-from gudgeon.generator.targets.numpy.module import ClosedLinkage
-from gudgeon.assembly.start import search
+from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
 from gudgeon.model.compiled import Array
-from gudgeon.assembly.rank import RANK, rank, tied
 
 SAMPLES = 3
 REACH = 0.05  # rad or share of the size, how far from the start the other configurations are sought
-
-
-class Numeric:
-    """The closed linkage in the words of CompiledModel, at its default numbers: just what `search` asks for."""
-
-    def __init__(self, model: Model, source: KernelSource) -> None:
-        self.source, self.n, self.linkage = source, len(model.q), ClosedLinkage(model)
-        self.numbers = self.linkage.prepare()
-        self.p = np.array(list(vars(self.numbers).values()))
-
-    def closed_phi(self, t: float, q: Array, p: Array) -> Array:
-        return self.linkage.phi(t, q, self.numbers)
-
-    def closed_nu(self, t: float, q: Array, p: Array) -> Array:
-        return self.linkage.nu(t, q, self.numbers)
-
-    def closed_phi_q(self, t: float, q: Array, p: Array) -> Array:
-        return self.linkage.phi_q(t, q, self.numbers)
-
-    def mass(self, p: Array) -> Array:
-        return self.linkage.mass(self.numbers)
-
-    def start_values(self, p: Array) -> tuple[Array, Array, Array]:
-        return self.linkage.start_values(self.numbers)
 
 
 def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     """Rows of the scene (joints with play open) that depend on the others at every configuration."""
     if not model.rows:
         return Redundancy()
-    numeric = Numeric(model, source)
+    numeric = NumPyLinkage(model, source)
     names = {row.name for row in model.rows}
     kept = [r for r, row in enumerate(model.all_rows) if row.name in names]
     try:
         with np.errstate(all="ignore"):
-            q = search(numeric, numeric.p).q  # type: ignore[arg-type]
+            q = search(numeric, numeric.p).q
             matrices = [numeric.closed_phi_q(0.0, x, numeric.p)[kept] for x in _configurations(numeric, q, kept)]
         ranks = [rank(matrix) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run will say why
@@ -68,7 +44,7 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     return _name_rows([model.all_rows[r] for r in kept], matrices[best], ranks[best])
 
 
-def _configurations(numeric: Numeric, q: Array, kept: list[int]) -> list[Array]:
+def _configurations(numeric: NumPyLinkage, q: Array, kept: list[int]) -> list[Array]:
     """The start, and configurations near it: a random step along the motion, closed again by Newton."""
     rng = np.random.default_rng(0)
     found = [q]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.assembly.rank import tied
 from gudgeon.assembly.redundant_rows import left_out
+from gudgeon.model.compiled import Array, CompiledModel
 
 DEAD = 1e-6  # singular values below this share count as zero: a double root is found to 1e-8 only
 NEAR = 1e-4  # the same where a motion ended on its way to a dead centre

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from gudgeon.model.compiled import Array
 from gudgeon.assembly.large import LARGE, is_independent, rank_by_rows, tied_shares
+from gudgeon.model.compiled import Array
 
 RANK = 1e-9  # singular values below this share of the largest count as zero
 DAMPED = 1e-7  # the least limit that a damped factorization can tell

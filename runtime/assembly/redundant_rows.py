@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.errors import AssemblyError, SolverError
-from gudgeon.assembly.start import mechanism_size
-from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.rank import rank
+from gudgeon.errors import AssemblyError, SolverError
+from gudgeon.model.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Problem, Trajectory

@@ -20,13 +20,13 @@ from time import perf_counter
 
 import numpy as np
 
+from gudgeon.assembly.linkage import mechanism_sizes
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators.failure import NOT_FINITE, failure
 from gudgeon.integrators.session import Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.assembly.start import mechanism_sizes
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import number
 

@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.assembly.linkage import mechanism_sizes
+from gudgeon.assembly.start import assemble
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.failure import INTERRUPTED, NOT_FINITE, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, told_apart
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Progress, Trajectory
-from gudgeon.assembly.start import assemble, mechanism_sizes
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.waiting.ctrl_c import CtrlC
 

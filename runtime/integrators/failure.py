@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.assembly.dead_centre import nearly_dependent_rows
+from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
-from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.assembly.dead_centre import nearly_dependent_rows
 from gudgeon.model.steep import steep_force
 from gudgeon.model.written import of_time, rate_reason, reason, trees
 

@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, drives_at, outgrown, too_far
 from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
-from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array
 from gudgeon.model.written import rate_reason, reason, reason_between
 from gudgeon.waiting.asking import Asker

@@ -9,10 +9,10 @@ from time import monotonic
 
 import numpy as np
 
+from gudgeon.assembly.redundant_rows import contradiction
 from gudgeon.errors import SolverError
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.assembly.redundant_rows import contradiction
 from gudgeon.model.written import with_odd_outputs
 from gudgeon.results.results import Result
 from gudgeon.simulation.diagnose import diagnose, energy_balance, unbalanced

@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from gudgeon.assembly.dead_centre import dependent_rows
+from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.contract.methods import ADAPTIVE, AUTO
 from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.assembly.dead_centre import dependent_rows
 from gudgeon.results.diagnostics import Diagnostics, Peak
 
 BLOCK = 1 << 16  # samples balanced between two looks

@@ -22,10 +22,10 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.errors import SolverError
 from gudgeon.integrators.adaptive import SMALLEST, lengths
 from gudgeon.integrators.projection import project
-from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array
 
 if TYPE_CHECKING:

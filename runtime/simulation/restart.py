@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 
+from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.language.wanted import mapping, number_of, refuse, text
 from gudgeon.model.arrays import CODE, taken
-from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import given_slots
 from gudgeon.results.results import State

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gudgeon.assembly.redundant_rows import left_out
 from gudgeon.contract.methods import ADAPTIVE, INTEGRATORS
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators import adaptive
@@ -19,7 +20,6 @@ from gudgeon.integrators.trajectory import Counts, Problem, Progress
 from gudgeon.language.wanted import flag, function, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import Mask, ParameterSets, given_sets, prepare_sets
-from gudgeon.assembly.redundant_rows import left_out
 from gudgeon.results.batch import Batch, as_failures, given_values, peaks_of
 from gudgeon.results.results import Result
 from gudgeon.simulation.arguments import MAX_STEPS, method_of, output_times, step_of

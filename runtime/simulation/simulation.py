@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gudgeon.assembly.redundant_rows import check_start
+from gudgeon.assembly.start import Start, assemble
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.wanted import flag, function, text
 from gudgeon.loading.find import Loading
-from gudgeon.assembly.start import Start, assemble
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
-from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.simulation.arguments import MAX_STEPS, METHODS, method_of, output_times, step_of
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.hidden_jumps import up_to_a_jump

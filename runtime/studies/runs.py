@@ -10,10 +10,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.adaptive import SMALLEST
 from gudgeon.integrators.trajectory import Progress
-from gudgeon.assembly.start import mechanism_size
 from gudgeon.model.compiled import Array
 from gudgeon.model.default_step import scene_end, scene_step
 from gudgeon.model.parameters import prepare

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gudgeon.assembly import linkage, start
 from gudgeon.errors import AssemblyError
-from gudgeon.model import assembly
 from tests.scenes import loader
 
 CART = """
@@ -39,8 +39,8 @@ def test_a_start_far_away_assembles(x: float, ask: str, hangs: bool, tmp_path: P
     simulation, near = loader(tmp_path)(text), 1e-7 if "guess" in ask else 1e-14  # a guess is no more than one
     for scene in (simulation, simulation.full):
         compiled, p = scene.compiled, scene.p
-        assert compiled.close(0.0, p, assembly.mechanism_size(compiled, p)) is not None
-        found, sought = assembly.assemble(compiled, p), assembly.search(compiled, p)
+        assert compiled.close(0.0, p, linkage.mechanism_size(compiled, p)) is not None
+        found, sought = start.assemble(compiled, p), start.search(compiled, p)
         assert found.q[0] == pytest.approx(x, rel=near)
         assert sought.q == pytest.approx(found.q, rel=near, abs=1e-7)
         assert sought.v == pytest.approx(found.v, rel=1e-9, abs=1e-9)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gudgeon.model import large, rank
+from gudgeon.assembly import large, rank
 from gudgeon.assembly.start import smallest
 from gudgeon.model.compiled import Array
 

@@ -20,6 +20,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from gudgeon.assembly.start import assemble
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, InputErrors
 from gudgeon.generator.pipeline import generate
@@ -27,7 +28,6 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import Expr, evaluate
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import UNIT, declarations, include_flags
-from gudgeon.assembly.start import assemble
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.waiting.asking import NAME

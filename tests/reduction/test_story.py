@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gudgeon.assembly.rank import rank
 from gudgeon.commands.reduction_story import outcome
 from gudgeon.contract import ledger as told
 from gudgeon.contract.kernel_source import KernelSource
@@ -12,7 +13,6 @@ from gudgeon.contract.ledger import Story
 from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.reduction.tree import choose_tree
 from gudgeon.generator.reduction.tree_cost import Estimate
-from gudgeon.assembly.rank import rank
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import numpy_linkage
 from tests.oracles.linkage_yaml import to_yaml

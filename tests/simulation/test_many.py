@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 import gudgeon
+from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.assembly.start import assemble, search
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
-from gudgeon.assembly.start import assemble, mechanism_size, search
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
 

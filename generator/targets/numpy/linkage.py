@@ -1,0 +1,49 @@
+"""The closed linkage as assembling asks for it (runtime/assembly/linkage.py), before anything is compiled."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.targets.numpy.module import Array, ClosedLinkage
+
+
+class NumPyLinkage:
+    """Functions of (t, q, p) with p (slots, then derived numbers) in the order of `source`; `p` has the defaults."""
+
+    def __init__(self, model: Model, source: KernelSource) -> None:
+        self.source, self.n, self.closed = source, len(model.q), ClosedLinkage(model)
+        self.defaults = self.closed.prepare()
+        slots = model.slots
+        symbols = [*(entry.symbol for entry in slots.entries.values()), *list(slots.derived)[: len(source.derived)]]
+        self.names = [slots.field(symbol) for symbol in symbols]
+        self.p = np.array([getattr(self.defaults, name, np.nan) for name in self.names])
+
+    def numbers(self, p: Array) -> SimpleNamespace:
+        """p by names; what only the functions' text derived keeps its default."""
+        if p is self.p:
+            return self.defaults
+        return SimpleNamespace(**vars(self.defaults) | dict(zip(self.names, np.asarray(p).tolist(), strict=True)))
+
+    def closed_phi(self, t: float, q: Array, p: Array) -> Array:
+        """Φ(q, t), (m,)."""
+        return self.closed.phi(t, q, self.numbers(p))
+
+    def closed_nu(self, t: float, q: Array, p: Array) -> Array:
+        """ν = −Φ_t, (m,)."""
+        return self.closed.nu(t, q, self.numbers(p))
+
+    def closed_phi_q(self, t: float, q: Array, p: Array) -> Array:
+        """∂Φ/∂q, (m, n)."""
+        return self.closed.phi_q(t, q, self.numbers(p))
+
+    def mass(self, p: Array) -> Array:
+        """The diagonal of M, (n,)."""
+        return self.closed.mass(self.numbers(p))
+
+    def start_values(self, p: Array) -> tuple[Array, Array, Array]:
+        """Guesses, exact values, rates of the file's start."""
+        return self.closed.start_values(self.numbers(p))

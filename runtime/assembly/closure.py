@@ -1,0 +1,239 @@
+"""Closing the linkage: Newton's steps from a guess, the nearest closed configuration, others where that is none.
+
+Angles weigh most: a step moves guessed angles and points least, then the other angles, and positions follow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.assembly.large import LARGE, dependent_step, nearest_step, smallest_step
+from gudgeon.assembly.linkage import Linkage, angles, mechanism_size, place_of
+from gudgeon.contract.kernel_source import PointInfo
+from gudgeon.model.compiled import Array
+
+MAX_STEPS = 60
+FAR = 1.0  # rad: where a guessed angle turns further, a nearer configuration is sought
+TRIES, MANY = 24, 60  # from as many other angles; fewer with more coordinates than these
+AWAY = 1e3  # of how far drives and the start ask for: a body so far from the origin is lost
+CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly,
+ROUNDING = 1e-14  # with this share of how far from the origin it is
+
+# Weights of a coordinate in the norm of a Newton step: a guess is held most firmly.
+GUESSED, FREE_ANGLE, FREE_POSITION = 1.0, 1e-2, 1e-4
+NOTHING: Mapping[str, float] = {}
+
+
+class Closure:
+    """Rows of the closed linkage, then those of `set` and what else is held; each coordinate with its weight."""
+
+    def __init__(self, linkage: Linkage, p: Array, t: float, hold: Mapping[str, float] = NOTHING) -> None:
+        source = linkage.source
+        self.linkage, self.p, self.t = linkage, p, t
+        self.place = {name: k for k, name in enumerate(source.coordinates)}
+        guess, fixed, self.rates = linkage.start_values(p)
+        self.set = np.array([*fixed, *hold.values()])
+        held = [*source.start_set, *hold]
+        self.set_index = [self.place[name] for name in held]
+        self.names = [row.name for row in source.start_rows] + [f"set {name}" for name in held]
+        self.owners = [row.owner for row in source.start_rows] + ["start"] * len(held)
+        self.is_angle = angles(source)
+        self.size = self.reach = mechanism_size(linkage, p)
+        self.units = [row.unit for row in source.start_rows]
+        self.units += ["rad" if self.is_angle[k] else "m" for k in self.set_index]
+        self.row_scale = np.array([self.size if unit == "m" else 1.0 for unit in self.units])
+        self.weight = np.where(self.is_angle, FREE_ANGLE, FREE_POSITION / self.size)
+        told = dict(zip(source.start_guess, guess.tolist(), strict=True))
+        self.guess = {name: value for name, value in told.items() if name in self.place}
+        self.guessed = [self.place[name] for name in self.guess]
+        self.points = [
+            (point, np.array([told[f"{point.name}.x"], told[f"{point.name}.y"]]))
+            for point in source.points if f"{point.name}.x" in told
+        ]  # fmt: skip
+        self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESSED, GUESSED / self.size)
+
+    def residual(self, q: Array, p: Array | None = None) -> Array:
+        """Of each row, m or rad; with other numbers p where they are given."""
+        phi = self.linkage.closed_phi(self.t, q, self.p if p is None else p)
+        return np.concatenate([phi, q[self.set_index] - self.set])
+
+    def jacobian(self, q: Array, p: Array | None = None) -> Array:
+        """Of the residual, by q."""
+        extra = np.zeros((len(self.set_index), len(q)))
+        extra[np.arange(len(self.set_index)), self.set_index] = 1.0
+        return np.concatenate([self.linkage.closed_phi_q(self.t, q, self.p if p is None else p), extra])
+
+    def least(self, q: Array, p: Array) -> Array:
+        """Where the rows are nearest to closing, with the numbers p."""
+        return self._nearest_fit(
+            q, lambda x: self.residual(x, p) / self.row_scale, lambda x: self.jacobian(x, p) / self.row_scale[:, None]
+        )
+
+    def norm(self, q: Array) -> float:
+        """How far the rows are from closing, lengths as shares of the mechanism's size."""
+        return float(np.linalg.norm(self.residual(q) / self.row_scale))
+
+    def _step(self, q: Array, columns: NDArray[np.bool_] | slice = slice(None)) -> Array:
+        """Smallest weighted step that closes the linearised rows, in some columns only."""
+        weight = self.weight[columns]
+        matrix = self.jacobian(q)[:, columns] / self.row_scale[:, None] / weight
+        target, step = -self.residual(q) / self.row_scale, np.zeros_like(q)
+        if np.isfinite(matrix).all() and np.isfinite(target).all():  # a driven distance has no direction at zero
+            few = len(self.place) >= LARGE and len(matrix) > matrix.shape[1]
+            step[columns] = (nearest_step if few else smallest)(matrix, target) / weight
+        return step
+
+    def first_guess(self) -> Array:
+        """What is guessed and held; angles that rows in angles alone give, and what guessed points ask for."""
+        q = np.zeros(len(self.place))
+        q[self.guessed] = list(self.guess.values())
+        q[self.set_index] = self.set
+        q = self.place_angles(q)
+        self.reach = self._farthest_place(q)
+        return self._towards_points(q) if self.points else q
+
+    def nearest(self) -> tuple[Array, bool]:
+        """The closed configuration nearest the guess, True; or the nearest to one there is, False.
+
+        Where Newton leads far away or nowhere, others are sought.
+        """
+        guess = self.first_guess()
+        first = self.newton(guess)
+        if self.is_closed(first) and self._turned(first, guess) < FAR and self.is_near(first) and not self.points:
+            return first, True
+        found = [first]
+        for spread in (1.0, np.pi) if self.guess else (np.pi,):
+            found += [self.newton(other) for other in self._others(guess, spread)]
+            near = [q for q in found if self.is_near(q)]
+            closed = [self.unwound(q, guess) for q in near if self.is_closed(q)]
+            if closed:
+                return min(closed, key=lambda q: self.distance(q, guess)), True
+        return min(near, key=self.norm, default=guess), False
+
+    def distance(self, q: Array, guess: Array) -> float:
+        """From what is guessed: coordinates by their weights, points as shares of the size."""
+        off = [self.off_point(q, point, target) * (GUESSED / self.size) for point, target in self.points]
+        free = np.where(np.isin(np.arange(len(q)), self.guessed), 1.0, 0.0 if self.points else 1.0)
+        return float(np.linalg.norm(np.concatenate([(q - guess) * self.weight * free, *off])))
+
+    def off_point(self, q: Array, point: PointInfo, target: Array) -> Array:
+        """From where a point is guessed to where it is, (2,), m."""
+        return place_of(self.linkage.source, self.p, q, point) - target
+
+    def _towards_points(self, q: Array) -> Array:
+        """Guessed points put where they are wanted, as well as the rows let them."""
+
+        def left(x: Array) -> Array:
+            off = [self.off_point(x, point, target) / self.size for point, target in self.points]
+            return np.concatenate([self.residual(x) / self.row_scale, *off])
+
+        def slopes(x: Array) -> Array:
+            return np.concatenate([self.jacobian(x) / self.row_scale[:, None], self._points_jacobian(x) / self.size])
+
+        return self._nearest_fit(q, left, slopes)
+
+    def _nearest_fit(self, q: Array, left: Callable[[Array], Array], slopes: Callable[[Array], Array]) -> Array:
+        """Where the sum of squares of `left` is least, by Levenberg's steps from q."""
+        damping, best = 1e-3, left(q)
+        scale = np.where(self.is_angle, 1.0, self.size)
+        for _ in range(2 * MAX_STEPS):
+            J = slopes(q) * scale
+            if not (np.isfinite(J).all() and np.isfinite(best).all()):
+                break
+            step = scale * np.linalg.solve(J.T @ J + damping * np.eye(len(q)), -J.T @ best)
+            trial = left(q + step)
+            before, after = float(np.linalg.norm(best)), float(np.linalg.norm(trial))
+            if after < before:
+                q, best, damping = q + step, trial, max(1e-12, 0.1 * damping)
+                if before - after < 1e-12 * before:
+                    break
+            elif damping < 1e6:
+                damping *= 10.0
+            else:
+                break
+        return q
+
+    def _points_jacobian(self, q: Array) -> Array:
+        """Of the guessed points' places, (2 · points, n)."""
+        J, source = np.zeros((2 * len(self.points), len(q))), self.linkage.source
+        for k, (point, _) in enumerate(self.points):
+            i = source.bodies[point.body].index
+            arm = place_of(source, self.p, q, point) - q[i : i + 2]
+            J[2 * k, i], J[2 * k, i + 2], J[2 * k + 1, i + 1], J[2 * k + 1, i + 2] = 1.0, -arm[1], 1.0, arm[0]
+        return J
+
+    def _farthest_place(self, guess: Array) -> float:
+        """How far from the origin (m) drives, the start's set and its guess ask bodies to be: the size, at least."""
+        asked = np.abs(self.residual(guess))[: len(self.linkage.source.start_rows)]
+        lengths = [row.unit == "m" for row in self.linkage.source.start_rows]
+        return float(max(self.size, asked[lengths].max(initial=0.0), np.abs(guess[~self.is_angle]).max(initial=0.0)))
+
+    def is_closed(self, q: Array) -> bool:
+        """All rows, to rounding."""
+        return self.norm(q) < CLOSED + ROUNDING * self.reach / self.size
+
+    def is_near(self, q: Array) -> bool:
+        """Not run off to where parallel lines meet, and every row seems to close."""
+        return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.reach)
+
+    def _turned(self, q: Array, guess: Array) -> float:
+        """The largest turn (rad) of a guessed angle."""
+        held = self.is_angle & (self.weight == GUESSED)
+        return float(np.abs(q - guess)[held].max(initial=0.0))
+
+    def _others(self, guess: Array, of_guessed: float) -> Iterator[Array]:
+        """Coordinates around the guess, the same in every run; driven and set ones fall back into place.
+
+        of_guessed: rad, how far guessed angles are turned, for a guess may lie where every way ends in a fold (the
+        residual is least there and not zero).
+        """
+        rng = np.random.default_rng(0)
+        spread = np.where(self.is_angle, np.pi, self.size)
+        spread[self.guessed] *= of_guessed / np.pi
+        for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):
+            q = guess + spread * rng.uniform(-1.0, 1.0, len(guess))
+            q[self.set_index] = self.set
+            yield self.place_angles(q)
+
+    def unwound(self, q: Array, guess: Array) -> Array:
+        """Angles within half a turn of the guess, where no row counts turns."""
+        for k in np.flatnonzero(self.is_angle & (np.abs(q - guess) > np.pi)):
+            other = q.copy()
+            other[k] -= 2.0 * np.pi * np.round((q[k] - guess[k]) / (2.0 * np.pi))
+            q = other if self.is_closed(other) else q
+        return q
+
+    def newton(self, q: Array) -> Array:
+        """Newton with line search, positions put in first; as far as it gets."""
+        q = q + self._step(q, ~self.is_angle)
+        norm = self.norm(q)
+        for _ in range(MAX_STEPS):
+            step, share = self._step(q), 1.0
+            while share > 1e-4 and not self.norm(q + share * step) < (1.0 - 1e-4 * share) * norm:
+                share *= 0.5
+            if share <= 1e-4:
+                break
+            q, norm = q + share * step, self.norm(q + share * step)
+        return q
+
+    def place_angles(self, q: Array) -> Array:
+        """Rows in angles alone (drives, sliders) give their angles at once."""
+        rows = np.abs(self.jacobian(q)[:, ~self.is_angle]).max(axis=1, initial=0.0) == 0.0
+        matrix = self.jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
+        q = q.copy()
+        if rows.any():
+            solution = smallest(matrix, -self.residual(q)[rows])
+            q[self.is_angle] += solution / self.weight[self.is_angle]
+        return q
+
+def smallest(matrix: Array, target: Array) -> Array:
+    """The shortest x with matrix x = target, or the nearest to it that there is; 0 where they are not finite."""
+    if not (np.isfinite(matrix).all() and np.isfinite(target).all()):
+        return np.zeros(matrix.shape[1])
+    if matrix.shape[1] >= LARGE:
+        x = smallest_step(matrix, target)
+        return x if x is not None else dependent_step(matrix, target)
+    return np.asarray(np.linalg.lstsq(matrix, target, rcond=1e-12)[0], dtype=np.float64)

@@ -1,0 +1,73 @@
+"""The closed linkage of a scene in numbers: what assembling asks of compiled functions, or of NumPy's before."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.contract.kernel_source import KernelSource, PointInfo
+from gudgeon.model.compiled import Array
+
+_LENGTH = (1, 0, 0)  # exponents of m, kg, s
+
+
+class Linkage(Protocol):
+    """Φ of the closed linkage: joints with play closed, all m rows; n coordinates, p as `prepare` gives it."""
+
+    source: KernelSource
+    n: int
+
+    def closed_phi(self, t: float, q: Array, p: Array) -> Array:
+        """Φ(q, t), (m,), m and rad."""
+
+    def closed_phi_q(self, t: float, q: Array, p: Array) -> Array:
+        """∂Φ/∂q, (m, n)."""
+
+    def closed_nu(self, t: float, q: Array, p: Array) -> Array:
+        """ν = −Φ_t, (m,): Φ_q v = ν."""
+
+    def mass(self, p: Array) -> Array:
+        """The diagonal of M, (n,)."""
+
+    def start_values(self, p: Array) -> tuple[Array, Array, Array]:
+        """What the file's start guesses, sets, and gives as rates."""
+
+
+def mechanism_size(linkage: Linkage, p: Array) -> float:
+    """The largest coordinate of a point in its body, of a ground point, or length of a joint, m."""
+    return float(mechanism_sizes(linkage, p))
+
+
+def mechanism_sizes(linkage: Linkage, p: Array) -> Array:
+    """The same for parameters of any number of runs: (...,) from (..., n_slots + n_derived)."""
+    source = linkage.source
+    index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
+    lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
+    index += [k for k, is_length in enumerate(lengths) if is_length]
+    if not index:
+        return np.ones(p.shape[:-1])
+    size = np.abs(p[..., index]).max(axis=-1, initial=0.0)
+    return np.where(size > 0.0, size, 1.0)
+
+
+def angles(source: KernelSource) -> NDArray[np.bool_]:
+    """Which coordinates are angles, (n,)."""
+    return np.array([name.endswith(".theta") for name in source.coordinates], dtype=bool)
+
+
+def arm_of(p: Array, point: PointInfo) -> Array:
+    """A point in its body's frame of the centre of mass, or in ground axes, (2,), m."""
+    pairs = ((point.x, point.sign_x), (point.y, point.sign_y))
+    return np.array([sign * float(p[k]) if k >= 0 else 0.0 for k, sign in pairs])
+
+
+def place_of(source: KernelSource, p: Array, q: Array, point: PointInfo) -> Array:
+    """Where a point is, in ground axes, (2,), m."""
+    arm = arm_of(p, point)
+    if point.body < 0:
+        return arm
+    i = source.bodies[point.body].index
+    c, s = np.cos(q[i + 2]), np.sin(q[i + 2])
+    return np.array([q[i] + c * arm[0] - s * arm[1], q[i + 1] + s * arm[0] + c * arm[1]])

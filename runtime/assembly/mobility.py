@@ -1,0 +1,112 @@
+"""What of a closed linkage can move: degrees of freedom by counting and by rank, and along which coordinates.
+
+Grübler's count is 3 bodies − rows; the rank of Φ_q tells the truth where rows say the same twice. It is taken at the
+assembled start and near it, where the largest counts: links that stand in one line for a moment are no freedom.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gudgeon.assembly.linkage import Linkage, angles, mechanism_size
+from gudgeon.assembly.rank import RANK
+from gudgeon.model.compiled import Array
+
+SAMPLES = 3
+REACH = 0.05  # rad, or share of the size: how far from the start the other configurations are
+INDEPENDENT = 1e-6  # of a coordinate's largest motion: what is left of it when others are held
+
+
+@dataclass(frozen=True)
+class Mobility:
+    """Of the closed linkage, its drives among the rows.
+
+    `freedoms` by rank, `gruebler` by counting (n − rows); `along` are coordinates that describe the freedoms, as many,
+    `loose` bodies that no row ties to the ground, `redundant` the number of rows that say nothing new.
+    """
+
+    coordinates: int
+    rows: int
+    freedoms: int
+    along: tuple[str, ...]
+    loose: tuple[str, ...]
+
+    @property
+    def gruebler(self) -> int:
+        return self.coordinates - self.rows
+
+    @property
+    def redundant(self) -> int:
+        return self.freedoms - self.gruebler
+
+
+def find_mobility(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Mobility:
+    """Of a linkage that is assembled at q (n,)."""
+    scale = np.where(angles(linkage.source), 1.0, mechanism_size(linkage, p))
+    matrices = [linkage.closed_phi_q(t, x, p) * scale for x in configurations(linkage, p, q, t)]
+    spaces = [_free_motions(matrix) for matrix in matrices]
+    least = min(range(len(spaces)), key=lambda k: spaces[k].shape[1])
+    names, free = linkage.source.coordinates, spaces[least]
+    along = tuple(names[k] for k in _describing(free, _order(names)))
+    return Mobility(len(names), len(matrices[0]), free.shape[1], along, _loose(linkage, matrices[least]))
+
+
+def configurations(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> list[Array]:
+    """The start, and configurations near it: a random step along the motion, closed again by Newton's steps."""
+    found = [q]
+    if not _free_motions(linkage.closed_phi_q(t, q, p)).shape[1]:
+        return found
+    rng = np.random.default_rng(0)
+    for _ in range(SAMPLES):
+        x = q + REACH * rng.standard_normal(len(q)) * np.linalg.norm(q, np.inf)
+        for _ in range(50):
+            residual = linkage.closed_phi(t, x, p)
+            if not np.isfinite(residual).all() or np.abs(residual).max(initial=0.0) < 1e-13:
+                break
+            x = x - np.linalg.lstsq(linkage.closed_phi_q(t, x, p), residual, rcond=1e-10)[0]
+        if np.abs(linkage.closed_phi(t, x, p)).max(initial=0.0) < 1e-9:
+            found.append(x)
+    return found
+
+
+def _free_motions(matrix: Array) -> Array:
+    """An orthonormal basis of what the rows let move, (n, freedoms)."""
+    if not len(matrix):
+        return np.eye(matrix.shape[1])
+    _, values, right = np.linalg.svd(matrix)
+    rank = int((values > RANK * values[0]).sum()) if values[0] > 0.0 else 0
+    return np.asarray(right[rank:].T, dtype=np.float64)
+
+
+def _order(names: tuple[str, ...]) -> list[int]:
+    """Body by body as in the file, its angle before its place: a crank that turns is told by its angle."""
+    return [k + shift for k in range(0, len(names), 3) for shift in (2, 0, 1)]
+
+
+def _describing(free: Array, order: list[int]) -> list[int]:
+    """Coordinates, the first that do in this order, that tell all free motions apart."""
+    basis, chosen = np.zeros((0, free.shape[1])), list[int]()
+    for share in (0.1, 0.0):  # of a coordinate's motion that is its own; then those that only go with others
+        for k in order:
+            rest = free[k] - (basis @ free[k]) @ basis
+            own = float(np.linalg.norm(rest))
+            if len(chosen) < free.shape[1] and own > INDEPENDENT and own > share * float(np.linalg.norm(free[k])):
+                basis, chosen = np.vstack([basis, rest / own]), [*chosen, k]
+    return chosen
+
+
+def _loose(linkage: Linkage, matrix: Array) -> tuple[str, ...]:
+    """Bodies that no joint and no drive ties to the ground, not even over other bodies."""
+    bodies = linkage.source.bodies
+    touched = [{k for k, body in enumerate(bodies) if np.any(row[body.index : body.index + 3])} for row in matrix]
+    # a row of one body ties it to the ground, and with it those that rows join to it
+    held = {k for row in touched if len(row) == 1 for k in row}
+    grown = True
+    while grown:
+        grown = False
+        for row in touched:
+            if row & held and not row <= held:
+                held, grown = held | row, True
+    return tuple(body.name for k, body in enumerate(bodies) if k not in held)

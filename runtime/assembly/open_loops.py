@@ -1,0 +1,78 @@
+"""A linkage that does not close: which links are too short or too long, and by how much.
+
+One body at a time is made longer or shorter, its points moving away from its centre of mass, until the rows close
+with the least change there is. Where they cannot close, what is left of them is least at some configuration, and there
+Φ_qᵀ Φ = 0: no motion makes it smaller, but a change of length s does, by Φᵀ Φ_s. So s follows by Newton's steps on the
+norm of what is left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from gudgeon.assembly.closure import Closure
+from gudgeon.assembly.linkage import arm_of
+from gudgeon.model.compiled import Array
+
+STEPS = 30
+NUDGE = 1e-6  # relative, of a body's length: for the derivative by it
+SHUT = 1e-7  # share of the size that is left where a length counts as found
+MOST = 4.0  # times its length: what would have to grow further is not what is wrong
+
+
+@dataclass(frozen=True)
+class WrongLength:
+    """A body that would close the linkage if it alone were longer by `missing` (m); negative: shorter."""
+
+    body: str
+    length: float  # m, between its two points that lie furthest apart
+    missing: float
+
+
+def wrong_lengths(closure: Closure, q: Array) -> list[WrongLength]:
+    """What would close the rows, the least change first. q: where they are nearest to closing."""
+    with np.errstate(all="ignore"):
+        return sorted(_found(closure, q), key=lambda wrong: abs(wrong.missing))
+
+
+def _found(closure: Closure, q: Array) -> Iterator[WrongLength]:
+    source = closure.linkage.source
+    for index, body in enumerate(source.bodies):
+        arms = [(point, arm_of(closure.p, point)) for point in source.points if point.body == index]
+        length = max((float(np.hypot(*(a - b))) for (_, a), (_, b) in combinations(arms, 2)), default=0.0)
+        if length > 0.0:
+            places = sorted({k for point, _ in arms for k in (point.x, point.y) if k >= 0})
+            share = _share(closure, q, places)
+            if share is not None:
+                yield WrongLength(body.name, length, share * length)
+
+
+def _share(closure: Closure, q: Array, places: list[int]) -> float | None:
+    """By which share the numbers at `places` of p must grow so that the rows just close; None: that does not help."""
+    p, share = closure.p, 0.0
+
+    def scaled(by: float) -> Array:
+        changed = np.array(p)
+        changed[places] *= 1.0 + by
+        return changed
+
+    for _ in range(STEPS):
+        q = closure.least(q, scaled(share))
+        left = closure.residual(q, scaled(share)) / closure.row_scale
+        size = float(np.linalg.norm(left))
+        if not np.isfinite(size):
+            return None
+        if size < SHUT:
+            return share
+        ahead, behind = (closure.residual(q, scaled(share + e)) / closure.row_scale for e in (NUDGE, -NUDGE))
+        slope = float(left @ (ahead - behind)) / (2.0 * NUDGE)
+        if abs(slope) < 1e-9 * size:
+            return None
+        share -= size**2 / slope
+        if abs(share) > MOST or share <= -1.0:
+            return None
+    return None
