@@ -14,11 +14,13 @@ from typing import Any
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model, make_model
 from gudgeon.generator.kernels.program import make_program
+from gudgeon.generator.mechanism.mechanism import Mechanism
 from gudgeon.generator.mechanism.scene import make_scene
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.redundancy import find_redundancy
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import emit
+from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
 from gudgeon.generator.targets.numpy.module import NumPyModel
 
 Overrides = Mapping[str, str | float | bool]
@@ -36,6 +38,13 @@ def derive(
         model = replace(make_model(make_scene(mechanism, scene)), targets=TARGETS)
     with _stage("rank of the rows", seconds):
         return model.without(find_redundancy(model, describe(model)))
+
+
+def closed_linkage(mechanism: Mechanism, scene: str) -> tuple[NumPyLinkage, list[int]]:
+    """The closed linkage of a scene in numbers, and which of its rows the scene keeps: joints with play are open."""
+    model = make_model(make_scene(mechanism, scene))
+    kept = {row.name for row in model.rows}
+    return NumPyLinkage(model, describe(model)), [r for r, row in enumerate(model.all_rows) if row.name in kept]
 
 
 # What `Model.written` offers: a name each, and what is made of the absolute formulation's functions.

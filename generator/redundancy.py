@@ -11,17 +11,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from gudgeon.assembly.mobility import SAMPLES, configurations, find_mobility
 from gudgeon.assembly.rank import RANK, rank, tied
 from gudgeon.assembly.start import search
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import GudgeonError
+from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model, Redundancy
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
+from gudgeon.language.tree import Number
 from gudgeon.model.compiled import Array
-
-SAMPLES = 3
-REACH = 0.05  # rad or share of the size, how far from the start the other configurations are sought
 
 
 def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
@@ -34,30 +33,30 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     try:
         with np.errstate(all="ignore"):
             q = search(numeric, numeric.p).q
-            matrices = [numeric.closed_phi_q(0.0, x, numeric.p)[kept] for x in _configurations(numeric, q, kept)]
+            more = SAMPLES if rank(numeric.closed_phi_q(0.0, q, numeric.p)[kept]) < len(kept) else 0
+            near = configurations(numeric, numeric.p, q, kept, more)
+            matrices = [numeric.closed_phi_q(0.0, x, numeric.p)[kept] for x in near]
         ranks = [rank(matrix) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run will say why
         return Redundancy()
+    check_freedoms(model, numeric, q)
     best = int(np.argmax(ranks))
     if ranks[best] == len(kept):
         return Redundancy()
     return _name_rows([model.all_rows[r] for r in kept], matrices[best], ranks[best])
 
 
-def _configurations(numeric: NumPyLinkage, q: Array, kept: list[int]) -> list[Array]:
-    """The start, and configurations near it: a random step along the motion, closed again by Newton."""
-    rng = np.random.default_rng(0)
-    found = [q]
-    for _ in range(SAMPLES if rank(numeric.closed_phi_q(0.0, q, numeric.p)[kept]) < len(kept) else 0):
-        x = q + REACH * rng.standard_normal(len(q)) * np.linalg.norm(q, np.inf)
-        for _ in range(50):
-            residual = numeric.closed_phi(0.0, x, numeric.p)[kept]
-            if np.abs(residual).max() < 1e-13:
-                break
-            x = x - np.linalg.lstsq(numeric.closed_phi_q(0.0, x, numeric.p)[kept], residual, rcond=1e-10)[0]
-        if np.abs(numeric.closed_phi(0.0, x, numeric.p)[kept]).max() < 1e-9:
-            found.append(x)
-    return found
+def check_freedoms(model: Model, linkage: NumPyLinkage, q: Array) -> None:
+    """BadValueError where the file says that its closed linkage has another number of degrees of freedom."""
+    wanted = model.scene.mechanism.freedoms
+    if wanted is None or not isinstance(wanted.value, Number):
+        return
+    found = find_mobility(linkage, linkage.p, q)
+    if found.freedoms != wanted.value.value:
+        along = f": {', '.join(found.along)}" if found.along else ""
+        told = f"freedoms is {wanted.value.value:g}, but with all joints closed there are {found.freedoms}{along}"
+        hint = "look for a joint or a drive that is missing or too many, or correct the number"
+        raise BadValueError(told, wanted.where, f"expected {found.freedoms}, if that is meant; {hint}")
 
 
 def _name_rows(rows: Sequence[Row], matrix: Array, independent: int) -> Redundancy:

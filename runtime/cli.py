@@ -152,15 +152,18 @@ def check(
     verbose: Annotated[
         bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations, what was skipped.")
     ] = False,
+    branches: Annotated[
+        bool, typer.Option("--branches", help="The assemblies of the start, each with the guess that picks it.")
+    ] = False,
     json: Json = False,
 ) -> int:
-    """Is a mechanism file valid? Every mistake is told with its line, its column and what was expected.
+    """Is a mechanism file valid, does it assemble, and what can move? Mistakes are told with line and column.
 
     Example: gudgeon check engine.yaml -v
     """
     from gudgeon.commands.check import check_file
 
-    return check_file(file, verbose, json)
+    return check_file(file, verbose, json, branches)
 
 
 @app.command()

@@ -10,7 +10,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
-from gudgeon.generator.kinds.laws.law import VARIABLES, Law, LawInputs, PairSymbols, State, laws
+from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols, State, laws
 from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.language.units import VELOCITY
@@ -87,7 +87,7 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
         return constants[name]
 
     def law(use: LawUse | None, role: str) -> LawEquations | None:
-        return None if use is None else _law(use, role, pair, slots, derive)
+        return None if use is None else _law(use, pair, slots, derive)
 
     contact = play.contact
     normal, friction, film = law(contact.normal, "normal"), law(contact.friction, "friction"), law(contact.film, "film")
@@ -113,9 +113,9 @@ def _pair(name: str, bearing: Bearing, slots: Slots) -> PairSymbols:
     )
 
 
-def _law(use: LawUse, role: str, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEquations:
+def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEquations:
     law = laws()[use.law]
-    variables = {name: sp.Symbol(name, real=True) for name in (*VARIABLES[role], *(s.name for s in law.states))}
+    variables = {name: sp.Symbol(name, real=True) for name in law.variables}
     parameters = {name: slots.use(quantity) for name, quantity in use.quantities.items()}
     derived: dict[str, sp.Expr] = {}
 

@@ -186,6 +186,11 @@ FILE = record(
     mapping("materials", "materials by name", MATERIAL),
     mapping("bodies", "bodies by name: one at least", BODY, required=True),
     mapping("ground", "points of the ground by name", POINT_OF_GROUND),
+    number(
+        "freedoms", "degrees of freedom that are meant, with all joints closed and all drives: checked", DIMENSIONLESS,
+        otherwise="they are told where there are any", whole=True,
+        bounds=(Bound(">=", 0.0, "a count is not negative"),),
+    ),
     mapping("joints", "joints by name", Field("joint", KINDS, "one kind and its keys", kinds=_joints)),
     mapping("drives", "drives by name", Field("drive", KINDS, "one kind and its keys", kinds=lambda: DRIVES)),
     mapping("forces", "force elements by name", Field("force", KINDS, "one kind and its keys", kinds=_forces)),

@@ -227,3 +227,4 @@ class Mechanism:
     file: str
     sha256: str  # of the file's bytes
     forces: Mapping[str, ForceElement] = field(default_factory=dict)
+    freedoms: Quantity | None = None  # what the file says of the closed linkage

@@ -8,21 +8,22 @@ from collections.abc import Mapping
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.format.overrides import apply_overrides
-from gudgeon.generator.format.sections import OUTPUT
+from gudgeon.generator.format.sections import OUTPUT, SECTIONS
 from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
 from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
 from gudgeon.generator.reader.contacts import read_bearings, read_contacts, read_materials
 from gudgeon.generator.reader.drives import read_drives
-from gudgeon.generator.reader.fields import read_number
+from gudgeon.generator.reader.fields import read_number, text_of
 from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
 from gudgeon.generator.reader.parameters import read_parameters, settle
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.reader.result_names import MotionNames, ResultNames
 from gudgeon.generator.reader.scenes import Parts, read_events, read_scenes
-from gudgeon.generator.yaml.tree import Map, parse_yaml
+from gudgeon.generator.yaml.tree import Map, kind_of, parse_yaml
 from gudgeon.language.names import Namespace, check_name
+from gudgeon.language.tree import Number
 
 _MAX_TITLE = 200
 # without controls, what ends a line and what turns the direction of the text behind it
@@ -66,6 +67,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion))
     named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}
     unread = named - {*joints, *drives, *forces} | namespace.twice
+    freedoms = _read_freedoms(reader, root)
     known = ResultNames(places, joints, drives, forces, parameters, unread)
     outputs = _read_outputs(reader, root, namespace, known)
     check_values(reader, parameters, scenes)
@@ -85,6 +87,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
         file=reader.file,
         sha256=sha256,
         forces=forces,
+        freedoms=freedoms,
     )
 
 
@@ -100,6 +103,20 @@ def _read_title(reader: Reader, root: Map) -> str:
             hint = f"expected one line of at most {_MAX_TITLE} characters without backslashes or comment signs"
             raise BadValueError(f"the title {what}", title.where, hint)
     return str(title)
+
+
+def _read_freedoms(reader: Reader, root: Map) -> Quantity | None:
+    """How many degrees of freedom are meant: a number as it stands, for it is compared with a rank."""
+    if "freedoms" not in root:
+        return None
+    with reader.collect():
+        text = text_of(root["freedoms"], root.key("freedoms"), "the file")
+        number = read_number(reader, text, SECTIONS["freedoms"], "freedoms")
+        value = number.value.value if isinstance(number.value, Number) else -1.0
+        if value < 0.0 or value != int(value):
+            raise BadValueError(f"freedoms is {kind_of(text)}", text.where, "expected a whole number: 0, 1, 2")
+        return number
+    return None
 
 
 def _read_outputs(

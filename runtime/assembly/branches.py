@@ -48,7 +48,8 @@ def unfollowed(closure: Closure, q: Array) -> dict[str, float]:
 def find_assemblies(linkage: Linkage, p: Array, q: Array, along: Sequence[str], t: float = 0.0) -> list[Assembly]:
     """All that were found, the start's q (n,) first. `along`: coordinates that can move, held as they are there."""
     place = {name: k for k, name in enumerate(linkage.source.coordinates)}
-    closure = Closure(linkage, p, t, {name: float(q[place[name]]) for name in along if name not in linkage.source.start_set})
+    free = [name for name in along if name not in linkage.source.start_set]
+    closure = Closure(linkage, p, t, {name: float(q[place[name]]) for name in free})
     with np.errstate(all="ignore"):
         found = _distinct(closure, q)
         names = [name for name in linkage.source.coordinates if closure.is_angle[place[name]]]

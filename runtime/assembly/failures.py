@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from gudgeon.assembly.closure import Closure
+from gudgeon.assembly.open_loops import wrong_lengths
 from gudgeon.assembly.rank import tied
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array
 from gudgeon.model.written import reason
 
+FEW = 60  # coordinates up to which it is looked for which length is wrong
 
 def stuck(closure: Closure, matrix: Array, left: Array) -> AssemblyError:
     """Velocities that do not fit: the rows whose combination vanishes, drives and rates among them."""
@@ -54,12 +56,36 @@ def not_closed(closure: Closure, q: Array) -> AssemblyError:
         return AssemblyError(f"the start cannot be assembled: {told}")
     worst = np.argsort(-scaled)[:6]
     worst = worst[scaled[worst] > 1e-3 * scaled.max()]
-    rows = ", ".join(f"{closure.names[k]} ({closure.residual(q)[k]:.3g})" for k in worst)
+    rows = ", ".join(_open_row(closure, q, k) for k in worst)
     owners = ", ".join(dict.fromkeys(closure.owners[k] for k in worst if closure.owners[k] != "start"))
     sets = "what start.set holds, " if len(closure.set_index) else ""
+    lengths = _lengths(closure, q)
     return AssemblyError(
-        f"the start cannot be assembled: rows {rows} stay open (joints {owners or 'none'};"
-        f" residual {np.abs(closure.residual(q)).max():.3g})\n"
+        f"the start cannot be assembled: rows {rows} stay open (joints {owners or 'none'}){lengths}\n"
         "  either the constraints contradict each other or the guess is far from every branch: check"
         f" {sets}lengths and ground points, or give start.guess angles nearer to the wanted branch"
     )
+
+
+def _open_row(closure: Closure, q: Array, k: int) -> str:
+    """ "C.x (8.2 mm, line 14)": by how much it stays open."""
+    left, line = float(closure.residual(q)[k]), dict(closure.linkage.source.lines).get(closure.owners[k])
+    amount = lengths_text(left) if closure.units[k] == "m" else f"{np.degrees(left):.3g} deg"
+    return f"{closure.names[k]} ({amount}{f', line {line}' if line else ''})"
+
+
+def _lengths(closure: Closure, q: Array) -> str:
+    """Which links are too short or too long, and by how much; "" where no single one would do, or they are many."""
+    if closure.linkage.n > FEW:
+        return ""
+    found = wrong_lengths(closure, closure.least(q, closure.p))[:3]
+    told = [
+        f"{one.body} ({lengths_text(one.length)}) {'longer' if one.missing > 0.0 else 'shorter'} by"
+        f" {lengths_text(abs(one.missing))}" for one in found
+    ]  # fmt: skip
+    return f"\n  one change would close it: {', or '.join(told)}" if told else ""
+
+
+def lengths_text(length: float) -> str:
+    """A length with four digits, in mm or m."""
+    return f"{1e3 * length:.4g} mm" if abs(length) < 1.0 else f"{length:.4g} m"

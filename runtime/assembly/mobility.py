@@ -6,6 +6,7 @@ assembled start and near it, where the largest counts: links that stand in one l
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,38 +36,44 @@ class Mobility:
 
     @property
     def gruebler(self) -> int:
+        """Coordinates less rows."""
         return self.coordinates - self.rows
 
     @property
     def redundant(self) -> int:
+        """Rows that say nothing new."""
         return self.freedoms - self.gruebler
 
 
-def find_mobility(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Mobility:
-    """Of a linkage that is assembled at q (n,)."""
+def find_mobility(
+    linkage: Linkage, p: Array, q: Array, rows: Sequence[int] | None = None, t: float = 0.0
+) -> Mobility:
+    """Of a linkage that is assembled at q (n,); of some of its rows where those of joints with play are left out."""
     scale = np.where(angles(linkage.source), 1.0, mechanism_size(linkage, p))
-    matrices = [linkage.closed_phi_q(t, x, p) * scale for x in configurations(linkage, p, q, t)]
-    spaces = [_free_motions(matrix) for matrix in matrices]
+    kept = list(range(len(linkage.source.start_rows))) if rows is None else list(rows)
+    with np.errstate(all="ignore"):
+        near = configurations(linkage, p, q, kept, SAMPLES, t)
+        matrices = [linkage.closed_phi_q(t, x, p)[kept] * scale for x in near]
+    spaces = [_free_motions(matrix) for matrix in matrices if np.isfinite(matrix).all()]
     least = min(range(len(spaces)), key=lambda k: spaces[k].shape[1])
     names, free = linkage.source.coordinates, spaces[least]
     along = tuple(names[k] for k in _describing(free, _order(names)))
-    return Mobility(len(names), len(matrices[0]), free.shape[1], along, _loose(linkage, matrices[least]))
+    return Mobility(len(names), len(kept), free.shape[1], along, _loose(linkage, matrices[least]))
 
 
-def configurations(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> list[Array]:
-    """The start, and configurations near it: a random step along the motion, closed again by Newton's steps."""
-    found = [q]
-    if not _free_motions(linkage.closed_phi_q(t, q, p)).shape[1]:
-        return found
-    rng = np.random.default_rng(0)
-    for _ in range(SAMPLES):
+def configurations(
+    linkage: Linkage, p: Array, q: Array, rows: Sequence[int], count: int, t: float = 0.0
+) -> list[Array]:
+    """The start, and `count` configurations near it: a random step along the motion, closed again by Newton's."""
+    rng, found, kept = np.random.default_rng(0), [q], list(rows)
+    for _ in range(count):
         x = q + REACH * rng.standard_normal(len(q)) * np.linalg.norm(q, np.inf)
         for _ in range(50):
-            residual = linkage.closed_phi(t, x, p)
-            if not np.isfinite(residual).all() or np.abs(residual).max(initial=0.0) < 1e-13:
+            residual = linkage.closed_phi(t, x, p)[kept]
+            if np.abs(residual).max(initial=0.0) < 1e-13:
                 break
-            x = x - np.linalg.lstsq(linkage.closed_phi_q(t, x, p), residual, rcond=1e-10)[0]
-        if np.abs(linkage.closed_phi(t, x, p)).max(initial=0.0) < 1e-9:
+            x = x - np.linalg.lstsq(linkage.closed_phi_q(t, x, p)[kept], residual, rcond=1e-10)[0]
+        if np.abs(linkage.closed_phi(t, x, p)[kept]).max(initial=0.0) < 1e-9:
             found.append(x)
     return found
 

@@ -12,11 +12,12 @@ import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from gudgeon.commands import assembly_story as story
 from gudgeon.commands.progress import status_line
 from gudgeon.commands.reduction_story import story_data, tell
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
-from gudgeon.errors import InputError, InputErrors
+from gudgeon.errors import AssemblyError, InputError, InputErrors
 from gudgeon.integrators.adaptive import begins_with
 from gudgeon.loading.find import derived, find_mechanism, read_bytes
 
@@ -30,7 +31,7 @@ MARGIN, GAP = 2, 3  # of a table, and between its columns
 CHECKS = ("scipy:*", "sundials:*")  # integrators of others, which fit wherever something is integrated
 
 
-def check_file(name: str, verbose: bool, as_json: bool) -> int:
+def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False) -> int:
     """Read, tell, and return the exit code."""
     from gudgeon.generator.reader.read import read_mechanism
 
@@ -45,16 +46,28 @@ def check_file(name: str, verbose: bool, as_json: bool) -> int:
         return error.exit_code
     seconds: dict[str, dict[str, float]] = {scene: {} for scene in mechanism.scenes}
     with status_line(quiet=as_json):
+        found = story.assemble_scenes(mechanism, branches)
         scenes = {
             scene: derived(data, file, scene, seconds=seconds[scene]) for scene in mechanism.scenes if verbose
         }  # fmt: skip
     if as_json:
-        print(json.dumps(_document(mechanism, scenes, seconds), ensure_ascii=False, indent=1))
-        return 0
-    print(_wrapped("valid", _counts(mechanism)))
+        print(json.dumps(_document(mechanism, scenes, seconds, found), ensure_ascii=False, indent=1))
+        return _code(found)
+    print(_wrapped("valid", f"{_counts(mechanism)}; {story.summary(found)}"))
+    for whose, remark in story.remarks(mechanism, found):
+        print(_wrapped(f"  {whose}", remark))
+    for line in story.branches(found) if branches else ():
+        print(line)
     if scenes:
         _print(mechanism, scenes, seconds)
+    for scene, problem in found.failed.items():
+        told = "" if len(found.failed) == len(mechanism.scenes) else f"scene {scene}: "
+        raise AssemblyError(f"{told}{problem}")
     return 0
+
+
+def _code(found: story.Findings) -> int:
+    return next((error.exit_code for error in found.failed.values()), 0)
 
 
 def _errors(error: InputError) -> list[dict[str, Any]]:
@@ -100,8 +113,8 @@ def driven(source: KernelSource) -> tuple[str, ...]:
 
 
 def _takes_checks(source: KernelSource) -> bool:
-    """Friction that sticks and impulses of drives are the C methods' own (integrators/python_driver.py)."""
-    return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps)
+    """Friction that sticks, impulses of drives, inner states of laws are the C methods' own (integrators/peers)."""
+    return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps or source.states)
 
 
 def _reduction(source: KernelSource) -> dict[str, Any]:
@@ -139,8 +152,9 @@ def _label(kernel: str) -> str:
 
 
 def _document(
-    mechanism: Mechanism, scenes: Mapping[str, KernelSource], seconds: Mapping[str, Mapping[str, float]]
-) -> dict[str, Any]:
+    mechanism: Mechanism, scenes: Mapping[str, KernelSource], seconds: Mapping[str, Mapping[str, float]],
+    found: story.Findings,
+) -> dict[str, Any]:  # fmt: skip
     return {
         "valid": True,
         "name": mechanism.name,
@@ -148,6 +162,8 @@ def _document(
         "bodies": list(mechanism.bodies),
         "joints": list(mechanism.joints),
         "drives": list(mechanism.drives),
+        "assembled": story.data(found),
+        "assemblies": story.branches_data(found),
         "scenes": {
             name: _of_scene(scenes[name]) | {"seconds": seconds[name]} if name in scenes else {}
             for name in mechanism.scenes

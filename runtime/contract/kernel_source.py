@@ -173,6 +173,7 @@ class KernelSource:
     events: tuple[EventInfo, ...] = ()
     story: Story = Story()  # how the equations became what is integrated (check -v)
     written: tuple[WrittenInfo, ...] = ()
+    lines: tuple[tuple[str, int], ...] = ()  # of the file, where joints and drives are
     states: tuple[str, ...] = ()  # inner states of laws, "A.z", as many a joint with play; "": none
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls

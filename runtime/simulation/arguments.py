@@ -98,9 +98,10 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
         offered = ", ".join(name for name in METHODS if name != ADAPTIVE)  # a name of ours for what auto runs
         raise BadValueError(f"method {method!r}: expected auto, {offered}")
     if method not in fitting:
-        freedom = f"{dof} degree{'' if dof == 1 else 's'} of freedom"
-        fit = ", ".join(source.methods)
-        raise BadValueError(f"method {method!r} does not fit: this scene has {freedom}, use auto ({fit} fit)")
+        why = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
+        if source.states:
+            why = f"a law has an inner state ({next(filter(None, source.states))}), by which no slope is taken"
+        raise BadValueError(f"method {method!r} does not fit: {why}, use auto ({', '.join(source.methods)} fit)")
     return method
 
 

@@ -63,12 +63,12 @@ def test_every_law_is_built_of_smooth_pieces_and_known_symbols() -> None:
     """No Piecewise (common-subexpression elimination would hoist a division above its guard), no stray symbols."""
     assert {law.role for law in laws().values()} == set(RESULTS)
     for law in laws().values():
-        symbols = {v: sp.Symbol(v, real=True) for v in VARIABLES[law.role]}
+        symbols = {v: sp.Symbol(v, real=True) for v in law.variables}
         parameters = {p.name: sp.Symbol(p.name, positive=True) for p in law.parameters}
         pair = PairSymbols(**{k: sp.Symbol(k, positive=True) for k in vars(PAIR)})
         chosen = {o.name: o.choice for o in law.options}
         steps = law.build(LawInputs(parameters, chosen, pair, symbols, lambda name, expression, meaning: expression))
-        assert set(RESULTS[law.role]) <= set(steps)
+        assert set(law.results) <= set(steps)
         known = {*symbols.values(), *parameters.values(), *vars(pair).values()}
         for name, expression in steps.items():
             assert not expression.has(sp.Piecewise), (law.name, name)

@@ -80,6 +80,11 @@ class Law:
     states: tuple[State, ...] = ()
 
     @property
+    def variables(self) -> tuple[str, ...]:
+        """What `build` is given by name: what all of its role are, then states."""
+        return (*VARIABLES[self.role], *(state.name for state in self.states))
+
+    @property
     def results(self) -> tuple[str, ...]:
         """What `build` returns: what all of its role do, then rates."""
         return (*RESULTS[self.role], *(f"{state.name}_rate" for state in self.states))

@@ -28,7 +28,7 @@ from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
-from gudgeon.generator.mechanism.mechanism import GROUND
+from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.language.tree import names, to_json
 from gudgeon.language.units import Dimension
@@ -78,8 +78,15 @@ def describe(
         tree=tree, closures=closures, motion_pivots=motion_pivots, formulation=formulation,
         chain=chain.names if chain else (), chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
+        lines=_lines(mechanism),
         written=tuple(_written(model)), states=_states(model), story=story, lanes=lanes,
     )  # fmt: skip
+
+
+def _lines(mechanism: Mechanism) -> tuple[tuple[str, int], ...]:
+    """Where joints and drives stand in the file."""
+    joints = [(name, joint.where.line) for name, joint in mechanism.joints.items()]
+    return (*joints, *((name, drive.where.line) for name, drive in mechanism.drives.items()))
 
 
 def _states(model: Model) -> tuple[str, ...]:

@@ -1,0 +1,190 @@
+"""What `gudgeon check` finds by assembling: what can move, whether guesses are followed, which assemblies there are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.assembly.branches import Assembly, find_assemblies, unfollowed
+from gudgeon.assembly.closure import Closure
+from gudgeon.assembly.failures import not_closed
+from gudgeon.assembly.mobility import Mobility, find_mobility
+from gudgeon.assembly.start import velocities
+from gudgeon.errors import GudgeonError
+
+if TYPE_CHECKING:
+    from gudgeon.generator.mechanism.mechanism import Mechanism
+    from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
+    from gudgeon.model.compiled import Array
+
+QUICK = 45  # coordinates up to which assemblies are looked for unasked
+ALIKE = math.radians(5.0)  # rad: guesses that two assemblies follow as well as that do not tell them apart
+
+
+@dataclass(frozen=True)
+class Assembled:
+    """A scene at its default numbers: `closed` is the linkage without play, `scene` what its own rows let move."""
+
+    linkage: NumPyLinkage
+    q: Array
+    closed: Mobility
+    scene: Mobility
+    off: Mapping[str, float]  # guesses that are not followed: rad, or m
+
+
+@dataclass(frozen=True)
+class Findings:
+    """Of each scene how it assembles, or why it does not; the assemblies of the first that does."""
+
+    scenes: Mapping[str, Assembled]
+    failed: Mapping[str, GudgeonError]
+    assemblies: tuple[Assembly, ...] = ()
+
+    @property
+    def alike(self) -> list[Assembly]:
+        """Assemblies that follow the file's guesses as well as the start does."""
+        first = next(iter(self.scenes.values()), None)
+        if first is None or not self.assemblies:
+            return []
+        closure = Closure(first.linkage, first.linkage.p, 0.0)
+        guessed = [k for k in closure.guessed if closure.is_angle[k]]
+        if closure.points:
+            return []
+        start = self.assemblies[0].q
+        return [a for a in self.assemblies[1:] if np.abs(turned(a.q - start)[guessed]).max(initial=0.0) < ALIKE]
+
+
+def turned(away: Array) -> Array:
+    """A difference of angles within half a turn."""
+    return np.asarray((away + np.pi) % (2.0 * np.pi) - np.pi)
+
+
+def assemble_scenes(mechanism: Mechanism, branches: bool) -> Findings:
+    """Assemble every scene; other assemblies are looked for where that is quick, or asked for."""
+    from gudgeon.generator.pipeline import closed_linkage
+
+    scenes: dict[str, Assembled] = {}
+    failed: dict[str, GudgeonError] = {}
+    assemblies: tuple[Assembly, ...] = ()
+    for name in mechanism.scenes:
+        linkage, rows = closed_linkage(mechanism, name)
+        try:
+            scenes[name] = _assembled(linkage, rows)
+        except GudgeonError as error:
+            failed[name] = error
+            continue
+        found = scenes[name]
+        if not assemblies and (branches or linkage.n <= QUICK):
+            assemblies = tuple(find_assemblies(linkage, linkage.p, found.q, found.closed.along))
+    return Findings(scenes, failed, assemblies)
+
+
+def _assembled(linkage: NumPyLinkage, rows: Sequence[int]) -> Assembled:
+    """Raises AssemblyError, AssemblyError of velocities too."""
+    p = linkage.p
+    closure = Closure(linkage, p, 0.0)
+    with np.errstate(all="ignore"):
+        q, closed = closure.nearest()
+        if not closed:
+            raise not_closed(closure, q)
+        velocities(closure, q)
+        every = find_mobility(linkage, p, q)
+        own = every if len(rows) == every.rows else find_mobility(linkage, p, q, rows)
+    return Assembled(linkage, q, every, own, unfollowed(closure, q))
+
+
+def summary(found: Findings) -> str:
+    """For the one line: "degrees of freedom 0 (ideal), 4 (dry, lubricated)"."""
+    by_count: dict[int, list[str]] = {}
+    for name, scene in found.scenes.items():
+        by_count.setdefault(scene.scene.freedoms, []).append(name)
+    if len(by_count) == 1 and not found.failed:
+        return f"degrees of freedom {next(iter(by_count))}"
+    counts = [f"{count} ({', '.join(names)})" for count, names in by_count.items()]
+    return f"degrees of freedom {', '.join(counts)}" if counts else "it does not assemble"
+
+
+def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
+    """(whose, what) that a user should know: freedoms, loose bodies, redundant rows, guesses, other assemblies."""
+    first = next(iter(found.scenes.values()), None)
+    if first is None:
+        return
+    closed = first.closed
+    if closed.loose:
+        yield "loose", f"nothing ties {', '.join(closed.loose)} to the ground: no joint, no drive"
+    if closed.freedoms and mechanism.freedoms is None:
+        count = f"{closed.freedoms} degree{'' if closed.freedoms == 1 else 's'} of freedom"
+        meant = f"if that is meant, freedoms: {closed.freedoms}"
+        yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {meant}"
+    if closed.redundant:
+        rows = f"{closed.redundant} row{'' if closed.redundant == 1 else 's'}"
+        counted = f"by counting there are {closed.gruebler} degrees of freedom, by rank {closed.freedoms}"
+        yield "redundant", f"{rows} of Φ say{'s' if closed.redundant == 1 else ''} nothing new: {counted}"
+    told = dict.fromkeys((name, off) for scene in found.scenes.values() for name, off in scene.off.items())
+    for name, off in told:
+        yield "guess", f"{name} is {_amount(name, abs(off))} from your guess: no assembly nearer was found"
+    yield from _ambiguous(found)
+
+
+def _ambiguous(found: Findings) -> Iterator[tuple[str, str]]:
+    if not (alike := found.alike):
+        return
+    start = found.assemblies[0]
+    telling = next(name for name in start.guess if any(_differs(name, start, other) for other in alike))
+    here, there = _value(telling, start.guess[telling]), [_value(telling, a.guess[telling]) for a in alike]
+    others = ", ".join(dict.fromkeys(value for value in there if value != here))
+    yield "assemblies", (
+        f"{len(alike) + 1} fit the start's guesses alike: guess {telling} too, {here} as it is taken now or {others};"
+        " --branches lists all"
+    )
+
+
+def _differs(name: str, one: Assembly, other: Assembly) -> bool:
+    return _value(name, one.guess[name]) != _value(name, other.guess[name])
+
+
+def _value(name: str, x: float) -> str:
+    """As it may stand in the file."""
+    return f"{math.degrees(x):.4g} deg" if name.endswith(".theta") else f"{1e3 * x:.4g} mm"
+
+
+def _amount(name: str, x: float) -> str:
+    return f"{math.degrees(x):.3g}°" if name.endswith(".theta") else f"{1e3 * x:.3g} mm"
+
+
+def branches(found: Findings) -> Iterator[str]:
+    """Each assembly with the guess that picks it."""
+    if not found.assemblies:
+        return
+    count = len(found.assemblies)
+    yield f"{count} assembl{'y' if count == 1 else 'ies'} found at the start; what picks each, in start: {{guess: …}}"
+    for number, one in enumerate(found.assemblies, 1):
+        guess = ", ".join(f"{name}: {_value(name, x)}" for name, x in one.guess.items()) or "none needed"
+        here = "  as the file has it" if one.is_start else ""
+        yield f"  {number}  {{{guess}}}{here}" if one.guess else f"  {number}  {guess}{here}"
+
+
+def data(found: Findings) -> dict[str, Any]:
+    """The same for --json, by scene; angles in rad, lengths in m."""
+    return {name: _scene_data(scene) for name, scene in found.scenes.items()} | {
+        name: {"assembles": False, "message": str(error)} for name, error in found.failed.items()
+    }
+
+
+def _scene_data(scene: Assembled) -> dict[str, Any]:
+    return {
+        "assembles": True, "degrees of freedom": scene.scene.freedoms, "with all joints closed": scene.closed.freedoms,
+        "by counting": scene.closed.gruebler, "redundant rows": scene.closed.redundant,
+        "along": list(scene.closed.along), "loose": list(scene.closed.loose), "guesses not followed": dict(scene.off),
+    }  # fmt: skip
+
+
+def branches_data(found: Findings) -> list[dict[str, Any]]:
+    """Assemblies for --json."""
+    return [{"guess": one.guess, "start": one.is_start} for one in found.assemblies]
+
+
