@@ -1,6 +1,7 @@
 """Where the command `gudgeon` begins: Ctrl-C, SIGTERM and a standard output that takes nothing are told in a word.
 
-SIGTERM, with which batch systems and `timeout` end a program, is answered as Ctrl-C is: what was computed is saved.
+SIGTERM, with which batch systems and `timeout` end a program, and SIGHUP, with which a terminal that is closed does,
+are answered as Ctrl-C is: what was computed is saved, and no compiler is left behind.
 """
 
 from __future__ import annotations
@@ -11,7 +12,8 @@ import os
 import signal
 import sys
 
-INTERRUPTED, TERMINATED = 130, 143
+INTERRUPTED = 130
+ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
@@ -24,12 +26,13 @@ def main() -> None:
         ended.append(number)
         signal.raise_signal(signal.SIGINT)
 
-    if signal.getsignal(signal.SIGTERM) is signal.SIG_DFL and callable(signal.getsignal(signal.SIGINT)):
-        signal.signal(signal.SIGTERM, terminate)
+    for number in ENDING:
+        if signal.getsignal(number) is signal.SIG_DFL and callable(signal.getsignal(signal.SIGINT)):
+            signal.signal(number, terminate)
     try:
         _run()
     except SystemExit as end:
-        sys.exit(TERMINATED if ended and end.code == INTERRUPTED else end.code)
+        sys.exit(128 + ended[0] if ended and end.code == INTERRUPTED else end.code)
 
 
 def _run() -> None:

@@ -31,7 +31,7 @@ from gudgeon.mechanisms.n_four_bar import text as n_four_bar
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
 from gudgeon.studies.stress import stress
-from tests.model.test_large import squares
+from tests.assembly.test_large import squares
 from tests.simulation.kept import check_kept
 
 BAR = 0.5  # s

@@ -19,6 +19,17 @@ static double crossing(double d0, double r0, double d1, double r1, double h, dou
     return s;
 }
 
+/* Inner states of the laws of a joint: what they gathered at these rates within h. */
+static void bend(Run *run, int i, double h, const Clearance *now)
+{
+#if LAW_STATES
+    for (int k = 0; k < LAW_STATES; k++)
+        run->y[FIRST_STATE + i * LAW_STATES + k] = h > 0.0 ? h * now->state_rate[k] : 0.0;
+#else
+    (void)run, (void)i, (void)h, (void)now;
+#endif
+}
+
 /* Onset: remember the impact velocity, not below its floor. */
 static void close_joint(Run *run, int i, double t, double deltadot, double floor)
 {
@@ -26,8 +37,7 @@ static void close_joint(Run *run, int i, double t, double deltadot, double floor
     run->memory.latch[i].deltadot_minus = max_of(deltadot, floor);
     run->compressing[i] = 1;
     run->rising[i] = 1;
-    for (int k = 0; k < LAW_STATES; k++) /* nothing is bent yet */
-        run->y[FIRST_STATE + i * LAW_STATES + k] = 0.0;
+    bend(run, i, 0.0, &run->aside.clearance[i]);
     run->onsets++;
     run->open[i] = (Impact){t, NAN, run->memory.latch[i].deltadot_minus, 0.0, t, i};
 }
@@ -36,6 +46,7 @@ static void close_joint(Run *run, int i, double t, double deltadot, double floor
 static void open_joint(Run *run, int i, double t)
 {
     run->memory.latch[i].closed = 0;
+    bend(run, i, 0.0, &run->aside.clearance[i]);
     run->open[i].t_off = t;
     if (run->n_impacts < N_IMPACTS) /* more in one step than the list holds: only where friction cuts it in parts */
         run->impacts[run->n_impacts++] = run->open[i];
@@ -52,12 +63,14 @@ static int update_latches(Run *run, double t, double h, const Clearance *before,
         if (!run->memory.latch[i].closed && d1 >= 0.0) {
             const double s = d0 < 0.0 ? crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate) : 0.0;
             close_joint(run, i, t + s * h, d0 < 0.0 ? rate : before[i].deltadot, slowest_impact(p, i));
+            bend(run, i, (1.0 - s) * h, &after[i]);
             changed = 1;
         } else if (run->memory.latch[i].closed && d1 < 0.0) {
             open_joint(run, i, t + h * crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate));
             changed = 1;
         } else if (!run->memory.latch[i].closed && touched[i]) {
             run->grazes++; /* in and out again within one step */
+            bend(run, i, 0.0, &after[i]);
         }
         note_turn(run, i, after[i].deltadot);
     }

@@ -10,9 +10,11 @@ from __future__ import annotations
 import re
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import cache
 
 import sympy as sp
 
+from gudgeon.generator.kinds.laws.law import laws
 from gudgeon.generator.symbols.corners import Switches
 
 # What emitted code itself calls its functions, arguments and locals (tests/targets_c/test_names_in_c.py finds them).
@@ -31,6 +33,14 @@ chain_step chain_rates chain_third chain_corners chain_directions row most bend
 finite_slope just_ahead just_behind
 """
 _TAKEN = frozenset(_WORDS.split())
+
+
+
+@cache
+def _letters() -> frozenset[str]:
+    """What force laws call what they are given and what they give: their functions' own names."""
+    return frozenset(name for law in laws().values() for name in (*law.variables, *law.results))
+
 
 # Object-like macros of the C and Python headers: most have no small letter; `A_K` is short for the K of joint A.
 _MACRO = re.compile(
@@ -92,7 +102,7 @@ class Symbols:
         """`wanted` as a C identifier that nothing else has."""
         assert not self._frozen, f"{wanted}: derived after the program was made"
         name = re.sub(r"\W", "_", wanted)
-        if name in _TAKEN or _MACRO.fullmatch(name) or _FUNCTION.fullmatch(name):
+        if name in _TAKEN or name in _letters() or _MACRO.fullmatch(name) or _FUNCTION.fullmatch(name):
             name = f"par_{name}"
         candidate, count = name, 1
         while candidate in self._names:

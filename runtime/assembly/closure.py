@@ -16,7 +16,7 @@ from gudgeon.contract.kernel_source import PointInfo
 from gudgeon.model.compiled import Array
 
 MAX_STEPS = 60
-FAR = 1.0  # rad: where a guessed angle turns further, a nearer configuration is sought
+FAR = 0.5  # rad: where a guessed angle turns further, a nearer configuration is sought
 TRIES, MANY = 24, 60  # from as many other angles; fewer with more coordinates than these
 AWAY = 1e3  # of how far drives and the start ask for: a body so far from the origin is lost
 CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.branches import Assembly, find_assemblies, unfollowed
+from gudgeon.assembly.branches import Assembly, find_assemblies, off_text, unfollowed
 from gudgeon.assembly.closure import Closure
 from gudgeon.assembly.failures import not_closed
 from gudgeon.assembly.mobility import Mobility, find_mobility
@@ -94,7 +94,7 @@ def _assembled(linkage: NumPyLinkage, rows: Sequence[int]) -> Assembled:
         velocities(closure, q)
         every = find_mobility(linkage, p, q)
         own = every if len(rows) == every.rows else find_mobility(linkage, p, q, rows)
-    return Assembled(linkage, q, every, own, unfollowed(closure, q))
+    return Assembled(linkage, q, every, own, unfollowed(linkage, p, q))
 
 
 def summary(found: Findings) -> str:
@@ -126,8 +126,9 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         yield "redundant", f"{rows} of Φ say{'s' if closed.redundant == 1 else ''} nothing new: {counted}"
     told = dict.fromkeys((name, off) for scene in found.scenes.values() for name, off in scene.off.items())
     for name, off in told:
-        yield "guess", f"{name} is {_amount(name, abs(off))} from your guess: no assembly nearer was found"
-    yield from _ambiguous(found)
+        yield "guess", f"{name} is {off_text(name, off)} from your guess: no assembly nearer was found"
+    if not closed.freedoms or mechanism.freedoms is not None:
+        yield from _ambiguous(found)
 
 
 def _ambiguous(found: Findings) -> Iterator[tuple[str, str]]:
@@ -150,10 +151,6 @@ def _differs(name: str, one: Assembly, other: Assembly) -> bool:
 def _value(name: str, x: float) -> str:
     """As it may stand in the file."""
     return f"{math.degrees(x):.4g} deg" if name.endswith(".theta") else f"{1e3 * x:.4g} mm"
-
-
-def _amount(name: str, x: float) -> str:
-    return f"{math.degrees(x):.3g}°" if name.endswith(".theta") else f"{1e3 * x:.3g} mm"
 
 
 def branches(found: Findings) -> Iterator[str]:

@@ -25,9 +25,7 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
     """Write `folder/<scene>/*` and `folder/engine/*`; nothing is written if any folder holds something else."""
     check_folder("--out", folder)
     scenes, rooms = chosen_scenes(mechanism, wanted), _rooms()
-    if ENGINE in scenes:
-        told = f"scene {ENGINE!r} cannot be emitted: the folder of that name holds what all scenes share"
-        raise InputError(told, hint="give the scene another name, or emit others with --scene")
+    _refuse_one_folder(scenes)
     for scene in scenes:
         refuse_foreign(folder / scene)
     for room in rooms:
@@ -47,6 +45,17 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
             _write(folder / room, {name: text.encode() for name, text in texts.items()})
         print(f"wrote {folder / ENGINE}: what all scenes share")
     return 0
+
+
+def _refuse_one_folder(scenes: tuple[str, ...]) -> None:
+    """InputError for scenes whose folder would be another's: some file systems know no capitals."""
+    known = {ENGINE: ""}
+    for scene in scenes:
+        other = known.setdefault(scene.casefold(), scene)
+        if other != scene:
+            told = f"it would share a folder with scene {other!r}" if other else "that folder is what all share"
+            hint = "give the scene another name, or emit others with --scene"
+            raise InputError(f"scene {scene!r} cannot be emitted: {told}", hint=hint)
 
 
 def _rooms() -> dict[str, dict[str, str]]:

@@ -47,11 +47,12 @@ class Ahead:
             self._begun = None
 
     def take(self, header: str, line: list[str], made: Path) -> bool:
-        """Waits for the object of this very header and line and moves it to its place; False: there is none."""
+        """Waits for the object of this very header and line and moves it to its place, once; False: there is none."""
         if self._begun is None or self._folder is None or not self.is_under_way(header, line):
             return False
-        self._programs.wait(self._begun[2])
-        if self._begun[2].returncode:
+        process, self._begun = self._begun[2], None
+        self._programs.wait(process)
+        if process.returncode or not (self._folder / OBJECT).exists():
             return False
         shutil.move(self._folder / OBJECT, made)
         return True

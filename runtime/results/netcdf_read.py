@@ -243,7 +243,7 @@ def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, ord
 def _columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype: Any = float) -> Array:
     values = np.empty((samples, len(names)), dtype)
     for column, name in enumerate(names):
-        values[:, column] = stored[name] if name else np.nan
+        values[:, column] = stored[name] if name else 0.0  # a place that no law's state has
     return values
 
 

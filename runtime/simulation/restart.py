@@ -60,6 +60,12 @@ def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:
         else:
             continue
         raise BadValueError(f"start.memory[{k}] of joint {joint.name} {told}: expected {expected}", hint=AS_IT_WAS)
+    first = len(memory) - len(source.states)
+    for k, (name, z) in enumerate(zip(source.states, memory[first:].tolist(), strict=True), first):
+        joint_of = (k - first) * len(state) // max(len(source.states), 1)
+        if name and not math.isfinite(z) and not (math.isnan(z) and state[joint_of] == FREE):
+            told = f"start.memory[{k}], the inner state {name}, is {z:g}: expected a length (m), or NaN while free"
+            raise BadValueError(told, hint=AS_IT_WAS)
     if np.isinf(memory).any():
         k = int(np.isinf(memory).argmax())
         told = f"start.memory[{k}] is {memory[k]:g}: expected the mode of a friction, or NaN"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import warnings
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gudgeon.assembly.branches import off_text, unfollowed
 from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
 from gudgeon.errors import BadValueError, InputError, SolverError
@@ -249,4 +251,7 @@ class Simulation:
     def _closed(self, p: Array) -> tuple[Array, Array, Array]:
         """The start that the file describes: q, q̇, and nothing in contact."""
         assembled = assemble(self.compiled, p)
+        for name, off in unfollowed(self.compiled, p, assembled.q).items():
+            told = f"{name} begins {off_text(name, off)} from its guess: no assembly nearer was found; gudgeon check"
+            warnings.warn(f"{told} --branches lists those that there are", stacklevel=4)
         return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)

@@ -19,7 +19,7 @@ from gudgeon.language.wanted import flag, function, mapping, numbers, positive
 from gudgeon.model.default_step import scene_end
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import runs as measured
-from gudgeon.studies.methods import ADAPTIVE, adaptive, choice
+from gudgeon.studies.methods import ADAPTIVE, choice
 from gudgeon.studies.rhs_time import RhsTime, time_rhs
 from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, Work, difference, natural_step, size
 
@@ -27,6 +27,7 @@ FINEST, COARSEST = 1 / 5, 200  # steps that are tested, of the step that a plain
 REFERENCE_STEPS = 200_000  # of the finest step: what bounds a smooth scene's window
 FINER = (4, 8)  # where nothing but a fixed step fits: the references' steps, the finest tested one divided by these
 REFERENCES = (Setting("dop853", 1e-13), Setting("rodas5p", 1e-12))
+SECOND = 1e-12  # where one method is both references
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 12))
 KINEMATIC = (10, 100, 1_000, 10_000)  # samples of a scene without a degree of freedom
 LONG, LIMIT = 2.0, 5.0  # s: a cross-check that took so long gets no tighter tolerance, and is stopped then
@@ -150,7 +151,7 @@ def bench(
     if checks:
         _ = simulation.full  # derived and compiled before any of them is timed
     settings += [Setting(method, x) for method in checks for x in tolerances[::2]]
-    wanted = REFERENCES if adaptive(simulation) else references(settings)
+    wanted = references(simulation, settings)
     found = _measure(work, settings, wanted, progress or (lambda fraction, text: None))
     return replace(found, left_out=(*left_out, *found.left_out))
 
@@ -161,10 +162,11 @@ def usual_steps(simulation: Simulation, parameters: Parameters | None = None, qu
     return measured.round_numbers(usual * (1 if quick else FINEST), usual * COARSEST)
 
 
-def references(settings: Sequence[Setting]) -> tuple[Setting, Setting]:
-    """Two methods at much tighter tolerance; where only a fixed step fits two shorter steps."""
-    if any(not setting.fixed for setting in settings):
-        return REFERENCES
+def references(simulation: Simulation, settings: Sequence[Setting]) -> tuple[Setting, Setting]:
+    """Two methods at much tighter tolerance; one, where one alone fits; where only a fixed step does shorter ones."""
+    fitting = [setting for setting in REFERENCES if setting.method in simulation.source.methods]
+    if fitting:
+        return fitting[0], fitting[1] if len(fitting) > 1 else replace(fitting[0], value=SECOND)
     finest = min(settings, key=lambda setting: setting.value)
     return finest.finer(FINER[0]), finest.finer(FINER[1])
 

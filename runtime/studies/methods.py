@@ -17,8 +17,8 @@ ADAPTIVE = (*CHOOSING, "auto")
 
 
 def adaptive(simulation: Simulation) -> bool:
-    """Whether methods that choose their step fit a scene."""
-    return set(CHOOSING) <= set(simulation.source.methods)
+    """Whether a method that chooses its step fits a scene."""
+    return bool(set(CHOOSING) & set(simulation.source.methods))
 
 
 def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
@@ -38,7 +38,8 @@ def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) ->
     found, left_out = [], []
     for method in named:
         package = method.partition(":")[0]
-        if method in ADAPTIVE and not adaptive(simulation):
+        fits = method in simulation.source.methods if method in CHOOSING else adaptive(simulation)
+        if method in ADAPTIVE and not fits:
             continue
         if method in python_driver.NAMES and reason:
             left_out.append(f"{package}:* left out: {reason}")

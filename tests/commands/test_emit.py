@@ -205,3 +205,14 @@ def test_a_scene_that_is_called_as_the_engines_folder(source: list[KernelSource]
     with pytest.raises(InputError, match="scene 'engine' cannot be emitted"):
         emit_c("x.yaml", tmp_path / "c", ("dry", "engine"))
     assert not (tmp_path / "c").exists()
+
+
+@pytest.mark.parametrize("names", [("dry", "Engine"), ("dry", "Dry")])
+def test_scenes_that_differ_in_capitals_alone_share_no_folder(
+    names: tuple[str, ...], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """There are file systems that know no capitals: one would remove what the other wrote."""
+    monkeypatch.setattr("gudgeon.commands.emit.chosen_scenes", lambda *_: names)
+    with pytest.raises(InputError, match=f"scene '{names[1]}' cannot be emitted"):
+        emit_c("pendulum", tmp_path / "c", ())
+    assert not (tmp_path / "c").exists()

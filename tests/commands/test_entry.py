@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -17,6 +18,7 @@ START = "from gudgeon.entry import main; main()"
 TERMINATED = """
 import os, signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGTERM, signal.SIG_DFL)  # whoever runs the tests may have it ignored
 from gudgeon.integrators import session
 from gudgeon.waiting import asking
 asking.EVERY, real, looks = 0.0, session.Session.look, []
@@ -74,9 +76,12 @@ def test_what_an_encoding_lacks_is_escaped_as_in_json(tmp_path: Path) -> None:
 
 
 @needs_compiler
-def test_sigterm_keeps_what_was_computed(tmp_path: Path) -> None:
-    done = gudgeon_process("gudgeon run pendulum --scene ideal --out out", tmp_path, TERMINATED)
-    assert done.returncode == 143, done.stderr
+@pytest.mark.parametrize("ending", ["SIGTERM", "SIGHUP"])
+def test_signals_that_end_a_program_keep_what_was_computed(ending: str, tmp_path: Path) -> None:
+    line = "gudgeon run pendulum --scene ideal --out out"
+    gudgeon.load("pendulum", "ideal")  # compiled before: who asks without a pause waits for no compiler
+    done = gudgeon_process(line, tmp_path, TERMINATED.replace("SIGTERM", ending))
+    assert done.returncode == 128 + getattr(signal, ending), done.stderr
     assert done.stderr.startswith("interrupted: what was computed is shown and saved; ideal ends at")
     assert gudgeon.Result.load(tmp_path / "out/pendulum_ideal.nc").diagnostics.interrupted
     assert not list((tmp_path / "out").glob(".*"))

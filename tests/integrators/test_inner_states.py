@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -16,6 +17,8 @@ from gudgeon.generator.targets.latex import equations_tex
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
+from tests.scenes import loader
+from tests.targets_c.test_c_compiles import COMPILERS, FLAGS, compile_c, write
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 COULOMB = "{law: modified_coulomb, mu: 0.15, v0: 1e-4 m/s, v1: 1e-3 m/s}"
@@ -106,3 +109,68 @@ def test_a_class_reads_its_equation(press: Press) -> None:
     text = equations_tex(press().model)
     assert r"\eq{\dot{z}}{v_{t}" in text
     assert "is the deflection of the bristles, 0 at each onset" in text
+
+
+JOURNAL = """
+bodies: {j: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}}
+ground: {O: [0, 0], Q: [50 mm, 0]}
+joints: {A: {revolute: [ground.O, j.origin]}}
+parameters: {z: 3.0, z_rate: 2 mm}
+forces:
+  load: {force: j.origin, value: [0, -8 N]}
+  turn: {torque: j, value: 1e-2 N*m}
+materials: {s: {E: 207 GPa, nu: 0.3}}
+bearings:
+  p: {radius: 10 mm, clearance: 0.3 mm, length: 20 mm, bearing_material: s, journal_material: s}
+contacts:
+  c:
+    normal: {law: hertz, stiffness: 1e9, exponent: 1.5, restitution: 0.8, dissipation: flores}
+    friction: {law: dahl, mu: z/10, presliding: z_rate/100}
+scenes: {m: {play: {A: {bearing: p, contact: c}}}}
+"""
+
+
+def test_rk4_bends_from_the_moment_of_the_onset(tmp_path: Path) -> None:
+    """Of order 2 at a contact, as without inner states; parameters may be called as they are."""
+    journal = loader(tmp_path)(JOURNAL, "m")
+    exact = journal.simulate(0.0046, output=4, method="dop853", rtol=1e-13)
+    assert len(exact.impacts) == 1 and exact["A.z"][-1] == 0.0  # free again: nothing is bent
+    off = [
+        abs(journal.simulate(0.0046, output=4, method="rk4", step=h).q - exact.q).max() for h in (8e-7, 1e-7)
+    ]  # fmt: skip
+    assert off[0] < 4e-9 and off[1] < off[0] / 16  # of order 1 it was 6e-6 and 1e-6
+
+
+MIXED = """
+bodies: {j: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}, k: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}}
+ground: {O: [0, 0], Q: [50 mm, 0]}
+joints: {A: {revolute: [ground.O, j.origin]}, B: {revolute: [ground.Q, k.origin]}}
+forces: {load: {force: j.origin, value: [0, -8 N]}, other: {force: k.origin, value: [1 N, -8 N]}}
+materials: {s: {E: 207 GPa, nu: 0.3}}
+bearings:
+  p: {radius: 10 mm, clearance: 0.3 mm, length: 20 mm, bearing_material: s, journal_material: s}
+contacts:
+  c: {normal: {law: lankarani_nikravesh, restitution: 0.8}, friction: {law: dahl, mu: 0.3, presliding: 20 um}}
+  d: {film: {law: pinkus_sternlicht, viscosity: 0.05 Pa*s}}
+scenes: {m: {play: {A: {bearing: p, contact: d}, B: {bearing: p, contact: c}}}}
+"""
+
+
+def test_a_joint_without_states_beside_one_with_them(tmp_path: Path) -> None:
+    """No word of the compiler, and every bit comes back from a file."""
+    mixed = loader(tmp_path)(MIXED, "m")
+    (tmp_path / "c").mkdir()
+    compile_c(COMPILERS[0], write(mixed.source, tmp_path / "c"), [*FLAGS, "-c", "-o", "scene.o"])
+    run = mixed.simulate(0.01, output=50, method="dop853", rtol=1e-6)
+    run.save(tmp_path / "mixed.nc")
+    again = Result.load(tmp_path / "mixed.nc")
+    np.testing.assert_array_equal(again.memory, run.memory)
+    np.testing.assert_array_equal(again.final.memory, run.final.memory)
+
+
+def test_a_state_by_hand_says_how_far_it_is_bent(press: Press) -> None:
+    final = press().simulate(0.01, output=20).final
+    memory = final.memory.copy()
+    memory[2] = np.inf
+    with pytest.raises(BadValueError, match=r"the inner state A\.z, is inf: expected a length"):
+        press().simulate(0.011, start=replace(final, memory=memory))

@@ -101,3 +101,12 @@ def test_nothing_is_left_where_a_derivation_fails(own_folders: Path, monkeypatch
         gudgeon.load(own_folders / "rod.yaml")
     assert begun[0]._begun is not None and begun[0]._begun[2].returncode is not None
     assert list((own_folders / "tmp").iterdir()) == []
+
+
+def test_what_was_taken_is_not_there_twice(own_folders: Path) -> None:
+    """A cache that fills up meanwhile is left for another folder: there the engine is compiled anew."""
+    text = header()
+    with Ahead(False) as early:
+        early.begin(text)
+        assert early.take(text, line(), own_folders / "first.o")
+        assert not early.is_under_way(text, line()) and not early.take(text, line(), own_folders / "second.o")

@@ -10,6 +10,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -20,7 +22,7 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.bench import ADAPTIVE, REFERENCES, TRUSTED, Row, SceneBench, bench, other_than, references
+from gudgeon.studies.bench import ADAPTIVE, REFERENCES, SECOND, TRUSTED, Row, SceneBench, bench, other_than, references
 from gudgeon.studies.rhs_time import operations, time_rhs
 from gudgeon.studies.runs import (
     ONSETS,
@@ -115,14 +117,18 @@ def test_run_time_to_an_error_is_the_least_that_has_it() -> None:
 
 
 def test_a_run_is_compared_with_another_method() -> None:
+    def of(*methods: str) -> Simulation:
+        return cast(Simulation, SimpleNamespace(source=SimpleNamespace(methods=methods)))
+
     first, second = (Attempt(setting, None) for setting in REFERENCES)
-    assert references([Setting("auto", 1e-4), Setting("rk4", 1e-3)]) == REFERENCES
+    assert references(of("rk4", "dop853", "rodas5p"), [Setting("rk4", 1e-3)]) == REFERENCES
     for method in ("rk4", "rodas5p"):
         assert other_than([method], [first, second]) is first
     assert other_than(["dop853"], [first, second]) is second
     assert other_than(["dop853", "rodas5p"], [first, second]) is second
     assert other_than(["rk4"], []) is None
-    shorter = references([Setting("rk4", 1e-3), Setting("rk4", 1e-2)])
+    assert references(of("rk4", "dop853"), []) == (REFERENCES[0], Setting("dop853", SECOND))
+    shorter = references(of("rk4"), [Setting("rk4", 1e-3), Setting("rk4", 1e-2)])
     assert all(setting.method == "rk4" and setting.value <= 1e-3 / 4 for setting in shorter)
 
 

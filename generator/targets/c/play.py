@@ -26,40 +26,43 @@ _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
 
 def clearances_code(program: Program, render: Render) -> str:
     """The laws, then each joint's own functions; nothing where no joint has play."""
-    parts = [*map(functions.kernel, program.laws), *(clearance_code(pin, render) for pin in program.pins)]
-    return "\n".join(parts)
+    states = program.model.law_states
+    pins = (clearance_code(pin, render, states) for pin in program.pins)
+    return "\n".join([*map(functions.kernel, program.laws), *pins])
 
 
-def clearance_code(pin: Pin, render: Render) -> str:
-    """What happens round the laws of a joint."""
+def clearance_code(pin: Pin, render: Render, states: int) -> str:
+    """What happens round the laws of a joint; `states` of laws are as many for each, as the engine has them."""
     joint, clearance = pin.clearance.name, pin.clearance
     parts = []
     if clearance.normal is not None:
         ratio = {"ratio": _RATIO, "ratio_name": "unclipped" if clearance.clip_ratio else "ratio"}
         steps = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
         steps["law"] = calls_of_dry(pin, ("max_of(delta, 0.0)", "ratio"), "double")
-        steps["rates"] = _braced("rate", clearance)
+        steps["rates"] = _braced("rate", clearance, states)
         parts.append(render("play/dry.c.jinja", joint=joint, **ratio, **steps))
     if clearance.film is not None:
         steps = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": call_of_film(pin, "double")}
+        steps["rates"] = _braced("", clearance, states)
         parts.append(render("play/film.c.jinja", joint=joint, **steps))
     parts.append(
         render(
             _template(pin), joint=joint, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
-            store=_store(clearance), first=pin.corners.start, last=pin.corners.stop,
+            store=_store(clearance, states), first=pin.corners.start, last=pin.corners.stop,
         )
     )  # fmt: skip
     return "\n".join(parts)
 
 
-def _store(clearance: Clearance) -> str:
-    rates = _braced("F.state_rate", clearance)
+def _store(clearance: Clearance, states: int) -> str:
+    rates = _braced("F.state_rate", clearance, states)
     return _STORE % (f", .state_rate = {rates}" if rates else "")
 
 
-def _braced(array: str, clearance: Clearance) -> str:
-    """The rates of the inner states of its laws as an initializer; "" where there are none."""
-    rates = [f"{array}[{k}]" for k in range(len(clearance.states))]
+def _braced(array: str, clearance: Clearance, states: int) -> str:
+    """The rates of the inner states of its laws as an initializer, 0 where it has none; "" where no law has any."""
+    own = len(clearance.states) if array else 0
+    rates = [f"{array}[{k}]" if k < own else "0.0" for k in range(states)]
     return f"{{{', '.join(rates)}}}" if rates else ""
 
 
