@@ -11,11 +11,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gudgeon.assembly.mobility import SAMPLES, configurations, find_mobility
+from gudgeon.assembly.mobility import SAMPLES, check_freedoms, configurations, find_mobility
 from gudgeon.assembly.rank import RANK, rank, tied
 from gudgeon.assembly.start import search
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import BadValueError, GudgeonError
+from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model, Redundancy
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
@@ -39,24 +39,13 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
         ranks = [rank(matrix) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run will say why
         return Redundancy()
-    check_freedoms(model, numeric, q)
+    wanted = model.scene.mechanism.freedoms
+    if wanted is not None and isinstance(wanted.value, Number):
+        check_freedoms(wanted.value.value, wanted.where, find_mobility(numeric, numeric.p, q))
     best = int(np.argmax(ranks))
     if ranks[best] == len(kept):
         return Redundancy()
     return _name_rows([model.all_rows[r] for r in kept], matrices[best], ranks[best])
-
-
-def check_freedoms(model: Model, linkage: NumPyLinkage, q: Array) -> None:
-    """BadValueError where the file says that its closed linkage has another number of degrees of freedom."""
-    wanted = model.scene.mechanism.freedoms
-    if wanted is None or not isinstance(wanted.value, Number):
-        return
-    found = find_mobility(linkage, linkage.p, q)
-    if found.freedoms != wanted.value.value:
-        along = f": {', '.join(found.along)}" if found.along else ""
-        told = f"freedoms is {wanted.value.value:g}, but with all joints closed there are {found.freedoms}{along}"
-        hint = "look for a joint or a drive that is missing or too many, or correct the number"
-        raise BadValueError(told, wanted.where, f"expected {found.freedoms}, if that is meant; {hint}")
 
 
 def _name_rows(rows: Sequence[Row], matrix: Array, independent: int) -> Redundancy:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import re
 from collections.abc import Mapping
 
@@ -113,7 +114,7 @@ def _read_freedoms(reader: Reader, root: Map) -> Quantity | None:
         text = text_of(root["freedoms"], root.key("freedoms"), "the file")
         number = read_number(reader, text, SECTIONS["freedoms"], "freedoms")
         value = number.value.value if isinstance(number.value, Number) else -1.0
-        if value < 0.0 or value != int(value):
+        if not (value >= 0.0 and value % 1.0 == 0.0) and not math.isnan(value):  # NaN: told already
             raise BadValueError(f"freedoms is {kind_of(text)}", text.where, "expected a whole number: 0, 1, 2")
         return number
     return None

@@ -13,6 +13,7 @@ import numpy as np
 
 from gudgeon.assembly.linkage import Linkage, angles, mechanism_size
 from gudgeon.assembly.rank import RANK
+from gudgeon.errors import BadValueError, Location
 from gudgeon.model.compiled import Array
 
 SAMPLES = 3
@@ -55,10 +56,19 @@ def find_mobility(
         near = configurations(linkage, p, q, kept, SAMPLES, t)
         matrices = [linkage.closed_phi_q(t, x, p)[kept] * scale for x in near]
     spaces = [_free_motions(matrix) for matrix in matrices if np.isfinite(matrix).all()]
-    least = min(range(len(spaces)), key=lambda k: spaces[k].shape[1])
+    least = min(reversed(range(len(spaces))), key=lambda k: spaces[k].shape[1])  # not the start, where links may align
     names, free = linkage.source.coordinates, spaces[least]
     along = tuple(names[k] for k in _describing(free, _order(names)))
     return Mobility(len(names), len(kept), free.shape[1], along, _loose(linkage, matrices[least]))
+
+
+def check_freedoms(wanted: float, where: Location, found: Mobility) -> None:
+    """BadValueError where a file says that its closed linkage has another number of degrees of freedom."""
+    if found.freedoms != wanted:
+        along = f": {', '.join(found.along)}" if found.along else ""
+        told = f"freedoms is {wanted:g}, but with all joints closed there are {found.freedoms}{along}"
+        hint = "look for a joint or a drive that is missing or too many, or correct the number"
+        raise BadValueError(told, where, f"expected {found.freedoms}, if that is meant; {hint}")
 
 
 def configurations(

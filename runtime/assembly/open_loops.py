@@ -53,7 +53,7 @@ def _found(closure: Closure, q: Array) -> Iterator[WrongLength]:
 
 def _share(closure: Closure, q: Array, places: list[int]) -> float | None:
     """By which share the numbers at `places` of p must grow so that the rows just close; None: that does not help."""
-    p, share = closure.p, 0.0
+    p, opens, shut, share = closure.p, 0.0, None, 0.0
 
     def scaled(by: float) -> Array:
         changed = np.array(p)
@@ -61,18 +61,23 @@ def _share(closure: Closure, q: Array, places: list[int]) -> float | None:
         return changed
 
     for _ in range(STEPS):
-        q = closure.least(q, scaled(share))
-        left = closure.residual(q, scaled(share)) / closure.row_scale
+        at = closure.least(q, scaled(share))
+        left = closure.residual(at, scaled(share)) / closure.row_scale
         size = float(np.linalg.norm(left))
         if not np.isfinite(size):
             return None
-        if size < SHUT:
-            return share
-        ahead, behind = (closure.residual(q, scaled(share + e)) / closure.row_scale for e in (NUDGE, -NUDGE))
+        if size < SHUT:  # it may be more than is needed: what just closes lies between
+            if share == opens or abs(share - opens) < NUDGE:
+                return share
+            shut, share = share, 0.5 * (opens + share)
+            continue
+        ahead, behind = (closure.residual(at, scaled(share + e)) / closure.row_scale for e in (NUDGE, -NUDGE))
         slope = float(left @ (ahead - behind)) / (2.0 * NUDGE)
         if abs(slope) < 1e-9 * size:
-            return None
-        share -= size**2 / slope
+            return shut
+        q, opens, share = at, share, share - size**2 / slope
+        if shut is not None and not min(opens, shut) < share < max(opens, shut):
+            share = 0.5 * (opens + shut)
         if abs(share) > MOST or share <= -1.0:
-            return None
-    return None
+            return shut
+    return shut

@@ -12,9 +12,10 @@ import numpy as np
 from gudgeon.assembly.branches import Assembly, find_assemblies, off_text, unfollowed
 from gudgeon.assembly.closure import Closure
 from gudgeon.assembly.failures import not_closed
-from gudgeon.assembly.mobility import Mobility, find_mobility
+from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
 from gudgeon.assembly.start import velocities
 from gudgeon.errors import GudgeonError
+from gudgeon.language.tree import Number
 
 if TYPE_CHECKING:
     from gudgeon.generator.mechanism.mechanism import Mechanism
@@ -78,6 +79,8 @@ def assemble_scenes(mechanism: Mechanism, branches: bool) -> Findings:
             failed[name] = error
             continue
         found = scenes[name]
+        if (wanted := mechanism.freedoms) is not None and isinstance(wanted.value, Number):
+            check_freedoms(wanted.value.value, wanted.where, found.closed)
         if not assemblies and (branches or linkage.n <= QUICK):
             assemblies = tuple(find_assemblies(linkage, linkage.p, found.q, found.closed.along))
     return Findings(scenes, failed, assemblies)

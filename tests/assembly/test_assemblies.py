@@ -1,0 +1,187 @@
+"""What can move, which assemblies there are, what is too short: against counting, closed forms and circles' points."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import gudgeon
+from gudgeon.cli import app
+from gudgeon.commands.assembly_story import assemble_scenes
+from gudgeon.errors import AssemblyError, BadValueError
+from gudgeon.generator.reader.read import read_mechanism
+
+CRANK, COUPLER, ROCKER, GROUND, ALPHA = 0.05, 0.1, 0.06, 0.08, math.radians(30.0)
+FOUR_BAR = """
+format: gudgeon/1
+name: four
+{freedoms}
+bodies:
+  crank: {{length: 50 mm, mass: 0.1 kg, inertia: 1e-4 kg*m^2}}
+  coupler: {{length: 100 mm, mass: 0.1 kg, inertia: 1e-4 kg*m^2, points: {{tip: [50 mm, 20 mm]}}}}
+  rocker: {{length: 60 mm, mass: 0.1 kg, inertia: 1e-4 kg*m^2}}
+ground: {{O: [0, 0], Q: [{ground}, 0]}}
+joints:
+{joints}
+{drives}
+{start}
+"""
+A, B, C, D = (
+    f"  {name}: {{revolute: [{one}, {other}]}}\n"
+    for name, one, other in (
+        ("A", "ground.O", "crank.tail"), ("B", "crank.head", "coupler.tail"),
+        ("C", "coupler.head", "rocker.head"), ("D", "ground.Q", "rocker.tail"),
+    )
+)  # fmt: skip
+MOTOR = "drives: {motor: {angle: crank, value: 30 deg + 1 rad/s * t}}"
+
+
+def four_bar(
+    joints: str = A + B + C + D, drives: str = MOTOR, start: str = "", ground: str = "80 mm", freedoms: str = ""
+) -> bytes:
+    return FOUR_BAR.format(joints=joints, drives=drives, start=start, ground=ground, freedoms=freedoms).encode()
+
+
+def found(text: bytes, branches: bool = False):  # type: ignore[no-untyped-def]
+    return assemble_scenes(read_mechanism(text, "four.yaml"), branches)
+
+
+def elbow(side: float) -> tuple[float, float]:
+    """Angles of coupler and rocker where two circles meet: from the crank's end and from Q."""
+    x, y = CRANK * math.cos(ALPHA), CRANK * math.sin(ALPHA)
+    d = math.hypot(GROUND - x, -y)
+    along = (COUPLER**2 - ROCKER**2 + d**2) / (2 * d)
+    up = side * math.sqrt(COUPLER**2 - along**2)
+    ux, uy = (GROUND - x) / d, -y / d
+    px, py = x + along * ux - up * uy, y + along * uy + up * ux
+    return math.atan2(py - y, px - x), math.atan2(py, px - GROUND)
+
+
+def test_both_assemblies_of_a_four_bar_are_found_and_their_guess_picks_them(tmp_path: Path) -> None:
+    wanted = sorted(elbow(side)[0] for side in (1.0, -1.0))
+    assemblies = found(four_bar()).assemblies
+    angles = sorted(float(one.q[5] + np.pi) % (2 * np.pi) - np.pi for one in assemblies)
+    assert angles == pytest.approx(wanted, abs=1e-9)
+    for number, one in enumerate(assemblies):
+        guess = ", ".join(f"{name}: {math.degrees(x):.4g} deg" for name, x in one.guess.items())
+        file = tmp_path / f"four{number}.yaml"
+        file.write_bytes(four_bar(start=f"start: {{guess: {{{guess}}}}}"))
+        start = gudgeon.load(file).start()
+        assert np.cos(start.q[5] - one.q[5]) == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_guessed_point_picks_the_assembly(side: float, tmp_path: Path) -> None:
+    coupler, _ = elbow(side)
+    x, y = CRANK * math.cos(ALPHA), CRANK * math.sin(ALPHA)
+    c, s = math.cos(coupler), math.sin(coupler)
+    tip = (x + 0.05 * c - 0.02 * s + 0.004, y + 0.05 * s + 0.02 * c - 0.003)  # about there
+    file = tmp_path / "four.yaml"
+    file.write_bytes(four_bar(start=f"start: {{guess: {{coupler.tip: [{tip[0]}, {tip[1]}]}}}}"))
+    start = gudgeon.load(file).start()
+    assert np.cos(start.q[5] - coupler) == pytest.approx(1.0, abs=1e-12)
+    batch = gudgeon.load(file).simulate_many({"bodies.rocker.mass": [0.1, 0.2]}, t_end=0.1, output=1)
+    assert np.cos(batch.q[:, 0, 5] - coupler) == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("joints", "drives", "freedoms", "along"),
+    [
+        (A + B + C + D, MOTOR, 0, ()),
+        (A + B + C + D, "", 1, ("crank.theta",)),
+        (B + C + D, "", 3, ("crank.theta", "crank.x", "crank.y")),
+        (A + B + C, "", 3, ("crank.theta", "coupler.theta", "rocker.theta")),
+    ],
+)
+def test_degrees_of_freedom(joints: str, drives: str, freedoms: int, along: tuple[str, ...]) -> None:
+    scene = found(four_bar(joints, drives)).scenes["ideal"]
+    assert (scene.closed.freedoms, scene.closed.along, scene.closed.loose) == (freedoms, along, ())
+    assert scene.closed.redundant == 0
+
+
+def test_bodies_that_nothing_holds_and_rows_that_say_nothing_new() -> None:
+    loose = found(four_bar(C + D, "")).scenes["ideal"].closed
+    assert loose.loose == ("crank",) and loose.freedoms == 5
+    twice = found(four_bar(A + A.replace("A:", "A2:") + B + C + D)).scenes["ideal"].closed
+    assert (twice.gruebler, twice.freedoms, twice.redundant) == (-2, 0, 2)
+
+
+@pytest.mark.parametrize(("given", "fits"), [(1, True), (0, False), (3, False)])
+def test_freedoms_that_are_given_are_checked(given: int, fits: bool, tmp_path: Path) -> None:
+    file = tmp_path / "four.yaml"
+    file.write_bytes(four_bar(drives="", freedoms=f"freedoms: {given}"))
+    told = CliRunner().invoke(app, ["check", str(file)])
+    assert (told.exit_code == 0) is fits
+    if fits:
+        gudgeon.load(file)
+        assert "freedoms" not in told.output.replace("degrees of freedom", "")
+    else:
+        with pytest.raises(BadValueError, match=rf"four.yaml:4:11: freedoms is {given}, .* there are 1: crank.theta"):
+            gudgeon.load(file)
+
+
+@pytest.mark.parametrize("text", ["-1", "1.5", "1 m", "k"])
+def test_freedoms_are_a_whole_number(text: str) -> None:
+    with pytest.raises(Exception, match="4:11"):
+        read_mechanism(four_bar(freedoms=f"freedoms: {text}"), "four.yaml")
+
+
+def test_a_link_that_is_too_short_is_told_by_how_much(tmp_path: Path) -> None:
+    """The coupler's end must reach the rocker's circle: what is missing is what the straight line is longer by."""
+    far = 0.3
+    x, y = CRANK * math.cos(ALPHA), CRANK * math.sin(ALPHA)
+    missing = math.hypot(far - x, y) - COUPLER - ROCKER
+    file = tmp_path / "four.yaml"
+    file.write_bytes(four_bar(ground="300 mm"))
+    with pytest.raises(AssemblyError, match="line 1[0-9]") as told:
+        gudgeon.load(file).start()
+    assert f"coupler (100 mm) longer by {1e3 * missing:.4g} mm" in str(told.value)
+    assert f"rocker (60 mm) longer by {1e3 * missing:.4g} mm" in str(told.value)
+    reached = math.sqrt(0.09 - 0.16**2)  # of a straight line to Q that is as long as coupler and rocker
+    crank = 0.3 * math.cos(ALPHA) - math.sqrt(0.16**2 - (0.3 * math.sin(ALPHA)) ** 2) - CRANK
+    assert reached > 0 and f"crank (50 mm) longer by {1e3 * crank:.4g} mm" in str(told.value)
+
+
+def test_a_link_that_is_too_long_is_told_by_how_much(tmp_path: Path) -> None:
+    """A rocker longer than what crank's end, coupler and ground can reach around."""
+    file = tmp_path / "four.yaml"
+    file.write_bytes(four_bar().replace(b"length: 60 mm", b"length: 200 mm"))
+    x, y = CRANK * math.cos(ALPHA), CRANK * math.sin(ALPHA)
+    most = math.hypot(GROUND - x, y) + COUPLER
+    with pytest.raises(AssemblyError) as told:
+        gudgeon.load(file).start()
+    assert f"rocker (200 mm) shorter by {1e3 * (0.2 - most):.4g} mm" in str(told.value)
+
+
+def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
+    angle = math.degrees(elbow(1.0)[0]) + 50.0
+    text = four_bar(start=f"start: {{guess: {{coupler.theta: {angle} deg}}}}")
+    off = found(text).scenes["ideal"].off
+    file = tmp_path / "four.yaml"
+    file.write_bytes(text)
+    if "coupler.theta" in off:
+        assert math.degrees(abs(off["coupler.theta"])) == pytest.approx(50.0, abs=1e-6)
+    with pytest.warns(UserWarning, match="coupler.theta begins 50° from its guess"):
+        gudgeon.load(file).simulate(0.1, output=1)
+    close = four_bar(start=f"start: {{guess: {{coupler.theta: {angle - 45} deg}}}}")
+    assert found(close).scenes["ideal"].off == {}
+
+
+JANSEN = Path(__file__).parents[1] / "mechanisms" / "described" / "jansen_leg.yaml"
+
+
+def test_what_else_to_guess_of_jansens_leg() -> None:
+    """Two angles leave two assemblies that follow them alike; a third that picks each is told."""
+    told = assemble_scenes(read_mechanism(JANSEN.read_bytes(), "jansen.yaml"), branches=True)
+    assert len(told.assemblies) == 8 and len(told.alike) == 1
+    runner = CliRunner().invoke(app, ["check", str(JANSEN), "--branches"])
+    assert "2 fit the start's guesses alike: guess f.theta too" in " ".join(runner.output.split())
+    assert "8 assemblies found" in runner.output
+    document = json.loads(CliRunner().invoke(app, ["check", str(JANSEN), "--json"]).output)
+    assert document["assembled"]["ideal"]["degrees of freedom"] == 0
+    assert len(document["assemblies"]) == 8
