@@ -15,6 +15,7 @@ from gudgeon.language.units import DIMENSIONLESS, Dimension
 # what a field is
 NUMBER = "number"  # an expression with a dimension
 VECTOR = "vector"  # two of them
+PLACE = "place"  # a number, or two, as its key says: a coordinate, or a point
 WORD = "word"  # one of `values`
 FLAG = "flag"  # true or false
 TEXT = "text"

@@ -249,7 +249,7 @@ static int first_velocities(Closing *w, double t, const Parameters *p, const dou
 int close_start(double t, const double *parameters, double size, double *q, double *v, double *residual, Asked *asked)
 {
     const Parameters *p = (const Parameters *)parameters;
-    Closing *w = calloc(1, sizeof(Closing));
+    Closing *w = GUESSED_POINTS ? NULL : calloc(1, sizeof(Closing));
     if (!w)
         return 1;
     w->size = size;

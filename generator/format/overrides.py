@@ -36,7 +36,8 @@ def _parts(root: Map, address: str) -> list[str]:
     parts = address.split(".")
     for i, part in enumerate(parts):
         if field is not None and field.keys is not None:  # the rest is the name of a coordinate: L7.theta
-            return [*parts[:i], ".".join(parts[i:])]
+            axis = parts[-1:] if len(parts) - i > 2 and parts[-1] in _AXES else []  # of a point: upper.P.x
+            return [*parts[:i], ".".join(parts[i : len(parts) - len(axis)]), *axis]
         field = field and field.below(part)
     return parts
 

@@ -12,6 +12,7 @@ from gudgeon.generator.field import (
     LAW,
     OF_MOTION,
     OF_RESULTS,
+    PLACE,
     TEXT,
     WORD,
     Bound,
@@ -169,7 +170,10 @@ SCENE = record(
 
 START = record(
     "start", "how the motion begins: coordinates and velocities of centres of mass",
-    mapping("guess", "coordinates that pick the branch", number("value", "about where", None), keys=COORDINATES),
+    mapping(
+        "guess", "coordinates, and points of bodies, that pick the branch", Field("value", PLACE, "about where", None),
+        keys=COORDINATES,
+    ),
     mapping("set", "coordinates that are held exactly", number("value", "where", None), keys=COORDINATES),
     mapping("rates", "velocities that drives leave free", number("value", "how fast", None), keys=RATES),
 )  # fmt: skip

@@ -12,7 +12,7 @@ from itertools import islice
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, InputErrors, Location, MissingKeyError, UnknownKeyError
-from gudgeon.generator.field import KINDS, LAW, MAPPING, RECORD, SCALARS, VECTOR, Field
+from gudgeon.generator.field import KINDS, LAW, MAPPING, PLACE, RECORD, SCALARS, VECTOR, Field
 from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.suggestions import known_hint, nearest, unknown_name
@@ -87,8 +87,11 @@ def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
     if field.kind in SCALARS:
         if not isinstance(node, Text):
             yield _Finding(path, "a number or a text")
-    elif field.kind == VECTOR:
+    elif field.kind == VECTOR or field.kind == PLACE and isinstance(node, Items):
         yield from _in_vector(node, path)
+    elif field.kind == PLACE:
+        if not isinstance(node, Text):
+            yield _Finding(path, "a number, or of a point [x, y]")
     elif not isinstance(node, Map):
         yield _Finding(path, "a mapping")
     elif field.kind == RECORD:

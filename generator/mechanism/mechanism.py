@@ -122,6 +122,7 @@ class Start:
     """`guess` picks the branch, `set` is held exactly, `rates` are velocities that drives leave free.
 
     Keys are coordinates "L7.theta", "S9.x", "L1.omega"; values have addresses "start.guess.L7.theta".
+    A guessed point is two: "L7.P.x", "L7.P.y".
     """
 
     guess: Mapping[str, Quantity] = field(default_factory=dict)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from gudgeon.errors import BadNameError, BadValueError
-from gudgeon.generator.field import Field
+from gudgeon.generator.field import PLACE, Field
 from gudgeon.generator.format.sections import BODY, POINT, POINT_OF_GROUND, SECTIONS, START
-from gudgeon.generator.mechanism.mechanism import Body, Quantity, Start, Vector
+from gudgeon.generator.mechanism.mechanism import GROUND, Body, Quantity, Start, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields, read_vector
 from gudgeon.generator.reader.places import IMPLIED_POINTS, Places, coordinate_of
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml.tree import Items, Map, Text
 from gudgeon.language.names import Namespace, check_name
 
 # `L1.x` is a coordinate of the body: a point of that name could not be told from it
@@ -76,10 +76,29 @@ def read_start(reader: Reader, root: Map, places: Places) -> Start:
     return Start(guess, fixed, rates)
 
 
+def _is_point(key: Text, places: Places) -> bool:
+    body, _, point = key.partition(".")
+    return body in places.bodies and point in places.points(body)
+
+
+def _guessed_point(reader: Reader, key: Text, pair: Items, address: str, places: Places) -> dict[str, Quantity]:
+    """A point of a body as two guesses, "upper.P.x" and "upper.P.y"."""
+    ref = places.point(key, key.where)
+    if ref.body == GROUND:
+        raise BadValueError(f"{key} rests", key.where, "expected a point of a body: those of the ground need no guess")
+    x, y = read_vector(reader, pair, key, POINT, address)
+    return {f"{key}.x": x, f"{key}.y": y}
+
+
 def _coordinates(reader: Reader, section: Map, declared: Field, places: Places) -> dict[str, Quantity]:
-    found = {}
+    found: dict[str, Quantity] = {}
     for key, text in section.pairs():
         with reader.collect():
+            if isinstance(text, Items):
+                found |= _guessed_point(reader, key, text, f"start.{declared.name}.{key}", places)
+                continue
+            if declared.entry and declared.entry.kind == PLACE and _is_point(key, places):
+                raise BadValueError(f"{key} is a point", text.where, "expected where it is about: [x, y]")
             dimension = coordinate_of(key, declared.keys or {}, places, key.where)
             found[str(key)] = reader.quantity(text, f"start.{declared.name}.{key}", dimension)
     return found

@@ -4,7 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from gudgeon.generator.field import BODY, FLAG, KINDS, LAW, MAPPING, NAME, NUMBER, RECORD, VECTOR, WORD, Field, Kind
+from gudgeon.generator.field import (
+    BODY,
+    FLAG,
+    KINDS,
+    LAW,
+    MAPPING,
+    NAME,
+    NUMBER,
+    PLACE,
+    RECORD,
+    VECTOR,
+    WORD,
+    Field,
+    Kind,
+)
 from gudgeon.generator.format.sections import FILE
 from gudgeon.language.units import Dimension, si_unit
 
@@ -66,7 +80,8 @@ def _holds(field: Field) -> str:
     if field.kind == MAPPING:
         entry = field.entry.kind if field.entry else ""
         if field.keys:
-            return "numbers: " + ", ".join(f"`BODY.{key}`, {_unit(of)}" for key, of in field.keys.items())
+            points = "; `BODY.POINT`, [x, y], m" if field.entry and field.entry.kind == PLACE else ""
+            return "numbers: " + ", ".join(f"`BODY.{key}`, {_unit(of)}" for key, of in field.keys.items()) + points
         return f"names: {_holds(field.entry) if field.entry and entry in (NUMBER, VECTOR) else 'mappings'}"
     return {RECORD: "mapping", KINDS: "mapping", LAW: "mapping", BODY: "body or `ground`"}.get(field.kind, field.kind)
 

@@ -16,6 +16,7 @@ from gudgeon.generator.field import (
     MAPPING,
     NAME,
     NUMBER,
+    PLACE,
     RECORD,
     TEXT,
     VECTOR,
@@ -104,6 +105,7 @@ def _field(field: Field) -> Json:
 _SIMPLE: Mapping[str, Json] = {
     NUMBER: _reference("number"),
     VECTOR: _reference("vector"),
+    PLACE: {"anyOf": [_reference("number"), _reference("vector")]},
     FLAG: _FLAG,
     TEXT: {"type": ["string", "number"]},
     NAME: _reference("name"),
@@ -132,6 +134,8 @@ def _record(field: Field) -> Json:
 def _mapping(field: Field) -> Json:
     assert field.entry is not None
     keys = _reference("name") if field.keys is None else _of_bodies("", field.keys)
+    if field.entry.kind == PLACE:
+        keys = {"anyOf": [keys, _reference("points")]}
     return {"type": "object", "propertyNames": keys, "additionalProperties": _field(field.entry)}
 
 

@@ -42,6 +42,7 @@
 #define WATCHES_STATE 0       /* they hang on more than time */
 #define N_TERMS 0             /* terms of time alone, which may hide within a step */
 #define N_GUESS 6             /* coordinates that the start guesses */
+#define GUESSED_POINTS 0      /* some of them are those of points */
 #define N_SET 1               /* those that it sets */
 #define N_RATES 0             /* velocities that it sets */
 

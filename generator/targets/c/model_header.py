@@ -103,9 +103,10 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
 
 
 def _of_start(program: Program) -> Sizes:
-    start = _start(program.model)
+    start, guess = _start(program.model), program.model.scene.mechanism.start.guess
     return {
         "N_GUESS": (len(start["guess_place"]), "coordinates that the start guesses"),
+        "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are those of points"),
         "N_SET": (len(start["set_place"]), "those that it sets"),
         "N_RATES": (len(start["rate_place"]), "velocities that it sets"),
     }  # fmt: skip
@@ -198,7 +199,7 @@ def _start(model: Model) -> dict[str, list[int]]:
     start = model.scene.mechanism.start
     rates = (name.partition(".") for name in start.rates)
     return {
-        "guess_place": [place[name] for name in start.guess], "set_place": [place[name] for name in start.set],
+        "guess_place": [place.get(name, 0) for name in start.guess], "set_place": [place[name] for name in start.set],
         "rate_place": [place[f"{body}.{_POSITION[rate]}"] for body, _, rate in rates],
     }  # fmt: skip
 
