@@ -149,12 +149,8 @@ def run(
 @_told
 def check(
     file: File,
-    verbose: Annotated[
-        bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations, what was skipped.")
-    ] = False,
-    branches: Annotated[
-        bool, typer.Option("--branches", help="The assemblies of the start, each with the guess that picks it.")
-    ] = False,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
+    branches: Annotated[bool, typer.Option("--branches", help="All assemblies, and the guess that picks each.")] = False,
     json: Json = False,
 ) -> int:
     """Is a mechanism file valid, does it assemble, and what can move? Mistakes are told with line and column.

@@ -105,7 +105,6 @@ def _field(field: Field) -> Json:
 _SIMPLE: Mapping[str, Json] = {
     NUMBER: _reference("number"),
     VECTOR: _reference("vector"),
-    PLACE: {"anyOf": [_reference("number"), _reference("vector")]},
     FLAG: _FLAG,
     TEXT: {"type": ["string", "number"]},
     NAME: _reference("name"),
@@ -134,8 +133,10 @@ def _record(field: Field) -> Json:
 def _mapping(field: Field) -> Json:
     assert field.entry is not None
     keys = _reference("name") if field.keys is None else _of_bodies("", field.keys)
-    if field.entry.kind == PLACE:
-        keys = {"anyOf": [keys, _reference("points")]}
+    if field.entry.kind == PLACE and field.keys:  # a coordinate has a number, any other name of a body a point
+        points = {f"^{_NAME}\\.(?!({'|'.join(field.keys)})$){_NAME}$": _reference("vector")}
+        numbers = {str(keys["pattern"]): _reference("number")}
+        return {"type": "object", "patternProperties": numbers | points, "additionalProperties": False}
     return {"type": "object", "propertyNames": keys, "additionalProperties": _field(field.entry)}
 
 
