@@ -34,7 +34,7 @@ _FOLLOWED = {
 }
 _ENGINE = (
     "Time loops, methods, contacts, events and batches are the same for all scenes: plain C in the folder `engine`, of "
-    "which `engine/engine.c` is the table of contents. It reads the sizes in `model.h`."
+    "which `engine/README.md` says what to read first. It reads the sizes in `model.h`."
 )
 _COMPILED = "With `ROOT=..` where `gudgeon emit` wrote this, or gudgeon's own folder, which holds `engine` too:"
 
