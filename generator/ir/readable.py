@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import lru_cache
 
 import sympy as sp
 
@@ -59,7 +59,7 @@ class ShareOfPi:
 def share_of_pi(number: sp.Expr) -> ShareOfPi | None:
     """What of π a number is, of a few shares and to the last bit; `number`: a float, or a ratio times π."""
     if number.is_Float:
-        return _share_of_pi(float(number))
+        return _share_of_pi(float(sp.Float(number, 17)))
     ratio, rest = number.as_coeff_Mul()
     if rest is not sp.pi or not ratio.is_Rational or ratio.q == 1:
         return None
@@ -67,7 +67,7 @@ def share_of_pi(number: sp.Expr) -> ShareOfPi | None:
     return found if found.value == float(ratio) * math.pi else None
 
 
-@cache
+@lru_cache(10_000)
 def _share_of_pi(value: float) -> ShareOfPi | None:
     if not 0 < abs(value) <= _MOST * math.pi:
         return None
