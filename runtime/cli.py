@@ -150,7 +150,7 @@ def run(
 def check(
     file: File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
-    branches: Annotated[bool, typer.Option("--branches", help="All assemblies, and the guess that picks each.")] = False,
+    branches: Annotated[bool, typer.Option("--branches", help="Assemblies, and the guess that picks each.")] = False,
     json: Json = False,
 ) -> int:
     """Is a mechanism file valid, does it assemble, and what can move? Mistakes are told with line and column.

@@ -35,11 +35,11 @@ def test_every_room_says_its_purpose() -> None:
 
 
 def test_no_regular_expression_looks_at_emitted_text() -> None:
-    """Those of the C printers are for what a file says: comments, titles."""
-    names = ("ir", "kernels", "solvers", "reduction", "targets/c", "targets/numpy")
+    """Those that are left read what people wrote: comments, titles, a parameter's own name (omega4 is ω with a 4)."""
+    names = ("ir", "kernels", "solvers", "reduction", "targets", "targets/c", "targets/latex", "targets/numpy")
     rooms = [ROOT / "generator" / room for room in names]
     users = {(file.name, name) for room in rooms for file in room.glob("*.py") for name in _with_regexes(file)}
-    assert users == {("printer.py", "comment_text"), ("readme.py", "_plain")}
+    assert users == {("printer.py", "comment_text"), ("readme.py", "_plain"), ("letters.py", "word")}
 
 
 def _with_regexes(file: Path) -> Iterator[str]:
@@ -62,6 +62,18 @@ def test_the_engine_is_plain_c(file: Path) -> None:
     assert text.startswith("/*") and "{%" not in text and not re.search(r"\{\{-? *\w+ *-?\}\}", text)
     assert len(lines) <= LONGEST_FILE and max(map(len, lines)) <= 120
     assert not [path.stem for path in (ROOT / "mechanisms").glob("*_*.yaml") if path.stem in text]
+
+
+def test_the_engines_readme_names_each_of_its_files_once() -> None:
+    """With a word on it; and each room, in front of its files."""
+    text = (ROOT / "engine" / "README.md").read_text(encoding="utf-8")
+    told = re.findall(r"^- `([\w./]+)`: \S.*$", text, re.M)
+    assert sorted(told) == sorted(file.relative_to(ROOT / "engine").as_posix() for file in ENGINE)
+    rooms = re.split(r"^`(\w+/)`: \S.*$", text, flags=re.M)
+    for room, files in zip(rooms[1::2], rooms[2::2], strict=True):
+        assert all(file.startswith(room) for file in re.findall(r"^- `([\w./]+)`", files, re.M)), room
+    named = set(re.findall(r"`(\w+/[\w.]+)`", text))
+    assert named <= {*told, "generated/"} and max(map(len, text.splitlines())) <= 120
 
 
 def test_what_is_derived_is_committed_and_the_engine_once() -> None:

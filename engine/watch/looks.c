@@ -1,6 +1,6 @@
 /*
  * Corners of the user's expressions and user events along a step, where they hang on forces or on driven chains, so
- * that no bounds of theirs are at hand (watched.c.jinja). The stages of a long step see next to nothing of a
+ * that no bounds of theirs are at hand (watched.c). The stages of a long step see next to nothing of a
  * function that swings or dips meanwhile: where it may have a zero it is looked at on the interpolant, and a step in
  * which that does not resolve it is taken again, shorter.
  */

@@ -10,7 +10,7 @@ from gudgeon.errors import Location
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.mechanism.mechanism import GROUND, ForceElement, Joint, PointRef, Quantity, Vector
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
-from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.numbers import Owned, Slots
 from gudgeon.language.tree import Name, names
 
 ZERO = sp.Integer(0)
@@ -24,12 +24,13 @@ class JointFields:
 
     def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
         """A vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
-        return unit_vector(self._joint.vectors[name], f"{self._joint.name}_{name}", self._slots)
+        return unit_vector(self._joint.vectors[name], self._joint.name, name, self._slots)
 
     def angle_of(self, name: str) -> sp.Expr:
         """The angle of a vector field in its body's frame (rad)."""
         x, y = self.direction(name)
-        return self._slots.derive(f"{self._joint.name}_{name}_angle", sp.atan2(y, x), "direction of the axis")
+        return self._slots.derive(f"{self._joint.name}_{name}_angle", sp.atan2(y, x), "direction of the axis",
+                                  of=Owned(self._joint.name, f"{name}_angle"))  # fmt: skip
 
     def quantity(self, name: str, default: sp.Expr) -> sp.Expr:
         """A number field, or `default` where the user gave none."""
@@ -52,7 +53,8 @@ class JointFields:
 
     def derive(self, name: str, expression: sp.Expr) -> sp.Expr:
         """A number that is computed once a run."""
-        return self._slots.derive(f"{self._joint.name}_{name}", expression, f"of joint {self._joint.name}")
+        return self._slots.derive(f"{self._joint.name}_{name}", expression, f"of joint {self._joint.name}",
+                                  of=Owned(self._joint.name, name))  # fmt: skip
 
     def at_guess(self, name: str, expression: sp.Expr) -> sp.Expr:
         """`expression` of angles at the start's guess or set values (0 where there are none)."""
@@ -65,7 +67,7 @@ class JointFields:
         return self.derive(name, expression.xreplace(values))
 
 
-def unit_vector(vector: Vector, wanted: str, slots: Slots) -> tuple[sp.Expr, sp.Expr]:
+def unit_vector(vector: Vector, owner: str, name: str, slots: Slots) -> tuple[sp.Expr, sp.Expr]:
     """A vector's direction; along an axis it is exactly (±1, 0) or (0, ±1)."""
     x, y = slots.use(vector[0]), slots.use(vector[1])
     length = sp.sqrt(x**2 + y**2)
@@ -78,7 +80,7 @@ def unit_vector(vector: Vector, wanted: str, slots: Slots) -> tuple[sp.Expr, sp.
             if entry is not None and not entry.follows:  # only its sign matters, and the sign is structural
                 slots.signs[entry.address] = ">" if entry.default > 0 else "<"
                 return sp.Integer(1 if entry.default > 0 else -1)
-        return slots.derive(f"{wanted}_{axis}", own / length, "unit vector")
+        return slots.derive(f"{owner}_{name}_{axis}", own / length, "unit vector", of=Owned(owner, name, axis))
 
     return component("x", x, y), component("y", y, x)
 
@@ -91,7 +93,7 @@ class ElementFields:
 
     def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
         """A vector field as a unit vector."""
-        return unit_vector(self._element.vectors[name], f"{self._element.name}_{name}", self._geometry.slots)
+        return unit_vector(self._element.vectors[name], self._element.name, name, self._geometry.slots)
 
     def quantity(self, name: str) -> sp.Expr:
         """A number field; 0 where the user gave none."""

@@ -7,6 +7,7 @@ r = (x, y) + A(θ) s; its arm A(θ) s is a symbol pair that turns: d arm/dθ = �
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import sympy as sp
 
@@ -78,6 +79,15 @@ class PointFrame:
         return local if self.body is None else self.geometry.turn(self.body, local, f"axis_{self.body.name}")
 
 
+class Turned(NamedTuple):
+    """A component of what turns with a body: of a point's arm, or (no point) of a direction, the number-th there."""
+
+    body: str
+    point: str
+    axis: str
+    number: int
+
+
 class Geometry:
     """Makes the symbols of bodies and points, each once."""
 
@@ -89,6 +99,7 @@ class Geometry:
             for body in self.mechanism.bodies.values()
             for point in self.point_names(body)
         }
+        self.turned: dict[sp.Symbol, Turned] = {}
         self._turned: dict[tuple[str, sp.Expr, sp.Expr], tuple[sp.Expr, sp.Expr]] = {}
         self._angles: dict[str, tuple[sp.Symbol, sp.Symbol]] = {}
 
@@ -144,8 +155,10 @@ class Geometry:
             self._angles[name] = cos, sin
         return self._angles[body.name]
 
-    def turn(self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], wanted: str) -> tuple[sp.Expr, sp.Expr]:
-        """A(θ) s as a pair of symbols; the opposite of a known arm is its negative."""
+    def turn(
+        self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], wanted: str, point: str = ""
+    ) -> tuple[sp.Expr, sp.Expr]:
+        """A(θ) s as a pair of symbols; the opposite of a known arm is its negative. `point`: whose arm it is."""
         if s == (ZERO, ZERO):
             return ZERO, ZERO
         if (body.name, -s[0], -s[1]) in self._turned:
@@ -159,6 +172,9 @@ class Geometry:
             y = self.symbols.define(f"{wanted}_y", sin * s[0] + cos * s[1], "", "A(theta) s, y")
             self.symbols.rules[x], self.symbols.rules[y] = {body.theta: -y}, {body.theta: x}
             self._turned[body.name, *s] = x, y
+            before = (of for of in self.turned.values() if (of.body, of.point, of.axis) == (body.name, "", "x"))
+            number = 1 if point else 1 + sum(1 for _ in before)
+            self.turned[x], self.turned[y] = (Turned(body.name, point, axis, number) for axis in ("x", "y"))
         return self._turned[body.name, *s]
 
     def point(self, ref: PointRef) -> PointFrame:
@@ -171,6 +187,6 @@ class Geometry:
         names = self.point_names(self.mechanism.bodies[ref.body])
         twin = next((name for name in names if self.local[ref.body, name] == opposite), None)
         if twin is not None and s[0].could_extract_minus_sign():  # a bar's tail is its head turned over
-            x, y = self.turn(body, opposite, f"arm_{ref.body}_{twin}")
+            x, y = self.turn(body, opposite, f"arm_{ref.body}_{twin}", twin)
             return PointFrame(self, body, (-x, -y))
-        return PointFrame(self, body, self.turn(body, s, f"arm_{ref.body}_{ref.point}"))
+        return PointFrame(self, body, self.turn(body, s, f"arm_{ref.body}_{ref.point}", ref.point))

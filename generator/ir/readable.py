@@ -6,8 +6,10 @@ same bits. What a symbol is called in the text is in `Kernel.names`, branches ar
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 import sympy as sp
 
@@ -16,6 +18,8 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.ir.values import Place
 
+_DENOMINATORS = tuple(k for k in range(1, 361) if 360 % k == 0)  # whole and half degrees, turns in a minute
+_MOST = 1000  # times PI
 NUMBERS = "p->"  # the numbers of a run: read where they are used
 
 
@@ -27,6 +31,48 @@ class Readable:
     names: Mapping[str, str] = field(default_factory=dict)
     branches: Mapping[sp.Expr, str] = field(default_factory=dict)
     first_corner: int | None = None
+
+
+@dataclass(frozen=True)
+class ShareOfPi:
+    """count π/of, computed from left to right: the same bits as the number for which it stands."""
+
+    count: int
+    of: int
+
+    @property
+    def value(self) -> float:
+        """As a target computes it."""
+        return self.count * math.pi / self.of
+
+    @property
+    def is_one(self) -> bool:
+        """π itself."""
+        return self.count == self.of == 1
+
+    def text(self, pi: str, whole: str = "") -> str:
+        """With `pi` and, behind a number, `whole` as the language has them."""
+        above = {1: pi, -1: f"-{pi}"}.get(self.count, f"{self.count}{whole}*{pi}")
+        return above if self.of == 1 else f"{above}/{self.of}{whole}"
+
+
+def share_of_pi(number: sp.Expr) -> ShareOfPi | None:
+    """What of π a number is, of a few shares and to the last bit; `number`: a float, or a ratio times π."""
+    if number.is_Float:
+        return _share_of_pi(float(sp.Float(number, 17)))
+    ratio, rest = number.as_coeff_Mul()
+    if rest is not sp.pi or not ratio.is_Rational or ratio.q == 1:
+        return None
+    found = ShareOfPi(int(ratio.p), int(ratio.q))
+    return found if found.value == float(ratio) * math.pi else None
+
+
+@lru_cache(10_000)
+def _share_of_pi(value: float) -> ShareOfPi | None:
+    if not 0 < abs(value) <= _MOST * math.pi:
+        return None
+    tried = (ShareOfPi(round(value * of / math.pi), of) for of in _DENOMINATORS)
+    return next((share for share in tried if 0 < abs(share.count) <= _MOST and share.value == value), None)
 
 
 def readable(kernel: Kernel, branching: bool = True) -> Readable:

@@ -52,6 +52,18 @@ class Place:
         return frozenset([self.base])
 
 
+class Threshold(float):
+    """A number of a bound with the name under which every target writes it."""
+
+    name: str
+
+    def __new__(cls, name: str, value: float) -> Threshold:
+        """Of that value."""
+        own = super().__new__(cls, value)
+        own.name = name
+        return own
+
+
 @dataclass(frozen=True)
 class Test:
     """`value relation bound`, the bound a product, or a flag alone; `size`: of the value's magnitude."""

@@ -45,19 +45,21 @@ def mass_kernel(model: Model) -> Kernel:
 def row_kernels(model: Model) -> list[Kernel]:
     """Φ, Φ_q (dense, row by row), ν and γ of the closed linkage."""
 
-    def kernel(name: str, doc: str, out: str, velocity: bool, value: Callable[[Row], sp.Expr]) -> Kernel:
+    def kernel(
+        name: str, doc: str, out: str, velocity: bool, value: Callable[[Row], sp.Expr], per: str = ""
+    ) -> Kernel:
         build = KernelBuilder(model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(model.all_rows):
-            build.out(f"{out}[{r}]", value(row), row.name)
+            build.out(f"{out}[{r}]", value(row), f"{row.name}, {row.unit}{per}")
         arguments = (*STATE, PARAMETERS, Argument("double *", out))
         return build.build(arguments if velocity else (*STATE[:2], *arguments[3:]))
 
     return [
         kernel("constraints", "Phi(q, t) of the closed linkage; m and rad.", "phi", False, lambda row: row.phi),
         _jacobian_kernel(model),
-        kernel("velocity_rhs", "nu = -Phi_t: Phi_q v = nu.", "nu", False, lambda row: row.nu),
-        kernel("acceleration_rhs", "gamma: Phi_q a = gamma.", "gamma_rows", True, lambda row: row.gamma),
+        kernel("velocity_rhs", "nu = -Phi_t: Phi_q v = nu.", "nu", False, lambda row: row.nu, "/s"),
+        kernel("acceleration_rhs", "gamma: Phi_q a = gamma.", "gamma_rows", True, lambda row: row.gamma, "/s^2"),
     ]
 
 

@@ -270,7 +270,7 @@ class TreeGeometry(Geometry):
         x, y = self.turn(body, (ONE, ZERO), f"axis_{body.name}")
         return x, y
 
-    def turn(self, body: BodySymbols, s: Pair, wanted: str) -> Pair:
+    def turn(self, body: BodySymbols, s: Pair, wanted: str, point: str = "") -> Pair:
         """A(θ) s."""
         return self.motions.arm(self.frame_of[body.name], self.in_frame(body.name, s, wanted), wanted)
 

@@ -18,7 +18,7 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.statements import Guard
-from gudgeon.generator.ir.values import Chosen, Place, Test
+from gudgeon.generator.ir.values import Chosen, Place, Test, Threshold
 from gudgeon.generator.sparsity.elimination import Elimination, choose_elimination
 
 ZERO = sp.Integer(0)
@@ -26,16 +26,16 @@ Entries = dict[tuple[int, int], sp.Expr]
 
 # A row counts as dependent when less than this share of its pivot is left after elimination: the
 # share is the squared sine of the angle between the row and the others, rounding leaves some 1e-15.
-SINGULAR = 1e-13
+SINGULAR = Threshold("SINGULAR", 1e-13)
 # Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
 # The rank-revealing way (engine/scene/singular.c) leaves it out for the moment if the others agree.
-NEARLY_SINGULAR = 1e-8
+NEARLY_SINGULAR = Threshold("NEARLY_SINGULAR", 1e-8)
 # Share of a joint's two rows that is left of one of them where it counts as vanished: their size is the squared sine
 # of the angle to the singular position, and within 1e-5 of it rounding decides where things go.
-VANISHING = 1e-10
+VANISHING = Threshold("VANISHING", 1e-10)
 # The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
 # and the other way to solve is exact.
-EARLY = 1e-5
+EARLY = Threshold("EARLY", 1e-5)
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class KKT:
                 blocks.append([k])
         return blocks
 
-    def factorize(self, build: KernelBuilder, jumps: bool = False, share: float = SINGULAR) -> Factor:
+    def factorize(self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR) -> Factor:
         """Statements for L and 1/D; a pivot below its `share` returns its number, from 1, or `jumps` to a rescue."""
         build.section("L D L^T of the KKT matrix")
         L: Entries = {}
@@ -127,7 +127,7 @@ class KKT:
 
     def _pivots(
         self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
-        made: tuple[Entries, Entries], failing: tuple[bool, int], share: float,
+        made: tuple[Entries, Entries], failing: tuple[bool, int], share: Threshold,
     ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
         """D⁻¹ of a block; `made` are L and W, `failing` is whether that jumps and how many rows came before."""
         (L, W), (jumps, count) = made, failing
@@ -140,7 +140,7 @@ class KKT:
 
     def _pair(
         self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
-        made: tuple[Entries, Entries], failing: tuple[bool, int], share: float,
+        made: tuple[Entries, Entries], failing: tuple[bool, int], share: Threshold,
     ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
         """The inverse of a 2 × 2 block by its determinant; of rows, D is negative."""
         L, W = made
@@ -207,7 +207,7 @@ class KKT:
     def _row_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],
         L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr], failed: tuple[bool, int],
-        least: float,
+        least: Threshold,
     ) -> sp.Expr:  # fmt: skip
         """1/D of a row: D = −scale + what earlier rows explain; NaN fails the comparison with the scale too."""
         name = self.names[k]

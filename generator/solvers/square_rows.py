@@ -18,7 +18,7 @@ import sympy as sp
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.statements import Call, Declare, Guard
-from gudgeon.generator.ir.values import Place, Test
+from gudgeon.generator.ir.values import Place, Test, Threshold
 from gudgeon.generator.solvers.kkt import SINGULAR
 from gudgeon.generator.sparsity.matching import Block, triangular_blocks
 from gudgeon.generator.symbols.corners import Size
@@ -26,7 +26,7 @@ from gudgeon.generator.symbols.corners import Size
 ZERO = sp.Integer(0)
 # A block is singular when its determinant is less than this share of what it could be, were the arms in it turned:
 # the sine of an angle, where KKT compares its square.
-SHARE = sqrt(SINGULAR)
+SHARE = Threshold("SINGULAR_SQUARE", sqrt(SINGULAR))
 
 
 @dataclass(frozen=True)

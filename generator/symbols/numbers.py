@@ -34,6 +34,15 @@ class SlotEntry:
         return bool(self.value.free_symbols)
 
 
+@dataclass(frozen=True)
+class Owned:
+    """What a derived number is to a joint or force element: `axis` of the unit vector `what`, or `what` itself."""
+
+    owner: str
+    what: str
+    axis: str = ""
+
+
 class Slots:
     """Collects slots in order of use; parameters come first, in dependency order."""
 
@@ -41,6 +50,7 @@ class Slots:
         self.symbols = symbols
         self.entries: dict[str, SlotEntry] = {}
         self.derived: dict[sp.Symbol, sp.Expr] = {}
+        self.of_owner: dict[sp.Symbol, Owned] = {}  # of derived numbers those that one joint or element has
         self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
         self._parameters = scene.parameters
@@ -100,13 +110,17 @@ class Slots:
         self.symbols.adopt(self.entries[address].symbol)
         return self.entries[address].symbol
 
-    def derive(self, wanted: str, expression: sp.Expr, meaning: str = "", shown: str = "") -> sp.Expr:
+    def derive(
+        self, wanted: str, expression: sp.Expr, meaning: str = "", shown: str = "", of: Owned | None = None
+    ) -> sp.Expr:
         """A number that `prepare` computes once a run; numbers and slots themselves stay as they are."""
         if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].home.startswith("p->")):
             return expression
         if expression not in self._derived_by:
             symbol = self.symbols.define(wanted, expression, "p->{}", meaning, shown=shown)
             self.derived[symbol] = expression
+            if of is not None:
+                self.of_owner[symbol] = of
             self._derived_by[expression] = symbol
         self.symbols.adopt(self._derived_by[expression])
         return self._derived_by[expression]

@@ -12,7 +12,7 @@ from gudgeon.commands.common import check_folder, chosen_scenes
 from gudgeon.commands.progress import status_line
 from gudgeon.errors import InputError
 from gudgeon.files.writing import PART, Aside, read_regular
-from gudgeon.loading.engine import engine_files
+from gudgeon.loading.engine import engine_files, engine_readme
 from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
 from gudgeon.loading.shipped import REST
 
@@ -59,9 +59,9 @@ def _refuse_one_folder(scenes: tuple[str, ...]) -> None:
 
 
 def _rooms() -> dict[str, dict[str, str]]:
-    """The engine's texts by folder, "engine/run", and name; a folder before those in it."""
+    """The engine's texts and their README by folder, "engine/run", and name; a folder before those in it."""
     rooms: dict[str, dict[str, str]] = {}
-    for path, text in sorted(engine_files().items()):
+    for path, text in sorted((*engine_files().items(), engine_readme())):
         room, _, name = path.rpartition("/")
         rooms.setdefault(room, {})[name] = text
     return dict(sorted(rooms.items()))

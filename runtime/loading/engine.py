@@ -24,6 +24,12 @@ def engine_files() -> dict[str, str]:
     return {path.relative_to(PACKAGE).as_posix(): path.read_text(encoding="utf-8") for path in paths}
 
 
+def engine_readme() -> tuple[str, str]:
+    """The page that says which of them to read first: its path and its text. No part of what is compiled."""
+    path = ENGINE / "README.md"
+    return path.relative_to(PACKAGE).as_posix(), path.read_text(encoding="utf-8")
+
+
 @cache
 def engine_digest() -> str:
     """Of all its texts."""

@@ -16,7 +16,7 @@ from gudgeon.commands.emit import LIST, emit_c, refuse_foreign
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, InputError, OutputError
 from gudgeon.loading.compiler import find_compiler
-from gudgeon.loading.engine import engine_files
+from gudgeon.loading.engine import engine_files, engine_readme
 from tests.tiny import tiny
 
 
@@ -187,7 +187,7 @@ def test_the_engine_is_written_once_beside_the_scenes(tmp_path: Path) -> None:
     """What was emitted compiles by itself; emitted again it is the same; a file of another in its folders is kept."""
     emit_c("pendulum", tmp_path, ())
     before = contents(tmp_path)
-    texts = {name: text.encode() for name, text in engine_files().items()}
+    texts = {name: text.encode() for name, text in (*engine_files().items(), engine_readme())}
     assert texts == {name: before[name] for name in before if name.startswith("engine/") and not name.endswith(LIST)}
     flags = ["-std=c11", "-O1", "-ffp-contract=off", "-fPIC", "-shared", "-I.", "-I.."]
     for scene in ("ideal", "two_seconds"):

@@ -116,6 +116,15 @@ def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> Non
             compile_c(compiler, tmp_path / source.lanes, [*FLAGS, *width, "-c", "-o", "lanes.o"])
 
 
+@pytest.mark.parametrize(("name", "scene"), SCENES)
+def test_no_warning_about_any_shipped_scene(name: str, scene: str, tmp_path: Path) -> None:
+    """Of what one compiler sees without optimizing."""
+    source = generate(shipped_file(name).read_bytes(), name, scene)
+    main = write(source, tmp_path)
+    for file in (main, *([tmp_path / source.lanes] if source.lanes else [])):
+        compile_c(COMPILERS[0], file, [*FLAGS, "-fsyntax-only"])
+
+
 @pytest.mark.parametrize(("name", "scene"), [("nine_bar_press", "ideal"), ("nine_bar_press", "lubricated"),
                                              ("andrews_squeezer", "ideal"), ("belt_block", "ideal")])  # fmt: skip
 @pytest.mark.parametrize("formulation", ["reduced", "full"])

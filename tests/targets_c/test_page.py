@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
+from fractions import Fraction
 from functools import cache
 from importlib import resources
 from pathlib import Path
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import gudgeon
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.generator.targets.c import layout
+from gudgeon.generator.targets import breaks
+from gudgeon.generator.targets.c import printer
+from gudgeon.generator.targets.c.fields import unit_text
 from gudgeon.generator.targets.c.layout import WIDTH, broken, within
+from gudgeon.language import units
 
 SHIPPED = Path(str(resources.files("gudgeon.mechanisms")))
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
@@ -31,6 +37,13 @@ ANYWHERE = {
     "a number in brackets as a factor": r"\(\d+\.\d+\)\*",
     "a number compared with a share of itself": r"\b(\w+)\)? > [\d.e-]+ \* (?:lanes_)?(?:fabs\()?\1\b",
     "pi by its digits": r"(?<!PI )\b3\.14159\d+",
+    "a share of pi by its digits": r"\b(?:1\.5707963|4\.7123889|6\.2831853|0\.5235987|1\.0471975|0\.7853981)\d+",
+    "a threshold by its digits": r" (?:1e-\d+|3\.16\d+e-07) \* \w*(?:scale|size|bound|pivot)_",
+    "a type and its name on two lines": r"\b(?:const|double|int|Lanes|Latch|Parameters|Memory|Aside) *\n *\w+[,)]",
+    "a row of a table on two lines": r"\{\d+,\n",
+    "something behind a comment that ends": r"\*/static",
+    "a loop over nothing": r"int k = (\d+); k < \1;",
+    "a number that is set and set again": r"(\*\w+) = (?:all_of\()?0\.0\)?;\n *\1 = ",
     "a name that another has taken": r"\bp->par_[xy]\b|\b\w+_[xy]_2\b",
 }
 IN_KERNELS = {
@@ -73,7 +86,73 @@ def test_each_number_has_a_line_that_says_what_it_is(name: str, scene: str) -> N
     lines = [re.fullmatch(r"    double \w+;  /\* (.+) \*/", line) for line in fields.splitlines()]
     assert len(lines) == len(source.slots) + len(source.derived) and all(lines)
     for slot, line in zip(source.slots, lines, strict=False):
-        assert line and re.fullmatch(re.escape(slot.address) + r", [\w^/() -]+", line[1])
+        told = line and re.fullmatch(re.escape(slot.address) + r", (?:[\w ]+, )?([\w^/()*.]+)", line[1])
+        assert told and not re.search(r"kg.*s", told[1]), "units have names"
+
+
+@pytest.mark.parametrize(("name", "unit"), [
+    ("steel_E", "Pa"), ("steel_nu", "1"), ("crank_mass", "kg"), ("crank_inertia", "kg*m^2"), ("dry_pin_K", "N/m^1.5"),
+    ("velocity_floor", "m/s"), ("inverse_crank_inertia", "1/(kg*m^2)"), ("dry_pin_friction_slope", "s/m"),
+    ("two_alpha", "1/s"), ("beta_squared", "1/s^2"), ("pin_length", "m"), ("guess_slider_x", "m"),
+])  # fmt: skip
+def test_units_as_people_write_them(name: str, unit: str) -> None:
+    assert re.search(rf"double {name};  /\* .*, {re.escape(unit)} \*/", emitted("slider_crank", "dry").files["model.h"])
+
+
+@pytest.mark.parametrize(("of", "unit"), [
+    (units.FORCE, "N"), (units.TORQUE, "N*m"), (units.POWER, "W"), (units.STIFFNESS, "N/m"), (units.DAMPING, "N*s/m"),
+    (units.VISCOSITY, "Pa*s"), (units.DAMPING * units.LENGTH, "N*s"), (units.TORQUE * units.TIME, "N*m*s"),
+    (units.DAMPING / units.LENGTH**Fraction(3, 2), "N*s/m^2.5"), (units.ACCELERATION, "m/s^2"),
+    (units.LENGTH ** Fraction(-1, 3), "1/m^(1/3)"),
+])  # fmt: skip
+def test_units_of_every_kind(of: units.Dimension, unit: str) -> None:
+    assert unit_text(of) == unit
+
+
+def test_a_law_says_the_unit_that_hangs_on_an_exponent() -> None:
+    header = emitted("bouncing_ball", "elastic").files["model.h"]
+    assert "/* contacts.elastic.normal.stiffness, force at unit penetration, N/m^n */" in header
+
+
+@pytest.mark.parametrize(("number", "text"), [
+    (math.pi, "PI"), (-math.pi / 2, "-PI/2.0"), (20 * math.pi, "20.0*PI"), (math.pi / 6, "PI/6.0"),
+    (math.radians(7), "7.0*PI/180.0"), (3.4814082589530893, "3.4814082589530893"), (0.5, "0.5"), (1e9, "1000000000.0"),
+    (math.nextafter(math.pi / 6, 1), repr(math.nextafter(math.pi / 6, 1))),
+])  # fmt: skip
+def test_pi_by_name_to_the_bit(number: float, text: str) -> None:
+    """And in a product as one number."""
+    x, one = sp.Symbol("x"), sp.Float(number, 17)
+    assert printer.expression(one) == text
+    assert float(eval(text, {"PI": math.pi})) == number
+    product = printer.expression(one * x)
+    sign, size = ("-" if number < 0 else ""), text.removeprefix("-")
+    assert product == f"{sign}({size})*x" if "/" in text or "*" in text else f"{text}*x"
+    assert eval(product, {"PI": math.pi, "x": 0.7}) == number * 0.7
+    assert eval(printer.expression(x + one), {"PI": math.pi, "x": 0.7}) == 0.7 + number
+
+
+def test_a_ratio_of_pi_is_one_number() -> None:
+    assert printer.expression(sp.pi / 2) == "PI/2.0" and printer.expression(-3 * sp.pi / 4) == "-3.0*PI/4.0"
+    with_x = printer.expression(sp.pi * sp.Symbol("x") / 2)
+    assert eval(with_x, {"PI": math.pi, "x": 0.7}) == 0.5 * math.pi * 0.7
+
+
+def test_angles_and_speeds_of_the_file() -> None:
+    numbers = {scene: emitted(*scene).files["parameters.c"] for scene in (("slider_crank", "dry"), ("shaker", "ideal"))}
+    assert "20.0*PI;" in numbers["slider_crank", "dry"] and "60.0*PI;" in numbers["shaker", "ideal"]
+
+
+def test_the_place_of_every_unit_of_lanes_is_said() -> None:
+    text = emitted("pendulum", "ideal").files["lanes.c"]
+    assert re.search(r"/\* [^/]*Parameters in model\.h: meanings, addresses, units[^/]* \*/\ntypedef struct \{", text)
+
+
+@pytest.mark.parametrize("scene", ["ideal", "elastic", "damped"])
+def test_a_function_of_nothing_says_so(scene: str) -> None:
+    """A body of `(void)` alone has one line of them, and a word."""
+    text = emitted("bouncing_ball", scene).files["reduced.c"]
+    assert re.search(r"^void closures\([^{]*\{\n    \(void\)t, .*;\n    /\* this scene has none \*/\n\}", text, re.M)
+    assert not re.search(r"\(void\)\w+;\n *\(void\)", text)
 
 
 @every_scene
@@ -138,6 +217,10 @@ def test_readme_names_every_file(name: str, scene: str) -> None:
     told = re.findall(r"^- `([\w.]+)`: \S.*$", text, flags=re.M)
     assert sorted(told) == sorted({*source.files, "kernel.json"} - {"README.md"})
     assert text.startswith("# ") and "Read `model.h` first" in text
+    integrates = "What is integrated: nothing" not in text
+    assert integrates == ("accelerations that are integrated" in text)
+    assert ("`positions.c`, which is what runs" in text) != integrates
+    assert integrates == ("`reduced.c`, which is what runs" in text or "reduced.c" not in text)
 
 
 def test_long_lines_are_broken_where_the_fewest_brackets_are_open() -> None:
@@ -159,7 +242,7 @@ def test_comments_are_wrapped_and_code_in_front_of_them_is_not() -> None:
 
 def test_a_line_of_a_megabyte_is_read_a_few_times_over(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each break looks at places up to the width, not at all that follows."""
-    looked, places = 0, layout._places
+    looked, places = 0, breaks._places
 
     def counted(line: str) -> Iterator[tuple[float, int]]:
         nonlocal looked
@@ -167,7 +250,7 @@ def test_a_line_of_a_megabyte_is_read_a_few_times_over(monkeypatch: pytest.Monke
             looked += 1
             yield place
 
-    monkeypatch.setattr(layout, "_places", counted)
+    monkeypatch.setattr(breaks, "_places", counted)
     terms = 100_000
     lines = broken("    y = " + " + ".join(f"x_{k}" for k in range(terms)) + ";")
     assert max(map(len, lines)) <= WIDTH and looked < 3 * terms

@@ -14,6 +14,9 @@ import sympy as sp
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.latex import equations_text
+from gudgeon.generator.targets.latex.letters import Name, of_latex
+from gudgeon.generator.targets.latex.notation import make_notation
+from gudgeon.generator.targets.latex.render import _mathml
 from tests.equations.models import numeric, random_model, random_state
 from tests.targets_latex.equations_reader import dots_apart, equations, evaluate, numbers, rows, sections, state, value
 
@@ -165,3 +168,27 @@ def test_friction_read_back_is_the_models() -> None:
     assert (known["v_rub"], known["γ_rub"]) == pytest.approx((slip, gamma), rel=1e-10)
     assert [known.get(f"J_rub.{k}", 0.0) for k in range(1, 1 + q.size)] == pytest.approx(J, rel=1e-10)
     assert [known.get(f"Δg_{k}", 0.0) for k in range(1, 1 + q.size)] == pytest.approx(-4.0 * J * np.sign(slip))
+
+
+def test_a_number_is_a_joints_own_by_what_it_is_and_not_by_its_name() -> None:
+    """A joint called "inverse" does not take 1/M of a body; its own number is called after it."""
+    text = SHIPPED.joinpath("pendulum.yaml").read_text(encoding="utf-8")
+    model = derive(text.replace("  rod: {distance", "  inverse: {distance").encode(), "pendulum.yaml", "ideal")
+    model.numpy()  # which derives what the right-hand side needs
+    names = {symbol.name: name.text for symbol, name in make_notation(model).names.items()}
+    assert names["inverse_bob_mass"] == "inverse_bob_mass"
+    assert names["inverse_half_inverse_length"] == "half_inverse_length_inverse"
+
+
+@pytest.mark.parametrize(("latex", "text"), [
+    (r"\mu", "μ"), (r"\sigma_{0}", "σ_0"), ("c_e", "c_e"), (r"\mathrm{max}_{a b}", "max_ab"), (r"\varphi", "φ"),
+])  # fmt: skip
+def test_letters_that_are_given_in_latex(latex: str, text: str) -> None:
+    assert of_latex(latex) == Name(latex, text)
+
+
+def test_a_space_stands_between_a_function_and_what_it_is_of() -> None:
+    """Not between it and its power."""
+    pytest.importorskip("latex2mathml")
+    space, found = '<mspace width="0.167em" />', _mathml(Name(r"\sin{\theta} + \cos^{2}{x}", ""))
+    assert f"<mi>sin</mi>{space}<mrow>" in found and f"<mi>cos</mi>{space}" not in found and found.count(space) == 1

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import re
 import shutil
 from functools import cache
 from pathlib import Path
@@ -10,11 +12,12 @@ import numpy as np
 import pytest
 
 import gudgeon
+from gudgeon.errors import ArrayError, BadValueError, UnitError, UnknownNameError
 from gudgeon.generator.kernels.closed_linkage import row_kernels
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.latex.write import equations_text
-from gudgeon.generator.targets.numpy import printer
+from gudgeon.generator.targets.numpy import layout, printer
 from gudgeon.loading.shipped import shipped, shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles.linkage_yaml import to_yaml
@@ -88,8 +91,94 @@ def test_a_number_that_is_given() -> None:
     address = next(iter(model.model.slots.entries))
     name = printer.name(model.model.slots.entries[address].symbol.name)
     assert getattr(model.prepare({address: 0.125}), name) == 0.125 != getattr(model.prepare(), name)
-    with pytest.raises(KeyError, match="no number has the address 'nobody'"):
-        model.prepare({"nobody": 1.0})
+
+
+def test_numbers_are_given_as_for_a_run() -> None:
+    """By the parameter's name alone, too, and with units; what nobody has is told with the nearest."""
+    simulation = load("slider_crank", "dry")
+    model = simulation.model.numpy()
+    for spelled in ("omega", "parameters.omega"):
+        assert model.prepare({spelled: 1.5}).omega == 1.5
+    assert model.prepare({"omega": "300 rpm", "c": "0.5 mm"}).c == 0.0005
+    assert model.prepare({"c": 0.0003}).pin_clearance == 0.0003
+    with pytest.raises(UnknownNameError, match=r"(?s)no number of this scene has the address 'omgea'.*nearest: omega"):
+        model.prepare({"omgea": 1.0})
+    with pytest.raises(BadValueError, match=r"parameters\.omega is given twice"):
+        model.prepare({"omega": 1.0, "parameters.omega": 2.0})
+    with pytest.raises(BadValueError, match="not one real number"):
+        model.prepare({"omega": None})
+    with pytest.raises(UnitError):
+        model.prepare({"omega": "3 kg"})
+
+
+def test_modes_of_friction_must_be_given() -> None:
+    """Without them the compiled right-hand side has no number either: stick would be a guess."""
+    simulation = load("belt_block", "ideal")
+    model, start, p = simulation.model.numpy(), simulation.start(), simulation.p
+    y = np.concatenate([start.q, start.v])
+    assert np.isnan(simulation.compiled.rhs(0.0, y, p)[start.q.size]).all()
+    numbers = model.prepare()
+    with pytest.raises(ArrayError, match=r"modes of shape \(0,\): expected \(1,\)\n.*one each for rub"):
+        model.dynamics(0.0, start.q, start.v, numbers)
+    for mode in (-1.0, 0.0, 1.0):
+        want = simulation.compiled.rhs(0.0, y, p, memory=np.array([mode]))
+        got = model.dynamics(0.0, start.q, start.v, numbers, modes=[mode])
+        close(got.a, want[start.q.size : 2 * start.q.size], 1e-12)
+
+
+def test_latches_are_one_each() -> None:
+    """None given: every contact is open, as the compiled right-hand side has it."""
+    simulation = load("slider_crank", "dry")
+    model, numbers = simulation.model.numpy(), simulation.model.numpy().prepare()
+    t, q, v = states(simulation)[1]
+    want = simulation.compiled.rhs(t, np.concatenate([q, v]), simulation.p)
+    close(model.dynamics(t, q, v, numbers).a, want[q.size : 2 * q.size], 1e-12)
+    with pytest.raises(ArrayError, match=r"latches of shape \(2,\): expected \(1,\)"):
+        model.dynamics(t, q, v, numbers, [0.1, 0.2])
+    with pytest.raises(ArrayError, match="this scene has none"):
+        model.dynamics(t, q, v, numbers, modes=[0.0])
+
+
+@pytest.mark.parametrize(("name", "scene"), SCENES)
+def test_the_text_is_a_page(name: str, scene: str) -> None:
+    """No long line, a head that says what this is, rows by their names and units, no power of minus one."""
+    model = load(name, scene).model.numpy()
+    lines = model.source.splitlines()
+    assert max(map(len, lines)) <= 100 and not [line for line in lines if line != line.rstrip()]
+    head = ast.get_docstring(ast.parse(model.source)) or ""
+    plain = " ".join(head.split())
+    assert f"scene {scene} of the mechanism {name}" in plain and "SI" in plain and "rad" in plain
+    for k, body in enumerate(model.model.bodies):
+        place = f"[{3 * k}:{3 * k + 3}]"
+        assert f"q{place}, v{place}: {body.name}.x, {body.name}.y, {body.name}.theta" in head
+    text = model.source
+    for what, per in (("phi", ""), ("nu", "/s"), ("gamma_rows", "/s^2")):
+        for r, row in enumerate(model.model.all_rows):
+            told = re.escape(f"# {row.name}, {row.unit}{per}")
+            assert re.search(rf"^    {what}\[{r}\] = .*  {told}$|^    {told}\n    {what}\[{r}\] = ", text, re.M)
+    assert "**(-1)" not in text and not re.search(r"> \d[\d.e-]+ \*|1/2\*np\.pi", text)
+    assert "a pivot vanished" not in text
+
+
+def test_names_of_thresholds_and_pi() -> None:
+    text = load("slider_crank", "dry").model.numpy().source
+    assert "\nNEARLY_SINGULAR = 1e-08\n" in text and "> NEARLY_SINGULAR * " in text
+    assert "else 20*np.pi  # parameters.omega\n" in text
+    assert " - np.pi/2 " in load("nine_bar_press", "ideal").model.numpy().source
+
+
+def test_long_lines_are_broken_within_brackets() -> None:
+    value = " + ".join(f"a{k}*b{k}" for k in range(40))
+    numbers = {f"{x}{k}": k + 1 for k in range(40) for x in "ab"}
+    call = layout.assigned("y", f"max({value}, {value})", is_call=True)
+    for lines in (layout.assigned("y", value), call, layout.assigned("y", value, "what it is")):
+        text = "\n".join(lines)
+        assert max(map(len, lines)) <= layout.WIDTH - 12
+        found = dict(numbers)
+        exec(text, {"max": max}, found)
+        assert found["y"] == sum((k + 1) ** 2 for k in range(40))
+    assert layout.assigned("y", "1", "what it is") == ["y = 1  # what it is"]
+    assert layout.docstring(['a "b" \\ c\nd']) == ['\"\"\"a \'b\' / c d\"\"\"']
 
 
 def test_the_equations_can_still_be_read() -> None:

@@ -148,8 +148,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double OF_theta = q[2];
     const double OF_omega = v[2];
@@ -189,10 +188,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)p;
     /* tree coordinates */
     a[0] = all_a[2];  /* OF */
     a[1] = all_a[8];  /* BDE */
@@ -448,16 +444,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_H_x__H_y > 1e-05 * scale_H_y * scale_H_x)) {
+    if (!(determinant_H_x__H_y > EARLY * scale_H_y * scale_H_x)) {
         pivot = 2;
         goto dependent;
     }
     const double size_H_x = scale_H_x + scale_H_y;
-    if (!(scale_H_x > 1e-10 * size_H_x)) {
+    if (!(scale_H_x > VANISHING * size_H_x)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_H_x__H_y > 1e-10 * size_H_x * scale_H_x)) {
+    if (!(determinant_H_x__H_y > VANISHING * size_H_x * scale_H_x)) {
         pivot = 2;
         goto dependent;
     }
@@ -485,16 +481,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_G_x__G_y > 1e-05 * scale_G_y * scale_G_x)) {
+    if (!(determinant_G_x__G_y > EARLY * scale_G_y * scale_G_x)) {
         pivot = 4;
         goto dependent;
     }
     const double size_G_x = scale_G_x + scale_G_y;
-    if (!(scale_G_x > 1e-10 * size_G_x)) {
+    if (!(scale_G_x > VANISHING * size_G_x)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_G_x__G_y > 1e-10 * size_G_x * scale_G_x)) {
+    if (!(determinant_G_x__G_y > VANISHING * size_G_x * scale_G_x)) {
         pivot = 4;
         goto dependent;
     }
@@ -537,16 +533,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_E3_x__E3_y > 1e-08 * scale_E3_y * scale_E3_x)) {
+    if (!(determinant_E3_x__E3_y > NEARLY_SINGULAR * scale_E3_y * scale_E3_x)) {
         pivot = 6;
         goto dependent;
     }
     const double size_E3_x = scale_E3_x + scale_E3_y;
-    if (!(scale_E3_x > 1e-10 * size_E3_x)) {
+    if (!(scale_E3_x > VANISHING * size_E3_x)) {
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_E3_x__E3_y > 1e-10 * size_E3_x * scale_E3_x)) {
+    if (!(determinant_E3_x__E3_y > VANISHING * size_E3_x * scale_E3_x)) {
         pivot = 6;
         goto dependent;
     }
@@ -719,12 +715,12 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double determinant_H_x__H_y = -(pivot_H_x__H_y * pivot_H_x__H_y) + scale_H_x*scale_H_y;
     if (!(scale_H_x > 0.0 && scale_H_x < INFINITY))
         return 1;
-    if (!(determinant_H_x__H_y > 1e-13 * scale_H_y * scale_H_x))
+    if (!(determinant_H_x__H_y > SINGULAR * scale_H_y * scale_H_x))
         return 2;
     const double size_H_x = scale_H_x + scale_H_y;
-    if (!(scale_H_x > 1e-10 * size_H_x))
+    if (!(scale_H_x > VANISHING * size_H_x))
         return 1;
-    if (!(determinant_H_x__H_y > 1e-10 * size_H_x * scale_H_x))
+    if (!(determinant_H_x__H_y > VANISHING * size_H_x * scale_H_x))
         return 2;
     const double inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
     const double inverse_pivot_H_x = inverse_H_x__H_y*scale_H_y;
@@ -776,12 +772,12 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double determinant_G_x__G_y = -(pivot_G_x__G_y * pivot_G_x__G_y) + scale_G_x*scale_G_y;
     if (!(scale_G_x > 0.0 && scale_G_x < INFINITY))
         return 3;
-    if (!(determinant_G_x__G_y > 1e-13 * scale_G_y * scale_G_x))
+    if (!(determinant_G_x__G_y > SINGULAR * scale_G_y * scale_G_x))
         return 4;
     const double size_G_x = scale_G_x + scale_G_y;
-    if (!(scale_G_x > 1e-10 * size_G_x))
+    if (!(scale_G_x > VANISHING * size_G_x))
         return 3;
-    if (!(determinant_G_x__G_y > 1e-10 * size_G_x * scale_G_x))
+    if (!(determinant_G_x__G_y > VANISHING * size_G_x * scale_G_x))
         return 4;
     const double inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
     const double inverse_pivot_G_x = inverse_G_x__G_y*scale_G_y;
@@ -807,14 +803,14 @@ int reduced_project(const double t, const double *q, const double *r, const Para
         + l_E3_y__G_x*w_E3_x__G_x + l_E3_y__G_y*w_E3_x__G_y + l_E3_y__H_x*w_E3_x__H_x + l_E3_y__H_y*w_E3_x__H_y
         - l_E3_y__OF_theta*span_OF_F_y;
     const double determinant_E3_x__E3_y = pivot_E3_x*pivot_E3_y - (pivot_E3_x__E3_y * pivot_E3_x__E3_y);
-    if (!(pivot_E3_x > 1e-13 * scale_E3_x))
+    if (!(pivot_E3_x > SINGULAR * scale_E3_x))
         return 5;
-    if (!(determinant_E3_x__E3_y > 1e-13 * scale_E3_y * pivot_E3_x))
+    if (!(determinant_E3_x__E3_y > SINGULAR * scale_E3_y * pivot_E3_x))
         return 6;
     const double size_E3_x = scale_E3_x + scale_E3_y;
-    if (!(pivot_E3_x > 1e-10 * size_E3_x))
+    if (!(pivot_E3_x > VANISHING * size_E3_x))
         return 5;
-    if (!(determinant_E3_x__E3_y > 1e-10 * size_E3_x * pivot_E3_x))
+    if (!(determinant_E3_x__E3_y > VANISHING * size_E3_x * pivot_E3_x))
         return 6;
     const double inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
     const double inverse_pivot_E3_x = inverse_E3_x__E3_y*pivot_E3_y;

@@ -101,26 +101,26 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double arm_AH_H_y = p->AH_points_H_x*sin_theta_AH + p->AH_points_H_y*cos_theta_AH;
 
     /* rows */
-    phi[0] = -OF_x - arm_OF_O_x;  /* O.x */
-    phi[1] = -OF_y - arm_OF_O_y;  /* O.y */
-    phi[2] = -BDE_x + p->B_x - arm_BDE_B_x;  /* B.x */
-    phi[3] = -BDE_y + p->B_y - arm_BDE_B_y;  /* B.y */
-    phi[4] = -AG_x + p->A_x - arm_AG_A_x;  /* A5.x */
-    phi[5] = -AG_y + p->A_y - arm_AG_A_y;  /* A5.y */
-    phi[6] = -AH_x + p->A_x - arm_AH_A_x;  /* A7.x */
-    phi[7] = -AH_y + p->A_y - arm_AH_A_y;  /* A7.y */
-    phi[8] = -FE_x + OF_x - arm_FE_F_x + arm_OF_F_x;  /* F.x */
-    phi[9] = -FE_y + OF_y - arm_FE_F_y + arm_OF_F_y;  /* F.y */
-    phi[10] = -BDE_x + FE_x - arm_BDE_E_x + arm_FE_E_x;  /* E3.x */
-    phi[11] = -BDE_y + FE_y - arm_BDE_E_y + arm_FE_E_y;  /* E3.y */
-    phi[12] = -EG_x + FE_x - arm_EG_E_x + arm_FE_E_x;  /* E4.x */
-    phi[13] = -EG_y + FE_y - arm_EG_E_y + arm_FE_E_y;  /* E4.y */
-    phi[14] = FE_x - HE_x + arm_FE_E_x - arm_HE_E_x;  /* E6.x */
-    phi[15] = FE_y - HE_y + arm_FE_E_y - arm_HE_E_y;  /* E6.y */
-    phi[16] = -AG_x + EG_x - arm_AG_G_x + arm_EG_G_x;  /* G.x */
-    phi[17] = -AG_y + EG_y - arm_AG_G_y + arm_EG_G_y;  /* G.y */
-    phi[18] = -AH_x + HE_x - arm_AH_H_x + arm_HE_H_x;  /* H.x */
-    phi[19] = -AH_y + HE_y - arm_AH_H_y + arm_HE_H_y;  /* H.y */
+    phi[0] = -OF_x - arm_OF_O_x;  /* O.x, m */
+    phi[1] = -OF_y - arm_OF_O_y;  /* O.y, m */
+    phi[2] = -BDE_x + p->B_x - arm_BDE_B_x;  /* B.x, m */
+    phi[3] = -BDE_y + p->B_y - arm_BDE_B_y;  /* B.y, m */
+    phi[4] = -AG_x + p->A_x - arm_AG_A_x;  /* A5.x, m */
+    phi[5] = -AG_y + p->A_y - arm_AG_A_y;  /* A5.y, m */
+    phi[6] = -AH_x + p->A_x - arm_AH_A_x;  /* A7.x, m */
+    phi[7] = -AH_y + p->A_y - arm_AH_A_y;  /* A7.y, m */
+    phi[8] = -FE_x + OF_x - arm_FE_F_x + arm_OF_F_x;  /* F.x, m */
+    phi[9] = -FE_y + OF_y - arm_FE_F_y + arm_OF_F_y;  /* F.y, m */
+    phi[10] = -BDE_x + FE_x - arm_BDE_E_x + arm_FE_E_x;  /* E3.x, m */
+    phi[11] = -BDE_y + FE_y - arm_BDE_E_y + arm_FE_E_y;  /* E3.y, m */
+    phi[12] = -EG_x + FE_x - arm_EG_E_x + arm_FE_E_x;  /* E4.x, m */
+    phi[13] = -EG_y + FE_y - arm_EG_E_y + arm_FE_E_y;  /* E4.y, m */
+    phi[14] = FE_x - HE_x + arm_FE_E_x - arm_HE_E_x;  /* E6.x, m */
+    phi[15] = FE_y - HE_y + arm_FE_E_y - arm_HE_E_y;  /* E6.y, m */
+    phi[16] = -AG_x + EG_x - arm_AG_G_x + arm_EG_G_x;  /* G.x, m */
+    phi[17] = -AG_y + EG_y - arm_AG_G_y + arm_EG_G_y;  /* G.y, m */
+    phi[18] = -AH_x + HE_x - arm_AH_H_x + arm_HE_H_x;  /* H.x, m */
+    phi[19] = -AH_y + HE_y - arm_AH_H_y + arm_HE_H_y;  /* H.y, m */
 }
 
 /*
@@ -254,30 +254,28 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
-    (void)t;
-    (void)q;
-    (void)p;
+    (void)t, (void)q, (void)p;
     /* rows */
-    nu[0] = 0.0;  /* O.x */
-    nu[1] = 0.0;  /* O.y */
-    nu[2] = 0.0;  /* B.x */
-    nu[3] = 0.0;  /* B.y */
-    nu[4] = 0.0;  /* A5.x */
-    nu[5] = 0.0;  /* A5.y */
-    nu[6] = 0.0;  /* A7.x */
-    nu[7] = 0.0;  /* A7.y */
-    nu[8] = 0.0;  /* F.x */
-    nu[9] = 0.0;  /* F.y */
-    nu[10] = 0.0;  /* E3.x */
-    nu[11] = 0.0;  /* E3.y */
-    nu[12] = 0.0;  /* E4.x */
-    nu[13] = 0.0;  /* E4.y */
-    nu[14] = 0.0;  /* E6.x */
-    nu[15] = 0.0;  /* E6.y */
-    nu[16] = 0.0;  /* G.x */
-    nu[17] = 0.0;  /* G.y */
-    nu[18] = 0.0;  /* H.x */
-    nu[19] = 0.0;  /* H.y */
+    nu[0] = 0.0;  /* O.x, m/s */
+    nu[1] = 0.0;  /* O.y, m/s */
+    nu[2] = 0.0;  /* B.x, m/s */
+    nu[3] = 0.0;  /* B.y, m/s */
+    nu[4] = 0.0;  /* A5.x, m/s */
+    nu[5] = 0.0;  /* A5.y, m/s */
+    nu[6] = 0.0;  /* A7.x, m/s */
+    nu[7] = 0.0;  /* A7.y, m/s */
+    nu[8] = 0.0;  /* F.x, m/s */
+    nu[9] = 0.0;  /* F.y, m/s */
+    nu[10] = 0.0;  /* E3.x, m/s */
+    nu[11] = 0.0;  /* E3.y, m/s */
+    nu[12] = 0.0;  /* E4.x, m/s */
+    nu[13] = 0.0;  /* E4.y, m/s */
+    nu[14] = 0.0;  /* E6.x, m/s */
+    nu[15] = 0.0;  /* E6.y, m/s */
+    nu[16] = 0.0;  /* G.x, m/s */
+    nu[17] = 0.0;  /* G.y, m/s */
+    nu[18] = 0.0;  /* H.x, m/s */
+    nu[19] = 0.0;  /* H.y, m/s */
 }
 
 /*
@@ -347,26 +345,26 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double arm_AH_H_y = p->AH_points_H_x*sin_theta_AH + p->AH_points_H_y*cos_theta_AH;
 
     /* rows */
-    gamma_rows[0] = -(OF_omega * OF_omega)*arm_OF_O_x;  /* O.x */
-    gamma_rows[1] = -(OF_omega * OF_omega)*arm_OF_O_y;  /* O.y */
-    gamma_rows[2] = -(BDE_omega * BDE_omega)*arm_BDE_B_x;  /* B.x */
-    gamma_rows[3] = -(BDE_omega * BDE_omega)*arm_BDE_B_y;  /* B.y */
-    gamma_rows[4] = -(AG_omega * AG_omega)*arm_AG_A_x;  /* A5.x */
-    gamma_rows[5] = -(AG_omega * AG_omega)*arm_AG_A_y;  /* A5.y */
-    gamma_rows[6] = -(AH_omega * AH_omega)*arm_AH_A_x;  /* A7.x */
-    gamma_rows[7] = -(AH_omega * AH_omega)*arm_AH_A_y;  /* A7.y */
-    gamma_rows[8] = -(FE_omega * FE_omega)*arm_FE_F_x + (OF_omega * OF_omega)*arm_OF_F_x;  /* F.x */
-    gamma_rows[9] = -(FE_omega * FE_omega)*arm_FE_F_y + (OF_omega * OF_omega)*arm_OF_F_y;  /* F.y */
-    gamma_rows[10] = -(BDE_omega * BDE_omega)*arm_BDE_E_x + (FE_omega * FE_omega)*arm_FE_E_x;  /* E3.x */
-    gamma_rows[11] = -(BDE_omega * BDE_omega)*arm_BDE_E_y + (FE_omega * FE_omega)*arm_FE_E_y;  /* E3.y */
-    gamma_rows[12] = -(EG_omega * EG_omega)*arm_EG_E_x + (FE_omega * FE_omega)*arm_FE_E_x;  /* E4.x */
-    gamma_rows[13] = -(EG_omega * EG_omega)*arm_EG_E_y + (FE_omega * FE_omega)*arm_FE_E_y;  /* E4.y */
-    gamma_rows[14] = (FE_omega * FE_omega)*arm_FE_E_x - (HE_omega * HE_omega)*arm_HE_E_x;  /* E6.x */
-    gamma_rows[15] = (FE_omega * FE_omega)*arm_FE_E_y - (HE_omega * HE_omega)*arm_HE_E_y;  /* E6.y */
-    gamma_rows[16] = -(AG_omega * AG_omega)*arm_AG_G_x + (EG_omega * EG_omega)*arm_EG_G_x;  /* G.x */
-    gamma_rows[17] = -(AG_omega * AG_omega)*arm_AG_G_y + (EG_omega * EG_omega)*arm_EG_G_y;  /* G.y */
-    gamma_rows[18] = -(AH_omega * AH_omega)*arm_AH_H_x + (HE_omega * HE_omega)*arm_HE_H_x;  /* H.x */
-    gamma_rows[19] = -(AH_omega * AH_omega)*arm_AH_H_y + (HE_omega * HE_omega)*arm_HE_H_y;  /* H.y */
+    gamma_rows[0] = -(OF_omega * OF_omega)*arm_OF_O_x;  /* O.x, m/s^2 */
+    gamma_rows[1] = -(OF_omega * OF_omega)*arm_OF_O_y;  /* O.y, m/s^2 */
+    gamma_rows[2] = -(BDE_omega * BDE_omega)*arm_BDE_B_x;  /* B.x, m/s^2 */
+    gamma_rows[3] = -(BDE_omega * BDE_omega)*arm_BDE_B_y;  /* B.y, m/s^2 */
+    gamma_rows[4] = -(AG_omega * AG_omega)*arm_AG_A_x;  /* A5.x, m/s^2 */
+    gamma_rows[5] = -(AG_omega * AG_omega)*arm_AG_A_y;  /* A5.y, m/s^2 */
+    gamma_rows[6] = -(AH_omega * AH_omega)*arm_AH_A_x;  /* A7.x, m/s^2 */
+    gamma_rows[7] = -(AH_omega * AH_omega)*arm_AH_A_y;  /* A7.y, m/s^2 */
+    gamma_rows[8] = -(FE_omega * FE_omega)*arm_FE_F_x + (OF_omega * OF_omega)*arm_OF_F_x;  /* F.x, m/s^2 */
+    gamma_rows[9] = -(FE_omega * FE_omega)*arm_FE_F_y + (OF_omega * OF_omega)*arm_OF_F_y;  /* F.y, m/s^2 */
+    gamma_rows[10] = -(BDE_omega * BDE_omega)*arm_BDE_E_x + (FE_omega * FE_omega)*arm_FE_E_x;  /* E3.x, m/s^2 */
+    gamma_rows[11] = -(BDE_omega * BDE_omega)*arm_BDE_E_y + (FE_omega * FE_omega)*arm_FE_E_y;  /* E3.y, m/s^2 */
+    gamma_rows[12] = -(EG_omega * EG_omega)*arm_EG_E_x + (FE_omega * FE_omega)*arm_FE_E_x;  /* E4.x, m/s^2 */
+    gamma_rows[13] = -(EG_omega * EG_omega)*arm_EG_E_y + (FE_omega * FE_omega)*arm_FE_E_y;  /* E4.y, m/s^2 */
+    gamma_rows[14] = (FE_omega * FE_omega)*arm_FE_E_x - (HE_omega * HE_omega)*arm_HE_E_x;  /* E6.x, m/s^2 */
+    gamma_rows[15] = (FE_omega * FE_omega)*arm_FE_E_y - (HE_omega * HE_omega)*arm_HE_E_y;  /* E6.y, m/s^2 */
+    gamma_rows[16] = -(AG_omega * AG_omega)*arm_AG_G_x + (EG_omega * EG_omega)*arm_EG_G_x;  /* G.x, m/s^2 */
+    gamma_rows[17] = -(AG_omega * AG_omega)*arm_AG_G_y + (EG_omega * EG_omega)*arm_EG_G_y;  /* G.y, m/s^2 */
+    gamma_rows[18] = -(AH_omega * AH_omega)*arm_AH_H_x + (HE_omega * HE_omega)*arm_HE_H_x;  /* H.x, m/s^2 */
+    gamma_rows[19] = -(AH_omega * AH_omega)*arm_AH_H_y + (HE_omega * HE_omega)*arm_HE_H_y;  /* H.y, m/s^2 */
 }
 
 /*
@@ -392,8 +390,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
     double *reactions, double *torques, double *series, double *energy)
 {
-    (void)t;
-    (void)torques;
+    (void)t, (void)torques;
     /* coordinates, velocities, time */
     const double OF_vx = v[0];
     const double OF_vy = v[1];

@@ -8,60 +8,65 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define N_Q 21                /* coordinates of all bodies */
-#define N_ROWS 20             /* constraint rows of the motion */
-#define N_ALL_ROWS 20         /* rows of the closed linkage */
-#define N_JOINTS 10           /* joints without play */
-#define N_DRIVES 0            /* drives */
-#define N_CLEARANCES 0        /* joints with play */
-#define LAW_STATES 0          /* inner states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0         /* slips that friction may hold */
-#define N_SWITCHES 0          /* corners of min, max, abs and sign */
-#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
-#define N_SERIES 3            /* results of force elements */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
-#define N_X 7                 /* coordinates that are integrated */
-#define N_LOOPS 6             /* constraint rows of these */
-#define N_CHAIN 0             /* coordinates that drives determine through loops */
-#define N_LED 0               /* these, cosines and sines of angles */
-#define SMOOTH_CHAINS 0       /* their drives have no corners */
-#define TREE_PIVOTS 0         /* statuses of chains follow these */
-#define RESCUED 1             /* pivots may vanish: all bodies' equations help */
-#define LARGEST_BLOCK 0       /* rows that are solved together */
-#define N_VALUES 70           /* of the linearized equations */
-#define N_FACTORS 71          /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define N_CORNERS 0           /* corners of drives, whose rate jumps there */
-#define RATE_JUMPS 0          /* the rate of some drive may jump */
-#define N_WATCHED 0           /* corners of expressions, and events */
-#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
-#define WATCHES_STATE 0       /* they hang on more than time */
-#define N_TERMS 0             /* terms of time alone, which may hide within a step */
-#define N_GUESS 6             /* coordinates that the start guesses */
-#define GUESSED_POINTS 0      /* some of them are those of points */
-#define N_SET 1               /* those that it sets */
-#define N_RATES 0             /* velocities that it sets */
+#define N_Q 21              /* coordinates of all bodies */
+#define N_ROWS 20           /* constraint rows of the motion */
+#define N_ALL_ROWS 20       /* rows of the closed linkage */
+#define N_JOINTS 10         /* joints without play */
+#define N_DRIVES 0          /* drives */
+#define N_CLEARANCES 0      /* joints with play */
+#define LAW_STATES 0        /* inner states of the laws of a joint with play, at most */
+#define N_FRICTIONS 0       /* slips that friction may hold */
+#define N_SWITCHES 0        /* corners of min, max, abs and sign */
+#define N_USER_EVENTS 0     /* expressions whose zeros are watched */
+#define N_SERIES 3          /* results of force elements */
+#define INTEGRATES 1        /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1              /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0 /* the same, where they follow */
+#define N_X 7               /* coordinates that are integrated */
+#define N_LOOPS 6           /* constraint rows of these */
+#define N_CHAIN 0           /* coordinates that drives determine through loops */
+#define N_LED 0             /* these, cosines and sines of angles */
+#define SMOOTH_CHAINS 0     /* their drives have no corners */
+#define TREE_PIVOTS 0       /* statuses of chains follow these */
+#define RESCUED 1           /* pivots may vanish: all bodies' equations help */
+#define LARGEST_BLOCK 0     /* rows that are solved together */
+#define N_VALUES 70         /* of the linearized equations */
+#define N_FACTORS 71        /* of their factors L and U */
+#define HAS_LANES 1         /* runs go side by side */
+#define N_CORNERS 0         /* corners of drives, whose rate jumps there */
+#define RATE_JUMPS 0        /* the rate of some drive may jump */
+#define N_WATCHED 0         /* corners of expressions, and events */
+#define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */
+#define WATCHES_STATE 0     /* they hang on more than time */
+#define N_TERMS 0           /* terms of time alone, which may hide within a step */
+#define N_GUESS 6           /* coordinates that the start guesses */
+#define GUESSED_POINTS 0    /* some of them are those of points */
+#define N_SET 1             /* those that it sets */
+#define N_RATES 0           /* velocities that it sets */
+
+/* A row fails where less than such a share of it is left by the others: */
+#define SINGULAR 1e-13                        /* where it depends on others */
+#define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
+#define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
+#define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {
     double OF_mass;  /* bodies.OF.mass, kg */
-    double OF_inertia;  /* bodies.OF.inertia, kg m^2 */
+    double OF_inertia;  /* bodies.OF.inertia, kg*m^2 */
     double FE_mass;  /* bodies.FE.mass, kg */
-    double FE_inertia;  /* bodies.FE.inertia, kg m^2 */
+    double FE_inertia;  /* bodies.FE.inertia, kg*m^2 */
     double BDE_mass;  /* bodies.BDE.mass, kg */
-    double BDE_inertia;  /* bodies.BDE.inertia, kg m^2 */
+    double BDE_inertia;  /* bodies.BDE.inertia, kg*m^2 */
     double EG_mass;  /* bodies.EG.mass, kg */
-    double EG_inertia;  /* bodies.EG.inertia, kg m^2 */
+    double EG_inertia;  /* bodies.EG.inertia, kg*m^2 */
     double AG_mass;  /* bodies.AG.mass, kg */
-    double AG_inertia;  /* bodies.AG.inertia, kg m^2 */
+    double AG_inertia;  /* bodies.AG.inertia, kg*m^2 */
     double HE_mass;  /* bodies.HE.mass, kg */
-    double HE_inertia;  /* bodies.HE.inertia, kg m^2 */
+    double HE_inertia;  /* bodies.HE.inertia, kg*m^2 */
     double AH_mass;  /* bodies.AH.mass, kg */
-    double AH_inertia;  /* bodies.AH.inertia, kg m^2 */
+    double AH_inertia;  /* bodies.AH.inertia, kg*m^2 */
     double OF_points_O_x;  /* bodies.OF.points.O.x, m */
     double OF_points_F_x;  /* bodies.OF.points.F.x, m */
     double FE_points_E_x;  /* bodies.FE.points.E.x, m */
@@ -92,9 +97,9 @@ typedef struct {
     double A_y;  /* ground.A.y, m */
     double C_x;  /* ground.C.x, m */
     double C_y;  /* ground.C.y, m */
-    double spring_stiffness;  /* forces.spring.stiffness, kg/s^2 */
+    double spring_stiffness;  /* forces.spring.stiffness, N/m */
     double spring_free_length;  /* forces.spring.free_length, m */
-    double motor_value;  /* forces.motor.value, kg m^2/s^2 */
+    double motor_value;  /* forces.motor.value, N*m */
     double guess_FE_theta;  /* start.guess.FE.theta, rad */
     double guess_BDE_theta;  /* start.guess.BDE.theta, rad */
     double guess_EG_theta;  /* start.guess.EG.theta, rad */
@@ -110,14 +115,14 @@ typedef struct {
     double inverse_AG_mass;  /* 1/M, 1/kg */
     double inverse_HE_mass;  /* 1/M, 1/kg */
     double inverse_AH_mass;  /* 1/M, 1/kg */
-    double inverse_OF_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_OF_inertia;  /* 1/M, 1/(kg*m^2) */
     double inverse_FE_mass;  /* 1/M, 1/kg */
-    double inverse_BDE_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_EG_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_AG_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_HE_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_AH_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_FE_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_BDE_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_EG_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_AG_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_HE_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_AH_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_FE_inertia;  /* 1/M, 1/(kg*m^2) */
     double OF_com_span_x;  /* vector in its frame, m */
     double BDE_com_span_x;  /* vector in its frame, m */
     double BDE_com_span_y;  /* vector in its frame, m */
@@ -140,29 +145,29 @@ typedef struct {
     double AH_H_span_y;  /* vector in its frame, m */
     double BDE_D_span_x;  /* vector in its frame, m */
     double BDE_D_span_y;  /* vector in its frame, m */
-    double inertia_OF_OF;  /* sum of m w.w, kg m^2 */
-    double inertia_OF_FE;  /* sum of m w.w, kg m^2 */
-    double inertia_FE_FE;  /* sum of m w.w, kg m^2 */
-    double inertia_BDE_BDE;  /* sum of m w.w, kg m^2 */
-    double twist_OF_EG;  /* sum of m wxw, kg m^2 */
-    double twist_FE_EG;  /* sum of m wxw, kg m^2 */
-    double inertia_EG_EG;  /* sum of m w.w, kg m^2 */
-    double inertia_AG_AG;  /* sum of m w.w, kg m^2 */
-    double inertia_BDE_HE;  /* sum of m w.w, kg m^2 */
-    double twist_BDE_HE;  /* sum of m wxw, kg m^2 */
-    double inertia_HE_HE;  /* sum of m w.w, kg m^2 */
-    double inertia_AH_AH;  /* sum of m w.w, kg m^2 */
-    double mass_OF_OF;  /* constant of M, kg m^2 */
-    double mass_FE_FE;  /* constant of M, kg m^2 */
-    double mass_BDE_BDE;  /* constant of M, kg m^2 */
-    double mass_EG_EG;  /* constant of M, kg m^2 */
-    double mass_AG_AG;  /* constant of M, kg m^2 */
-    double mass_HE_HE;  /* constant of M, kg m^2 */
-    double mass_AH_AH;  /* constant of M, kg m^2 */
-    double inverse_mass_AG_AG;  /* 1/M, 1/(kg m^2) */
-    double inverse_mass_AH_AH;  /* 1/M, 1/(kg m^2) */
-    double inverse_mass_HE_HE;  /* 1/M, 1/(kg m^2) */
-    double inverse_mass_EG_EG;  /* 1/M, 1/(kg m^2) */
+    double inertia_OF_OF;  /* sum of m w.w, kg*m^2 */
+    double inertia_OF_FE;  /* sum of m w.w, kg*m^2 */
+    double inertia_FE_FE;  /* sum of m w.w, kg*m^2 */
+    double inertia_BDE_BDE;  /* sum of m w.w, kg*m^2 */
+    double twist_OF_EG;  /* sum of m wxw, kg*m^2 */
+    double twist_FE_EG;  /* sum of m wxw, kg*m^2 */
+    double inertia_EG_EG;  /* sum of m w.w, kg*m^2 */
+    double inertia_AG_AG;  /* sum of m w.w, kg*m^2 */
+    double inertia_BDE_HE;  /* sum of m w.w, kg*m^2 */
+    double twist_BDE_HE;  /* sum of m wxw, kg*m^2 */
+    double inertia_HE_HE;  /* sum of m w.w, kg*m^2 */
+    double inertia_AH_AH;  /* sum of m w.w, kg*m^2 */
+    double mass_OF_OF;  /* constant of M, kg*m^2 */
+    double mass_FE_FE;  /* constant of M, kg*m^2 */
+    double mass_BDE_BDE;  /* constant of M, kg*m^2 */
+    double mass_EG_EG;  /* constant of M, kg*m^2 */
+    double mass_AG_AG;  /* constant of M, kg*m^2 */
+    double mass_HE_HE;  /* constant of M, kg*m^2 */
+    double mass_AH_AH;  /* constant of M, kg*m^2 */
+    double inverse_mass_AG_AG;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_AH_AH;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_HE_HE;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_EG_EG;  /* 1/M, 1/(kg*m^2) */
 } Parameters;
 
 #include "engine/scene/types.h"

@@ -5,8 +5,7 @@
 void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     const double *a, const Aside *aside, Linear *lin)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double OF_theta = q[0];
     const double OF_omega = v[0];
@@ -317,7 +316,7 @@ int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_AG_theta = n_AG_theta__AG_theta;
-    if (!(fabs(scale_AG_theta) > 1e-13 * fabs(n_AG_theta__AG_theta)))
+    if (!(fabs(scale_AG_theta) > SINGULAR * fabs(n_AG_theta__AG_theta)))
         return 3;
     const double inverse_pivot_AG_theta = 1.0/scale_AG_theta;
     lin->lu[0] = inverse_pivot_AG_theta;
@@ -326,7 +325,7 @@ int newton_factor(double eta, Linear *lin)
     const double l_G_y__AG_theta = inverse_pivot_AG_theta*n_G_y__AG_theta;
     lin->lu[2] = l_G_y__AG_theta;
     const double scale_AH_theta = n_AH_theta__AH_theta;
-    if (!(fabs(scale_AH_theta) > 1e-13 * fabs(n_AH_theta__AH_theta)))
+    if (!(fabs(scale_AH_theta) > SINGULAR * fabs(n_AH_theta__AH_theta)))
         return 4;
     const double inverse_pivot_AH_theta = 1.0/scale_AH_theta;
     lin->lu[3] = inverse_pivot_AH_theta;
@@ -335,7 +334,7 @@ int newton_factor(double eta, Linear *lin)
     const double l_H_y__AH_theta = inverse_pivot_AH_theta*n_H_y__AH_theta;
     lin->lu[5] = l_H_y__AH_theta;
     const double scale_HE_theta = n_HE_theta__HE_theta;
-    if (!(fabs(scale_HE_theta) > 1e-13 * fabs(n_HE_theta__HE_theta)))
+    if (!(fabs(scale_HE_theta) > SINGULAR * fabs(n_HE_theta__HE_theta)))
         return 6;
     const double inverse_pivot_HE_theta = 1.0/scale_HE_theta;
     lin->lu[6] = inverse_pivot_HE_theta;
@@ -347,7 +346,7 @@ int newton_factor(double eta, Linear *lin)
     const double l_H_y__HE_theta = inverse_pivot_HE_theta*n_H_y__HE_theta;
     lin->lu[10] = l_H_y__HE_theta;
     const double scale_BDE_theta = -l_BDE_theta__HE_theta*n_HE_theta__BDE_theta + n_BDE_theta__BDE_theta;
-    if (!(fabs(scale_BDE_theta) > 1e-13 * fabs(n_BDE_theta__BDE_theta)))
+    if (!(fabs(scale_BDE_theta) > SINGULAR * fabs(n_BDE_theta__BDE_theta)))
         return 2;
     const double inverse_pivot_BDE_theta = 1.0/scale_BDE_theta;
     lin->lu[11] = inverse_pivot_BDE_theta;
@@ -386,7 +385,7 @@ int newton_factor(double eta, Linear *lin)
     const double scale_H_y = -l_H_y__AH_theta*phi_H_y_AH_theta - l_H_y__BDE_theta*u_BDE_theta__H_y
         - l_H_y__HE_theta*phi_H_y_HE_theta;
     const double pivot_H_y = -l_H_y__H_x*u_H_x__H_y + scale_H_y;
-    if (!(fabs(pivot_H_y) > 1e-13 * fabs(scale_H_y)))
+    if (!(fabs(pivot_H_y) > SINGULAR * fabs(scale_H_y)))
         return 11;
     const double inverse_pivot_H_y = 1.0/pivot_H_y;
     lin->lu[25] = inverse_pivot_H_y;
@@ -399,7 +398,7 @@ int newton_factor(double eta, Linear *lin)
     const double u_H_y__E3_y = l_H_y__BDE_theta*phi_H_y_BDE_theta - l_H_y__H_x*u_H_x__E3_y;
     lin->lu[29] = u_H_y__E3_y;
     const double scale_EG_theta = n_EG_theta__EG_theta;
-    if (!(fabs(scale_EG_theta) > 1e-13 * fabs(n_EG_theta__EG_theta)))
+    if (!(fabs(scale_EG_theta) > SINGULAR * fabs(n_EG_theta__EG_theta)))
         return 7;
     const double inverse_pivot_EG_theta = 1.0/scale_EG_theta;
     lin->lu[30] = inverse_pivot_EG_theta;
@@ -414,7 +413,7 @@ int newton_factor(double eta, Linear *lin)
     const double l_G_y__EG_theta = inverse_pivot_EG_theta*n_G_y__EG_theta;
     lin->lu[36] = l_G_y__EG_theta;
     const double scale_OF_theta = -l_OF_theta__EG_theta*n_EG_theta__OF_theta + n_OF_theta__OF_theta;
-    if (!(fabs(scale_OF_theta) > 1e-13 * fabs(n_OF_theta__OF_theta)))
+    if (!(fabs(scale_OF_theta) > SINGULAR * fabs(n_OF_theta__OF_theta)))
         return 1;
     const double inverse_pivot_OF_theta = 1.0/scale_OF_theta;
     lin->lu[37] = inverse_pivot_OF_theta;
@@ -437,7 +436,7 @@ int newton_factor(double eta, Linear *lin)
     lin->lu[45] = l_E3_y__OF_theta;
     const double scale_FE_theta = -l_FE_theta__EG_theta*n_EG_theta__FE_theta
         - l_FE_theta__OF_theta*u_OF_theta__FE_theta + n_FE_theta__FE_theta;
-    if (!(fabs(scale_FE_theta) > 1e-13 * fabs(n_FE_theta__FE_theta)))
+    if (!(fabs(scale_FE_theta) > SINGULAR * fabs(n_FE_theta__FE_theta)))
         return 5;
     const double inverse_pivot_FE_theta = 1.0/scale_FE_theta;
     lin->lu[46] = inverse_pivot_FE_theta;
@@ -484,7 +483,7 @@ int newton_factor(double eta, Linear *lin)
     const double scale_G_y = -l_G_y__AG_theta*phi_G_y_AG_theta - l_G_y__EG_theta*phi_G_y_EG_theta
         - l_G_y__FE_theta*u_FE_theta__G_y - l_G_y__OF_theta*u_OF_theta__G_y;
     const double pivot_G_y = -l_G_y__G_x*u_G_x__G_y + scale_G_y;
-    if (!(fabs(pivot_G_y) > 1e-13 * fabs(scale_G_y)))
+    if (!(fabs(pivot_G_y) > SINGULAR * fabs(scale_G_y)))
         return 9;
     const double inverse_pivot_G_y = 1.0/pivot_G_y;
     lin->lu[62] = inverse_pivot_G_y;
@@ -504,7 +503,7 @@ int newton_factor(double eta, Linear *lin)
         - l_E3_x__OF_theta*phi_G_x_OF_theta;
     const double pivot_E3_x = -l_E3_x__G_x*u_G_x__E3_x - l_E3_x__G_y*u_G_y__E3_x - l_E3_x__H_x*u_H_x__E3_x
         - l_E3_x__H_y*u_H_y__E3_x + scale_E3_x;
-    if (!(fabs(pivot_E3_x) > 1e-13 * fabs(scale_E3_x)))
+    if (!(fabs(pivot_E3_x) > SINGULAR * fabs(scale_E3_x)))
         return 12;
     const double inverse_pivot_E3_x = 1.0/pivot_E3_x;
     lin->lu[67] = inverse_pivot_E3_x;
@@ -520,7 +519,7 @@ int newton_factor(double eta, Linear *lin)
         - l_E3_y__OF_theta*phi_G_y_OF_theta;
     const double pivot_E3_y = -l_E3_y__E3_x*u_E3_x__E3_y - l_E3_y__G_x*u_G_x__E3_y - l_E3_y__G_y*u_G_y__E3_y
         - l_E3_y__H_x*u_H_x__E3_y - l_E3_y__H_y*u_H_y__E3_y + scale_E3_y;
-    if (!(fabs(pivot_E3_y) > 1e-13 * fabs(scale_E3_y)))
+    if (!(fabs(pivot_E3_y) > SINGULAR * fabs(scale_E3_y)))
         return 13;
     const double inverse_pivot_E3_y = 1.0/pivot_E3_y;
     lin->lu[70] = inverse_pivot_E3_y;
@@ -790,22 +789,24 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[16] = eta*r[16];
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
-    {7, 0, 4, 1}, {7, 2, 5, 1}, {7, 4, 6, 1}, {7, 6, 7, 1}, {8, 0, 8, 1}, {8, 2, 9, 1}, {8, 4, 10, 1}, {8, 6,
-    11, 1}, {9, 1, 12, 1}, {9, 3, 13, 1}, {9, 5, 14, 1}, {10, 1, 15, 1}, {10, 3, 16, 1}, {10, 5, 17, 1}, {11,
-    0, 4, 1}, {11, 1, 12, -1}, {11, 4, 6, 1}, {12, 0, 8, 1}, {12, 1, 15, -1}, {12, 4, 10, 1}
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
+    {7, 0, 4, 1}, {7, 2, 5, 1}, {7, 4, 6, 1}, {7, 6, 7, 1}, {8, 0, 8, 1}, {8, 2, 9, 1}, {8, 4, 10, 1},
+    {8, 6, 11, 1}, {9, 1, 12, 1}, {9, 3, 13, 1}, {9, 5, 14, 1}, {10, 1, 15, 1}, {10, 3, 16, 1},
+    {10, 5, 17, 1}, {11, 0, 4, 1}, {11, 1, 12, -1}, {11, 4, 6, 1}, {12, 0, 8, 1}, {12, 1, 15, -1},
+    {12, 4, 10, 1}
 };
 static const LinearEntry residual_entries[] = {
     {7, 2, 18, 1}, {7, 6, 19, 1}, {7, 4, 20, 1}, {7, 0, 21, 1}, {8, 2, 22, 1}, {8, 6, 23, 1}, {8, 4, 24, 1},
-    {8, 0, 25, 1}, {9, 3, 26, 1}, {9, 1, 27, 1}, {9, 5, 28, 1}, {10, 3, 29, 1}, {10, 1, 30, 1}, {10, 5, 31,
-    1}, {11, 1, 27, -1}, {11, 4, 20, 1}, {11, 0, 21, 1}, {12, 1, 30, -1}, {12, 4, 24, 1}, {12, 0, 25, 1}, {0,
-    0, 32, 1}, {0, 6, 33, 1}, {0, 4, 34, 1}, {1, 1, 35, 1}, {1, 5, 36, 1}, {2, 2, 37, 1}, {3, 3, 38, 1}, {4,
-    4, 39, 1}, {4, 6, 40, 1}, {4, 0, 41, 1}, {5, 1, 42, 1}, {5, 5, 43, 1}, {6, 4, 44, 1}, {6, 6, 45, 1}, {6,
-    0, 46, 1}, {7, 9, 47, 1}, {7, 13, 48, 1}, {7, 11, 49, 1}, {7, 7, 50, 1}, {8, 9, 51, 1}, {8, 13, 52, 1},
-    {8, 11, 53, 1}, {8, 7, 54, 1}, {9, 10, 55, 1}, {9, 8, 56, 1}, {9, 12, 57, 1}, {10, 10, 58, 1}, {10, 8, 59,
-    1}, {10, 12, 60, 1}, {11, 8, 56, -1}, {11, 11, 49, 1}, {11, 7, 50, 1}, {12, 8, 59, -1}, {12, 11, 53, 1},
-    {12, 7, 54, 1}, {0, 13, 61, 1}, {0, 11, 62, 1}, {1, 12, 63, 1}, {4, 13, 64, 1}, {4, 7, 65, 1}, {5, 8, 66,
-    1}, {6, 11, 67, 1}, {6, 7, 68, 1}
+    {8, 0, 25, 1}, {9, 3, 26, 1}, {9, 1, 27, 1}, {9, 5, 28, 1}, {10, 3, 29, 1}, {10, 1, 30, 1},
+    {10, 5, 31, 1}, {11, 1, 27, -1}, {11, 4, 20, 1}, {11, 0, 21, 1}, {12, 1, 30, -1}, {12, 4, 24, 1},
+    {12, 0, 25, 1}, {0, 0, 32, 1}, {0, 6, 33, 1}, {0, 4, 34, 1}, {1, 1, 35, 1}, {1, 5, 36, 1}, {2, 2, 37, 1},
+    {3, 3, 38, 1}, {4, 4, 39, 1}, {4, 6, 40, 1}, {4, 0, 41, 1}, {5, 1, 42, 1}, {5, 5, 43, 1}, {6, 4, 44, 1},
+    {6, 6, 45, 1}, {6, 0, 46, 1}, {7, 9, 47, 1}, {7, 13, 48, 1}, {7, 11, 49, 1}, {7, 7, 50, 1}, {8, 9, 51, 1},
+    {8, 13, 52, 1}, {8, 11, 53, 1}, {8, 7, 54, 1}, {9, 10, 55, 1}, {9, 8, 56, 1}, {9, 12, 57, 1},
+    {10, 10, 58, 1}, {10, 8, 59, 1}, {10, 12, 60, 1}, {11, 8, 56, -1}, {11, 11, 49, 1}, {11, 7, 50, 1},
+    {12, 8, 59, -1}, {12, 11, 53, 1}, {12, 7, 54, 1}, {0, 13, 61, 1}, {0, 11, 62, 1}, {1, 12, 63, 1},
+    {4, 13, 64, 1}, {4, 7, 65, 1}, {5, 8, 66, 1}, {6, 11, 67, 1}, {6, 7, 68, 1}
 };
 static const LinearEntry residual_t_entries[] = {
     {0, 0, 0, 0}
@@ -835,8 +836,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double OF_theta = q[0];
     const double OF_omega = v[0];
@@ -938,12 +938,12 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double determinant_H_x__H_y = -(pivot_H_x__H_y * pivot_H_x__H_y) + scale_H_x*scale_H_y;
     if (!(scale_H_x > 0.0 && scale_H_x < INFINITY))
         return 1;
-    if (!(determinant_H_x__H_y > 1e-10 * scale_H_y * scale_H_x))
+    if (!(determinant_H_x__H_y > VANISHING * scale_H_y * scale_H_x))
         return 2;
     const double size_H_x = scale_H_x + scale_H_y;
-    if (!(scale_H_x > 1e-10 * size_H_x))
+    if (!(scale_H_x > VANISHING * size_H_x))
         return 1;
-    if (!(determinant_H_x__H_y > 1e-10 * size_H_x * scale_H_x))
+    if (!(determinant_H_x__H_y > VANISHING * size_H_x * scale_H_x))
         return 2;
     const double inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
     const double inverse_pivot_H_x = inverse_H_x__H_y*scale_H_y;
@@ -995,12 +995,12 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double determinant_G_x__G_y = -(pivot_G_x__G_y * pivot_G_x__G_y) + scale_G_x*scale_G_y;
     if (!(scale_G_x > 0.0 && scale_G_x < INFINITY))
         return 3;
-    if (!(determinant_G_x__G_y > 1e-10 * scale_G_y * scale_G_x))
+    if (!(determinant_G_x__G_y > VANISHING * scale_G_y * scale_G_x))
         return 4;
     const double size_G_x = scale_G_x + scale_G_y;
-    if (!(scale_G_x > 1e-10 * size_G_x))
+    if (!(scale_G_x > VANISHING * size_G_x))
         return 3;
-    if (!(determinant_G_x__G_y > 1e-10 * size_G_x * scale_G_x))
+    if (!(determinant_G_x__G_y > VANISHING * size_G_x * scale_G_x))
         return 4;
     const double inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
     const double inverse_pivot_G_x = inverse_G_x__G_y*scale_G_y;
@@ -1026,14 +1026,14 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
         + l_E3_y__G_x*w_E3_x__G_x + l_E3_y__G_y*w_E3_x__G_y + l_E3_y__H_x*w_E3_x__H_x + l_E3_y__H_y*w_E3_x__H_y
         - l_E3_y__OF_theta*span_OF_F_y;
     const double determinant_E3_x__E3_y = pivot_E3_x*pivot_E3_y - (pivot_E3_x__E3_y * pivot_E3_x__E3_y);
-    if (!(pivot_E3_x > 1e-10 * scale_E3_x))
+    if (!(pivot_E3_x > VANISHING * scale_E3_x))
         return 5;
-    if (!(determinant_E3_x__E3_y > 1e-10 * scale_E3_y * pivot_E3_x))
+    if (!(determinant_E3_x__E3_y > VANISHING * scale_E3_y * pivot_E3_x))
         return 6;
     const double size_E3_x = scale_E3_x + scale_E3_y;
-    if (!(pivot_E3_x > 1e-10 * size_E3_x))
+    if (!(pivot_E3_x > VANISHING * size_E3_x))
         return 5;
-    if (!(determinant_E3_x__E3_y > 1e-10 * size_E3_x * pivot_E3_x))
+    if (!(determinant_E3_x__E3_y > VANISHING * size_E3_x * pivot_E3_x))
         return 6;
     const double inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
     const double inverse_pivot_E3_x = inverse_E3_x__E3_y*pivot_E3_y;
@@ -1115,8 +1115,7 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     dv[5] = dv_acceleration_HE_theta;
     dq[6] = dq_acceleration_EG_theta;
     dv[6] = dv_acceleration_EG_theta;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_G_x));
+    *worst = max_of(0.0, fabs(phi_G_x));
     *worst = max_of(*worst, fabs(phi_G_y));
     *worst = max_of(*worst, fabs(phi_H_x));
     *worst = max_of(*worst, fabs(phi_H_y));

@@ -14,15 +14,14 @@ void mass_matrix(const Parameters *p, double *m)
  */
 void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double block_y = q[1];
     const double block_theta = q[2];
 
     /* rows */
-    phi[0] = block_y;  /* guide.offset */
-    phi[1] = block_theta;  /* guide.angle */
+    phi[0] = block_y;  /* guide.offset, m */
+    phi[1] = block_theta;  /* guide.angle, rad */
 }
 
 /*
@@ -30,9 +29,7 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
  */
 void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
-    (void)t;
-    (void)q;
-    (void)p;
+    (void)t, (void)q, (void)p;
     /* non-zeros */
     phi_q[1] = 1.0;  /* d guide.offset / d block_y */
     phi_q[5] = 1.0;  /* d guide.angle / d block_theta */
@@ -43,12 +40,10 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
-    (void)t;
-    (void)q;
-    (void)p;
+    (void)t, (void)q, (void)p;
     /* rows */
-    nu[0] = 0.0;  /* guide.offset */
-    nu[1] = 0.0;  /* guide.angle */
+    nu[0] = 0.0;  /* guide.offset, m/s */
+    nu[1] = 0.0;  /* guide.angle, rad/s */
 }
 
 /*
@@ -56,13 +51,10 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
  */
 void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)p;
     /* rows */
-    gamma_rows[0] = 0.0;  /* guide.offset */
-    gamma_rows[1] = 0.0;  /* guide.angle */
+    gamma_rows[0] = 0.0;  /* guide.offset, m/s^2 */
+    gamma_rows[1] = 0.0;  /* guide.angle, rad/s^2 */
 }
 
 /*
@@ -70,8 +62,7 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
  */
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
-    (void)guess;
-    (void)rates;
+    (void)guess, (void)rates;
     /* start */
     set[0] = p->set_block_x;  /* start.set.block.x */
 }
@@ -83,8 +74,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
     double *reactions, double *torques, double *series, double *energy)
 {
-    (void)t;
-    (void)torques;
+    (void)t, (void)torques;
     /* coordinates, velocities, time */
     const double block_x = q[0];
     const double block_y = q[1];

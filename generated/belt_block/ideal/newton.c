@@ -5,8 +5,7 @@
 void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     const double *a, const Aside *aside, Linear *lin)
 {
-    (void)t;
-    (void)a;
+    (void)t, (void)a;
     /* corners: the sides that are held, if any */
     const double *const side = memory->held ? memory->side : NULL;
     double g[N_SWITCHES + 1];
@@ -61,7 +60,7 @@ int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_guide_slide = n_guide_slide__guide_slide;
-    if (!(fabs(scale_guide_slide) > 1e-13 * fabs(n_guide_slide__guide_slide)))
+    if (!(fabs(scale_guide_slide) > SINGULAR * fabs(n_guide_slide__guide_slide)))
         return 1;
     const double inverse_pivot_guide_slide = 1.0/scale_guide_slide;
     lin->lu[0] = inverse_pivot_guide_slide;
@@ -124,7 +123,8 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[4] = eta*r[4];
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
     {1, 0, 4, 1}
 };
 static const LinearEntry residual_entries[] = {
@@ -158,11 +158,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)memory, (void)p;
     /* backward substitution */
     const double dq_acceleration_guide_slide = 0.0;
 

@@ -3,8 +3,7 @@
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double guide_slide = q[0];
     const double guide_slide_rate = v[0];
@@ -29,8 +28,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double block_x = q[0];
     const double block_vx = v[0];
@@ -45,11 +43,8 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
  */
 void closures(const double t, const double *q, const Parameters *p, double *out)
 {
-    (void)t;
-    (void)q;
-    (void)p;
-    (void)out;
-
+    (void)t, (void)q, (void)p, (void)out;
+    /* this scene has none */
 }
 
 /*
@@ -57,12 +52,8 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
-    (void)out;
-
+    (void)t, (void)q, (void)v, (void)p, (void)out;
+    /* this scene has none */
 }
 
 /*
@@ -132,9 +123,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
 void watched_functions(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     Aside *aside)
 {
-    (void)t;
-    (void)v;
-    (void)memory;
+    (void)t, (void)v, (void)memory;
     /* coordinates, velocities, time */
     const double guide_slide = q[0];
 
@@ -150,10 +139,7 @@ void watched_functions(const double t, const double *q, const double *v, const M
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
 {
-    (void)t;
-    (void)q;
-    (void)r;
-    (void)p;
+    (void)t, (void)q, (void)r, (void)p;
     /* backward substitution */
     const double step_acceleration_guide_slide = 0.0;
 

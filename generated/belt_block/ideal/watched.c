@@ -4,9 +4,7 @@
 void watched_ranges(const Range t, const Range *q, const Range *v, const Memory *memory, const Parameters *p,
     Range *out)
 {
-    (void)t;
-    (void)v;
-    (void)memory;
+    (void)t, (void)v, (void)memory;
     /* coordinates, velocities, time */
     const Range guide_slide = q[0];
 

@@ -6,6 +6,7 @@
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
+/* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct {
     Lanes height;
     Lanes ball_mass;
@@ -107,12 +108,8 @@ static void clearance_fall(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes o
  */
 static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lanes *out, LaneBits *rare)
 {
-    (void)t;
-    (void)q;
-    (void)p;
-    (void)out;
-    (void)rare;
-
+    (void)t, (void)q, (void)p, (void)out, (void)rare;
+    /* this scene has none */
 }
 
 /*
@@ -121,13 +118,8 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
 static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const LaneParameters *p, Lanes *out,
     LaneBits *rare)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
-    (void)out;
-    (void)rare;
-
+    (void)t, (void)q, (void)v, (void)p, (void)out, (void)rare;
+    /* this scene has none */
 }
 
 /*
@@ -138,8 +130,7 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
-    (void)t;
-    (void)rare;
+    (void)t, (void)rare;
     /* coordinates, velocities, time */
     const Lanes ball_x = q[0];
     const Lanes ball_x_rate = v[0];
@@ -183,12 +174,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)p;
-    (void)rare;
+    (void)t, (void)q, (void)v, (void)memory, (void)p, (void)rare;
     /* backward substitution */
     const Lanes dq_acceleration_ball_theta = all_of(0.0);
     const Lanes dq_acceleration_ball_y = all_of(0.0);

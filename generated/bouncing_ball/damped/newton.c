@@ -16,8 +16,7 @@ typedef struct {
  * deltadot, de_t by (de_t, -deltadot) y/e.
  */
 static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, double deltadot, double de_t,
-    double per_e,
-    double dF[4][6])
+    double per_e, double dF[4][6])
 {
     double by[4][6];
     for (int i = 0; i < 4; i++) {
@@ -52,9 +51,7 @@ static inline void dry_slopes_hertz(double e, double deltadot, double de_t, doub
     const Latch *latch, double stiffness, double exponent, double R_i, double R_j, double c, double hysteresis,
     const double *side, double *g, int corner, PinSlopes *out)
 {
-    (void)de_t;
-    (void)omega_i;
-    (void)omega_j;
+    (void)de_t, (void)omega_i, (void)omega_j;
     /* penetration, ratio of velocities, slip */
     const double delta = e - c;
     const double depth = max_of(delta, 0.0);
@@ -158,8 +155,7 @@ static void tangent_fall(double e_x, double e_y, double de_x, double de_y, doubl
 void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     const double *a, const Aside *aside, Linear *lin)
 {
-    (void)t;
-    (void)a;
+    (void)t, (void)a;
     /* corners: the sides that are held, if any */
     const double *const side = memory->held ? memory->side : NULL;
     double g[N_SWITCHES + 1];
@@ -264,7 +260,7 @@ int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_ball_x = n_ball_x__ball_x;
-    if (!(fabs(scale_ball_x) > 1e-13 * fabs(n_ball_x__ball_x)))
+    if (!(fabs(scale_ball_x) > SINGULAR * fabs(n_ball_x__ball_x)))
         return 1;
     const double inverse_pivot_ball_x = 1.0/scale_ball_x;
     lin->lu[0] = inverse_pivot_ball_x;
@@ -275,7 +271,7 @@ int newton_factor(double eta, Linear *lin)
     lin->lu[3] = l_ball_theta__ball_x;
     lin->lu[4] = n_ball_x__ball_theta;
     const double scale_ball_y = -l_ball_y__ball_x*n_ball_x__ball_y + n_ball_y__ball_y;
-    if (!(fabs(scale_ball_y) > 1e-13 * fabs(n_ball_y__ball_y)))
+    if (!(fabs(scale_ball_y) > SINGULAR * fabs(n_ball_y__ball_y)))
         return 2;
     const double inverse_pivot_ball_y = 1.0/scale_ball_y;
     lin->lu[5] = inverse_pivot_ball_y;
@@ -286,7 +282,7 @@ int newton_factor(double eta, Linear *lin)
     lin->lu[7] = u_ball_y__ball_theta;
     const double scale_ball_theta = -l_ball_theta__ball_x*n_ball_x__ball_theta
         - l_ball_theta__ball_y*u_ball_y__ball_theta + n_ball_theta__ball_theta;
-    if (!(fabs(scale_ball_theta) > 1e-13 * fabs(n_ball_theta__ball_theta)))
+    if (!(fabs(scale_ball_theta) > SINGULAR * fabs(n_ball_theta__ball_theta)))
         return 3;
     const double inverse_pivot_ball_theta = 1.0/scale_ball_theta;
     lin->lu[8] = inverse_pivot_ball_theta;
@@ -366,13 +362,14 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
         + power_v_2_ball_y*u[4] + r[8]);
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
     {0, 0, 0, 0}
 };
 static const LinearEntry residual_entries[] = {
-    {0, 0, 0, 1}, {0, 1, 1, 1}, {1, 0, 2, 1}, {1, 1, 3, 1}, {2, 0, 4, 1}, {2, 1, 5, 1}, {0, 3, 6, 1}, {0, 4,
-    7, 1}, {0, 5, 8, 1}, {1, 3, 9, 1}, {1, 4, 10, 1}, {1, 5, 11, 1}, {2, 3, 12, 1}, {2, 4, 13, 1}, {2, 5, 14,
-    1}
+    {0, 0, 0, 1}, {0, 1, 1, 1}, {1, 0, 2, 1}, {1, 1, 3, 1}, {2, 0, 4, 1}, {2, 1, 5, 1}, {0, 3, 6, 1},
+    {0, 4, 7, 1}, {0, 5, 8, 1}, {1, 3, 9, 1}, {1, 4, 10, 1}, {1, 5, 11, 1}, {2, 3, 12, 1}, {2, 4, 13, 1},
+    {2, 5, 14, 1}
 };
 static const LinearEntry residual_t_entries[] = {
     {0, 0, 0, 0}
@@ -402,11 +399,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)memory, (void)p;
     /* backward substitution */
     const double dq_acceleration_ball_theta = 0.0;
     const double dq_acceleration_ball_y = 0.0;

@@ -3,8 +3,7 @@
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double ball_x = q[0];
     const double ball_x_rate = v[0];
@@ -27,8 +26,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double ball_x = q[0];
     const double ball_y = q[1];
@@ -51,11 +49,8 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
  */
 void closures(const double t, const double *q, const Parameters *p, double *out)
 {
-    (void)t;
-    (void)q;
-    (void)p;
-    (void)out;
-
+    (void)t, (void)q, (void)p, (void)out;
+    /* this scene has none */
 }
 
 /*
@@ -63,12 +58,8 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
-    (void)out;
-
+    (void)t, (void)q, (void)v, (void)p, (void)out;
+    /* this scene has none */
 }
 
 /*
@@ -128,10 +119,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
 {
-    (void)t;
-    (void)q;
-    (void)r;
-    (void)p;
+    (void)t, (void)q, (void)r, (void)p;
     /* backward substitution */
     const double step_acceleration_ball_theta = 0.0;
     const double step_acceleration_ball_y = 0.0;

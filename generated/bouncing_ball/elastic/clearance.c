@@ -20,6 +20,8 @@ static inline void hertz_none(double delta, double ratio, double stiffness, doub
 static inline PinForce dry_fall(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g)
 {
+    (void)side;
+    (void)g;
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->floor_radius;
@@ -45,8 +47,6 @@ static void clearance_fall(double e_x, double e_y, double de_x, double de_y, dou
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     PinForce F = {0};
-    for (int k = 0; k < 0; k++)
-        g[k] = NAN; /* without contact nothing switches */
     if (side ? latch->closed : delta > 0.0)
         F = dry_fall(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,

@@ -14,15 +14,14 @@ void mass_matrix(const Parameters *p, double *m)
  */
 void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double ball_x = q[0];
     const double ball_y = q[1];
 
     /* rows */
-    phi[0] = -ball_x;  /* fall.x */
-    phi[1] = -ball_y;  /* fall.y */
+    phi[0] = -ball_x;  /* fall.x, m */
+    phi[1] = -ball_y;  /* fall.y, m */
 }
 
 /*
@@ -30,9 +29,7 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
  */
 void jacobian(const double t, const double *q, const Parameters *p, double *phi_q)
 {
-    (void)t;
-    (void)q;
-    (void)p;
+    (void)t, (void)q, (void)p;
     /* non-zeros */
     phi_q[0] = -1.0;  /* d fall.x / d ball_x */
     phi_q[4] = -1.0;  /* d fall.y / d ball_y */
@@ -43,12 +40,10 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
-    (void)t;
-    (void)q;
-    (void)p;
+    (void)t, (void)q, (void)p;
     /* rows */
-    nu[0] = 0.0;  /* fall.x */
-    nu[1] = 0.0;  /* fall.y */
+    nu[0] = 0.0;  /* fall.x, m/s */
+    nu[1] = 0.0;  /* fall.y, m/s */
 }
 
 /*
@@ -56,13 +51,10 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
  */
 void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)p;
     /* rows */
-    gamma_rows[0] = 0.0;  /* fall.x */
-    gamma_rows[1] = 0.0;  /* fall.y */
+    gamma_rows[0] = 0.0;  /* fall.x, m/s^2 */
+    gamma_rows[1] = 0.0;  /* fall.y, m/s^2 */
 }
 
 /*
@@ -70,11 +62,8 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
  */
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
-    (void)p;
-    (void)guess;
-    (void)set;
-    (void)rates;
-
+    (void)p, (void)guess, (void)set, (void)rates;
+    /* this scene has none */
 }
 
 /*
@@ -84,11 +73,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
     double *reactions, double *torques, double *series, double *energy)
 {
-    (void)t;
-    (void)lambda;
-    (void)reactions;
-    (void)torques;
-    (void)series;
+    (void)t, (void)lambda, (void)reactions, (void)torques, (void)series;
     /* coordinates, velocities, time */
     const double ball_y = q[1];
     const double ball_vx = v[0];

@@ -6,6 +6,7 @@
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
+/* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct {
     Lanes height;
     Lanes ball_mass;
@@ -37,12 +38,8 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
  */
 static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lanes *out, LaneBits *rare)
 {
-    (void)t;
-    (void)q;
-    (void)p;
-    (void)out;
-    (void)rare;
-
+    (void)t, (void)q, (void)p, (void)out, (void)rare;
+    /* this scene has none */
 }
 
 /*
@@ -51,13 +48,8 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
 static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const LaneParameters *p, Lanes *out,
     LaneBits *rare)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
-    (void)out;
-    (void)rare;
-
+    (void)t, (void)q, (void)v, (void)p, (void)out, (void)rare;
+    /* this scene has none */
 }
 
 /*
@@ -68,12 +60,7 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)p;
-    (void)rare;
+    (void)t, (void)q, (void)v, (void)memory, (void)p, (void)rare;
     /* backward substitution */
     const Lanes acceleration_ball_theta = all_of(0.0);
 
@@ -91,12 +78,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)p;
-    (void)rare;
+    (void)t, (void)q, (void)v, (void)memory, (void)p, (void)rare;
     /* backward substitution */
     const Lanes dq_acceleration_ball_theta = all_of(0.0);
 

@@ -5,12 +5,7 @@
 void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     const double *a, const Aside *aside, Linear *lin)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)a;
-    (void)aside;
+    (void)t, (void)q, (void)v, (void)memory, (void)a, (void)aside;
     /* results */
     lin->p = p;
 }
@@ -21,8 +16,7 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
  */
 int newton_factor(double eta, Linear *lin)
 {
-    (void)eta;
-    (void)lin;
+    (void)eta, (void)lin;
     /* L U */
     return 0;
 }
@@ -65,7 +59,8 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[4] = eta*r[4];
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
     {0, 0, 0, 0}
 };
 static const LinearEntry residual_entries[] = {
@@ -99,11 +94,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)memory, (void)p;
     /* backward substitution */
     const double dq_acceleration_ball_theta = 0.0;
 

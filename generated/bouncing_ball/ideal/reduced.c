@@ -3,8 +3,7 @@
  */
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double ball_theta = q[0];
     const double ball_omega = v[0];
@@ -29,8 +28,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double ball_theta = q[2];
     const double ball_omega = v[2];
@@ -45,11 +43,8 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
  */
 void closures(const double t, const double *q, const Parameters *p, double *out)
 {
-    (void)t;
-    (void)q;
-    (void)p;
-    (void)out;
-
+    (void)t, (void)q, (void)p, (void)out;
+    /* this scene has none */
 }
 
 /*
@@ -57,12 +52,8 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
-    (void)out;
-
+    (void)t, (void)q, (void)v, (void)p, (void)out;
+    /* this scene has none */
 }
 
 /*
@@ -73,11 +64,7 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *a, Aside *aside)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)memory, (void)p;
     /* backward substitution */
     const double acceleration_ball_theta = 0.0;
 
@@ -96,10 +83,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
 {
-    (void)t;
-    (void)q;
-    (void)r;
-    (void)p;
+    (void)t, (void)q, (void)r, (void)p;
     /* backward substitution */
     const double step_acceleration_ball_theta = 0.0;
 

@@ -37,13 +37,13 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
 
     /* rows */
-    phi[0] = arm_road_head_x - road_x;  /* foot.x */
-    phi[1] = arm_road_head_y - road_y;  /* foot.y */
-    /* slot.offset */
+    phi[0] = arm_road_head_x - road_x;  /* foot.x, m */
+    phi[1] = arm_road_head_y - road_y;  /* foot.y, m */
+    /* slot.offset, m */
     phi[2] = arm_axle_head_x*cos_theta_road + arm_axle_head_y*sin_theta_road - arm_road_head_x*cos_theta_road
         - arm_road_head_y*sin_theta_road - axle_x*cos_theta_road - axle_y*sin_theta_road + cos_theta_road*road_x
         + road_y*sin_theta_road;
-    phi[3] = -bump_value + road_theta;  /* bump */
+    phi[3] = -bump_value + road_theta;  /* bump, rad */
 }
 
 /*
@@ -97,10 +97,10 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
         - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)));
 
     /* rows */
-    nu[0] = 0.0;  /* foot.x */
-    nu[1] = 0.0;  /* foot.y */
-    nu[2] = 0.0;  /* slot.offset */
-    nu[3] = bump_rate;  /* bump */
+    nu[0] = 0.0;  /* foot.x, m/s */
+    nu[1] = 0.0;  /* foot.y, m/s */
+    nu[2] = 0.0;  /* slot.offset, m/s */
+    nu[3] = bump_rate;  /* bump, rad/s */
 }
 
 /*
@@ -138,9 +138,9 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
         - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length), 1.5));
 
     /* rows */
-    gamma_rows[0] = arm_road_head_x*(road_omega * road_omega);  /* foot.x */
-    gamma_rows[1] = arm_road_head_y*(road_omega * road_omega);  /* foot.y */
-    /* slot.offset */
+    gamma_rows[0] = arm_road_head_x*(road_omega * road_omega);  /* foot.x, m/s^2 */
+    gamma_rows[1] = arm_road_head_y*(road_omega * road_omega);  /* foot.y, m/s^2 */
+    /* slot.offset, m/s^2 */
     gamma_rows[2] = -axle_omega*(arm_axle_head_x*(-axle_omega*cos_theta_road + cos_theta_road*road_omega)
         - arm_axle_head_y*(axle_omega*sin_theta_road - road_omega*sin_theta_road)) - axle_vx*road_omega*sin_theta_road
         + axle_vy*cos_theta_road*road_omega - cos_theta_road*road_omega*road_vy + road_omega*road_vx*sin_theta_road
@@ -148,7 +148,7 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
         + road_omega*(-arm_axle_head_x + axle_x - road_x) + road_vy)
         - sin_theta_road*(-arm_axle_head_y*axle_omega - axle_vx + road_omega*(arm_axle_head_y - axle_y + road_y)
         + road_vx));
-    gamma_rows[3] = bump_acceleration;  /* bump */
+    gamma_rows[3] = bump_acceleration;  /* bump, rad/s^2 */
 }
 
 /*

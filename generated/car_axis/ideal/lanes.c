@@ -6,6 +6,7 @@
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
+/* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct {
     Lanes length;
     Lanes half_mass;
@@ -286,8 +287,7 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     dv[1] = dv_acceleration_axle_y;
     dq[2] = dq_acceleration_axle_theta;
     dv[2] = dv_acceleration_axle_theta;
-    *worst = all_of(0.0);
-    *worst = lanes_max_of(*worst, lanes_fabs(phi_slot_offset));
+    *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_slot_offset));
 }
 
 #include "engine/batch/lane_steps.c"

@@ -8,43 +8,48 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define N_Q 6                 /* coordinates of all bodies */
-#define N_ROWS 4              /* constraint rows of the motion */
-#define N_ALL_ROWS 4          /* rows of the closed linkage */
-#define N_JOINTS 2            /* joints without play */
-#define N_DRIVES 1            /* drives */
-#define N_CLEARANCES 0        /* joints with play */
-#define LAW_STATES 0          /* inner states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0         /* slips that friction may hold */
-#define N_SWITCHES 0          /* corners of min, max, abs and sign */
-#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
-#define N_SERIES 4            /* results of force elements */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
-#define N_X 3                 /* coordinates that are integrated */
-#define N_LOOPS 1             /* constraint rows of these */
-#define N_CHAIN 0             /* coordinates that drives determine through loops */
-#define N_LED 0               /* these, cosines and sines of angles */
-#define SMOOTH_CHAINS 0       /* their drives have no corners */
-#define TREE_PIVOTS 0         /* statuses of chains follow these */
-#define RESCUED 1             /* pivots may vanish: all bodies' equations help */
-#define LARGEST_BLOCK 0       /* rows that are solved together */
-#define N_VALUES 27           /* of the linearized equations */
-#define N_FACTORS 15          /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define N_CORNERS 0           /* corners of drives, whose rate jumps there */
-#define RATE_JUMPS 0          /* the rate of some drive may jump */
-#define N_WATCHED 0           /* corners of expressions, and events */
-#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
-#define WATCHES_STATE 0       /* they hang on more than time */
-#define N_TERMS 4             /* terms of time alone, which may hide within a step */
-#define N_GUESS 0             /* coordinates that the start guesses */
-#define GUESSED_POINTS 0      /* some of them are those of points */
-#define N_SET 2               /* those that it sets */
-#define N_RATES 2             /* velocities that it sets */
+#define N_Q 6               /* coordinates of all bodies */
+#define N_ROWS 4            /* constraint rows of the motion */
+#define N_ALL_ROWS 4        /* rows of the closed linkage */
+#define N_JOINTS 2          /* joints without play */
+#define N_DRIVES 1          /* drives */
+#define N_CLEARANCES 0      /* joints with play */
+#define LAW_STATES 0        /* inner states of the laws of a joint with play, at most */
+#define N_FRICTIONS 0       /* slips that friction may hold */
+#define N_SWITCHES 0        /* corners of min, max, abs and sign */
+#define N_USER_EVENTS 0     /* expressions whose zeros are watched */
+#define N_SERIES 4          /* results of force elements */
+#define INTEGRATES 1        /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1              /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0 /* the same, where they follow */
+#define N_X 3               /* coordinates that are integrated */
+#define N_LOOPS 1           /* constraint rows of these */
+#define N_CHAIN 0           /* coordinates that drives determine through loops */
+#define N_LED 0             /* these, cosines and sines of angles */
+#define SMOOTH_CHAINS 0     /* their drives have no corners */
+#define TREE_PIVOTS 0       /* statuses of chains follow these */
+#define RESCUED 1           /* pivots may vanish: all bodies' equations help */
+#define LARGEST_BLOCK 0     /* rows that are solved together */
+#define N_VALUES 27         /* of the linearized equations */
+#define N_FACTORS 15        /* of their factors L and U */
+#define HAS_LANES 1         /* runs go side by side */
+#define N_CORNERS 0         /* corners of drives, whose rate jumps there */
+#define RATE_JUMPS 0        /* the rate of some drive may jump */
+#define N_WATCHED 0         /* corners of expressions, and events */
+#define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */
+#define WATCHES_STATE 0     /* they hang on more than time */
+#define N_TERMS 4           /* terms of time alone, which may hide within a step */
+#define N_GUESS 0           /* coordinates that the start guesses */
+#define GUESSED_POINTS 0    /* some of them are those of points */
+#define N_SET 2             /* those that it sets */
+#define N_RATES 2           /* velocities that it sets */
+
+/* A row fails where less than such a share of it is left by the others: */
+#define SINGULAR 1e-13                        /* where it depends on others */
+#define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
+#define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
+#define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {
@@ -53,35 +58,35 @@ typedef struct {
     double par_r;  /* parameters.r, m */
     double omega;  /* parameters.omega, 1/s */
     double axle_mass;  /* bodies.axle.mass, kg */
-    double axle_inertia;  /* bodies.axle.inertia, kg m^2 */
+    double axle_inertia;  /* bodies.axle.inertia, kg*m^2 */
     double road_mass;  /* bodies.road.mass, kg */
-    double road_inertia;  /* bodies.road.inertia, kg m^2 */
+    double road_inertia;  /* bodies.road.inertia, kg*m^2 */
     double axle_length;  /* bodies.axle.length, m */
     double road_length;  /* bodies.road.length, m */
     double alpha;  /* baumgarte.alpha, 1/s */
     double beta;  /* baumgarte.beta, 1/s */
     double slot_direction_y;  /* joints.slot.direction.y, 1 */
     double gravity_y;  /* gravity.y, m/s^2 */
-    double left_stiffness;  /* forces.left.stiffness, kg/s^2 */
+    double left_stiffness;  /* forces.left.stiffness, N/m */
     double left_free_length;  /* forces.left.free_length, m */
-    double right_stiffness;  /* forces.right.stiffness, kg/s^2 */
+    double right_stiffness;  /* forces.right.stiffness, N/m */
     double right_free_length;  /* forces.right.free_length, m */
     double set_axle_y;  /* start.set.axle.y, m */
     double axle_head_s_x;  /* point from the centre of mass, m */
     double road_head_s_x;  /* point from the centre of mass, m */
-    double weight_axle_y;  /* weight, kg m/s^2 */
-    double weight_road_y;  /* weight, kg m/s^2 */
+    double weight_axle_y;  /* weight, N */
+    double weight_road_y;  /* weight, N */
     double two_alpha;  /* 2 alpha, 1/s */
     double beta_squared;  /* beta^2, 1/s^2 */
     double inverse_axle_mass;  /* 1/M, 1/kg */
-    double inverse_axle_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_axle_inertia;  /* 1/M, 1/(kg*m^2) */
     double inverse_road_mass;  /* 1/M, 1/kg */
-    double inverse_road_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_road_inertia;  /* 1/M, 1/(kg*m^2) */
     double axle_tail_span_x;  /* vector in its frame, m */
     double road_head_span_x;  /* vector in its frame, m */
-    double inertia_road_road;  /* sum of m w.w, kg m^2 */
-    double mass_bump_bump;  /* constant of M, kg m^2 */
-    double weight_road__across;  /* weight, kg m^2/s^2 */
+    double inertia_road_road;  /* sum of m w.w, kg*m^2 */
+    double mass_bump_bump;  /* constant of M, kg*m^2 */
+    double weight_road__across;  /* weight, N*m */
 } Parameters;
 
 #include "engine/scene/types.h"

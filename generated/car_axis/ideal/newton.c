@@ -248,7 +248,7 @@ int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_axle_x = n_axle_x__axle_x;
-    if (!(fabs(scale_axle_x) > 1e-13 * fabs(n_axle_x__axle_x)))
+    if (!(fabs(scale_axle_x) > SINGULAR * fabs(n_axle_x__axle_x)))
         return 1;
     const double inverse_pivot_axle_x = 1.0/scale_axle_x;
     lin->lu[0] = inverse_pivot_axle_x;
@@ -261,7 +261,7 @@ int newton_factor(double eta, Linear *lin)
     const double l_slot_offset__axle_x = inverse_pivot_axle_x*n_slot_offset__axle_x;
     lin->lu[5] = l_slot_offset__axle_x;
     const double scale_axle_y = -l_axle_y__axle_x*n_axle_x__axle_y + n_axle_y__axle_y;
-    if (!(fabs(scale_axle_y) > 1e-13 * fabs(n_axle_y__axle_y)))
+    if (!(fabs(scale_axle_y) > SINGULAR * fabs(n_axle_y__axle_y)))
         return 2;
     const double inverse_pivot_axle_y = 1.0/scale_axle_y;
     lin->lu[6] = inverse_pivot_axle_y;
@@ -277,7 +277,7 @@ int newton_factor(double eta, Linear *lin)
     lin->lu[10] = u_axle_y__slot_offset;
     const double scale_axle_theta = -l_axle_theta__axle_x*n_axle_x__axle_theta
         - l_axle_theta__axle_y*u_axle_y__axle_theta + n_axle_theta__axle_theta;
-    if (!(fabs(scale_axle_theta) > 1e-13 * fabs(n_axle_theta__axle_theta)))
+    if (!(fabs(scale_axle_theta) > SINGULAR * fabs(n_axle_theta__axle_theta)))
         return 3;
     const double inverse_pivot_axle_theta = 1.0/scale_axle_theta;
     lin->lu[11] = inverse_pivot_axle_theta;
@@ -405,13 +405,14 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[8] = eta*r[8];
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
     {3, 0, 0, 1}, {3, 1, 1, 1}, {3, 2, 2, 1}
 };
 static const LinearEntry residual_entries[] = {
-    {3, 0, 3, 1}, {3, 1, 4, 1}, {3, 2, 5, 1}, {0, 0, 6, 1}, {0, 2, 7, 1}, {0, 1, 8, 1}, {1, 1, 9, 1}, {1, 2,
-    10, 1}, {1, 0, 11, 1}, {2, 0, 12, 1}, {2, 2, 13, 1}, {2, 1, 14, 1}, {3, 5, 15, 1}, {3, 3, 16, 1}, {3, 4,
-    17, 1}
+    {3, 0, 3, 1}, {3, 1, 4, 1}, {3, 2, 5, 1}, {0, 0, 6, 1}, {0, 2, 7, 1}, {0, 1, 8, 1}, {1, 1, 9, 1},
+    {1, 2, 10, 1}, {1, 0, 11, 1}, {2, 0, 12, 1}, {2, 2, 13, 1}, {2, 1, 14, 1}, {3, 5, 15, 1}, {3, 3, 16, 1},
+    {3, 4, 17, 1}
 };
 static const LinearEntry residual_t_entries[] = {
     {3, 0, 18, 1}, {0, 0, 19, 1}, {1, 0, 20, 1}, {2, 0, 21, 1}
@@ -501,7 +502,6 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     dv[1] = dv_acceleration_axle_y;
     dq[2] = dq_acceleration_axle_theta;
     dv[2] = dv_acceleration_axle_theta;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_slot_offset));
+    *worst = max_of(0.0, fabs(phi_slot_offset));
     return 0;
 }

@@ -45,8 +45,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double axle_x = q[0];
     const double axle_y = q[1];
@@ -70,10 +69,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)p;
     /* tree coordinates */
     a[0] = all_a[0];  /* axle.x */
     a[1] = all_a[1];  /* axle.y */

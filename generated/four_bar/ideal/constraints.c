@@ -44,18 +44,18 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double sin_theta_rocker = sin(rocker_theta);
     const double arm_rocker_head_x = cos_theta_rocker*p->rocker_head_s_x;
     const double arm_rocker_head_y = p->rocker_head_s_x*sin_theta_rocker;
-    const double motor_value = p->omega*t + 1.5707963267948966;
+    const double motor_value = p->omega*t + PI/2.0;
 
     /* rows */
-    phi[0] = arm_crank_head_x - crank_x;  /* A0.x */
-    phi[1] = arm_crank_head_y - crank_y;  /* A0.y */
-    phi[2] = arm_coupler_head_x + arm_crank_head_x - coupler_x + crank_x;  /* A.x */
-    phi[3] = arm_coupler_head_y + arm_crank_head_y - coupler_y + crank_y;  /* A.y */
-    phi[4] = arm_coupler_head_x - arm_rocker_head_x + coupler_x - rocker_x;  /* B.x */
-    phi[5] = arm_coupler_head_y - arm_rocker_head_y + coupler_y - rocker_y;  /* B.y */
-    phi[6] = p->B0_x + arm_rocker_head_x - rocker_x;  /* B0.x */
-    phi[7] = arm_rocker_head_y - rocker_y;  /* B0.y */
-    phi[8] = crank_theta - motor_value;  /* motor */
+    phi[0] = arm_crank_head_x - crank_x;  /* A0.x, m */
+    phi[1] = arm_crank_head_y - crank_y;  /* A0.y, m */
+    phi[2] = arm_coupler_head_x + arm_crank_head_x - coupler_x + crank_x;  /* A.x, m */
+    phi[3] = arm_coupler_head_y + arm_crank_head_y - coupler_y + crank_y;  /* A.y, m */
+    phi[4] = arm_coupler_head_x - arm_rocker_head_x + coupler_x - rocker_x;  /* B.x, m */
+    phi[5] = arm_coupler_head_y - arm_rocker_head_y + coupler_y - rocker_y;  /* B.y, m */
+    phi[6] = p->B0_x + arm_rocker_head_x - rocker_x;  /* B0.x, m */
+    phi[7] = arm_rocker_head_y - rocker_y;  /* B0.y, m */
+    phi[8] = crank_theta - motor_value;  /* motor, rad */
 }
 
 /*
@@ -116,21 +116,20 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
-    (void)t;
-    (void)q;
+    (void)t, (void)q;
     /* directions, arms, drives */
     const double motor_rate = p->omega;
 
     /* rows */
-    nu[0] = 0.0;  /* A0.x */
-    nu[1] = 0.0;  /* A0.y */
-    nu[2] = 0.0;  /* A.x */
-    nu[3] = 0.0;  /* A.y */
-    nu[4] = 0.0;  /* B.x */
-    nu[5] = 0.0;  /* B.y */
-    nu[6] = 0.0;  /* B0.x */
-    nu[7] = 0.0;  /* B0.y */
-    nu[8] = motor_rate;  /* motor */
+    nu[0] = 0.0;  /* A0.x, m/s */
+    nu[1] = 0.0;  /* A0.y, m/s */
+    nu[2] = 0.0;  /* A.x, m/s */
+    nu[3] = 0.0;  /* A.y, m/s */
+    nu[4] = 0.0;  /* B.x, m/s */
+    nu[5] = 0.0;  /* B.y, m/s */
+    nu[6] = 0.0;  /* B0.x, m/s */
+    nu[7] = 0.0;  /* B0.y, m/s */
+    nu[8] = motor_rate;  /* motor, rad/s */
 }
 
 /*
@@ -163,21 +162,21 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double motor_acceleration = 0.0;
 
     /* rows */
-    gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* A0.x */
-    gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* A0.y */
-    /* A.x */
+    gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* A0.x, m/s^2 */
+    gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* A0.y, m/s^2 */
+    /* A.x, m/s^2 */
     gamma_rows[2] = arm_coupler_head_x*(coupler_omega * coupler_omega) + arm_crank_head_x*(crank_omega * crank_omega);
-    /* A.y */
+    /* A.y, m/s^2 */
     gamma_rows[3] = arm_coupler_head_y*(coupler_omega * coupler_omega) + arm_crank_head_y*(crank_omega * crank_omega);
-    /* B.x */
+    /* B.x, m/s^2 */
     gamma_rows[4] = arm_coupler_head_x*(coupler_omega * coupler_omega)
         - arm_rocker_head_x*(rocker_omega * rocker_omega);
-    /* B.y */
+    /* B.y, m/s^2 */
     gamma_rows[5] = arm_coupler_head_y*(coupler_omega * coupler_omega)
         - arm_rocker_head_y*(rocker_omega * rocker_omega);
-    gamma_rows[6] = arm_rocker_head_x*(rocker_omega * rocker_omega);  /* B0.x */
-    gamma_rows[7] = arm_rocker_head_y*(rocker_omega * rocker_omega);  /* B0.y */
-    gamma_rows[8] = motor_acceleration;  /* motor */
+    gamma_rows[6] = arm_rocker_head_x*(rocker_omega * rocker_omega);  /* B0.x, m/s^2 */
+    gamma_rows[7] = arm_rocker_head_y*(rocker_omega * rocker_omega);  /* B0.y, m/s^2 */
+    gamma_rows[8] = motor_acceleration;  /* motor, rad/s^2 */
 }
 
 /*
@@ -185,8 +184,7 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
  */
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
-    (void)set;
-    (void)rates;
+    (void)set, (void)rates;
     /* start */
     guess[0] = p->guess_coupler_theta;  /* start.guess.coupler.theta */
     guess[1] = p->guess_rocker_theta;  /* start.guess.rocker.theta */
@@ -199,8 +197,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
     double *reactions, double *torques, double *series, double *energy)
 {
-    (void)t;
-    (void)series;
+    (void)t, (void)series;
     /* coordinates, velocities, time */
     const double crank_y = q[1];
     const double crank_vx = v[0];

@@ -4,7 +4,7 @@
 void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
-    p->omega = is_given[0] ? given[0] : 6.283185307179586;  /* parameters.omega */
+    p->omega = is_given[0] ? given[0] : 2.0*PI;  /* parameters.omega */
     p->crank_mass = is_given[1] ? given[1] : 0.031;  /* bodies.crank.mass */
     p->crank_inertia = is_given[2] ? given[2] : 5.2e-06;  /* bodies.crank.inertia */
     p->coupler_mass = is_given[3] ? given[3] : 0.094;  /* bodies.coupler.mass */
@@ -20,8 +20,8 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->beta = is_given[13] ? given[13] : 50.0;  /* baumgarte.beta */
     p->B0_x = is_given[14] ? given[14] : 0.1;  /* ground.B0.x */
     p->gravity_y = is_given[15] ? given[15] : -9.81;  /* gravity.y */
-    p->guess_coupler_theta = is_given[16] ? given[16] : 0.3490658503988659;  /* start.guess.coupler.theta */
-    p->guess_rocker_theta = is_given[17] ? given[17] : 1.3962634015954636;  /* start.guess.rocker.theta */
+    p->guess_coupler_theta = is_given[16] ? given[16] : PI/9.0;  /* start.guess.coupler.theta */
+    p->guess_rocker_theta = is_given[17] ? given[17] : 4.0*PI/9.0;  /* start.guess.rocker.theta */
 
     /* derived */
     p->crank_head_s_x = 0.5*p->crank_length;  /* point from the centre of mass */

@@ -9,7 +9,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     const double coupler_theta = q[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + 1.5707963267948966;
+    const double motor_value = p->omega*t + PI/2.0;
     const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -40,7 +40,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     const double size_B_y__rocker_theta = fabs(span_rocker_head_x) + fabs(span_rocker_head_y);
     const double bound_B_x__B_y = size_B_x__coupler_theta*size_B_y__rocker_theta
         + size_B_x__rocker_theta*size_B_y__coupler_theta;
-    if (!(fabs(determinant_B_x__B_y) > 3.162277660168379e-07 * bound_B_x__B_y))
+    if (!(fabs(determinant_B_x__B_y) > SINGULAR_SQUARE * bound_B_x__B_y))
         return 2;
     const double inverse_B_x__B_y = 1.0/determinant_B_x__B_y;
 
@@ -61,8 +61,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     rates[0] = rate_rocker_theta;
     step[1] = step_coupler_theta;
     rates[1] = rate_coupler_theta;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_B_x));
+    *worst = max_of(0.0, fabs(phi_B_x));
     *worst = max_of(*worst, fabs(phi_B_y));
     return 0;
 }
@@ -82,7 +81,7 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     const double coupler_omega = v[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + 1.5707963267948966;
+    const double motor_value = p->omega*t + PI/2.0;
     const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -143,8 +142,7 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
         + rocker_omega*span_rocker_head_y;
     const double phi_dot_B_y = coupler_omega*span_coupler_head_x + motor_rate*span_crank_head_x
         - rocker_omega*span_rocker_head_x;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_dot_B_x));
+    *worst = max_of(0.0, fabs(phi_dot_B_x));
     *worst = max_of(*worst, fabs(phi_dot_B_y));
 
     /* groups of rows that are solved one after the other */
@@ -156,7 +154,7 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     const double size_B_y__rocker_theta = fabs(span_rocker_head_x) + fabs(span_rocker_head_y);
     const double bound_B_x__B_y = size_B_x__coupler_theta*size_B_y__rocker_theta
         + size_B_x__rocker_theta*size_B_y__coupler_theta;
-    if (!(fabs(determinant_B_x__B_y) > 3.162277660168379e-07 * bound_B_x__B_y))
+    if (!(fabs(determinant_B_x__B_y) > SINGULAR_SQUARE * bound_B_x__B_y))
         return 2;
     const double inverse_B_x__B_y = 1.0/determinant_B_x__B_y;
 

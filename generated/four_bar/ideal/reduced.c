@@ -10,7 +10,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double coupler_omega = v[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + 1.5707963267948966;
+    const double motor_value = p->omega*t + PI/2.0;
     const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -67,8 +67,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double coupler_theta = q[5];
     const double coupler_omega = v[5];
@@ -88,10 +87,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)p;
     /* tree coordinates */
     a[0] = all_a[8];  /* rocker */
     a[1] = all_a[5];  /* coupler */
@@ -107,7 +103,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     const double coupler_theta = q[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + 1.5707963267948966;
+    const double motor_value = p->omega*t + PI/2.0;
     const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -141,7 +137,7 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     const double coupler_omega = v[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + 1.5707963267948966;
+    const double motor_value = p->omega*t + PI/2.0;
     const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -181,7 +177,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double coupler_omega = v[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + 1.5707963267948966;
+    const double motor_value = p->omega*t + PI/2.0;
     const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
@@ -226,16 +222,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B_x__B_y > 1e-08 * scale_B_y * scale_B_x)) {
+    if (!(determinant_B_x__B_y > NEARLY_SINGULAR * scale_B_y * scale_B_x)) {
         pivot = 2;
         goto dependent;
     }
     const double size_B_x = scale_B_x + scale_B_y;
-    if (!(scale_B_x > 1e-10 * size_B_x)) {
+    if (!(scale_B_x > VANISHING * size_B_x)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B_x__B_y > 1e-10 * size_B_x * scale_B_x)) {
+    if (!(determinant_B_x__B_y > VANISHING * size_B_x * scale_B_x)) {
         pivot = 2;
         goto dependent;
     }
@@ -318,12 +314,12 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double determinant_B_x__B_y = -(pivot_B_x__B_y * pivot_B_x__B_y) + scale_B_x*scale_B_y;
     if (!(scale_B_x > 0.0 && scale_B_x < INFINITY))
         return 1;
-    if (!(determinant_B_x__B_y > 1e-13 * scale_B_y * scale_B_x))
+    if (!(determinant_B_x__B_y > SINGULAR * scale_B_y * scale_B_x))
         return 2;
     const double size_B_x = scale_B_x + scale_B_y;
-    if (!(scale_B_x > 1e-10 * size_B_x))
+    if (!(scale_B_x > VANISHING * size_B_x))
         return 1;
-    if (!(determinant_B_x__B_y > 1e-10 * size_B_x * scale_B_x))
+    if (!(determinant_B_x__B_y > VANISHING * size_B_x * scale_B_x))
         return 2;
     const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
     const double inverse_pivot_B_x = inverse_B_x__B_y*scale_B_y;

@@ -67,20 +67,20 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double arm_coupler2_head_y = p->coupler2_head_s_x*sin_theta_coupler2;
 
     /* rows */
-    phi[0] = arm_crank0_head_x - crank0_x;  /* O0.x */
-    phi[1] = arm_crank0_head_y - crank0_y;  /* O0.y */
-    phi[2] = p->O1_x + arm_crank1_head_x - crank1_x;  /* O1.x */
-    phi[3] = arm_crank1_head_y - crank1_y;  /* O1.y */
-    phi[4] = p->O2_x + arm_crank2_head_x - crank2_x;  /* O2.x */
-    phi[5] = arm_crank2_head_y - crank2_y;  /* O2.y */
-    phi[6] = arm_coupler1_head_x + arm_crank0_head_x - coupler1_x + crank0_x;  /* A0.x */
-    phi[7] = arm_coupler1_head_y + arm_crank0_head_y - coupler1_y + crank0_y;  /* A0.y */
-    phi[8] = arm_coupler1_head_x - arm_crank1_head_x + coupler1_x - crank1_x;  /* B1.x */
-    phi[9] = arm_coupler1_head_y - arm_crank1_head_y + coupler1_y - crank1_y;  /* B1.y */
-    phi[10] = arm_coupler2_head_x + arm_crank1_head_x - coupler2_x + crank1_x;  /* A1.x */
-    phi[11] = arm_coupler2_head_y + arm_crank1_head_y - coupler2_y + crank1_y;  /* A1.y */
-    phi[12] = arm_coupler2_head_x - arm_crank2_head_x + coupler2_x - crank2_x;  /* B2.x */
-    phi[13] = arm_coupler2_head_y - arm_crank2_head_y + coupler2_y - crank2_y;  /* B2.y */
+    phi[0] = arm_crank0_head_x - crank0_x;  /* O0.x, m */
+    phi[1] = arm_crank0_head_y - crank0_y;  /* O0.y, m */
+    phi[2] = p->O1_x + arm_crank1_head_x - crank1_x;  /* O1.x, m */
+    phi[3] = arm_crank1_head_y - crank1_y;  /* O1.y, m */
+    phi[4] = p->O2_x + arm_crank2_head_x - crank2_x;  /* O2.x, m */
+    phi[5] = arm_crank2_head_y - crank2_y;  /* O2.y, m */
+    phi[6] = arm_coupler1_head_x + arm_crank0_head_x - coupler1_x + crank0_x;  /* A0.x, m */
+    phi[7] = arm_coupler1_head_y + arm_crank0_head_y - coupler1_y + crank0_y;  /* A0.y, m */
+    phi[8] = arm_coupler1_head_x - arm_crank1_head_x + coupler1_x - crank1_x;  /* B1.x, m */
+    phi[9] = arm_coupler1_head_y - arm_crank1_head_y + coupler1_y - crank1_y;  /* B1.y, m */
+    phi[10] = arm_coupler2_head_x + arm_crank1_head_x - coupler2_x + crank1_x;  /* A1.x, m */
+    phi[11] = arm_coupler2_head_y + arm_crank1_head_y - coupler2_y + crank1_y;  /* A1.y, m */
+    phi[12] = arm_coupler2_head_x - arm_crank2_head_x + coupler2_x - crank2_x;  /* B2.x, m */
+    phi[13] = arm_coupler2_head_y - arm_crank2_head_y + coupler2_y - crank2_y;  /* B2.y, m */
 }
 
 /*
@@ -170,24 +170,22 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
-    (void)t;
-    (void)q;
-    (void)p;
+    (void)t, (void)q, (void)p;
     /* rows */
-    nu[0] = 0.0;  /* O0.x */
-    nu[1] = 0.0;  /* O0.y */
-    nu[2] = 0.0;  /* O1.x */
-    nu[3] = 0.0;  /* O1.y */
-    nu[4] = 0.0;  /* O2.x */
-    nu[5] = 0.0;  /* O2.y */
-    nu[6] = 0.0;  /* A0.x */
-    nu[7] = 0.0;  /* A0.y */
-    nu[8] = 0.0;  /* B1.x */
-    nu[9] = 0.0;  /* B1.y */
-    nu[10] = 0.0;  /* A1.x */
-    nu[11] = 0.0;  /* A1.y */
-    nu[12] = 0.0;  /* B2.x */
-    nu[13] = 0.0;  /* B2.y */
+    nu[0] = 0.0;  /* O0.x, m/s */
+    nu[1] = 0.0;  /* O0.y, m/s */
+    nu[2] = 0.0;  /* O1.x, m/s */
+    nu[3] = 0.0;  /* O1.y, m/s */
+    nu[4] = 0.0;  /* O2.x, m/s */
+    nu[5] = 0.0;  /* O2.y, m/s */
+    nu[6] = 0.0;  /* A0.x, m/s */
+    nu[7] = 0.0;  /* A0.y, m/s */
+    nu[8] = 0.0;  /* B1.x, m/s */
+    nu[9] = 0.0;  /* B1.y, m/s */
+    nu[10] = 0.0;  /* A1.x, m/s */
+    nu[11] = 0.0;  /* A1.y, m/s */
+    nu[12] = 0.0;  /* B2.x, m/s */
+    nu[13] = 0.0;  /* B2.y, m/s */
 }
 
 /*
@@ -231,34 +229,34 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double arm_coupler2_head_y = p->coupler2_head_s_x*sin_theta_coupler2;
 
     /* rows */
-    gamma_rows[0] = arm_crank0_head_x*(crank0_omega * crank0_omega);  /* O0.x */
-    gamma_rows[1] = arm_crank0_head_y*(crank0_omega * crank0_omega);  /* O0.y */
-    gamma_rows[2] = arm_crank1_head_x*(crank1_omega * crank1_omega);  /* O1.x */
-    gamma_rows[3] = arm_crank1_head_y*(crank1_omega * crank1_omega);  /* O1.y */
-    gamma_rows[4] = arm_crank2_head_x*(crank2_omega * crank2_omega);  /* O2.x */
-    gamma_rows[5] = arm_crank2_head_y*(crank2_omega * crank2_omega);  /* O2.y */
-    /* A0.x */
+    gamma_rows[0] = arm_crank0_head_x*(crank0_omega * crank0_omega);  /* O0.x, m/s^2 */
+    gamma_rows[1] = arm_crank0_head_y*(crank0_omega * crank0_omega);  /* O0.y, m/s^2 */
+    gamma_rows[2] = arm_crank1_head_x*(crank1_omega * crank1_omega);  /* O1.x, m/s^2 */
+    gamma_rows[3] = arm_crank1_head_y*(crank1_omega * crank1_omega);  /* O1.y, m/s^2 */
+    gamma_rows[4] = arm_crank2_head_x*(crank2_omega * crank2_omega);  /* O2.x, m/s^2 */
+    gamma_rows[5] = arm_crank2_head_y*(crank2_omega * crank2_omega);  /* O2.y, m/s^2 */
+    /* A0.x, m/s^2 */
     gamma_rows[6] = arm_coupler1_head_x*(coupler1_omega * coupler1_omega)
         + arm_crank0_head_x*(crank0_omega * crank0_omega);
-    /* A0.y */
+    /* A0.y, m/s^2 */
     gamma_rows[7] = arm_coupler1_head_y*(coupler1_omega * coupler1_omega)
         + arm_crank0_head_y*(crank0_omega * crank0_omega);
-    /* B1.x */
+    /* B1.x, m/s^2 */
     gamma_rows[8] = arm_coupler1_head_x*(coupler1_omega * coupler1_omega)
         - arm_crank1_head_x*(crank1_omega * crank1_omega);
-    /* B1.y */
+    /* B1.y, m/s^2 */
     gamma_rows[9] = arm_coupler1_head_y*(coupler1_omega * coupler1_omega)
         - arm_crank1_head_y*(crank1_omega * crank1_omega);
-    /* A1.x */
+    /* A1.x, m/s^2 */
     gamma_rows[10] = arm_coupler2_head_x*(coupler2_omega * coupler2_omega)
         + arm_crank1_head_x*(crank1_omega * crank1_omega);
-    /* A1.y */
+    /* A1.y, m/s^2 */
     gamma_rows[11] = arm_coupler2_head_y*(coupler2_omega * coupler2_omega)
         + arm_crank1_head_y*(crank1_omega * crank1_omega);
-    /* B2.x */
+    /* B2.x, m/s^2 */
     gamma_rows[12] = arm_coupler2_head_x*(coupler2_omega * coupler2_omega)
         - arm_crank2_head_x*(crank2_omega * crank2_omega);
-    /* B2.y */
+    /* B2.y, m/s^2 */
     gamma_rows[13] = arm_coupler2_head_y*(coupler2_omega * coupler2_omega)
         - arm_crank2_head_y*(crank2_omega * crank2_omega);
 }
@@ -284,9 +282,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
     double *reactions, double *torques, double *series, double *energy)
 {
-    (void)t;
-    (void)torques;
-    (void)series;
+    (void)t, (void)torques, (void)series;
     /* coordinates, velocities, time */
     const double crank0_y = q[1];
     const double crank0_vx = v[0];

@@ -8,59 +8,64 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define N_Q 15                /* coordinates of all bodies */
-#define N_ROWS 14             /* constraint rows of the motion */
-#define N_ALL_ROWS 14         /* rows of the closed linkage */
-#define N_JOINTS 7            /* joints without play */
-#define N_DRIVES 0            /* drives */
-#define N_CLEARANCES 0        /* joints with play */
-#define LAW_STATES 0          /* inner states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0         /* slips that friction may hold */
-#define N_SWITCHES 0          /* corners of min, max, abs and sign */
-#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
-#define N_SERIES 0            /* results of force elements */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
-#define N_X 5                 /* coordinates that are integrated */
-#define N_LOOPS 4             /* constraint rows of these */
-#define N_CHAIN 0             /* coordinates that drives determine through loops */
-#define N_LED 0               /* these, cosines and sines of angles */
-#define SMOOTH_CHAINS 0       /* their drives have no corners */
-#define TREE_PIVOTS 0         /* statuses of chains follow these */
-#define RESCUED 1             /* pivots may vanish: all bodies' equations help */
-#define LARGEST_BLOCK 0       /* rows that are solved together */
-#define N_VALUES 45           /* of the linearized equations */
-#define N_FACTORS 41          /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define N_CORNERS 0           /* corners of drives, whose rate jumps there */
-#define RATE_JUMPS 0          /* the rate of some drive may jump */
-#define N_WATCHED 0           /* corners of expressions, and events */
-#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
-#define WATCHES_STATE 0       /* they hang on more than time */
-#define N_TERMS 0             /* terms of time alone, which may hide within a step */
-#define N_GUESS 4             /* coordinates that the start guesses */
-#define GUESSED_POINTS 0      /* some of them are those of points */
-#define N_SET 1               /* those that it sets */
-#define N_RATES 1             /* velocities that it sets */
+#define N_Q 15              /* coordinates of all bodies */
+#define N_ROWS 14           /* constraint rows of the motion */
+#define N_ALL_ROWS 14       /* rows of the closed linkage */
+#define N_JOINTS 7          /* joints without play */
+#define N_DRIVES 0          /* drives */
+#define N_CLEARANCES 0      /* joints with play */
+#define LAW_STATES 0        /* inner states of the laws of a joint with play, at most */
+#define N_FRICTIONS 0       /* slips that friction may hold */
+#define N_SWITCHES 0        /* corners of min, max, abs and sign */
+#define N_USER_EVENTS 0     /* expressions whose zeros are watched */
+#define N_SERIES 0          /* results of force elements */
+#define INTEGRATES 1        /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1              /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0 /* the same, where they follow */
+#define N_X 5               /* coordinates that are integrated */
+#define N_LOOPS 4           /* constraint rows of these */
+#define N_CHAIN 0           /* coordinates that drives determine through loops */
+#define N_LED 0             /* these, cosines and sines of angles */
+#define SMOOTH_CHAINS 0     /* their drives have no corners */
+#define TREE_PIVOTS 0       /* statuses of chains follow these */
+#define RESCUED 1           /* pivots may vanish: all bodies' equations help */
+#define LARGEST_BLOCK 0     /* rows that are solved together */
+#define N_VALUES 45         /* of the linearized equations */
+#define N_FACTORS 41        /* of their factors L and U */
+#define HAS_LANES 1         /* runs go side by side */
+#define N_CORNERS 0         /* corners of drives, whose rate jumps there */
+#define RATE_JUMPS 0        /* the rate of some drive may jump */
+#define N_WATCHED 0         /* corners of expressions, and events */
+#define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */
+#define WATCHES_STATE 0     /* they hang on more than time */
+#define N_TERMS 0           /* terms of time alone, which may hide within a step */
+#define N_GUESS 4           /* coordinates that the start guesses */
+#define GUESSED_POINTS 0    /* some of them are those of points */
+#define N_SET 1             /* those that it sets */
+#define N_RATES 1           /* velocities that it sets */
+
+/* A row fails where less than such a share of it is left by the others: */
+#define SINGULAR 1e-13                        /* where it depends on others */
+#define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
+#define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
+#define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {
     double length;  /* parameters.length, m */
     double mass;  /* parameters.mass, kg */
-    double inertia;  /* parameters.inertia, kg m^2 */
+    double inertia;  /* parameters.inertia, kg*m^2 */
     double crank0_mass;  /* bodies.crank0.mass, kg */
-    double crank0_inertia;  /* bodies.crank0.inertia, kg m^2 */
+    double crank0_inertia;  /* bodies.crank0.inertia, kg*m^2 */
     double crank1_mass;  /* bodies.crank1.mass, kg */
-    double crank1_inertia;  /* bodies.crank1.inertia, kg m^2 */
+    double crank1_inertia;  /* bodies.crank1.inertia, kg*m^2 */
     double crank2_mass;  /* bodies.crank2.mass, kg */
-    double crank2_inertia;  /* bodies.crank2.inertia, kg m^2 */
+    double crank2_inertia;  /* bodies.crank2.inertia, kg*m^2 */
     double coupler1_mass;  /* bodies.coupler1.mass, kg */
-    double coupler1_inertia;  /* bodies.coupler1.inertia, kg m^2 */
+    double coupler1_inertia;  /* bodies.coupler1.inertia, kg*m^2 */
     double coupler2_mass;  /* bodies.coupler2.mass, kg */
-    double coupler2_inertia;  /* bodies.coupler2.inertia, kg m^2 */
+    double coupler2_inertia;  /* bodies.coupler2.inertia, kg*m^2 */
     double crank0_length;  /* bodies.crank0.length, m */
     double crank1_length;  /* bodies.crank1.length, m */
     double crank2_length;  /* bodies.crank2.length, m */
@@ -80,11 +85,11 @@ typedef struct {
     double crank2_head_s_x;  /* point from the centre of mass, m */
     double coupler1_head_s_x;  /* point from the centre of mass, m */
     double coupler2_head_s_x;  /* point from the centre of mass, m */
-    double weight_crank0_y;  /* weight, kg m/s^2 */
-    double weight_crank1_y;  /* weight, kg m/s^2 */
-    double weight_crank2_y;  /* weight, kg m/s^2 */
-    double weight_coupler1_y;  /* weight, kg m/s^2 */
-    double weight_coupler2_y;  /* weight, kg m/s^2 */
+    double weight_crank0_y;  /* weight, N */
+    double weight_crank1_y;  /* weight, N */
+    double weight_crank2_y;  /* weight, N */
+    double weight_coupler1_y;  /* weight, N */
+    double weight_coupler2_y;  /* weight, N */
     double two_alpha;  /* 2 alpha, 1/s */
     double beta_squared;  /* beta^2, 1/s^2 */
     double inverse_crank0_mass;  /* 1/M, 1/kg */
@@ -92,36 +97,36 @@ typedef struct {
     double inverse_coupler1_mass;  /* 1/M, 1/kg */
     double inverse_coupler2_mass;  /* 1/M, 1/kg */
     double inverse_crank1_mass;  /* 1/M, 1/kg */
-    double inverse_crank0_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_crank2_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_coupler1_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_coupler2_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_crank1_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_crank0_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_crank2_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_coupler1_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_coupler2_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_crank1_inertia;  /* 1/M, 1/(kg*m^2) */
     double crank0_head_span_x;  /* vector in its frame, m */
     double crank1_head_span_x;  /* vector in its frame, m */
     double coupler2_head_span_x;  /* vector in its frame, m */
     double crank2_head_span_x;  /* vector in its frame, m */
     double coupler1_head_span_x;  /* vector in its frame, m */
-    double inertia_crank0_crank0;  /* sum of m w.w, kg m^2 */
-    double inertia_crank1_crank1;  /* sum of m w.w, kg m^2 */
-    double inertia_crank2_crank2;  /* sum of m w.w, kg m^2 */
-    double inertia_crank0_coupler1;  /* sum of m w.w, kg m^2 */
-    double inertia_coupler1_coupler1;  /* sum of m w.w, kg m^2 */
-    double inertia_crank1_coupler2;  /* sum of m w.w, kg m^2 */
-    double inertia_coupler2_coupler2;  /* sum of m w.w, kg m^2 */
-    double mass_crank0_crank0;  /* constant of M, kg m^2 */
-    double mass_crank1_crank1;  /* constant of M, kg m^2 */
-    double mass_crank2_crank2;  /* constant of M, kg m^2 */
-    double mass_coupler1_coupler1;  /* constant of M, kg m^2 */
-    double mass_coupler2_coupler2;  /* constant of M, kg m^2 */
-    double weight_crank0__across;  /* weight, kg m^2/s^2 */
-    double weight_crank1__across;  /* weight, kg m^2/s^2 */
-    double weight_crank2__across;  /* weight, kg m^2/s^2 */
-    double weight_coupler1__across;  /* weight, kg m^2/s^2 */
-    double weight_coupler2__across;  /* weight, kg m^2/s^2 */
-    double inverse_mass_crank2_crank2;  /* 1/M, 1/(kg m^2) */
-    double inverse_mass_coupler2_coupler2;  /* 1/M, 1/(kg m^2) */
-    double inverse_mass_crank0_crank0;  /* 1/M, 1/(kg m^2) */
+    double inertia_crank0_crank0;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank1_crank1;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank2_crank2;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank0_coupler1;  /* sum of m w.w, kg*m^2 */
+    double inertia_coupler1_coupler1;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank1_coupler2;  /* sum of m w.w, kg*m^2 */
+    double inertia_coupler2_coupler2;  /* sum of m w.w, kg*m^2 */
+    double mass_crank0_crank0;  /* constant of M, kg*m^2 */
+    double mass_crank1_crank1;  /* constant of M, kg*m^2 */
+    double mass_crank2_crank2;  /* constant of M, kg*m^2 */
+    double mass_coupler1_coupler1;  /* constant of M, kg*m^2 */
+    double mass_coupler2_coupler2;  /* constant of M, kg*m^2 */
+    double weight_crank0__across;  /* weight, N*m */
+    double weight_crank1__across;  /* weight, N*m */
+    double weight_crank2__across;  /* weight, N*m */
+    double weight_coupler1__across;  /* weight, N*m */
+    double weight_coupler2__across;  /* weight, N*m */
+    double inverse_mass_crank2_crank2;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_coupler2_coupler2;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_crank0_crank0;  /* 1/M, 1/(kg*m^2) */
 } Parameters;
 
 #include "engine/scene/types.h"

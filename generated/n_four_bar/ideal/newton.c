@@ -5,8 +5,7 @@
 void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     const double *a, const Aside *aside, Linear *lin)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double crank0_theta = q[0];
     const double crank0_omega = v[0];
@@ -228,7 +227,7 @@ int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_crank2_theta = n_crank2_theta__crank2_theta;
-    if (!(fabs(scale_crank2_theta) > 1e-13 * fabs(n_crank2_theta__crank2_theta)))
+    if (!(fabs(scale_crank2_theta) > SINGULAR * fabs(n_crank2_theta__crank2_theta)))
         return 3;
     const double inverse_pivot_crank2_theta = 1.0/scale_crank2_theta;
     lin->lu[0] = inverse_pivot_crank2_theta;
@@ -237,7 +236,7 @@ int newton_factor(double eta, Linear *lin)
     const double l_B2_y__crank2_theta = inverse_pivot_crank2_theta*n_B2_y__crank2_theta;
     lin->lu[2] = l_B2_y__crank2_theta;
     const double scale_crank0_theta = n_crank0_theta__crank0_theta;
-    if (!(fabs(scale_crank0_theta) > 1e-13 * fabs(n_crank0_theta__crank0_theta)))
+    if (!(fabs(scale_crank0_theta) > SINGULAR * fabs(n_crank0_theta__crank0_theta)))
         return 1;
     const double inverse_pivot_crank0_theta = 1.0/scale_crank0_theta;
     lin->lu[3] = inverse_pivot_crank0_theta;
@@ -250,7 +249,7 @@ int newton_factor(double eta, Linear *lin)
     lin->lu[7] = l_B1_y__crank0_theta;
     const double scale_coupler1_theta = -l_coupler1_theta__crank0_theta*n_crank0_theta__coupler1_theta
         + n_coupler1_theta__coupler1_theta;
-    if (!(fabs(scale_coupler1_theta) > 1e-13 * fabs(n_coupler1_theta__coupler1_theta)))
+    if (!(fabs(scale_coupler1_theta) > SINGULAR * fabs(n_coupler1_theta__coupler1_theta)))
         return 4;
     const double inverse_pivot_coupler1_theta = 1.0/scale_coupler1_theta;
     lin->lu[8] = inverse_pivot_coupler1_theta;
@@ -267,7 +266,7 @@ int newton_factor(double eta, Linear *lin)
         + phi_B1_y_coupler1_theta;
     lin->lu[12] = u_coupler1_theta__B1_y;
     const double scale_coupler2_theta = n_coupler2_theta__coupler2_theta;
-    if (!(fabs(scale_coupler2_theta) > 1e-13 * fabs(n_coupler2_theta__coupler2_theta)))
+    if (!(fabs(scale_coupler2_theta) > SINGULAR * fabs(n_coupler2_theta__coupler2_theta)))
         return 5;
     const double inverse_pivot_coupler2_theta = 1.0/scale_coupler2_theta;
     lin->lu[13] = inverse_pivot_coupler2_theta;
@@ -280,7 +279,7 @@ int newton_factor(double eta, Linear *lin)
     lin->lu[17] = l_B2_y__coupler2_theta;
     const double scale_crank1_theta = -l_crank1_theta__coupler2_theta*n_coupler2_theta__crank1_theta
         + n_crank1_theta__crank1_theta;
-    if (!(fabs(scale_crank1_theta) > 1e-13 * fabs(n_crank1_theta__crank1_theta)))
+    if (!(fabs(scale_crank1_theta) > SINGULAR * fabs(n_crank1_theta__crank1_theta)))
         return 2;
     const double inverse_pivot_crank1_theta = 1.0/scale_crank1_theta;
     lin->lu[18] = inverse_pivot_crank1_theta;
@@ -321,7 +320,7 @@ int newton_factor(double eta, Linear *lin)
     const double scale_B2_y = -l_B2_y__coupler2_theta*phi_B2_y_coupler2_theta
         - l_B2_y__crank1_theta*u_crank1_theta__B2_y - l_B2_y__crank2_theta*phi_B2_y_crank2_theta;
     const double pivot_B2_y = -l_B2_y__B2_x*u_B2_x__B2_y + scale_B2_y;
-    if (!(fabs(pivot_B2_y) > 1e-13 * fabs(scale_B2_y)))
+    if (!(fabs(pivot_B2_y) > SINGULAR * fabs(scale_B2_y)))
         return 7;
     const double inverse_pivot_B2_y = 1.0/pivot_B2_y;
     lin->lu[32] = inverse_pivot_B2_y;
@@ -338,7 +337,7 @@ int newton_factor(double eta, Linear *lin)
     const double scale_B1_x = -l_B1_x__coupler1_theta*u_coupler1_theta__B1_x
         - l_B1_x__crank0_theta*phi_B1_x_crank0_theta + l_B1_x__crank1_theta*phi_B2_x_crank1_theta;
     const double pivot_B1_x = -l_B1_x__B2_x*u_B2_x__B1_x - l_B1_x__B2_y*u_B2_y__B1_x + scale_B1_x;
-    if (!(fabs(pivot_B1_x) > 1e-13 * fabs(scale_B1_x)))
+    if (!(fabs(pivot_B1_x) > SINGULAR * fabs(scale_B1_x)))
         return 8;
     const double inverse_pivot_B1_x = 1.0/pivot_B1_x;
     lin->lu[37] = inverse_pivot_B1_x;
@@ -354,7 +353,7 @@ int newton_factor(double eta, Linear *lin)
         - l_B1_y__crank0_theta*phi_B1_y_crank0_theta + l_B1_y__crank1_theta*phi_B2_y_crank1_theta;
     const double pivot_B1_y = -l_B1_y__B1_x*u_B1_x__B1_y - l_B1_y__B2_x*u_B2_x__B1_y - l_B1_y__B2_y*u_B2_y__B1_y
         + scale_B1_y;
-    if (!(fabs(pivot_B1_y) > 1e-13 * fabs(scale_B1_y)))
+    if (!(fabs(pivot_B1_y) > SINGULAR * fabs(scale_B1_y)))
         return 9;
     const double inverse_pivot_B1_y = 1.0/pivot_B1_y;
     lin->lu[40] = inverse_pivot_B1_y;
@@ -552,9 +551,10 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[12] = eta*r[12];
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
-    {5, 1, 2, 1}, {5, 2, 3, 1}, {5, 4, 4, 1}, {6, 1, 5, 1}, {6, 2, 6, 1}, {6, 4, 7, 1}, {7, 0, 8, 1}, {7, 1,
-    2, -1}, {7, 3, 9, 1}, {8, 0, 10, 1}, {8, 1, 5, -1}, {8, 3, 11, 1}
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
+    {5, 1, 2, 1}, {5, 2, 3, 1}, {5, 4, 4, 1}, {6, 1, 5, 1}, {6, 2, 6, 1}, {6, 4, 7, 1}, {7, 0, 8, 1},
+    {7, 1, 2, -1}, {7, 3, 9, 1}, {8, 0, 10, 1}, {8, 1, 5, -1}, {8, 3, 11, 1}
 };
 static const LinearEntry residual_entries[] = {
     {5, 4, 12, 1}, {5, 1, 13, 1}, {5, 2, 14, 1}, {6, 4, 15, 1}, {6, 1, 16, 1}, {6, 2, 17, 1}, {7, 3, 18, 1},
@@ -592,8 +592,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double crank0_theta = q[0];
     const double crank0_omega = v[0];
@@ -684,12 +683,12 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double determinant_B2_x__B2_y = -(pivot_B2_x__B2_y * pivot_B2_x__B2_y) + scale_B2_x*scale_B2_y;
     if (!(scale_B2_x > 0.0 && scale_B2_x < INFINITY))
         return 1;
-    if (!(determinant_B2_x__B2_y > 1e-10 * scale_B2_y * scale_B2_x))
+    if (!(determinant_B2_x__B2_y > VANISHING * scale_B2_y * scale_B2_x))
         return 2;
     const double size_B2_x = scale_B2_x + scale_B2_y;
-    if (!(scale_B2_x > 1e-10 * size_B2_x))
+    if (!(scale_B2_x > VANISHING * size_B2_x))
         return 1;
-    if (!(determinant_B2_x__B2_y > 1e-10 * size_B2_x * scale_B2_x))
+    if (!(determinant_B2_x__B2_y > VANISHING * size_B2_x * scale_B2_x))
         return 2;
     const double inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
     const double inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
@@ -713,14 +712,14 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
         + l_B1_y__coupler1_theta*w_B1_x__coupler1_theta - l_B1_y__crank0_theta*span_crank0_head_y
         + l_B1_y__crank1_theta*span_crank1_head_y;
     const double determinant_B1_x__B1_y = pivot_B1_x*pivot_B1_y - (pivot_B1_x__B1_y * pivot_B1_x__B1_y);
-    if (!(pivot_B1_x > 1e-10 * scale_B1_x))
+    if (!(pivot_B1_x > VANISHING * scale_B1_x))
         return 3;
-    if (!(determinant_B1_x__B1_y > 1e-10 * scale_B1_y * pivot_B1_x))
+    if (!(determinant_B1_x__B1_y > VANISHING * scale_B1_y * pivot_B1_x))
         return 4;
     const double size_B1_x = scale_B1_x + scale_B1_y;
-    if (!(pivot_B1_x > 1e-10 * size_B1_x))
+    if (!(pivot_B1_x > VANISHING * size_B1_x))
         return 3;
-    if (!(determinant_B1_x__B1_y > 1e-10 * size_B1_x * pivot_B1_x))
+    if (!(determinant_B1_x__B1_y > VANISHING * size_B1_x * pivot_B1_x))
         return 4;
     const double inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
     const double inverse_pivot_B1_x = inverse_B1_x__B1_y*pivot_B1_y;
@@ -784,8 +783,7 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     dv[3] = dv_acceleration_coupler1_theta;
     dq[4] = dq_acceleration_coupler2_theta;
     dv[4] = dv_acceleration_coupler2_theta;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_B2_x));
+    *worst = max_of(0.0, fabs(phi_B2_x));
     *worst = max_of(*worst, fabs(phi_B2_y));
     *worst = max_of(*worst, fabs(phi_B1_x));
     *worst = max_of(*worst, fabs(phi_B1_y));

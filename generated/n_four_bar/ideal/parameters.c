@@ -27,9 +27,9 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->O1_x = is_given[20] ? given[20] : p->length;  /* ground.O1.x */
     p->O2_x = is_given[21] ? given[21] : 2.0*p->length;  /* ground.O2.x */
     p->gravity_y = is_given[22] ? given[22] : -9.81;  /* gravity.y */
-    p->guess_crank1_theta = is_given[23] ? given[23] : 1.5707963267948966;  /* start.guess.crank1.theta */
-    p->guess_crank2_theta = is_given[24] ? given[24] : 1.5707963267948966;  /* start.guess.crank2.theta */
-    p->set_crank0_theta = is_given[25] ? given[25] : 1.5707963267948966;  /* start.set.crank0.theta */
+    p->guess_crank1_theta = is_given[23] ? given[23] : PI/2.0;  /* start.guess.crank1.theta */
+    p->guess_crank2_theta = is_given[24] ? given[24] : PI/2.0;  /* start.guess.crank2.theta */
+    p->set_crank0_theta = is_given[25] ? given[25] : PI/2.0;  /* start.set.crank0.theta */
     p->rates_crank0_omega = is_given[26] ? given[26] : -1.0;  /* start.rates.crank0.omega */
 
     /* derived */

@@ -107,8 +107,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double crank0_theta = q[2];
     const double crank0_omega = v[2];
@@ -140,10 +139,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)p;
     /* tree coordinates */
     a[0] = all_a[2];  /* crank0 */
     a[1] = all_a[5];  /* crank1 */
@@ -341,16 +337,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B2_x__B2_y > 1e-05 * scale_B2_y * scale_B2_x)) {
+    if (!(determinant_B2_x__B2_y > EARLY * scale_B2_y * scale_B2_x)) {
         pivot = 2;
         goto dependent;
     }
     const double size_B2_x = scale_B2_x + scale_B2_y;
-    if (!(scale_B2_x > 1e-10 * size_B2_x)) {
+    if (!(scale_B2_x > VANISHING * size_B2_x)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B2_x__B2_y > 1e-10 * size_B2_x * scale_B2_x)) {
+    if (!(determinant_B2_x__B2_y > VANISHING * size_B2_x * scale_B2_x)) {
         pivot = 2;
         goto dependent;
     }
@@ -389,16 +385,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B1_x__B1_y > 1e-08 * scale_B1_y * scale_B1_x)) {
+    if (!(determinant_B1_x__B1_y > NEARLY_SINGULAR * scale_B1_y * scale_B1_x)) {
         pivot = 4;
         goto dependent;
     }
     const double size_B1_x = scale_B1_x + scale_B1_y;
-    if (!(scale_B1_x > 1e-10 * size_B1_x)) {
+    if (!(scale_B1_x > VANISHING * size_B1_x)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B1_x__B1_y > 1e-10 * size_B1_x * scale_B1_x)) {
+    if (!(determinant_B1_x__B1_y > VANISHING * size_B1_x * scale_B1_x)) {
         pivot = 4;
         goto dependent;
     }
@@ -552,12 +548,12 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double determinant_B2_x__B2_y = -(pivot_B2_x__B2_y * pivot_B2_x__B2_y) + scale_B2_x*scale_B2_y;
     if (!(scale_B2_x > 0.0 && scale_B2_x < INFINITY))
         return 1;
-    if (!(determinant_B2_x__B2_y > 1e-13 * scale_B2_y * scale_B2_x))
+    if (!(determinant_B2_x__B2_y > SINGULAR * scale_B2_y * scale_B2_x))
         return 2;
     const double size_B2_x = scale_B2_x + scale_B2_y;
-    if (!(scale_B2_x > 1e-10 * size_B2_x))
+    if (!(scale_B2_x > VANISHING * size_B2_x))
         return 1;
-    if (!(determinant_B2_x__B2_y > 1e-10 * size_B2_x * scale_B2_x))
+    if (!(determinant_B2_x__B2_y > VANISHING * size_B2_x * scale_B2_x))
         return 2;
     const double inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
     const double inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
@@ -581,14 +577,14 @@ int reduced_project(const double t, const double *q, const double *r, const Para
         + l_B1_y__coupler1_theta*w_B1_x__coupler1_theta - l_B1_y__crank0_theta*span_crank0_head_y
         + l_B1_y__crank1_theta*span_crank1_head_y;
     const double determinant_B1_x__B1_y = pivot_B1_x*pivot_B1_y - (pivot_B1_x__B1_y * pivot_B1_x__B1_y);
-    if (!(pivot_B1_x > 1e-13 * scale_B1_x))
+    if (!(pivot_B1_x > SINGULAR * scale_B1_x))
         return 3;
-    if (!(determinant_B1_x__B1_y > 1e-13 * scale_B1_y * pivot_B1_x))
+    if (!(determinant_B1_x__B1_y > SINGULAR * scale_B1_y * pivot_B1_x))
         return 4;
     const double size_B1_x = scale_B1_x + scale_B1_y;
-    if (!(pivot_B1_x > 1e-10 * size_B1_x))
+    if (!(pivot_B1_x > VANISHING * size_B1_x))
         return 3;
-    if (!(determinant_B1_x__B1_y > 1e-10 * size_B1_x * pivot_B1_x))
+    if (!(determinant_B1_x__B1_y > VANISHING * size_B1_x * pivot_B1_x))
         return 4;
     const double inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
     const double inverse_pivot_B1_x = inverse_B1_x__B1_y*pivot_B1_y;

@@ -6,6 +6,7 @@
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
+/* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct {
     Lanes omega;
     Lanes omega4;
@@ -538,8 +539,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const Lanes L6_theta = q[0];
     const Lanes L6_omega = v[0];
@@ -647,8 +647,7 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     dv[3] = dv_acceleration_L2_theta;
     dq[4] = dq_acceleration_L3_theta;
     dv[4] = dv_acceleration_L3_theta;
-    *worst = all_of(0.0);
-    *worst = lanes_max_of(*worst, lanes_fabs(phi_guide_offset));
+    *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_guide_offset));
 }
 
 #include "engine/batch/lane_steps.c"

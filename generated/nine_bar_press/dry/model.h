@@ -8,43 +8,48 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define N_Q 24                /* coordinates of all bodies */
-#define N_ROWS 20             /* constraint rows of the motion */
-#define N_ALL_ROWS 24         /* rows of the closed linkage */
-#define N_JOINTS 9            /* joints without play */
-#define N_DRIVES 2            /* drives */
-#define N_CLEARANCES 2        /* joints with play */
-#define LAW_STATES 0          /* inner states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0         /* slips that friction may hold */
-#define N_SWITCHES 10         /* corners of min, max, abs and sign */
-#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
-#define N_SERIES 0            /* results of force elements */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
-#define N_X 5                 /* coordinates that are integrated */
-#define N_LOOPS 1             /* constraint rows of these */
-#define N_CHAIN 0             /* coordinates that drives determine through loops */
-#define N_LED 0               /* these, cosines and sines of angles */
-#define SMOOTH_CHAINS 0       /* their drives have no corners */
-#define TREE_PIVOTS 0         /* statuses of chains follow these */
-#define RESCUED 1             /* pivots may vanish: all bodies' equations help */
-#define LARGEST_BLOCK 0       /* rows that are solved together */
-#define N_VALUES 67           /* of the linearized equations */
-#define N_FACTORS 21          /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define N_CORNERS 0           /* corners of drives, whose rate jumps there */
-#define RATE_JUMPS 0          /* the rate of some drive may jump */
-#define N_WATCHED 0           /* corners of expressions, and events */
-#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
-#define WATCHES_STATE 0       /* they hang on more than time */
-#define N_TERMS 0             /* terms of time alone, which may hide within a step */
-#define N_GUESS 5             /* coordinates that the start guesses */
-#define GUESSED_POINTS 0      /* some of them are those of points */
-#define N_SET 0               /* those that it sets */
-#define N_RATES 0             /* velocities that it sets */
+#define N_Q 24              /* coordinates of all bodies */
+#define N_ROWS 20           /* constraint rows of the motion */
+#define N_ALL_ROWS 24       /* rows of the closed linkage */
+#define N_JOINTS 9          /* joints without play */
+#define N_DRIVES 2          /* drives */
+#define N_CLEARANCES 2      /* joints with play */
+#define LAW_STATES 0        /* inner states of the laws of a joint with play, at most */
+#define N_FRICTIONS 0       /* slips that friction may hold */
+#define N_SWITCHES 10       /* corners of min, max, abs and sign */
+#define N_USER_EVENTS 0     /* expressions whose zeros are watched */
+#define N_SERIES 0          /* results of force elements */
+#define INTEGRATES 1        /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1              /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0 /* the same, where they follow */
+#define N_X 5               /* coordinates that are integrated */
+#define N_LOOPS 1           /* constraint rows of these */
+#define N_CHAIN 0           /* coordinates that drives determine through loops */
+#define N_LED 0             /* these, cosines and sines of angles */
+#define SMOOTH_CHAINS 0     /* their drives have no corners */
+#define TREE_PIVOTS 0       /* statuses of chains follow these */
+#define RESCUED 1           /* pivots may vanish: all bodies' equations help */
+#define LARGEST_BLOCK 0     /* rows that are solved together */
+#define N_VALUES 67         /* of the linearized equations */
+#define N_FACTORS 21        /* of their factors L and U */
+#define HAS_LANES 1         /* runs go side by side */
+#define N_CORNERS 0         /* corners of drives, whose rate jumps there */
+#define RATE_JUMPS 0        /* the rate of some drive may jump */
+#define N_WATCHED 0         /* corners of expressions, and events */
+#define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */
+#define WATCHES_STATE 0     /* they hang on more than time */
+#define N_TERMS 0           /* terms of time alone, which may hide within a step */
+#define N_GUESS 5           /* coordinates that the start guesses */
+#define GUESSED_POINTS 0    /* some of them are those of points */
+#define N_SET 0             /* those that it sets */
+#define N_RATES 0           /* velocities that it sets */
+
+/* A row fails where less than such a share of it is left by the others: */
+#define SINGULAR 1e-13                        /* where it depends on others */
+#define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
+#define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
+#define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {
@@ -53,21 +58,21 @@ typedef struct {
     double l5;  /* parameters.l5, m */
     double c;  /* parameters.c, m */
     double L1_mass;  /* bodies.L1.mass, kg */
-    double L1_inertia;  /* bodies.L1.inertia, kg m^2 */
+    double L1_inertia;  /* bodies.L1.inertia, kg*m^2 */
     double L2_mass;  /* bodies.L2.mass, kg */
-    double L2_inertia;  /* bodies.L2.inertia, kg m^2 */
+    double L2_inertia;  /* bodies.L2.inertia, kg*m^2 */
     double L3_mass;  /* bodies.L3.mass, kg */
-    double L3_inertia;  /* bodies.L3.inertia, kg m^2 */
+    double L3_inertia;  /* bodies.L3.inertia, kg*m^2 */
     double L4_mass;  /* bodies.L4.mass, kg */
-    double L4_inertia;  /* bodies.L4.inertia, kg m^2 */
+    double L4_inertia;  /* bodies.L4.inertia, kg*m^2 */
     double L6_mass;  /* bodies.L6.mass, kg */
-    double L6_inertia;  /* bodies.L6.inertia, kg m^2 */
+    double L6_inertia;  /* bodies.L6.inertia, kg*m^2 */
     double L7_mass;  /* bodies.L7.mass, kg */
-    double L7_inertia;  /* bodies.L7.inertia, kg m^2 */
+    double L7_inertia;  /* bodies.L7.inertia, kg*m^2 */
     double L8_mass;  /* bodies.L8.mass, kg */
-    double L8_inertia;  /* bodies.L8.inertia, kg m^2 */
+    double L8_inertia;  /* bodies.L8.inertia, kg*m^2 */
     double S9_mass;  /* bodies.S9.mass, kg */
-    double S9_inertia;  /* bodies.S9.inertia, kg m^2 */
+    double S9_inertia;  /* bodies.S9.inertia, kg*m^2 */
     double L1_length;  /* bodies.L1.length, m */
     double L2_length;  /* bodies.L2.length, m */
     double L3_length;  /* bodies.L3.length, m */
@@ -83,7 +88,7 @@ typedef struct {
     double pin_radius;  /* bearings.pin.radius, m */
     double pin_clearance;  /* bearings.pin.clearance, m */
     double pin_length;  /* bearings.pin.length, m */
-    double aluminium_E;  /* materials.aluminium.E, kg/(m s^2) */
+    double aluminium_E;  /* materials.aluminium.E, Pa */
     double aluminium_nu;  /* materials.aluminium.nu, 1 */
     double dry_normal_restitution;  /* contacts.dry.normal.restitution, 1 */
     double dry_normal_exponent;  /* contacts.dry.normal.exponent, 1 */
@@ -105,17 +110,17 @@ typedef struct {
     double L7_head_s_x;  /* point from the centre of mass, m */
     double L8_head_s_x;  /* point from the centre of mass, m */
     double R_j_pin;  /* journal radius, m */
-    double dry_pin_K;  /* contact stiffness, kg/(m^(1/2) s^2) */
+    double dry_pin_K;  /* contact stiffness, N/m^1.5 */
     double dry_pin_hysteresis;  /* hysteresis damping factor a, 1 */
     double dry_pin_friction_slope;  /* 1/(v1 - v0), s/m */
-    double weight_L1_y;  /* weight, kg m/s^2 */
-    double weight_L2_y;  /* weight, kg m/s^2 */
-    double weight_L3_y;  /* weight, kg m/s^2 */
-    double weight_L4_y;  /* weight, kg m/s^2 */
-    double weight_L6_y;  /* weight, kg m/s^2 */
-    double weight_L7_y;  /* weight, kg m/s^2 */
-    double weight_L8_y;  /* weight, kg m/s^2 */
-    double weight_S9_y;  /* weight, kg m/s^2 */
+    double weight_L1_y;  /* weight, N */
+    double weight_L2_y;  /* weight, N */
+    double weight_L3_y;  /* weight, N */
+    double weight_L4_y;  /* weight, N */
+    double weight_L6_y;  /* weight, N */
+    double weight_L7_y;  /* weight, N */
+    double weight_L8_y;  /* weight, N */
+    double weight_S9_y;  /* weight, N */
     double two_alpha;  /* 2 alpha, 1/s */
     double beta_squared;  /* beta^2, 1/s^2 */
     double inverse_L1_mass;  /* 1/M, 1/kg */
@@ -123,17 +128,17 @@ typedef struct {
     double inverse_L3_mass;  /* 1/M, 1/kg */
     double inverse_L4_mass;  /* 1/M, 1/kg */
     double inverse_S9_mass;  /* 1/M, 1/kg */
-    double inverse_S9_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_L2_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_L3_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_S9_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_L2_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_L3_inertia;  /* 1/M, 1/(kg*m^2) */
     double inverse_L6_mass;  /* 1/M, 1/kg */
     double inverse_L8_mass;  /* 1/M, 1/kg */
-    double inverse_L1_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_L4_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_L6_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_L1_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_L4_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_L6_inertia;  /* 1/M, 1/(kg*m^2) */
     double inverse_L7_mass;  /* 1/M, 1/kg */
-    double inverse_L8_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_L7_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_L8_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_L7_inertia;  /* 1/M, 1/(kg*m^2) */
     double L6_head_span_x;  /* vector in its frame, m */
     double L7_com_span_x;  /* vector in its frame, m */
     double L7_tail_span_x;  /* vector in its frame, m */
@@ -144,35 +149,35 @@ typedef struct {
     double L2_tail_span_x;  /* vector in its frame, m */
     double L4_head_span_x;  /* vector in its frame, m */
     double L3_tail_span_x;  /* vector in its frame, m */
-    double inertia_L1_L1;  /* sum of m w.w, kg m^2 */
-    double inertia_L6_L6;  /* sum of m w.w, kg m^2 */
-    double inertia_L6_L7;  /* sum of m w.w, kg m^2 */
-    double inertia_L6_L2;  /* sum of m w.w, kg m^2 */
-    double inertia_L7_L7;  /* sum of m w.w, kg m^2 */
-    double inertia_L7_L2;  /* sum of m w.w, kg m^2 */
-    double inertia_L2_L2;  /* sum of m w.w, kg m^2 */
-    double inertia_L6_L3;  /* sum of m w.w, kg m^2 */
-    double inertia_L7_L3;  /* sum of m w.w, kg m^2 */
-    double inertia_L3_L3;  /* sum of m w.w, kg m^2 */
-    double inertia_L4_L4;  /* sum of m w.w, kg m^2 */
-    double inertia_L6_L8;  /* sum of m w.w, kg m^2 */
-    double inertia_L8_L8;  /* sum of m w.w, kg m^2 */
-    double mass_crank1_crank1;  /* constant of M, kg m^2 */
-    double mass_L6_L6;  /* constant of M, kg m^2 */
-    double mass_L7_L7;  /* constant of M, kg m^2 */
-    double mass_L2_L2;  /* constant of M, kg m^2 */
-    double mass_L3_L3;  /* constant of M, kg m^2 */
-    double mass_crank4_crank4;  /* constant of M, kg m^2 */
-    double mass_L8_L8;  /* constant of M, kg m^2 */
-    double weight_L1__across;  /* weight, kg m^2/s^2 */
-    double weight_L6__across;  /* weight, kg m^2/s^2 */
-    double weight_L7__across;  /* weight, kg m^2/s^2 */
-    double weight_L2__across;  /* weight, kg m^2/s^2 */
-    double weight_L3__across;  /* weight, kg m^2/s^2 */
-    double weight_L4__across;  /* weight, kg m^2/s^2 */
-    double weight_L8__across;  /* weight, kg m^2/s^2 */
-    double inverse_mass_L8_L8;  /* 1/M, 1/(kg m^2) */
-    double inverse_mass_L2_L2;  /* 1/M, 1/(kg m^2) */
+    double inertia_L1_L1;  /* sum of m w.w, kg*m^2 */
+    double inertia_L6_L6;  /* sum of m w.w, kg*m^2 */
+    double inertia_L6_L7;  /* sum of m w.w, kg*m^2 */
+    double inertia_L6_L2;  /* sum of m w.w, kg*m^2 */
+    double inertia_L7_L7;  /* sum of m w.w, kg*m^2 */
+    double inertia_L7_L2;  /* sum of m w.w, kg*m^2 */
+    double inertia_L2_L2;  /* sum of m w.w, kg*m^2 */
+    double inertia_L6_L3;  /* sum of m w.w, kg*m^2 */
+    double inertia_L7_L3;  /* sum of m w.w, kg*m^2 */
+    double inertia_L3_L3;  /* sum of m w.w, kg*m^2 */
+    double inertia_L4_L4;  /* sum of m w.w, kg*m^2 */
+    double inertia_L6_L8;  /* sum of m w.w, kg*m^2 */
+    double inertia_L8_L8;  /* sum of m w.w, kg*m^2 */
+    double mass_crank1_crank1;  /* constant of M, kg*m^2 */
+    double mass_L6_L6;  /* constant of M, kg*m^2 */
+    double mass_L7_L7;  /* constant of M, kg*m^2 */
+    double mass_L2_L2;  /* constant of M, kg*m^2 */
+    double mass_L3_L3;  /* constant of M, kg*m^2 */
+    double mass_crank4_crank4;  /* constant of M, kg*m^2 */
+    double mass_L8_L8;  /* constant of M, kg*m^2 */
+    double weight_L1__across;  /* weight, N*m */
+    double weight_L6__across;  /* weight, N*m */
+    double weight_L7__across;  /* weight, N*m */
+    double weight_L2__across;  /* weight, N*m */
+    double weight_L3__across;  /* weight, N*m */
+    double weight_L4__across;  /* weight, N*m */
+    double weight_L8__across;  /* weight, N*m */
+    double inverse_mass_L8_L8;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_L2_L2;  /* 1/M, 1/(kg*m^2) */
 } Parameters;
 
 #include "engine/scene/types.h"

@@ -4,7 +4,7 @@
 void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
-    p->omega = is_given[0] ? given[0] : 6.283185307179586;  /* parameters.omega */
+    p->omega = is_given[0] ? given[0] : 2.0*PI;  /* parameters.omega */
     p->omega4 = is_given[1] ? given[1] : -p->omega;  /* parameters.omega4 */
     p->l5 = is_given[2] ? given[2] : 0.3;  /* parameters.l5 */
     p->c = is_given[3] ? given[3] : 0.0003;  /* parameters.c */
@@ -48,11 +48,11 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->dry_friction_v1 = is_given[41] ? given[41] : 0.001;  /* contacts.dry.friction.v1 */
     p->velocity_floor = is_given[42] ? given[42] : 1e-06;  /* contacts.dry.velocity_floor */
     p->gravity_y = is_given[43] ? given[43] : -9.81;  /* gravity.y */
-    p->guess_L2_theta = is_given[44] ? given[44] : -0.6894050545377601;  /* start.guess.L2.theta */
-    p->guess_L3_theta = is_given[45] ? given[45] : 0.34033920413889424;  /* start.guess.L3.theta */
-    p->guess_L6_theta = is_given[46] ? given[46] : -1.5707963267948966;  /* start.guess.L6.theta */
-    p->guess_L7_theta = is_given[47] ? given[47] : 0.12217304763960307;  /* start.guess.L7.theta */
-    p->guess_L8_theta = is_given[48] ? given[48] : -1.5707963267948966;  /* start.guess.L8.theta */
+    p->guess_L2_theta = is_given[44] ? given[44] : -79.0*PI/360.0;  /* start.guess.L2.theta */
+    p->guess_L3_theta = is_given[45] ? given[45] : 39.0*PI/360.0;  /* start.guess.L3.theta */
+    p->guess_L6_theta = is_given[46] ? given[46] : -PI/2.0;  /* start.guess.L6.theta */
+    p->guess_L7_theta = is_given[47] ? given[47] : 7.0*PI/180.0;  /* start.guess.L7.theta */
+    p->guess_L8_theta = is_given[48] ? given[48] : -PI/2.0;  /* start.guess.L8.theta */
 
     /* derived */
     p->L1_head_s_x = 0.5*p->L1_length;  /* point from the centre of mass */

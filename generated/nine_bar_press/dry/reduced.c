@@ -95,7 +95,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double L8_head_vx = L6_head_vx - L8_omega*span_L8_head_y;
     const double L8_head_y = span_L6_head_y + span_L8_head_y;
     const double L8_head_vy = L6_head_vy + L8_omega*span_L8_head_x;
-    const double S9_theta = 0.5*PI;
+    const double S9_theta = PI/2.0;
     const double S9_omega = 0.0;
 
     /* bodies */
@@ -154,8 +154,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double L2_theta = q[5];
     const double L2_omega = v[5];
@@ -187,10 +186,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)p;
     /* tree coordinates */
     a[0] = all_a[14];  /* L6 */
     a[1] = all_a[17];  /* L7 */

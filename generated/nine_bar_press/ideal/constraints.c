@@ -94,30 +94,30 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double crank4_value = p->omega4*t + 3.4814082589530893;
 
     /* rows */
-    phi[0] = -L1_x + arm_L1_head_x;  /* O1.x */
-    phi[1] = -L1_y + arm_L1_head_y;  /* O1.y */
-    phi[2] = -L4_x + arm_L4_head_x;  /* O4.x */
-    phi[3] = -L4_y + p->O4_y + arm_L4_head_y;  /* O4.y */
-    phi[4] = L1_x - L2_x + arm_L1_head_x + arm_L2_head_x;  /* A.x */
-    phi[5] = L1_y - L2_y + arm_L1_head_y + arm_L2_head_y;  /* A.y */
-    phi[6] = -L3_x + L4_x + arm_L3_head_x + arm_L4_head_x;  /* B.x */
-    phi[7] = -L3_y + L4_y + arm_L3_head_y + arm_L4_head_y;  /* B.y */
-    phi[8] = L2_x - L7_x + arm_L2_head_x + arm_L7_head_x;  /* P2.x */
-    phi[9] = L2_y - L7_y + arm_L2_head_y + arm_L7_head_y;  /* P2.y */
-    phi[10] = L3_x - L7_x + arm_L3_head_x + arm_L7_head_x;  /* P3.x */
-    phi[11] = L3_y - L7_y + arm_L3_head_y + arm_L7_head_y;  /* P3.y */
-    phi[12] = -L6_x + L7_x - arm_L6_head_x + arm_L7_head_x;  /* Q6.x */
-    phi[13] = -L6_y + L7_y - arm_L6_head_y + arm_L7_head_y;  /* Q6.y */
-    phi[14] = L7_x - L8_x + arm_L7_head_x + arm_L8_head_x;  /* Q8.x */
-    phi[15] = L7_y - L8_y + arm_L7_head_y + arm_L8_head_y;  /* Q8.y */
-    phi[16] = -L6_x + p->O6_x + arm_L6_head_x;  /* O6.x */
-    phi[17] = -L6_y + arm_L6_head_y;  /* O6.y */
-    phi[18] = L8_x - S9_x + arm_L8_head_x;  /* slider.x */
-    phi[19] = L8_y - S9_y + arm_L8_head_y;  /* slider.y */
-    phi[20] = p->O6_x - S9_x;  /* guide.offset */
-    phi[21] = S9_theta - 0.5*PI;  /* guide.angle */
-    phi[22] = L1_theta - crank1_value;  /* crank1 */
-    phi[23] = L4_theta - crank4_value;  /* crank4 */
+    phi[0] = -L1_x + arm_L1_head_x;  /* O1.x, m */
+    phi[1] = -L1_y + arm_L1_head_y;  /* O1.y, m */
+    phi[2] = -L4_x + arm_L4_head_x;  /* O4.x, m */
+    phi[3] = -L4_y + p->O4_y + arm_L4_head_y;  /* O4.y, m */
+    phi[4] = L1_x - L2_x + arm_L1_head_x + arm_L2_head_x;  /* A.x, m */
+    phi[5] = L1_y - L2_y + arm_L1_head_y + arm_L2_head_y;  /* A.y, m */
+    phi[6] = -L3_x + L4_x + arm_L3_head_x + arm_L4_head_x;  /* B.x, m */
+    phi[7] = -L3_y + L4_y + arm_L3_head_y + arm_L4_head_y;  /* B.y, m */
+    phi[8] = L2_x - L7_x + arm_L2_head_x + arm_L7_head_x;  /* P2.x, m */
+    phi[9] = L2_y - L7_y + arm_L2_head_y + arm_L7_head_y;  /* P2.y, m */
+    phi[10] = L3_x - L7_x + arm_L3_head_x + arm_L7_head_x;  /* P3.x, m */
+    phi[11] = L3_y - L7_y + arm_L3_head_y + arm_L7_head_y;  /* P3.y, m */
+    phi[12] = -L6_x + L7_x - arm_L6_head_x + arm_L7_head_x;  /* Q6.x, m */
+    phi[13] = -L6_y + L7_y - arm_L6_head_y + arm_L7_head_y;  /* Q6.y, m */
+    phi[14] = L7_x - L8_x + arm_L7_head_x + arm_L8_head_x;  /* Q8.x, m */
+    phi[15] = L7_y - L8_y + arm_L7_head_y + arm_L8_head_y;  /* Q8.y, m */
+    phi[16] = -L6_x + p->O6_x + arm_L6_head_x;  /* O6.x, m */
+    phi[17] = -L6_y + arm_L6_head_y;  /* O6.y, m */
+    phi[18] = L8_x - S9_x + arm_L8_head_x;  /* slider.x, m */
+    phi[19] = L8_y - S9_y + arm_L8_head_y;  /* slider.y, m */
+    phi[20] = p->O6_x - S9_x;  /* guide.offset, m */
+    phi[21] = S9_theta - PI/2.0;  /* guide.angle, rad */
+    phi[22] = L1_theta - crank1_value;  /* crank1, rad */
+    phi[23] = L4_theta - crank4_value;  /* crank4, rad */
 }
 
 /*
@@ -243,37 +243,36 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
-    (void)t;
-    (void)q;
+    (void)t, (void)q;
     /* directions, arms, drives */
     const double crank1_rate = p->omega;
     const double crank4_rate = p->omega4;
 
     /* rows */
-    nu[0] = 0.0;  /* O1.x */
-    nu[1] = 0.0;  /* O1.y */
-    nu[2] = 0.0;  /* O4.x */
-    nu[3] = 0.0;  /* O4.y */
-    nu[4] = 0.0;  /* A.x */
-    nu[5] = 0.0;  /* A.y */
-    nu[6] = 0.0;  /* B.x */
-    nu[7] = 0.0;  /* B.y */
-    nu[8] = 0.0;  /* P2.x */
-    nu[9] = 0.0;  /* P2.y */
-    nu[10] = 0.0;  /* P3.x */
-    nu[11] = 0.0;  /* P3.y */
-    nu[12] = 0.0;  /* Q6.x */
-    nu[13] = 0.0;  /* Q6.y */
-    nu[14] = 0.0;  /* Q8.x */
-    nu[15] = 0.0;  /* Q8.y */
-    nu[16] = 0.0;  /* O6.x */
-    nu[17] = 0.0;  /* O6.y */
-    nu[18] = 0.0;  /* slider.x */
-    nu[19] = 0.0;  /* slider.y */
-    nu[20] = 0.0;  /* guide.offset */
-    nu[21] = 0.0;  /* guide.angle */
-    nu[22] = crank1_rate;  /* crank1 */
-    nu[23] = crank4_rate;  /* crank4 */
+    nu[0] = 0.0;  /* O1.x, m/s */
+    nu[1] = 0.0;  /* O1.y, m/s */
+    nu[2] = 0.0;  /* O4.x, m/s */
+    nu[3] = 0.0;  /* O4.y, m/s */
+    nu[4] = 0.0;  /* A.x, m/s */
+    nu[5] = 0.0;  /* A.y, m/s */
+    nu[6] = 0.0;  /* B.x, m/s */
+    nu[7] = 0.0;  /* B.y, m/s */
+    nu[8] = 0.0;  /* P2.x, m/s */
+    nu[9] = 0.0;  /* P2.y, m/s */
+    nu[10] = 0.0;  /* P3.x, m/s */
+    nu[11] = 0.0;  /* P3.y, m/s */
+    nu[12] = 0.0;  /* Q6.x, m/s */
+    nu[13] = 0.0;  /* Q6.y, m/s */
+    nu[14] = 0.0;  /* Q8.x, m/s */
+    nu[15] = 0.0;  /* Q8.y, m/s */
+    nu[16] = 0.0;  /* O6.x, m/s */
+    nu[17] = 0.0;  /* O6.y, m/s */
+    nu[18] = 0.0;  /* slider.x, m/s */
+    nu[19] = 0.0;  /* slider.y, m/s */
+    nu[20] = 0.0;  /* guide.offset, m/s */
+    nu[21] = 0.0;  /* guide.angle, rad/s */
+    nu[22] = crank1_rate;  /* crank1, rad/s */
+    nu[23] = crank4_rate;  /* crank4, rad/s */
 }
 
 /*
@@ -331,30 +330,30 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double crank4_acceleration = 0.0;
 
     /* rows */
-    gamma_rows[0] = (L1_omega * L1_omega)*arm_L1_head_x;  /* O1.x */
-    gamma_rows[1] = (L1_omega * L1_omega)*arm_L1_head_y;  /* O1.y */
-    gamma_rows[2] = (L4_omega * L4_omega)*arm_L4_head_x;  /* O4.x */
-    gamma_rows[3] = (L4_omega * L4_omega)*arm_L4_head_y;  /* O4.y */
-    gamma_rows[4] = (L1_omega * L1_omega)*arm_L1_head_x + (L2_omega * L2_omega)*arm_L2_head_x;  /* A.x */
-    gamma_rows[5] = (L1_omega * L1_omega)*arm_L1_head_y + (L2_omega * L2_omega)*arm_L2_head_y;  /* A.y */
-    gamma_rows[6] = (L3_omega * L3_omega)*arm_L3_head_x + (L4_omega * L4_omega)*arm_L4_head_x;  /* B.x */
-    gamma_rows[7] = (L3_omega * L3_omega)*arm_L3_head_y + (L4_omega * L4_omega)*arm_L4_head_y;  /* B.y */
-    gamma_rows[8] = (L2_omega * L2_omega)*arm_L2_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* P2.x */
-    gamma_rows[9] = (L2_omega * L2_omega)*arm_L2_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* P2.y */
-    gamma_rows[10] = (L3_omega * L3_omega)*arm_L3_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* P3.x */
-    gamma_rows[11] = (L3_omega * L3_omega)*arm_L3_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* P3.y */
-    gamma_rows[12] = -(L6_omega * L6_omega)*arm_L6_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* Q6.x */
-    gamma_rows[13] = -(L6_omega * L6_omega)*arm_L6_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* Q6.y */
-    gamma_rows[14] = (L7_omega * L7_omega)*arm_L7_head_x + (L8_omega * L8_omega)*arm_L8_head_x;  /* Q8.x */
-    gamma_rows[15] = (L7_omega * L7_omega)*arm_L7_head_y + (L8_omega * L8_omega)*arm_L8_head_y;  /* Q8.y */
-    gamma_rows[16] = (L6_omega * L6_omega)*arm_L6_head_x;  /* O6.x */
-    gamma_rows[17] = (L6_omega * L6_omega)*arm_L6_head_y;  /* O6.y */
-    gamma_rows[18] = (L8_omega * L8_omega)*arm_L8_head_x;  /* slider.x */
-    gamma_rows[19] = (L8_omega * L8_omega)*arm_L8_head_y;  /* slider.y */
-    gamma_rows[20] = 0.0;  /* guide.offset */
-    gamma_rows[21] = 0.0;  /* guide.angle */
-    gamma_rows[22] = crank1_acceleration;  /* crank1 */
-    gamma_rows[23] = crank4_acceleration;  /* crank4 */
+    gamma_rows[0] = (L1_omega * L1_omega)*arm_L1_head_x;  /* O1.x, m/s^2 */
+    gamma_rows[1] = (L1_omega * L1_omega)*arm_L1_head_y;  /* O1.y, m/s^2 */
+    gamma_rows[2] = (L4_omega * L4_omega)*arm_L4_head_x;  /* O4.x, m/s^2 */
+    gamma_rows[3] = (L4_omega * L4_omega)*arm_L4_head_y;  /* O4.y, m/s^2 */
+    gamma_rows[4] = (L1_omega * L1_omega)*arm_L1_head_x + (L2_omega * L2_omega)*arm_L2_head_x;  /* A.x, m/s^2 */
+    gamma_rows[5] = (L1_omega * L1_omega)*arm_L1_head_y + (L2_omega * L2_omega)*arm_L2_head_y;  /* A.y, m/s^2 */
+    gamma_rows[6] = (L3_omega * L3_omega)*arm_L3_head_x + (L4_omega * L4_omega)*arm_L4_head_x;  /* B.x, m/s^2 */
+    gamma_rows[7] = (L3_omega * L3_omega)*arm_L3_head_y + (L4_omega * L4_omega)*arm_L4_head_y;  /* B.y, m/s^2 */
+    gamma_rows[8] = (L2_omega * L2_omega)*arm_L2_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* P2.x, m/s^2 */
+    gamma_rows[9] = (L2_omega * L2_omega)*arm_L2_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* P2.y, m/s^2 */
+    gamma_rows[10] = (L3_omega * L3_omega)*arm_L3_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* P3.x, m/s^2 */
+    gamma_rows[11] = (L3_omega * L3_omega)*arm_L3_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* P3.y, m/s^2 */
+    gamma_rows[12] = -(L6_omega * L6_omega)*arm_L6_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* Q6.x, m/s^2 */
+    gamma_rows[13] = -(L6_omega * L6_omega)*arm_L6_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* Q6.y, m/s^2 */
+    gamma_rows[14] = (L7_omega * L7_omega)*arm_L7_head_x + (L8_omega * L8_omega)*arm_L8_head_x;  /* Q8.x, m/s^2 */
+    gamma_rows[15] = (L7_omega * L7_omega)*arm_L7_head_y + (L8_omega * L8_omega)*arm_L8_head_y;  /* Q8.y, m/s^2 */
+    gamma_rows[16] = (L6_omega * L6_omega)*arm_L6_head_x;  /* O6.x, m/s^2 */
+    gamma_rows[17] = (L6_omega * L6_omega)*arm_L6_head_y;  /* O6.y, m/s^2 */
+    gamma_rows[18] = (L8_omega * L8_omega)*arm_L8_head_x;  /* slider.x, m/s^2 */
+    gamma_rows[19] = (L8_omega * L8_omega)*arm_L8_head_y;  /* slider.y, m/s^2 */
+    gamma_rows[20] = 0.0;  /* guide.offset, m/s^2 */
+    gamma_rows[21] = 0.0;  /* guide.angle, rad/s^2 */
+    gamma_rows[22] = crank1_acceleration;  /* crank1, rad/s^2 */
+    gamma_rows[23] = crank4_acceleration;  /* crank4, rad/s^2 */
 }
 
 /*
@@ -362,8 +361,7 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
  */
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
-    (void)set;
-    (void)rates;
+    (void)set, (void)rates;
     /* start */
     guess[0] = p->guess_L2_theta;  /* start.guess.L2.theta */
     guess[1] = p->guess_L3_theta;  /* start.guess.L3.theta */
@@ -379,8 +377,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
     double *reactions, double *torques, double *series, double *energy)
 {
-    (void)t;
-    (void)series;
+    (void)t, (void)series;
     /* coordinates, velocities, time */
     const double L1_y = q[1];
     const double L1_vx = v[0];

@@ -4,7 +4,7 @@
 void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
-    p->omega = is_given[0] ? given[0] : 6.283185307179586;  /* parameters.omega */
+    p->omega = is_given[0] ? given[0] : 2.0*PI;  /* parameters.omega */
     p->omega4 = is_given[1] ? given[1] : -p->omega;  /* parameters.omega4 */
     p->l5 = is_given[2] ? given[2] : 0.3;  /* parameters.l5 */
     p->c = is_given[3] ? given[3] : 0.0003;  /* parameters.c */
@@ -37,11 +37,11 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->O6_x = is_given[30] ? given[30] : 0.5;  /* ground.O6.x */
     p->guide_axis_y = is_given[31] ? given[31] : 1.0;  /* joints.guide.axis.y */
     p->gravity_y = is_given[32] ? given[32] : -9.81;  /* gravity.y */
-    p->guess_L2_theta = is_given[33] ? given[33] : -0.6894050545377601;  /* start.guess.L2.theta */
-    p->guess_L3_theta = is_given[34] ? given[34] : 0.34033920413889424;  /* start.guess.L3.theta */
-    p->guess_L6_theta = is_given[35] ? given[35] : -1.5707963267948966;  /* start.guess.L6.theta */
-    p->guess_L7_theta = is_given[36] ? given[36] : 0.12217304763960307;  /* start.guess.L7.theta */
-    p->guess_L8_theta = is_given[37] ? given[37] : -1.5707963267948966;  /* start.guess.L8.theta */
+    p->guess_L2_theta = is_given[33] ? given[33] : -79.0*PI/360.0;  /* start.guess.L2.theta */
+    p->guess_L3_theta = is_given[34] ? given[34] : 39.0*PI/360.0;  /* start.guess.L3.theta */
+    p->guess_L6_theta = is_given[35] ? given[35] : -PI/2.0;  /* start.guess.L6.theta */
+    p->guess_L7_theta = is_given[36] ? given[36] : 7.0*PI/180.0;  /* start.guess.L7.theta */
+    p->guess_L8_theta = is_given[37] ? given[37] : -PI/2.0;  /* start.guess.L8.theta */
 
     /* derived */
     p->L1_head_s_x = 0.5*p->L1_length;  /* point from the centre of mass */

@@ -68,7 +68,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     const double bound_L2_head_L3_head_x__L2_head_L3_head_y =
         size_L2_head_L3_head_x__L2_theta*size_L2_head_L3_head_y__L3_theta
         + size_L2_head_L3_head_x__L3_theta*size_L2_head_L3_head_y__L2_theta;
-    if (!(fabs(determinant_L2_head_L3_head_x__L2_head_L3_head_y) > 3.162277660168379e-07
+    if (!(fabs(determinant_L2_head_L3_head_x__L2_head_L3_head_y) > SINGULAR_SQUARE
         * bound_L2_head_L3_head_x__L2_head_L3_head_y))
         return 3;
     const double inverse_L2_head_L3_head_x__L2_head_L3_head_y = 1.0/determinant_L2_head_L3_head_x__L2_head_L3_head_y;
@@ -78,12 +78,12 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     const double size_P2_y__L7_theta = fabs(span_L7_tail_x) + fabs(span_L7_tail_y);
     const double size_P2_y__L6_theta = fabs(span_L6_head_x) + fabs(span_L6_head_y);
     const double bound_P2_x__P2_y = size_P2_x__L6_theta*size_P2_y__L7_theta + size_P2_x__L7_theta*size_P2_y__L6_theta;
-    if (!(fabs(determinant_P2_x__P2_y) > 3.162277660168379e-07 * bound_P2_x__P2_y))
+    if (!(fabs(determinant_P2_x__P2_y) > SINGULAR_SQUARE * bound_P2_x__P2_y))
         return 5;
     const double inverse_P2_x__P2_y = 1.0/determinant_P2_x__P2_y;
     const double pivot_guide_offset = span_L8_head_y;
     const double size_guide_offset__L8_theta = fabs(span_L8_head_x) + fabs(span_L8_head_y);
-    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__L8_theta))
+    if (!(fabs(pivot_guide_offset) > SINGULAR_SQUARE * size_guide_offset__L8_theta))
         return 1;
     const double inverse_guide_offset = 1.0/pivot_guide_offset;
 
@@ -122,8 +122,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     rates[3] = rate_L7_theta;
     step[4] = step_L8_theta;
     rates[4] = rate_L8_theta;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_guide_offset));
+    *worst = max_of(0.0, fabs(phi_guide_offset));
     *worst = max_of(*worst, fabs(phi_L2_head_L3_head_x));
     *worst = max_of(*worst, fabs(phi_L2_head_L3_head_y));
     *worst = max_of(*worst, fabs(phi_P2_x));
@@ -236,7 +235,7 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     const double L8_head_vx = L6_head_vx - L8_omega*span_L8_head_y;
     const double L8_head_y = span_L6_head_y + span_L8_head_y;
     const double L8_head_vy = L6_head_vy + L8_omega*span_L8_head_x;
-    const double S9_theta = 0.5*PI;
+    const double S9_theta = PI/2.0;
     const double S9_omega = 0.0;
     const double span_L2_head_x = p->L2_head_span_x*cos_theta_L2;
     const double span_L2_head_y = p->L2_head_span_x*sin_theta_L2;
@@ -305,8 +304,7 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
         - crank1_rate*span_L1_head_y;
     const double phi_dot_P2_y = L2_omega*span_L2_head_x - L6_omega*span_L6_head_x - L7_omega*span_L7_tail_x
         + crank1_rate*span_L1_head_x;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_dot_guide_offset));
+    *worst = max_of(0.0, fabs(phi_dot_guide_offset));
     *worst = max_of(*worst, fabs(phi_dot_L2_head_L3_head_x));
     *worst = max_of(*worst, fabs(phi_dot_L2_head_L3_head_y));
     *worst = max_of(*worst, fabs(phi_dot_P2_x));
@@ -322,7 +320,7 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     const double bound_L2_head_L3_head_x__L2_head_L3_head_y =
         size_L2_head_L3_head_x__L2_theta*size_L2_head_L3_head_y__L3_theta
         + size_L2_head_L3_head_x__L3_theta*size_L2_head_L3_head_y__L2_theta;
-    if (!(fabs(determinant_L2_head_L3_head_x__L2_head_L3_head_y) > 3.162277660168379e-07
+    if (!(fabs(determinant_L2_head_L3_head_x__L2_head_L3_head_y) > SINGULAR_SQUARE
         * bound_L2_head_L3_head_x__L2_head_L3_head_y))
         return 3;
     const double inverse_L2_head_L3_head_x__L2_head_L3_head_y = 1.0/determinant_L2_head_L3_head_x__L2_head_L3_head_y;
@@ -332,12 +330,12 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     const double size_P2_y__L7_theta = fabs(span_L7_tail_x) + fabs(span_L7_tail_y);
     const double size_P2_y__L6_theta = fabs(span_L6_head_x) + fabs(span_L6_head_y);
     const double bound_P2_x__P2_y = size_P2_x__L6_theta*size_P2_y__L7_theta + size_P2_x__L7_theta*size_P2_y__L6_theta;
-    if (!(fabs(determinant_P2_x__P2_y) > 3.162277660168379e-07 * bound_P2_x__P2_y))
+    if (!(fabs(determinant_P2_x__P2_y) > SINGULAR_SQUARE * bound_P2_x__P2_y))
         return 5;
     const double inverse_P2_x__P2_y = 1.0/determinant_P2_x__P2_y;
     const double pivot_guide_offset = span_L8_head_y;
     const double size_guide_offset__L8_theta = fabs(span_L8_head_x) + fabs(span_L8_head_y);
-    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__L8_theta))
+    if (!(fabs(pivot_guide_offset) > SINGULAR_SQUARE * size_guide_offset__L8_theta))
         return 1;
     const double inverse_guide_offset = 1.0/pivot_guide_offset;
 

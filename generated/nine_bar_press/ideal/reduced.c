@@ -98,7 +98,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double L8_head_vx = L6_head_vx - L8_omega*span_L8_head_y;
     const double L8_head_y = span_L6_head_y + span_L8_head_y;
     const double L8_head_vy = L6_head_vy + L8_omega*span_L8_head_x;
-    const double S9_theta = 0.5*PI;
+    const double S9_theta = PI/2.0;
     const double S9_omega = 0.0;
 
     /* bodies */
@@ -157,8 +157,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double L2_theta = q[5];
     const double L2_omega = v[5];
@@ -190,10 +189,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)p;
     /* tree coordinates */
     a[0] = all_a[14];  /* L6 */
     a[1] = all_a[5];  /* L2 */
@@ -467,17 +463,17 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 2;
         goto dependent;
     }
-    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > 1e-08 * scale_L2_head_L3_head_y
+    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > NEARLY_SINGULAR * scale_L2_head_L3_head_y
         * scale_L2_head_L3_head_x)) {
         pivot = 3;
         goto dependent;
     }
     const double size_L2_head_L3_head_x = scale_L2_head_L3_head_x + scale_L2_head_L3_head_y;
-    if (!(scale_L2_head_L3_head_x > 1e-10 * size_L2_head_L3_head_x)) {
+    if (!(scale_L2_head_L3_head_x > VANISHING * size_L2_head_L3_head_x)) {
         pivot = 2;
         goto dependent;
     }
-    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > 1e-10 * size_L2_head_L3_head_x
+    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > VANISHING * size_L2_head_L3_head_x
         * scale_L2_head_L3_head_x)) {
         pivot = 3;
         goto dependent;
@@ -512,20 +508,20 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         + l_P2_y__L6_theta*w_P2_x__L6_theta + l_P2_y__L7_theta*span_L7_tail_y
         + l_P2_y__guide_offset*w_P2_x__guide_offset;
     const double determinant_P2_x__P2_y = pivot_P2_x*pivot_P2_y - (pivot_P2_x__P2_y * pivot_P2_x__P2_y);
-    if (!(pivot_P2_x > 1e-08 * scale_P2_x)) {
+    if (!(pivot_P2_x > NEARLY_SINGULAR * scale_P2_x)) {
         pivot = 4;
         goto dependent;
     }
-    if (!(determinant_P2_x__P2_y > 1e-08 * scale_P2_y * pivot_P2_x)) {
+    if (!(determinant_P2_x__P2_y > NEARLY_SINGULAR * scale_P2_y * pivot_P2_x)) {
         pivot = 5;
         goto dependent;
     }
     const double size_P2_x = scale_P2_x + scale_P2_y;
-    if (!(pivot_P2_x > 1e-10 * size_P2_x)) {
+    if (!(pivot_P2_x > VANISHING * size_P2_x)) {
         pivot = 4;
         goto dependent;
     }
-    if (!(determinant_P2_x__P2_y > 1e-10 * size_P2_x * pivot_P2_x)) {
+    if (!(determinant_P2_x__P2_y > VANISHING * size_P2_x * pivot_P2_x)) {
         pivot = 5;
         goto dependent;
     }
@@ -702,12 +698,14 @@ int reduced_project(const double t, const double *q, const double *r, const Para
         + scale_L2_head_L3_head_x*scale_L2_head_L3_head_y;
     if (!(scale_L2_head_L3_head_x > 0.0 && scale_L2_head_L3_head_x < INFINITY))
         return 2;
-    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > 1e-13 * scale_L2_head_L3_head_y * scale_L2_head_L3_head_x))
+    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > SINGULAR * scale_L2_head_L3_head_y
+        * scale_L2_head_L3_head_x))
         return 3;
     const double size_L2_head_L3_head_x = scale_L2_head_L3_head_x + scale_L2_head_L3_head_y;
-    if (!(scale_L2_head_L3_head_x > 1e-10 * size_L2_head_L3_head_x))
+    if (!(scale_L2_head_L3_head_x > VANISHING * size_L2_head_L3_head_x))
         return 2;
-    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > 1e-10 * size_L2_head_L3_head_x * scale_L2_head_L3_head_x))
+    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > VANISHING * size_L2_head_L3_head_x
+        * scale_L2_head_L3_head_x))
         return 3;
     const double inverse_L2_head_L3_head_x__L2_head_L3_head_y = -1.0/determinant_L2_head_L3_head_x__L2_head_L3_head_y;
     const double inverse_pivot_L2_head_L3_head_x = inverse_L2_head_L3_head_x__L2_head_L3_head_y*scale_L2_head_L3_head_y;
@@ -739,14 +737,14 @@ int reduced_project(const double t, const double *q, const double *r, const Para
         + l_P2_y__L6_theta*w_P2_x__L6_theta + l_P2_y__L7_theta*span_L7_tail_y
         + l_P2_y__guide_offset*w_P2_x__guide_offset;
     const double determinant_P2_x__P2_y = pivot_P2_x*pivot_P2_y - (pivot_P2_x__P2_y * pivot_P2_x__P2_y);
-    if (!(pivot_P2_x > 1e-13 * scale_P2_x))
+    if (!(pivot_P2_x > SINGULAR * scale_P2_x))
         return 4;
-    if (!(determinant_P2_x__P2_y > 1e-13 * scale_P2_y * pivot_P2_x))
+    if (!(determinant_P2_x__P2_y > SINGULAR * scale_P2_y * pivot_P2_x))
         return 5;
     const double size_P2_x = scale_P2_x + scale_P2_y;
-    if (!(pivot_P2_x > 1e-10 * size_P2_x))
+    if (!(pivot_P2_x > VANISHING * size_P2_x))
         return 4;
-    if (!(determinant_P2_x__P2_y > 1e-10 * size_P2_x * pivot_P2_x))
+    if (!(determinant_P2_x__P2_y > VANISHING * size_P2_x * pivot_P2_x))
         return 5;
     const double inverse_P2_x__P2_y = -1.0/determinant_P2_x__P2_y;
     const double inverse_pivot_P2_x = inverse_P2_x__P2_y*pivot_P2_y;

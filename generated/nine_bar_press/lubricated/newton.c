@@ -16,8 +16,7 @@ typedef struct {
  * deltadot, de_t by (de_t, -deltadot) y/e.
  */
 static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, double deltadot, double de_t,
-    double per_e,
-    double dF[4][6])
+    double per_e, double dF[4][6])
 {
     double by[4][6];
     for (int i = 0; i < 4; i++) {
@@ -170,9 +169,10 @@ static inline void film_slopes_pinkus_sternlicht(double e, double deltadot, doub
  * Dry: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t, omega_i,
  * omega_j (forward differentiation of the same steps).
  */
-static inline void dry_slopes_lankarani_nikravesh_modified_coulomb(double e, double deltadot, double de_t, double
-    omega_i, double omega_j, const Latch *latch, double exponent, double mu, double v0, double R_i, double R_j, double
-    c, double K, double hysteresis, double friction_slope, const double *side, double *g, int corner, PinSlopes *out)
+static inline void dry_slopes_lankarani_nikravesh_modified_coulomb(double e, double deltadot, double de_t,
+    double omega_i, double omega_j, const Latch *latch, double exponent, double mu, double v0, double R_i, double R_j,
+    double c, double K, double hysteresis, double friction_slope, const double *side, double *g, int corner,
+    PinSlopes *out)
 {
     /* penetration, ratio of velocities, slip */
     const double delta = e - c;
@@ -988,7 +988,7 @@ int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_L8_theta = n_L8_theta__L8_theta;
-    if (!(fabs(scale_L8_theta) > 1e-13 * fabs(n_L8_theta__L8_theta)))
+    if (!(fabs(scale_L8_theta) > SINGULAR * fabs(n_L8_theta__L8_theta)))
         return 3;
     const double inverse_pivot_L8_theta = 1.0/scale_L8_theta;
     lin->lu[0] = inverse_pivot_L8_theta;
@@ -998,7 +998,7 @@ int newton_factor(double eta, Linear *lin)
     const double l_guide_offset__L8_theta = inverse_pivot_L8_theta*n_guide_offset__L8_theta;
     lin->lu[3] = l_guide_offset__L8_theta;
     const double scale_L2_theta = n_L2_theta__L2_theta;
-    if (!(fabs(scale_L2_theta) > 1e-13 * fabs(n_L2_theta__L2_theta)))
+    if (!(fabs(scale_L2_theta) > SINGULAR * fabs(n_L2_theta__L2_theta)))
         return 4;
     const double inverse_pivot_L2_theta = 1.0/scale_L2_theta;
     lin->lu[4] = inverse_pivot_L2_theta;
@@ -1009,7 +1009,7 @@ int newton_factor(double eta, Linear *lin)
     lin->lu[7] = l_L6_theta__L2_theta;
     lin->lu[8] = n_L2_theta__L6_theta;
     const double scale_L7_theta = -l_L7_theta__L2_theta*n_L2_theta__L7_theta + n_L7_theta__L7_theta;
-    if (!(fabs(scale_L7_theta) > 1e-13 * fabs(n_L7_theta__L7_theta)))
+    if (!(fabs(scale_L7_theta) > SINGULAR * fabs(n_L7_theta__L7_theta)))
         return 2;
     const double inverse_pivot_L7_theta = 1.0/scale_L7_theta;
     lin->lu[9] = inverse_pivot_L7_theta;
@@ -1022,7 +1022,7 @@ int newton_factor(double eta, Linear *lin)
     const double u_L7_theta__L6_theta = -l_L7_theta__L2_theta*n_L2_theta__L6_theta + n_L7_theta__L6_theta;
     lin->lu[13] = u_L7_theta__L6_theta;
     const double scale_L3_theta = -l_L3_theta__L7_theta*n_L7_theta__L3_theta + n_L3_theta__L3_theta;
-    if (!(fabs(scale_L3_theta) > 1e-13 * fabs(n_L3_theta__L3_theta)))
+    if (!(fabs(scale_L3_theta) > SINGULAR * fabs(n_L3_theta__L3_theta)))
         return 5;
     const double inverse_pivot_L3_theta = 1.0/scale_L3_theta;
     lin->lu[14] = inverse_pivot_L3_theta;
@@ -1034,7 +1034,7 @@ int newton_factor(double eta, Linear *lin)
     const double scale_L6_theta = -l_L6_theta__L2_theta*n_L2_theta__L6_theta
         - l_L6_theta__L3_theta*u_L3_theta__L6_theta - l_L6_theta__L7_theta*u_L7_theta__L6_theta
         - l_L6_theta__L8_theta*n_L8_theta__L6_theta + n_L6_theta__L6_theta;
-    if (!(fabs(scale_L6_theta) > 1e-13 * fabs(n_L6_theta__L6_theta)))
+    if (!(fabs(scale_L6_theta) > SINGULAR * fabs(n_L6_theta__L6_theta)))
         return 1;
     const double inverse_pivot_L6_theta = 1.0/scale_L6_theta;
     lin->lu[17] = inverse_pivot_L6_theta;
@@ -1211,16 +1211,17 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
         + power_v_2_L7_theta*u[6] + r[12]);
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
     {5, 0, 6, 1}, {5, 2, 7, 1}
 };
 static const LinearEntry residual_entries[] = {
-    {5, 0, 8, 1}, {5, 2, 9, 1}, {0, 0, 10, 1}, {0, 1, 11, 1}, {0, 3, 12, 1}, {0, 4, 13, 1}, {0, 2, 14, 1}, {1,
-    0, 15, 1}, {1, 1, 16, 1}, {1, 3, 17, 1}, {1, 4, 18, 1}, {2, 2, 19, 1}, {2, 0, 20, 1}, {3, 0, 21, 1}, {3,
-    1, 22, 1}, {3, 3, 23, 1}, {4, 0, 24, 1}, {4, 1, 25, 1}, {4, 4, 26, 1}, {5, 5, 27, 1}, {5, 7, 28, 1}, {0,
-    5, 29, 1}, {0, 6, 30, 1}, {0, 8, 31, 1}, {0, 9, 32, 1}, {0, 7, 33, 1}, {1, 5, 34, 1}, {1, 6, 35, 1}, {1,
-    8, 36, 1}, {1, 9, 37, 1}, {2, 5, 38, 1}, {3, 5, 39, 1}, {3, 6, 40, 1}, {3, 8, 41, 1}, {4, 5, 42, 1}, {4,
-    6, 43, 1}, {4, 9, 44, 1}
+    {5, 0, 8, 1}, {5, 2, 9, 1}, {0, 0, 10, 1}, {0, 1, 11, 1}, {0, 3, 12, 1}, {0, 4, 13, 1}, {0, 2, 14, 1},
+    {1, 0, 15, 1}, {1, 1, 16, 1}, {1, 3, 17, 1}, {1, 4, 18, 1}, {2, 2, 19, 1}, {2, 0, 20, 1}, {3, 0, 21, 1},
+    {3, 1, 22, 1}, {3, 3, 23, 1}, {4, 0, 24, 1}, {4, 1, 25, 1}, {4, 4, 26, 1}, {5, 5, 27, 1}, {5, 7, 28, 1},
+    {0, 5, 29, 1}, {0, 6, 30, 1}, {0, 8, 31, 1}, {0, 9, 32, 1}, {0, 7, 33, 1}, {1, 5, 34, 1}, {1, 6, 35, 1},
+    {1, 8, 36, 1}, {1, 9, 37, 1}, {2, 5, 38, 1}, {3, 5, 39, 1}, {3, 6, 40, 1}, {3, 8, 41, 1}, {4, 5, 42, 1},
+    {4, 6, 43, 1}, {4, 9, 44, 1}
 };
 static const LinearEntry residual_t_entries[] = {
     {0, 0, 45, 1}, {1, 0, 46, 1}, {3, 0, 47, 1}, {4, 0, 48, 1}
@@ -1252,8 +1253,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double L6_theta = q[0];
     const double L6_omega = v[0];
@@ -1358,7 +1358,6 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     dv[3] = dv_acceleration_L2_theta;
     dq[4] = dq_acceleration_L3_theta;
     dv[4] = dv_acceleration_L3_theta;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_guide_offset));
+    *worst = max_of(0.0, fabs(phi_guide_offset));
     return 0;
 }

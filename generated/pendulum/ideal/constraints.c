@@ -20,7 +20,7 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double bob_y = q[1];
 
     /* rows */
-    /* rod.length */
+    /* rod.length, m */
     phi[0] = (bob_x * bob_x)*p->rod_half_inverse_length + (bob_y * bob_y)*p->rod_half_inverse_length
         - 0.5*p->rod_length;
 }
@@ -45,11 +45,9 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
-    (void)t;
-    (void)q;
-    (void)p;
+    (void)t, (void)q, (void)p;
     /* rows */
-    nu[0] = 0.0;  /* rod.length */
+    nu[0] = 0.0;  /* rod.length, m/s */
 }
 
 /*
@@ -57,14 +55,13 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
  */
 void acceleration_rhs(const double t, const double *q, const double *v, const Parameters *p, double *gamma_rows)
 {
-    (void)t;
-    (void)q;
+    (void)t, (void)q;
     /* coordinates, velocities, time */
     const double bob_vx = v[0];
     const double bob_vy = v[1];
 
     /* rows */
-    /* rod.length */
+    /* rod.length, m/s^2 */
     gamma_rows[0] = -2.0*(bob_vx * bob_vx)*p->rod_half_inverse_length
         - 2.0*(bob_vy * bob_vy)*p->rod_half_inverse_length;
 }
@@ -88,9 +85,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
     double *reactions, double *torques, double *series, double *energy)
 {
-    (void)t;
-    (void)torques;
-    (void)series;
+    (void)t, (void)torques, (void)series;
     /* coordinates, velocities, time */
     const double bob_x = q[0];
     const double bob_y = q[1];

@@ -6,6 +6,7 @@
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
+/* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct {
     Lanes par_g;
     Lanes length;
@@ -41,8 +42,7 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
  */
 static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lanes *out, LaneBits *rare)
 {
-    (void)t;
-    (void)rare;
+    (void)t, (void)rare;
     /* coordinates, velocities, time */
     const Lanes bob_x = q[0];
     const Lanes bob_y = q[1];
@@ -59,8 +59,7 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
 static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const LaneParameters *p, Lanes *out,
     LaneBits *rare)
 {
-    (void)t;
-    (void)rare;
+    (void)t, (void)rare;
     /* coordinates, velocities, time */
     const Lanes bob_x = q[0];
     const Lanes bob_x_rate = v[0];
@@ -80,8 +79,7 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const Lanes bob_x = q[0];
     const Lanes bob_x_rate = v[0];
@@ -129,8 +127,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const Lanes bob_x = q[0];
     const Lanes bob_x_rate = v[0];
@@ -171,8 +168,7 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     dv[1] = dv_acceleration_bob_y;
     dq[2] = dq_acceleration_bob_theta;
     dv[2] = dv_acceleration_bob_theta;
-    *worst = all_of(0.0);
-    *worst = lanes_max_of(*worst, lanes_fabs(phi_rod_length));
+    *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_rod_length));
 }
 
 #include "engine/batch/lane_steps.c"

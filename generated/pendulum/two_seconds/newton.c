@@ -5,8 +5,7 @@
 void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     const double *a, const Aside *aside, Linear *lin)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double bob_x = q[0];
     const double bob_x_rate = v[0];
@@ -58,14 +57,14 @@ int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_bob_x = n_bob_x__bob_x;
-    if (!(fabs(scale_bob_x) > 1e-13 * fabs(n_bob_x__bob_x)))
+    if (!(fabs(scale_bob_x) > SINGULAR * fabs(n_bob_x__bob_x)))
         return 1;
     const double inverse_pivot_bob_x = 1.0/scale_bob_x;
     lin->lu[0] = inverse_pivot_bob_x;
     const double l_rod_length__bob_x = inverse_pivot_bob_x*n_rod_length__bob_x;
     lin->lu[1] = l_rod_length__bob_x;
     const double scale_bob_y = n_bob_y__bob_y;
-    if (!(fabs(scale_bob_y) > 1e-13 * fabs(n_bob_y__bob_y)))
+    if (!(fabs(scale_bob_y) > SINGULAR * fabs(n_bob_y__bob_y)))
         return 2;
     const double inverse_pivot_bob_y = 1.0/scale_bob_y;
     lin->lu[2] = inverse_pivot_bob_y;
@@ -156,7 +155,8 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[8] = eta*r[8];
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
     {3, 0, 0, 1}, {3, 1, 1, 1}
 };
 static const LinearEntry residual_entries[] = {
@@ -190,8 +190,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double bob_x = q[0];
     const double bob_x_rate = v[0];
@@ -233,7 +232,6 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     dv[1] = dv_acceleration_bob_y;
     dq[2] = dq_acceleration_bob_theta;
     dv[2] = dv_acceleration_bob_theta;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_rod_length));
+    *worst = max_of(0.0, fabs(phi_rod_length));
     return 0;
 }

@@ -57,17 +57,17 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double motor_value = p->omega*t;
 
     /* rows */
-    phi[0] = arm_crank_head_x - crank_x;  /* shaft.x */
-    phi[1] = arm_crank_head_y - crank_y;  /* shaft.y */
-    phi[2] = arm_crank_head_x + arm_rod_head_x + crank_x - rod_x;  /* crankpin.x */
-    phi[3] = arm_crank_head_y + arm_rod_head_y + crank_y - rod_y;  /* crankpin.y */
-    phi[4] = arm_rod_head_x + rod_x - table_x;  /* pin.x */
-    phi[5] = arm_rod_head_y + rod_y - table_y;  /* pin.y */
-    phi[6] = -table_x;  /* guide.offset */
-    phi[7] = table_theta - 0.5*PI;  /* guide.angle */
-    phi[8] = arm_arm_head_x + arm_table_top_x - arm_x + table_x;  /* pivot.x */
-    phi[9] = arm_arm_head_y + arm_table_top_y - arm_y + table_y;  /* pivot.y */
-    phi[10] = crank_theta - motor_value;  /* motor */
+    phi[0] = arm_crank_head_x - crank_x;  /* shaft.x, m */
+    phi[1] = arm_crank_head_y - crank_y;  /* shaft.y, m */
+    phi[2] = arm_crank_head_x + arm_rod_head_x + crank_x - rod_x;  /* crankpin.x, m */
+    phi[3] = arm_crank_head_y + arm_rod_head_y + crank_y - rod_y;  /* crankpin.y, m */
+    phi[4] = arm_rod_head_x + rod_x - table_x;  /* pin.x, m */
+    phi[5] = arm_rod_head_y + rod_y - table_y;  /* pin.y, m */
+    phi[6] = -table_x;  /* guide.offset, m */
+    phi[7] = table_theta - PI/2.0;  /* guide.angle, rad */
+    phi[8] = arm_arm_head_x + arm_table_top_x - arm_x + table_x;  /* pivot.x, m */
+    phi[9] = arm_arm_head_y + arm_table_top_y - arm_y + table_y;  /* pivot.y, m */
+    phi[10] = crank_theta - motor_value;  /* motor, rad */
 }
 
 /*
@@ -137,23 +137,22 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
-    (void)t;
-    (void)q;
+    (void)t, (void)q;
     /* directions, arms, drives */
     const double motor_rate = p->omega;
 
     /* rows */
-    nu[0] = 0.0;  /* shaft.x */
-    nu[1] = 0.0;  /* shaft.y */
-    nu[2] = 0.0;  /* crankpin.x */
-    nu[3] = 0.0;  /* crankpin.y */
-    nu[4] = 0.0;  /* pin.x */
-    nu[5] = 0.0;  /* pin.y */
-    nu[6] = 0.0;  /* guide.offset */
-    nu[7] = 0.0;  /* guide.angle */
-    nu[8] = 0.0;  /* pivot.x */
-    nu[9] = 0.0;  /* pivot.y */
-    nu[10] = motor_rate;  /* motor */
+    nu[0] = 0.0;  /* shaft.x, m/s */
+    nu[1] = 0.0;  /* shaft.y, m/s */
+    nu[2] = 0.0;  /* crankpin.x, m/s */
+    nu[3] = 0.0;  /* crankpin.y, m/s */
+    nu[4] = 0.0;  /* pin.x, m/s */
+    nu[5] = 0.0;  /* pin.y, m/s */
+    nu[6] = 0.0;  /* guide.offset, m/s */
+    nu[7] = 0.0;  /* guide.angle, rad/s */
+    nu[8] = 0.0;  /* pivot.x, m/s */
+    nu[9] = 0.0;  /* pivot.y, m/s */
+    nu[10] = motor_rate;  /* motor, rad/s */
 }
 
 /*
@@ -192,19 +191,21 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double motor_acceleration = 0.0;
 
     /* rows */
-    gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* shaft.x */
-    gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* shaft.y */
-    /* crankpin.x */
+    gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* shaft.x, m/s^2 */
+    gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* shaft.y, m/s^2 */
+    /* crankpin.x, m/s^2 */
     gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega * rod_omega);
-    /* crankpin.y */
+    /* crankpin.y, m/s^2 */
     gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega * rod_omega);
-    gamma_rows[4] = arm_rod_head_x*(rod_omega * rod_omega);  /* pin.x */
-    gamma_rows[5] = arm_rod_head_y*(rod_omega * rod_omega);  /* pin.y */
-    gamma_rows[6] = 0.0;  /* guide.offset */
-    gamma_rows[7] = 0.0;  /* guide.angle */
-    gamma_rows[8] = arm_arm_head_x*(arm_omega * arm_omega) + arm_table_top_x*(table_omega * table_omega);  /* pivot.x */
-    gamma_rows[9] = arm_arm_head_y*(arm_omega * arm_omega) + arm_table_top_y*(table_omega * table_omega);  /* pivot.y */
-    gamma_rows[10] = motor_acceleration;  /* motor */
+    gamma_rows[4] = arm_rod_head_x*(rod_omega * rod_omega);  /* pin.x, m/s^2 */
+    gamma_rows[5] = arm_rod_head_y*(rod_omega * rod_omega);  /* pin.y, m/s^2 */
+    gamma_rows[6] = 0.0;  /* guide.offset, m/s^2 */
+    gamma_rows[7] = 0.0;  /* guide.angle, rad/s^2 */
+    /* pivot.x, m/s^2 */
+    gamma_rows[8] = arm_arm_head_x*(arm_omega * arm_omega) + arm_table_top_x*(table_omega * table_omega);
+    /* pivot.y, m/s^2 */
+    gamma_rows[9] = arm_arm_head_y*(arm_omega * arm_omega) + arm_table_top_y*(table_omega * table_omega);
+    gamma_rows[10] = motor_acceleration;  /* motor, rad/s^2 */
 }
 
 /*
@@ -225,8 +226,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
     double *reactions, double *torques, double *series, double *energy)
 {
-    (void)t;
-    (void)series;
+    (void)t, (void)series;
     /* coordinates, velocities, time */
     const double crank_y = q[1];
     const double crank_vx = v[0];

@@ -8,56 +8,61 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define N_Q 12                /* coordinates of all bodies */
-#define N_ROWS 11             /* constraint rows of the motion */
-#define N_ALL_ROWS 11         /* rows of the closed linkage */
-#define N_JOINTS 5            /* joints without play */
-#define N_DRIVES 1            /* drives */
-#define N_CLEARANCES 0        /* joints with play */
-#define LAW_STATES 0          /* inner states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0         /* slips that friction may hold */
-#define N_SWITCHES 0          /* corners of min, max, abs and sign */
-#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
-#define N_SERIES 0            /* results of force elements */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
-#define N_X 1                 /* coordinates that are integrated */
-#define N_LOOPS 0             /* constraint rows of these */
-#define N_CHAIN 1             /* coordinates that drives determine through loops */
-#define N_LED 5               /* these, cosines and sines of angles */
-#define SMOOTH_CHAINS 1       /* their drives have no corners */
-#define TREE_PIVOTS 0         /* statuses of chains follow these */
-#define RESCUED 0             /* pivots may vanish: all bodies' equations help */
-#define LARGEST_BLOCK 1       /* rows that are solved together */
-#define N_VALUES 6            /* of the linearized equations */
-#define N_FACTORS 1           /* of their factors L and U */
-#define HAS_LANES 0           /* runs go side by side */
-#define N_CORNERS 0           /* corners of drives, whose rate jumps there */
-#define RATE_JUMPS 0          /* the rate of some drive may jump */
-#define N_WATCHED 0           /* corners of expressions, and events */
-#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
-#define WATCHES_STATE 0       /* they hang on more than time */
-#define N_TERMS 0             /* terms of time alone, which may hide within a step */
-#define N_GUESS 1             /* coordinates that the start guesses */
-#define GUESSED_POINTS 0      /* some of them are those of points */
-#define N_SET 1               /* those that it sets */
-#define N_RATES 0             /* velocities that it sets */
+#define N_Q 12              /* coordinates of all bodies */
+#define N_ROWS 11           /* constraint rows of the motion */
+#define N_ALL_ROWS 11       /* rows of the closed linkage */
+#define N_JOINTS 5          /* joints without play */
+#define N_DRIVES 1          /* drives */
+#define N_CLEARANCES 0      /* joints with play */
+#define LAW_STATES 0        /* inner states of the laws of a joint with play, at most */
+#define N_FRICTIONS 0       /* slips that friction may hold */
+#define N_SWITCHES 0        /* corners of min, max, abs and sign */
+#define N_USER_EVENTS 0     /* expressions whose zeros are watched */
+#define N_SERIES 0          /* results of force elements */
+#define INTEGRATES 1        /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1              /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0 /* the same, where they follow */
+#define N_X 1               /* coordinates that are integrated */
+#define N_LOOPS 0           /* constraint rows of these */
+#define N_CHAIN 1           /* coordinates that drives determine through loops */
+#define N_LED 5             /* these, cosines and sines of angles */
+#define SMOOTH_CHAINS 1     /* their drives have no corners */
+#define TREE_PIVOTS 0       /* statuses of chains follow these */
+#define RESCUED 0           /* pivots may vanish: all bodies' equations help */
+#define LARGEST_BLOCK 1     /* rows that are solved together */
+#define N_VALUES 6          /* of the linearized equations */
+#define N_FACTORS 1         /* of their factors L and U */
+#define HAS_LANES 0         /* runs go side by side */
+#define N_CORNERS 0         /* corners of drives, whose rate jumps there */
+#define RATE_JUMPS 0        /* the rate of some drive may jump */
+#define N_WATCHED 0         /* corners of expressions, and events */
+#define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */
+#define WATCHES_STATE 0     /* they hang on more than time */
+#define N_TERMS 0           /* terms of time alone, which may hide within a step */
+#define N_GUESS 1           /* coordinates that the start guesses */
+#define GUESSED_POINTS 0    /* some of them are those of points */
+#define N_SET 1             /* those that it sets */
+#define N_RATES 0           /* velocities that it sets */
+
+/* A row fails where less than such a share of it is left by the others: */
+#define SINGULAR 1e-13                        /* where it depends on others */
+#define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
+#define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
+#define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {
     double omega;  /* parameters.omega, 1/s */
     double tilt;  /* parameters.tilt, 1 */
     double crank_mass;  /* bodies.crank.mass, kg */
-    double crank_inertia;  /* bodies.crank.inertia, kg m^2 */
+    double crank_inertia;  /* bodies.crank.inertia, kg*m^2 */
     double rod_mass;  /* bodies.rod.mass, kg */
-    double rod_inertia;  /* bodies.rod.inertia, kg m^2 */
+    double rod_inertia;  /* bodies.rod.inertia, kg*m^2 */
     double table_mass;  /* bodies.table.mass, kg */
-    double table_inertia;  /* bodies.table.inertia, kg m^2 */
+    double table_inertia;  /* bodies.table.inertia, kg*m^2 */
     double arm_mass;  /* bodies.arm.mass, kg */
-    double arm_inertia;  /* bodies.arm.inertia, kg m^2 */
+    double arm_inertia;  /* bodies.arm.inertia, kg*m^2 */
     double crank_length;  /* bodies.crank.length, m */
     double rod_length;  /* bodies.rod.length, m */
     double table_points_top_y;  /* bodies.table.points.top.y, m */
@@ -71,36 +76,36 @@ typedef struct {
     double crank_head_s_x;  /* point from the centre of mass, m */
     double rod_head_s_x;  /* point from the centre of mass, m */
     double arm_head_s_x;  /* point from the centre of mass, m */
-    double weight_crank_y;  /* weight, kg m/s^2 */
-    double weight_rod_y;  /* weight, kg m/s^2 */
-    double weight_table_y;  /* weight, kg m/s^2 */
-    double weight_arm_y;  /* weight, kg m/s^2 */
+    double weight_crank_y;  /* weight, N */
+    double weight_rod_y;  /* weight, N */
+    double weight_table_y;  /* weight, N */
+    double weight_arm_y;  /* weight, N */
     double two_alpha;  /* 2 alpha, 1/s */
     double beta_squared;  /* beta^2, 1/s^2 */
     double inverse_arm_mass;  /* 1/M, 1/kg */
     double inverse_crank_mass;  /* 1/M, 1/kg */
     double inverse_rod_mass;  /* 1/M, 1/kg */
     double inverse_table_mass;  /* 1/M, 1/kg */
-    double inverse_arm_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_table_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_rod_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_crank_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_arm_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_table_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_rod_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_crank_inertia;  /* 1/M, 1/(kg*m^2) */
     double crank_head_span_x;  /* vector in its frame, m */
     double rod_head_span_x;  /* vector in its frame, m */
     double table_top_in_frame_x;  /* vector in its frame, m */
-    double inertia_crank_crank;  /* sum of m w.w, kg m^2 */
-    double inertia_crank_rod;  /* sum of m w.w, kg m^2 */
-    double inertia_rod_rod;  /* sum of m w.w, kg m^2 */
-    double inertia_crank_arm;  /* sum of m w.w, kg m^2 */
-    double inertia_rod_arm;  /* sum of m w.w, kg m^2 */
-    double inertia_arm_arm;  /* sum of m w.w, kg m^2 */
-    double mass_motor_motor;  /* constant of M, kg m^2 */
-    double mass_rod_rod;  /* constant of M, kg m^2 */
-    double mass_arm_arm;  /* constant of M, kg m^2 */
-    double weight_crank__across;  /* weight, kg m^2/s^2 */
-    double weight_rod__across;  /* weight, kg m^2/s^2 */
-    double weight_arm__across;  /* weight, kg m^2/s^2 */
-    double inverse_mass_arm_arm;  /* 1/M, 1/(kg m^2) */
+    double inertia_crank_crank;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank_rod;  /* sum of m w.w, kg*m^2 */
+    double inertia_rod_rod;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank_arm;  /* sum of m w.w, kg*m^2 */
+    double inertia_rod_arm;  /* sum of m w.w, kg*m^2 */
+    double inertia_arm_arm;  /* sum of m w.w, kg*m^2 */
+    double mass_motor_motor;  /* constant of M, kg*m^2 */
+    double mass_rod_rod;  /* constant of M, kg*m^2 */
+    double mass_arm_arm;  /* constant of M, kg*m^2 */
+    double weight_crank__across;  /* weight, N*m */
+    double weight_rod__across;  /* weight, N*m */
+    double weight_arm__across;  /* weight, N*m */
+    double inverse_mass_arm_arm;  /* 1/M, 1/(kg*m^2) */
 } Parameters;
 
 #include "engine/scene/types.h"

@@ -5,9 +5,7 @@
 void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     const double *a, const Aside *aside, Linear *lin)
 {
-    (void)t;
-    (void)memory;
-    (void)aside;
+    (void)t, (void)memory, (void)aside;
     /* coordinates, velocities, time */
     const double rod_omega = v[1];
     const double arm_theta = q[0];
@@ -97,7 +95,7 @@ int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_arm_theta = n_arm_theta__arm_theta;
-    if (!(fabs(scale_arm_theta) > 1e-13 * fabs(n_arm_theta__arm_theta)))
+    if (!(fabs(scale_arm_theta) > SINGULAR * fabs(n_arm_theta__arm_theta)))
         return 1;
     const double inverse_pivot_arm_theta = 1.0/scale_arm_theta;
     lin->lu[0] = inverse_pivot_arm_theta;
@@ -150,7 +148,8 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[4] = eta*r[4];
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
     {0, 0, 0, 0}
 };
 static const LinearEntry residual_entries[] = {
@@ -184,11 +183,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)memory, (void)p;
     /* backward substitution */
     const double dq_acceleration_arm_theta = 0.0;
 

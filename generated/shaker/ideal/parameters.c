@@ -4,8 +4,8 @@
 void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
-    p->omega = is_given[0] ? given[0] : 188.49555921538757;  /* parameters.omega */
-    p->tilt = is_given[1] ? given[1] : 1.3962634015954636;  /* parameters.tilt */
+    p->omega = is_given[0] ? given[0] : 60.0*PI;  /* parameters.omega */
+    p->tilt = is_given[1] ? given[1] : 4.0*PI/9.0;  /* parameters.tilt */
     p->crank_mass = is_given[2] ? given[2] : 0.05;  /* bodies.crank.mass */
     p->crank_inertia = is_given[3] ? given[3] : 1e-06;  /* bodies.crank.inertia */
     p->rod_mass = is_given[4] ? given[4] : 0.05;  /* bodies.rod.mass */
@@ -22,7 +22,7 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->beta = is_given[15] ? given[15] : 50.0;  /* baumgarte.beta */
     p->guide_axis_y = is_given[16] ? given[16] : 1.0;  /* joints.guide.axis.y */
     p->gravity_y = is_given[17] ? given[17] : -9.81;  /* gravity.y */
-    p->guess_rod_theta = is_given[18] ? given[18] : 1.3962634015954636;  /* start.guess.rod.theta */
+    p->guess_rod_theta = is_given[18] ? given[18] : 4.0*PI/9.0;  /* start.guess.rod.theta */
     p->set_arm_theta = is_given[19] ? given[19] : p->tilt;  /* start.set.arm.theta */
 
     /* derived */

@@ -41,7 +41,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
     const double rod_head_y = span_crank_head_y + span_rod_head_y;
     const double rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
-    const double table_theta = 0.5*PI;
+    const double table_theta = PI/2.0;
     const double table_omega = 0.0;
     const double table_top_x = rod_head_x + p->table_top_in_frame_x;
     const double span_arm_com_x = p->arm_head_s_x*cos_theta_arm;
@@ -83,8 +83,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double rod_theta = q[5];
     const double rod_omega = v[5];
@@ -103,11 +102,8 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
  */
 void closures(const double t, const double *q, const Parameters *p, double *out)
 {
-    (void)t;
-    (void)q;
-    (void)p;
-    (void)out;
-
+    (void)t, (void)q, (void)p, (void)out;
+    /* this scene has none */
 }
 
 /*
@@ -115,12 +111,8 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
-    (void)out;
-
+    (void)t, (void)q, (void)v, (void)p, (void)out;
+    /* this scene has none */
 }
 
 /*
@@ -131,8 +123,7 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 int reduced_dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *a, Aside *aside)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double rod_omega = v[1];
     const double arm_theta = q[0];
@@ -191,10 +182,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
 {
-    (void)t;
-    (void)q;
-    (void)r;
-    (void)p;
+    (void)t, (void)q, (void)r, (void)p;
     /* backward substitution */
     const double step_acceleration_arm_theta = 0.0;
 
@@ -233,8 +221,7 @@ void chain_directions(const double t, const double *q, const Memory *memory, con
 int chain_step(const double t, const double *q, const Memory *memory, const Parameters *p, double *step, double *bend,
     int *row)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double cos_theta_crank = q[2];
     const double cos_theta_rod = q[4];
@@ -254,7 +241,7 @@ int chain_step(const double t, const double *q, const Memory *memory, const Para
     /* groups of rows that are solved one after the other */
     const double pivot_guide_offset = span_rod_head_y;
     const double size_guide_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__rod_theta))
+    if (!(fabs(pivot_guide_offset) > SINGULAR_SQUARE * size_guide_offset__rod_theta))
         return 1;
     const double inverse_guide_offset = 1.0/pivot_guide_offset;
 
@@ -275,8 +262,7 @@ int chain_step(const double t, const double *q, const Memory *memory, const Para
  */
 int chain_rates(const double t, const double *q, const Memory *memory, const Parameters *p, double *v)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double cos_theta_crank = q[2];
     const double sin_theta_crank = q[3];
@@ -294,7 +280,7 @@ int chain_rates(const double t, const double *q, const Memory *memory, const Par
     /* groups of rows that are solved one after the other */
     const double pivot_guide_offset = span_rod_head_y;
     const double size_guide_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__rod_theta))
+    if (!(fabs(pivot_guide_offset) > SINGULAR_SQUARE * size_guide_offset__rod_theta))
         return 1;
     const double inverse_guide_offset = 1.0/pivot_guide_offset;
 
@@ -319,8 +305,7 @@ int chain_rates(const double t, const double *q, const Memory *memory, const Par
 int chain_third(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *out)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double rod_omega = v[1];
     const double cos_theta_crank = q[2];
@@ -340,7 +325,7 @@ int chain_third(const double t, const double *q, const double *v, const Memory *
     /* groups of rows that are solved one after the other */
     const double pivot_guide_offset = span_rod_head_y;
     const double size_guide_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_guide_offset) > 3.162277660168379e-07 * size_guide_offset__rod_theta))
+    if (!(fabs(pivot_guide_offset) > SINGULAR_SQUARE * size_guide_offset__rod_theta))
         return 1;
     const double inverse_guide_offset = 1.0/pivot_guide_offset;
 

@@ -6,6 +6,7 @@
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
+/* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct {
     Lanes omega;
     Lanes c;
@@ -151,12 +152,8 @@ static void clearance_wristpin(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lan
  */
 static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lanes *out, LaneBits *rare)
 {
-    (void)t;
-    (void)q;
-    (void)p;
-    (void)out;
-    (void)rare;
-
+    (void)t, (void)q, (void)p, (void)out, (void)rare;
+    /* this scene has none */
 }
 
 /*
@@ -165,13 +162,8 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
 static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const LaneParameters *p, Lanes *out,
     LaneBits *rare)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
-    (void)out;
-    (void)rare;
-
+    (void)t, (void)q, (void)v, (void)p, (void)out, (void)rare;
+    /* this scene has none */
 }
 
 /*
@@ -254,12 +246,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)p;
-    (void)rare;
+    (void)t, (void)q, (void)v, (void)memory, (void)p, (void)rare;
     /* backward substitution */
     const Lanes dq_acceleration_rod_theta = all_of(0.0);
     const Lanes dq_acceleration_cylinder_slide = all_of(0.0);

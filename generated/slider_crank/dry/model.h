@@ -8,54 +8,59 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define N_Q 9                 /* coordinates of all bodies */
-#define N_ROWS 7              /* constraint rows of the motion */
-#define N_ALL_ROWS 9          /* rows of the closed linkage */
-#define N_JOINTS 3            /* joints without play */
-#define N_DRIVES 1            /* drives */
-#define N_CLEARANCES 1        /* joints with play */
-#define LAW_STATES 0          /* inner states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0         /* slips that friction may hold */
-#define N_SWITCHES 5          /* corners of min, max, abs and sign */
-#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
-#define N_SERIES 0            /* results of force elements */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
-#define N_X 2                 /* coordinates that are integrated */
-#define N_LOOPS 0             /* constraint rows of these */
-#define N_CHAIN 0             /* coordinates that drives determine through loops */
-#define N_LED 0               /* these, cosines and sines of angles */
-#define SMOOTH_CHAINS 0       /* their drives have no corners */
-#define TREE_PIVOTS 0         /* statuses of chains follow these */
-#define RESCUED 0             /* pivots may vanish: all bodies' equations help */
-#define LARGEST_BLOCK 0       /* rows that are solved together */
-#define N_VALUES 21           /* of the linearized equations */
-#define N_FACTORS 4           /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define N_CORNERS 0           /* corners of drives, whose rate jumps there */
-#define RATE_JUMPS 0          /* the rate of some drive may jump */
-#define N_WATCHED 0           /* corners of expressions, and events */
-#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
-#define WATCHES_STATE 0       /* they hang on more than time */
-#define N_TERMS 0             /* terms of time alone, which may hide within a step */
-#define N_GUESS 2             /* coordinates that the start guesses */
-#define GUESSED_POINTS 0      /* some of them are those of points */
-#define N_SET 0               /* those that it sets */
-#define N_RATES 0             /* velocities that it sets */
+#define N_Q 9               /* coordinates of all bodies */
+#define N_ROWS 7            /* constraint rows of the motion */
+#define N_ALL_ROWS 9        /* rows of the closed linkage */
+#define N_JOINTS 3          /* joints without play */
+#define N_DRIVES 1          /* drives */
+#define N_CLEARANCES 1      /* joints with play */
+#define LAW_STATES 0        /* inner states of the laws of a joint with play, at most */
+#define N_FRICTIONS 0       /* slips that friction may hold */
+#define N_SWITCHES 5        /* corners of min, max, abs and sign */
+#define N_USER_EVENTS 0     /* expressions whose zeros are watched */
+#define N_SERIES 0          /* results of force elements */
+#define INTEGRATES 1        /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1              /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0 /* the same, where they follow */
+#define N_X 2               /* coordinates that are integrated */
+#define N_LOOPS 0           /* constraint rows of these */
+#define N_CHAIN 0           /* coordinates that drives determine through loops */
+#define N_LED 0             /* these, cosines and sines of angles */
+#define SMOOTH_CHAINS 0     /* their drives have no corners */
+#define TREE_PIVOTS 0       /* statuses of chains follow these */
+#define RESCUED 0           /* pivots may vanish: all bodies' equations help */
+#define LARGEST_BLOCK 0     /* rows that are solved together */
+#define N_VALUES 21         /* of the linearized equations */
+#define N_FACTORS 4         /* of their factors L and U */
+#define HAS_LANES 1         /* runs go side by side */
+#define N_CORNERS 0         /* corners of drives, whose rate jumps there */
+#define RATE_JUMPS 0        /* the rate of some drive may jump */
+#define N_WATCHED 0         /* corners of expressions, and events */
+#define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */
+#define WATCHES_STATE 0     /* they hang on more than time */
+#define N_TERMS 0           /* terms of time alone, which may hide within a step */
+#define N_GUESS 2           /* coordinates that the start guesses */
+#define GUESSED_POINTS 0    /* some of them are those of points */
+#define N_SET 0             /* those that it sets */
+#define N_RATES 0           /* velocities that it sets */
+
+/* A row fails where less than such a share of it is left by the others: */
+#define SINGULAR 1e-13                        /* where it depends on others */
+#define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
+#define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
+#define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {
     double omega;  /* parameters.omega, 1/s */
     double c;  /* parameters.c, m */
     double crank_mass;  /* bodies.crank.mass, kg */
-    double crank_inertia;  /* bodies.crank.inertia, kg m^2 */
+    double crank_inertia;  /* bodies.crank.inertia, kg*m^2 */
     double rod_mass;  /* bodies.rod.mass, kg */
-    double rod_inertia;  /* bodies.rod.inertia, kg m^2 */
+    double rod_inertia;  /* bodies.rod.inertia, kg*m^2 */
     double slider_mass;  /* bodies.slider.mass, kg */
-    double slider_inertia;  /* bodies.slider.inertia, kg m^2 */
+    double slider_inertia;  /* bodies.slider.inertia, kg*m^2 */
     double crank_length;  /* bodies.crank.length, m */
     double rod_length;  /* bodies.rod.length, m */
     double alpha;  /* baumgarte.alpha, 1/s */
@@ -64,7 +69,7 @@ typedef struct {
     double pin_radius;  /* bearings.pin.radius, m */
     double pin_clearance;  /* bearings.pin.clearance, m */
     double pin_length;  /* bearings.pin.length, m */
-    double steel_E;  /* materials.steel.E, kg/(m s^2) */
+    double steel_E;  /* materials.steel.E, Pa */
     double steel_nu;  /* materials.steel.nu, 1 */
     double dry_normal_restitution;  /* contacts.dry.normal.restitution, 1 */
     double dry_normal_exponent;  /* contacts.dry.normal.exponent, 1 */
@@ -76,25 +81,25 @@ typedef struct {
     double crank_head_s_x;  /* point from the centre of mass, m */
     double rod_head_s_x;  /* point from the centre of mass, m */
     double R_j_pin;  /* journal radius, m */
-    double dry_pin_K;  /* contact stiffness, kg/(m^(1/2) s^2) */
+    double dry_pin_K;  /* contact stiffness, N/m^1.5 */
     double dry_pin_hysteresis;  /* hysteresis damping factor a, 1 */
     double dry_pin_friction_slope;  /* 1/(v1 - v0), s/m */
     double two_alpha;  /* 2 alpha, 1/s */
     double beta_squared;  /* beta^2, 1/s^2 */
     double inverse_slider_mass;  /* 1/M, 1/kg */
     double inverse_rod_mass;  /* 1/M, 1/kg */
-    double inverse_slider_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_slider_inertia;  /* 1/M, 1/(kg*m^2) */
     double inverse_crank_mass;  /* 1/M, 1/kg */
-    double inverse_rod_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_crank_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_rod_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_crank_inertia;  /* 1/M, 1/(kg*m^2) */
     double crank_head_span_x;  /* vector in its frame, m */
     double rod_head_span_x;  /* vector in its frame, m */
-    double inertia_crank_crank;  /* sum of m w.w, kg m^2 */
-    double inertia_crank_rod;  /* sum of m w.w, kg m^2 */
-    double inertia_rod_rod;  /* sum of m w.w, kg m^2 */
-    double mass_motor_motor;  /* constant of M, kg m^2 */
-    double mass_rod_rod;  /* constant of M, kg m^2 */
-    double inverse_mass_rod_rod;  /* 1/M, 1/(kg m^2) */
+    double inertia_crank_crank;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank_rod;  /* sum of m w.w, kg*m^2 */
+    double inertia_rod_rod;  /* sum of m w.w, kg*m^2 */
+    double mass_motor_motor;  /* constant of M, kg*m^2 */
+    double mass_rod_rod;  /* constant of M, kg*m^2 */
+    double inverse_mass_rod_rod;  /* 1/M, 1/(kg*m^2) */
 } Parameters;
 
 #include "engine/scene/types.h"

@@ -16,8 +16,7 @@ typedef struct {
  * deltadot, de_t by (de_t, -deltadot) y/e.
  */
 static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, double deltadot, double de_t,
-    double per_e,
-    double dF[4][6])
+    double per_e, double dF[4][6])
 {
     double by[4][6];
     for (int i = 0; i < 4; i++) {
@@ -48,9 +47,10 @@ static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, do
  * Dry: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t, omega_i,
  * omega_j (forward differentiation of the same steps).
  */
-static inline void dry_slopes_lankarani_nikravesh_modified_coulomb(double e, double deltadot, double de_t, double
-    omega_i, double omega_j, const Latch *latch, double exponent, double mu, double v0, double R_i, double R_j, double
-    c, double K, double hysteresis, double friction_slope, const double *side, double *g, int corner, PinSlopes *out)
+static inline void dry_slopes_lankarani_nikravesh_modified_coulomb(double e, double deltadot, double de_t,
+    double omega_i, double omega_j, const Latch *latch, double exponent, double mu, double v0, double R_i, double R_j,
+    double c, double K, double hysteresis, double friction_slope, const double *side, double *g, int corner,
+    PinSlopes *out)
 {
     /* penetration, ratio of velocities, slip */
     const double delta = e - c;
@@ -410,7 +410,7 @@ int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_cylinder_slide = n_cylinder_slide__cylinder_slide;
-    if (!(fabs(scale_cylinder_slide) > 1e-13 * fabs(n_cylinder_slide__cylinder_slide)))
+    if (!(fabs(scale_cylinder_slide) > SINGULAR * fabs(n_cylinder_slide__cylinder_slide)))
         return 1;
     const double inverse_pivot_cylinder_slide = 1.0/scale_cylinder_slide;
     lin->lu[0] = inverse_pivot_cylinder_slide;
@@ -418,7 +418,7 @@ int newton_factor(double eta, Linear *lin)
     lin->lu[1] = l_rod_theta__cylinder_slide;
     lin->lu[2] = n_cylinder_slide__rod_theta;
     const double scale_rod_theta = -l_rod_theta__cylinder_slide*n_cylinder_slide__rod_theta + n_rod_theta__rod_theta;
-    if (!(fabs(scale_rod_theta) > 1e-13 * fabs(n_rod_theta__rod_theta)))
+    if (!(fabs(scale_rod_theta) > SINGULAR * fabs(n_rod_theta__rod_theta)))
         return 2;
     const double inverse_pivot_rod_theta = 1.0/scale_rod_theta;
     lin->lu[3] = inverse_pivot_rod_theta;
@@ -495,12 +495,13 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
         + power_v_2_rod_theta*u[3] + r[6]);
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
     {0, 0, 0, 0}
 };
 static const LinearEntry residual_entries[] = {
-    {0, 0, 0, 1}, {0, 1, 1, 1}, {1, 1, 2, 1}, {1, 0, 3, 1}, {0, 2, 4, 1}, {0, 3, 5, 1}, {1, 2, 6, 1}, {1, 3,
-    7, 1}
+    {0, 0, 0, 1}, {0, 1, 1, 1}, {1, 1, 2, 1}, {1, 0, 3, 1}, {0, 2, 4, 1}, {0, 3, 5, 1}, {1, 2, 6, 1},
+    {1, 3, 7, 1}
 };
 static const LinearEntry residual_t_entries[] = {
     {0, 0, 8, 1}, {1, 0, 9, 1}
@@ -531,11 +532,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)memory;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)memory, (void)p;
     /* backward substitution */
     const double dq_acceleration_rod_theta = 0.0;
     const double dq_acceleration_cylinder_slide = 0.0;

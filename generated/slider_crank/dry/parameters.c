@@ -4,7 +4,7 @@
 void prepare(const double *given, const unsigned char *is_given, Parameters *p)
 {
     /* slots */
-    p->omega = is_given[0] ? given[0] : 62.83185307179586;  /* parameters.omega */
+    p->omega = is_given[0] ? given[0] : 20.0*PI;  /* parameters.omega */
     p->c = is_given[1] ? given[1] : 0.0002;  /* parameters.c */
     p->crank_mass = is_given[2] ? given[2] : 0.3;  /* bodies.crank.mass */
     p->crank_inertia = is_given[3] ? given[3] : 0.0001;  /* bodies.crank.inertia */

@@ -64,8 +64,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double rod_theta = q[5];
     const double rod_omega = v[5];
@@ -84,11 +83,8 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
  */
 void closures(const double t, const double *q, const Parameters *p, double *out)
 {
-    (void)t;
-    (void)q;
-    (void)p;
-    (void)out;
-
+    (void)t, (void)q, (void)p, (void)out;
+    /* this scene has none */
 }
 
 /*
@@ -96,12 +92,8 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
  */
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
-    (void)out;
-
+    (void)t, (void)q, (void)v, (void)p, (void)out;
+    /* this scene has none */
 }
 
 /*
@@ -188,10 +180,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
  */
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
 {
-    (void)t;
-    (void)q;
-    (void)r;
-    (void)p;
+    (void)t, (void)q, (void)r, (void)p;
     /* backward substitution */
     const double step_acceleration_rod_theta = 0.0;
     const double step_acceleration_cylinder_slide = 0.0;

@@ -43,15 +43,15 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double motor_value = p->omega*t;
 
     /* rows */
-    phi[0] = arm_crank_head_x - crank_x;  /* O.x */
-    phi[1] = arm_crank_head_y - crank_y;  /* O.y */
-    phi[2] = arm_crank_head_x + arm_rod_head_x + crank_x - rod_x;  /* crankpin.x */
-    phi[3] = arm_crank_head_y + arm_rod_head_y + crank_y - rod_y;  /* crankpin.y */
-    phi[4] = arm_rod_head_x + rod_x - slider_x;  /* wristpin.x */
-    phi[5] = arm_rod_head_y + rod_y - slider_y;  /* wristpin.y */
-    phi[6] = slider_y;  /* cylinder.offset */
-    phi[7] = slider_theta;  /* cylinder.angle */
-    phi[8] = crank_theta - motor_value;  /* motor */
+    phi[0] = arm_crank_head_x - crank_x;  /* O.x, m */
+    phi[1] = arm_crank_head_y - crank_y;  /* O.y, m */
+    phi[2] = arm_crank_head_x + arm_rod_head_x + crank_x - rod_x;  /* crankpin.x, m */
+    phi[3] = arm_crank_head_y + arm_rod_head_y + crank_y - rod_y;  /* crankpin.y, m */
+    phi[4] = arm_rod_head_x + rod_x - slider_x;  /* wristpin.x, m */
+    phi[5] = arm_rod_head_y + rod_y - slider_y;  /* wristpin.y, m */
+    phi[6] = slider_y;  /* cylinder.offset, m */
+    phi[7] = slider_theta;  /* cylinder.angle, rad */
+    phi[8] = crank_theta - motor_value;  /* motor, rad */
 }
 
 /*
@@ -103,21 +103,20 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
-    (void)t;
-    (void)q;
+    (void)t, (void)q;
     /* directions, arms, drives */
     const double motor_rate = p->omega;
 
     /* rows */
-    nu[0] = 0.0;  /* O.x */
-    nu[1] = 0.0;  /* O.y */
-    nu[2] = 0.0;  /* crankpin.x */
-    nu[3] = 0.0;  /* crankpin.y */
-    nu[4] = 0.0;  /* wristpin.x */
-    nu[5] = 0.0;  /* wristpin.y */
-    nu[6] = 0.0;  /* cylinder.offset */
-    nu[7] = 0.0;  /* cylinder.angle */
-    nu[8] = motor_rate;  /* motor */
+    nu[0] = 0.0;  /* O.x, m/s */
+    nu[1] = 0.0;  /* O.y, m/s */
+    nu[2] = 0.0;  /* crankpin.x, m/s */
+    nu[3] = 0.0;  /* crankpin.y, m/s */
+    nu[4] = 0.0;  /* wristpin.x, m/s */
+    nu[5] = 0.0;  /* wristpin.y, m/s */
+    nu[6] = 0.0;  /* cylinder.offset, m/s */
+    nu[7] = 0.0;  /* cylinder.angle, rad/s */
+    nu[8] = motor_rate;  /* motor, rad/s */
 }
 
 /*
@@ -144,17 +143,17 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double motor_acceleration = 0.0;
 
     /* rows */
-    gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* O.x */
-    gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* O.y */
-    /* crankpin.x */
+    gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* O.x, m/s^2 */
+    gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* O.y, m/s^2 */
+    /* crankpin.x, m/s^2 */
     gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega * rod_omega);
-    /* crankpin.y */
+    /* crankpin.y, m/s^2 */
     gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega * rod_omega);
-    gamma_rows[4] = arm_rod_head_x*(rod_omega * rod_omega);  /* wristpin.x */
-    gamma_rows[5] = arm_rod_head_y*(rod_omega * rod_omega);  /* wristpin.y */
-    gamma_rows[6] = 0.0;  /* cylinder.offset */
-    gamma_rows[7] = 0.0;  /* cylinder.angle */
-    gamma_rows[8] = motor_acceleration;  /* motor */
+    gamma_rows[4] = arm_rod_head_x*(rod_omega * rod_omega);  /* wristpin.x, m/s^2 */
+    gamma_rows[5] = arm_rod_head_y*(rod_omega * rod_omega);  /* wristpin.y, m/s^2 */
+    gamma_rows[6] = 0.0;  /* cylinder.offset, m/s^2 */
+    gamma_rows[7] = 0.0;  /* cylinder.angle, rad/s^2 */
+    gamma_rows[8] = motor_acceleration;  /* motor, rad/s^2 */
 }
 
 /*
@@ -162,8 +161,7 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
  */
 void start_values(const Parameters *p, double *guess, double *set, double *rates)
 {
-    (void)set;
-    (void)rates;
+    (void)set, (void)rates;
     /* start */
     guess[0] = 0.0;  /* start.guess.rod.theta */
     guess[1] = p->guess_slider_x;  /* start.guess.slider.x */
@@ -176,9 +174,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
     double *reactions, double *torques, double *series, double *energy)
 {
-    (void)t;
-    (void)q;
-    (void)series;
+    (void)t, (void)q, (void)series;
     /* coordinates, velocities, time */
     const double crank_vx = v[0];
     const double crank_vy = v[1];

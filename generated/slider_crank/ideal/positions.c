@@ -28,7 +28,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     /* groups of rows that are solved one after the other */
     const double pivot_cylinder_offset = span_rod_head_x;
     const double size_cylinder_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_cylinder_offset) > 3.162277660168379e-07 * size_cylinder_offset__rod_theta))
+    if (!(fabs(pivot_cylinder_offset) > SINGULAR_SQUARE * size_cylinder_offset__rod_theta))
         return 1;
     const double inverse_cylinder_offset = 1.0/pivot_cylinder_offset;
 
@@ -41,8 +41,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     /* results */
     step[0] = step_rod_theta;
     rates[0] = rate_rod_theta;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_cylinder_offset));
+    *worst = max_of(0.0, fabs(phi_cylinder_offset));
     return 0;
 }
 
@@ -114,13 +113,12 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
 
     /* rates of the closures */
     const double phi_dot_cylinder_offset = motor_rate*span_crank_head_x + rod_omega*span_rod_head_x;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_dot_cylinder_offset));
+    *worst = max_of(0.0, fabs(phi_dot_cylinder_offset));
 
     /* groups of rows that are solved one after the other */
     const double pivot_cylinder_offset = span_rod_head_x;
     const double size_cylinder_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_cylinder_offset) > 3.162277660168379e-07 * size_cylinder_offset__rod_theta))
+    if (!(fabs(pivot_cylinder_offset) > SINGULAR_SQUARE * size_cylinder_offset__rod_theta))
         return 1;
     const double inverse_cylinder_offset = 1.0/pivot_cylinder_offset;
 

@@ -37,11 +37,11 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     const double arm_rod_crankpin_y = p->rod_points_crankpin_x*sin_theta_rod;
 
     /* rows */
-    phi[0] = -crank_x;  /* O.x */
-    phi[1] = -crank_y;  /* O.y */
-    phi[2] = arm_crank_head_x - arm_rod_crankpin_x + crank_x - rod_x;  /* pin.x */
-    phi[3] = arm_crank_head_y - arm_rod_crankpin_y + crank_y - rod_y;  /* pin.y */
-    phi[4] = rod_y;  /* slider.offset */
+    phi[0] = -crank_x;  /* O.x, m */
+    phi[1] = -crank_y;  /* O.y, m */
+    phi[2] = arm_crank_head_x - arm_rod_crankpin_x + crank_x - rod_x;  /* pin.x, m */
+    phi[3] = arm_crank_head_y - arm_rod_crankpin_y + crank_y - rod_y;  /* pin.y, m */
+    phi[4] = rod_y;  /* slider.offset, m */
 }
 
 /*
@@ -83,15 +83,13 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
  */
 void velocity_rhs(const double t, const double *q, const Parameters *p, double *nu)
 {
-    (void)t;
-    (void)q;
-    (void)p;
+    (void)t, (void)q, (void)p;
     /* rows */
-    nu[0] = 0.0;  /* O.x */
-    nu[1] = 0.0;  /* O.y */
-    nu[2] = 0.0;  /* pin.x */
-    nu[3] = 0.0;  /* pin.y */
-    nu[4] = 0.0;  /* slider.offset */
+    nu[0] = 0.0;  /* O.x, m/s */
+    nu[1] = 0.0;  /* O.y, m/s */
+    nu[2] = 0.0;  /* pin.x, m/s */
+    nu[3] = 0.0;  /* pin.y, m/s */
+    nu[4] = 0.0;  /* slider.offset, m/s */
 }
 
 /*
@@ -117,13 +115,13 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
     const double arm_rod_crankpin_y = p->rod_points_crankpin_x*sin_theta_rod;
 
     /* rows */
-    gamma_rows[0] = 0.0;  /* O.x */
-    gamma_rows[1] = 0.0;  /* O.y */
-    /* pin.x */
+    gamma_rows[0] = 0.0;  /* O.x, m/s^2 */
+    gamma_rows[1] = 0.0;  /* O.y, m/s^2 */
+    /* pin.x, m/s^2 */
     gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) - arm_rod_crankpin_x*(rod_omega * rod_omega);
-    /* pin.y */
+    /* pin.y, m/s^2 */
     gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) - arm_rod_crankpin_y*(rod_omega * rod_omega);
-    gamma_rows[4] = 0.0;  /* slider.offset */
+    gamma_rows[4] = 0.0;  /* slider.offset, m/s^2 */
 }
 
 /*
@@ -145,8 +143,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 void outputs(const double t, const double *q, const double *v, const Parameters *p, const double *lambda,
     double *reactions, double *torques, double *series, double *energy)
 {
-    (void)t;
-    (void)torques;
+    (void)t, (void)torques;
     /* coordinates, velocities, time */
     const double crank_x = q[0];
     const double crank_y = q[1];

@@ -6,6 +6,7 @@
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
+/* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct {
     Lanes crank_mass;
     Lanes crank_inertia;
@@ -114,8 +115,7 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const Lanes crank_theta = q[0];
     const Lanes crank_omega = v[0];
@@ -212,8 +212,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const Lanes crank_theta = q[0];
     const Lanes crank_omega = v[0];
@@ -268,8 +267,7 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     dv[0] = dv_acceleration_crank_theta;
     dq[1] = dq_acceleration_rod_theta;
     dv[1] = dv_acceleration_rod_theta;
-    *worst = all_of(0.0);
-    *worst = lanes_max_of(*worst, lanes_fabs(phi_slider_offset));
+    *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_slider_offset));
 }
 
 #include "engine/batch/lane_steps.c"

@@ -8,50 +8,55 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define N_Q 6                 /* coordinates of all bodies */
-#define N_ROWS 5              /* constraint rows of the motion */
-#define N_ALL_ROWS 5          /* rows of the closed linkage */
-#define N_JOINTS 3            /* joints without play */
-#define N_DRIVES 0            /* drives */
-#define N_CLEARANCES 0        /* joints with play */
-#define LAW_STATES 0          /* inner states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0         /* slips that friction may hold */
-#define N_SWITCHES 0          /* corners of min, max, abs and sign */
-#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
-#define N_SERIES 5            /* results of force elements */
-#define SINGULAR 1e-13        /* share of a row that is left where it depends on others */
-#define NEARLY_SINGULAR 1e-08 /* the same, where it nearly does */
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
-#define N_X 2                 /* coordinates that are integrated */
-#define N_LOOPS 1             /* constraint rows of these */
-#define N_CHAIN 0             /* coordinates that drives determine through loops */
-#define N_LED 0               /* these, cosines and sines of angles */
-#define SMOOTH_CHAINS 0       /* their drives have no corners */
-#define TREE_PIVOTS 0         /* statuses of chains follow these */
-#define RESCUED 1             /* pivots may vanish: all bodies' equations help */
-#define LARGEST_BLOCK 0       /* rows that are solved together */
-#define N_VALUES 19           /* of the linearized equations */
-#define N_FACTORS 8           /* of their factors L and U */
-#define HAS_LANES 1           /* runs go side by side */
-#define N_CORNERS 0           /* corners of drives, whose rate jumps there */
-#define RATE_JUMPS 0          /* the rate of some drive may jump */
-#define N_WATCHED 0           /* corners of expressions, and events */
-#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
-#define WATCHES_STATE 0       /* they hang on more than time */
-#define N_TERMS 0             /* terms of time alone, which may hide within a step */
-#define N_GUESS 2             /* coordinates that the start guesses */
-#define GUESSED_POINTS 0      /* some of them are those of points */
-#define N_SET 1               /* those that it sets */
-#define N_RATES 1             /* velocities that it sets */
+#define N_Q 6               /* coordinates of all bodies */
+#define N_ROWS 5            /* constraint rows of the motion */
+#define N_ALL_ROWS 5        /* rows of the closed linkage */
+#define N_JOINTS 3          /* joints without play */
+#define N_DRIVES 0          /* drives */
+#define N_CLEARANCES 0      /* joints with play */
+#define LAW_STATES 0        /* inner states of the laws of a joint with play, at most */
+#define N_FRICTIONS 0       /* slips that friction may hold */
+#define N_SWITCHES 0        /* corners of min, max, abs and sign */
+#define N_USER_EVENTS 0     /* expressions whose zeros are watched */
+#define N_SERIES 5          /* results of force elements */
+#define INTEGRATES 1        /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1              /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0 /* the same, where they follow */
+#define N_X 2               /* coordinates that are integrated */
+#define N_LOOPS 1           /* constraint rows of these */
+#define N_CHAIN 0           /* coordinates that drives determine through loops */
+#define N_LED 0             /* these, cosines and sines of angles */
+#define SMOOTH_CHAINS 0     /* their drives have no corners */
+#define TREE_PIVOTS 0       /* statuses of chains follow these */
+#define RESCUED 1           /* pivots may vanish: all bodies' equations help */
+#define LARGEST_BLOCK 0     /* rows that are solved together */
+#define N_VALUES 19         /* of the linearized equations */
+#define N_FACTORS 8         /* of their factors L and U */
+#define HAS_LANES 1         /* runs go side by side */
+#define N_CORNERS 0         /* corners of drives, whose rate jumps there */
+#define RATE_JUMPS 0        /* the rate of some drive may jump */
+#define N_WATCHED 0         /* corners of expressions, and events */
+#define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */
+#define WATCHES_STATE 0     /* they hang on more than time */
+#define N_TERMS 0           /* terms of time alone, which may hide within a step */
+#define N_GUESS 2           /* coordinates that the start guesses */
+#define GUESSED_POINTS 0    /* some of them are those of points */
+#define N_SET 1             /* those that it sets */
+#define N_RATES 1           /* velocities that it sets */
+
+/* A row fails where less than such a share of it is left by the others: */
+#define SINGULAR 1e-13                        /* where it depends on others */
+#define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
+#define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
+#define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 /* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
 typedef struct {
     double crank_mass;  /* bodies.crank.mass, kg */
-    double crank_inertia;  /* bodies.crank.inertia, kg m^2 */
+    double crank_inertia;  /* bodies.crank.inertia, kg*m^2 */
     double rod_mass;  /* bodies.rod.mass, kg */
-    double rod_inertia;  /* bodies.rod.inertia, kg m^2 */
+    double rod_inertia;  /* bodies.rod.inertia, kg*m^2 */
     double crank_length;  /* bodies.crank.length, m */
     double crank_points_middle_x;  /* bodies.crank.points.middle.x, m */
     double rod_points_crankpin_x;  /* bodies.rod.points.crankpin.x, m */
@@ -60,10 +65,10 @@ typedef struct {
     double alpha;  /* baumgarte.alpha, 1/s */
     double beta;  /* baumgarte.beta, 1/s */
     double slider_direction_x;  /* joints.slider.direction.x, 1 */
-    double coil_stiffness;  /* forces.coil.stiffness, kg/s^2 */
+    double coil_stiffness;  /* forces.coil.stiffness, N/m */
     double coil_free_length;  /* forces.coil.free_length, m */
-    double coil_damping;  /* forces.coil.damping, kg/s */
-    double push_value_x;  /* forces.push.value.x, kg m/s^2 */
+    double coil_damping;  /* forces.coil.damping, N*s/m */
+    double push_value_x;  /* forces.push.value.x, N */
     double guess_rod_theta;  /* start.guess.rod.theta, rad */
     double guess_rod_x;  /* start.guess.rod.x, m */
     double set_crank_theta;  /* start.set.crank.theta, rad */
@@ -71,17 +76,17 @@ typedef struct {
     double beta_squared;  /* beta^2, 1/s^2 */
     double inverse_rod_mass;  /* 1/M, 1/kg */
     double inverse_crank_mass;  /* 1/M, 1/kg */
-    double inverse_crank_inertia;  /* 1/M, 1/(kg m^2) */
-    double inverse_rod_inertia;  /* 1/M, 1/(kg m^2) */
+    double inverse_crank_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_rod_inertia;  /* 1/M, 1/(kg*m^2) */
     double rod_com_span_x;  /* vector in its frame, m */
     double rod_middle_span_x;  /* vector in its frame, m */
     double rod_tip_span_x;  /* vector in its frame, m */
-    double inertia_crank_crank;  /* sum of m w.w, kg m^2 */
-    double inertia_crank_rod;  /* sum of m w.w, kg m^2 */
-    double inertia_rod_rod;  /* sum of m w.w, kg m^2 */
-    double mass_crank_crank;  /* constant of M, kg m^2 */
-    double mass_rod_rod;  /* constant of M, kg m^2 */
-    double inverse_mass_crank_crank;  /* 1/M, 1/(kg m^2) */
+    double inertia_crank_crank;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank_rod;  /* sum of m w.w, kg*m^2 */
+    double inertia_rod_rod;  /* sum of m w.w, kg*m^2 */
+    double mass_crank_crank;  /* constant of M, kg*m^2 */
+    double mass_rod_rod;  /* constant of M, kg*m^2 */
+    double inverse_mass_crank_crank;  /* 1/M, 1/(kg*m^2) */
 } Parameters;
 
 #include "engine/scene/types.h"

@@ -5,8 +5,7 @@
 void linearize(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     const double *a, const Aside *aside, Linear *lin)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double crank_theta = q[0];
     const double crank_omega = v[0];
@@ -198,7 +197,7 @@ int newton_factor(double eta, Linear *lin)
 
     /* L U */
     const double scale_crank_theta = n_crank_theta__crank_theta;
-    if (!(fabs(scale_crank_theta) > 1e-13 * fabs(n_crank_theta__crank_theta)))
+    if (!(fabs(scale_crank_theta) > SINGULAR * fabs(n_crank_theta__crank_theta)))
         return 1;
     const double inverse_pivot_crank_theta = 1.0/scale_crank_theta;
     lin->lu[0] = inverse_pivot_crank_theta;
@@ -208,7 +207,7 @@ int newton_factor(double eta, Linear *lin)
     const double l_slider_offset__crank_theta = inverse_pivot_crank_theta*n_slider_offset__crank_theta;
     lin->lu[3] = l_slider_offset__crank_theta;
     const double scale_rod_theta = -l_rod_theta__crank_theta*n_crank_theta__rod_theta + n_rod_theta__rod_theta;
-    if (!(fabs(scale_rod_theta) > 1e-13 * fabs(n_rod_theta__rod_theta)))
+    if (!(fabs(scale_rod_theta) > SINGULAR * fabs(n_rod_theta__rod_theta)))
         return 2;
     const double inverse_pivot_rod_theta = 1.0/scale_rod_theta;
     lin->lu[4] = inverse_pivot_rod_theta;
@@ -309,12 +308,13 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[6] = eta*r[6];
 }
 
-/* Where parts of the linearization are in `value`. */static const LinearEntry phi_q_entries[] = {
+/* Where parts of the linearization are in `value`. */
+static const LinearEntry phi_q_entries[] = {
     {2, 0, 1, 1}, {2, 1, 2, 1}
 };
 static const LinearEntry residual_entries[] = {
-    {2, 0, 3, 1}, {2, 1, 4, 1}, {0, 0, 5, 1}, {0, 1, 6, 1}, {1, 0, 7, 1}, {1, 1, 8, 1}, {2, 2, 9, 1}, {2, 3,
-    10, 1}, {0, 2, 11, 1}, {0, 3, 12, 1}, {1, 2, 13, 1}, {1, 3, 14, 1}
+    {2, 0, 3, 1}, {2, 1, 4, 1}, {0, 0, 5, 1}, {0, 1, 6, 1}, {1, 0, 7, 1}, {1, 1, 8, 1}, {2, 2, 9, 1},
+    {2, 3, 10, 1}, {0, 2, 11, 1}, {0, 3, 12, 1}, {1, 2, 13, 1}, {1, 3, 14, 1}
 };
 static const LinearEntry residual_t_entries[] = {
     {0, 0, 0, 0}
@@ -344,8 +344,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
-    (void)memory;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double crank_theta = q[0];
     const double crank_omega = v[0];
@@ -400,7 +399,6 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     dv[0] = dv_acceleration_crank_theta;
     dq[1] = dq_acceleration_rod_theta;
     dv[1] = dv_acceleration_rod_theta;
-    *worst = 0.0;
-    *worst = max_of(*worst, fabs(phi_slider_offset));
+    *worst = max_of(0.0, fabs(phi_slider_offset));
     return 0;
 }

@@ -20,9 +20,9 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->coil_free_length = is_given[13] ? given[13] : 1.0;  /* forces.coil.free_length */
     p->coil_damping = is_given[14] ? given[14] : 1.0;  /* forces.coil.damping */
     p->push_value_x = is_given[15] ? given[15] : 1.0;  /* forces.push.value.x */
-    p->guess_rod_theta = is_given[16] ? given[16] : -0.5235987755982988;  /* start.guess.rod.theta */
+    p->guess_rod_theta = is_given[16] ? given[16] : -PI/6.0;  /* start.guess.rod.theta */
     p->guess_rod_x = is_given[17] ? given[17] : 0.87;  /* start.guess.rod.x */
-    p->set_crank_theta = is_given[18] ? given[18] : 1.5707963267948966;  /* start.set.crank.theta */
+    p->set_crank_theta = is_given[18] ? given[18] : PI/2.0;  /* start.set.crank.theta */
 
     /* derived */
     p->two_alpha = 2.0*p->alpha;  /* 2 alpha */

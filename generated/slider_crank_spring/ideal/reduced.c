@@ -53,8 +53,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
  */
 void reduce_state(const double t, const double *q, const double *v, const Parameters *p, double *s, double *s_rate)
 {
-    (void)t;
-    (void)p;
+    (void)t, (void)p;
     /* coordinates, velocities, time */
     const double crank_theta = q[2];
     const double crank_omega = v[2];
@@ -74,10 +73,7 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 void reduce_accelerations(const double t, const double *q, const double *v, const double *all_a, const Parameters *p,
     double *a)
 {
-    (void)t;
-    (void)q;
-    (void)v;
-    (void)p;
+    (void)t, (void)q, (void)v, (void)p;
     /* tree coordinates */
     a[0] = all_a[2];  /* crank */
     a[1] = all_a[5];  /* rod */

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 
 import sympy as sp
 
+from gudgeon.generator.field import Field
+from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.targets.c.printer import comment_text
-from gudgeon.language.units import DIMENSIONLESS, Dimension
+from gudgeon.language.units import DIMENSIONLESS, POWER, PRESSURE, VISCOSITY, Dimension
 
-_BASE = (("kg", "mass"), ("m", "length"), ("s", "time"))
+_NAMED = {PRESSURE: "Pa", VISCOSITY: "Pa*s", POWER: "W"}
 
 
 def parameter_fields(slots: Slots) -> list[tuple[str, str]]:
@@ -20,7 +23,7 @@ def parameter_fields(slots: Slots) -> list[tuple[str, str]]:
     for entry in slots.entries.values():
         known[entry.symbol] = entry.dimension
         turn = entry.address.endswith(".theta") and entry.dimension == DIMENSIONLESS
-        unit = "rad" if turn else unit_text(entry.dimension)
+        unit = "rad" if turn else _unit_of_law(entry.address) or unit_text(entry.dimension)
         fields.append((slots.field(entry.symbol), comment_text(f"{entry.address}, {unit}")))
     for symbol, value in slots.derived.items():
         known[symbol] = _dimension(value, known)
@@ -30,18 +33,30 @@ def parameter_fields(slots: Slots) -> list[tuple[str, str]]:
     return fields
 
 
+def _unit_of_law(address: str) -> str:
+    """What a law says of its number whose unit hangs on another one: "force at unit penetration, N/m^n"."""
+    field: Field | None = FILE if address.startswith("contacts.") else None
+    for part in address.split("."):
+        field = field and field.below(part)
+    return field.meaning if field and field.any_dimension else ""
+
+
 def unit_text(dimension: Dimension) -> str:
-    """In SI base units: kg m^2/s^2; 1 of a plain number, rad too."""
-
-    def powers(sign: int) -> str:
-        named = ((unit, sign * getattr(dimension, what)) for unit, what in _BASE)
-        return " ".join(
-            unit if n == 1 else f"{unit}^{n}" if n.denominator == 1 else f"{unit}^({n})" for unit, n in named if n > 0
-        )
-
-    above, below = powers(1), powers(-1)
-    many = f"({below})" if " " in below else below
+    """As people write it: N*m, Pa, N*s/m^1.5, kg*m^2; 1 of a plain number, rad too."""
+    if unit := _NAMED.get(dimension):
+        return unit
+    powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time}
+    if dimension.mass == 1 and dimension.time in (-1, -2):
+        powers = {"N": Fraction(1), "m": dimension.length - 1, "s": dimension.time + 2}
+    above, below = _product(powers), _product({unit: -n for unit, n in powers.items()})
+    many = f"({below})" if "*" in below else below
     return f"{above or 1}/{many}" if below else above or "1"
+
+
+def _product(powers: Mapping[str, Fraction]) -> str:
+    """Of those above zero: N*s, m^1.5."""
+    exact = {unit: f"{float(n):g}" if n.denominator in (1, 2, 4) else f"({n})" for unit, n in powers.items() if n > 0}
+    return "*".join(unit if n == "1" else f"{unit}^{n}" for unit, n in exact.items())
 
 
 def _dimension(value: sp.Expr, known: dict[sp.Symbol, Dimension | None]) -> Dimension | None:

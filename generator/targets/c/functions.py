@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import sympy as sp
 
@@ -89,8 +89,10 @@ class Lines(Text):
                 return self._rescue(item)
             case Largest():
                 name = f"*{item.target}"
-                largest = (f"{name} = max_of({name}, fabs({self.expression(x)}));" for x in item.values)
-                return [f"{name} = 0.0;", *largest]
+                before = ["0.0", *[name] * len(item.values)]
+                largest = [f"{name} = max_of({old}, fabs({self.expression(x)}));"
+                           for old, x in zip(before, item.values, strict=False)]
+                return largest or [f"{name} = 0.0;"]
             case LargestRow():
                 return self._largest_row(item)
             case Unread():
@@ -192,6 +194,13 @@ def shared_call(call: SharedCall, given: Sequence[str], results: Sequence[str], 
     return f"{call.kernel.name}({', '.join([*given, *call.numbers, *held, *results])});"
 
 
+def unread_sides(calls: Iterable[SharedCall], statements: Iterable[Statement] = ()) -> list[str]:
+    """Which of `side` and `g` neither the calls, if they have corners, nor the statements read."""
+    read = NONE.union(*(line.reads for line in statements))
+    corners = any(call.corner is not None for call in calls)
+    return [] if corners else [name for name in ("side", "g") if name not in read]
+
+
 def arguments(items: tuple[Argument, ...]) -> str:
     return ", ".join(f"{a.type}{a.name}" if a.type.endswith("*") else f"{a.type} {a.name}" for a in items)
 
@@ -222,14 +231,15 @@ def function(
         "\n".join([*([f"    /* {comment_text(section.title)} */"] * bool(section.title)),
                    *map(writer.line, section.statements)])
         for section in own.sections
-    )  # fmt: skip
+    ) or "    /* this scene has none */"  # fmt: skip
     touched |= _touched(item)
-    voids = "".join(f"    (void){a.name};\n" for a in item.arguments if a.name not in touched)
+    unread = ", ".join(f"(void){a.name}" for a in item.arguments if a.name not in touched)
+    voids = "".join(f"{line}\n" for line in broken(f"    {unread};")) if unread else ""
     doc = "\n".join(f" * {comment_text(text)}" for text in item.doc)
     attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""
     inline = "inline " if item.inline else ""
     static = "" if called else "static "
     head = f"{attribute}{static}{inline}{item.returns} {item.name}({arguments(item.arguments)})"
-    wrapped = textwrap.wrap(head.replace("const ", "const\0").replace(" *", "\1*"), WIDTH, subsequent_indent="    ")
-    head = "\n".join(wrapped).replace("\0", " ").replace("\1", " ")  # no break inside a type
+    together = head.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # an argument is never parted
+    head = "\n".join(textwrap.wrap(together, WIDTH, subsequent_indent="    ")).replace("\0", " ")
     return f"/*\n{doc}\n */\n{head}\n{{\n{voids}{body}\n}}\n"

@@ -130,8 +130,10 @@ class LaneLines(functions.Lines):
                 return [f"{item.function}({', '.join(given)});"]
             case Largest():
                 name = f"*{item.target}"
-                texts = [f"{name} = lanes_max_of({name}, lanes_fabs({self.expression(x)}));" for x in item.values]
-                return [f"{name} = all_of(0.0);", *texts]
+                before = ["all_of(0.0)", *[name] * len(item.values)]
+                largest = [f"{name} = lanes_max_of({old}, lanes_fabs({self.expression(x)}));"
+                           for old, x in zip(before, item.values, strict=False)]
+                return largest or [f"{name} = all_of(0.0);"]
             case Sines():
                 return super()._lines(item)
         raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")

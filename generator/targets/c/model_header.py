@@ -16,7 +16,8 @@ from gudgeon.generator.kernels import outputs
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.time_terms import count_terms
-from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR, SINGULAR
+from gudgeon.generator.solvers.kkt import EARLY, KKT, NEARLY_SINGULAR, SINGULAR, VANISHING
+from gudgeon.generator.solvers.square_rows import SHARE
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.fields import parameter_fields
 from gudgeon.generator.targets.c.layout import broken
@@ -29,6 +30,16 @@ _OF_JOINTS = {
     "deepest": "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
     "slowest_impact": "The least velocity that counts as that of an impact, m/s.",
 }
+_THRESHOLDS: Sizes = {
+    limit.name: (limit, meaning)
+    for limit, meaning in (
+        (SINGULAR, "where it depends on others"),
+        (NEARLY_SINGULAR, "where it nearly does"),
+        (VANISHING, "where one of a joint's two rows vanishes: links in one line"),
+        (EARLY, "of two rows that are solved before all of their coordinates"),
+        (SHARE, "of as many rows as unknowns: the root of SINGULAR"),
+    )
+}
 _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_squared", "stick": "stick_gain"}
 
 
@@ -39,8 +50,8 @@ def header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
     return {
         "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
         "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": parameter_fields(model.slots),
-        "sizes": _defines(of_scene), "tables": _tables(program, of_scene), "of_joints": _of_joints(model),
-        "gains": _gains(program),
+        "sizes": _defines(of_scene), "thresholds": _defines(_THRESHOLDS), "tables": _tables(program, of_scene),
+        "of_joints": _of_joints(model), "gains": _gains(program),
     }  # fmt: skip
 
 
@@ -64,8 +75,6 @@ def _of_linkage(program: Program) -> Sizes:
         "N_SWITCHES": (switches, "corners of min, max, abs and sign"),
         "N_USER_EVENTS": (len(model.events), "expressions whose zeros are watched"),
         "N_SERIES": (len(outputs.element_series(model)), "results of force elements"),
-        "SINGULAR": (SINGULAR, "share of a row that is left where it depends on others"),
-        "NEARLY_SINGULAR": (NEARLY_SINGULAR, "the same, where it nearly does"),
     }  # fmt: skip
 
 

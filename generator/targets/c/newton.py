@@ -60,9 +60,10 @@ def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> st
     def call(part: str, result: str, *given: str) -> str:
         return functions.shared_call(calls[part], given or _STATE, (result,))
 
+    unread = functions.unread_sides(calls.values())
     if clearance.normal is None:
-        return f"    {call('film', 'out')}"
-    lines = [f"const double delta = e - {c};"]
+        return "\n".join(f"    {line}" for line in (*(f"(void){name};" for name in unread), call("film", "out")))
+    lines = [*["(void)g;"] * ("g" in unread), f"const double delta = e - {c};"]
     if clearance.film is None:
         lines += ["*out = (PinSlopes){0};", f"if ({_CLOSED})", f"    {call('dry', 'out')}"]
     else:
@@ -76,4 +77,5 @@ def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> st
 def _table(entries: list[tuple[int, int, int, int]]) -> str:
     """Rows of a table; an empty one holds a row that nobody reads."""
     rows = [f"{{{', '.join(map(str, entry))}}}" for entry in entries] or ["{0, 0, 0, 0}"]
-    return textwrap.fill(", ".join(rows), 110, initial_indent="    ", subsequent_indent="    ")
+    together = " ".join(f"{row},".replace(" ", "\0") for row in rows).removesuffix(",")  # a row is never parted
+    return textwrap.fill(together, 110, initial_indent="    ", subsequent_indent="    ").replace("\0", " ")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.statements import Statement
@@ -37,12 +38,15 @@ def clearance_code(pin: Pin, render: Render, states: int) -> str:
     parts = []
     if clearance.normal is not None:
         ratio = {"ratio": _RATIO, "ratio_name": "unclipped" if clearance.clip_ratio else "ratio"}
-        steps = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
+        steps: dict[str, Any] = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
         steps["law"] = calls_of_dry(pin, ("max_of(delta, 0.0)", "ratio"), "double")
+        laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
+        steps["unread"] = functions.unread_sides(laws, (*pin.before_dry, *pin.after_dry))
         steps["rates"] = _braced("rate", clearance, states)
         parts.append(render("play/dry.c.jinja", joint=joint, **ratio, **steps))
     if clearance.film is not None:
         steps = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": call_of_film(pin, "double")}
+        steps["unread"] = functions.unread_sides([pin.laws["film"]], (*pin.before_film, *pin.after_film))
         steps["rates"] = _braced("", clearance, states)
         parts.append(render("play/film.c.jinja", joint=joint, **steps))
     parts.append(

@@ -9,8 +9,8 @@ import sys
 import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
-from gudgeon.generator.ir.readable import Readable
-from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Value
+from gudgeon.generator.ir.readable import Readable, share_of_pi
+from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
 
 _PLAIN = Readable(())
 
@@ -33,13 +33,16 @@ class CPrinter(C99CodePrinter):
         return self.called(expr.name)
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
-        """A number such as 0.5 needs no brackets."""
+        """A number such as 0.5 needs no brackets; 2*PI/3 in a product does, for it is one number."""
+        if item.is_Float and (share := share_of_pi(item)) and not share.is_one:
+            return f"({self._print(item)})"
         if item.is_Rational and item.p > 0 and "/" not in (text := self._print(item)):
             return text
         return str(super().parenthesize(item, level, strict))
 
     def _print_Float(self, expr: sp.Float) -> str:
-        return _double(expr)
+        share = share_of_pi(expr)
+        return share.text("PI", ".0") if share else _double(expr)
 
     def _print_NumberSymbol(self, expr: sp.NumberSymbol) -> str:
         return repr(float(expr))
@@ -63,6 +66,8 @@ class CPrinter(C99CodePrinter):
 
     def _print_Mul(self, expr: sp.Mul) -> str:
         """A coefficient that binary64 has not stands as two numbers, one on each side of what it is a factor of."""
+        if share := share_of_pi(expr):
+            return share.text("PI", ".0")
         number, rest = expr.as_coeff_Mul()
         if is_normal(number):
             return str(super()._print_Mul(expr))
@@ -198,13 +203,19 @@ class Text:
                 return self.printer.doprint(value)
 
     def test(self, item: Test) -> str:
-        """A comparison; the numbers of its bound as they are."""
+        """A comparison."""
         value = self.expression(item.value)
         left = f"fabs({value})" if item.size else value
         if item.of_itself:
             return f"{left} > 0.0 && {value} < INFINITY" if not item.size else f"{value} != 0.0 && isfinite({value})"
-        bound = " * ".join(repr(x) if isinstance(x, float) else self.expression(x) for x in item.bound)
+        bound = " * ".join(map(self._factor, item.bound))
         return f"{left} {item.relation} {bound}" if item.relation else left
+
+    def _factor(self, value: sp.Basic | float) -> str:
+        """Of a bound: model.h has the names of thresholds."""
+        if isinstance(value, Threshold):
+            return value.name
+        return repr(value) if isinstance(value, float) else self.expression(value)
 
 
 _text = Text(CPrinter())

@@ -28,9 +28,13 @@ _NUMERICS = {
     "scene.c": "all files together, with what the engine adds to them: this one is compiled",
     "kernel.json": "names of everything for the Python runtime: coordinates, addresses, results",
 }  # fmt: skip
+# Where no freedom is left and nothing is integrated.
+_FOLLOWED = {
+    "reduced.c": "the same motion in few coordinates: there and back; its forces and powers, whose works are summed up",
+}
 _ENGINE = (
     "Time loops, methods, contacts, events and batches are the same for all scenes: plain C in the folder `engine`, of "
-    "which `engine/engine.c` is the table of contents. It reads the sizes in `model.h`."
+    "which `engine/README.md` says what to read first. It reads the sizes in `model.h`."
 )
 _COMPILED = "With `ROOT=..` where `gudgeon emit` wrote this, or gudgeon's own folder, which holds `engine` too:"
 
@@ -42,11 +46,11 @@ def readme(program: Program, files: Mapping[str, str], others: Collection[str] =
     equations = [name for name in _EQUATIONS if name in names]
     rest = [name for name in _NUMERICS if name in names]
     rest = [*(name for name in names if name not in (*equations, *rest)), *rest]
-    told = _EQUATIONS | _NUMERICS
+    told = _EQUATIONS | _NUMERICS | ({} if program.integrates else _FOLLOWED)
     return "\n".join([
         f"# {_plain(mechanism.title or mechanism.name)}: scene {scene.name}", "",
         f"C that gudgeon wrote for the mechanism `{mechanism.name}`. {_sizes(program)}", "",
-        *_first(equations), "", "## The equations, in the order in which they are to be read", "",
+        *_first(program, names), "", "## The equations, in the order in which they are to be read", "",
         *(f"- `{name}`: {told[name]}" for name in equations), "", "## How they are solved", "",
         *(f"- `{name}`: {told.get(name) or _comment(files.get(name, ''))}" for name in rest), "",
         *_calls(program, names),
@@ -67,16 +71,13 @@ def _count(some: Sized, one: str, many: str = "") -> str:
     return f"{len(some)} {one if len(some) == 1 else many or one + 's'}"
 
 
-def _first(equations: list[str]) -> list[str]:
-    main = "reduced.c" if "reduced.c" in equations else "dynamics.c"
+def _first(program: Program, names: Collection[str]) -> list[str]:
+    runs = next((name for name in ("positions.c", "reduced.c") if name in names), "")
+    follows = f", and `{runs}`, which is what runs" if runs else ""
     return [
-        f"Read `model.h` first, for the names, then `dynamics.c`, which is the textbook's{_shorter(main)}.",
+        f"Read `model.h` first, for the names, then `dynamics.c`, which is the textbook's{follows}.",
         "Units are SI; `q` and `v` are positions and velocities, `p` is the `Parameters` of a run.",
     ]
-
-
-def _shorter(main: str) -> str:
-    return ", and `reduced.c`, which is what runs" if main == "reduced.c" else ""
 
 
 def _calls(program: Program, names: Collection[str]) -> list[str]:

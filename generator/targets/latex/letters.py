@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from itertools import takewhile
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -22,6 +23,11 @@ class Name:
 
     latex: str
     text: str
+
+    @property
+    def room(self) -> int:
+        """About how many letters wide it is: a subscript is small, marks and signs take none."""
+        return 2 + sum(c.isascii() and (c.isalnum() or c == "_") for c in self.text) // 2
 
 
 def letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, raised: str = "") -> Name:
@@ -56,11 +62,14 @@ def word(name: str) -> Name:
 def of_latex(latex: str) -> Name:
     r"""A name that is given in LaTeX ("c_e", "\mu", "\sigma_{0}"), with its plain text."""
     known = {**{f"\\{name}": sign for name, sign in GREEK.items()}, **{v: GREEK[k] for k, v in _VARIANT.items()}}
-    text = re.sub(r"\\[A-Za-z]+", lambda m: known.get(m[0], "" if m[0] in _FONTS else m[0][1:]), latex)
-    return Name(latex, re.sub(r"[{}\s]", "", text))
+    text, *commands = latex.split("\\")
+    for part in commands:
+        word = "".join(takewhile(str.isalpha, part))
+        text += known.get(f"\\{word}", "" if word in _FONTS else word) + part.removeprefix(word)
+    return Name(latex, "".join(c for c in text if c not in "{}" and not c.isspace()))
 
 
-_FONTS = {r"\mathrm", r"\text", r"\mathit", r"\operatorname", r"\bar", r"\hat", r"\tilde"}
+_FONTS = {"mathrm", "text", "mathit", "operatorname", "bar", "hat", "tilde"}
 
 
 def _subscript(text: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -66,7 +65,7 @@ class Notation:
 
     @cached_property
     def _latex(self) -> TexPrinter:
-        return TexPrinter({symbol: name.latex for symbol, name in self.names.items()}, self.order)
+        return TexPrinter(self.names, self.order)
 
     @cached_property
     def _text(self) -> TextPrinter:
@@ -116,16 +115,14 @@ def _names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
         yield symbol, _temporary(model.symbols.info[symbol].meaning)
     for symbol in spans(model):
         yield symbol, _span(symbol.name)
-    arms = {f"arm_{body}_{point}": (body, point) for body, point in model.geometry.local}
     for symbol in turned(model):
-        wanted, _, axis = symbol.name.rpartition("_")
-        direction = re.fullmatch(r"axis_(\w+)_([xy])(?:_(\d+))?", symbol.name)  # numbered from a body's second one on
-        if wanted in arms:
-            yield symbol, letter("s", axis, *arms[wanted])
-        elif direction:
-            yield symbol, letter("u", direction[2], direction[1], *([direction[3]] if direction[3] else []))
-        else:
+        of = model.geometry.turned.get(symbol)
+        if of is None:
             yield symbol, letter(symbol.name)
+        elif of.point:
+            yield symbol, letter("s", of.axis, of.body, of.point)
+        else:  # numbered from a body's second one on
+            yield symbol, letter("u", of.axis, of.body, *([str(of.number)] if of.number > 1 else []))
 
 
 def of_address(address: str) -> Name:
@@ -165,16 +162,11 @@ def _letter_of(field: str) -> str:
 
 
 def _constant(model: Model, symbol: sp.Symbol) -> Name:
-    """A number that is computed once a run, by the joint, drive or element in whose name it was made."""
-    mechanism = model.scene.mechanism
-    for owner in (*mechanism.joints, *mechanism.forces):
-        if symbol.name.startswith(f"{owner}_"):
-            what = re.sub(r"_\d+$", "", symbol.name.removeprefix(f"{owner}_"))
-            base, _, axis = what.rpartition("_")
-            if axis in ("x", "y") and base:
-                return letter(_letter_of(base), axis, owner, hat=model.symbols.info[symbol].meaning == "unit vector")
-            return letter(_letter_of(what), owner)
-    return letter(symbol.name)
+    """A number that is computed once a run, by the joint or element for which it is."""
+    of = model.slots.of_owner.get(symbol)
+    if of is None:
+        return letter(symbol.name)
+    return letter(_letter_of(of.what), *([of.axis] if of.axis else []), of.owner, hat=bool(of.axis))
 
 
 def _temporary(meaning: str) -> Name:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from decimal import Decimal
 from typing import Any
@@ -11,6 +10,8 @@ import sympy as sp
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
+
+from gudgeon.generator.targets.latex.letters import Name
 
 LONG = 70  # characters of text beyond which a term is written so that a line may break inside it
 _NO_BODY = 1 << 30
@@ -91,16 +92,17 @@ class TextPrinter(_InOrder, StrPrinter):
 class TexPrinter(_InOrder, LatexPrinter):
     """LaTeX for amsmath. `long` prints a term that does not fit on a line so that it can break at its signs."""
 
-    def __init__(self, names: Mapping[sp.Symbol, str], order: Mapping[sp.Symbol, int], breakable: bool = False) -> None:
+    def __init__(
+        self, names: Mapping[sp.Symbol, Name], order: Mapping[sp.Symbol, int], breakable: bool = False
+    ) -> None:
         settings: dict[str, Any] = {
-            "symbol_names": dict(names), "fold_func_brackets": True, "inv_trig_style": "full",
+            "symbol_names": {symbol: name.latex for symbol, name in names.items()},
+            "fold_func_brackets": True, "inv_trig_style": "full",
             "root_notation": not breakable, "mul_symbol": r" \, ",
         }  # fmt: skip
         super().__init__(settings)
         self._order, self._breakable, self._names = order, breakable, names
-        # a subscript takes little room; neither does a LaTeX command
-        width = {symbol: "x" * (2 + len(re.sub(r"\\[a-z]+|\W", "", name)) // 2) for symbol, name in names.items()}
-        self._text = TextPrinter(width, order)
+        self._text = TextPrinter({symbol: "x" * name.room for symbol, name in names.items()}, order)
 
     def long(self, expr: sp.Expr) -> str:
         """`expr`, if it is long with brackets and fractions that a line may break in."""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import html
-import re
 import textwrap
 import unicodedata
 from functools import cache
 from importlib import resources
+from itertools import pairwise
+from xml.etree.ElementTree import Element, tostring
+from xml.sax.saxutils import unescape
 
 import jinja2
 
@@ -17,6 +19,7 @@ from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.tex_text import sketch_line, tex
 
 WIDTH = 100  # characters of a line of text
+_FUNCTIONS = ("sin", "cos", "tan")
 WIDE = 44  # characters of a column with running text
 
 
@@ -84,12 +87,21 @@ def _html_line(text: Text) -> str:
 def _mathml(name: Name) -> str:
     """A formula as MathML. Raises GudgeonError where the extra `docs` is not installed."""
     try:
-        from latex2mathml.converter import convert
+        from latex2mathml.converter import convert_to_element
     except ImportError as error:
         raise GudgeonError("HTML needs latex2mathml: pip install 'gudgeon[docs]'") from error
-    # a browser puts no space between a function's name and what it is of
-    function = r"(?<!<msup>)<mi>(sin|cos|tan)</mi>(?=<m[rs])"
-    return re.sub(function, r'\g<0><mspace width="0.167em"/>', str(convert(name.latex)).replace(r"\_", "_"))
+    formula = convert_to_element(name.latex)
+    for row in list(formula.iter()):
+        _space_functions(row)
+    return unescape(tostring(formula, encoding="unicode")).replace(r"\_", "_")
+
+
+def _space_functions(row: Element) -> None:
+    """A browser puts no space between a function's name and what it is of."""
+    for k, (word, of) in reversed(list(enumerate(pairwise(row)))):
+        base_of_power = row.tag == "msup" and k == 0
+        if word.tag == "mi" and word.text in _FUNCTIONS and of.tag.startswith(("mr", "ms")) and not base_of_power:
+            row.insert(k + 1, Element("mspace", {"width": "0.167em"}))
 
 
 def _plain_line(text: Text) -> str:

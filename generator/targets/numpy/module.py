@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping
 from types import SimpleNamespace
 from typing import Any
@@ -9,14 +10,26 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gudgeon.errors import ArrayError, BadValueError
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.ir.kernels import Kernel
+from gudgeon.generator.ir.statements import Guard
+from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.targets.numpy.layout import WIDTH, docstring, remark
 from gudgeon.generator.targets.numpy.play import pin
 from gudgeon.generator.targets.numpy.printer import function
+from gudgeon.language.quantities import number_of_text
+from gudgeon.language.suggestions import unknown
+from gudgeon.language.wanted import mapping, number_of
 
 Array = NDArray[np.float64]
-_HEAD = '"""The equations of a scene."""\n\nimport numpy as np'
+_ABOUT = (
+    "Its equations as functions, to be read: results go into the last arguments. Numbers are SI (m, kg, s, N, N*m), "
+    "angles rad; t is the time. p has a field a number, in the order of prepare(), which fills it: beside each is its "
+    "address in the file. q are the positions of the bodies' centres of mass and their angles, v are the rates of q:"
+)
 
 
 class ClosedLinkage:
@@ -30,18 +43,36 @@ class ClosedLinkage:
         kernels = [closed_linkage.mass_kernel(model), *closed_linkage.row_kernels(model),
                    closed_linkage.start_kernel(model), closed_linkage.prepare_kernel(model)]  # fmt: skip
         self.model, self.n, self.m = model, len(model.q), len(model.all_rows)
-        self.source = "\n\n\n".join([_HEAD, *map(function, kernels)]) + "\n"
+        self.source = "\n\n\n".join([_head(model), *map(function, kernels)]) + "\n"
         self.functions = _defined(self.source)
 
-    def prepare(self, given: Mapping[str, float] | None = None) -> SimpleNamespace:
-        """Every number of a run by its name: those given by their addresses, the others by default, what follows."""
-        addresses = list(self.model.slots.entries)
-        if given and (unknown := set(given) - set(addresses)):
-            raise KeyError(f"no number has the address {sorted(unknown)[0]!r}")
-        values = [float((given or {}).get(address, 0.0)) for address in addresses]
-        p = SimpleNamespace()
-        self.functions["prepare"](values, [address in (given or {}) for address in addresses], p)
+    def prepare(self, given: Mapping[str, float | str] | None = None) -> SimpleNamespace:
+        """Every number of a run by its name: those that are given, the others by default, what follows.
+
+        given: {address or parameter name: a float in SI, or "0.5 mm"}, as `simulate` takes them. Raises
+        UnknownNameError with the nearest; BadValueError for what is no number, or given by two spellings.
+        """
+        found = self._given(mapping(given, "given", "{address or parameter name: a float in SI, or '0.5 mm'}"))
+        addresses, p = self.model.slots.entries, SimpleNamespace()
+        values = [found.get(address, 0.0) for address in addresses]
+        self.functions["prepare"](values, [address in found for address in addresses], p)
         return p
+
+    def _given(self, given: Mapping[str, float | str]) -> dict[str, float]:
+        """By full addresses, in SI."""
+        entries, found = self.model.slots.entries, dict[str, float]()
+        for name, value in given.items():
+            address = name if name in entries else f"parameters.{name}"
+            if address not in entries:
+                known = (*(a.removeprefix("parameters.") for a in entries), *entries)
+                raise unknown(f"no number of this scene has the address {name!r}", name, tuple(dict.fromkeys(known)))
+            if address in found:
+                raise BadValueError(f"{address} is given twice, once as {name!r}", hint="give it once")
+            of = entries[address].dimension
+            exponents = (int(of.length), int(of.mass), int(of.time)) if of.is_whole else (0, 0, 0)
+            number = number_of_text(value, address, exponents) if isinstance(value, str) else value
+            found[address] = number_of(number, address)
+        return found
 
     def _filled(self, what: str, size: int, *arguments: Any) -> Array:
         out = np.zeros(size)
@@ -86,7 +117,8 @@ class NumPyModel(ClosedLinkage):
 
     def __init__(self, program: Program) -> None:
         super().__init__(program.model)
-        parts = [*map(function, program.laws), *map(pin, program.pins), function(program.dynamics)]
+        laws = [*map(function, program.laws), *map(pin, program.pins)]
+        parts = [*_thresholds(program.dynamics), *laws, function(program.dynamics)]
         self.program = program
         self.source += "\n\n" + "\n\n\n".join(parts) + "\n"
         self.functions = _defined(self.source)
@@ -97,17 +129,19 @@ class NumPyModel(ClosedLinkage):
     ) -> SimpleNamespace:  # fmt: skip
         """Accelerations a (n,), multipliers `lambda_`, forces `clearance`, powers: [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …].
 
-        `latches` (joints with play,): rate (m/s) with which a contact closed, NaN while it is open; `modes`
-        (frictions,): 0 stick, ±1 slip; `states` (joints with play, most states of a law): the laws' inner states, m,
-        whose rates are `clearance[i].state_rate`. `status` is 0, or the number of the pivot that vanished.
+        `latches` (joints with play,): rate (m/s) with which a contact closed, NaN while it is open; none given: all
+        are open. `modes` (frictions,): 0 stick, ±1 slip with that sign; a scene with friction that may stick must be
+        given them, for only a run finds out which it is. `states` (joints with play, most states of a law): the laws'
+        inner states, m, whose rates are `clearance[i].state_rate`. `status` is 0, or the number of the pivot that
+        vanished. Raises ArrayError for another number of latches or modes.
         """
         model = self.model
-        rates = np.resize(np.asarray([*np.atleast_1d(latches), np.nan], dtype=float), len(model.clearances))
+        rates = _one_each("latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances))
         bent = np.broadcast_to(np.asarray(states, dtype=float), (len(model.clearances), model.law_states)).tolist()
         memory = SimpleNamespace(
             latch=[SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), state=z)
                    for x, z in zip(rates, bent, strict=True)],
-            mode=np.resize(np.asarray([*np.atleast_1d(modes), 0.0], dtype=float), len(model.frictions)).tolist(),
+            mode=_one_each("modes", modes, [friction.name for friction in model.frictions]),
         )  # fmt: skip
         m = len(model.rows)
         aside = SimpleNamespace(
@@ -119,6 +153,39 @@ class NumPyModel(ClosedLinkage):
         with np.errstate(all="ignore"):
             aside.status = self.functions["dynamics"](t, _list(q), _list(v), memory, p, aside.a, aside)
         return aside
+
+
+def _head(model: Model) -> str:
+    """What the text is of, and how its vectors are ordered."""
+    mechanism = model.scene.mechanism
+    title = f"{mechanism.title or mechanism.name}: scene {model.scene.name} of the mechanism {mechanism.name}."
+    about = [*textwrap.wrap(title, WIDTH - 7), "", *textwrap.wrap(_ABOUT, WIDTH - 7), ""]
+    info = model.symbols.info
+    about += [
+        f"    q[{3 * k}:{3 * k + 3}], v[{3 * k}:{3 * k + 3}]: {', '.join(info[q].meaning for q in body.q)}"
+        for k, body in enumerate(model.bodies)
+    ]
+    return "\n".join([*docstring(about), "", "import numpy as np"])
+
+
+def _thresholds(kernel: Kernel) -> list[str]:
+    """Those that its tests name, as a part of the text; none of no names."""
+    tests = (line.test for section in kernel.sections for line in section.statements if isinstance(line, Guard))
+    bounds = (x for test in tests if isinstance(test, Test) and not test.of_itself for x in test.bound)
+    limits = {x.name: float(x) for x in bounds if isinstance(x, Threshold)}
+    head = remark("A row fails where less than such a share of it is left by the others.")
+    return ["\n".join([*head, *(f"{name} = {value!r}" for name, value in sorted(limits.items()))])] if limits else []
+
+
+def _one_each(what: str, values: ArrayLike, names: list[str], none: list[float] | None = None) -> list[float]:
+    """A number each; `none`: those where nothing is given."""
+    found = np.asarray(values, dtype=float)
+    if found.shape == (0,) and none is not None:
+        return none
+    if found.shape != (len(names),):
+        told = f"{what} of shape {found.shape}: expected ({len(names)},)"
+        raise ArrayError(told, hint=f"one each for {', '.join(names)}" if names else "this scene has none")
+    return _list(found)
 
 
 def _list(values: ArrayLike) -> list[float]:

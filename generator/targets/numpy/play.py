@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.shared import SharedCall
-from gudgeon.generator.targets.numpy.printer import docstring, indented, lines, name
+from gudgeon.generator.targets.numpy.layout import assigned, code, docstring, indented
+from gudgeon.generator.targets.numpy.printer import lines, name
 
 _DRY = ("F_n", "F_along_t_dry", "M_i_dry", "M_j_dry")
 _FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
@@ -27,7 +28,7 @@ def pin(own: Pin) -> str:
              "out.ex, out.ey, out.e, out.deltadot, out.delta = e_x, e_y, e, deltadot, delta",
              "out.moment_first, out.moment_second, out.power = F[2], F[3], 0.0"]  # fmt: skip
     head = f"def clearance_{joint}(e_x, e_y, de_x, de_y, omega_i, omega_j, latch, p, out):"
-    return "\n".join([head, *indented(body)])
+    return "\n".join([*code(head), *indented(body)])
 
 
 def _dry(own: Pin) -> list[str]:
@@ -37,15 +38,15 @@ def _dry(own: Pin) -> list[str]:
     rubs = _call(own.laws["friction"], "F_n", "v_t", *given) if "friction" in own.laws else "0.0"
     return [
         f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0", *lines(own.before_dry),
-        f"F_n = {_call(own.laws['normal'], 'delta', 'ratio')}",
-        f"{', '.join(['F_along_t_dry', *told])} = {rubs}",
+        *assigned("F_n", _call(own.laws["normal"], "delta", "ratio"), is_call=True),
+        *assigned(", ".join(["F_along_t_dry", *told]), rubs, is_call=True),
         *lines(own.after_dry), f"F = -F_n, {', '.join(_DRY[1:])}",
     ]  # fmt: skip
 
 
 def _film(own: Pin) -> list[str]:
-    called = f"F_r, F_along_t_film, T0 = {_call(own.laws['film'], 'epsilon', 'w_n', 'w_t')}"
-    return [*lines(own.before_film), called, *lines(own.after_film)]
+    film = assigned("F_r, F_along_t_film, T0", _call(own.laws["film"], "epsilon", "w_n", "w_t"), is_call=True)
+    return [*lines(own.before_film), *film, *lines(own.after_film)]
 
 
 def _call(call: SharedCall, *given: str) -> str:

@@ -10,7 +10,7 @@ from sympy.printing.pycode import PythonCodePrinter
 
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import Readable, readable
+from gudgeon.generator.ir.readable import Readable, readable, share_of_pi
 from gudgeon.generator.ir.readable import lines as readable_lines
 from gudgeon.generator.ir.statements import (
     Call,
@@ -25,7 +25,8 @@ from gudgeon.generator.ir.statements import (
     Status,
     When,
 )
-from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Value
+from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
+from gudgeon.generator.targets.numpy.layout import assigned, code, docstring, indented, remark
 
 _NAMES = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "Max": "maximum", "Min": "minimum",
           "Abs": "abs", "Size": "abs"}  # fmt: skip
@@ -57,7 +58,18 @@ class NumPyPrinter(PythonCodePrinter):
         return self.called(expr.name)
 
     def _print_Float(self, expr: sp.Float) -> str:
-        return repr(float(expr))
+        share = share_of_pi(expr)
+        return share.text("np.pi") if share else repr(float(expr))
+
+    def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+        """A share of π is one number."""
+        if item.is_Float and (share := share_of_pi(item)) and not share.is_one:
+            return f"({self._print(item)})"
+        return str(super().parenthesize(item, level, strict))
+
+    def _print_Mul(self, expr: sp.Mul) -> str:
+        share = share_of_pi(expr)
+        return share.text("np.pi") if share else str(super()._print_Mul(expr))
 
     def _print_Rational(self, expr: sp.Rational) -> str:
         return f"{int(expr.p)}/{int(expr.q)}"
@@ -74,6 +86,8 @@ class NumPyPrinter(PythonCodePrinter):
         base, exponent = expr.as_base_exp()
         if exponent in (sp.Rational(1, 2), sp.Rational(-1, 2)):
             return f"{'' if exponent > 0 else '1/'}np.sqrt({self._print(base)})"
+        if exponent == -1:
+            return f"1/{self.parenthesize(base, 60)}"
         if not exponent.is_integer:  # of a negative number it is none
             return f"np.power({self._print(base)}, {self._print(exponent)})"
         return f"{self.parenthesize(base, 70)}**{self.parenthesize(exponent, 70)}"
@@ -134,7 +148,7 @@ class Lines:
         self.printer = NumPyPrinter(of)
 
     def text(self, items: Iterable[Line]) -> list[str]:
-        """All that has a counterpart."""
+        """All that has a counterpart, in lines that fit."""
         return [text for item in items if not isinstance(item, _NOWHERE) for text in self._lines(item)]
 
     def expression(self, value: Value) -> str:
@@ -157,27 +171,36 @@ class Lines:
         left = f"np.abs({value})" if item.size else value
         if item.of_itself:
             return f"0 < {left} < np.inf"
-        bound = " * ".join(repr(x) if isinstance(x, float) else self.expression(x) for x in item.bound)
+        bound = " * ".join(map(self._factor, item.bound))
         return f"{left} {item.relation} {bound}" if item.relation else left
+
+    def _factor(self, value: sp.Basic | float) -> str:
+        """Of a bound: thresholds have names."""
+        if isinstance(value, Threshold):
+            return value.name
+        return repr(value) if isinstance(value, float) else self.expression(value)
 
     def _lines(self, item: Line) -> list[str]:
         match item:
             case Statement():
-                return [f"{self.printer.called(item.target)} = {self.expression(item.value)}"]
+                target, value = self.printer.called(item.target), self.expression(item.value)
+                return assigned(target, value, item.comment, isinstance(item.value, Chosen))
             case Branch():
                 side, then, otherwise = map(self.expression, (item.side, item.then, item.otherwise))
-                return [f"{self.printer.called(item.target)} = np.where({side} < 0, {otherwise}, {then})"]
+                value = f"np.where({side} < 0, {otherwise}, {then})"
+                return assigned(self.printer.called(item.target), value, item.comment, is_call=True)
             case When():
-                return [f"if {self._test(item.test)}:", *(f"    {text}" for text in self._lines(item.statement))]
+                return [*code(f"if {self._test(item.test)}:"), *indented(self._lines(item.statement))]
             case Call():
                 given = [self.expression(x) for x in (*item.given, *item.results) if x not in _HELD]
-                return [f"{item.function}({', '.join(given)})"]
+                return code(f"{item.function}({', '.join(given)})")
             case Guard(test=Test() as test):
                 only = f"{self._test(item.only)} and " if item.only else ""
-                return [f"if {only}not ({self._test(test)}):", f"    return {item.number}"]
+                return [*code(f"if {only}not ({self._test(test)}):"), f"    return {item.number}"]
             case Largest():
                 inner = ", ".join(f"np.abs({self.expression(x)})" for x in item.values)
-                return [f"{item.target}[0] = max({inner}, 0.0)"] if item.values else [f"{item.target}[0] = 0.0"]
+                value = f"max({inner}, 0.0)" if item.values else "0.0"
+                return assigned(f"{item.target}[0]", value, is_call=True)
             case Return():
                 return ["return 0"]
         raise ValueError(f"a line of a function that has no counterpart in Python: {item}")
@@ -194,20 +217,10 @@ def function(kernel: Kernel) -> str:
     stored = [line.target for section in kernel.sections for line in section.statements if isinstance(line, Statement)]
     returned = [a.name for a in kernel.arguments if f"*{a.name}" in stored]
     given = [name(a.name) for a in kernel.arguments if a.name not in (*_SIDES, *returned)]
-    text = [f"def {kernel.name}({', '.join(given)}):", *indented(docstring(kernel.doc))]
+    text = [*code(f"def {kernel.name}({', '.join(given)}):"), *indented(docstring(kernel.doc))]
     own = readable(kernel)
     for section in own.sections:
         body = Lines(own).text(section.statements)
-        text += indented([*[f"# {section.title}"] * bool(section.title), *body]) if body else []
+        rescues = any(isinstance(line, Rescue) for line in section.statements)  # of which the title tells
+        text += indented([*remark("" if rescues else section.title), *body]) if body else []
     return "\n".join([*text, *([f"    return {', '.join(returned)}"] if returned else [])])
-
-
-def docstring(doc: Sequence[str]) -> list[str]:
-    """Lines of one."""
-    first, *others = [line.replace("\\", "/").replace('"', "'") for line in doc]
-    return [f'"""{first}"""'] if not others else [f'"""{first}', *others, '"""']
-
-
-def indented(text: Iterable[str]) -> list[str]:
-    """Four columns to the right."""
-    return [f"    {line}" for line in text]
