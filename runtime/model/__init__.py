@@ -1,1 +1,1 @@
-"""One compiled scene before it runs: arrays for C, numbers, start, rank, default step."""
+"""One compiled scene before it runs: arrays for C, numbers, default step."""

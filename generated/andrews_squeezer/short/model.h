@@ -1,7 +1,7 @@
 /*
  * Andrews' squeezing mechanism (seven-body mechanism)
  * mechanism andrews_squeezer, scene short, from the YAML with sha256
- * 471536d25724392f83d154950e54c5245e4d82c620bcf77f2707564fd4a61dd4
+ * c401d3e0296ea92ea25feec92cf461ce23463941d1d2d9411dd61deec9e35cd8
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */

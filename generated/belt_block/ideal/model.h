@@ -1,7 +1,7 @@
 /*
  * Block on a belt, stick-slip with a spring
  * mechanism belt_block, scene ideal, from the YAML with sha256
- * ad6cf45ee3bd9c53289477c5ab8b2e7dfc80bfbc340727173898365090aada13
+ * 9be5b10eaafc4105ed817b464692cda97310da92dbc4cba5ae5a8d01d4b30af0
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */

@@ -1,7 +1,7 @@
 /*
  * Bouncing ball, Hertz contact with hysteresis damping
  * mechanism bouncing_ball, scene damped, from the YAML with sha256
- * ddbbdb569d27e2af35adb5d783bcae0a9ce6a8f16cf6d94e2fb65a4b9090f7b4
+ * d59abd4d40e94d675ef5ed7a7d8ab966ee77d724aa6a7ad36058811fdec5cf94
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */

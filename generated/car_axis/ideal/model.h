@@ -1,7 +1,7 @@
 /*
  * car axis on a bumpy road (IVP test set)
  * mechanism car_axis, scene ideal, from the YAML with sha256
- * 27bc1ed978b03a2998003e93863092bd7f8153fd519f0ee731603b508116784b
+ * d7cfa90c7eb5ab38943e8a9b0ba7e0155050a3e53e660ac717cf7a3a00b97163
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */

@@ -1,7 +1,7 @@
 /*
  * N-four-bar, N = 2 (IFToMM A02)
  * mechanism n_four_bar, scene ideal, from the YAML with sha256
- * 826c2d3a5019b84151898efe2e6ef086f55ee2834af23be8d7d765ceed490e94
+ * 2e166e68baa2b7453fce771b0b88596414df7c6296e2f6be631a60c3fac80faf
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */

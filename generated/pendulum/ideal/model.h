@@ -1,7 +1,7 @@
 /*
  * simple pendulum (IFToMM A01)
  * mechanism pendulum, scene ideal, from the YAML with sha256
- * cffac5b14bb71839656f5fba5f5c861a4419ab0d638c7e3e96405a19a3d70ae6
+ * d09c146d2f0ceb546a548752eb1ee149e813b0f702dbe45fcda93bffb2b3e75d
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */

@@ -1,7 +1,7 @@
 /*
  * Slider-crank shaker with an inverted pendulum
  * mechanism shaker, scene ideal, from the YAML with sha256
- * d058bcc84cd8db0cfa3b59880ed1601bea9854aec13609101c9934218ed8e6e0
+ * 2b7e1c839c8c45f55c7ad9ff044ccd75b44eb017aa635760af36f690ced24573
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */

@@ -1,7 +1,7 @@
 /*
  * slider-crank with a spring-damper between crank and rod (SUNDIALS idasSlCrank)
  * mechanism slider_crank_spring, scene ideal, from the YAML with sha256
- * 8af7975d33b9bef0773af2a11cc5ba231336a93f4303a7ad8eb8877bd068ba23
+ * f8b1a96eaced41f835f2270ca00d7613193cbb57cd3661dedea441f8aed58650
  *
  * What the engine must know of this scene: sizes, parameters, small tables.
  */
