@@ -9,7 +9,7 @@ static int is_ending(void *batch) { return *((const Batch *)batch)->ending; }
 
 static int start_run(const Batch *b, long i, Run *run)
 {
-    double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0}, latched[AT_LEAST_ONE(N_MEMORY)], residual;
+    double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0}, residual;
     Asked asked;
     set_asked(&asked, is_ending, (void *)b, GLANCE);
     const double *p = b->p + i * b->numbers;
@@ -17,9 +17,8 @@ static int start_run(const Batch *b, long i, Run *run)
         return asked.stop ? STOPPED : NOT_CLOSED;
     for (int k = 0; k < 2 * N_Q; k++)
         y[k] = start[k];
-    for (int k = 0; k < AT_LEAST_ONE(N_MEMORY); k++)
-        latched[k] = NAN;
-    gudgeon_run_start(run, b->p_motion + i * b->numbers, b->t[0], y, latched);
+    gudgeon_run_start(run, b->p_motion + i * b->numbers, b->t[0], y, b->remembered + i * AT_LEAST_ONE(N_MEMORY));
+    gudgeon_run_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
     gudgeon_run_stop(run, b->stop);
     gudgeon_run_asks(run, is_ending, (void *)b, GLANCE);
     if (b->choice >= 0)

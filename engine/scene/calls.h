@@ -68,6 +68,8 @@ typedef struct {
     double *step, *scale, *least;         /* rk4's step; tolerances as gudgeon_adaptive_setup takes them */
     double *start;                        /* (q, v) where `started`, else filled here */
     unsigned char *started, *phase;
+    double *remembered;                   /* latches, modes, inner states at the start, as in a sample */
+    signed char *codes;                   /* of the contacts that a run goes on with */
     double *y, *latched;                  /* samples */
     signed char *state;
     long *done;                           /* samples stored */

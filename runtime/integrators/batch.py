@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,9 @@ from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Progress, Trajectory
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.waiting.ctrl_c import CtrlC
+
+if TYPE_CHECKING:
+    from gudgeon.results.results import State
 
 ALL_OVER, LISTS, RUN_OVER = 0, 1, 2  # what a call returns
 PORTION = 16  # runs handed out at once, at most
@@ -47,6 +51,7 @@ class Runs:
             "t": times, "p": p, "p_motion": motion, "size": mechanism_sizes(compiled, p), "step": step,
             "scale": scale, "least": least, "start": np.full((n, 2 * compiled.n), np.nan),
             "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((n, N, size)),
+            "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan), "codes": np.zeros((n, nc), np.int8),
             "latched": np.empty((n, N, max(compiled.n_memory, 1))), "state": np.zeros((n, N, nc), np.int8),
             "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
             "t_last": np.full(n, times[0]), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
@@ -81,6 +86,15 @@ class Runs:
     def stopping(self) -> bool:
         """Whether all runs are to end where they are; C reads the same number."""
         return bool(self.arrays["ending"][0])
+
+    def begin(self, starts: Sequence[State]) -> None:
+        """Runs that go on from states, one each, at the first of the times."""
+        x, nc = self.arrays, len(self.compiled.source.clearances)
+        for i, start in enumerate(starts):
+            x["start"][i] = np.concatenate([start.q, start.v])
+            x["remembered"][i, : self.compiled.n_memory] = start.memory
+            x["codes"][i, :nc] = start.state
+        x["started"][: len(starts)] = 1
 
     def leave_out(self, failures: dict[int, Any]) -> None:
         """These runs are over before they begin."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -13,26 +13,38 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.wanted import mapping, told
 from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.parameters import RELATIONS, check, given_slots, without_baumgarte
+from gudgeon.model.parameters import RELATIONS, check, without_baumgarte
 
 Values: TypeAlias = float | str
 ParameterSets: TypeAlias = Sequence[Mapping[str, Values]] | Mapping[str, Values | Sequence[Values] | ArrayLike] | Array
 Mask: TypeAlias = NDArray[np.bool_]
 
 
-def given_sets(source: KernelSource, parameters: ParameterSets) -> tuple[Array, Mask]:
-    """Values and mask of the slots that are given, (n_runs, n_slots) each.
+def rows_of(parameters: ParameterSets) -> tuple[list[Mapping[str, Any]], dict[int, BadValueError]]:
+    """A mapping for each run, and runs that have none: one of their numbers is NaN or infinite.
 
     `parameters`: a mapping for every run; or {address: one value, or one for every run}, as which a structured
-    array counts too. Raises BadValueError, UnknownNameError.
+    array counts too. Raises BadValueError.
     """
-    rows = _rows(parameters)
+    rows, bad = _rows(parameters), dict[int, BadValueError]()
     if not rows:
         raise BadValueError("parameters: no run is asked for", hint="a mapping for every run, or {address: values}")
+    for i, row in enumerate(rows):
+        odd = [name for name, x in row.items() if isinstance(x, (float, np.floating)) and not np.isfinite(x)]
+        if odd and len(rows) > 1:
+            bad[i] = BadValueError(f"{odd[0]}: {row[odd[0]]} is not a finite number")
+            rows[i] = {name: value for name, value in row.items() if name not in odd}
+    if len(bad) == len(rows):
+        raise BadValueError(f"parameters: {bad[0]}")
+    return rows, bad
+
+
+def each_of(rows: Sequence[Mapping[str, Any]], slots: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]) -> Any:
+    """Values and mask of the slots that are given, (n_runs, n_slots) each; `slots` of a run. BadValueError names it."""
     pairs = []
     for i, row in enumerate(rows):
         try:
-            pairs.append(given_slots(source, row))
+            pairs.append(slots(i, row))
         except BadValueError as error:
             raise BadValueError(f"run {i}: {error}") from None
     return np.array([given for given, _ in pairs]), np.array([mask for _, mask in pairs])

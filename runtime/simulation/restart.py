@@ -8,7 +8,7 @@ given others, and then the run says so. The formulation does not matter: a state
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -48,6 +48,22 @@ def own(source: KernelSource, start: Any) -> State:
         state=state,
         memory=memory,
     )
+
+
+def own_each(source: KernelSource, start: Any, rows: int) -> list[State]:
+    """States of a batch: one for all of `rows` runs or one a run, at one time; empty where none is given."""
+    if start is None:
+        return []
+    if isinstance(start, State) or not isinstance(start, Iterable) or hasattr(start, "final"):
+        return [own(source, start)] * rows
+    states = [own(source, one) for one in start]
+    if len(states) != rows and 1 not in (rows, len(states)) or not states:
+        raise BadValueError(f"start has {len(states)} states for {rows} runs", hint="one state, or one for every run")
+    times = sorted({state.t for state in states})
+    if len(times) > 1:
+        told = f"start: states at {times[0]:.9g} s and {times[-1]:.9g} s: the runs of a batch have their times together"
+        raise BadValueError(told, hint="states at the same time, or a batch for each time")
+    return states * rows if len(states) == 1 else states
 
 
 def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from hashlib import sha256
@@ -214,14 +214,16 @@ class Simulation:
         self, parameters: ParameterSets, t_end: float | str | None = None, *, output: int | ArrayLike | None = None,
         method: str = "auto", rtol: float | str | None = None, step: float | str | None = None,
         threads: int | None = None, progress: Progress | None = None, stop: bool = True, side_by_side: bool = True,
+        start: State | Sequence[State] | None = None,
     ) -> Batch:  # fmt: skip
-        """Run the scene from t = 0 with each of many parameter sets, in threads; arguments as in `simulate`.
+        """Run the scene with each of many parameter sets, in threads; arguments as in `simulate`.
 
         `parameters`: a mapping for every run, or columns {address: one value, or (n,) values in an array, a list,
         a column}, as which a structured array or a table counts. `threads`: None for the cores there are; every
         number is the same with any. Each run is bit for bit what `simulate` makes of its parameters. A run that
         fails, or whose parameters break a condition of the file, is listed in `failures` and stops no other. Ctrl-C
         ends all where they are.
+        `start`: a state for all runs or one a run (the `final` of others), at one time; numbers as in `simulate`.
         `side_by_side`: whether runs of rk4 that have the same step may share vector registers, several in each
         thread; the numbers are the same without, and what that takes is compiled on its first use.
 
@@ -229,7 +231,9 @@ class Simulation:
         """
         from gudgeon.simulation.simulate_many import simulate_many
 
-        return simulate_many(self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side)
+        return simulate_many(
+            self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start
+        )
 
     def _ran(self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array) -> Result:
         """What the time loop made of it. Raises SolverError with its `partial`; `jump`: that at the problem's end."""

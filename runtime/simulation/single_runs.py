@@ -6,6 +6,7 @@ The runs go on in threads all the same, but share Python's lock where they are i
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
@@ -19,7 +20,7 @@ from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, no_ev
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import Mask
 from gudgeon.results.batch import Batch, as_failures, given_values, peaks_of
-from gudgeon.results.results import Result
+from gudgeon.results.results import Result, State
 from gudgeon.waiting.ctrl_c import CtrlC
 
 if TYPE_CHECKING:
@@ -29,9 +30,11 @@ if TYPE_CHECKING:
 class _Runs:
     """Results and errors of runs by their number; a run may have both."""
 
-    def __init__(self, simulation: Simulation, given: Array, is_given: Mask, options: dict[str, Any]) -> None:
+    def __init__(
+        self, simulation: Simulation, given: Array, is_given: Mask, options: dict[str, Any], starts: Sequence[State]
+    ) -> None:
         self.simulation, self.given, self.is_given, self.options = simulation, given, is_given, options
-        self.n, self.interrupted, self.ending = len(given), False, False
+        self.n, self.interrupted, self.ending, self.starts = len(given), False, False, starts
         self.results: dict[int, Result] = {}
         self.errors: dict[int, GudgeonError] = {}
 
@@ -39,7 +42,8 @@ class _Runs:
         slots = self.simulation.source.slots
         parameters = {slots[k].address: float(self.given[i, k]) for k in np.flatnonzero(self.is_given[i]).tolist()}
         try:
-            run = self.simulation.simulate(parameters=parameters, progress=self._tick, **self.options)
+            begin = self.starts[i] if self.starts else None
+            run = self.simulation.simulate(parameters=parameters, start=begin, progress=self._tick, **self.options)
             self.results[i] = run
             if run.diagnostics.interrupted:
                 self.errors[i] = SolverError(INTERRUPTED, float(run.t[-1]))
@@ -59,7 +63,7 @@ class _Runs:
         """All of them. Ctrl-C ends them where they are."""
         with CtrlC() as ctrl_c, ThreadPoolExecutor(threads, thread_name_prefix="gudgeon") as pool:
             try:
-                waiting: set[Future[None]] = {pool.submit(self._one, i) for i in range(self.n)}
+                waiting: set[Future[None]] = {pool.submit(self._one, i) for i in range(self.n) if i not in self.errors}
                 while waiting:
                     ended, waiting = wait(waiting, GLANCE)
                     ctrl_c.take()
@@ -104,11 +108,12 @@ class _Runs:
 
 def run_singly(
     simulation: Simulation, given: Array, is_given: Mask, times: Array, options: dict[str, Any], threads: int,
-    progress: Progress | None,
+    progress: Progress | None, starts: Sequence[State], bad: Mapping[int, GudgeonError],
 ) -> Batch:  # fmt: skip
     """The batch of simulation.simulate(parameters=..., **options) for each row of given (n, n_slots)."""
     before = time.perf_counter()
-    runs, source, N = _Runs(simulation, given, is_given, options), simulation.source, len(times)
+    runs, source, N = _Runs(simulation, given, is_given, options, starts), simulation.source, len(times)
+    runs.errors |= bad
     runs.run(threads, progress, float(times[0]))
     p = np.array([simulation.compiled.prepare(*pair) for pair in zip(given, is_given, strict=True)])
     found = [runs.results.get(i) for i in range(runs.n)]
