@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
-from gudgeon.errors import BadValueError, Location
+import numpy as np
+
+from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.language.parser import check_dimension, parse
+from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import evaluate, names
 from gudgeon.language.units import dimension
 
@@ -24,3 +27,27 @@ def number_of_text(text: str, address: str, exponents: Sequence[int]) -> float:
         raise BadValueError(f"{text!r} holds the name {name.path!r}", where, hint)
     check_dimension(expr, dimension(*exponents), lambda path: None, where)
     return float(evaluate(expr, lambda path: None))
+
+
+def holds_names(text: str) -> bool:
+    """Whether a text is an expression with names in it; False where it is none."""
+    try:
+        return next(names(parse(text.strip(), Location("", 1, 1))), None) is not None
+    except InputError:
+        return False
+
+
+def number_of_names(
+    text: str, what: str, exponents: Sequence[int], known: Mapping[str, tuple[float, Sequence[int]]]
+) -> float:
+    """The number (SI) of an expression of `known` names, each with its value and exponents: '2*pi/omega'.
+
+    Raises what the same text would raise in a file.
+    """
+    where = Location(f"value of {what}", 1, 1)
+    expr = parse(text.strip(), where)
+    for name in names(expr):
+        if name.path not in known:
+            raise unknown_name("name", name.path, known, where)
+    check_dimension(expr, dimension(*exponents), lambda path: dimension(*known[path][1]), where)
+    return float(evaluate(expr, lambda path: np.float64(known[path][0])))

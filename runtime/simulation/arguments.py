@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,11 +13,12 @@ from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.integrators import adaptive, kinematic, rk4
 from gudgeon.integrators.peers import driver
+from gudgeon.language.quantities import holds_names, number_of_names
 from gudgeon.language.wanted import told
 from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.default_step import scene_end, scene_step
-from gudgeon.model.parameters import number
+from gudgeon.model.parameters import number, spaced
 
 METHODS = {
     "rk4": rk4.run, **dict.fromkeys((*CHOOSING, ADAPTIVE), adaptive.run), KINEMATIC: kinematic.run,
@@ -30,6 +32,25 @@ NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18  # roundings between start and 
 def seconds(name: str, value: float | str) -> float:
     """A time (s) as a number or a text: '5 ms', '1e-3'. Raises InputError."""
     return number(value, Slot(name, "s", 0.0, False, (0, 0, 1)))
+
+
+def end_of(source: KernelSource, t_end: float | str | None, p: Sequence[Array]) -> float | str | None:
+    """t_end (s) where it is an expression of numbers of the run, '2*pi/omega', by each row of p; else as it is.
+
+    Raises BadValueError where rows differ: the runs of a batch have their times together.
+    """
+    if not isinstance(t_end, str) or not holds_names(spaced(t_end)):
+        return t_end
+    slots = {slot.address.removeprefix("parameters."): k for k, slot in enumerate(source.slots)}
+    of = [slot.dimension for slot in source.slots]
+    ends = {
+        number_of_names(spaced(t_end), "t_end", (0, 0, 1), {name: (float(row[k]), of[k]) for name, k in slots.items()})
+        for row in p
+    }
+    if len(ends) > 1:
+        told = f"t_end is {t_end!r}: {min(ends):.6g} s to {max(ends):.6g} s by the runs' numbers"
+        raise BadValueError(told, hint="the runs of a batch have their times together: give the longest")
+    return next(iter(ends))
 
 
 def output_times(source: KernelSource, t0: float, t_end: float | str | None, output: int | ArrayLike | None) -> Array:

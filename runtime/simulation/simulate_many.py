@@ -23,7 +23,7 @@ from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import ParameterSets, each_of, prepare_sets, rows_of
 from gudgeon.results.batch import Batch, as_failures, given_values, peaks_of
 from gudgeon.results.results import Result, State
-from gudgeon.simulation.arguments import MAX_STEPS, method_of, output_times, step_of
+from gudgeon.simulation.arguments import MAX_STEPS, end_of, method_of, output_times, step_of
 from gudgeon.simulation.conclusion import conclude
 from gudgeon.simulation.hidden_jumps import any_in_batch
 from gudgeon.simulation.restart import check_fits, numbers, own_each
@@ -54,6 +54,9 @@ def simulate_many(
     if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
         raise BadValueError(f"threads is {told(threads)}: expected a number of threads, 1 or more")
     workers = int(min(workers, max(len(given), 1)))  # no more than there is to do
+    if isinstance(t_end, str):
+        good = [k for k in range(len(given)) if k not in starts.bad]
+        t_end = end_of(simulation.source, t_end, [simulation.compiled.prepare(given[k], is_given[k]) for k in good])
     times = output_times(simulation.source, t0, t_end, output)
     chosen = method_of(simulation.source, method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)

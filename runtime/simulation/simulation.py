@@ -25,7 +25,7 @@ from gudgeon.language.wanted import flag, function, text
 from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
-from gudgeon.simulation.arguments import MAX_STEPS, METHODS, method_of, output_times, step_of
+from gudgeon.simulation.arguments import MAX_STEPS, METHODS, end_of, method_of, output_times, step_of
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.hidden_jumps import up_to_a_jump
 from gudgeon.simulation.restart import check_fits, numbers, own
@@ -156,7 +156,7 @@ class Simulation:
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
         `output`: so many equal intervals, both ends included, or times (s), of which the last is t_end: an array of any
-        layout and real type, a list, a column of a table; it is copied. Numbers may be texts: '5 ms', '1e-3'. `method`:
+        layout and real type, a list, a column of a table; it is copied. Numbers may be texts: '5 ms', '2*pi/omega'. `method`:
         - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else
           "adaptive", which is "dop853" while steps are bounded by accuracy and "rodas5p" while stability
           would bound them (integrators/adaptive.py);
@@ -186,7 +186,7 @@ class Simulation:
         begin = None if start is None else own(self.source, start)
         given, is_given, remarks = numbers(self.compiled, begin, parameters)
         p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
-        times = output_times(self.source, t0, t_end, output)
+        times = output_times(self.source, t0, end_of(self.source, t_end, [p]), output)
         if self.source.degrees_of_freedom < 0:
             assemble(self.compiled, p)  # names the joints that contradict each other
         chosen = method_of(self.source, method, step is not None)
