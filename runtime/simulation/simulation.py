@@ -156,10 +156,10 @@ class Simulation:
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
         `output`: so many equal intervals, both ends included, or times (s), of which the last is t_end: an array of any
-        layout and real type, a list, a column of a table; it is copied. Numbers may be texts: '5 ms', '2*pi/omega'. `method`:
-        - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else
-          "adaptive", which is "dop853" while steps are bounded by accuracy and "rodas5p" while stability
-          would bound them (integrators/adaptive.py);
+        layout and real type, a list, a column of a table; it is copied. Texts are numbers: '5 ms', t_end '2*pi/omega'.
+        `method`:
+        - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else "adaptive",
+          "dop853" while steps are bounded by accuracy and "rodas5p" while stability would (integrators/adaptive.py);
         - "rk4" with fixed `step` (s), of which only the last one is shorter; outputs lie on the interpolant;
         - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-8): the error of a
           step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
