@@ -28,7 +28,7 @@ from gudgeon.generator.field import (
 from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.kinds.laws.law import laws
+from gudgeon.generator.kinds.laws.law import Law, called
 from gudgeon.language.units import (
     ACCELERATION,
     DIMENSIONLESS,
@@ -57,9 +57,14 @@ def _forces() -> Mapping[str, Kind]:
     return {kind: Kind(of.title, of.fields, of.targets, of.counts) for kind, of in element_types().items()}
 
 
+def _title(law: Law, name: str) -> str:
+    choices = law.also.get(name, {})
+    return f"`{law.name}` with {', '.join(f'{key}: {value}' for key, value in choices.items())}" if choices else law.title
+
+
 def _law(role: str, meaning: str) -> Field:
     def kinds() -> Mapping[str, Kind]:
-        return {law.name: Kind(law.title, law.fields) for law in laws().values() if law.role == role}
+        return {name: Kind(_title(law, name), law.fields_as(name)) for name, law in called(role).items()}
 
     return Field(role, LAW, meaning, kinds=kinds)
 
