@@ -50,11 +50,11 @@ RATES: Mapping[str, Dimension] = {"vx": VELOCITY, "vy": VELOCITY, "omega": RATE}
 
 
 def _joints() -> Mapping[str, Kind]:
-    return {kind: Kind(of.title, of.fields, of.joins, (2,)) for kind, of in joint_types().items()}
+    return {kind: Kind(of.title, of.fields, of.joins, (2,), of.also) for kind, of in joint_types().items()}
 
 
 def _forces() -> Mapping[str, Kind]:
-    return {kind: Kind(of.title, of.fields, of.targets, of.counts) for kind, of in element_types().items()}
+    return {kind: Kind(of.title, of.fields, of.targets, of.counts, of.also) for kind, of in element_types().items()}
 
 
 def _title(law: Law, name: str) -> str:

@@ -76,10 +76,22 @@ def read_start(reader: Reader, root: Map, places: Places) -> Start:
     return Start(guess, fixed, rates)
 
 
+def _in_other_parts(key: Text, text: object, declared: Field) -> dict[str, str]:
+    """What to write for coordinates that stand in another part of start: velocities under rates, and back."""
+    body = key.partition(".")[0]
+    value = str(text)[:60] if isinstance(text, Text) else "…"
+    return {
+        coordinate: f"{what} under {part.name}: start: {{{part.name}: {{{body}.{coordinate}: {value}}}}}"
+        for part, what in ((START.fields[2], "velocities stand"), (START.fields[1], "coordinates stand"))
+        if part.keys != declared.keys
+        for coordinate in part.keys or {}
+    }
+
+
 def _coordinates(reader: Reader, section: Map, declared: Field, places: Places) -> dict[str, Quantity]:
     found = {}
     for key, text in section.pairs():
         with reader.collect():
-            dimension = coordinate_of(key, declared.keys or {}, places, key.where)
+            dimension = coordinate_of(key, declared.keys or {}, places, key.where, _in_other_parts(key, text, declared))
             found[str(key)] = reader.quantity(text, f"start.{declared.name}.{key}", dimension)
     return found

@@ -10,6 +10,7 @@ from fractions import Fraction
 from typing import NoReturn
 
 from gudgeon.errors import ExpressionError, InputError, Location, UnitError
+from gudgeon.language.names import WORDS
 from gudgeon.language.suggestions import nearest
 from gudgeon.language.tree import FUNCTIONS, Number
 from gudgeon.language.units import LATER, OTHER_WORDS, UNITS, Unit, factors, parse_unit, unit
@@ -19,11 +20,6 @@ _TOKEN = re.compile(
     r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*(?:\.[A-Za-z_][A-Za-z0-9_]*)*)"
     r"|(?P<operator>\*\*|[-+*/(),])"
-)
-# words of YAML and Python that look like values or operators; nobody's parameter has such a name
-_WORDS = frozenset(
-    ("true", "false", "null", "yes", "no", "on", "off", "inf", "nan", "True", "False", "None")
-    + ("and", "or", "not", "in", "is", "if", "else", "lambda", "for", "await", "yield")
 )
 _ADVICE = {
     "^": "a power is written with **", "%": "there is no remainder", "=": "there are no comparisons",
@@ -81,7 +77,7 @@ class Tokenizer:
         return Token(kind, match[0], start)
 
     def _check_name(self, name: str, start: int) -> None:
-        if name in _WORDS:
+        if name in WORDS:
             self.fail(f"{name!r} is no number", start, "expected a number, a name or an expression")
         offset = start
         for part in name.split("."):

@@ -118,7 +118,6 @@ def laws() -> Mapping[str, Law]:
     return {law.name: law for law in declared("gudgeon.generator.kinds.laws", "LAW", Law)}
 
 
-@cache
 def called(role: str) -> Mapping[str, Law]:
     """The laws of a role by every name that they have: their own ones first."""
     own = {law.name: law for law in laws().values() if law.role == role}
