@@ -59,7 +59,8 @@ def _forces() -> Mapping[str, Kind]:
 
 def _title(law: Law, name: str) -> str:
     choices = law.also.get(name, {})
-    return f"`{law.name}` with {', '.join(f'{key}: {value}' for key, value in choices.items())}" if choices else law.title
+    told = ", ".join(f"{key}: {value}" for key, value in choices.items())
+    return f"{law.name} with {told}" if choices else law.title
 
 
 def _law(role: str, meaning: str) -> Field:
@@ -82,7 +83,7 @@ POINT = vector("point", "where it is", LENGTH)
 POINT_OF_GROUND = vector("point", "where it is, in ground axes", LENGTH)
 
 BODY = record(
-    "body", "a rigid body; with a length a bar, which has its origin at the tail and its x axis towards the head",
+    "body", "a rigid body with its own frame; with a length a bar: its origin is the tail, its x points to the head",
     number("mass", "mass", MASS, required=True, bounds=(Bound(">", 0.0, "a mass is positive"),)),
     number(
         "inertia", "moment of inertia about the centre of mass", INERTIA, required=True,
@@ -92,8 +93,11 @@ BODY = record(
         "length", "length of a bar, from tail to head", LENGTH, otherwise="it is no bar",
         bounds=(Bound(">", 0.0, "a length is positive"),),
     ),
-    vector("com", "centre of mass, in the body's frame", LENGTH, otherwise="mid-length of a bar, else the origin"),
-    mapping("points", "points by name, in the body's frame", POINT),
+    vector(
+        "com", "centre of mass, in the body's frame: of a bar from its tail, x to its head", LENGTH,
+        otherwise="mid-length of a bar, else the origin",
+    ),
+    mapping("points", "points by name, in the body's frame: of a bar from its tail, x to its head", POINT),
 )  # fmt: skip
 
 BEARING = record(
@@ -173,7 +177,7 @@ SCENE = record(
 )  # fmt: skip
 
 START = record(
-    "start", "how the motion begins: coordinates and velocities of centres of mass",
+    "start", "how the motion begins: coordinates and velocities of centres of mass, in ground axes",
     mapping("guess", "coordinates that pick the branch", number("value", "about where", None), keys=COORDINATES),
     mapping("set", "coordinates that are held exactly", number("value", "where", None), keys=COORDINATES),
     mapping("rates", "velocities that drives leave free", number("value", "how fast", None), keys=RATES),
@@ -190,7 +194,7 @@ FILE = record(
     mapping("parameters", "numbers by name, for every expression", number("value", "the number", None)),
     mapping("materials", "materials by name", MATERIAL),
     mapping("bodies", "bodies by name: one at least", BODY, required=True),
-    mapping("ground", "points of the ground by name", POINT_OF_GROUND),
+    mapping("ground", "points of the ground by name, in ground axes", POINT_OF_GROUND),
     number(
         "freedoms", "degrees of freedom that are meant, with all joints closed and all drives: checked", DIMENSIONLESS,
         otherwise="they are told where there are any", whole=True,

@@ -128,7 +128,7 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     for choice, number in law.instead.items():
         if number in own.quantities:
             if choice in node:
-                message = f"{address} has both {number} and {choice}"
-                raise BadValueError(message, node.key(choice).where, f"expected one: {choice} says where {number} is left out")
-            del own.options[choice]
-    return LawUse(law.name, own.quantities, own.options | law.also.get(text, {}))
+                hint = f"expected one: {choice} says something where {number} is left out"
+                raise BadValueError(f"{address} has both {number} and {choice}", node.key(choice).where, hint)
+            own.options.pop(choice, None)
+    return LawUse(law.name, own.quantities, {**own.options, **law.also.get(text, {})})

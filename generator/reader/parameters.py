@@ -46,7 +46,7 @@ def _dimension(name: str, tree: Expr, where: Location, reader: Reader) -> Dimens
     found = check_dimension(tree, None, reader.parameters.get, where)
     if found is not None and not found.has_halves_at_most:
         raise InputError(
-            f"the unit of parameter {name} has a broken exponent", where, "expected whole powers of m, kg, s, or halves of them"
+            f"the unit of parameter {name} has a broken exponent", where, "expected whole or half powers of m, kg, s"
         )
     return found
 

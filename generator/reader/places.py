@@ -15,6 +15,9 @@ from gudgeon.language.units import Dimension
 IMPLIED_POINTS = ("origin", "com", "tail", "head")
 
 
+_NONE: Mapping[str, str] = MappingProxyType({})
+
+
 class Places:
     """Resolves `body` and `body.point`."""
 
@@ -65,7 +68,7 @@ class Places:
 
 
 def coordinate_of(
-    key: str, known: Mapping[str, Dimension], places: Places, where: Location, hints: Mapping[str, str] = MappingProxyType({})
+    key: str, known: Mapping[str, Dimension], places: Places, where: Location, hints: Mapping[str, str] = _NONE
 ) -> Dimension:
     """The dimension of "L7.theta". Raises UnknownNameError at the part that is wrong; `hints` are for parts."""
     body, _, coordinate = key.partition(".")

@@ -151,7 +151,8 @@ class Tokenizer:
             if doubtful and symbol in self.parameters:
                 number, word = self.text[start:begin], self.text[begin:after]
                 hint = f"write '… * {symbol}' for the parameter, '… * (1 {symbol})' for the unit"
-                hint = hint if before else f"write '{number} {word}' for the unit, '{number} * {symbol}' for the parameter"
+                if not before:
+                    hint = f"write '{number} {word}' for the unit, '{number} * {symbol}' for the parameter"
                 self.fail(f"{written!r} can mean two things: {symbol} is a unit, and a parameter here", begin, hint)
 
     def _unknown_unit(self, word: str, offset: int, spaces: int) -> NoReturn:

@@ -99,7 +99,8 @@ def test_a_unit_ends_where_the_expression_goes_on() -> None:
         found = parse_unit(text)
         assert found is not None and text[: found[1]] == token
     assert parse_unit("m_x") is None and parse_unit("mm3") is None
-    for text, token in (("mm*min(1, 2)", "mm"), ("m/min(t, 2)", "m"), ("N/m s", "N/m"), ("m t", "m"), ("kg m²)", "kg m²")):
+    whole = (("mm*min(1, 2)", "mm"), ("m/min(t, 2)", "m"), ("N/m s", "N/m"), ("m t", "m"), ("kg m²)", "kg m²"))
+    for text, token in whole:
         found = parse_unit(text)
         assert found is not None and text[: found[1]] == token
 

@@ -2,7 +2,8 @@
 
     F_n = K δⁿ (1 + a δ̇/δ̇⁻),   K = 4/(3(σ_i + σ_j)) √(R_i R_j/(R_i ± R_j)),   σ = (1 − ν²)/E
 
-never negative. `law: flores`, or another damping's name, is this law with that damping. H. Hertz, J. reine angew. Math. 92 (1881) 156–171; the damping factors are those of
+never negative. `law: flores`, or another damping's name, is this law with that damping.
+ H. Hertz, J. reine angew. Math. 92 (1881) 156–171; the damping factors are those of
 K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440–445 and their successors (dissipation.py).
 """
 
