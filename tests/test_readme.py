@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
+import gudgeon
 from gudgeon.cli import app
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -39,7 +40,7 @@ def call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Gudgeon:
 
 
 def test_every_block_is_of_a_kind_that_is_tested() -> None:
-    assert len(blocks("yaml")) == len(blocks("python")) == len(blocks("c")) == len(blocks("diff")) == 1
+    assert len(blocks("python")) == len(blocks("c")) == len(blocks("diff")) == 1 and len(blocks("yaml")) == 2
     assert README.count("```") == 2 * sum(len(blocks(kind)) for kind in ("yaml", "sh", "python", "text", "c", "diff"))
     assert {shlex.split(line)[1] for line in COMMANDS} == {"check", "run", "emit", "equations", "bench", "stress"}
 
@@ -52,6 +53,44 @@ def test_commands(line: str, call: Gudgeon, tmp_path: Path) -> None:
     written = [text.split()[1].rstrip(":") for text in done.output.splitlines() if text.startswith("wrote ")]
     assert written or " check " in line
     assert all((tmp_path / path).exists() for path in written)
+
+
+@needs_compiler
+def test_points_are_measured_as_it_says(tmp_path: Path) -> None:
+    """The example of frames in a whole file, the bar held at a right angle."""
+    text = f"""format: gudgeon/1
+name: frames
+{blocks("yaml")[1]}joints:
+  pin: {{revolute: [ground.O, coupler.tail]}}
+  slide: {{translational: [ground.rail, block.origin], axis: [1, 0]}}
+drives:
+  turn: {{angle: coupler, value: 90 deg}}
+  push: {{coordinate: block.x, value: 0.3 m}}
+"""
+    (tmp_path / "frames.yaml").write_text(text, encoding="utf-8")
+    run = gudgeon.load(tmp_path / "frames.yaml").simulate(1e-3, output=1)
+    where = {"coupler.P": (-0.03, 0.04), "coupler": (0.0, 0.055), "coupler.head": (0.0, 0.12)}
+    where |= {"block.top": (0.3, 0.015), "block": (0.3, -0.01), "block.origin": (0.3, -0.01)}
+    for name, (x, y) in where.items():
+        assert (run[f"{name}.x"][0], run[f"{name}.y"][0]) == pytest.approx((x, y), abs=1e-12)
+
+
+@needs_compiler
+@pytest.mark.parametrize("setting", re.findall(r"--set ([\w.]+=[\w.]+|[\w.]+='[^']+')", README))
+def test_settings_that_it_shows_are_taken(setting: str, call: Gudgeon) -> None:
+    done = call(f"gudgeon run engine.yaml --scene ideal --t-end 0.001 --output 2 --set {setting}")
+    known = setting.startswith(("c=", "bodies", "gains")) and done.exit_code == 0
+    assert known, done.output
+
+
+@needs_compiler
+def test_the_phase_of_the_motor_as_a_parameter(tmp_path: Path) -> None:
+    text = ENGINE.replace("{omega:", "{phase: 30 deg, omega:").replace("30 deg + omega * t", "phase + omega * t")
+    assert text.count("phase") == 2
+    assert "`value: phase + omega * t`" in README and "`parameters: {phase: 30 deg}`" in README
+    (tmp_path / "engine.yaml").write_text(text, encoding="utf-8")
+    run = gudgeon.load(tmp_path / "engine.yaml").simulate(1e-3, output=1, parameters={"phase": "1 rad"})
+    assert run["crank.theta"][0] == pytest.approx(1.0, abs=1e-12)
 
 
 def test_a_mistake_looks_as_shown(call: Gudgeon, tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ from gudgeon.generator.field import (
 from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.kinds.laws.law import laws
+from gudgeon.generator.kinds.laws.law import Law, called
 from gudgeon.language.units import (
     ACCELERATION,
     DIMENSIONLESS,
@@ -51,16 +51,22 @@ RATES: Mapping[str, Dimension] = {"vx": VELOCITY, "vy": VELOCITY, "omega": RATE}
 
 
 def _joints() -> Mapping[str, Kind]:
-    return {kind: Kind(of.title, of.fields, of.joins, (2,)) for kind, of in joint_types().items()}
+    return {kind: Kind(of.title, of.fields, of.joins, (2,), of.also) for kind, of in joint_types().items()}
 
 
 def _forces() -> Mapping[str, Kind]:
-    return {kind: Kind(of.title, of.fields, of.targets, of.counts) for kind, of in element_types().items()}
+    return {kind: Kind(of.title, of.fields, of.targets, of.counts, of.also) for kind, of in element_types().items()}
+
+
+def _title(law: Law, name: str) -> str:
+    choices = law.also.get(name, {})
+    told = ", ".join(f"{key}: {value}" for key, value in choices.items())
+    return f"{law.name} with {told}" if choices else law.title
 
 
 def _law(role: str, meaning: str) -> Field:
     def kinds() -> Mapping[str, Kind]:
-        return {law.name: Kind(law.title, law.fields) for law in laws().values() if law.role == role}
+        return {name: Kind(_title(law, name), law.fields_as(name)) for name, law in called(role).items()}
 
     return Field(role, LAW, meaning, kinds=kinds)
 
@@ -78,7 +84,7 @@ POINT = vector("point", "where it is", LENGTH)
 POINT_OF_GROUND = vector("point", "where it is, in ground axes", LENGTH)
 
 BODY = record(
-    "body", "a rigid body; with a length a bar, which has its origin at the tail and its x axis towards the head",
+    "body", "a rigid body with its own frame; with a length a bar: its origin is the tail, its x points to the head",
     number("mass", "mass", MASS, required=True, bounds=(Bound(">", 0.0, "a mass is positive"),)),
     number(
         "inertia", "moment of inertia about the centre of mass", INERTIA, required=True,
@@ -88,8 +94,11 @@ BODY = record(
         "length", "length of a bar, from tail to head", LENGTH, otherwise="it is no bar",
         bounds=(Bound(">", 0.0, "a length is positive"),),
     ),
-    vector("com", "centre of mass, in the body's frame", LENGTH, otherwise="mid-length of a bar, else the origin"),
-    mapping("points", "points by name, in the body's frame", POINT),
+    vector(
+        "com", "centre of mass, in the body's frame: of a bar from its tail, x to its head", LENGTH,
+        otherwise="mid-length of a bar, else the origin",
+    ),
+    mapping("points", "points by name, in the body's frame: of a bar from its tail, x to its head", POINT),
 )  # fmt: skip
 
 BEARING = record(
@@ -169,7 +178,7 @@ SCENE = record(
 )  # fmt: skip
 
 START = record(
-    "start", "how the motion begins: coordinates and velocities of centres of mass",
+    "start", "how the motion begins: coordinates and velocities of centres of mass, in ground axes",
     mapping(
         "guess", "coordinates, and points of bodies, that pick the branch", Field("value", PLACE, "about where", None),
         keys=COORDINATES,
@@ -189,7 +198,7 @@ FILE = record(
     mapping("parameters", "numbers by name, for every expression", number("value", "the number", None)),
     mapping("materials", "materials by name", MATERIAL),
     mapping("bodies", "bodies by name: one at least", BODY, required=True),
-    mapping("ground", "points of the ground by name", POINT_OF_GROUND),
+    mapping("ground", "points of the ground by name, in ground axes", POINT_OF_GROUND),
     number(
         "freedoms", "degrees of freedom that are meant, with all joints closed and all drives: checked", DIMENSIONLESS,
         otherwise="they are told where there are any", whole=True,

@@ -163,12 +163,15 @@ def _error(finding: _Finding, document: Map) -> InputError:
     return BadValueError(f"{_title(path)} {what}", place, f"expected {finding.wanted}")
 
 
-def unknown_key(key: Text, known: Iterable[str], owner: str) -> InputError:
-    """The error for a key that its mapping does not know; for an override's address, UnknownNameError."""
+def unknown_key(key: Text, known: Iterable[str], owner: str, hint: str = "") -> InputError:
+    """The error for a key that its mapping does not know; for an override's address, UnknownNameError.
+
+    `hint` says more than the nearest key would.
+    """
     if key.where.file.startswith(OVERRIDE):
         address = key.where.file.removeprefix(OVERRIDE)
         return unknown_name("address", address, [f"{address.rpartition('.')[0]}.{name}" for name in known], None)
-    return UnknownKeyError(f"unknown key {str(key)[:60]!r} in {owner}", key.where, known_hint(key, known, 20))
+    return UnknownKeyError(f"unknown key {str(key)[:60]!r} in {owner}", key.where, hint or known_hint(key, known, 20))
 
 
 def missing_key(name: str, where: Location, owner: str) -> MissingKeyError:

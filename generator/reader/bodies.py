@@ -90,6 +90,18 @@ def _guessed_point(reader: Reader, key: Text, pair: Items, address: str, places:
     return {f"{key}.x": x, f"{key}.y": y}
 
 
+def _in_other_parts(key: Text, text: object, declared: Field) -> dict[str, str]:
+    """What to write for coordinates that stand in another part of start: velocities under rates, and back."""
+    body = key.partition(".")[0]
+    value = str(text)[:60] if isinstance(text, Text) else "…"
+    return {
+        coordinate: f"{what} under {part.name}: start: {{{part.name}: {{{body}.{coordinate}: {value}}}}}"
+        for part, what in ((START.fields[2], "velocities stand"), (START.fields[1], "coordinates stand"))
+        if part.keys != declared.keys
+        for coordinate in part.keys or {}
+    }
+
+
 def _coordinates(reader: Reader, section: Map, declared: Field, places: Places) -> dict[str, Quantity]:
     found: dict[str, Quantity] = {}
     for key, text in section.pairs():
@@ -99,6 +111,6 @@ def _coordinates(reader: Reader, section: Map, declared: Field, places: Places) 
                 continue
             if declared.entry and declared.entry.kind == PLACE and _is_point(key, places):
                 raise BadValueError(f"{key} is a point", text.where, "expected where it is about: [x, y]")
-            dimension = coordinate_of(key, declared.keys or {}, places, key.where)
+            dimension = coordinate_of(key, declared.keys or {}, places, key.where, _in_other_parts(key, text, declared))
             found[str(key)] = reader.quantity(text, f"start.{declared.name}.{key}", dimension)
     return found

@@ -110,7 +110,7 @@ class Reader:
             raise ExpressionError(
                 f"{address} stands on several lines", text.where, "expected an expression on one line"
             )
-        return parse(text, text.where)
+        return parse(text, text.where, self.parameters)
 
     def check_names(
         self, expr: Expr, where: Location, time: bool = False, result: ResultDimension | None = None

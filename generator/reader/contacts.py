@@ -8,7 +8,7 @@ from gudgeon.errors import BadValueError, MissingKeyError
 from gudgeon.generator.field import LAW
 from gudgeon.generator.format.sections import BEARING, CONTACT, MATERIAL
 from gudgeon.generator.format.shapes import missing_key
-from gudgeon.generator.kinds.laws.law import laws
+from gudgeon.generator.kinds.laws.law import called
 from gudgeon.generator.mechanism.mechanism import Bearing, Contact, LawUse, Material
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.extends import parents_first
@@ -116,12 +116,19 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     if not isinstance(node.get("law"), Text):
         raise missing_key("law", node.where, address)
     text = node["law"]
-    fitting = [law.name for law in laws().values() if law.role == role]
-    if text not in laws():
+    fitting = called(role)
+    if text not in fitting:
+        other = next((r for r in _ROLES if text in called(r)), None)
+        if other is not None:
+            raise BadValueError(f"{text} is a {other} law", text.where, known_hint(text, fitting))
         raise unknown_name(f"{role} law", text, fitting, text.where)
-    law = laws()[text]
-    if law.role != role:
-        raise BadValueError(f"{law.name} is a {law.role} law", text.where, known_hint(text, fitting))
-    mistyped = check_keys(reader, node, ["law", *field_names(law.fields)], address)
-    own = read_fields(reader, node, law.fields, Around(address, law.name, text.where, mistyped))
-    return LawUse(law.name, own.quantities, own.options)
+    law, fields = fitting[text], fitting[text].fields_as(text)
+    mistyped = check_keys(reader, node, ["law", *field_names(fields)], address)
+    own = read_fields(reader, node, fields, Around(address, str(text), text.where, mistyped))
+    for choice, number in law.instead.items():
+        if number in own.quantities:
+            if choice in node:
+                hint = f"expected one: {choice} says something where {number} is left out"
+                raise BadValueError(f"{address} has both {number} and {choice}", node.key(choice).where, hint)
+            own.options.pop(choice, None)
+    return LawUse(law.name, own.quantities, {**own.options, **law.also.get(text, {})})

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Protocol
 
 from gudgeon.errors import BadValueError, InputError, JoinError, Location, MissingKeyError, UnknownKeyError
 from gudgeon.generator.field import BODY, FLAG, NUMBER, OF_MOTION, OF_RESULTS, VECTOR, WORD, Bound, Field
@@ -30,7 +32,14 @@ class Values:
         return {name: str(value).lower() if isinstance(value, bool) else value for name, value in self.options.items()}
 
 
-def kind_key(node: Map, known: Iterable[str], also: Iterable[str], owner: str) -> Text:
+class _Called(Protocol):
+    """A kind, and what others call it."""
+
+    @property
+    def also(self) -> tuple[str, ...]: ...
+
+
+def kind_key(node: Map, known: Mapping[str, _Called], also: Iterable[str], owner: str) -> Text:
     """The key that says what kind of thing a mapping is: exactly one."""
     found = [key for key in node.names() if key in known]
     if len(found) == 1:
@@ -38,15 +47,24 @@ def kind_key(node: Map, known: Iterable[str], also: Iterable[str], owner: str) -
     if found:
         raise UnknownKeyError(f"{owner} is both {found[0]} and {found[1]}", found[1].where, "expected one kind")
     strange = next((key for key in node.names() if key not in also), None)
+    otherwise = {other: kind for kind, of in known.items() for other in of.also}
+    for key in node.names():
+        if key.lower() in otherwise:
+            raise unknown_key(key, known, owner, f"{str(key)!r} is called {otherwise[key.lower()]} here")
     if strange is None:
         raise MissingKeyError(f"{owner} has no kind", node.where, known_hint("", known))
     raise unknown_key(strange, known, owner)
 
 
-def check_keys(reader: Reader, node: Map, known: Sequence[str], owner: str) -> frozenset[str | None]:
-    """Collect an error for every key that an entry does not know; what they probably stand for is returned."""
+def check_keys(
+    reader: Reader, node: Map, known: Sequence[str], owner: str, elsewhere: Mapping[str, str] = MappingProxyType({})
+) -> frozenset[str | None]:
+    """Collect an error for every key that an entry does not know; what they probably stand for is returned.
+
+    `elsewhere` says of keys that stand in another section what to write there.
+    """
     strange = [key for key in node.names() if key not in known]
-    reader.errors.extend(unknown_key(key, known, owner) for key in strange)
+    reader.errors.extend(unknown_key(key, known, owner, elsewhere.get(key, "")) for key in strange)
     return frozenset(nearest(key, known) for key in strange)
 
 
@@ -66,7 +84,10 @@ def places_of(
     if len(items) not in counts or isinstance(found, Items) and len(items) == 1:
         what = f"{len(items)} {targets}" if isinstance(found, Items) else kind_of(found)
         place = found.where if isinstance(found, Items) else kind.where
-        raise BadValueError(f"{kind} takes {what}", place, _wanted(targets, counts))
+        hint = _wanted(targets, counts)
+        if len(items) > 2 and kind == "revolute" and all(isinstance(item, Text) for item in items):
+            hint += f"; {_pairs(kind, items)}"
+        raise BadValueError(f"{kind} takes {what}", place, hint)
     refs: list[PointRef] = []
     errors: list[InputError] = []
     for item in items:
@@ -85,6 +106,13 @@ def _wanted(targets: str, counts: Sequence[int]) -> str:
     one, two = ("L1.head", "[L1.head, L2.tail]") if targets == "points" else ("L1", "[L1, L2]")
     examples = {1: f"one {'point' if targets == 'points' else 'body'}: {one}", 2: f"two {targets}: {two}"}
     return f"expected {' or '.join(examples[count] for count in counts)}"
+
+
+def _pairs(kind: Text, points: Sequence[object]) -> str:
+    """What to write where several bodies turn on one pin."""
+    first, *others = (str(point)[:60] for point in points[:4])
+    lines = ", ".join(f"{name}: {{{kind}: [{first}, {other}]}}" for name, other in zip("ABC", others, strict=False))
+    return f"{len(points)} bodies on one pin are {len(points) - 1} joints: {lines}"
 
 
 def refuse_same_body(kind: str, refs: Sequence[PointRef]) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from gudgeon.errors import JoinError
 from gudgeon.generator.field import BODY
 from gudgeon.generator.kinds.forces.force_type import element_types
@@ -30,15 +32,25 @@ def read_joints(reader: Reader, root: Map, places: Places, namespace: Namespace)
         with reader.collect():
             namespace.add(name, "joint", name.where)
         with reader.collect():
-            joints[str(name)] = _joint(reader, name, node, places)
+            joints[str(name)] = _joint(reader, name, node, places, _in_scenes(name, root))
     return joints
 
 
-def _joint(reader: Reader, name: Text, node: Map, places: Places) -> Joint:
+def _in_scenes(joint: Text, root: Map) -> Mapping[str, str]:
+    """What to write for a joint's play, which stands in scenes, by the keys that one may try."""
+    bearing, contact = (next(iter(root.part(section)), name) for section, name in _PLAY)
+    line = f"scenes: {{worn: {{play: {{{joint}: {{bearing: {bearing}, contact: {contact}}}}}}}}}"
+    return dict.fromkeys(("play", "clearance", "bearing", "contact"), f"play stands in scenes: {line}")
+
+
+_PLAY = (("bearings", "pin"), ("contacts", "metal"))
+
+
+def _joint(reader: Reader, name: Text, node: Map, places: Places, elsewhere: Mapping[str, str]) -> Joint:
     types, owner = joint_types(), f"joints.{name}"
     kind = kind_key(node, types, all_names({k: of.fields for k, of in types.items()}), owner)
     joint_type = types[kind]
-    mistyped = check_keys(reader, node, [kind, *field_names(joint_type.fields)], owner)
+    mistyped = check_keys(reader, node, [kind, *field_names(joint_type.fields)], owner, elsewhere)
     first, second = places_of(reader, node, kind, joint_type.joins, (2,), places)
     refuse_same_body(kind, (first, second))
     values = read_fields(reader, node, joint_type.fields, Around(owner, mistyped=mistyped, places=places))

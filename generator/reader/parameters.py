@@ -44,9 +44,9 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
 
 def _dimension(name: str, tree: Expr, where: Location, reader: Reader) -> Dimension | None:
     found = check_dimension(tree, None, reader.parameters.get, where)
-    if found is not None and not found.is_whole:
+    if found is not None and not found.has_halves_at_most:
         raise InputError(
-            f"the unit of parameter {name} has a broken exponent", where, "expected whole powers of m, kg, s"
+            f"the unit of parameter {name} has a broken exponent", where, "expected whole or half powers of m, kg, s"
         )
     return found
 

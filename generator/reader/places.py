@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from types import MappingProxyType
 
-from gudgeon.errors import BadValueError, InputError, Location
+from gudgeon.errors import BadValueError, InputError, Location, UnknownNameError
 from gudgeon.generator.mechanism.mechanism import GROUND, Body, PointRef, Vector
 from gudgeon.generator.yaml.tree import Text, kind_of
 from gudgeon.language.suggestions import known_hint, unknown_name
 from gudgeon.language.units import Dimension
 
 IMPLIED_POINTS = ("origin", "com", "tail", "head")
+
+
+_NONE: Mapping[str, str] = MappingProxyType({})
 
 
 class Places:
@@ -63,12 +67,16 @@ class Places:
             yield from (f"{body}.{point}" for point in self.points(body))
 
 
-def coordinate_of(key: str, known: Mapping[str, Dimension], places: Places, where: Location) -> Dimension:
-    """The dimension of "L7.theta". Raises UnknownNameError at the part that is wrong."""
+def coordinate_of(
+    key: str, known: Mapping[str, Dimension], places: Places, where: Location, hints: Mapping[str, str] = _NONE
+) -> Dimension:
+    """The dimension of "L7.theta". Raises UnknownNameError at the part that is wrong; `hints` are for parts."""
     body, _, coordinate = key.partition(".")
     if body not in places.bodies:
         raise unknown_name("body", body, places.bodies, where)
     if coordinate not in known:
         place = Location(where.file, where.line, where.column + len(body) + 1)
+        if coordinate in hints:
+            raise UnknownNameError(f"unknown coordinate of {body} {coordinate!r}", place, hints[coordinate])
         raise unknown_name(f"coordinate of {body}", coordinate, known, place)
     return known[coordinate]

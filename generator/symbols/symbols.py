@@ -16,6 +16,7 @@ import sympy as sp
 
 from gudgeon.generator.kinds.laws.law import laws
 from gudgeon.generator.symbols.corners import Switches
+from gudgeon.language.names import NOT_IN_CODE
 
 # What emitted code itself calls its functions, arguments and locals (tests/targets_c/test_names_in_c.py finds them).
 _WORDS = """
@@ -32,7 +33,7 @@ Lanes LaneBits LaneParameters LaneRun LaneAside LaneLatch LanePinForce LaneClear
 chain_step chain_rates chain_third chain_corners chain_directions row most bend
 finite_slope just_ahead just_behind
 """
-_TAKEN = frozenset(_WORDS.split())
+_TAKEN = NOT_IN_CODE.union(_WORDS.split())
 
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
     from gudgeon.model.compiled import Array
 
+LARGEST = 50.0  # m: machines that are larger are rare, and bare numbers meant in mm are not
 QUICK = 45  # coordinates up to which assemblies are looked for unasked
 ALIKE = math.radians(5.0)  # rad: guesses that two assemblies follow as well as that do not tell them apart
 
@@ -116,6 +117,8 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
     first = next(iter(found.scenes.values()), None)
     if first is None:
         return
+    if (large := _too_large(mechanism, first)) is not None:
+        yield "size", large
     closed = first.closed
     if closed.loose:
         yield "loose", f"nothing ties {', '.join(closed.loose)} to the ground: no joint, no drive"
@@ -132,6 +135,24 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         yield "guess", f"{name} is {off_text(name, off)} from your guess: no assembly nearer was found"
     if not closed.freedoms or mechanism.freedoms is not None:
         yield from _ambiguous(found)
+
+
+def _too_large(mechanism: Mechanism, scene: Assembled) -> str | None:
+    """A word on the largest length of the file where it is a hundred times what machines have."""
+    p, source = scene.linkage.p, scene.linkage.source
+    lengths = {
+        slot.address: abs(float(p[k]))
+        for k, slot in enumerate(source.slots)
+        if slot.dimension == (1, 0, 0) and not slot.address.startswith(("parameters.", "start."))
+    }
+    address = max(lengths, key=lengths.__getitem__, default="")
+    if not address or lengths[address] <= LARGEST:
+        return None
+    size = lengths[address]
+    return (
+        f"{address} is {size:.4g} m: bare numbers are metres; if millimetres are meant, write {size:.4g} mm,"
+        f" and so for the others above {LARGEST:g} m"
+    )
 
 
 def _ambiguous(found: Findings) -> Iterator[tuple[str, str]]:

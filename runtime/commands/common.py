@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from gudgeon.errors import BadValueError, InputError, OutputError, shortened
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import BadValueError, InputError, Location, OutputError, UnknownNameError, shortened
 from gudgeon.files.writing import check_target
 from gudgeon.language.suggestions import unknown
 from gudgeon.loading.find import find_mechanism, generator_hash, read_bytes
-from gudgeon.model.parameters import value
+from gudgeon.model.parameters import addresses, as_parameter, value
 
 SCENES = "scenes.json"
 
@@ -56,6 +57,20 @@ def settings(texts: Iterable[str]) -> dict[str, float | str]:
             raise BadValueError(told, hint="set it once")
         written[key], found[address] = text, value(told)
     return found
+
+
+def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSource]) -> None:
+    """Raise UnknownNameError for a name of --set that no scene has: with the nearest, or with what stands there."""
+    known = tuple(dict.fromkeys(address for source in sources for address in addresses(source)))
+    for name in names:
+        if name in known:
+            continue
+        for source in sources:
+            told, hint = as_parameter(source, name)
+            if told:
+                place = next((Location(file, w.line, w.column) for w in source.written if w.address == name), None)
+                raise UnknownNameError(f"--set: {told}", place, hint)
+        raise unknown(f"--set: no scene has a number {name!r}", name, known)
 
 
 def check_folder(option: str, out: Path) -> None:

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_folder, check_name, chosen_scenes, settings
+from gudgeon.commands.common import check_addresses, check_folder, check_name, chosen_scenes, settings
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
 from gudgeon.language.shown import visible
 from gudgeon.language.suggestions import unknown
 from gudgeon.model.default_step import T_END, scene_end
-from gudgeon.model.parameters import value
+from gudgeon.model.parameters import addresses, value
 from gudgeon.results.results import Result
 from gudgeon.simulation.from_file import load
 
@@ -124,10 +124,7 @@ def _check(request: Request, settings: Settings, simulations: Mapping[str, Simul
     """Names that no scene has and values that are not valid are told before anything is run or written."""
     from gudgeon.model.parameters import prepare
 
-    known = tuple(dict.fromkeys(address for s in simulations.values() for address in addresses(s)))
-    for address in settings:
-        if address not in known:
-            raise unknown(f"--set: no scene has a number {address!r}", address, known)
+    check_addresses(settings, request.file, [simulation.source for simulation in simulations.values()])
     for simulation in simulations.values():
         prepare(simulation.compiled, _own(settings, simulation))
     if request.watch:
@@ -141,14 +138,8 @@ def _check(request: Request, settings: Settings, simulations: Mapping[str, Simul
 
 def _own(settings: Settings, simulation: Simulation) -> dict[str, float | str]:
     """The settings that a scene knows: an ideal scene has no viscosity."""
-    known = set(addresses(simulation))
+    known = set(addresses(simulation.source))
     return {address: number for address, number in settings.items() if address in known}
-
-
-def addresses(simulation: Simulation) -> list[str]:
-    """Addresses of the run-time numbers of a scene, parameters by their short names too."""
-    found = [slot.address for slot in simulation.source.slots]
-    return [address.removeprefix("parameters.") for address in found] + found
 
 
 def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Simulation], session: Session) -> None:

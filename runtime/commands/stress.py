@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gudgeon.commands.progress import Report
-from gudgeon.commands.run import addresses
 from gudgeon.commands.studies import Request, each, exit_code, load_scenes
 from gudgeon.contract.kernel_source import Slot
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.adaptive import tolerance
 from gudgeon.language.suggestions import unknown
-from gudgeon.model.parameters import number, value
+from gudgeon.model.parameters import addresses, number, value
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import GROUPS, SETTINGS, axis, typed
 from gudgeon.studies.box import Range
@@ -136,7 +135,7 @@ def _check_once(option: str, texts: Sequence[str]) -> None:
 
 def _check_names(asked: Stress, loaded: Sequence[Simulation]) -> None:
     """A name that no scene has is told with the nearest ones."""
-    every = [name for simulation in loaded for name in addresses(simulation)]
+    every = [name for simulation in loaded for name in addresses(simulation.source)]
     known = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
     for option, texts in (("--axis", asked.axes), ("--range", asked.ranges)):
         for text in texts:

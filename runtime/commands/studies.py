@@ -8,13 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, TypeVar
 
-from gudgeon.commands.common import check_file, check_name, chosen_scenes, need_suffix, settings
+from gudgeon.commands.common import check_addresses, check_file, check_name, chosen_scenes, need_suffix, settings
 from gudgeon.commands.progress import Report, progress_bar, status_line
-from gudgeon.commands.run import addresses
 from gudgeon.contract.kernel_source import Slot
 from gudgeon.errors import BadValueError
-from gudgeon.language.suggestions import unknown
-from gudgeon.model.parameters import number, prepare, value
+from gudgeon.model.parameters import addresses, number, prepare, value
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
 
@@ -61,7 +59,7 @@ class Request:
 
     def of(self, simulation: Simulation) -> dict[str, float | str]:
         """The settings that a scene knows: an ideal scene has no viscosity."""
-        known = set(addresses(simulation))
+        known = set(addresses(simulation.source))
         return {name: told for name, told in self.parameters.items() if name in known}
 
     def seconds(self, option: str, text: str | None) -> float | None:
@@ -118,10 +116,7 @@ def load_scenes(request: Request) -> list[Simulation]:
     """All scenes, and their parameters checked once before anything runs."""
     with status_line(quiet=request.json):
         loaded = [load(request.file, scene) for scene in chosen_scenes(request.file, request.scenes)]
-    known = tuple(dict.fromkeys(address for simulation in loaded for address in addresses(simulation)))
-    for name in request.parameters:
-        if name not in known:
-            raise unknown(f"--set: no scene has a number {name!r}", name, known)
+    check_addresses(request.parameters, request.file, [simulation.source for simulation in loaded])
     for simulation in loaded:
         prepare(simulation.compiled, request.of(simulation))
     return loaded

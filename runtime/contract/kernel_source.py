@@ -24,7 +24,7 @@ class Slot:
     unit: str  # SI, "kg*m^2"; "" for a pure number
     default: float  # its value when nothing is overridden
     follows: bool  # an expression of other parameters: it follows them unless overridden itself
-    dimension: tuple[int, int, int]  # exponents of m, kg, s
+    dimension: tuple[float, float, float]  # exponents of m, kg, s: whole, or halves
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,8 @@ Data = dict[str, Any]
 _UNITS = ("kg", "m", "s")
 
 
-def base_units(dimension: tuple[int, int, int]) -> str:
-    """SI base units of exponents of m, kg, s: "kg*m^2/s^2"; "" for a pure number."""
+def base_units(dimension: tuple[float, float, float]) -> str:
+    """SI base units of exponents of m, kg, s: "kg*m^2/s^2", "kg/m^0.5/s^2"; "" for a pure number."""
     length, mass, time = dimension
     pairs = list(zip(_UNITS, (mass, length, time), strict=True))
     above = "*".join(u if n == 1 else f"{u}^{n}" for u, n in pairs if n > 0)

@@ -11,7 +11,8 @@ from gudgeon.language.tree import FUNCTIONS
 MAX_LENGTH = 64
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 
-# Names become C identifiers. Keywords of C11, C17 and C23, and of the GNU dialect:
+# What names a thing of the file, and nothing in C: emitted code calls it otherwise (generator/symbols/symbols.py).
+# Keywords of C11, C17 and C23, and of the GNU dialect:
 _C_KEYWORDS = """
 alignas alignof asm auto bool break case char complex const constexpr continue default do double else
 enum extern false float for goto if imaginary inline int long nullptr register restrict return short
@@ -32,25 +33,30 @@ ceil floor nearbyint rint lrint lround round trunc fmod remainder remquo copysig
 nexttoward fdim fmax fmin fma isnan isinf isfinite isnormal signbit fpclassify
 time clock signal raise setjmp longjmp I
 """
+NOT_IN_CODE = frozenset((*_C_LIBRARY.split(), *_C_KEYWORDS.split(), *keyword.kwlist))
 
+# What no expression could tell from something else.
 RESERVED: dict[str, str] = {
-    **dict.fromkeys(_C_LIBRARY.split(), "it is a name of the C library"),
-    **dict.fromkeys(_C_KEYWORDS.split(), "it is a C keyword"),
-    **dict.fromkeys(keyword.kwlist, "it is a Python keyword"),
     "t": "it is time in expressions",
     "pi": "it is a number in expressions",
     "ground": "it is the frame",
     "energy": "it heads names of results",
     "work": "it heads names of results",
 }
+# Words of YAML and Python that look like values or operators: an expression takes none of them for a name.
+WORDS = frozenset(
+    ("true", "false", "null", "yes", "no", "on", "off", "inf", "nan", "True", "False", "None")
+    + ("and", "or", "not", "in", "is", "if", "else", "lambda", "for", "await", "yield")
+)
 
 
 def check_name(name: str, what: str, where: Location | None) -> None:
     """Raise BadNameError unless `name` can name a thing: a free identifier of at most 64 characters."""
     check_label(name, what, where)
-    reason = RESERVED.get(name)
-    if name in FUNCTIONS and what in ("parameter", "output"):  # the others stand in expressions with a dot only
-        reason = "it is a function of expressions"
+    reason = RESERVED.get(name) if what not in ("point", "mechanism") else None  # no expression has these alone
+    if what in ("parameter", "output"):  # the others stand in expressions with a dot only
+        reason = "it is a function of expressions" if name in FUNCTIONS else reason
+        reason = "an expression takes it for no name" if name in WORDS else reason
     if name.startswith("gudgeon") or "__" in name:
         reason = "names that begin with 'gudgeon' or hold '__' are kept for emitted code"
     if reason:

@@ -37,7 +37,7 @@ def parse(unit: str) -> Exponents:
             sign = 1 if part == "*" else -1
             continue
         name, _, power = part.partition("^")
-        exponent = sign * Fraction(power or "1")
+        exponent = sign * Fraction(power.strip("()") or "1")
         if name in _BASES:
             total[_BASES.index(name)] += exponent
         elif name in _DERIVED:

@@ -4,14 +4,15 @@
     product = signed {("*" | "/") signed}
     signed  = ("-" | "+") signed | power
     power   = atom ["**" signed]                       right-associative, binds tighter than a sign
-    atom    = number [" " unit] | "pi" [" " unit] | name | function "(" sum {"," sum} ")" | "(" sum ")"
+    atom    = number [[" "] unit] | "pi" [" " unit] | name | function "(" sum {"," sum} ")" | "(" sum ")"
 
-A unit follows a numeric literal or `pi` after exactly one space and holds none (units.py). The tree
-holds SI numbers; `check_dimension` (dimensions.py) says whether they fit together.
+A unit follows a numeric literal after one space or none, `pi` after one (units.py). The tree holds SI numbers;
+`check_dimension` (dimension_check.py) says whether they fit together.
 """
 
 from __future__ import annotations
 
+from collections.abc import Container
 from typing import NoReturn
 
 from gudgeon.errors import ExpressionError, LimitError, Location
@@ -30,22 +31,22 @@ MAX_WEIGHT = 400  # nodes once functions are written out: nested smooth steps gr
 _COPIES = {"smooth_step": 3}  # of its arguments in the formula
 
 
-def parse(text: str, where: Location) -> Expr:
-    """The tree of `text`, whose first character stands at `where`.
+def parse(text: str, where: Location, parameters: Container[str] = ()) -> Expr:
+    """The tree of `text`, whose first character stands at `where`; `parameters` a unit must not be taken for.
 
     Raises ExpressionError (syntax), UnitError (unknown unit) or LimitError (too long, deep or large),
     each at the exact column.
     """
     if len(text) > MAX_LENGTH:
         raise LimitError(f"an expression of {len(text)} characters", where, f"expected at most {MAX_LENGTH}")
-    return _Parser(text, where).whole()
+    return _Parser(text, where, parameters).whole()
 
 
 class _Parser:
     """Precedence climbing over the tokens; counts depth and nodes as it builds."""
 
-    def __init__(self, text: str, where: Location) -> None:
-        self.tokens, self.where = Tokenizer(text, where), where
+    def __init__(self, text: str, where: Location, parameters: Container[str]) -> None:
+        self.tokens, self.where = Tokenizer(text, where, parameters), where
         self.token = self.tokens.next()
         self.depths: dict[int, int] = {}  # id of a node -> levels below it
         self.weights: dict[int, int] = {}  # id of a node -> nodes below it, functions written out

@@ -13,7 +13,7 @@ from gudgeon.language.tree import evaluate, names
 from gudgeon.language.units import dimension
 
 
-def number_of_text(text: str, address: str, exponents: Sequence[int]) -> float:
+def number_of_text(text: str, address: str, exponents: Sequence[float]) -> float:
     """The number (SI) that `text` writes for the run-time number at `address`.
 
     exponents: of m, kg, s; a bare number fits any. An expression of numbers is a number: '2*pi rad/s'.

@@ -4,25 +4,22 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Container
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import NoReturn
 
 from gudgeon.errors import ExpressionError, InputError, Location, UnitError
+from gudgeon.language.names import WORDS
 from gudgeon.language.suggestions import nearest
 from gudgeon.language.tree import FUNCTIONS, Number
-from gudgeon.language.units import UNITS, Unit, parse_unit
+from gudgeon.language.units import LATER, OTHER_WORDS, UNITS, Unit, factors, parse_unit, unit
 
 _MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractions grow without bound
 _TOKEN = re.compile(
     r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*(?:\.[A-Za-z_][A-Za-z0-9_]*)*)"
     r"|(?P<operator>\*\*|[-+*/(),])"
-)
-# words of YAML and Python that look like values or operators; nobody's parameter has such a name
-_WORDS = frozenset(
-    ("true", "false", "null", "yes", "no", "on", "off", "inf", "nan", "True", "False", "None")
-    + ("and", "or", "not", "in", "is", "if", "else", "lambda", "for", "await", "yield")
 )
 _ADVICE = {
     "^": "a power is written with **", "%": "there is no remainder", "=": "there are no comparisons",
@@ -31,6 +28,7 @@ _ADVICE = {
     '"': "there are no strings", "\t": "write a space, not a tab", "\u2212": "write '-'", "\u00b7": "write '*'",
     "\u00d7": "write '*'", "\u00b0": "write deg after a space", "{": "there are no braces", ";": "one expression only",
     ":": "there is no ':' in an expression", ".": "a name continues with a letter after '.'",
+    "\u00b2": "a power is written with **: x**2", "\u00b3": "a power is written with **: x**3",
 }  # fmt: skip
 
 
@@ -51,10 +49,10 @@ class Token:
 
 
 class Tokenizer:
-    """Cuts text into tokens; a unit is part of its number."""
+    """Cuts text into tokens; a unit is part of its number. `parameters` are names that a unit may be taken for."""
 
-    def __init__(self, text: str, where: Location) -> None:
-        self.text, self.where, self.position = text, where, 0
+    def __init__(self, text: str, where: Location, parameters: Container[str] = ()) -> None:
+        self.text, self.where, self.position, self.parameters = text, where, 0, parameters
 
     def fail(self, message: str, offset: int, hint: str = "", kind: type[InputError] = ExpressionError) -> NoReturn:
         raise kind(message, at(self.where, offset), hint)
@@ -79,7 +77,7 @@ class Tokenizer:
         return Token(kind, match[0], start)
 
     def _check_name(self, name: str, start: int) -> None:
-        if name in _WORDS:
+        if name in WORDS:
             self.fail(f"{name!r} is no number", start, "expected a number, a name or an expression")
         offset = start
         for part in name.split("."):
@@ -90,20 +88,23 @@ class Tokenizer:
     def _number(self, literal: str, start: int) -> Token:
         """A number or pi, with its unit if one follows."""
         value = Fraction(math.pi) if literal == "pi" else self._value(literal, start)
-        unit, end = self._unit(start)
+        found, end = self._unit(start)
         self.position = end
-        text = self.text[start:end]
+        word = self.text[start + len(literal) : end].removeprefix(" ")
+        text = f"{literal} {word}" if found else literal
         try:
-            si = unit.to_si(value) if unit else float(value)
+            si = found.to_si(value) if found else float(value)
         except OverflowError:
             self.fail(f"{text!r} is too large", start, "expected a number below 1.8e308")
         if value and (not si or math.isinf(si)):
             self.fail(f"{text!r} is out of range", start, "expected a magnitude from 1e-308 to 1e308")
-        return Token("number", text, start, Number(si, text, unit is not None, start))
+        return Token("number", text, start, Number(si, text, found is not None, start))
 
     def _value(self, literal: str, start: int) -> Fraction:
         following = self.text[self.position : self.position + 1]
-        if re.match(r"0[0-9]", literal) or (literal == "0" and following in ("x", "o", "b", "X", "O", "B")):
+        has_unit = following.isalpha() and parse_unit(self.text, self.position) is not None
+        based = literal == "0" and following in ("x", "o", "b", "X", "O", "B") and not has_unit
+        if re.match(r"0[0-9]", literal) or based:
             self.fail(
                 f"{literal + following!r} does not begin a number",
                 start,
@@ -111,39 +112,57 @@ class Tokenizer:
             )
         if following == "_":
             self.fail("'_' in a number", self.position, "expected digits without separators")
-        if following.isalpha():
-            self.fail(
-                f"{following!r} right behind the number {literal}", self.position,
-                f"a unit follows after one space ({literal} mm), a product is written {literal} * name",
-            )  # fmt: skip
+        if following.isalpha() and not has_unit:
+            word = re.match(r"\w*", self.text[self.position :])
+            other = OTHER_WORDS.get(word[0]) if word else None
+            hint = f"a unit follows its number ({literal} mm), a product is written {literal} * name"
+            hint = f"write {literal} {other}" if other else hint
+            self.fail(f"{following!r} right behind the number {literal}", self.position, hint)
         _, _, exponent = literal.lower().partition("e")
         if exponent and (len(exponent) > 5 or abs(int(exponent)) > _MAX_EXPONENT):
             self.fail(f"{literal!r} is out of range", start, "expected a magnitude from 1e-308 to 1e308")
         return Fraction(literal)
 
     def _unit(self, start: int) -> tuple[Unit | None, int]:
+        """The unit behind a number, after one space or none, and where it ends."""
         text, end = self.text, self.position
-        if text[end : end + 1] != " ":
+        spaced = text[end : end + 1] == " "
+        if not spaced and not text[end : end + 1].isalpha():
             return None, end
-        found = parse_unit(text, end + 1)
+        found = parse_unit(text, end + spaced)
         if found:
             after = found[1]
             if re.match(r" *\*\*", text[after:]):
                 hint = "a power of the unit is m^2; a power of the quantity is (3 m)**2"
                 self.fail(f"a power behind {text[start:after]!r} can mean two things", after, hint)
+            self._refuse_doubtful(start, end + spaced, after)
             return found
         spaces = len(text) - end - len(text[end:].lstrip(" "))
         word = re.match(r"[A-Za-z\u00b5\u03bc_][\w*/^.-]*", text[end + spaces :])
-        if word:
+        if word and spaced:
             self._unknown_unit(word[0], end + spaces, spaces)
         return None, end
+
+    def _refuse_doubtful(self, start: int, begin: int, after: int) -> None:
+        """`2m`, `3 N m`, `3 N*ft` where m and ft are parameters: neither reading may be taken silently."""
+        written, spaced = self.text[start:after], self.text[begin - 1] == " "
+        for before, symbol in factors(self.text[begin:after]):
+            doubtful = before == " " or symbol in LATER if before else not spaced
+            if doubtful and symbol in self.parameters:
+                number, word = self.text[start:begin], self.text[begin:after]
+                hint = f"write '… * {symbol}' for the parameter, '… * (1 {symbol})' for the unit"
+                if not before:
+                    hint = f"write '{number} {word}' for the unit, '{number} * {symbol}' for the parameter"
+                self.fail(f"{written!r} can mean two things: {symbol} is a unit, and a parameter here", begin, hint)
 
     def _unknown_unit(self, word: str, offset: int, spaces: int) -> NoReturn:
         if parse_unit(word):
             self.fail(f"{spaces} spaces before the unit {word!r}", offset, "expected exactly one")
-        guess = nearest(word, UNITS, 0.6)
+        guess, powers = nearest(word, UNITS, 0.6), re.sub(r"(?<=[A-Za-z])([2-9])(?!\w)", r"^\1", word)
         if word == "Hz":
             hint = "write rev/s or 1/s: they differ by 2*pi"
+        elif word in OTHER_WORDS or unit(powers):
+            hint = f"{word} is written {OTHER_WORDS.get(word, powers)} here"
         elif word in ("pi", "t") or word in FUNCTIONS or guess is None:
             hint = f"a product is written with '*'; units are {', '.join(list(UNITS)[:12])}, …"
         else:

@@ -2,7 +2,8 @@
 
 The list is closed, so that `t`, `c`, `k` are never tonnes, light or Boltzmann. pint is the converter of record: a
 test compares every entry with it, and nothing else imports it. Factors are exact fractions (times a power of π), so
-that `0.3 mm` is the binary64 number nearest to 3e-4 and not 0.3 times the one nearest to 1e-3.
+that `0.3 mm` is the binary64 number nearest to 3e-4 and not 0.3 times the one nearest to 1e-3; roots of them, which
+a unit such as `N/mm^1.5` asks for, have thirty digits.
 """
 
 from __future__ import annotations
@@ -37,8 +38,13 @@ class Dimension:
         """Whether all exponents are integers."""
         return all(e.denominator == 1 for e in (self.length, self.mass, self.time))
 
+    @property
+    def has_halves_at_most(self) -> bool:
+        """Whether all exponents are integers or halves of them, as in N/m^1.5: what a number of a run may have."""
+        return (self**2).is_whole
 
-def dimension(length: int = 0, mass: int = 0, time: int = 0) -> Dimension:
+
+def dimension(length: float = 0, mass: float = 0, time: float = 0) -> Dimension:
     """The dimension m^length kg^mass s^time."""
     return Dimension(Fraction(length), Fraction(mass), Fraction(time))
 
@@ -130,12 +136,15 @@ _SYMBOLS: Mapping[str, Unit] = {
     "m": _unit("1", LENGTH), "km": _unit("1000", LENGTH), "cm": _unit("0.01", LENGTH), "mm": _unit("1e-3", LENGTH),
     "um": _unit("1e-6", LENGTH), "\u00b5m": _unit("1e-6", LENGTH), "\u03bcm": _unit("1e-6", LENGTH),
     "nm": _unit("1e-9", LENGTH), "in": _unit("0.0254", LENGTH),
+    "inch": _unit("0.0254", LENGTH), "ft": _unit("0.3048", LENGTH),
     "kg": _unit("1", MASS), "g": _unit("1e-3", MASS), "mg": _unit("1e-6", MASS),
+    "gram": _unit("1e-3", MASS), "grams": _unit("1e-3", MASS), "lb": _unit("0.45359237", MASS),
     "s": _unit("1", TIME), "ms": _unit("1e-3", TIME), "us": _unit("1e-6", TIME), "min": _unit("60", TIME),
     "rad": _unit("1", DIMENSIONLESS), "mrad": _unit("1e-3", DIMENSIONLESS),
     "deg": _unit("1/180", DIMENSIONLESS, 1), "rev": _unit("2", DIMENSIONLESS, 1),
     "rpm": _unit("1/30", RATE, 1),
     "N": _unit("1", FORCE), "mN": _unit("1e-3", FORCE), "kN": _unit("1000", FORCE),
+    "lbf": _unit("4.4482216152605", FORCE),
     "Pa": _unit("1", PRESSURE), "kPa": _unit("1e3", PRESSURE), "MPa": _unit("1e6", PRESSURE),
     "GPa": _unit("1e9", PRESSURE), "bar": _unit("1e5", PRESSURE),
     "P": _unit("0.1", VISCOSITY), "cP": _unit("1e-3", VISCOSITY),
@@ -143,42 +152,80 @@ _SYMBOLS: Mapping[str, Unit] = {
     "W": _unit("1", POWER), "kW": _unit("1e3", POWER),
 }  # fmt: skip
 
+# Symbols that came later: a file may have parameters of these names, so that `3 N*ft` meant a product (tokens.py).
+LATER = frozenset(("inch", "ft", "gram", "grams", "lb", "lbf"))
+
+# What people write, and what is written here.
+OTHER_WORDS: Mapping[str, str] = {
+    **dict.fromkeys(("inches", "Inch"), "in"), **dict.fromkeys(("foot", "feet"), "ft"),
+    **dict.fromkeys(("lbs", "lbm", "pound", "pounds"), "lb"), **dict.fromkeys(("Gram", "gr", "gramm"), "g"),
+    **dict.fromkeys(("kilogram", "kilograms", "KG", "Kg"), "kg"),
+    **dict.fromkeys(("degree", "degrees", "Deg"), "deg"), **dict.fromkeys(("radian", "radians"), "rad"),
+    **dict.fromkeys(("meter", "metre", "meters", "metres"), "m"),
+    **dict.fromkeys(("MM", "millimeter", "millimeters"), "mm"),
+    **dict.fromkeys(("sec", "secs", "second", "seconds"), "s"), **dict.fromkeys(("minute", "minutes"), "min"),
+    **dict.fromkeys(("RPM", "Rpm", "U/min"), "rpm"), **dict.fromkeys(("newton", "newtons", "Newton"), "N"),
+    "Nm": "N*m", "Nmm": "N*mm", "Ns": "N*s", "Pas": "Pa*s", "kgm^2": "kg*m^2", "kgm2": "kg*m^2", "lbft": "lbf*ft",
+}
+
 _COMPOUNDS = """
     1/s 1/min rad/s deg/s rev/s rev/min rad/s^2 deg/s^2 m/s mm/s m/min m/s^2 mm/s^2 m^2 mm^2 m^3 mm^3
     kg*m^2 kg*mm^2 g*mm^2 kg/m^3 N*m N*mm kN*m N/m N/mm kN/m N*m/rad N*m/deg
     N*s/m N*s/mm N*m*s/rad N/m^2 N/mm^2 Pa*s
 """
 
-_FACTOR = re.compile(r"([A-Za-z\u00b5\u03bc]+)(?:\^(-?[1-9]))?(?![\w^])")
+_FACTOR = re.compile(
+    r"([A-Za-z\u00b5\u03bc]+)"
+    r"(?:\^(?P<power>-?(?:[1-9](?:\.5)?|0\.5)|\(-?[1-9]/2\))|(?P<raised>[\u00b2\u00b3]))?(?![\w^])"
+)
+_RAISED = {"\u00b2": "2", "\u00b3": "3"}
+_TIMES = ("*", "\u00b7", "\u22c5")
 _MOST_FACTORS = 8
 
 
 def parse_unit(text: str, start: int = 0) -> tuple[Unit, int] | None:
     """The longest unit that begins at text[start], and where it ends; None if none begins there.
 
-    A unit is a listed symbol, or a product and quotient of such with powers from −9 to 9
-    (`kg*m^2`, `N*s/m`, `1/s`). What follows a `*` or `/` and is no listed symbol is left to the
-    expression: in `3 mm*c` the unit is mm.
+    A unit is a listed symbol, or a product and quotient of such with powers from −9 to 9, halves too
+    (`kg*m^2`, `kg m²`, `N*s/m`, `1/s`, `N/m^1.5`). What follows a `*` or `/` and is no listed symbol, or a
+    function's name with its `(`, is left to the expression: in `3 mm*c` the unit is mm. A space multiplies above
+    the `/` only: `N/m s` could be either.
     """
-    divide = text.startswith("1/", start)
+    divide = divided = text.startswith("1/", start)
     position = start + 2 if divide else start
     total, found = Unit(Fraction(1), 0, DIMENSIONLESS), None
     for _ in range(_MOST_FACTORS):
         match = _FACTOR.match(text, position)
-        if not match or match[1] not in _SYMBOLS:
+        if not match or match[1] not in _SYMBOLS or found and text.startswith("(", match.end()):
             break
-        factor, exponent = _SYMBOLS[match[1]], int(match[2] or 1) * (-1 if divide else 1)
-        total = Unit(
-            total.factor * factor.factor**exponent,
-            total.pi_power + factor.pi_power * exponent,
-            total.dimension * factor.dimension**exponent,
-        )
+        power = Fraction((match["power"] or _RAISED.get(match["raised"]) or "1").strip("()"))
+        raised = _raised(_SYMBOLS[match[1]], -power if divide else power)
+        if raised is None:
+            break
+        total = Unit(total.factor * raised.factor, total.pi_power + raised.pi_power, total.dimension * raised.dimension)
         found = total, match.end()
         operator = text[match.end() : match.end() + 1]
-        if operator not in ("*", "/"):
+        if operator not in (*_TIMES, "/") and not (operator == " " and not divided):
             break
         divide, position = operator == "/", match.end() + 1
+        divided = divided or divide
     return found
+
+
+def _raised(of: Unit, power: Fraction) -> Unit | None:
+    """A power of a symbol; None for a root of π."""
+    if power.denominator == 1:
+        return Unit(of.factor ** int(power), of.pi_power * int(power), of.dimension**power)
+    if of.pi_power:
+        return None
+    square = of.factor**power.numerator
+    root = Fraction(math.isqrt(square.numerator * 10**120 // square.denominator), 10**60)
+    return Unit(root, 0, of.dimension**power)
+
+
+def factors(token: str) -> list[tuple[str, str]]:
+    """The symbols in a unit as it is written, each with the sign before it: "" of the first."""
+    return re.findall(r"([*/ \u00b7\u22c5]|^)(?:1/)?([A-Za-z\u00b5\u03bc]+)", token)
 
 
 @lru_cache(maxsize=1024)

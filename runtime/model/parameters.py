@@ -22,6 +22,8 @@ _MANTISSA, _EXPONENT = r"[0-9]{1,400}\.?[0-9]{0,400}|\.[0-9]{1,400}", r"[eE][-+]
 _PLAIN = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?")
 # a number and a unit without the space that the file format wants between them: nothing else can be meant
 _GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
+GAINS = ("baumgarte.alpha", "baumgarte.beta")  # of rk4 in the full formulation, nobody else's
+TOGETHER = {"gains": GAINS}  # one name for several numbers
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
@@ -38,13 +40,35 @@ def given_slots(
     values, mask, spelled = np.zeros(len(place)), np.zeros(len(place), dtype=bool), dict[int, str]()
     for name, value in parameters.items():
         address = name if name in place else f"parameters.{name}"
-        if address not in place:
-            raise _unknown(name, list(place))
-        k = place[address]
-        if k in spelled:
-            raise BadValueError(f"{address} is given twice: as {spelled[k]!r} and as {name!r}", hint="give it once")
-        values[k], mask[k], spelled[k] = number(value, source.slots[k]), True, name
+        several = TOGETHER.get(name, ()) if address not in place else (address,)
+        if not several or several[0] not in place:
+            raise _unknown(name, source)
+        for own in several:
+            k = place[own]
+            if k in spelled:
+                raise BadValueError(f"{own} is given twice: as {spelled[k]!r} and as {name!r}", hint="give it once")
+            values[k], mask[k], spelled[k] = number(value, source.slots[k]), True, name
     return values, mask
+
+
+def addresses(source: KernelSource) -> list[str]:
+    """What a number of the run may be called: by its address, a parameter by its short name, gains together."""
+    found = [slot.address for slot in source.slots]
+    together = [name for name, several in TOGETHER.items() if several[0] in found and f"parameters.{name}" not in found]
+    return [address.removeprefix("parameters.") for address in found] + found + together
+
+
+def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
+    """(message, hint) about an address that holds an expression of t or motion, and no number; "" for another one."""
+    written = next((one for one in source.written if one.address == address), None)
+    if written is None and address.removeprefix("outputs.") not in source.outputs:
+        return _literal_zero(source, address)
+    key = address.rpartition(".")[2]
+    told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
+    return told, (
+        f"a number in it can be, once it is a parameter: parameters: {{phase: -39.52 deg}}, {key}: phase + …,"
+        " then set phase; overrides= of gudgeon.load compiles anew with another expression"
+    )
 
 
 def number(value: float | str, slot: Slot) -> float:
@@ -90,7 +114,7 @@ def prepare_slots(compiled: CompiledModel, given: Array, is_given: Array) -> Arr
 def without_baumgarte(compiled: CompiledModel, given: Array, is_given: Array) -> Array:
     """p with both gains zero: for methods that project onto the constraints instead."""
     place = {slot.address: k for k, slot in enumerate(compiled.source.slots)}
-    gains = [place[name] for name in ("baumgarte.alpha", "baumgarte.beta") if name in place]
+    gains = [place[name] for name in GAINS if name in place]
     values, mask = given.copy(), is_given.copy()
     values[gains], mask[gains] = 0.0, True
     return compiled.prepare(values, mask)
@@ -122,9 +146,22 @@ def _range(source: KernelSource, address: str) -> str:
     return " and ".join(f"{c.relation} {bound}" for c, bound in zip(asked, told, strict=True))
 
 
-def _unknown(name: str, addresses: list[str]) -> UnknownNameError:
-    short = [a.removeprefix("parameters.") for a in addresses]
-    near = difflib.get_close_matches(name, addresses + short, n=3)
+def _literal_zero(source: KernelSource, address: str) -> tuple[str, str]:
+    """The same of a component of a vector whose other one may be a number: it is 0, or not there."""
+    owner, _, axis = address.rpartition(".")
+    vectors = {slot.address.rpartition(".")[0] for slot in source.slots}
+    vectors |= {point.name for point in source.points if point.body < 0}
+    if axis not in ("x", "y") or owner not in vectors or address in {slot.address for slot in source.slots}:
+        return "", ""
+    hint = f"write a parameter there (parameters: {{shift: 0 m}}, {axis}: shift) and set that"
+    return f"{address} is written as 0, which stands in no equation: it is no number that can be set", hint
+
+
+def _unknown(name: str, source: KernelSource) -> UnknownNameError:
+    told, hint = as_parameter(source, name)
+    if told:
+        return UnknownNameError(told, None, hint)
+    near = difflib.get_close_matches(name, addresses(source), n=3)
     hint = f"did you mean {', '.join(dict.fromkeys(near))}?" if near else "see run.parameters for all addresses."
     return UnknownNameError(
         f"no run-time number has the address {name!r} in this scene", None,

@@ -12,12 +12,11 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError
 from gudgeon.language.wanted import numbers, text
-from gudgeon.model.parameters import given_slots, number, prepare
+from gudgeon.model.parameters import GAINS, given_slots, number, prepare
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import Parameters
 
 SETTINGS = {"step": "s", "rtol": ""}  # axes of the method, not of the mechanism
-GAINS = ("baumgarte.alpha", "baumgarte.beta")  # of rk4 in the full formulation, nobody else's
 COUNT, MOST = 5, 1000  # values of a range that does not say; of any
 _COUNT = re.compile(r"[0-9]{1,6}")
 # Axes that move every such number of the scene, each by its ratio to the first.

@@ -33,7 +33,7 @@ class Evaluator:
         chosen = {o.name: o.choice for o in self.law.options} | options
         symbols = {v: sp.Symbol(v, real=True) for v in VARIABLES[self.law.role]}
         pair = PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()})
-        numbers = {k: sp.Float(v) for k, v in values.items()}
+        numbers = {k: sp.Float(v) for k, v in values.items() if v is not None}
 
         def derive(name: str, expression: Any, meaning: str) -> Any:
             return expression
@@ -56,6 +56,9 @@ FILM = Evaluator("pinkus_sternlicht", {"viscosity": VISCOSITY})
 PRINTED = Evaluator("pinkus_sternlicht", {"viscosity": VISCOSITY}, as_printed=True)
 SHEAR = Evaluator("pinkus_sternlicht", {"viscosity": VISCOSITY}, shear=True)
 NORMAL = {g: Evaluator("lankarani_nikravesh", {"restitution": 0.9}, geometry=g) for g in ("external", "internal")}
+FLORES = {
+    g: Evaluator("hertz", {"restitution": 0.9}, dissipation="flores", geometry=g) for g in ("external", "internal")
+}
 FRICTION = Evaluator("modified_coulomb", {"mu": 0.15, "v0": 1e-4, "v1": 1e-3})
 
 
@@ -133,6 +136,15 @@ def test_normal_force_is_lankarani_and_nikravesh(delta: float, ratio: float, geo
     stiff = dry.stiffness(PAIR.R_i, PAIR.R_j, (PAIR.E_i, PAIR.E_j), (PAIR.nu_i, PAIR.nu_j), sign)
     want = dry.normal_force(delta, ratio, 1.0, stiff, 1.5, dry.dissipation_factor(0.9))
     assert NORMAL[geometry](delta, ratio)[0] == pytest.approx(want, rel=1e-13)
+
+
+@FAST
+@given(st.floats(1e-9, 1e-4), st.floats(-5.0, 5.0), st.sampled_from(["external", "internal"]))
+def test_hertz_without_a_stiffness_has_that_of_the_pair(delta: float, ratio: float, geometry: str) -> None:
+    sign = 1 if geometry == "external" else -1
+    stiff = dry.stiffness(PAIR.R_i, PAIR.R_j, (PAIR.E_i, PAIR.E_j), (PAIR.nu_i, PAIR.nu_j), sign)
+    want = dry.normal_force(delta, ratio, 1.0, stiff, 1.5, 8.0 * (1.0 - 0.9) / (5.0 * 0.9))
+    assert FLORES[geometry](delta, ratio)[0] == pytest.approx(want, rel=1e-13)
 
 
 def test_conformal_stiffness_is_ten_times_the_printed_one() -> None:

@@ -137,6 +137,18 @@ def test_likely_text_parses_or_raises_an_input_error(text: str) -> None:
         ("100 1/s", 100.0),
         ("3 in", 0.0762),
         ("5 min", 300.0),
+        ("80mm", 0.08),
+        ("2e3mm", 2.0),
+        ("2e3", 2000.0),
+        ("-39.52deg", -math.radians(39.52)),
+        ("0.1m/s * 2", 0.2),
+        ("0bar", 0.0),
+        ("2 ft + 1 inch", 0.635),
+        ("2 lb + 5 grams", 0.91218474),
+        ("2 lbf", 8.896443230521),
+        ("3 kg m²", 3.0),
+        ("3mm²", 3e-6),
+        ("6 m/min(2, 3)", 3.0),
         ("5 \u00b5m + 5 \u03bcm", 1e-5),
         (".5 + 5. + 1e-1", 5.6),
         ("-2**2", -4.0),
@@ -168,7 +180,15 @@ def test_value(text: str, expected: float) -> None:
         ("1 + 2)", ExpressionError, 5),
         ("a b_2", ExpressionError, 2),
         ("1 2", ExpressionError, 2),
-        ("80mm", ExpressionError, 2),
+        ("80mmm", ExpressionError, 2),
+        ("2e", ExpressionError, 1),
+        ("2a", ExpressionError, 1),
+        ("2pi", ExpressionError, 1),
+        ("3m**2", ExpressionError, 2),
+        ("pi/4deg", ExpressionError, 3),
+        ("0b1", ExpressionError, 0),
+        ("3 N/m s", ExpressionError, 6),
+        ("a²", ExpressionError, 1),
         ("80  mm", ExpressionError, 4),
         ("2 + 3 mm^12", UnitError, 6),
         ("2 a", UnitError, 2),
@@ -320,10 +340,36 @@ def test_scaling_the_unit_scales_the_value(tree: Expr, power: int) -> None:
     assert scaled == pytest.approx(value * 1000.0**power, rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("text", "offset"), [("2m", 1), ("0.1m/s", 3), ("3 N*ft", 2), ("3 N/ft", 2), ("3 N m", 2), ("1 + 3 kg m", 6)]
+)
+def test_a_unit_that_may_be_a_parameter_is_refused(text: str, offset: int) -> None:
+    parse(text, HERE)
+    with pytest.raises(ExpressionError, match="can mean two things") as caught:
+        parse(text, HERE, ("m", "ft"))
+    assert caught.value.where == Location("file.yaml", 3, 10 + offset)
+
+
+def test_what_could_be_parsed_before_keeps_its_meaning() -> None:
+    for text in ("2 m", "3 N*m", "2 N * ft", "6 kg/m"):
+        assert to_json(parse(text, HERE, ("m", "ft"))) == to_json(parse(text, HERE))
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [("3 Nm", r"written N\*m here"), ("2 lbs", "written lb"), ("2 degrees", "written deg"), ("3 mm2", r"written mm\^2"),
+     ("3Nm", r"write 3 N\*m"), ("2 feet", "written ft"), ("3 kgm2", r"written kg\*m\^2"), ("a²", r"\*\*: x\*\*2")],
+)  # fmt: skip
+def test_units_called_otherwise(text: str, hint: str) -> None:
+    with pytest.raises(InputError, match=hint):
+        parse(text, HERE)
+
+
 def test_number_of_text() -> None:
     assert number_of_text(" 0.5 mm ", "bearings.pin.clearance", (1, 0, 0)) == 0.0005
     assert number_of_text("2*pi rad/s", "parameters.omega", (0, 0, -1)) == math.tau
     assert number_of_text("-3e-4", "parameters.c", (1, 0, 0)) == -3e-4
-    for text in ("1 kg", "c", "", "0.5mm", "2 * omega"):
+    assert number_of_text("0.5mm", "parameters.c", (1, 0, 0)) == 0.0005
+    for text in ("1 kg", "c", "", "0.5mmm", "2 * omega"):
         with pytest.raises(InputError, match="value of parameters.c:1:"):
             number_of_text(text, "parameters.c", (1, 0, 0))

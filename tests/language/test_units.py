@@ -56,7 +56,6 @@ def test_the_list_is_closed() -> None:
         "R",
         "Hz",
         "tonne",
-        "ft",
         "",
         "mm ",
         " mm",
@@ -100,6 +99,27 @@ def test_a_unit_ends_where_the_expression_goes_on() -> None:
         found = parse_unit(text)
         assert found is not None and text[: found[1]] == token
     assert parse_unit("m_x") is None and parse_unit("mm3") is None
+    whole = (("mm*min(1, 2)", "mm"), ("m/min(t, 2)", "m"), ("N/m s", "N/m"), ("m t", "m"), ("kg m²)", "kg m²"))
+    for text, token in whole:
+        found = parse_unit(text)
+        assert found is not None and text[: found[1]] == token
+
+
+@pytest.mark.parametrize(
+    ("token", "same"),
+    [("mm²", "mm^2"), ("m³", "m^3"), ("kg m²", "kg*m^2"), ("N·m", "N*m"), ("N⋅s/m", "N*s/m"), ("kg m/s^2", "kg*m/s^2"),
+     ("N/m^(3/2)", "N/m^1.5"), ("kg/m^(1/2)/s^2", "N/m^1.5"), ("inch", "in"), ("grams", "g"), ("gram", "g")],
+)  # fmt: skip
+def test_units_as_people_write_them(token: str, same: str) -> None:
+    found, other = unit(token), unit(same)
+    assert found is not None and found == other
+
+
+def test_halves_of_powers() -> None:
+    stiff = unit("N/mm^1.5")
+    assert stiff is not None and stiff.dimension == dimension(1, 1, -2) * LENGTH ** Fraction(-3, 2)
+    assert stiff.to_si(Fraction(1)) == pytest.approx(1000.0**1.5, rel=1e-15)
+    assert unit("deg^1.5") is None and unit("m^1.3") is None and unit("m^(2/3)") is None
 
 
 @given(st.builds(dimension, st.integers(-4, 4), st.integers(-4, 4), st.integers(-4, 4)))

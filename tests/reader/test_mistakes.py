@@ -77,7 +77,6 @@ MISTAKES: list[tuple[str, type[InputError], int, int]] = [
     ("merge_key", UnknownKeyError, 11, 8),
     ("missing_body", UnknownNameError, 15, 27),
     ("missing_point", UnknownNameError, 15, 30),
-    ("name_c_keyword", BadNameError, 17, 3),
     ("name_no_identifier", BadNameError, 17, 3),
     ("name_of_a_function", BadNameError, 32, 11),
     ("name_reserved", BadNameError, 17, 3),

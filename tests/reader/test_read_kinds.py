@@ -220,7 +220,7 @@ MISTAKES: list[tuple[str, str, type[InputError]]] = [
     ("value: [1 N, 0]", "value: [1 N, ‸1 m]", UnitError),
     ("axes: ground", "axes: ‸bodies", BadValueError),
     ("  push: {", "  ‸lift: {", BadNameError),
-    ("  push: {", "  ‸while: {", BadNameError),
+    ("  push: {", "  ‸ground: {", BadNameError),
     ("lift.force", "lift.‸torque", UnknownNameError),
     ("twist.M", "twist.‸F", UnknownNameError),
     ("coil.length", "coil.‸lenght", UnknownNameError),

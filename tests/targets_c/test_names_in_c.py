@@ -21,7 +21,8 @@ from gudgeon.errors import BadNameError
 from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES
 from gudgeon.generator.pipeline import generate
-from gudgeon.language.names import check_name
+from gudgeon.language.names import NOT_IN_CODE, RESERVED, WORDS, check_name
+from gudgeon.language.tree import FUNCTIONS
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import engine_files, include_flags
 
@@ -188,6 +189,50 @@ def test_names_that_meet_when_joined(
     points = [f"{point}_" if point in COORDINATES else point for point in points]
     source = generate(clashing(names, points), "f", "ideal")
     check_c(source, tmp_path_factory.mktemp("clash"))
+
+
+THINGS = sorted(name for name in NOT_IN_CODE if len(name) <= 12 and name not in FUNCTIONS and name not in WORDS)
+
+
+@pytest.mark.parametrize("first", range(0, len(THINGS) - 13, 28))
+def test_things_named_as_what_c_has(first: int, tmp_path: Path) -> None:
+    """C's keywords and library name bodies, joints, drives, forces, parameters and outputs, and the mechanism."""
+    names = THINGS[first : first + 14]
+    data = clashing(names, ["floor", "class"]).replace(b"name: clash", f"name: {names[0]}".encode())
+    check_c(generate(data, "f", "ideal"), tmp_path)
+
+
+def test_things_named_as_what_c_has_do_not_change_a_number(tmp_path: Path) -> None:
+    plain = [f"n{i}" for i in range(14)]
+    named = ["free", "int", "floor", "main", "time", "double", "round", "class", "index", "y1", "def", "errno", "long"]
+    named.append("I")
+    found = []
+    for name, names, points in (("plain", plain, ["p0", "p1"]), ("free", named, ["floor", "in"])):
+        path = tmp_path / f"{name}.yaml"
+        path.write_bytes(clashing(names, points).replace(b"name: clash", f"name: {name}".encode()))
+        linkage, y = gudgeon.load(path), np.random.default_rng(5).uniform(-1.0, 1.0, 18)
+        found.append(linkage.rhs(0.3, y))
+        equations = linkage.model.numpy()
+        found.append(equations.phi(0.3, y[:9], equations.prepare()))
+    np.testing.assert_allclose(found[2], found[0], rtol=1e-11, atol=1e-11)
+    np.testing.assert_allclose(found[3], found[1], rtol=1e-11, atol=1e-11)
+
+
+def test_what_expressions_could_not_tell_apart_is_refused() -> None:
+    def refuses(name: str, what: str) -> bool:
+        try:
+            check_name(name, what, None)
+        except BadNameError:
+            return True
+        return False
+
+    for what in ("body", "joint", "drive", "force", "parameter", "output"):
+        assert all(refuses(name, what) for name in RESERVED)
+        assert not any(refuses(name, what) for name in ("floor", "free", "int", "main", "class", "time", "index"))
+        assert all(refuses(name, what) == (what in ("parameter", "output")) for name in (*FUNCTIONS, *WORDS))
+    for what in ("point", "mechanism"):
+        assert not any(refuses(name, what) for name in (*RESERVED, *FUNCTIONS, *WORDS, *NOT_IN_CODE))
+        assert refuses("gudgeon_x", what) and refuses("a__b", what)
 
 
 def test_hostile_names_do_not_change_a_number(tmp_path: Path) -> None:

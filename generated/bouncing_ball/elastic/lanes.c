@@ -46,9 +46,9 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
 }
 
 /*
- * Hertz contact with a given stiffness and hysteresis damping.
+ * Hertz contact with a choice of hysteresis damping.
  * Source: H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
- * Valid: a point or a line contact whose stiffness is known; penetrations small against the radii.
+ * Valid: a point or a line contact whose stiffness is known or that of spheres; small penetrations.
  * Options: dissipation: none.
  * stiffness: force at unit penetration, N/m^n; exponent: exponent of the penetration.
  */

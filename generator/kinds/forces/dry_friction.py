@@ -49,4 +49,5 @@ ELEMENT = ElementType(
     ),
     (("F", FORCE), ("v", VELOCITY), ("mode", DIMENSIONLESS)),
     build,
+    also=("friction", "coulomb", "brake"),
 )  # fmt: skip

@@ -39,4 +39,5 @@ ELEMENT = ElementType(
     ),
     (("Fx", FORCE), ("Fy", FORCE), ("F", FORCE)),
     build,
+    also=("load", "point_force"),
 )

@@ -61,6 +61,7 @@ class ElementType:
     fields: tuple[Field, ...]  # the keys beside its own
     results: tuple[tuple[str, Dimension], ...]  # names of `Loads.series`, for outputs
     build: Callable[..., Loads]
+    also: tuple[str, ...] = ()  # what others call it: told to whoever writes that
 
 
 @cache

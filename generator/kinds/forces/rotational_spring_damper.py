@@ -40,4 +40,5 @@ ELEMENT = ElementType(
     ),
     (("M", TORQUE),),
     build,
+    also=("torsion_spring", "torsional_spring", "rotational_spring", "rotational_damper", "rsda"),
 )  # fmt: skip

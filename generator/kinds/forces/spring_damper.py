@@ -51,4 +51,5 @@ ELEMENT = ElementType(
     ),
     (("F", FORCE), ("length", LENGTH)),
     build,
+    also=("spring", "damper", "dashpot", "tsda"),
 )

@@ -35,4 +35,5 @@ ELEMENT = ElementType(
     (number("value", "the torque on the first body", TORQUE, required=True, varies=OF_MOTION),),
     (("M", TORQUE),),
     build,
+    also=("moment", "couple"),
 )

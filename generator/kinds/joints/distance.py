@@ -29,4 +29,5 @@ JOINT = JointType(
     ("length",),
     ("m",),
     rows,
+    also=("link", "rod", "massless_rod", "coupler"),
 )

@@ -39,4 +39,5 @@ JOINT = JointType(
     ("m",),
     rows,
     joins="bodies",
+    also=("gears", "gear_pair", "spur", "rolling", "mesh"),
 )

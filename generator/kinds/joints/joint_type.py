@@ -34,6 +34,7 @@ class JointType:
     # rows that hold by themselves where tree coordinates place one body by the other: two rows where the points
     # coincide, one where the second's point slides along the first's `axis` (generator/reduction/tree.py)
     carries: tuple[str, ...] = ()
+    also: tuple[str, ...] = ()  # what others call it: told to whoever writes that
 
 
 @cache

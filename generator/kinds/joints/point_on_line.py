@@ -29,4 +29,5 @@ JOINT = JointType(
     ("m",),
     rows,
     reaction_at="first",
+    also=("slot", "pin_in_slot", "pin_slot", "line", "half_joint"),
 )

@@ -19,4 +19,14 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
     return [first.x - second.x, first.y - second.y]
 
 
-JOINT = JointType("revolute", "revolute joint", (), True, ("x", "y"), ("m", "m"), rows, carries=("x", "y"))
+JOINT = JointType(
+    "revolute",
+    "revolute joint",
+    (),
+    True,
+    ("x", "y"),
+    ("m", "m"),
+    rows,
+    carries=("x", "y"),
+    also=("pin", "hinge", "pivot", "rotational", "rotation", "turning", "journal", "bearing", "ball"),
+)

@@ -27,4 +27,5 @@ JOINT = JointType(
     ("m", "m", "rad"),
     rows,
     carries=("x", "y"),
+    also=("weld", "welded", "fixed", "fix", "clamp", "clamped", "lock"),
 )

@@ -35,4 +35,5 @@ JOINT = JointType(
     ("m", "rad"),
     rows,
     carries=("offset",),
+    also=("prismatic", "slider", "sliding", "slide", "linear", "piston", "guide"),
 )

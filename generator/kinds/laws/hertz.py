@@ -1,8 +1,9 @@
-"""Hertz-type contact with a stiffness that the user gives, and a choice of hysteresis damping.
+"""Hertz-type contact with a choice of hysteresis damping; the stiffness is given, or follows from the pair.
 
-    F_n = K δⁿ (1 + a δ̇/δ̇⁻)
+    F_n = K δⁿ (1 + a δ̇/δ̇⁻),   K = 4/(3(σ_i + σ_j)) √(R_i R_j/(R_i ± R_j)),   σ = (1 − ν²)/E
 
-never negative. H. Hertz, J. reine angew. Math. 92 (1881) 156–171; the damping factors are those of
+never negative. `law: flores`, or another damping's name, is this law with that damping.
+ H. Hertz, J. reine angew. Math. 92 (1881) 156–171; the damping factors are those of
 K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440–445 and their successors (dissipation.py).
 """
 
@@ -12,25 +13,28 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number, word
 from gudgeon.generator.kinds.laws.dissipation import FACTORS, normal_force
+from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
 
 
 def build(s: LawInputs) -> dict[str, Any]:
     """F_n (N), compressive, for δ > 0."""
-    K = s.derive("K", s.parameters["stiffness"], "contact stiffness")
+    given = s.parameters.get("stiffness")
+    K = pair_stiffness(s) if given is None else s.derive("K", given, "contact stiffness")
     return {"F_n": normal_force(s, K, str(s.options["dissipation"]))}
 
 
 LAW = Law(
     name="hertz",
     role="normal",
-    title="Hertz contact with a given stiffness and hysteresis damping",
+    title="Hertz contact with a choice of hysteresis damping",
     source="H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
-    validity="a point or a line contact whose stiffness is known; penetrations small against the radii",
+    validity="a point or a line contact whose stiffness is known or that of spheres; small penetrations",
     fields=(
         number(
-            "stiffness", "force at unit penetration, N/m^n", None, symbol="K", required=True, bounds=(Bound(">", 0.0),)
+            "stiffness", "force at unit penetration, N/m^n", None, symbol="K", bounds=(Bound(">", 0.0),),
+            otherwise="it follows from materials and radii",
         ),
         number(
             "exponent", "exponent of the penetration", DIMENSIONLESS,
@@ -41,6 +45,9 @@ LAW = Law(
             symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
         ),
         word("dissipation", "whose hysteresis damping factor", FACTORS, "hunt_crossley"),
+        GEOMETRY,
     ),
     build=build,
+    also={name: {"dissipation": name} for name in FACTORS if name not in ("none", "lankarani_nikravesh")},
+    instead={"geometry": "stiffness"},
 )  # fmt: skip

@@ -9,22 +9,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.field import Bound, number, word
+from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.dissipation import normal_force
+from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
 
 
 def build(s: LawInputs) -> dict[str, Any]:
     """F_n (N), compressive, for δ > 0."""
-    import sympy as sp
-
-    pair = s.pair
-    sigma_i, sigma_j = (1 - pair.nu_i**2) / pair.E_i, (1 - pair.nu_j**2) / pair.E_j
-    other = pair.R_j if s.options["geometry"] == "external" else -pair.R_j
-    radius = sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + other))
-    K = s.derive("K", sp.Rational(4, 3) / (sigma_i + sigma_j) * radius, "contact stiffness")
-    return {"F_n": normal_force(s, K, LAW.name)}
+    return {"F_n": normal_force(s, pair_stiffness(s), LAW.name)}
 
 
 LAW = Law(
@@ -42,11 +36,7 @@ LAW = Law(
             "exponent", "exponent of the penetration", DIMENSIONLESS,
             symbol="n", default=1.5, bounds=(Bound(">=", 1.0),),
         ),
-        word(
-            "geometry",
-            "curvature of the pair: external R_i + R_j as the paper prints it, internal R_i - R_j for a pin in a hole",
-            ("external", "internal"), "external",
-        ),
+        GEOMETRY,
     ),
     build=build,
 )  # fmt: skip

@@ -7,7 +7,7 @@ parameters and options, not its equations. Equations are built inside functions.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
@@ -78,6 +78,8 @@ class Law:
     fields: tuple[Field, ...]  # the keys beside `law`
     build: Callable[..., Any]
     states: tuple[State, ...] = ()
+    also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # other names -> the choices that they make
+    instead: Mapping[str, str] = field(default_factory=dict)  # a choice that says something only without a number
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -92,15 +94,31 @@ class Law:
     @property
     def parameters(self) -> tuple[Field, ...]:
         """Its numbers: run-time slots `contacts.<contact>.<role>.<name>`."""
-        return tuple(field for field in self.fields if field.kind == NUMBER)
+        return tuple(own for own in self.fields if own.kind == NUMBER)
 
     @property
     def options(self) -> tuple[Field, ...]:
         """Its structural choices: words, and flags with the values False and True."""
-        return tuple(field for field in self.fields if field.kind != NUMBER)
+        return tuple(own for own in self.fields if own.kind != NUMBER)
+
+    def fields_as(self, name: str) -> tuple[Field, ...]:
+        """The keys beside `law: name`: under another name its choices are made, and the restitution must be given."""
+        if name == self.name:
+            return self.fields
+        return tuple(
+            replace(own, default=None, required=True) if own.name == "restitution" else own
+            for own in self.fields
+            if own.name not in self.also[name]
+        )
 
 
 @cache
 def laws() -> Mapping[str, Law]:
     """All the laws in this folder by name."""
     return {law.name: law for law in declared("gudgeon.generator.kinds.laws", "LAW", Law)}
+
+
+def called(role: str) -> Mapping[str, Law]:
+    """The laws of a role by every name that they have: their own ones first."""
+    own = {law.name: law for law in laws().values() if law.role == role}
+    return own | {name: law for law in own.values() for name in law.also}

@@ -186,10 +186,11 @@ def _simulate(model: Model) -> dict[str, float]:
     }
 
 
-def _exponents(dimension: Dimension) -> tuple[int, int, int]:
-    """Whole exponents; a number with a broken one (N/m^1.5) takes bare numbers only."""
-    exponents = (dimension.length, dimension.mass, dimension.time)
-    whole = all(x.denominator == 1 for x in exponents)
-    return (int(exponents[0]), int(exponents[1]), int(exponents[2])) if whole else (0, 0, 0)
+def _exponents(dimension: Dimension) -> tuple[float, float, float]:
+    """Exponents of m, kg, s: whole, or halves (N/m^1.5); a number with another one takes bare numbers only."""
+    if not dimension.has_halves_at_most:
+        return 0, 0, 0
+    length, mass, time = (int(x) if x.denominator == 1 else float(x) for x in vars(dimension).values())
+    return length, mass, time
 
 

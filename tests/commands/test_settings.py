@@ -1,0 +1,93 @@
+"""What --set can set, what it says of what it cannot; what check remarks of sizes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import gudgeon
+from gudgeon.errors import BadValueError, UnknownNameError
+from tests.pump import TEXT, Gudgeon, needs_compiler
+
+pytestmark = needs_compiler
+
+
+@pytest.mark.parametrize("command", ["run", "bench", "stress"])
+def test_an_expression_of_time_is_told_with_its_place(command: str, call: Gudgeon, pump: str) -> None:
+    done = call(command, pump, "--set", "drives.motor.value=3")
+    line = next(k for k, text in enumerate(TEXT.splitlines(), 1) if "motor" in text)
+    column = TEXT.splitlines()[line - 1].index("20 deg") + 1
+    assert done.exit_code == 2
+    assert f"{pump}:{line}:{column}: --set: drives.motor.value is an expression of t or motion" in done.stderr
+    assert "once it is a parameter: parameters: {phase: -39.52 deg}, value: phase + …" in done.stderr
+
+
+def test_a_number_in_a_drive_is_set_as_a_parameter(pump: str) -> None:
+    """What the message says works: the same motion, and another phase without compiling again."""
+    named = Path(pump).with_name("named.yaml")
+    named.write_text(TEXT.replace("20 deg + omega", "phase + omega").replace("{omega", "{phase: 20 deg, omega"))
+    first = gudgeon.load(pump).simulate(0.01, output=1)
+    again = gudgeon.load(named)
+    assert again.simulate(0.01, output=1)["piston.x"].tolist() == first["piston.x"].tolist()
+    turned = again.simulate(0.01, output=1, parameters={"phase": "30deg"})
+    assert turned["crank.theta"][0] - first["crank.theta"][0] == pytest.approx(0.17453292519943295)
+    with pytest.raises(UnknownNameError, match=r"drives.motor.value is an expression of t or motion.*\n.*a parameter"):
+        gudgeon.load(pump).simulate(0.01, parameters={"drives.motor.value": 3.0})
+
+
+@pytest.mark.parametrize("address", ["ground.O.x", "ground.C.y", "joints.bore.axis.y"])
+def test_a_number_that_is_written_as_zero_is_told(address: str, call: Gudgeon, pump: str) -> None:
+    done = call("run", pump, "--set", f"{address}=1")
+    assert done.exit_code == 2 and f"{address} is written as 0, which stands in no equation" in done.stderr
+    assert "write a parameter there" in done.stderr
+
+
+def test_a_parameter_that_is_zero_can_be_set(pump: str) -> None:
+    named = Path(pump).with_name("named.yaml")
+    named.write_text(TEXT.replace("C: [0, 0]", "C: [0, shift]").replace("{omega", "{shift: 0 m, omega"))
+    run = gudgeon.load(named).simulate(0.01, output=1, parameters={"shift": "5mm"})
+    assert run["piston.y"] == pytest.approx(0.005)
+
+
+def test_gains_are_both_gains(call: Gudgeon, pump: str) -> None:
+    def run(*arguments: str) -> Any:
+        done = call("run", pump, "--scene", "worn", "--method", "rk4", "--formulation", "full", "--json", *arguments)
+        assert done.exit_code == 0, done.output
+        return json.loads(done.stdout)["scenes"]["worn"]["diagnostics"]["phi_dot_max"]
+
+    both = run("--set", "baumgarte.alpha=0", "--set", "baumgarte.beta=0")
+    assert run("--set", "gains=0") == both != run()
+    twice = call("run", pump, "--set", "gains=0", "--set", "baumgarte.beta=1")
+    assert twice.exit_code == 2 and "baumgarte.beta is given twice" in twice.stderr
+
+
+def test_gains_in_python_and_in_batches(pump: str) -> None:
+    simulation = gudgeon.load(pump, formulation="full")
+    run = simulation.simulate(1e-3, parameters={"gains": "3 1/s"})
+    assert (run.parameters["baumgarte.alpha"], run.parameters["baumgarte.beta"]) == (3.0, 3.0)
+    batch = simulation.simulate_many({"gains": [0.0, 5.0]}, t_end=1e-3)
+    assert batch[1].parameters["baumgarte.beta"] == 5.0
+    with pytest.raises(BadValueError, match="given twice"):
+        simulation.simulate(1e-3, parameters={"gains": 1.0, "baumgarte.alpha": 2.0})
+
+
+def test_a_parameter_of_that_name_comes_first(pump: str) -> None:
+    named = Path(pump).with_name("named.yaml")
+    named.write_text(TEXT.replace("{omega", "{gains: 2, omega"))
+    run = gudgeon.load(named).simulate(1e-3, parameters={"gains": 7.0})
+    assert run.parameters["parameters.gains"] == 7.0 and run.parameters["baumgarte.alpha"] != 7.0
+
+
+def test_a_mechanism_in_millimetres_by_mistake_is_remarked(call: Gudgeon, tmp_path: Path) -> None:
+    bare = TEXT.partition("scenes:")[0].replace("30 mm,", "30,").replace("120 mm,", "120,").replace("0.14}", "140}")
+    (tmp_path / "bare.yaml").write_text(bare)
+    done = call("check", "bare.yaml")
+    told = " ".join(done.stdout.split())
+    assert done.exit_code == 0, done.output
+    assert "size: bodies.rod.length is 120 m: bare numbers are metres; if millimetres are meant, write 120 mm" in told
+    (tmp_path / "crane.yaml").write_text(bare.replace("30,", "12,").replace("120,", "48,").replace("140}", "58}"))
+    for name in ("crane.yaml", "nine_bar_press", "car_axis"):
+        assert "size:" not in call("check", name).stdout

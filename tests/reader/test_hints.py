@@ -1,0 +1,185 @@
+"""What newcomers write first, and what they are told: the word that is used here, the section, the line to write."""
+
+from __future__ import annotations
+
+import pytest
+
+from gudgeon.errors import BadValueError, InputError, InputErrors, MissingKeyError, UnknownKeyError, UnknownNameError
+from gudgeon.generator.format.sections import FILE
+from gudgeon.generator.mechanism.mechanism import Mechanism
+from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.language.units import INERTIA
+
+TEXT = """
+format: gudgeon/1
+name: plain
+bodies:
+  crank: {length: 50 mm, mass: 0.3 kg, inertia: 1e-4 kg*m^2}
+  rod: {length: 120 mm, mass: 0.21 kg, inertia: 2.5e-4 kg*m^2}
+  piston: {mass: 0.14 kg, inertia: 1e-4 kg*m^2}
+ground: {O: [0, 0]}
+joints:
+  shaft: {revolute: [ground.O, crank.tail]}
+  crankpin: {revolute: [crank.head, rod.tail]}
+  wristpin: {revolute: [rod.head, piston.origin]}
+  cylinder: {translational: [ground.O, piston.origin], axis: [1, 0]}
+drives:
+  motor: {angle: crank, value: 30 deg + 5 rad/s * t}
+forces:
+  coil: {spring_damper: [ground.O, piston.origin], stiffness: 3 N/m}
+start: {guess: {piston.x: 160 mm}}
+materials: {steel: {E: 207 GPa, nu: 0.3}}
+bearings: {bush: {radius: 10 mm, clearance: 0.2 mm, length: 20 mm, bearing_material: steel, journal_material: steel}}
+contacts:
+  dry: {normal: {law: hertz, stiffness: 1e9, restitution: 0.8, dissipation: flores}}
+scenes: {worn: {play: {wristpin: {bearing: bush, contact: dry}}}}
+""".lstrip()
+
+
+def read(old: str, new: str) -> Mechanism:
+    assert TEXT.count(old) == 1
+    return read_mechanism(TEXT.replace(old, new).encode(), "f.yaml")
+
+
+def refused(old: str, new: str) -> InputError:
+    """The error, which stands where ‸ is in `new`."""
+    text = TEXT.replace(old, new)
+    line, rest = text[: text.index("‸")].count("\n") + 1, text[: text.index("‸")].rpartition("\n")[2]
+    with pytest.raises(InputError) as caught:
+        read(old, new.replace("‸", ""))
+    error = caught.value
+    assert error.where is not None and (error.where.line, error.where.column) == (line, len(rest) + 1), error
+    return error
+
+
+KINDS = [
+    (section, other, kind)
+    for section in ("joints", "drives", "forces")
+    for kind, of in next(f for f in FILE.fields if f.name == section).entry.kinds().items()  # type: ignore[union-attr, misc]
+    for other in of.also
+]
+
+
+def test_kinds_that_people_call_otherwise_are_known() -> None:
+    called = {(other, kind) for _, other, kind in KINDS}
+    wanted = ("pin revolute", "hinge revolute", "prismatic translational", "slider translational", "weld rigid",
+              "fixed rigid", "link distance", "rod distance", "moment torque", "spring spring_damper")  # fmt: skip
+    assert {tuple(pair.split()) for pair in wanted} <= called
+    for section in ("joints", "drives", "forces"):
+        names = [other for where, other, _ in KINDS if where == section]
+        kinds = {kind for where, _, kind in KINDS if where == section}
+        assert len(names) == len(set(names)) and not kinds & set(names)
+
+
+OLD = {
+    "joints": "{revolute: [ground.O, crank.tail]}",
+    "drives": "{angle: crank,",
+    "forces": "{spring_damper: [ground.O, ",
+}
+
+
+@pytest.mark.parametrize(("section", "other", "kind"), KINDS)
+def test_the_kind_that_is_meant_is_told(section: str, other: str, kind: str) -> None:
+    head, _, tail = OLD[section].partition(":")
+    error = refused(OLD[section], f"{{‸{other}:{tail}")
+    assert type(error) is UnknownKeyError and error.hint == f"{other!r} is called {kind} here"
+
+
+def test_a_kind_in_capitals_is_told_too() -> None:
+    assert "called revolute here" in refused("{revolute: [ground.O,", "{‸Pin: [ground.O,").hint
+
+
+@pytest.mark.parametrize("key", ["play", "clearance", "bearing", "contact"])
+def test_play_inside_a_joint_points_to_scenes(key: str) -> None:
+    error = refused("[ground.O, crank.tail]}", f"[ground.O, crank.tail], ‸{key}: 0.2 mm}}")
+    assert type(error) is UnknownKeyError
+    line = "scenes: {worn: {play: {shaft: {bearing: bush, contact: dry}}}}"
+    assert error.hint == f"play stands in scenes: {line}"
+    read("scenes: {worn: {play: {wristpin: {bearing: bush, contact: dry}}}}", line)  # it can be written
+
+
+def test_three_points_in_a_revolute_are_two_joints() -> None:
+    error = refused("[crank.head, rod.tail]", "‸[crank.head, rod.tail, piston.origin]")
+    assert type(error) is BadValueError and "revolute takes 3 points" in error.message
+    pairs = "A: {revolute: [crank.head, rod.tail]}, B: {revolute: [crank.head, piston.origin]}"
+    assert error.hint.endswith(f"3 bodies on one pin are 2 joints: {pairs}")
+    read("shaft: {revolute: [ground.O, crank.tail]}", "\n  ".join(["shaft: {revolute: [ground.O, crank.tail]}",
+         *pairs.replace("}, B", "}|B").split("|")]))  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("start", "hint"),
+    [
+        ("set: {crank.‸omega: 3 rad/s}", "velocities stand under rates: start: {rates: {crank.omega: 3 rad/s}}"),
+        ("guess: {piston.‸vx: 1 m/s}", "velocities stand under rates: start: {rates: {piston.vx: 1 m/s}}"),
+        ("rates: {crank.‸theta: 30 deg}", "coordinates stand under set: start: {set: {crank.theta: 30 deg}}"),
+    ],
+)
+def test_a_rate_under_set_points_to_rates(start: str, hint: str) -> None:
+    error = refused("start: {guess: {piston.x: 160 mm}}", f"start: {{{start}}}")
+    assert type(error) is UnknownNameError and error.hint == hint
+    read("start: {guess: {piston.x: 160 mm}}", hint.partition("under ")[2].partition(": ")[2])
+
+
+def test_units_without_a_space_and_as_people_write_them() -> None:
+    for text in ("120mm", "0.12m", "12cm"):
+        assert read("length: 120 mm", f"length: {text}").bodies["rod"].length.value.value == 0.12  # type: ignore[union-attr]
+    inertia = read("2.5e-4 kg*m^2", "2.5e-4 kg m²").bodies["rod"].inertia
+    assert inertia.value.value == 2.5e-4 and inertia.dimension == INERTIA  # type: ignore[union-attr]
+
+
+def test_a_unit_that_is_a_parameter_too_is_refused_where_it_stands() -> None:
+    head = "name: plain\n"
+    with pytest.raises(InputError, match=r"f.yaml:3:\d+: '2m' can mean two things: m is a unit, and a parameter here"):
+        read(head, f"{head}parameters: {{m: 3 kg, M: 2m}}\n")
+    read(head, f"{head}parameters: {{m: 3 kg, M: 2 m}}\n")
+
+
+# --- laws ---------------------------------------------------------------------------------------------------------
+
+HERTZ = "{law: hertz, stiffness: 1e9, restitution: 0.8, dissipation: flores}"
+
+
+def normal(mechanism: Mechanism) -> object:
+    law = mechanism.scenes["worn"].play["wristpin"].contact.normal
+    assert law is not None
+    return law.law, {name: q.value.value for name, q in law.quantities.items()}, law.options  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize("name", ["flores", "hunt_crossley", "gonthier", "hu_guo"])
+def test_a_damping_names_a_law(name: str) -> None:
+    """`law: flores` is Hertz' with that damping, and K follows from materials unless it is given."""
+    own = read(HERTZ, f"{{law: {name}, restitution: 0.8, geometry: internal}}")
+    written = read(HERTZ, f"{{law: hertz, restitution: 0.8, geometry: internal, dissipation: {name}}}")
+    assert normal(own) == normal(written)
+    assert normal(own) == (
+        "hertz", {"exponent": 1.5, "restitution": 0.8}, {"dissipation": name, "geometry": "internal"}
+    )  # fmt: skip
+    given = normal(read(HERTZ, f"{{law: {name}, restitution: 0.8, stiffness: 1e9}}"))
+    assert given == (
+        "hertz", {"stiffness": 1e9, "exponent": 1.5, "restitution": 0.8}, {"dissipation": name}
+    )  # fmt: skip
+
+
+def test_a_damping_asks_for_its_restitution() -> None:
+    """Hertz' own default, 1, would be no damping at all."""
+    error = refused(HERTZ, "‸{law: flores}")
+    assert type(error) is MissingKeyError and "no restitution" in error.message
+    assert "dissipation" in refused(HERTZ, "{law: flores, restitution: 0.8, ‸dissipation: hu_guo}").message
+
+
+def test_geometry_beside_a_stiffness_says_nothing() -> None:
+    error = refused(HERTZ, "{law: hertz, stiffness: 1e9, ‸geometry: internal}")
+    assert type(error) is BadValueError and "both stiffness and geometry" in error.message
+
+
+@pytest.mark.parametrize("unit", ["N/m^1.5", "N/m^(3/2)"])
+def test_units_of_a_stiffness(unit: str) -> None:
+    law = read(HERTZ, f"{{law: flores, restitution: 0.8, stiffness: 2 k{unit}}}")
+    assert normal(law)[1]["stiffness"] == 2000.0  # type: ignore[index]
+    read("name: plain\n", f"name: plain\nparameters: {{K: 1e9 {unit}}}\n")
+
+
+def test_none_is_no_law() -> None:
+    with pytest.raises((InputError, InputErrors), match="unknown normal law 'none'"):
+        read(HERTZ, "{law: none, restitution: 0.8}")
