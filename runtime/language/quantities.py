@@ -38,7 +38,7 @@ def holds_names(text: str) -> bool:
 
 
 def number_of_names(
-    text: str, what: str, exponents: Sequence[int], known: Mapping[str, tuple[float, Sequence[int]]]
+    text: str, what: str, exponents: Sequence[int], known: Mapping[str, tuple[float, Sequence[float]]]
 ) -> float:
     """The number (SI) of an expression of `known` names, each with its value and exponents: '2*pi/omega'.
 
