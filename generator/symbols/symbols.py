@@ -33,7 +33,7 @@ Lanes LaneBits LaneParameters LaneRun LaneAside LaneLatch LanePinForce LaneClear
 chain_step chain_rates chain_third chain_corners chain_directions row most bend
 finite_slope just_ahead just_behind
 """
-_TAKEN = NOT_IN_CODE.union(_WORDS.split())
+_TAKEN = (NOT_IN_CODE - {"time"}).union(_WORDS.split())  # each model has a symbol of that name first: t
 
 
 

@@ -50,7 +50,7 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
 
     /* constraints */
     const double inverse_length = 1.0/p->length;
-    const double bump_acceleration_by_par_time = 3.0*pow(inverse_length,
+    const double bump_acceleration_by_time = 3.0*pow(inverse_length,
         5.0)*(p->omega * p->omega * p->omega)*pow(p->par_r, 5.0)*(sin(p->omega*t) * sin(p->omega*t))*(cos(p->omega*t)
         * cos(p->omega*t) * cos(p->omega*t))/pow(-(inverse_length * inverse_length)*(p->par_r
         * p->par_r)*(sin(p->omega*t) * sin(p->omega*t)) + 1.0, 2.5)
@@ -62,8 +62,8 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
         * inverse_length)*(p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t)) + 1.0, 1.5)
         - inverse_length*(p->omega * p->omega * p->omega)*p->par_r*cos(p->omega*t)/sqrt(-(inverse_length
         * inverse_length)*(p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t)) + 1.0);
-    const double cos_theta_road_by_par_time = -bump_rate*sin_theta_road;
-    const double sin_theta_road_by_par_time = bump_rate*cos_theta_road;
+    const double cos_theta_road_by_time = -bump_rate*sin_theta_road;
+    const double sin_theta_road_by_time = bump_rate*cos_theta_road;
 
     /* coordinates */
     const double inverse_sum = 1.0/(left_length + 1e-150);
@@ -81,26 +81,26 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
         * inverse_left_length)*left_force*left_length_by_axle_theta + inverse_left_length*left_force_by_axle_theta;
     const double left_pull_by_axle_y = -(inverse_left_length * inverse_left_length)*left_force*left_length_by_axle_y
         + inverse_left_length*left_force_by_axle_y;
-    const double span_road_head_x_by_par_time = -bump_rate*span_road_head_y;
-    const double span_road_head_y_by_par_time = bump_rate*span_road_head_x;
+    const double span_road_head_x_by_time = -bump_rate*span_road_head_y;
+    const double span_road_head_y_by_time = bump_rate*span_road_head_x;
     const double inverse_sum_2 = 1.0/(right_length + 1e-150);
     const double right_length_by_axle_x = inverse_sum_2*right_span_x;
     const double right_length_by_axle_theta = inverse_sum_2*right_span_x*span_axle_tail_y
         - inverse_sum_2*right_span_y*span_axle_tail_x;
-    const double right_length_by_par_time = -inverse_sum_2*right_span_x*span_road_head_x_by_par_time
-        - inverse_sum_2*right_span_y*span_road_head_y_by_par_time;
+    const double right_length_by_time = -inverse_sum_2*right_span_x*span_road_head_x_by_time
+        - inverse_sum_2*right_span_y*span_road_head_y_by_time;
     const double right_length_by_axle_y = inverse_sum_2*right_span_y;
     const double right_force_by_axle_x = right_length_by_axle_x*p->right_stiffness;
     const double right_force_by_axle_theta = right_length_by_axle_theta*p->right_stiffness;
-    const double right_force_by_par_time = right_length_by_par_time*p->right_stiffness;
+    const double right_force_by_time = right_length_by_time*p->right_stiffness;
     const double right_force_by_axle_y = right_length_by_axle_y*p->right_stiffness;
     const double inverse_right_length = 1.0/right_length;
     const double right_pull_by_axle_x = -(inverse_right_length
         * inverse_right_length)*right_force*right_length_by_axle_x + inverse_right_length*right_force_by_axle_x;
     const double right_pull_by_axle_theta = -(inverse_right_length
         * inverse_right_length)*right_force*right_length_by_axle_theta + inverse_right_length*right_force_by_axle_theta;
-    const double right_pull_by_par_time = -(inverse_right_length
-        * inverse_right_length)*right_force*right_length_by_par_time + inverse_right_length*right_force_by_par_time;
+    const double right_pull_by_time = -(inverse_right_length * inverse_right_length)*right_force*right_length_by_time
+        + inverse_right_length*right_force_by_time;
     const double right_pull_by_axle_y = -(inverse_right_length
         * inverse_right_length)*right_force*right_length_by_axle_y + inverse_right_length*right_force_by_axle_y;
 
@@ -144,35 +144,33 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
         - 2.0*bump_rate*cos_theta_road*span_axle_tail_x - 2.0*bump_rate*sin_theta_road*span_axle_tail_y;
     lin->value[16] = 2.0*bump_rate*sin_theta_road;
     lin->value[17] = -2.0*bump_rate*cos_theta_road;
-    lin->value[18] = p->beta_squared*(cos_theta_road_by_par_time*(-axle_x - span_axle_tail_x)
-        + sin_theta_road_by_par_time*(-axle_y - span_axle_tail_y))
+    lin->value[18] = p->beta_squared*(cos_theta_road_by_time*(-axle_x - span_axle_tail_x)
+        + sin_theta_road_by_time*(-axle_y - span_axle_tail_y))
         + bump_acceleration*(-2.0*bump_rate*cos_theta_road*(-axle_x - span_axle_tail_x)
         - 2.0*bump_rate*sin_theta_road*(-axle_y - span_axle_tail_y)
         + 2.0*cos_theta_road*(-axle_omega*span_axle_tail_x - axle_y_rate)
         - 2.0*sin_theta_road*(axle_omega*span_axle_tail_y - axle_x_rate))
-        + bump_acceleration_by_par_time*(cos_theta_road*(-axle_y - span_axle_tail_y)
-        - sin_theta_road*(-axle_x - span_axle_tail_x)) + cos_theta_road_by_par_time*(a_axle_theta*span_axle_tail_y
+        + bump_acceleration_by_time*(cos_theta_road*(-axle_y - span_axle_tail_y)
+        - sin_theta_road*(-axle_x - span_axle_tail_x)) + cos_theta_road_by_time*(a_axle_theta*span_axle_tail_y
         - a_axle_x + (axle_omega * axle_omega)*span_axle_tail_x + bump_acceleration*(-axle_y - span_axle_tail_y)
         - (bump_rate * bump_rate)*(-axle_x - span_axle_tail_x)
         + 2.0*bump_rate*(-axle_omega*span_axle_tail_x - axle_y_rate))
-        + sin_theta_road_by_par_time*(-a_axle_theta*span_axle_tail_x - a_axle_y
+        + sin_theta_road_by_time*(-a_axle_theta*span_axle_tail_x - a_axle_y
         + (axle_omega * axle_omega)*span_axle_tail_y + bump_acceleration*(axle_x + span_axle_tail_x)
         - (bump_rate * bump_rate)*(-axle_y - span_axle_tail_y)
         - 2.0*bump_rate*(axle_omega*span_axle_tail_y - axle_x_rate))
         + p->two_alpha*(bump_acceleration*(cos_theta_road*(-axle_y - span_axle_tail_y)
-        - sin_theta_road*(-axle_x - span_axle_tail_x)) + cos_theta_road_by_par_time*(axle_omega*span_axle_tail_y
+        - sin_theta_road*(-axle_x - span_axle_tail_x)) + cos_theta_road_by_time*(axle_omega*span_axle_tail_y
         - axle_x_rate + bump_rate*(-axle_y - span_axle_tail_y))
-        + sin_theta_road_by_par_time*(-axle_omega*span_axle_tail_x - axle_y_rate
-        - bump_rate*(-axle_x - span_axle_tail_x)));
-    lin->value[19] = -cos_theta_road_by_par_time*held_lambda_slot_offset - right_pull*span_road_head_x_by_par_time
-        + right_pull_by_par_time*right_span_x;
-    lin->value[20] = -held_lambda_slot_offset*sin_theta_road_by_par_time - right_pull*span_road_head_y_by_par_time
-        + right_pull_by_par_time*right_span_y;
-    lin->value[21] = cos_theta_road_by_par_time*held_lambda_slot_offset*span_axle_tail_y
-        - held_lambda_slot_offset*sin_theta_road_by_par_time*span_axle_tail_x
-        + right_pull*span_axle_tail_x*span_road_head_y_by_par_time
-        - right_pull*span_axle_tail_y*span_road_head_x_by_par_time
-        + right_pull_by_par_time*(right_span_x*span_axle_tail_y - right_span_y*span_axle_tail_x);
+        + sin_theta_road_by_time*(-axle_omega*span_axle_tail_x - axle_y_rate - bump_rate*(-axle_x - span_axle_tail_x)));
+    lin->value[19] = -cos_theta_road_by_time*held_lambda_slot_offset - right_pull*span_road_head_x_by_time
+        + right_pull_by_time*right_span_x;
+    lin->value[20] = -held_lambda_slot_offset*sin_theta_road_by_time - right_pull*span_road_head_y_by_time
+        + right_pull_by_time*right_span_y;
+    lin->value[21] = cos_theta_road_by_time*held_lambda_slot_offset*span_axle_tail_y
+        - held_lambda_slot_offset*sin_theta_road_by_time*span_axle_tail_x
+        + right_pull*span_axle_tail_x*span_road_head_y_by_time - right_pull*span_axle_tail_y*span_road_head_x_by_time
+        + right_pull_by_time*(right_span_x*span_axle_tail_y - right_span_y*span_axle_tail_x);
     lin->value[22] = bump_rate*held_lambda_slot_offset*sin_theta_road + bump_rate*right_pull*span_road_head_y
         + bump_rate*right_pull_by_axle_x*(right_span_x*span_road_head_y - right_span_y*span_road_head_x);
     lin->value[23] = -bump_rate*cos_theta_road*held_lambda_slot_offset - bump_rate*right_pull*span_road_head_x
@@ -187,14 +185,14 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     lin->value[26] = bump_acceleration*(bump_acceleration*p->mass_bump_bump - cos_theta_road*p->weight_road__across
         - held_lambda_slot_offset*(-cos_theta_road*(-axle_y - span_axle_tail_y)
         + sin_theta_road*(-axle_x - span_axle_tail_x)) + right_pull*right_span_x*span_road_head_y
-        - right_pull*right_span_y*span_road_head_x) + bump_acceleration_by_par_time*bump_rate*p->mass_bump_bump
-        - bump_rate*held_lambda_slot_offset*sin_theta_road_by_par_time*(-axle_x - span_axle_tail_x)
-        + bump_rate*right_pull*right_span_x*span_road_head_y_by_par_time
-        - bump_rate*right_pull*right_span_y*span_road_head_x_by_par_time
-        + bump_rate*right_pull*span_road_head_x*span_road_head_y_by_par_time
-        - bump_rate*right_pull*span_road_head_x_by_par_time*span_road_head_y
-        + bump_rate*right_pull_by_par_time*(right_span_x*span_road_head_y - right_span_y*span_road_head_x)
-        + cos_theta_road_by_par_time*(bump_rate*held_lambda_slot_offset*(-axle_y - span_axle_tail_y)
+        - right_pull*right_span_y*span_road_head_x) + bump_acceleration_by_time*bump_rate*p->mass_bump_bump
+        - bump_rate*held_lambda_slot_offset*sin_theta_road_by_time*(-axle_x - span_axle_tail_x)
+        + bump_rate*right_pull*right_span_x*span_road_head_y_by_time
+        - bump_rate*right_pull*right_span_y*span_road_head_x_by_time
+        + bump_rate*right_pull*span_road_head_x*span_road_head_y_by_time
+        - bump_rate*right_pull*span_road_head_x_by_time*span_road_head_y
+        + bump_rate*right_pull_by_time*(right_span_x*span_road_head_y - right_span_y*span_road_head_x)
+        + cos_theta_road_by_time*(bump_rate*held_lambda_slot_offset*(-axle_y - span_axle_tail_y)
         - bump_rate*p->weight_road__across);
     lin->p = p;
 }

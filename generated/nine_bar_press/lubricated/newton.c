@@ -532,15 +532,13 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double edot_A_y = -L1_head_vy + L2_tail_vy;
     double change_A[4][6];
     tangent_A(e_A_x, e_A_y, edot_A_x, edot_A_y, crank1_rate, L2_omega, &memory->latch[0], p, side, g, change_A);
-    const double span_L1_head_x_by_par_time = -crank1_rate*span_L1_head_y;
-    const double span_L1_head_y_by_par_time = crank1_rate*span_L1_head_x;
-    const double L1_head_vx_by_par_time = -crank1_acceleration*span_L1_head_y
-        - (crank1_rate * crank1_rate)*span_L1_head_x;
+    const double span_L1_head_x_by_time = -crank1_rate*span_L1_head_y;
+    const double span_L1_head_y_by_time = crank1_rate*span_L1_head_x;
+    const double L1_head_vx_by_time = -crank1_acceleration*span_L1_head_y - (crank1_rate * crank1_rate)*span_L1_head_x;
     const double L2_tail_vx_by_L6_theta = -L6_omega*span_L6_head_x;
     const double L2_tail_vx_by_L7_theta = -L7_omega*span_L7_tail_x;
     const double L2_tail_vx_by_L2_theta = -L2_omega*span_L2_tail_x;
-    const double L1_head_vy_by_par_time = crank1_acceleration*span_L1_head_x
-        - (crank1_rate * crank1_rate)*span_L1_head_y;
+    const double L1_head_vy_by_time = crank1_acceleration*span_L1_head_x - (crank1_rate * crank1_rate)*span_L1_head_y;
     const double L2_tail_vy_by_L6_theta = -L6_omega*span_L6_head_y;
     const double L2_tail_vy_by_L7_theta = -L7_omega*span_L7_tail_y;
     const double L2_tail_vy_by_L2_theta = -L2_omega*span_L2_tail_y;
@@ -556,9 +554,8 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
         - A_Fx_by_e_x*span_L7_tail_y + A_Fx_by_e_y*span_L7_tail_x;
     const double A_Fx_by_L2_theta = A_Fx_by_de_x*L2_tail_vx_by_L2_theta + A_Fx_by_de_y*L2_tail_vy_by_L2_theta
         - A_Fx_by_e_x*span_L2_tail_y + A_Fx_by_e_y*span_L2_tail_x;
-    const double A_Fx_by_par_time = -A_Fx_by_de_x*L1_head_vx_by_par_time - A_Fx_by_de_y*L1_head_vy_by_par_time
-        - A_Fx_by_e_x*span_L1_head_x_by_par_time - A_Fx_by_e_y*span_L1_head_y_by_par_time
-        + A_Fx_by_omega_i*crank1_acceleration;
+    const double A_Fx_by_time = -A_Fx_by_de_x*L1_head_vx_by_time - A_Fx_by_de_y*L1_head_vy_by_time
+        - A_Fx_by_e_x*span_L1_head_x_by_time - A_Fx_by_e_y*span_L1_head_y_by_time + A_Fx_by_omega_i*crank1_acceleration;
     const double A_Fx_by_L6_omega = -A_Fx_by_de_x*span_L6_head_y + A_Fx_by_de_y*span_L6_head_x;
     const double A_Fx_by_L7_omega = -A_Fx_by_de_x*span_L7_tail_y + A_Fx_by_de_y*span_L7_tail_x;
     const double A_Fx_by_L2_omega = -A_Fx_by_de_x*span_L2_tail_y + A_Fx_by_de_y*span_L2_tail_x + A_Fx_by_omega_j;
@@ -574,9 +571,8 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
         - A_Fy_by_e_x*span_L7_tail_y + A_Fy_by_e_y*span_L7_tail_x;
     const double A_Fy_by_L2_theta = A_Fy_by_de_x*L2_tail_vx_by_L2_theta + A_Fy_by_de_y*L2_tail_vy_by_L2_theta
         - A_Fy_by_e_x*span_L2_tail_y + A_Fy_by_e_y*span_L2_tail_x;
-    const double A_Fy_by_par_time = -A_Fy_by_de_x*L1_head_vx_by_par_time - A_Fy_by_de_y*L1_head_vy_by_par_time
-        - A_Fy_by_e_x*span_L1_head_x_by_par_time - A_Fy_by_e_y*span_L1_head_y_by_par_time
-        + A_Fy_by_omega_i*crank1_acceleration;
+    const double A_Fy_by_time = -A_Fy_by_de_x*L1_head_vx_by_time - A_Fy_by_de_y*L1_head_vy_by_time
+        - A_Fy_by_e_x*span_L1_head_x_by_time - A_Fy_by_e_y*span_L1_head_y_by_time + A_Fy_by_omega_i*crank1_acceleration;
     const double A_Fy_by_L6_omega = -A_Fy_by_de_x*span_L6_head_y + A_Fy_by_de_y*span_L6_head_x;
     const double A_Fy_by_L7_omega = -A_Fy_by_de_x*span_L7_tail_y + A_Fy_by_de_y*span_L7_tail_x;
     const double A_Fy_by_L2_omega = -A_Fy_by_de_x*span_L2_tail_y + A_Fy_by_de_y*span_L2_tail_x + A_Fy_by_omega_j;
@@ -595,9 +591,9 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double A_moment_first_by_L2_theta = A_moment_first_by_de_x*L2_tail_vx_by_L2_theta
         + A_moment_first_by_de_y*L2_tail_vy_by_L2_theta - A_moment_first_by_e_x*span_L2_tail_y
         + A_moment_first_by_e_y*span_L2_tail_x;
-    const double A_moment_first_by_par_time = -A_moment_first_by_de_x*L1_head_vx_by_par_time
-        - A_moment_first_by_de_y*L1_head_vy_by_par_time - A_moment_first_by_e_x*span_L1_head_x_by_par_time
-        - A_moment_first_by_e_y*span_L1_head_y_by_par_time + A_moment_first_by_omega_i*crank1_acceleration;
+    const double A_moment_first_by_time = -A_moment_first_by_de_x*L1_head_vx_by_time
+        - A_moment_first_by_de_y*L1_head_vy_by_time - A_moment_first_by_e_x*span_L1_head_x_by_time
+        - A_moment_first_by_e_y*span_L1_head_y_by_time + A_moment_first_by_omega_i*crank1_acceleration;
     const double A_moment_first_by_L6_omega = -A_moment_first_by_de_x*span_L6_head_y
         + A_moment_first_by_de_y*span_L6_head_x;
     const double A_moment_first_by_L7_omega = -A_moment_first_by_de_x*span_L7_tail_y
@@ -619,9 +615,9 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double A_moment_second_by_L2_theta = A_moment_second_by_de_x*L2_tail_vx_by_L2_theta
         + A_moment_second_by_de_y*L2_tail_vy_by_L2_theta - A_moment_second_by_e_x*span_L2_tail_y
         + A_moment_second_by_e_y*span_L2_tail_x;
-    const double A_moment_second_by_par_time = -A_moment_second_by_de_x*L1_head_vx_by_par_time
-        - A_moment_second_by_de_y*L1_head_vy_by_par_time - A_moment_second_by_e_x*span_L1_head_x_by_par_time
-        - A_moment_second_by_e_y*span_L1_head_y_by_par_time + A_moment_second_by_omega_i*crank1_acceleration;
+    const double A_moment_second_by_time = -A_moment_second_by_de_x*L1_head_vx_by_time
+        - A_moment_second_by_de_y*L1_head_vy_by_time - A_moment_second_by_e_x*span_L1_head_x_by_time
+        - A_moment_second_by_e_y*span_L1_head_y_by_time + A_moment_second_by_omega_i*crank1_acceleration;
     const double A_moment_second_by_L6_omega = -A_moment_second_by_de_x*span_L6_head_y
         + A_moment_second_by_de_y*span_L6_head_x;
     const double A_moment_second_by_L7_omega = -A_moment_second_by_de_x*span_L7_tail_y
@@ -636,18 +632,16 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double edot_B_y = L3_tail_vy - L4_head_vy;
     double change_B[4][6];
     tangent_B(e_B_x, e_B_y, edot_B_x, edot_B_y, crank4_rate, L3_omega, &memory->latch[1], p, side, g, change_B);
-    const double span_L4_head_x_by_par_time = -crank4_rate*span_L4_head_y;
-    const double L4_head_y_by_par_time = crank4_rate*span_L4_head_x;
+    const double span_L4_head_x_by_time = -crank4_rate*span_L4_head_y;
+    const double L4_head_y_by_time = crank4_rate*span_L4_head_x;
     const double L3_tail_vx_by_L6_theta = -L6_omega*span_L6_head_x;
     const double L3_tail_vx_by_L7_theta = -L7_omega*span_L7_tail_x;
     const double L3_tail_vx_by_L3_theta = -L3_omega*span_L3_tail_x;
-    const double L4_head_vx_by_par_time = -crank4_acceleration*span_L4_head_y
-        - (crank4_rate * crank4_rate)*span_L4_head_x;
+    const double L4_head_vx_by_time = -crank4_acceleration*span_L4_head_y - (crank4_rate * crank4_rate)*span_L4_head_x;
     const double L3_tail_vy_by_L6_theta = -L6_omega*span_L6_head_y;
     const double L3_tail_vy_by_L7_theta = -L7_omega*span_L7_tail_y;
     const double L3_tail_vy_by_L3_theta = -L3_omega*span_L3_tail_y;
-    const double L4_head_vy_by_par_time = crank4_acceleration*span_L4_head_x
-        - (crank4_rate * crank4_rate)*span_L4_head_y;
+    const double L4_head_vy_by_time = crank4_acceleration*span_L4_head_x - (crank4_rate * crank4_rate)*span_L4_head_y;
     const double B_Fx_by_e_x = change_B[0][0];
     const double B_Fx_by_e_y = change_B[0][1];
     const double B_Fx_by_de_x = change_B[0][2];
@@ -660,9 +654,8 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
         - B_Fx_by_e_x*span_L7_tail_y + B_Fx_by_e_y*span_L7_tail_x;
     const double B_Fx_by_L3_theta = B_Fx_by_de_x*L3_tail_vx_by_L3_theta + B_Fx_by_de_y*L3_tail_vy_by_L3_theta
         - B_Fx_by_e_x*span_L3_tail_y + B_Fx_by_e_y*span_L3_tail_x;
-    const double B_Fx_by_par_time = -B_Fx_by_de_x*L4_head_vx_by_par_time - B_Fx_by_de_y*L4_head_vy_by_par_time
-        - B_Fx_by_e_x*span_L4_head_x_by_par_time - B_Fx_by_e_y*L4_head_y_by_par_time
-        + B_Fx_by_omega_i*crank4_acceleration;
+    const double B_Fx_by_time = -B_Fx_by_de_x*L4_head_vx_by_time - B_Fx_by_de_y*L4_head_vy_by_time
+        - B_Fx_by_e_x*span_L4_head_x_by_time - B_Fx_by_e_y*L4_head_y_by_time + B_Fx_by_omega_i*crank4_acceleration;
     const double B_Fx_by_L6_omega = -B_Fx_by_de_x*span_L6_head_y + B_Fx_by_de_y*span_L6_head_x;
     const double B_Fx_by_L7_omega = -B_Fx_by_de_x*span_L7_tail_y + B_Fx_by_de_y*span_L7_tail_x;
     const double B_Fx_by_L3_omega = -B_Fx_by_de_x*span_L3_tail_y + B_Fx_by_de_y*span_L3_tail_x + B_Fx_by_omega_j;
@@ -678,9 +671,8 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
         - B_Fy_by_e_x*span_L7_tail_y + B_Fy_by_e_y*span_L7_tail_x;
     const double B_Fy_by_L3_theta = B_Fy_by_de_x*L3_tail_vx_by_L3_theta + B_Fy_by_de_y*L3_tail_vy_by_L3_theta
         - B_Fy_by_e_x*span_L3_tail_y + B_Fy_by_e_y*span_L3_tail_x;
-    const double B_Fy_by_par_time = -B_Fy_by_de_x*L4_head_vx_by_par_time - B_Fy_by_de_y*L4_head_vy_by_par_time
-        - B_Fy_by_e_x*span_L4_head_x_by_par_time - B_Fy_by_e_y*L4_head_y_by_par_time
-        + B_Fy_by_omega_i*crank4_acceleration;
+    const double B_Fy_by_time = -B_Fy_by_de_x*L4_head_vx_by_time - B_Fy_by_de_y*L4_head_vy_by_time
+        - B_Fy_by_e_x*span_L4_head_x_by_time - B_Fy_by_e_y*L4_head_y_by_time + B_Fy_by_omega_i*crank4_acceleration;
     const double B_Fy_by_L6_omega = -B_Fy_by_de_x*span_L6_head_y + B_Fy_by_de_y*span_L6_head_x;
     const double B_Fy_by_L7_omega = -B_Fy_by_de_x*span_L7_tail_y + B_Fy_by_de_y*span_L7_tail_x;
     const double B_Fy_by_L3_omega = -B_Fy_by_de_x*span_L3_tail_y + B_Fy_by_de_y*span_L3_tail_x + B_Fy_by_omega_j;
@@ -699,9 +691,9 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double B_moment_first_by_L3_theta = B_moment_first_by_de_x*L3_tail_vx_by_L3_theta
         + B_moment_first_by_de_y*L3_tail_vy_by_L3_theta - B_moment_first_by_e_x*span_L3_tail_y
         + B_moment_first_by_e_y*span_L3_tail_x;
-    const double B_moment_first_by_par_time = -B_moment_first_by_de_x*L4_head_vx_by_par_time
-        - B_moment_first_by_de_y*L4_head_vy_by_par_time - B_moment_first_by_e_x*span_L4_head_x_by_par_time
-        - B_moment_first_by_e_y*L4_head_y_by_par_time + B_moment_first_by_omega_i*crank4_acceleration;
+    const double B_moment_first_by_time = -B_moment_first_by_de_x*L4_head_vx_by_time
+        - B_moment_first_by_de_y*L4_head_vy_by_time - B_moment_first_by_e_x*span_L4_head_x_by_time
+        - B_moment_first_by_e_y*L4_head_y_by_time + B_moment_first_by_omega_i*crank4_acceleration;
     const double B_moment_first_by_L6_omega = -B_moment_first_by_de_x*span_L6_head_y
         + B_moment_first_by_de_y*span_L6_head_x;
     const double B_moment_first_by_L7_omega = -B_moment_first_by_de_x*span_L7_tail_y
@@ -723,9 +715,9 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double B_moment_second_by_L3_theta = B_moment_second_by_de_x*L3_tail_vx_by_L3_theta
         + B_moment_second_by_de_y*L3_tail_vy_by_L3_theta - B_moment_second_by_e_x*span_L3_tail_y
         + B_moment_second_by_e_y*span_L3_tail_x;
-    const double B_moment_second_by_par_time = -B_moment_second_by_de_x*L4_head_vx_by_par_time
-        - B_moment_second_by_de_y*L4_head_vy_by_par_time - B_moment_second_by_e_x*span_L4_head_x_by_par_time
-        - B_moment_second_by_e_y*L4_head_y_by_par_time + B_moment_second_by_omega_i*crank4_acceleration;
+    const double B_moment_second_by_time = -B_moment_second_by_de_x*L4_head_vx_by_time
+        - B_moment_second_by_de_y*L4_head_vy_by_time - B_moment_second_by_e_x*span_L4_head_x_by_time
+        - B_moment_second_by_e_y*L4_head_y_by_time + B_moment_second_by_omega_i*crank4_acceleration;
     const double B_moment_second_by_L6_omega = -B_moment_second_by_de_x*span_L6_head_y
         + B_moment_second_by_de_y*span_L6_head_x;
     const double B_moment_second_by_L7_omega = -B_moment_second_by_de_x*span_L7_tail_y
@@ -734,9 +726,9 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
         + B_moment_second_by_de_y*span_L3_tail_x + B_moment_second_by_omega_j;
 
     /* powers */
-    const double cos_theta_L1_by_par_time = -crank1_rate*sin_theta_L1;
-    const double cos_theta_L4_by_par_time = -crank4_rate*sin_theta_L4;
-    const double span_L4_head_y_by_par_time = crank4_rate*span_L4_head_x;
+    const double cos_theta_L1_by_time = -crank1_rate*sin_theta_L1;
+    const double cos_theta_L4_by_time = -crank4_rate*sin_theta_L4;
+    const double span_L4_head_y_by_time = crank4_rate*span_L4_head_x;
 
     /* results */
     lin->value[0] = dot_L6_L7;
@@ -822,12 +814,12 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     lin->value[43] = B_Fx_by_L7_omega*span_L3_tail_y - B_Fy_by_L7_omega*span_L3_tail_x - B_moment_second_by_L7_omega
         + 2.0*L7_omega*cross_L7_L3;
     lin->value[44] = B_Fx_by_L3_omega*span_L3_tail_y - B_Fy_by_L3_omega*span_L3_tail_x - B_moment_second_by_L3_omega;
-    lin->value[45] = A_Fx_by_par_time*span_L6_head_y - A_Fy_by_par_time*span_L6_head_x
-        + B_Fx_by_par_time*span_L6_head_y - B_Fy_by_par_time*span_L6_head_x;
-    lin->value[46] = A_Fx_by_par_time*span_L7_tail_y - A_Fy_by_par_time*span_L7_tail_x
-        + B_Fx_by_par_time*span_L7_tail_y - B_Fy_by_par_time*span_L7_tail_x;
-    lin->value[47] = A_Fx_by_par_time*span_L2_tail_y - A_Fy_by_par_time*span_L2_tail_x - A_moment_second_by_par_time;
-    lin->value[48] = B_Fx_by_par_time*span_L3_tail_y - B_Fy_by_par_time*span_L3_tail_x - B_moment_second_by_par_time;
+    lin->value[45] = A_Fx_by_time*span_L6_head_y - A_Fy_by_time*span_L6_head_x + B_Fx_by_time*span_L6_head_y
+        - B_Fy_by_time*span_L6_head_x;
+    lin->value[46] = A_Fx_by_time*span_L7_tail_y - A_Fy_by_time*span_L7_tail_x + B_Fx_by_time*span_L7_tail_y
+        - B_Fy_by_time*span_L7_tail_x;
+    lin->value[47] = A_Fx_by_time*span_L2_tail_y - A_Fy_by_time*span_L2_tail_x - A_moment_second_by_time;
+    lin->value[48] = B_Fx_by_time*span_L3_tail_y - B_Fy_by_time*span_L3_tail_x - B_moment_second_by_time;
     lin->value[49] = -A_Fx_by_L6_theta*crank1_rate*span_L1_head_y + A_Fy_by_L6_theta*crank1_rate*span_L1_head_x
         - A_moment_first_by_L6_theta*crank1_rate - B_Fx_by_L6_theta*crank4_rate*span_L4_head_y
         + B_Fy_by_L6_theta*crank4_rate*span_L4_head_x - B_moment_first_by_L6_theta*crank4_rate;
@@ -882,24 +874,21 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     lin->value[64] = -B_Fx*span_L3_tail_y + B_Fx_by_L3_omega*(L3_tail_vx - L4_head_vx) + B_Fy*span_L3_tail_x
         + B_Fy_by_L3_omega*(L3_tail_vy - L4_head_vy) + B_moment_first_by_L3_omega*crank4_rate + B_moment_second
         + B_moment_second_by_L3_omega*L3_omega;
-    lin->value[65] = -A_Fx*crank1_rate*span_L1_head_y_by_par_time - A_Fx_by_par_time*crank1_rate*span_L1_head_y
-        + A_Fy*crank1_rate*span_L1_head_x_by_par_time + A_Fy_by_par_time*crank1_rate*span_L1_head_x
-        - A_moment_first_by_par_time*crank1_rate - B_Fx*crank4_rate*span_L4_head_y_by_par_time
-        - B_Fx_by_par_time*crank4_rate*span_L4_head_y + B_Fy*crank4_rate*span_L4_head_x_by_par_time
-        + B_Fy_by_par_time*crank4_rate*span_L4_head_x - B_moment_first_by_par_time*crank4_rate
-        - cos_theta_L1_by_par_time*crank1_rate*p->weight_L1__across
-        - cos_theta_L4_by_par_time*crank4_rate*p->weight_L4__across
+    lin->value[65] = -A_Fx*crank1_rate*span_L1_head_y_by_time - A_Fx_by_time*crank1_rate*span_L1_head_y
+        + A_Fy*crank1_rate*span_L1_head_x_by_time + A_Fy_by_time*crank1_rate*span_L1_head_x
+        - A_moment_first_by_time*crank1_rate - B_Fx*crank4_rate*span_L4_head_y_by_time
+        - B_Fx_by_time*crank4_rate*span_L4_head_y + B_Fy*crank4_rate*span_L4_head_x_by_time
+        + B_Fy_by_time*crank4_rate*span_L4_head_x - B_moment_first_by_time*crank4_rate
+        - cos_theta_L1_by_time*crank1_rate*p->weight_L1__across - cos_theta_L4_by_time*crank4_rate*p->weight_L4__across
         + crank1_acceleration*(-A_Fx*span_L1_head_y + A_Fy*span_L1_head_x - A_moment_first
         - cos_theta_L1*p->weight_L1__across + crank1_acceleration*p->mass_crank1_crank1)
         + crank4_acceleration*(-B_Fx*span_L4_head_y + B_Fy*span_L4_head_x - B_moment_first
         - cos_theta_L4*p->weight_L4__across + crank4_acceleration*p->mass_crank4_crank4);
-    lin->value[66] = -A_Fx*L1_head_vx_by_par_time + A_Fx_by_par_time*(-L1_head_vx + L2_tail_vx)
-        - A_Fy*L1_head_vy_by_par_time + A_Fy_by_par_time*(-L1_head_vy + L2_tail_vy)
-        + A_moment_first*crank1_acceleration + A_moment_first_by_par_time*crank1_rate
-        + A_moment_second_by_par_time*L2_omega - B_Fx*L4_head_vx_by_par_time
-        + B_Fx_by_par_time*(L3_tail_vx - L4_head_vx) - B_Fy*L4_head_vy_by_par_time
-        + B_Fy_by_par_time*(L3_tail_vy - L4_head_vy) + B_moment_first*crank4_acceleration
-        + B_moment_first_by_par_time*crank4_rate + B_moment_second_by_par_time*L3_omega;
+    lin->value[66] = -A_Fx*L1_head_vx_by_time + A_Fx_by_time*(-L1_head_vx + L2_tail_vx) - A_Fy*L1_head_vy_by_time
+        + A_Fy_by_time*(-L1_head_vy + L2_tail_vy) + A_moment_first*crank1_acceleration
+        + A_moment_first_by_time*crank1_rate + A_moment_second_by_time*L2_omega - B_Fx*L4_head_vx_by_time
+        + B_Fx_by_time*(L3_tail_vx - L4_head_vx) - B_Fy*L4_head_vy_by_time + B_Fy_by_time*(L3_tail_vy - L4_head_vy)
+        + B_moment_first*crank4_acceleration + B_moment_first_by_time*crank4_rate + B_moment_second_by_time*L3_omega;
     lin->p = p;
 }
 

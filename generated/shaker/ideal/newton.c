@@ -37,36 +37,36 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double cross_rod_arm = p->inertia_rod_arm*sin_arm_less_rod;
 
     /* coordinates */
-    const double cross_crank_arm_by_par_time = -dot_crank_arm*motor_rate;
-    const double cross_rod_arm_by_par_time = -dot_rod_arm*rod_omega;
-    const double dot_crank_arm_by_par_time = cross_crank_arm*motor_rate;
-    const double dot_rod_arm_by_par_time = cross_rod_arm*rod_omega;
+    const double cross_crank_arm_by_time = -dot_crank_arm*motor_rate;
+    const double cross_rod_arm_by_time = -dot_rod_arm*rod_omega;
+    const double dot_crank_arm_by_time = cross_crank_arm*motor_rate;
+    const double dot_rod_arm_by_time = cross_rod_arm*rod_omega;
 
     /* powers */
-    const double cos_theta_crank_by_par_time = -motor_rate*sin_theta_crank;
-    const double cos_theta_rod_by_par_time = -rod_omega*sin_theta_rod;
-    const double cross_crank_rod_by_par_time = -dot_crank_rod*motor_rate + dot_crank_rod*rod_omega;
-    const double dot_crank_rod_by_par_time = cross_crank_rod*motor_rate - cross_crank_rod*rod_omega;
+    const double cos_theta_crank_by_time = -motor_rate*sin_theta_crank;
+    const double cos_theta_rod_by_time = -rod_omega*sin_theta_rod;
+    const double cross_crank_rod_by_time = -dot_crank_rod*motor_rate + dot_crank_rod*rod_omega;
+    const double dot_crank_rod_by_time = cross_crank_rod*motor_rate - cross_crank_rod*rod_omega;
 
     /* results */
     lin->value[0] = -cross_crank_arm*motor_acceleration - cross_rod_arm*rod_theta_second
         + dot_crank_arm*(motor_rate * motor_rate) + dot_rod_arm*(rod_omega * rod_omega)
         + sin_theta_arm*p->weight_arm__across;
     lin->value[1] = 2.0*cross_crank_arm*motor_acceleration*motor_rate
-        + cross_crank_arm_by_par_time*(motor_rate * motor_rate) + 2.0*cross_rod_arm*rod_omega*rod_theta_second
-        + cross_rod_arm_by_par_time*(rod_omega * rod_omega) + dot_crank_arm_by_par_time*motor_acceleration
-        + dot_rod_arm*rod_theta_third + dot_rod_arm_by_par_time*rod_theta_second;
+        + cross_crank_arm_by_time*(motor_rate * motor_rate) + 2.0*cross_rod_arm*rod_omega*rod_theta_second
+        + cross_rod_arm_by_time*(rod_omega * rod_omega) + dot_crank_arm_by_time*motor_acceleration
+        + dot_rod_arm*rod_theta_third + dot_rod_arm_by_time*rod_theta_second;
     lin->value[2] = -a_arm_theta*cross_crank_arm*motor_rate - a_arm_theta*cross_rod_arm*rod_omega
         - (arm_omega * arm_omega)*dot_crank_arm*motor_rate - (arm_omega * arm_omega)*dot_rod_arm*rod_omega;
     lin->value[3] = -2.0*arm_omega*cross_crank_arm*motor_rate - 2.0*arm_omega*cross_rod_arm*rod_omega;
     lin->value[4] = dot_crank_arm*motor_rate + dot_rod_arm*rod_omega;
-    lin->value[5] = a_arm_theta*dot_crank_arm_by_par_time*motor_rate + a_arm_theta*dot_rod_arm_by_par_time*rod_omega
-        - (arm_omega * arm_omega)*cross_crank_arm_by_par_time*motor_rate
-        - (arm_omega * arm_omega)*cross_rod_arm_by_par_time*rod_omega
-        - cos_theta_crank_by_par_time*motor_rate*p->weight_crank__across
-        - cos_theta_rod_by_par_time*rod_omega*p->weight_rod__across
-        + cross_crank_rod_by_par_time*((motor_rate * motor_rate)*rod_omega - motor_rate*(rod_omega * rod_omega))
-        + dot_crank_rod_by_par_time*(motor_acceleration*rod_omega + motor_rate*rod_theta_second)
+    lin->value[5] = a_arm_theta*dot_crank_arm_by_time*motor_rate + a_arm_theta*dot_rod_arm_by_time*rod_omega
+        - (arm_omega * arm_omega)*cross_crank_arm_by_time*motor_rate
+        - (arm_omega * arm_omega)*cross_rod_arm_by_time*rod_omega
+        - cos_theta_crank_by_time*motor_rate*p->weight_crank__across
+        - cos_theta_rod_by_time*rod_omega*p->weight_rod__across
+        + cross_crank_rod_by_time*((motor_rate * motor_rate)*rod_omega - motor_rate*(rod_omega * rod_omega))
+        + dot_crank_rod_by_time*(motor_acceleration*rod_omega + motor_rate*rod_theta_second)
         + motor_acceleration*(a_arm_theta*dot_crank_arm - (arm_omega * arm_omega)*cross_crank_arm
         - cos_theta_crank*p->weight_crank__across + 2.0*cross_crank_rod*motor_rate*rod_omega
         - cross_crank_rod*(rod_omega * rod_omega) + dot_crank_rod*rod_theta_second

@@ -330,14 +330,14 @@ int chain_third(const double t, const double *q, const double *v, const Memory *
     const double inverse_guide_offset = 1.0/pivot_guide_offset;
 
     /* third rates */
-    const double span_crank_head_x_by_par_time = -motor_rate*span_crank_head_y;
-    const double span_crank_head_y_by_par_time = motor_rate*span_crank_head_x;
-    const double span_rod_head_x_by_par_time = -rod_omega*span_rod_head_y;
-    const double span_rod_head_y_by_par_time = rod_omega*span_rod_head_x;
+    const double span_crank_head_x_by_time = -motor_rate*span_crank_head_y;
+    const double span_crank_head_y_by_time = motor_rate*span_crank_head_x;
+    const double span_rod_head_x_by_time = -rod_omega*span_rod_head_y;
+    const double span_rod_head_y_by_time = rod_omega*span_rod_head_x;
     const double third_rod_theta = inverse_guide_offset*(-2.0*motor_acceleration*motor_rate*span_crank_head_x
-        - motor_acceleration*span_crank_head_y_by_par_time - (motor_rate * motor_rate)*span_crank_head_x_by_par_time
-        - (rod_omega * rod_omega)*span_rod_head_x_by_par_time - 2.0*rod_omega*rod_theta_second*span_rod_head_x
-        - rod_theta_second*span_rod_head_y_by_par_time);
+        - motor_acceleration*span_crank_head_y_by_time - (motor_rate * motor_rate)*span_crank_head_x_by_time
+        - (rod_omega * rod_omega)*span_rod_head_x_by_time - 2.0*rod_omega*rod_theta_second*span_rod_head_x
+        - rod_theta_second*span_rod_head_y_by_time);
     out[0] = third_rod_theta;
     return 0;
 }

@@ -262,13 +262,13 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     double change_wristpin[4][6];
     tangent_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega,
         &memory->latch[0], p, side, g, change_wristpin);
-    const double rod_head_x_2_by_par_time = -motor_rate*span_crank_head_y;
-    const double rod_head_y_by_par_time = motor_rate*span_crank_head_x;
+    const double rod_head_x_2_by_time = -motor_rate*span_crank_head_y;
+    const double rod_head_y_by_time = motor_rate*span_crank_head_x;
     const double rod_head_vx_by_rod_theta = -rod_omega*span_rod_head_x;
-    const double rod_head_vx_by_par_time = -motor_acceleration*span_crank_head_y
+    const double rod_head_vx_by_time = -motor_acceleration*span_crank_head_y
         - (motor_rate * motor_rate)*span_crank_head_x;
     const double rod_head_vy_by_rod_theta = -rod_omega*span_rod_head_y;
-    const double rod_head_vy_by_par_time = motor_acceleration*span_crank_head_x
+    const double rod_head_vy_by_time = motor_acceleration*span_crank_head_x
         - (motor_rate * motor_rate)*span_crank_head_y;
     const double wristpin_Fx_by_e_x = change_wristpin[0][0];
     const double wristpin_Fx_by_e_y = change_wristpin[0][1];
@@ -278,9 +278,9 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double wristpin_Fx_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fx_by_de_x
         - rod_head_vy_by_rod_theta*wristpin_Fx_by_de_y - span_rod_head_x*wristpin_Fx_by_e_y
         + span_rod_head_y*wristpin_Fx_by_e_x;
-    const double wristpin_Fx_by_par_time = -rod_head_vx_by_par_time*wristpin_Fx_by_de_x
-        - rod_head_vy_by_par_time*wristpin_Fx_by_de_y - rod_head_x_2_by_par_time*wristpin_Fx_by_e_x
-        - rod_head_y_by_par_time*wristpin_Fx_by_e_y;
+    const double wristpin_Fx_by_time = -rod_head_vx_by_time*wristpin_Fx_by_de_x
+        - rod_head_vy_by_time*wristpin_Fx_by_de_y - rod_head_x_2_by_time*wristpin_Fx_by_e_x
+        - rod_head_y_by_time*wristpin_Fx_by_e_y;
     const double wristpin_Fx_by_rod_omega = -span_rod_head_x*wristpin_Fx_by_de_y + span_rod_head_y*wristpin_Fx_by_de_x
         + wristpin_Fx_by_omega_i;
     const double wristpin_Fy_by_e_x = change_wristpin[1][0];
@@ -291,9 +291,9 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double wristpin_Fy_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fy_by_de_x
         - rod_head_vy_by_rod_theta*wristpin_Fy_by_de_y - span_rod_head_x*wristpin_Fy_by_e_y
         + span_rod_head_y*wristpin_Fy_by_e_x;
-    const double wristpin_Fy_by_par_time = -rod_head_vx_by_par_time*wristpin_Fy_by_de_x
-        - rod_head_vy_by_par_time*wristpin_Fy_by_de_y - rod_head_x_2_by_par_time*wristpin_Fy_by_e_x
-        - rod_head_y_by_par_time*wristpin_Fy_by_e_y;
+    const double wristpin_Fy_by_time = -rod_head_vx_by_time*wristpin_Fy_by_de_x
+        - rod_head_vy_by_time*wristpin_Fy_by_de_y - rod_head_x_2_by_time*wristpin_Fy_by_e_x
+        - rod_head_y_by_time*wristpin_Fy_by_e_y;
     const double wristpin_Fy_by_rod_omega = -span_rod_head_x*wristpin_Fy_by_de_y + span_rod_head_y*wristpin_Fy_by_de_x
         + wristpin_Fy_by_omega_i;
     const double wristpin_moment_first_by_e_x = change_wristpin[2][0];
@@ -304,9 +304,9 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double wristpin_moment_first_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_moment_first_by_de_x
         - rod_head_vy_by_rod_theta*wristpin_moment_first_by_de_y - span_rod_head_x*wristpin_moment_first_by_e_y
         + span_rod_head_y*wristpin_moment_first_by_e_x;
-    const double wristpin_moment_first_by_par_time = -rod_head_vx_by_par_time*wristpin_moment_first_by_de_x
-        - rod_head_vy_by_par_time*wristpin_moment_first_by_de_y - rod_head_x_2_by_par_time*wristpin_moment_first_by_e_x
-        - rod_head_y_by_par_time*wristpin_moment_first_by_e_y;
+    const double wristpin_moment_first_by_time = -rod_head_vx_by_time*wristpin_moment_first_by_de_x
+        - rod_head_vy_by_time*wristpin_moment_first_by_de_y - rod_head_x_2_by_time*wristpin_moment_first_by_e_x
+        - rod_head_y_by_time*wristpin_moment_first_by_e_y;
     const double wristpin_moment_first_by_rod_omega = -span_rod_head_x*wristpin_moment_first_by_de_y
         + span_rod_head_y*wristpin_moment_first_by_de_x + wristpin_moment_first_by_omega_i;
     const double wristpin_moment_second_by_e_x = change_wristpin[3][0];
@@ -317,19 +317,19 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     const double wristpin_moment_second_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_moment_second_by_de_x
         - rod_head_vy_by_rod_theta*wristpin_moment_second_by_de_y - span_rod_head_x*wristpin_moment_second_by_e_y
         + span_rod_head_y*wristpin_moment_second_by_e_x;
-    const double wristpin_moment_second_by_par_time = -rod_head_vx_by_par_time*wristpin_moment_second_by_de_x
-        - rod_head_vy_by_par_time*wristpin_moment_second_by_de_y
-        - rod_head_x_2_by_par_time*wristpin_moment_second_by_e_x - rod_head_y_by_par_time*wristpin_moment_second_by_e_y;
+    const double wristpin_moment_second_by_time = -rod_head_vx_by_time*wristpin_moment_second_by_de_x
+        - rod_head_vy_by_time*wristpin_moment_second_by_de_y - rod_head_x_2_by_time*wristpin_moment_second_by_e_x
+        - rod_head_y_by_time*wristpin_moment_second_by_e_y;
     const double wristpin_moment_second_by_rod_omega = -span_rod_head_x*wristpin_moment_second_by_de_y
         + span_rod_head_y*wristpin_moment_second_by_de_x + wristpin_moment_second_by_omega_i;
 
     /* coordinates */
-    const double cross_crank_rod_by_par_time = -dot_crank_rod*motor_rate;
-    const double dot_crank_rod_by_par_time = cross_crank_rod*motor_rate;
+    const double cross_crank_rod_by_time = -dot_crank_rod*motor_rate;
+    const double dot_crank_rod_by_time = cross_crank_rod*motor_rate;
 
     /* powers */
-    const double span_crank_head_x_by_par_time = -motor_rate*span_crank_head_y;
-    const double span_crank_head_y_by_par_time = motor_rate*span_crank_head_x;
+    const double span_crank_head_x_by_time = -motor_rate*span_crank_head_y;
+    const double span_crank_head_y_by_time = motor_rate*span_crank_head_x;
 
     /* results */
     lin->value[0] = -wristpin_Fx_by_e_x;
@@ -345,11 +345,10 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
         - wristpin_moment_first_by_de_x;
     lin->value[7] = span_rod_head_x*wristpin_Fy_by_rod_omega - span_rod_head_y*wristpin_Fx_by_rod_omega
         - wristpin_moment_first_by_rod_omega;
-    lin->value[8] = -wristpin_Fx_by_par_time;
+    lin->value[8] = -wristpin_Fx_by_time;
     lin->value[9] = 2.0*cross_crank_rod*motor_acceleration*motor_rate
-        + cross_crank_rod_by_par_time*(motor_rate * motor_rate) + dot_crank_rod_by_par_time*motor_acceleration
-        + span_rod_head_x*wristpin_Fy_by_par_time - span_rod_head_y*wristpin_Fx_by_par_time
-        - wristpin_moment_first_by_par_time;
+        + cross_crank_rod_by_time*(motor_rate * motor_rate) + dot_crank_rod_by_time*motor_acceleration
+        + span_rod_head_x*wristpin_Fy_by_time - span_rod_head_y*wristpin_Fx_by_time - wristpin_moment_first_by_time;
     lin->value[10] = -a_rod_theta*cross_crank_rod*motor_rate - dot_crank_rod*motor_rate*(rod_omega * rod_omega)
         + motor_rate*span_crank_head_x*wristpin_Fy_by_rod_theta - motor_rate*span_crank_head_y*wristpin_Fx_by_rod_theta;
     lin->value[11] = motor_rate*span_crank_head_x*wristpin_Fy_by_e_x - motor_rate*span_crank_head_y*wristpin_Fx_by_e_x;
@@ -370,15 +369,15 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
         + slider_omega*wristpin_moment_second_by_rod_omega - span_rod_head_x*wristpin_Fy + span_rod_head_y*wristpin_Fx
         + wristpin_Fx_by_rod_omega*(cylinder_slide_rate - rod_head_vx) + wristpin_moment_first;
     lin->value[18] = dot_crank_rod*motor_rate;
-    lin->value[19] = a_rod_theta*dot_crank_rod_by_par_time*motor_rate
-        - cross_crank_rod_by_par_time*motor_rate*(rod_omega * rod_omega)
+    lin->value[19] = a_rod_theta*dot_crank_rod_by_time*motor_rate
+        - cross_crank_rod_by_time*motor_rate*(rod_omega * rod_omega)
         + motor_acceleration*(a_rod_theta*dot_crank_rod - cross_crank_rod*(rod_omega * rod_omega)
         + p->mass_motor_motor*motor_acceleration + span_crank_head_x*wristpin_Fy - span_crank_head_y*wristpin_Fx)
-        + motor_rate*span_crank_head_x*wristpin_Fy_by_par_time + motor_rate*span_crank_head_x_by_par_time*wristpin_Fy
-        - motor_rate*span_crank_head_y*wristpin_Fx_by_par_time - motor_rate*span_crank_head_y_by_par_time*wristpin_Fx;
-    lin->value[20] = -rod_head_vx_by_par_time*wristpin_Fx - rod_head_vy*wristpin_Fy_by_par_time
-        - rod_head_vy_by_par_time*wristpin_Fy + rod_omega*wristpin_moment_first_by_par_time
-        + slider_omega*wristpin_moment_second_by_par_time + wristpin_Fx_by_par_time*(cylinder_slide_rate - rod_head_vx);
+        + motor_rate*span_crank_head_x*wristpin_Fy_by_time + motor_rate*span_crank_head_x_by_time*wristpin_Fy
+        - motor_rate*span_crank_head_y*wristpin_Fx_by_time - motor_rate*span_crank_head_y_by_time*wristpin_Fx;
+    lin->value[20] = -rod_head_vx_by_time*wristpin_Fx - rod_head_vy*wristpin_Fy_by_time
+        - rod_head_vy_by_time*wristpin_Fy + rod_omega*wristpin_moment_first_by_time
+        + slider_omega*wristpin_moment_second_by_time + wristpin_Fx_by_time*(cylinder_slide_rate - rod_head_vx);
     lin->p = p;
 }
 
