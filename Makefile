@@ -14,7 +14,7 @@ help:  ## this list
 run: setup  ## the nine-bar press in three scenes: a table, and a picture under out/
 	@$(GUDGEON) run nine_bar_press $(ARGS)
 
-checks: setup-test  ## README's table of what is checked against what, measured anew
+checks: setup-test  ## the table (docs/checks.md) of what is checked against what, measured anew
 	@.venv/bin/python -m tests.checks
 
 test: lint types  ## ruff, mypy and the tests

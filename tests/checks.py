@@ -1,4 +1,4 @@
-"""Prints README's table of what is checked against what, measured anew: `make checks`, a minute.
+"""Prints the table of docs/checks.md, what is checked against what, measured anew: `make checks`, a minute.
 
     python -m tests.checks                   # from the repository's root: the oracles live with the tests
 

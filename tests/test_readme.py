@@ -1,4 +1,4 @@
-"""README and CONTRIBUTING keep their word: every block is run, every quotation occurs, every name exists."""
+"""README, CONTRIBUTING and the pages keep their word: blocks are run, quotations occur, names exist."""
 
 from __future__ import annotations
 
@@ -16,13 +16,14 @@ import gudgeon
 from gudgeon.cli import app
 
 ROOT = Path(__file__).resolve().parents[1]
-README = (ROOT / "README.md").read_text(encoding="utf-8")
+TOLD = ("README.md", *(f"docs/{name}.md" for name in ("describing", "python", "reading", "checks", "speed")))
+README = "\n".join((ROOT / name).read_text(encoding="utf-8") for name in TOLD)
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 Gudgeon = Callable[[str], Result]
 
 
 def blocks(language: str) -> list[str]:
-    """The fenced blocks of README in that language."""
+    """The fenced blocks of README and its pages in that language."""
     return re.findall(rf"^```{language}\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
 
 
@@ -131,7 +132,7 @@ def test_every_test_that_the_table_names_exists() -> None:
         assert function in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}, (file, function)
 
 
-PAGES = ["README.md", "CONTRIBUTING.md", *(f"docs/{name}.md" for name in ("format", "methods", "physics", "race"))]
+PAGES = ["README.md", "CONTRIBUTING.md", *(f"docs/{name}.md" for name in ("format", "methods", "physics", "race")), *TOLD[1:]]
 
 
 @pytest.mark.parametrize("name", PAGES)
