@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias, overload
@@ -16,6 +17,7 @@ from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, rates
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
 Array: TypeAlias = NDArray[Any]
@@ -134,6 +136,21 @@ class Batch:
         coordinates |= {name: ("run", values) for name, values in self.parameters.items()}
         attributes = {"mechanism": self.source.mechanism, "scene": self.source.scene, "title": self.source.title}
         return xarray.Dataset(found, coordinates, attributes)
+
+    def to_dataframe(self, names: Iterable[str] = ()) -> pandas.DataFrame:
+        """A long table of pandas: run, what was given to it, t, and these series, or all; a row each sample reached.
+
+        SI, units in `attrs["units"]`.
+        """
+        from gudgeon.results import export
+
+        return export.batch_dataframe(self, names)
+
+    def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] = ()) -> None:
+        """Write the same table as CSV, run by run; every bit of a number."""
+        from gudgeon.results import export
+
+        export.batch_csv(self, path, names)
 
 
 def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:

@@ -7,7 +7,7 @@ first access, exactly, from these (one pass of the compiled model over the sampl
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from types import MappingProxyType
@@ -23,6 +23,7 @@ from gudgeon.language.wanted import text, told
 from gudgeon.results.diagnostics import Diagnostics
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
     from gudgeon.integrators.trace import Trace
@@ -208,6 +209,24 @@ class Result:
         from gudgeon.results import netcdf
 
         return netcdf.dataset(self, part)
+
+    def to_dataframe(self, names: Iterable[str] = ()) -> pandas.DataFrame:
+        """Series as columns of a table of pandas over t (s): these, or all; SI, units in `attrs["units"]`."""
+        from gudgeon.results import export
+
+        return export.dataframe(self, names)
+
+    def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] = ()) -> None:
+        """Write t and these series, or all, as CSV in SI: a line of names, then every bit of a sample a line."""
+        from gudgeon.results import export
+
+        export.csv(self, path, names)
+
+    def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] = ()) -> None:
+        """Write t and these series, or all, for MATLAB: "S9.y" as S9_y; cells `variables`, `names` and `units`."""
+        from gudgeon.results import export
+
+        export.mat(self, path, names)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to a NetCDF file, aside first and then moved into place; OutputError where that fails."""
