@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+    from gudgeon.results.at_events import AtEvents
+
 Array: TypeAlias = NDArray[Any]
 
 PEAK_DTYPE = np.dtype([(name, "f8") for name in ("F", "t", "e_max", "first_contact", "first_peak")])
@@ -98,6 +100,11 @@ class Batch:
         except GudgeonError as error:
             found = getattr(error, "partial", None)
             return found if isinstance(found, Result) else None
+
+    def at_events(self, name: str) -> tuple[AtEvents | None, ...]:
+        """The states at the times of an event, run by run; None for one that did not begin. See Result.at_events."""
+        runs = map(self.partial, range(len(self)))
+        return tuple(None if run is None else run.at_events(name) for run in runs)
 
     def _series(self, name: str) -> Array:
         out = np.full((len(self), len(self.t)), np.nan)

@@ -1,9 +1,9 @@
 """Results as NetCDF 4 files, and as xarray's Datasets.
 
 A file holds every series under its own name over `time`, so that any NetCDF tool can read it, and in groups what has
-other rows: `impacts`, `events`, `parameters` and `trace` (trace.py), for people; `compiled`, the kernel source and
-what was derived from the parameters, so that gudgeon reads all of it back bit for bit without a compiled library.
-What has no row is not there. A file holds no date: the same run gives the same bytes.
+other rows: `impacts`, `events`, the series `at_events`, `parameters` and `trace` (trace.py), for people; `compiled`,
+the kernel source and what was derived from the parameters, so that gudgeon reads all of it back bit for bit without a
+compiled library. What has no row is not there. A file holds no date: the same run gives the same bytes.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     import xarray
 
 FORMAT = "gudgeon-result/2"
-SERIES, TRACE, COMPILED = "series", "trace", "compiled"
-PARTS = ("impacts", "events", "parameters", TRACE)
+SERIES, TRACE, STATES, COMPILED = "series", "trace", "at_events", "compiled"
+PARTS = ("impacts", "events", STATES, "parameters", TRACE)
 IMPACTS = {
     "joint": ("", "joint with play"),
     "t_on": ("s", "onset of the contact"),
@@ -47,6 +47,7 @@ def tables(run: Result) -> Iterator[Table]:
     yield Table("impacts", "impact", tuple(_records(run.impacts, IMPACTS, joints)), {})
     events = [event.name for event in run.source.events]
     yield Table("events", "occurrence", tuple(_records(run.events, EVENTS, events)), {})
+    yield Table(STATES, "occurrence", tuple(_states(run, events)), {})
     yield Table("parameters", "address", tuple(_parameters(run)), {})
     traced = (Variable(name, *of) for name, of in trace.variables(run).items())
     yield Table(TRACE, "t", tuple(traced), {})
@@ -58,6 +59,24 @@ def _series(run: Result) -> Iterator[Variable]:
     yield Variable("time", run.t, "s", "time")
     for name, unit in run.names.items():
         yield Variable(variable(name), run[name], unit, run.meaning(name))
+
+
+def _states(run: Result, events: list[str]) -> Iterator[Variable]:
+    """Every series at the events, beside their names and times; nothing where they are not known."""
+    try:
+        at = run.states_at_events if len(run.events) else None
+        found = {} if at is None else {name: at[name][1:] for name in run.names}
+    except GudgeonError:  # an older file, a motion that cannot be followed or evaluated there: the samples are whole
+        return
+    if found:
+        yield from list(_records(run.events, EVENTS, events))
+    for name, values in found.items():
+        yield Variable(at_event(name), values, run.unit(name), run.meaning(name))
+
+
+def at_event(name: str) -> str:
+    """The same beside the names and times of events."""
+    return f"output.{name}" if name in (*EVENTS, "occurrence") else name
 
 
 def _records(rows: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:

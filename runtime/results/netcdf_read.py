@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
 from gudgeon.language.wanted import path as named
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.hdf5_image import is_damaged
-from gudgeon.results.netcdf import COMPILED, FORMAT, TRACE, variable
+from gudgeon.results.netcdf import COMPILED, FORMAT, STATES, TRACE, at_event, variable
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import MOTION
 from gudgeon.results.typed import check_typed
@@ -147,16 +148,14 @@ def _result(file: _File) -> Result:
     if not len(t):
         raise ValueError("it has no sample")
     stored = {name: _series(file, name, len(t)) for name in catalogue(source)}
-    q, v, a = (_motion(source, stored, len(t), order) for order in range(3))
     p, given, is_given = _numbers(file, source)
     run = Result(
-        compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, q=q, v=v, accelerations=a,
-        state=_columns(stored, [f"{joint.name}.state" for joint in source.clearances], len(t), np.int8),
-        memory=_columns(stored, _memory_names(source), len(t)),
-        work=_columns(stored, ["work.drives", "work.forces", "work.clearances"], len(t)),
+        compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, **_samples(source, stored, len(t)),
         impacts=_impacts(file, source), diagnostics=diagnostics, events=_events(file, source), stored=stored,
         trace=_trace(file, source),
     )  # fmt: skip
+    if file.has(STATES):
+        run.__dict__["states_at_events"] = _at_events(file, run)
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
     return run
 
@@ -227,6 +226,28 @@ def _trace(file: _File, source: KernelSource) -> Trace | None:
     t = file.numbers(f"{TRACE}/t")
     joints = [[file.numbers(f"{TRACE}/{joint.name}.{name}", len(t)) for name in COLUMNS] for joint in source.clearances]
     return Trace(t, np.moveaxis(np.array(joints).reshape(len(joints), len(COLUMNS), len(t)), 2, 0).copy())
+
+
+def _samples(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Array]:
+    """What the integrator stores of rows, from their series; by the names of a Result."""
+    q, v, a = (_motion(source, stored, length, order) for order in range(3))
+    return {
+        "q": q, "v": v, "accelerations": a,
+        "state": _columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
+        "memory": _columns(stored, _memory_names(source), length),
+        "work": _columns(stored, ["work.drives", "work.forces", "work.clearances"], length),
+    }  # fmt: skip
+
+
+def _at_events(file: _File, run: Result) -> Result:
+    """The result whose samples are the start of the run and then its events."""
+    stored, count = {}, len(run.events)
+    for name, values in run.stored.items():
+        at = file.numbers(f"{STATES}/{at_event(name)}", count, "i1" if name.endswith(".state") else "f8")
+        stored[name] = np.concatenate([values[:1], at])
+        stored[name].flags.writeable = False
+    t = np.concatenate([run.t[:1], run.events["t"]])
+    return replace(run, t=t, **_samples(run.source, stored, 1 + count), trace=None, stored=stored)
 
 
 def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:
