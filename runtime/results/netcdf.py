@@ -133,13 +133,18 @@ def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
 
 def save(run: Result, path: str | os.PathLike[str]) -> None:
     """Write `run` to `path`. OutputError where it cannot be written; an older file is then as it was."""
+    write(tables(run), path)
+
+
+def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
+    """A file with these tables; they are made one after the other, and Ctrl-C is taken in between."""
     try:
         import h5py  # noqa: F401
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
     path, found = named(path, "path"), []
     with CtrlC() as ctrl_c:  # Python drops what is raised in callbacks of weak references, Ctrl-C too
-        for table in tables(run):
+        for table in tables:
             found.append(table)
             ctrl_c.take()
         with written(path) as file:

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -32,11 +32,17 @@ OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the ser
 OLD_NAMES = ("time", "impact", "event", "slot", "prepared")
 NAME, UNIT = re.compile(r"[A-Za-z][\w.]*", re.ASCII), re.compile(r"[\w^*/. ()-]*", re.ASCII)
 DEFLATE = 1100  # no filter of HDF5's own makes data this many times smaller
+Made = TypeVar("Made")
 AGAIN = "it is no result of gudgeon, or was damaged or cut short; run the scene again"
 
 
 def read(path: str | os.PathLike[str]) -> Result:
     """The result in a file that `save` wrote; InputError for a missing file or one that is not a whole result."""
+    return opened(path, lambda file, size: _result(File(file, size, (FORMAT, OLD_FORMAT))))
+
+
+def opened(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Made:
+    """What `make` has from an open file and its size in bytes; InputError for whatever is wrong with that."""
     try:
         import h5py
     except ModuleNotFoundError as error:
@@ -52,7 +58,7 @@ def read(path: str | os.PathLike[str]) -> Result:
         if is_damaged(path):
             raise InputError(f"{shown} is not as it was written: it was damaged", hint="run the scene again")
         with h5py.File(path, "r") as file:
-            return _result(_File(file, path.stat().st_size))
+            return make(file, path.stat().st_size)
     except InputError:
         raise
     except Exception as error:  # whatever HDF5, JSON or NumPy make of what should not be
@@ -60,14 +66,14 @@ def read(path: str | os.PathLike[str]) -> Result:
         raise InputError(f"{shown} cannot be read as a result: {told}", hint=AGAIN) from error
 
 
-class _File:
+class File:
     """Arrays and texts of an open file by name ("S9.y", "impacts/t_on"); ValueError for what is not as expected."""
 
-    def __init__(self, file: Any, size: int) -> None:
+    def __init__(self, file: Any, size: int, formats: tuple[str, ...]) -> None:
         self._file, self._left = file, float(size)
         found = self.text("gudgeon")
-        if found not in (FORMAT, OLD_FORMAT):
-            raise ValueError(f"expected the attribute gudgeon = {FORMAT!r}, found {found!r}")
+        if found not in formats:
+            raise ValueError(f"expected the attribute gudgeon = {formats[0]!r}, found {found!r}")
         self.is_old = found == OLD_FORMAT
 
     def has(self, group: str) -> bool:
@@ -89,6 +95,10 @@ class _File:
             raise ValueError(f"{name} has numbers of type {item.dtype}, expected {dtype}")
         values: Array = item[...].astype(dtype, copy=False)
         return values
+
+    def either(self, name: str, length: int) -> Array:
+        """Numbers that may be whole."""
+        return self.numbers(name, length, "i8" if self._dataset(name, length).dtype.kind == "i" else "f8")
 
     def texts(self, name: str, length: int | None = None) -> list[str]:
         import h5py
@@ -136,18 +146,29 @@ def _own(group: Any, name: str) -> Any:
     return group[name]
 
 
-def _result(file: _File) -> Result:
-    from gudgeon.results.series import catalogue
-
+def source_of(file: File) -> KernelSource:
+    """What a file says of its scene."""
     source = KernelSource.from_json(file.text("source", "" if file.is_old else COMPILED))
     check_typed(source, KernelSource, "source")
     _check_names(source)
+    return source
+
+
+def _result(file: File) -> Result:
+    from gudgeon.results.series import catalogue
+
+    source = source_of(file)
+    return result_of(file, source, tuple(catalogue(source)))
+
+
+def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Result:
+    """The result with these series."""
     diagnostics = Diagnostics.from_json(file.text("diagnostics"))
     check_typed(diagnostics, Diagnostics, "diagnostics")
     t = file.numbers("time")
     if not len(t):
         raise ValueError("it has no sample")
-    stored = {name: _series(file, name, len(t)) for name in catalogue(source)}
+    stored = {name: _series(file, name, len(t)) for name in names}
     p, given, is_given = _numbers(file, source)
     run = Result(
         compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, **_samples(source, stored, len(t)),
@@ -173,14 +194,14 @@ def _check_names(source: KernelSource) -> None:
         raise ValueError(f"{wrong[0][:64]!r} is no unit")
 
 
-def _series(file: _File, name: str, length: int) -> Array:
+def _series(file: File, name: str, length: int) -> Array:
     stored = f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else variable(name)
     values = file.numbers(stored, length, "i1" if name.endswith(".state") else "f8")
     values.flags.writeable = False
     return values
 
 
-def _numbers(file: _File, source: KernelSource) -> tuple[Array, Array, Array]:
+def _numbers(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
     """p, given and is_given."""
     slots, derived = len(source.slots), len(source.derived)
     if file.is_old:
@@ -192,15 +213,15 @@ def _numbers(file: _File, source: KernelSource) -> tuple[Array, Array, Array]:
     return np.concatenate([values, prepared]), given, is_given.astype(bool)
 
 
-def _impacts(file: _File, source: KernelSource) -> Array:
+def _impacts(file: File, source: KernelSource) -> Array:
     return _records(file, "impact", IMPACT_DTYPE, [joint.name for joint in source.clearances])
 
 
-def _events(file: _File, source: KernelSource) -> Array:
+def _events(file: File, source: KernelSource) -> Array:
     return _records(file, "event", EVENT_DTYPE, [event.name for event in source.events])
 
 
-def _records(file: _File, what: str, dtype: np.dtype[Any], names: list[str]) -> Array:
+def _records(file: File, what: str, dtype: np.dtype[Any], names: list[str]) -> Array:
     """Impacts or events from their columns, the first of which says whose they are; none, where there is no group."""
     first, *others = dtype.names or ()
     if not file.has(f"{what}.{first}" if file.is_old else f"{what}s"):
@@ -219,7 +240,7 @@ def _records(file: _File, what: str, dtype: np.dtype[Any], names: list[str]) -> 
     return table
 
 
-def _trace(file: _File, source: KernelSource) -> Trace | None:
+def _trace(file: File, source: KernelSource) -> Trace | None:
     """None where the run had none, or the file is from before there were any."""
     if not file.has(TRACE):
         return None
@@ -228,7 +249,7 @@ def _trace(file: _File, source: KernelSource) -> Trace | None:
     return Trace(t, np.moveaxis(np.array(joints).reshape(len(joints), len(COLUMNS), len(t)), 2, 0).copy())
 
 
-def _samples(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Array]:
+def _samples(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
     """What the integrator stores of rows, from their series; by the names of a Result."""
     q, v, a = (_motion(source, stored, length, order) for order in range(3))
     return {
@@ -239,7 +260,7 @@ def _samples(source: KernelSource, stored: Mapping[str, Array], length: int) -> 
     }  # fmt: skip
 
 
-def _at_events(file: _File, run: Result) -> Result:
+def _at_events(file: File, run: Result) -> Result:
     """The result whose samples are the start of the run and then its events."""
     stored, count = {}, len(run.events)
     for name, values in run.stored.items():
