@@ -127,7 +127,7 @@ class _RunOf(File):
         self.whole, self.run, self.is_old = whole, run, False
 
     def has(self, group: str) -> bool:
-        return self.whole.count(group, self.run) > 0
+        return self.whole.count(group, self.run) > 0 or self.whole.file.has(f"{netcdf.SERIES}/{group}")
 
     def text(self, key: str, group: str = "") -> str:
         return self.whole.diagnostics[self.run]

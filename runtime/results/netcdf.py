@@ -21,6 +21,7 @@ from gudgeon.language.wanted import text
 from gudgeon.results import trace
 from gudgeon.results.hdf5_image import Table, Variable, pieces
 from gudgeon.results.results import Array, Result
+from gudgeon.results.series import DRIFT
 from gudgeon.waiting.ctrl_c import CtrlC
 
 if TYPE_CHECKING:
@@ -57,7 +58,10 @@ def tables(run: Result) -> Iterator[Table]:
 
 def _series(run: Result) -> Iterator[Variable]:
     yield Variable("time", run.t, "s", "time")
+    older = () if run.compiled or DRIFT[0] in run.stored else DRIFT  # read from a file that lacks it
     for name, unit in run.names.items():
+        if name in older:
+            continue
         yield Variable(variable(name), run[name], unit, run.meaning(name))
 
 
@@ -65,7 +69,8 @@ def _states(run: Result, events: list[str]) -> Iterator[Variable]:
     """Every series at the events, beside their names and times; nothing where they are not known."""
     try:
         at = run.states_at_events if len(run.events) else None
-        found = {} if at is None else {name: at[name][1:] for name in run.names}
+        names = [name for name in run.names if at is not None and (at.compiled or name in at.stored)]
+        found = {name: at[name][1:] for name in names} if at is not None else {}
     except GudgeonError:  # an older file, a motion that cannot be followed or evaluated there: the samples are whole
         return
     if found:

@@ -25,7 +25,7 @@ from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.hdf5_image import is_damaged
 from gudgeon.results.netcdf import COMPILED, FORMAT, STATES, TRACE, at_event, variable
 from gudgeon.results.results import Array, Result
-from gudgeon.results.series import MOTION
+from gudgeon.results.series import DRIFT, MOTION
 from gudgeon.results.typed import check_typed
 
 OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
@@ -168,7 +168,7 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
     t = file.numbers("time")
     if not len(t):
         raise ValueError("it has no sample")
-    stored = {name: _series(file, name, len(t)) for name in names}
+    stored = {name: _series(file, name, len(t)) for name in names if _is_there(file, name)}
     p, given, is_given = _numbers(file, source)
     run = Result(
         compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, **_samples(source, stored, len(t)),
@@ -192,6 +192,11 @@ def _check_names(source: KernelSource) -> None:
             raise ValueError(f"{name[:64]!r} is no name")
     if wrong := [unit for unit in units if not UNIT.fullmatch(unit)]:
         raise ValueError(f"{wrong[0][:64]!r} is no unit")
+
+
+def _is_there(file: File, name: str) -> bool:
+    """Files of before the drift was a series lack it."""
+    return name not in DRIFT or file.has(name)
 
 
 def _series(file: File, name: str, length: int) -> Array:
