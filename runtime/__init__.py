@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         SingularError,
         SolverError,
     )
+    from gudgeon.results.join import join
     from gudgeon.results.results import Result
     from gudgeon.simulation.from_file import load
     from gudgeon.simulation.simulation import Simulation
@@ -32,6 +33,7 @@ __version__ = "0.1.0"
 
 _HOME = {
     "load": "simulation.from_file",
+    "join": "results.join",
     "Simulation": "simulation.simulation",
     "Result": "results.results",
     "GudgeonError": "errors",
@@ -58,6 +60,7 @@ __all__ = [
     "SingularError",
     "SolverError",
     "__version__",
+    "join",
     "load",
 ]
 

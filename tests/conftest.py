@@ -78,6 +78,7 @@ class FakeEvaluation:
     clearance: Any
     series: Any
     energy: Any
+    drift: Any
 
 
 @dataclass
@@ -102,6 +103,7 @@ class FakeCompiled:
         return FakeEvaluation(
             np.zeros_like(q), waves[:, : len(s.rows)], waves[:, : 3 * len(s.joints)].reshape(n, len(s.joints), 3),
             waves[:, : len(s.drives)], clearance, waves[:, :0], waves[:, :2] ** 2,
+            1e-12 * waves[:, :2] ** 2,
         )  # fmt: skip
 
 

@@ -141,6 +141,32 @@ static int rk4_leaves_zero(Run *run, int i, double h, const Trial *trial, const 
     return !rates(run, run->t + (1.0 + 1e-6) * h, y, p, dy, &aside) && event_crosses(i, &side, aside.event[i]);
 }
 
+/* User event i at a share of a step: the state is that of the step up to there, its contacts as the gaps are. */
+static void rk4_note_event(Run *run, int i, double share, double h, const Parameters *p)
+{
+#if N_USER_EVENTS
+    Trial at;
+    const int k = run->n_events, lost = rk4_trial(run, share * h, p, &at);
+    for (int j = 0; lost && j < N_Y; j++)
+        at.y[j] = NAN;
+    (void)note_event(run, i, run->t + share * h, at.y, p);
+    for (int j = 0; j < N_CLEARANCES && k < N_IMPACTS && !lost; j++) {
+        const Clearance *gap = &at.aside.clearance[j];
+        double *latched = &event_states(run)->latched[k][j];
+        signed char *state = &event_states(run)->state[k][j];
+        if (gap->delta <= 0.0) {
+            *latched = NAN;
+            *state = 0;
+        } else if (*state == 0) {
+            *latched = gap->deltadot;
+            *state = 1;
+        }
+    }
+#else
+    (void)run, (void)i, (void)share, (void)h, (void)p;
+#endif
+}
+
 /* User events on the way of a step; one that ends the run takes the step up to there. */
 static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *p, const Samples *out)
 {
@@ -159,11 +185,13 @@ static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *
     }
     if (run->asked.stop)
         return STOPPED; /* what was found meanwhile means nothing */
+    run->asked.hold = 1;
     for (int i = 0; i < N_USER_EVENTS; i++) {
         event_crosses(i, &run->memory.event_side[i], trial->aside.event[i]);
         if (share[i] <= end && isfinite(share[i]))
-            note_event(run, i, run->t + share[i] * h);
+            rk4_note_event(run, i, share[i], h, p);
     }
+    run->asked.hold = 0;
     if (!isfinite(end))
         return 0;
     Trial last;

@@ -107,7 +107,7 @@ static int change_drives(Run *run, int corner, const Parameters *p)
     status = settle_beyond(run, ahead, corner, p); /* those of speeds, which are others now */
     if (!status)
         status = rates(run, t, run->y, p, run->dy, &run->aside);
-    return status ? status : note_leaps(run, t);
+    return status ? status : note_leaps(run, t, p);
 }
 
 #endif
@@ -133,7 +133,7 @@ static int change(Run *run, int event, const Parameters *p)
         status = switch_friction(run, p);
     if (!status && user_event >= 0
         && event_crosses(user_event, &run->memory.event_side[user_event], run->aside.event[user_event])
-        && !run->pole && note_event(run, user_event, run->t))
+        && !run->pole && note_event(run, user_event, run->t, run->y, p))
         status = ENDED;
     return status;
 }
@@ -158,7 +158,7 @@ static int pass_jumps_here(Run *run, const Parameters *p)
     status = settle_beyond(run, ahead_of(run->t), -1, p);
     if (!status)
         status = rates(run, run->t, run->y, p, run->dy, &run->aside);
-    return status ? status : note_leaps(run, run->t);
+    return status ? status : note_leaps(run, run->t, p);
 }
 
 #endif

@@ -1,21 +1,7 @@
 /*
  * What is asked of a run from outside: samples, and lists that are fetched.
  */
-/* State of all bodies, latches and codes (0 free, 1 impact, 2 contact) as row i of the samples. */
-static void store_sample(const Run *run, double t, const double *now, const Parameters *p, long i, double *y,
-    double *latched, signed char *state)
-{
-    enum { MEMORY = AT_LEAST_ONE(N_MEMORY), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
-    to_absolute(t, now, &run->memory, p, y + i * N_S);
-    for (int k = 0; k < N_CLEARANCES; k++) {
-        latched[i * MEMORY + k] = run->memory.latch[k].closed ? run->memory.latch[k].deltadot_minus : NAN;
-        state[i * JOINTS + k] = (signed char)(run->memory.latch[k].closed ? 2 - run->compressing[k] : 0);
-    }
-    for (int k = 0; k < N_FRICTIONS; k++)
-        latched[i * MEMORY + N_CLEARANCES + k] = run->memory.mode[k];
-    for (int k = 0; k < N_STATES; k++)
-        latched[i * MEMORY + N_MEMORY - N_STATES + k] = now[FIRST_STATE + k];
-}
+#include <string.h>
 
 void gudgeon_run_sample(const void *memory, const double *p, double *y, double *latched, signed char *state)
 {
@@ -49,8 +35,8 @@ void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *end
     }
 }
 
-/* Fetches and empties the list of user events. */
-int gudgeon_run_events(void *memory, double *t, int *event)
+/* Fetches and empties the list of user events, with the states there as rows of samples. */
+int gudgeon_run_events(void *memory, double *t, int *event, double *y, double *latched, signed char *state)
 {
     Run *run = memory;
     const int n = run->n_events;
@@ -58,6 +44,14 @@ int gudgeon_run_events(void *memory, double *t, int *event)
         t[i] = run->event_t[i];
         event[i] = run->event[i];
     }
+#if N_USER_EVENTS
+    const EventStates *at = event_states(run);
+    memcpy(y, at->y, (size_t)n * sizeof at->y[0]);
+    memcpy(latched, at->latched, (size_t)n * sizeof at->latched[0]);
+    memcpy(state, at->state, (size_t)n * sizeof at->state[0]);
+#else
+    (void)y, (void)latched, (void)state;
+#endif
     run->n_events = 0;
     return n;
 }

@@ -61,6 +61,22 @@ static int watch(Run *run, const Parameters *p)
     return !isfinite(sum) ? NOT_FINITE : outside_model(run, p) ? OUTSIDE : 0;
 }
 
+/* State of all bodies, latches and codes (0 free, 1 impact, 2 contact) as row i of the samples. */
+static void store_sample(const Run *run, double t, const double *now, const Parameters *p, long i, double *y,
+    double *latched, signed char *state)
+{
+    enum { MEMORY = AT_LEAST_ONE(N_MEMORY), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
+    to_absolute(t, now, &run->memory, p, y + i * N_S);
+    for (int k = 0; k < N_CLEARANCES; k++) {
+        latched[i * MEMORY + k] = run->memory.latch[k].closed ? run->memory.latch[k].deltadot_minus : NAN;
+        state[i * JOINTS + k] = (signed char)(run->memory.latch[k].closed ? 2 - run->compressing[k] : 0);
+    }
+    for (int k = 0; k < N_FRICTIONS; k++)
+        latched[i * MEMORY + N_CLEARANCES + k] = run->memory.mode[k];
+    for (int k = 0; k < N_STATES; k++)
+        latched[i * MEMORY + N_MEMORY - N_STATES + k] = now[FIRST_STATE + k];
+}
+
 #include "user_events.c"
 #if N_FRICTIONS
 #include "friction.c"
@@ -97,7 +113,14 @@ static int begin(Run *run, const Parameters *p)
 static int begin_run(Run *run, const Parameters *p) { return begin(run, p); }
 #endif
 
-size_t gudgeon_run_size(void) { return sizeof(Run); }
+size_t gudgeon_run_size(void)
+{
+#if N_USER_EVENTS
+    return sizeof(Run) + sizeof(EventStates);
+#else
+    return sizeof(Run);
+#endif
+}
 
 /* `y` is a state of all bodies. */
 void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched)

@@ -98,4 +98,14 @@ typedef struct {
     Step step;
 } Run;
 
+#if N_USER_EVENTS
+/* States at the user events of a run's list, as samples have them: they lie behind the Run. */
+typedef struct {
+    double y[N_IMPACTS][N_S], latched[N_IMPACTS][AT_LEAST_ONE(N_MEMORY)];
+    signed char state[N_IMPACTS][AT_LEAST_ONE(N_CLEARANCES)];
+} EventStates;
+
+static inline EventStates *event_states(Run *run) { return (EventStates *)(run + 1); }
+#endif
+
 #endif

@@ -1,21 +1,34 @@
 /*
  * Events of the user: noted while the run goes on, looked for at its end.
  */
-/* User event i at time t; whether it ends the run. */
-static int note_event(Run *run, int i, double t)
+static void list_event(Run *run, int i, double t)
 {
     if (run->n_events < N_IMPACTS) {
         run->event_t[run->n_events] = t;
         run->event[run->n_events++] = i;
     }
-    return i < N_USER_EVENTS && run->stop && event_stops[i];
+}
+
+/* User event i at time t with the state there; whether it ends the run. */
+static int note_event(Run *run, int i, double t, const double *now, const Parameters *p)
+{
+#if N_USER_EVENTS
+    EventStates *at = event_states(run);
+    if (run->n_events < N_IMPACTS)
+        store_sample(run, t, now, p, run->n_events, at->y[0], at->latched[0], at->state[0]);
+    list_event(run, i, t);
+    return run->stop && event_stops[i];
+#else
+    (void)run, (void)i, (void)t, (void)now, (void)p;
+    return 0;
+#endif
 }
 
 /* User event i is no number at time t: told once a run, in the list of events behind all of them. */
 static void note_no_number(Run *run, int i, double t)
 {
     if (!run->no_number[i])
-        (void)note_event(run, i + N_USER_EVENTS, t);
+        list_event(run, i + N_USER_EVENTS, t);
     run->no_number[i] = 1;
 }
 
@@ -39,7 +52,7 @@ static int end_on_zeros(Run *run, double tick, const Parameters *p)
     for (int i = 0; i < N_USER_EVENTS; i++)
         if (event_crosses(i, &run->memory.event_side[i], aside.event[i])
             && fabs(aside.event[i]) >= fabs(run->aside.event[i])
-            && note_event(run, i, run->t))
+            && note_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
 }

@@ -91,7 +91,7 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *mem
 /* Everything at n samples; returns 0 or the pivot that vanished, with the sample in `failed`. */
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
-    double *series, double *friction, double *energy, double *power, long *failed)
+    double *series, double *friction, double *energy, double *power, double *drift, long *failed)
 {
     const Parameters *p = (const Parameters *)parameters;
     for (long i = 0; i < n; i++) {
@@ -114,6 +114,11 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             lambda[i * N_ROWS + k] = aside.lambda[k];
         for (int k = 0; k < N_WORK; k++)
             power[i * N_WORK + k] = aside.power[k];
+        drift[2 * i] = drift[2 * i + 1] = 0.0;
+        for (int k = 0; k < N_ROWS; k++) {
+            drift[2 * i] = max_of(fabs(aside.phi[k]), drift[2 * i]);
+            drift[2 * i + 1] = max_of(fabs(aside.phi_dot[k]), drift[2 * i + 1]);
+        }
         outputs(t[i], y, y + N_Q, p, aside.lambda, reactions + i * 3 * N_JOINTS, torques + i * N_DRIVES,
             series + i * N_SERIES, energy + 2 * i);
         for (int k = 0; k < N_FRICTIONS; k++) {

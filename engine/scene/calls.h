@@ -17,7 +17,7 @@ int gudgeon_rhs(double t, const double *y, const double *memory, const double *p
 double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p);
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
-    double *series, double *friction, double *energy, double *power, long *failed);
+    double *series, double *friction, double *energy, double *power, double *drift, long *failed);
 #if TREE
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v);
 void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v);
@@ -50,7 +50,7 @@ void gudgeon_run_sample(const void *memory, const double *p, double *y, double *
 void gudgeon_run_stop(void *memory, int stop);
 void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every);
 void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended);
-int gudgeon_run_events(void *memory, double *t, int *event);
+int gudgeon_run_events(void *memory, double *t, int *event, double *y, double *latched, signed char *state);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
 int gudgeon_method(const char *name);
 void gudgeon_adaptive_setup(void *memory, int method, int automatic, const double *scale, const double *least,

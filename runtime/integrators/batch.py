@@ -21,8 +21,8 @@ from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.failure import INTERRUPTED, NOT_FINITE, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
-from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, told_apart
-from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Progress, Trajectory
+from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, no_states, told_apart
+from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.waiting.ctrl_c import CtrlC
 
@@ -61,7 +61,7 @@ class Runs:
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
         self.struct = self._struct(math.isfinite(step[0]), stop)
         self.impacts = [[np.zeros(0, IMPACT_DTYPE)] for _ in range(n)]
-        self.events = [[np.zeros(0, EVENT_DTYPE)] for _ in range(n)]
+        self.events = [[no_states(compiled)] for _ in range(n)]
         self.failures: dict[int, GudgeonError] = {}
         self.interrupted = False
         self.lanes = Lanes(compiled) if side_by_side and lanes.wanted(compiled, method, step) else None
@@ -225,7 +225,7 @@ class Runs:
 
     def events_of(self, i: int) -> NDArray[Any]:
         """EVENT_DTYPE, the user events of run i by time."""
-        return told_apart(self.compiled, np.concatenate(self.events[i]))[0]
+        return plain(told_apart(self.compiled, np.concatenate(self.events[i]))[0])
 
     def counts(self, i: int) -> Counts:
         """Sums and maxima over the steps of run i."""
@@ -238,13 +238,13 @@ class Runs:
         t = self.times[:done].copy()
         if done and self.arrays["status"][i] in (ENDED, STOPPED):
             t[-1] = self.arrays["t_last"][i]
-        error = self.failures.get(i)
+        error, (events, no_number) = self.failures.get(i), told_apart(compiled, np.concatenate(self.events[i]))
         joints = len(compiled.source.clearances)
         return Trajectory(
             t, y[:, :n].copy(), y[:, n : 2 * n].copy(), None, memory[:, : compiled.n_memory].copy(),
             state[:, :joints].copy(), y[:, 2 * n :].copy(),
             self.impacts_of(i), self.arrays["peaks"][i, :joints].copy(), self.counts(i),
             self.interrupted and error is not None, error if isinstance(error, SolverError) else None,
-            seconds=float(self.arrays["seconds"][i]), events=self.events_of(i),
-            no_number=told_apart(compiled, np.concatenate(self.events[i]))[1],
+            seconds=float(self.arrays["seconds"][i]), events=plain(events),
+            event_states=events, no_number=plain(no_number),
         )  # fmt: skip

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gudgeon.errors import SolverError
 from gudgeon.integrators import trace
 from gudgeon.integrators.failure import FELT, STALLED, Pace, drives_at, failure, film, stalled
-from gudgeon.integrators.trajectory import EVENT_DTYPE, Counts, Problem, Trajectory, no_events
+from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, event_dtype, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.waiting.asking import Asker
 
@@ -32,21 +32,31 @@ def resolution(t: Array) -> float:
     return max(32 * EPSILON * float(abs(t[[0, -1]]).max()), min(1e-11, 1e-10 * float(t[-1] - t[0])))
 
 
+def no_states(compiled: CompiledModel) -> NDArray[Any]:
+    """An empty list of events with states."""
+    return np.zeros(0, dtype=event_dtype(compiled.n, compiled.n_memory, len(compiled.source.clearances)))
+
+
 def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any]:
-    """EVENT_DTYPE, the list of user events of a struct, which is emptied; those of the start do not count.
+    """event_dtype, the list of user events of a struct, which is emptied; those of the start do not count.
 
     What is beyond the events of the scene tells of the same events that they are no number at that time.
     """
+    joints, rows = len(compiled.source.clearances), N_IMPACTS if compiled.source.events else 1
     t, event = np.zeros(N_IMPACTS), np.zeros(N_IMPACTS, dtype=np.intc)
-    count = compiled.lib.gudgeon_run_events(run, compiled.pointer(t), compiled.pointer(event, "int *"))
-    fetched = np.zeros(count, dtype=EVENT_DTYPE)
-    fetched["event"], fetched["t"] = event[:count], t[:count]
+    y, memory = (np.zeros((rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_memory))
+    state = np.zeros((rows, max(joints, 1)), dtype=np.int8)
+    states = compiled.pointer(y), compiled.pointer(memory), compiled.pointer(state, "signed char *")
+    count = compiled.lib.gudgeon_run_events(run, compiled.pointer(t), compiled.pointer(event, "int *"), *states)
+    fetched = np.zeros(count, dtype=event_dtype(compiled.n, compiled.n_memory, joints))
+    fetched["event"], fetched["t"], fetched["y"] = event[:count], t[:count], y[:count]
+    fetched["memory"], fetched["state"] = memory[:count, : compiled.n_memory], state[:count, :joints]
     told = fetched["event"] >= len(compiled.source.events)
     return fetched[told | (fetched["t"] > times[0] + resolution(times))]
 
 
 def told_apart(compiled: CompiledModel, found: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Events by time, and those that are no number from a time on; EVENT_DTYPE both."""
+    """Events by time, and those that are no number from a time on; both of the type of `found`."""
     ordered = found[np.argsort(found["t"], kind="stable")]
     number = ordered["event"] < len(compiled.source.events)
     lost = ordered[~number]
@@ -87,7 +97,7 @@ class Session:
         self.n, self.nc = n, nc
         self.rows_done = np.zeros(1, dtype=np.int_)  # what C has filled, whatever happens in Python
         self.seconds = 0.0  # spent in C
-        self.t, self.events = problem.t, [no_events()]
+        self.t, self.events = problem.t, [no_states(self.compiled)]
         self.p = problem.p if p is None else p
         self.y = np.zeros((N, 2 * n + N_WORK))
         self.memory = np.full((N, max(self.compiled.n_memory, 1)), np.nan)
@@ -205,7 +215,7 @@ class Session:
             self.t[: self.done], y[:, :n], y[:, n : 2 * n], None, self.memory[: self.done, : self.compiled.n_memory],
             self.state[: self.done, : self.nc], y[:, 2 * n :], impacts, peaks,
             counts_of(counts, numbers), interrupted, stopped, seconds=self.seconds,
-            events=events, no_number=no_number, trace=self._trace(),
+            events=plain(events), event_states=events, no_number=plain(no_number), trace=self._trace(),
         )  # fmt: skip
 
     def _trace(self) -> trace.Trace | None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gudgeon.errors import SolverError
 from gudgeon.integrators.trace import Trace
-from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 
 IMPACT_DTYPE = np.dtype(
     [("joint", "i4"), ("t_on", "f8"), ("t_off", "f8"), ("deltadot", "f8"), ("F_peak", "f8"), ("t_peak", "f8")]
@@ -21,6 +21,19 @@ Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is bei
 
 
 EVENT_DTYPE = np.dtype([("event", "i4"), ("t", "f8")])  # index into KernelSource.events, s
+
+
+def event_dtype(n: int, n_memory: int, n_clearances: int) -> np.dtype[Any]:
+    """An event with the state there as samples have it: y is q, v (n each) and the works."""
+    at = [("y", "f8", (2 * n + N_WORK,)), ("memory", "f8", (n_memory,)), ("state", "i1", (n_clearances,))]
+    return np.dtype([("event", "i4"), ("t", "f8"), *at])
+
+
+def plain(found: NDArray[Any]) -> NDArray[Any]:
+    """EVENT_DTYPE of events with their states."""
+    events = np.zeros(len(found), dtype=EVENT_DTYPE)
+    events["event"], events["t"] = found["event"], found["t"]
+    return events
 
 
 def no_events() -> NDArray[Any]:
@@ -90,5 +103,6 @@ class Trajectory:
     stopped: SolverError | None = None
     seconds: float | None = None  # spent in the time loop; None: not measured
     events: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE, by time
+    event_states: NDArray[Any] | None = None  # event_dtype, the same with states; None: the method keeps none
     trace: Trace | None = None  # forces and paths from the steps; None: the method keeps none
     no_number: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE: from when on an event is no number

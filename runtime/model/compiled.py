@@ -42,6 +42,7 @@ class Evaluation:
     friction: Array  # (N, n_frictions, 2) force on the second body along the direction, slip
     energy: Array  # (N, 2) kinetic, potential
     power: Array  # (N, 3) of drives, of force elements (but what they store), of clearance forces (W)
+    drift: Array  # (N, 2) largest |Φ| (m, rad) and |Φ̇| (m/s, rad/s) of the rows
 
 
 class CompiledModel:
@@ -209,12 +210,12 @@ class CompiledModel:
         out = Evaluation(
             np.empty((N, self.n)), np.empty((N, len(s.rows))), np.empty((N, len(s.joints), 3)),
             np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))),
-            np.empty((N, len(s.series))), np.empty((N, len(s.frictions), 2)), np.empty((N, 2)), np.empty((N, 3)),
+            np.empty((N, len(s.series))), np.empty((N, len(s.frictions), 2)), *(np.empty((N, k)) for k in (2, 3, 2)),
         )  # fmt: skip
         failed, first, chunk = self.ffi.new("long *"), 0, 1
         results = (
             out.a, out.multipliers, out.reactions, out.torques, out.clearance, out.series, out.friction, out.energy,
-            out.power,
+            out.power, out.drift,
         )  # fmt: skip
         while first < N:
             before, count = perf_counter(), min(chunk, N - first)
@@ -258,9 +259,8 @@ class CompiledModel:
                 f"singular or non-finite at t = {t:.9g} s: the pivot of constraint row {row} vanished\n"
                 "  the mechanism is at a singular position (dead centre), constraints are redundant,"
                 " or the state is no longer finite: check the start, or take a smaller step",
-                t,
-                row,
-            )
+                t, row,
+            )  # fmt: skip
 
     def _rows(self, function: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
         out = np.empty(len(self.source.start_rows))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias, overload
@@ -11,12 +12,15 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
-from gudgeon.language.wanted import listed, refuse, told
+from gudgeon.language.wanted import listed, refuse, text, told
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, rates
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
+
+    from gudgeon.results.at_events import AtEvents
 
 Array: TypeAlias = NDArray[Any]
 
@@ -97,6 +101,11 @@ class Batch:
             found = getattr(error, "partial", None)
             return found if isinstance(found, Result) else None
 
+    def at_events(self, name: str) -> tuple[AtEvents | None, ...]:
+        """The states at the times of an event, run by run; None for one that did not begin. See Result.at_events."""
+        runs = map(self.partial, range(len(self)))
+        return tuple(None if run is None else run.at_events(name) for run in runs)
+
     def _series(self, name: str) -> Array:
         out = np.full((len(self), len(self.t)), np.nan)
         for i in range(len(self)):
@@ -105,16 +114,21 @@ class Batch:
                 out[i, : len(run.t)] = run[name]
         return out
 
-    def to_xarray(self, names: Iterable[str] = ()) -> xarray.Dataset:
+    def to_xarray(self, names: Iterable[str] = (), part: str = "series") -> xarray.Dataset:
         """A Dataset over `run` and `time`, every series by its name in a Result, those of `names` too.
 
         Over `run` alone: samples, ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks.
-        `.to_dataframe()` has a row for each run and time.
+        `.to_dataframe()` has a row for each run and time. part: "impacts", "events" and what else a Result has as a
+        table of its own: a row each, with its `run`.
         """
         try:
             import xarray
         except ModuleNotFoundError as error:
             raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
+        if text(part, "part", "the name of a table") != "series":
+            from gudgeon.results import batch_file
+
+            return batch_file.dataset(self, part)
         reasons = dict((failure.run, str(failure.error)) for failure in self.failures)
         found: dict[str, Any] = {
             "samples": ("run", self.samples), "t_last": ("run", self.t_last, {"units": "s"}),
@@ -134,6 +148,34 @@ class Batch:
         coordinates |= {name: ("run", values) for name, values in self.parameters.items()}
         attributes = {"mechanism": self.source.mechanism, "scene": self.source.scene, "title": self.source.title}
         return xarray.Dataset(found, coordinates, attributes)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to one NetCDF file, every series of every run too; OutputError where that fails."""
+        from gudgeon.results import batch_file
+
+        batch_file.save(self, path)
+
+    @staticmethod
+    def load(path: str | os.PathLike[str]) -> Batch:
+        """The batch that `save` wrote, bit for bit; it needs no compiled library. InputError for any other file."""
+        from gudgeon.results import batch_file
+
+        return batch_file.load(path)
+
+    def to_dataframe(self, names: Iterable[str] = ()) -> pandas.DataFrame:
+        """A long table of pandas: run, what was given to it, t, and these series, or all; a row each sample reached.
+
+        SI, units in `attrs["units"]`.
+        """
+        from gudgeon.results import export
+
+        return export.batch_dataframe(self, names)
+
+    def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] = ()) -> None:
+        """Write the same table as CSV, run by run; every bit of a number."""
+        from gudgeon.results import export
+
+        export.batch_csv(self, path, names)
 
 
 def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:

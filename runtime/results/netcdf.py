@@ -1,9 +1,9 @@
 """Results as NetCDF 4 files, and as xarray's Datasets.
 
 A file holds every series under its own name over `time`, so that any NetCDF tool can read it, and in groups what has
-other rows: `impacts`, `events`, `parameters` and `trace` (trace.py), for people; `compiled`, the kernel source and
-what was derived from the parameters, so that gudgeon reads all of it back bit for bit without a compiled library.
-What has no row is not there. A file holds no date: the same run gives the same bytes.
+other rows: `impacts`, `events`, the series `at_events`, `parameters` and `trace` (trace.py), for people; `compiled`,
+the kernel source and what was derived from the parameters, so that gudgeon reads all of it back bit for bit without a
+compiled library. What has no row is not there. A file holds no date: the same run gives the same bytes.
 """
 
 from __future__ import annotations
@@ -21,14 +21,15 @@ from gudgeon.language.wanted import text
 from gudgeon.results import trace
 from gudgeon.results.hdf5_image import Table, Variable, pieces
 from gudgeon.results.results import Array, Result
+from gudgeon.results.series import DRIFT
 from gudgeon.waiting.ctrl_c import CtrlC
 
 if TYPE_CHECKING:
     import xarray
 
 FORMAT = "gudgeon-result/2"
-SERIES, TRACE, COMPILED = "series", "trace", "compiled"
-PARTS = ("impacts", "events", "parameters", TRACE)
+SERIES, TRACE, STATES, COMPILED = "series", "trace", "at_events", "compiled"
+PARTS = ("impacts", "events", STATES, "parameters", TRACE)
 IMPACTS = {
     "joint": ("", "joint with play"),
     "t_on": ("s", "onset of the contact"),
@@ -47,6 +48,7 @@ def tables(run: Result) -> Iterator[Table]:
     yield Table("impacts", "impact", tuple(_records(run.impacts, IMPACTS, joints)), {})
     events = [event.name for event in run.source.events]
     yield Table("events", "occurrence", tuple(_records(run.events, EVENTS, events)), {})
+    yield Table(STATES, "occurrence", tuple(_states(run, events)), {})
     yield Table("parameters", "address", tuple(_parameters(run)), {})
     traced = (Variable(name, *of) for name, of in trace.variables(run).items())
     yield Table(TRACE, "t", tuple(traced), {})
@@ -56,8 +58,30 @@ def tables(run: Result) -> Iterator[Table]:
 
 def _series(run: Result) -> Iterator[Variable]:
     yield Variable("time", run.t, "s", "time")
+    older = () if run.compiled or DRIFT[0] in run.stored else DRIFT  # read from a file that lacks it
     for name, unit in run.names.items():
+        if name in older:
+            continue
         yield Variable(variable(name), run[name], unit, run.meaning(name))
+
+
+def _states(run: Result, events: list[str]) -> Iterator[Variable]:
+    """Every series at the events, beside their names and times; nothing where they are not known."""
+    try:
+        at = run.states_at_events if len(run.events) else None
+        names = [name for name in run.names if at is not None and (at.compiled or name in at.stored)]
+        found = {name: at[name][1:] for name in names} if at is not None else {}
+    except GudgeonError:  # an older file, a motion that cannot be followed or evaluated there: the samples are whole
+        return
+    if found:
+        yield from list(_records(run.events, EVENTS, events))
+    for name, values in found.items():
+        yield Variable(at_event(name), values, run.unit(name), run.meaning(name))
+
+
+def at_event(name: str) -> str:
+    """The same beside the names and times of events."""
+    return f"output.{name}" if name in (*EVENTS, "occurrence") else name
 
 
 def _records(rows: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:
@@ -114,13 +138,18 @@ def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
 
 def save(run: Result, path: str | os.PathLike[str]) -> None:
     """Write `run` to `path`. OutputError where it cannot be written; an older file is then as it was."""
+    write(tables(run), path)
+
+
+def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
+    """A file with these tables; they are made one after the other, and Ctrl-C is taken in between."""
     try:
         import h5py  # noqa: F401
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
     path, found = named(path, "path"), []
     with CtrlC() as ctrl_c:  # Python drops what is raised in callbacks of weak references, Ctrl-C too
-        for table in tables(run):
+        for table in tables:
             found.append(table)
             ctrl_c.take()
         with written(path) as file:

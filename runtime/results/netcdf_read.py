@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -22,20 +23,26 @@ from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
 from gudgeon.language.wanted import path as named
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.hdf5_image import is_damaged
-from gudgeon.results.netcdf import COMPILED, FORMAT, TRACE, variable
+from gudgeon.results.netcdf import COMPILED, FORMAT, STATES, TRACE, at_event, variable
 from gudgeon.results.results import Array, Result
-from gudgeon.results.series import MOTION
+from gudgeon.results.series import DRIFT, MOTION
 from gudgeon.results.typed import check_typed
 
 OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
 OLD_NAMES = ("time", "impact", "event", "slot", "prepared")
 NAME, UNIT = re.compile(r"[A-Za-z][\w.]*", re.ASCII), re.compile(r"[\w^*/. ()-]*", re.ASCII)
 DEFLATE = 1100  # no filter of HDF5's own makes data this many times smaller
+Made = TypeVar("Made")
 AGAIN = "it is no result of gudgeon, or was damaged or cut short; run the scene again"
 
 
 def read(path: str | os.PathLike[str]) -> Result:
     """The result in a file that `save` wrote; InputError for a missing file or one that is not a whole result."""
+    return opened(path, lambda file, size: _result(File(file, size, (FORMAT, OLD_FORMAT))))
+
+
+def opened(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Made:
+    """What `make` has from an open file and its size in bytes; InputError for whatever is wrong with that."""
     try:
         import h5py
     except ModuleNotFoundError as error:
@@ -51,7 +58,7 @@ def read(path: str | os.PathLike[str]) -> Result:
         if is_damaged(path):
             raise InputError(f"{shown} is not as it was written: it was damaged", hint="run the scene again")
         with h5py.File(path, "r") as file:
-            return _result(_File(file, path.stat().st_size))
+            return make(file, path.stat().st_size)
     except InputError:
         raise
     except Exception as error:  # whatever HDF5, JSON or NumPy make of what should not be
@@ -59,14 +66,14 @@ def read(path: str | os.PathLike[str]) -> Result:
         raise InputError(f"{shown} cannot be read as a result: {told}", hint=AGAIN) from error
 
 
-class _File:
+class File:
     """Arrays and texts of an open file by name ("S9.y", "impacts/t_on"); ValueError for what is not as expected."""
 
-    def __init__(self, file: Any, size: int) -> None:
+    def __init__(self, file: Any, size: int, formats: tuple[str, ...]) -> None:
         self._file, self._left = file, float(size)
         found = self.text("gudgeon")
-        if found not in (FORMAT, OLD_FORMAT):
-            raise ValueError(f"expected the attribute gudgeon = {FORMAT!r}, found {found!r}")
+        if found not in formats:
+            raise ValueError(f"expected the attribute gudgeon = {formats[0]!r}, found {found!r}")
         self.is_old = found == OLD_FORMAT
 
     def has(self, group: str) -> bool:
@@ -88,6 +95,10 @@ class _File:
             raise ValueError(f"{name} has numbers of type {item.dtype}, expected {dtype}")
         values: Array = item[...].astype(dtype, copy=False)
         return values
+
+    def either(self, name: str, length: int) -> Array:
+        """Numbers that may be whole."""
+        return self.numbers(name, length, "i8" if self._dataset(name, length).dtype.kind == "i" else "f8")
 
     def texts(self, name: str, length: int | None = None) -> list[str]:
         import h5py
@@ -135,28 +146,37 @@ def _own(group: Any, name: str) -> Any:
     return group[name]
 
 
-def _result(file: _File) -> Result:
-    from gudgeon.results.series import catalogue
-
+def source_of(file: File) -> KernelSource:
+    """What a file says of its scene."""
     source = KernelSource.from_json(file.text("source", "" if file.is_old else COMPILED))
     check_typed(source, KernelSource, "source")
     _check_names(source)
+    return source
+
+
+def _result(file: File) -> Result:
+    from gudgeon.results.series import catalogue
+
+    source = source_of(file)
+    return result_of(file, source, tuple(catalogue(source)))
+
+
+def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Result:
+    """The result with these series."""
     diagnostics = Diagnostics.from_json(file.text("diagnostics"))
     check_typed(diagnostics, Diagnostics, "diagnostics")
     t = file.numbers("time")
     if not len(t):
         raise ValueError("it has no sample")
-    stored = {name: _series(file, name, len(t)) for name in catalogue(source)}
-    q, v, a = (_motion(source, stored, len(t), order) for order in range(3))
+    stored = {name: _series(file, name, len(t)) for name in names if _is_there(file, name)}
     p, given, is_given = _numbers(file, source)
     run = Result(
-        compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, q=q, v=v, accelerations=a,
-        state=_columns(stored, [f"{joint.name}.state" for joint in source.clearances], len(t), np.int8),
-        memory=_columns(stored, _memory_names(source), len(t)),
-        work=_columns(stored, ["work.drives", "work.forces", "work.clearances"], len(t)),
+        compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, **_samples(source, stored, len(t)),
         impacts=_impacts(file, source), diagnostics=diagnostics, events=_events(file, source), stored=stored,
         trace=_trace(file, source),
     )  # fmt: skip
+    if file.has(STATES):
+        run.__dict__["states_at_events"] = _at_events(file, run)
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
     return run
 
@@ -174,14 +194,19 @@ def _check_names(source: KernelSource) -> None:
         raise ValueError(f"{wrong[0][:64]!r} is no unit")
 
 
-def _series(file: _File, name: str, length: int) -> Array:
+def _is_there(file: File, name: str) -> bool:
+    """Files of before the drift was a series lack it."""
+    return name not in DRIFT or file.has(name)
+
+
+def _series(file: File, name: str, length: int) -> Array:
     stored = f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else variable(name)
     values = file.numbers(stored, length, "i1" if name.endswith(".state") else "f8")
     values.flags.writeable = False
     return values
 
 
-def _numbers(file: _File, source: KernelSource) -> tuple[Array, Array, Array]:
+def _numbers(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
     """p, given and is_given."""
     slots, derived = len(source.slots), len(source.derived)
     if file.is_old:
@@ -193,15 +218,15 @@ def _numbers(file: _File, source: KernelSource) -> tuple[Array, Array, Array]:
     return np.concatenate([values, prepared]), given, is_given.astype(bool)
 
 
-def _impacts(file: _File, source: KernelSource) -> Array:
+def _impacts(file: File, source: KernelSource) -> Array:
     return _records(file, "impact", IMPACT_DTYPE, [joint.name for joint in source.clearances])
 
 
-def _events(file: _File, source: KernelSource) -> Array:
+def _events(file: File, source: KernelSource) -> Array:
     return _records(file, "event", EVENT_DTYPE, [event.name for event in source.events])
 
 
-def _records(file: _File, what: str, dtype: np.dtype[Any], names: list[str]) -> Array:
+def _records(file: File, what: str, dtype: np.dtype[Any], names: list[str]) -> Array:
     """Impacts or events from their columns, the first of which says whose they are; none, where there is no group."""
     first, *others = dtype.names or ()
     if not file.has(f"{what}.{first}" if file.is_old else f"{what}s"):
@@ -220,13 +245,35 @@ def _records(file: _File, what: str, dtype: np.dtype[Any], names: list[str]) -> 
     return table
 
 
-def _trace(file: _File, source: KernelSource) -> Trace | None:
+def _trace(file: File, source: KernelSource) -> Trace | None:
     """None where the run had none, or the file is from before there were any."""
     if not file.has(TRACE):
         return None
     t = file.numbers(f"{TRACE}/t")
     joints = [[file.numbers(f"{TRACE}/{joint.name}.{name}", len(t)) for name in COLUMNS] for joint in source.clearances]
     return Trace(t, np.moveaxis(np.array(joints).reshape(len(joints), len(COLUMNS), len(t)), 2, 0).copy())
+
+
+def _samples(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
+    """What the integrator stores of rows, from their series; by the names of a Result."""
+    q, v, a = (_motion(source, stored, length, order) for order in range(3))
+    return {
+        "q": q, "v": v, "accelerations": a,
+        "state": _columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
+        "memory": _columns(stored, _memory_names(source), length),
+        "work": _columns(stored, ["work.drives", "work.forces", "work.clearances"], length),
+    }  # fmt: skip
+
+
+def _at_events(file: File, run: Result) -> Result:
+    """The result whose samples are the start of the run and then its events."""
+    stored, count = {}, len(run.events)
+    for name, values in run.stored.items():
+        at = file.numbers(f"{STATES}/{at_event(name)}", count, "i1" if name.endswith(".state") else "f8")
+        stored[name] = np.concatenate([values[:1], at])
+        stored[name].flags.writeable = False
+    t = np.concatenate([run.t[:1], run.events["t"]])
+    return replace(run, t=t, **_samples(run.source, stored, 1 + count), trace=None, stored=stored)
 
 
 def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:

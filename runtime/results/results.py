@@ -7,7 +7,7 @@ first access, exactly, from these (one pass of the compiled model over the sampl
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from types import MappingProxyType
@@ -23,10 +23,12 @@ from gudgeon.language.wanted import text, told
 from gudgeon.results.diagnostics import Diagnostics
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
     from gudgeon.integrators.trace import Trace
     from gudgeon.model.compiled import CompiledModel, Evaluation
+    from gudgeon.results.at_events import AtEvents
     from gudgeon.results.plots import Plot
     from gudgeon.results.series import Series
 
@@ -79,6 +81,7 @@ class Result:
     impacts: Array  # IMPACT_DTYPE, one an onset
     diagnostics: Diagnostics
     events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: what the file's `events` watch
+    event_states: Array | None = None  # event_dtype, the same with the states there; None: see at_events.py
     trace: Trace | None = None  # forces and paths from the steps; None: samples are all there is
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
 
@@ -146,6 +149,19 @@ class Result:
         times: Array = self.events["t"][self.events["event"] == names.index(name)]
         return times
 
+    def at_events(self, name: str) -> AtEvents:
+        """The states at the located times of an event: `run.at_events("top")["S9.ay"]` is (k,); see AtEvents."""
+        from gudgeon.results.at_events import at_events
+
+        return at_events(self, name)
+
+    @cached_property
+    def states_at_events(self) -> Result:
+        """A result whose samples are the start and then all events, by time."""
+        from gudgeon.results.at_events import everything
+
+        return everything(self)
+
     @property
     def final(self) -> State:
         """The last sample as a state to restart from."""
@@ -160,7 +176,7 @@ class Result:
 
     def __getstate__(self) -> dict[str, Any]:
         """The fields, and the evaluation if it is at hand; what else is cached is made again in no time."""
-        kept = {*(each.name for each in fields(self)), "evaluation", "a"}
+        kept = {*(each.name for each in fields(self)), "evaluation", "a", "states_at_events"}
         return {name: value for name, value in self.__dict__.items() if name in kept}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -208,6 +224,24 @@ class Result:
         from gudgeon.results import netcdf
 
         return netcdf.dataset(self, part)
+
+    def to_dataframe(self, names: Iterable[str] = ()) -> pandas.DataFrame:
+        """Series as columns of a table of pandas over t (s): these, or all; SI, units in `attrs["units"]`."""
+        from gudgeon.results import export
+
+        return export.dataframe(self, names)
+
+    def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] = ()) -> None:
+        """Write t and these series, or all, as CSV in SI: a line of names, then every bit of a sample a line."""
+        from gudgeon.results import export
+
+        export.csv(self, path, names)
+
+    def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] = ()) -> None:
+        """Write t and these series, or all, for MATLAB: "S9.y" as S9_y; cells `variables`, `names` and `units`."""
+        from gudgeon.results import export
+
+        export.mat(self, path, names)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to a NetCDF file, aside first and then moved into place; OutputError where that fails."""

@@ -5,6 +5,7 @@
     A.Fx .Fy .F .M                                         of an ideal joint: on the second body, ground axes
     A.Fx .Fy .F .Fn .Ft .e .ex .ey .delta .eps .deltadot .vt .state .deltadot_minus      with play
     crank1.torque   lambda.A.x   energy.kinetic .potential .residual   work.drives .forces .clearances
+    Phi.max   Phi_dot.max                                  how far the constraints are violated
     lift                                                   an output of the mechanism file
 
 The names depend on the scene alone; nothing is computed before somebody asks (`Series.compute`).
@@ -63,6 +64,7 @@ def catalogue(source: KernelSource) -> dict[str, Series]:
     for part in (_bodies, _points, _joints, _clearances, _states, _drives, _elements, _frictions, _multipliers):
         found.update(part(source))
     found.update(_balance(source))
+    found.update(_drift(source))
     for name, tree in source.outputs.items():
         if not missing(source, tree, found):
             found[name] = _output(source, name, tree, found)
@@ -228,6 +230,17 @@ def _balance(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, name in enumerate(("drives", "forces", "clearances")):
         meaning = f"work done so far by the {'joints with play' if name == 'clearances' else name}"
         yield f"work.{name}", Series("J", meaning, partial(_column, array="work", column=k))
+
+
+DRIFT = ("Phi.max", "Phi_dot.max")
+
+
+def _drift(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Lengths and angles beside each other, as in diagnostics.phi_max."""
+    what = ("|Φ|: m of rows of lengths, rad of rows of angles", "|Φ̇|: m/s of rows of lengths, rad/s of rows of angles")
+    for k, name in enumerate(DRIFT):
+        compute = partial(_evaluated, part="drift", index=(k,))
+        yield name, Series("", f"drift, the largest {what[k]}", compute)
 
 
 def _residual(run: Result) -> Array:

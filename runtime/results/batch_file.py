@@ -1,0 +1,243 @@
+"""A batch as one NetCDF 4 file, and back, bit for bit: its runs' tables one after the other, each row with its run.
+
+`series` are long tables over the samples that were reached, as are `impacts`, `events` and the others that the file of
+one run has (netcdf.py); `runs` has a row a run: its diagnostics, failure, ends and peaks, `given` what was given to it.
+Read back it needs no compiled library; the file is believed no more than that of one run.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon import errors
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import GudgeonError, UnknownNameError
+from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, no_events
+from gudgeon.results import netcdf
+from gudgeon.results.batch import PEAK_DTYPE, Batch, as_failures
+from gudgeon.results.hdf5_image import Table, Variable
+from gudgeon.results.netcdf_read import File, opened, result_of, source_of
+from gudgeon.results.results import Array, Result
+
+if TYPE_CHECKING:
+    import xarray
+
+FORMAT = "gudgeon-batch/1"
+RUNS, GIVEN, TIMES = "runs", "given", "times"
+COUNTS = (*(field.name for field in fields(Counts)), "seconds")
+
+
+def save(batch: Batch, path: str | os.PathLike[str]) -> None:
+    """See Batch.save."""
+    netcdf.write(tables(batch), path)
+
+
+def tables(batch: Batch) -> Iterator[Table]:
+    """All that a file holds."""
+    runs = {i: run for i in range(len(batch)) if (run := batch.partial(i)) is not None}
+    parts = [(i, table) for i, run in runs.items() for table in netcdf.tables(run)]
+    about = {"seconds": repr(batch.seconds), "threads": batch.threads, "interrupted": batch.interrupted}
+    attributes = {
+        "gudgeon": FORMAT, "title": batch.source.title, "mechanism": batch.source.mechanism,
+        "scene": batch.source.scene, "batch": json.dumps(about),
+    }  # fmt: skip
+    yield Table("", "run", (Variable("run", np.arange(len(batch)), "", "number of the run"),), attributes)
+    yield Table(TIMES, "time", (Variable("time", batch.t, "s", "time that was asked for"),), {})
+    yield Table(RUNS, "number", tuple(_runs(batch, runs)), {})
+    units = {slot.address: slot.unit for slot in batch.source.slots}
+    given = (Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items())
+    yield Table(GIVEN, "number", tuple(given), {})
+    for group in ("", *netcdf.PARTS, netcdf.COMPILED):
+        own = [(i, table) for i, table in parts if table.group == group and table.length]
+        source = {"source": batch.source.to_json()} if group == netcdf.COMPILED else {}
+        yield _long(group or netcdf.SERIES, own, source)
+
+
+def dataset(batch: Batch, part: str) -> xarray.Dataset:
+    """One of netcdf.PARTS of all runs as one table, with the run of each row."""
+    import xarray
+
+    if part not in netcdf.PARTS:
+        raise UnknownNameError(f"a batch has no part {part!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
+    began = [(i, run) for i in range(len(batch)) if (run := batch.partial(i)) is not None]
+    own = [(i, table) for i, run in began for table in netcdf.tables(run) if table.group == part and table.length]
+    found: dict[str, Any] = {v.name: ("row", v.values, v.attributes) for v in _long(part, own, {}).variables}
+    return xarray.Dataset(found)
+
+
+def _long(group: str, parts: list[tuple[int, Table]], attributes: dict[str, str]) -> Table:
+    """The same table of several runs as one, whose first column is the run."""
+    rows = [np.full(table.length, i, np.int32) for i, table in parts]
+    found = [Variable("run", np.concatenate(rows), "", "number of the run")] if parts else []
+    for k, first in enumerate(parts[0][1].variables if parts else ()):
+        values = np.concatenate([table.variables[k].values for _, table in parts])
+        found.append(Variable(first.name, values, first.unit, first.meaning))
+    return Table(group, "row", tuple(found), attributes)
+
+
+def _runs(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
+    failed = {failure.run: failure.error for failure in batch.failures}
+    told = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
+    yield Variable("diagnostics", np.array(told, dtype=object), "", "what the run says of itself, JSON")
+    told = [_told(failed[i]) if i in failed else "" for i in range(len(batch))]
+    yield Variable("failure", np.array(told, dtype=object), "", "why it did not come to its end, JSON")
+    yield Variable("samples", batch.samples.astype(np.int64), "", "output times that were reached")
+    yield Variable("t_last", batch.t_last, "s", "where the run ended")
+    for name in COUNTS:
+        yield Variable(name, batch.diagnostics[name], "", "see Diagnostics")
+    for k, joint in enumerate(batch.source.clearances):
+        for name in PEAK_DTYPE.names or ():
+            yield Variable(f"{joint.name}.peak.{name}", np.ascontiguousarray(batch.peaks[name][:, k]), "", "peak")
+
+
+def _told(error: GudgeonError) -> str:
+    """An error as JSON: its kind, its words, and when."""
+    time = repr(float(getattr(error, "time", math.nan)))
+    more = {"pivot": getattr(error, "pivot", ""), "outside_model": bool(getattr(error, "outside_model", False))}
+    return json.dumps({"kind": type(error).__name__, "text": str(error), "time": time, **more}, ensure_ascii=False)
+
+
+def _error(text: str, partial: Result | None) -> GudgeonError:
+    data = json.loads(text)
+    kind = getattr(errors, str(data["kind"]), None)
+    if not (isinstance(kind, type) and issubclass(kind, GudgeonError)):
+        raise ValueError(f"there is no error {data['kind']!r}")
+    error = kind.__new__(kind, str(data["text"]))
+    error.__dict__ |= {"time": float(data["time"]), "pivot": str(data["pivot"]), "partial": partial}
+    error.__dict__ |= {"outside_model": bool(data["outside_model"]), "message": str(data["text"]), "where": None}
+    return error
+
+
+def load(path: str | os.PathLike[str]) -> Batch:
+    """See Batch.load."""
+    return opened(path, _batch)
+
+
+class _RunOf(File):
+    """The rows of one run in the tables of all, for the reader of a single run's file."""
+
+    def __init__(self, whole: _Whole, run: int) -> None:
+        self.whole, self.run, self.is_old = whole, run, False
+
+    def has(self, group: str) -> bool:
+        return self.whole.count(group, self.run) > 0 or self.whole.file.has(f"{netcdf.SERIES}/{group}")
+
+    def text(self, key: str, group: str = "") -> str:
+        return self.whole.diagnostics[self.run]
+
+    def numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
+        return self._checked(name, length, self.whole.column(name, dtype)[self.whole.rows(name, self.run)])
+
+    def texts(self, name: str, length: int | None = None) -> list[str]:
+        return list(self._checked(name, length, self.whole.column(name, "")[self.whole.rows(name, self.run)]))
+
+    def _checked(self, name: str, length: int | None, found: Array) -> Array:
+        if length is not None and len(found) != length:
+            raise ValueError(f"run {self.run} has {len(found)} values of {name}, expected {length}")
+        return found
+
+
+class _Whole:
+    """Columns of the file, read once each, and where runs begin in them."""
+
+    def __init__(self, file: File, count: int) -> None:
+        self.file, self.diagnostics = file, file.texts(f"{RUNS}/diagnostics", count) if count else []
+        self.columns: dict[str, Array] = {}
+        self.begins: dict[str, Array] = {}
+        for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.COMPILED):
+            owner = np.zeros(0, np.int32)
+            if file.has(group) and (group != netcdf.COMPILED or file.has(f"{group}/run")):
+                owner = file.numbers(f"{group}/run", None, "i4")
+            if len(owner) and (owner[0] < 0 or owner[-1] >= count or (np.diff(owner) < 0).any()):
+                raise ValueError(f"the rows of {group} are of no run")
+            self.begins[group] = np.searchsorted(owner, np.arange(count + 1))
+
+    def count(self, group: str, run: int) -> int:
+        begins = self.begins.get(group, np.zeros(run + 2, np.int64))
+        return int(begins[run + 1] - begins[run])
+
+    def rows(self, name: str, run: int) -> slice:
+        begins = self.begins[name.rpartition("/")[0] or netcdf.SERIES]
+        return slice(int(begins[run]), int(begins[run + 1]))
+
+    def column(self, name: str, dtype: str) -> Array:
+        """By "group/name"; the series have no group in the file of one run. Texts for no dtype."""
+        name = name if "/" in name else f"{netcdf.SERIES}/{name}"
+        if name not in self.columns:
+            rows = int(self.begins[name.rpartition("/")[0]][-1])
+            texts = np.array(self.file.texts(name, rows), dtype=object) if not dtype else None
+            self.columns[name] = self.file.numbers(name, rows, dtype) if texts is None else texts
+        return self.columns[name]
+
+
+@dataclass
+class _Stored:
+    """Runs and errors by their number."""
+
+    runs: dict[int, Result]
+    errors: dict[int, GudgeonError]
+
+    def __call__(self, i: int) -> Result:
+        if i in self.errors:
+            raise self.errors[i]
+        return self.runs[i]
+
+
+def _batch(opened_file: Any, size: int) -> Batch:
+    from gudgeon.results.series import catalogue
+
+    file = File(opened_file, size, (FORMAT,))
+    source, count = source_of(file), len(file.numbers("run", None, "i8"))
+    names, whole = tuple(catalogue(source)), _Whole(file, count)
+    began = [i for i in range(count) if whole.diagnostics[i]]
+    runs = {i: result_of(_RunOf(whole, i), source, names) for i in began}
+    told = file.texts(f"{RUNS}/failure", count)
+    failed = {i: _error(text, runs.get(i)) for i, text in enumerate(told) if text}
+    if missing := [i for i in range(count) if i not in runs and i not in failed]:
+        raise ValueError(f"run {missing[0]} has neither a result nor a failure")
+    t, about = file.numbers(f"{TIMES}/time"), json.loads(file.text("batch"))
+    padded = {name: _padded(runs, name, count, len(t), source) for name in ("q", "v", "work", "state")}
+    numbers = {name: file.either(f"{RUNS}/{name}", count) for name in COUNTS}
+    empty = np.zeros(0, IMPACT_DTYPE)
+    return Batch(
+        source=source, t=t, **padded, samples=file.numbers(f"{RUNS}/samples", count, "i8"),
+        t_last=file.numbers(f"{RUNS}/t_last", count), parameters=_given(file, source, count),
+        impacts=tuple(runs[i].impacts if i in runs else empty for i in range(count)),
+        events=tuple(runs[i].events if i in runs else no_events() for i in range(count)),
+        peaks=_peaks(file, source, count), diagnostics=numbers, failures=as_failures(failed),
+        seconds=float(about["seconds"]), threads=int(about["threads"]), interrupted=bool(about["interrupted"]),
+        result=_Stored(runs, failed),
+    )  # fmt: skip
+
+
+def _padded(runs: Mapping[int, Result], name: str, count: int, samples: int, source: KernelSource) -> Array:
+    """(n, N, ...), NaN (codes: 0) where a run has no sample."""
+    kind = np.int8 if name == "state" else np.float64
+    width = {"work": 3, "state": len(source.clearances)}.get(name, len(source.coordinates))
+    out = np.full((count, samples, width), 0 if name == "state" else np.nan, dtype=kind)
+    for i, run in runs.items():
+        values = getattr(run, name)
+        out[i, : len(values)] = values
+    return out
+
+
+def _given(file: File, source: KernelSource, count: int) -> dict[str, Array]:
+    if not file.has(GIVEN):
+        return {}
+    found = (slot.address for slot in source.slots if file.has(f"{GIVEN}/{slot.address}"))
+    return {address: file.numbers(f"{GIVEN}/{address}", count) for address in found}
+
+
+def _peaks(file: File, source: KernelSource, count: int) -> Array:
+    out = np.full((count, len(source.clearances)), np.nan, dtype=PEAK_DTYPE)
+    for k, joint in enumerate(source.clearances):
+        for name in PEAK_DTYPE.names or ():
+            out[name][:, k] = file.numbers(f"{RUNS}/{joint.name}.peak.{name}", count)
+    return out

@@ -1,0 +1,148 @@
+"""Results for other programs: pandas' tables, CSV, MATLAB's files; everything in SI, under the names of a result.
+
+A batch is a long table: the run's number, what was given to it, t and the series, a row for each sample that was
+reached.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from gudgeon.errors import GudgeonError
+from gudgeon.files.writing import written
+from gudgeon.language.wanted import listed
+from gudgeon.language.wanted import path as named
+
+if TYPE_CHECKING:
+    import pandas
+
+    from gudgeon.results.batch import Batch
+    from gudgeon.results.results import Array, Result
+
+Columns: TypeAlias = "dict[str, Array]"  # name -> (rows,)
+
+ROWS = 4096  # of a CSV file that are text at once
+DATE = 116  # bytes at the head of a MATLAB file in which SciPy puts the day
+MATLAB = b"MATLAB 5.0 MAT-file, written by gudgeon"
+LONGEST = 63  # characters of a name in MATLAB
+KEYWORDS = frozenset({
+    "break", "case", "catch", "classdef", "continue", "else", "elseif", "end", "for", "function", "global", "if",
+    "otherwise", "parfor", "persistent", "return", "spmd", "switch", "try", "while",
+})  # fmt: skip
+
+
+def wanted_series(run: Result, names: Iterable[str]) -> list[str]:
+    """These, each once, or every series for none; UnknownNameError for one that there is not."""
+    found = list(dict.fromkeys(listed(names, "names", str, "a list of names of series")))
+    for name in found:
+        run.unit(name)
+    return [name for name in found if name != "t"] or list(run.names)
+
+
+def dataframe(run: Result, names: Iterable[str]) -> pandas.DataFrame:
+    """See Result.to_dataframe."""
+    frames = _pandas()
+    series = wanted_series(run, names)
+    table: pandas.DataFrame = frames.DataFrame(
+        {name: run[name] for name in series}, index=frames.Index(run.t, name="t"), copy=True
+    )
+    table.attrs = {"units": {"t": "s"} | {name: run.unit(name) for name in series}} | _whence(run)
+    return table
+
+
+def batch_dataframe(batch: Batch, names: Iterable[str]) -> pandas.DataFrame:
+    """See Batch.to_dataframe."""
+    from gudgeon.results.series import catalogue
+
+    frames, names = _pandas(), listed(names, "names", str, "a list of names of series")
+    parts = list(_runs(batch, names))
+    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
+    units = {"t": "s"} | {name: series.unit for name, series in catalogue(batch.source).items()}
+    units |= {slot.address: slot.unit for slot in batch.source.slots}
+    table: pandas.DataFrame = frames.DataFrame(columns)
+    table.attrs = {"units": {name: units.get(name, "") for name in columns}} | _whence(batch)
+    return table
+
+
+def _whence(of: Result | Batch) -> dict[str, str]:
+    return {"mechanism": of.source.mechanism, "scene": of.source.scene, "title": of.source.title}
+
+
+def _pandas() -> Any:
+    try:
+        import pandas
+    except ModuleNotFoundError as error:
+        raise GudgeonError("tables need pandas: pip install 'gudgeon[xarray]'") from error
+    return pandas
+
+
+def _runs(batch: Batch, names: Sequence[str]) -> Iterator[Columns]:
+    """The columns of one run after the other; one that did not begin has no row."""
+    for i in range(len(batch)):
+        run = batch.partial(i)
+        if run is None:
+            continue
+        rows, given = len(run.t), {name: values[i] for name, values in batch.parameters.items()}
+        same = {"run": np.full(rows, i)} | {name: np.full(rows, value) for name, value in given.items()}
+        yield same | {"t": run.t} | {name: run[name] for name in wanted_series(run, names)}
+
+
+def csv(run: Result, path: str | os.PathLike[str], names: Iterable[str]) -> None:
+    """See Result.to_csv."""
+    series = wanted_series(run, names)
+    _write_csv(path, iter([{"t": run.t} | {name: run[name] for name in series}]))
+
+
+def batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[str]) -> None:
+    """See Batch.to_csv."""
+    _write_csv(path, _runs(batch, listed(names, "names", str, "a list of names of series")))
+
+
+def _write_csv(path: str | os.PathLike[str], parts: Iterator[Columns]) -> None:
+    """A line of names, then one a row; the shortest digits that are read back as the same number."""
+    with written(named(path, "path")) as file:
+        for k, part in enumerate(parts):
+            if k == 0:
+                file.write((",".join(part) + "\n").encode())
+            columns = list(part.values())
+            for first in range(0, len(columns[0]), ROWS):
+                block = zip(*(column[first : first + ROWS].tolist() for column in columns), strict=True)
+                file.write("".join(",".join(map(repr, row)) + "\n" for row in block).encode())
+
+
+def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str]) -> None:
+    """See Result.to_mat."""
+    from scipy.io import savemat
+
+    series = ["t", *wanted_series(run, names)]
+    fields = _matlab_names(series)
+    found: dict[str, Any] = {fields[name]: np.asarray(run[name], dtype=float) for name in series}
+    table = [(fields[name], name, run.unit(name), run.meaning(name)) for name in series]
+    for column, what in enumerate(("variables", "names", "units", "meanings")):
+        found[what] = np.array([row[column] for row in table], dtype=object)
+    found |= {"mechanism": run.source.mechanism, "scene": run.source.scene}
+    with written(named(path, "path")) as file:
+        savemat(file, found, long_field_names=True, oned_as="column")
+        file.seek(0)
+        file.write(MATLAB.ljust(DATE))  # the same run gives the same bytes
+
+
+def _matlab_names(names: Sequence[str]) -> dict[str, str]:
+    """A name that MATLAB takes for each, no two the same: "S9.y" → "S9_y"."""
+    found: dict[str, str] = {}
+    taken = {"variables", "names", "units", "meanings", "mechanism", "scene"}
+    for name in names:
+        plain = re.sub(r"\W", "_", name, flags=re.ASCII)
+        plain = (f"{plain}_" if plain in KEYWORDS else plain if plain[0].isalpha() else f"x{plain}")[:LONGEST]
+        choice, number = plain, 2
+        while choice in taken:
+            end = f"_{number}"
+            choice, number = plain[: LONGEST - len(end)] + end, number + 1
+        taken.add(choice)
+        found[name] = choice
+    return found
