@@ -40,6 +40,8 @@ def _check_with(
         known = parameter_values({**parameters, **own})
     except InputError:
         return  # a cycle, told already
+    for part in (part for quantity in reader.quantities.values() for part in quantity.of):
+        known[part.address] = float(evaluate(part.value, known.__getitem__))  # in their order: parts come first
     values = _values(reader, known)
 
     def complain(address: str, message: str, hint: str) -> None:
@@ -136,7 +138,9 @@ def _place(quantity: Quantity, own: Mapping[str, Quantity]) -> Location:
 def _broken(condition: Condition, values: Mapping[str, float]) -> tuple[str, str] | None:
     """The value and what was expected, if a condition does not hold; a number that is NaN was told already."""
     value = values.get(condition.address, math.nan)
-    bound = values.get(condition.bound, math.nan) if isinstance(condition.bound, str) else condition.bound
+    bound = condition.bound
+    if isinstance(bound, str):
+        bound = sum(values.get(address, math.nan) for address in bound.split(" + "))
     if math.isnan(value) or math.isnan(bound) or RELATIONS[condition.relation](value, bound):
         return None
     limit = f"{condition.bound} = {bound:.6g}" if isinstance(condition.bound, str) else f"{bound:.6g}"

@@ -148,6 +148,11 @@ class Reader:
         self.conditions.append(Condition(quantity.address, relation, limit, message))
 
 
+    def require_less(self, quantity: Quantity, sum_of: str, message: str) -> None:
+        """A condition whose bound is a sum: addresses with " + " between."""
+        self.conditions.append(Condition(quantity.address, "<", sum_of, message))
+
+
 def _told(error: InputError) -> tuple[str, str, str]:
     """What makes two errors the same: what a contact or scene inherits is wrong once, where it is written."""
     message = re.sub(r"\b(contacts\.|scenes\.|in scene )\w+", "", error.message)

@@ -82,8 +82,9 @@ class Slots:
         return self.entries[f"parameters.{name}"].symbol
 
     def _add(self, address: str, wanted: str, quantity: Quantity) -> sp.Symbol:
-        value = to_sympy(quantity.value, self._parameter)
-        default = float(evaluate(quantity.value, lambda path: self.entries[f"parameters.{path}"].default))
+        parts = {part.address: part for part in quantity.of}
+        value = to_sympy(quantity.value, lambda path: self.use(parts[path]) if path in parts else self._parameter(path))
+        default = float(evaluate(quantity.value, lambda path: self._default(path if path in parts else f"parameters.{path}")))
         if not names_any(quantity):
             value = sp.Float(default, 17)
         short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is no y
@@ -91,6 +92,10 @@ class Slots:
         symbol = self.symbols.new(wanted, "p->{}", address, shown=shown)
         self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension)
         return symbol
+
+    def _default(self, address: str) -> float:
+        """Of a slot in SI; a literal zero has none."""
+        return self.entries[address].default if address in self.entries else 0.0
 
     def use(self, quantity: Quantity) -> sp.Expr:
         """The slot of a quantity; 0 for a literal zero."""

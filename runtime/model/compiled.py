@@ -230,6 +230,9 @@ class CompiledModel:
             chunk = 4 * count if perf_counter() - before < 5e-3 else max(1, count // 4)
             take()
         self._mark_indeterminate(out)
+        if s.massless:
+            for unknown in (out.multipliers, out.reactions, out.torques, out.energy, out.power):
+                unknown[:] = np.nan
         return out
 
     def _mark_indeterminate(self, out: Evaluation) -> None:

@@ -103,7 +103,7 @@ def check(source: KernelSource, p: Array) -> None:
         if not math.isfinite(value[slot.address]):
             raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
     for condition in source.conditions:
-        bound = value[condition.bound] if isinstance(condition.bound, str) else condition.bound
+        bound = sum(value[a] for a in condition.addresses) if condition.addresses else float(condition.bound)
         if not RELATIONS[condition.relation](value[condition.address], bound):
             raise BadValueError(
                 f"{condition.address} is {value[condition.address]:.6g}: {condition.message}"

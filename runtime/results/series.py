@@ -7,6 +7,7 @@
     crank1.torque   lambda.A.x   energy.kinetic .potential .residual   work.drives .forces .clearances
     lift                                                   an output of the mechanism file
 
+Where a body has no mass, what follows from masses is left out: reactions, torques, multipliers, energies and works.
 The names depend on the scene alone; nothing is computed before somebody asks (`Series.compute`).
 """
 
@@ -60,9 +61,8 @@ class Series:
 def catalogue(source: KernelSource) -> dict[str, Series]:
     """All the names of a scene in the order in which they are listed and stored."""
     found: dict[str, Series] = {}
-    for part in (_bodies, _points, _joints, _clearances, _states, _drives, _elements, _frictions, _multipliers):
+    for part in (_bodies, _points, *(_MOTION_ALONE if source.massless else _PARTS)):
         found.update(part(source))
-    found.update(_balance(source))
     for name, tree in source.outputs.items():
         if not missing(source, tree, found):
             found[name] = _output(source, name, tree, found)
@@ -228,6 +228,11 @@ def _balance(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, name in enumerate(("drives", "forces", "clearances")):
         meaning = f"work done so far by the {'joints with play' if name == 'clearances' else name}"
         yield f"work.{name}", Series("J", meaning, partial(_column, array="work", column=k))
+
+
+# what a scene has beside motion; without masses, what does not follow from motion
+_PARTS = (_joints, _clearances, _states, _drives, _elements, _frictions, _multipliers, _balance)
+_MOTION_ALONE = (_elements,)
 
 
 def _residual(run: Result) -> Array:
