@@ -153,7 +153,7 @@ def _result(file: _File) -> Result:
         compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, q=q, v=v, accelerations=a,
         state=_columns(stored, [f"{joint.name}.state" for joint in source.clearances], len(t), np.int8),
         memory=_columns(stored, _memory_names(source), len(t)),
-        work=_columns(stored, ["work.drives", "work.forces", "work.clearances"], len(t)),
+        work=_works(source, stored, len(t)),
         impacts=_impacts(file, source), diagnostics=diagnostics, events=_events(file, source), stored=stored,
         trace=_trace(file, source),
     )  # fmt: skip
@@ -245,6 +245,13 @@ def _columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype:
     for column, name in enumerate(names):
         values[:, column] = stored[name] if name else 0.0  # a place that no law's state has
     return values
+
+
+def _works(source: KernelSource, stored: Mapping[str, Array], samples: int) -> Array:
+    """NaN where there are no masses to tell them by."""
+    if source.massless:
+        return np.full((samples, 3), np.nan)
+    return _columns(stored, ["work.drives", "work.forces", "work.clearances"], samples)
 
 
 def _memory_names(source: KernelSource) -> list[str]:

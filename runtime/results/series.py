@@ -69,6 +69,16 @@ def catalogue(source: KernelSource) -> dict[str, Series]:
     return found
 
 
+MASSLESS_HINT = "give every body mass: and inertia:, or a shape: with a density"
+
+
+def without_masses(source: KernelSource) -> str:
+    """Why nothing is known that follows from masses; "" where it is."""
+    if not source.massless:
+        return ""
+    return f"{', '.join(source.massless)} {'has' if len(source.massless) == 1 else 'have'} no mass or no inertia"
+
+
 def missing(source: KernelSource, tree: Any, known: Container[str]) -> list[str]:
     """Names in an output's expression that this scene does not have (A.Fn where A has no play)."""
     parameters = {slot.address.removeprefix("parameters.") for slot in source.slots} | {"t"}
