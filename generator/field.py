@@ -75,7 +75,8 @@ class Field:
     varies: str = ""  # what its expression may use besides parameters
     whole: bool = False  # of a number: 1, 2, 3
     nonzero: bool = False  # of a vector: not both components zero
-    values: tuple[str | bool, ...] = ()  # of a word; a flag has (False, True); of a number: words in its place
+    values: tuple[str | bool, ...] = ()  # of a word; a flag has (False, True)
+    words: tuple[str, ...] = ()  # that may stand in place of a number
     symbol: str = ""  # as in the literature, in LaTeX
     names: str = ""  # the section that a name is of
     fields: tuple[Field, ...] = ()

@@ -38,4 +38,6 @@ def lacking(mechanism: Mechanism, asks: str) -> Iterator[MissingKeyError]:
                 f"expected {' and '.join(f'{key}:' for key in body.lacks)} of {body.name}, or a shape: with a density;"
                 " only where drives determine every motion, without play, none is needed"
             )
-            yield MissingKeyError(f"body {body.name} has no {' and no '.join(body.lacks)}, and {asks}", body.where, hint)
+            yield MissingKeyError(
+                f"body {body.name} has no {' and no '.join(body.lacks)}, and {asks}", body.where, hint
+            )

@@ -116,7 +116,7 @@ BODY = record(
     number("mass", "mass", MASS, otherwise=_WITHOUT, bounds=(Bound(">", 0.0, "a mass is positive"),)),
     number(
         "inertia", "moment of inertia about the centre of mass; `auto`: of a slender bar, mass length²/12", INERTIA,
-        otherwise=_WITHOUT, values=("auto",), bounds=(Bound(">", 0.0, "a moment of inertia is positive"),),
+        otherwise=_WITHOUT, words=("auto",), bounds=(Bound(">", 0.0, "a moment of inertia is positive"),),
     ),
     number(
         "length", "length of a bar, from tail to head", LENGTH, otherwise="it is no bar",

@@ -134,15 +134,16 @@ class Weighed:
         if kind == "rectangle":
             a, b = own.vectors["rectangle"]
         elif self.length is None:
-            what, hint = f"{self._address}.shape is a bar, and there is no length", "expected rectangle: [length, width]"
+            what, hint = (
+                f"{self._address}.shape is a bar, and there is no length",
+                "expected rectangle: [length, width]",
+            )
             raise BadValueError(what, kind.where, hint)
         else:
             a, b = self.length, own.quantities["bar"]
         return "a * b", "(a**2 + b**2) / 12", {"a": a, "b": b}
 
-    def _triangle(
-        self, node: Map, kind: Text, points: Mapping[str, Vector]
-    ) -> tuple[str, str, dict[str, Quantity]]:
+    def _triangle(self, node: Map, kind: Text, points: Mapping[str, Vector]) -> tuple[str, str, dict[str, Quantity]]:
         """The same of a triangle, which says where its centre of mass is."""
         if self.com is not None:
             what = f"{self._address} has com and a triangle, whose centre of mass is its own"

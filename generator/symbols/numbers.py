@@ -83,8 +83,15 @@ class Slots:
 
     def _add(self, address: str, wanted: str, quantity: Quantity) -> sp.Symbol:
         parts = {part.address: part for part in quantity.of}
-        value = to_sympy(quantity.value, lambda path: self.use(parts[path]) if path in parts else self._parameter(path))
-        default = float(evaluate(quantity.value, lambda path: self._default(path if path in parts else f"parameters.{path}")))
+
+        def symbol(path: str) -> sp.Expr:
+            return self.use(parts[path]) if path in parts else self._parameter(path)
+
+        def number(path: str) -> float:
+            return self.entries[path if path in parts else f"parameters.{path}"].default
+
+        value = to_sympy(quantity.value, symbol)
+        default = float(evaluate(quantity.value, number))
         if not names_any(quantity):
             value = sp.Float(default, 17)
         short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is no y
@@ -92,10 +99,6 @@ class Slots:
         symbol = self.symbols.new(wanted, "p->{}", address, shown=shown)
         self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension)
         return symbol
-
-    def _default(self, address: str) -> float:
-        """Of a slot in SI; a literal zero has none."""
-        return self.entries[address].default if address in self.entries else 0.0
 
     def use(self, quantity: Quantity) -> sp.Expr:
         """The slot of a quantity; 0 for a literal zero."""

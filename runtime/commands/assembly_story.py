@@ -114,10 +114,9 @@ def summary(found: Findings) -> str:
 def _masses(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
     """What is missing where a scene moves by forces."""
     moved = [name for name in mechanism.scenes if name in found.scenes and found.scenes[name].scene.freedoms]
-    for body in mechanism.bodies.values() if moved else ():
-        if body.lacks:
-            asked = f"scene {', '.join(moved)} has freedoms and cannot be run without"
-            yield "masses", f"{body.where}: {body.name} has no {' and no '.join(body.lacks)}: {asked}"
+    lacking = [f"{b.name} has no {' and no '.join(b.lacks)} ({b.where})" for b in mechanism.bodies.values() if b.lacks]
+    if moved and lacking:
+        yield "masses", f"scene {', '.join(moved)} moves by forces and cannot be run: {', '.join(lacking)}"
 
 
 def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
