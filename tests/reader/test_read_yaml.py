@@ -25,7 +25,8 @@ def read(name: str, **kwargs: object) -> Mechanism:
     return read_mechanism(path.read_bytes(), path.name, **kwargs)  # type: ignore[arg-type]
 
 
-def value(mechanism: Mechanism, quantity: Quantity) -> float:
+def value(mechanism: Mechanism, quantity: Quantity | None) -> float:
+    assert quantity is not None
     return float(evaluate(quantity.value, parameter_values(mechanism.parameters).__getitem__))
 
 
