@@ -40,7 +40,7 @@ def read_bodies(reader: Reader, root: Map, namespace: Namespace) -> dict[str, Bo
 
 def _body(reader: Reader, name: Text, node: Map) -> Body:
     address = f"bodies.{name}"
-    auto = node.get("inertia") == "auto" and "auto" not in reader.parameters
+    auto = node.get("inertia") == "auto"
     own = read_fields(reader, node, [f for f in BODY.fields if not (auto and f.name == "inertia")], Around(address))
     points = read_sides(reader, node, address)
     for point, pair in node.part("points").pairs():

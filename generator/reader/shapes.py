@@ -30,7 +30,7 @@ def follows(
 ) -> Quantity:
     """The number at an address as a formula of others, which it calls by the letters of `of`."""
     value = _with_addresses(parse(formula, where), of)
-    return reader.keep(Quantity(address, value, dimension, where, tuple(x for x in of.values() if not x.is_zero)))
+    return reader.keep(Quantity(address, value, dimension, where, tuple(of.values())))
 
 
 def _with_addresses(expr: Expr, of: Mapping[str, Quantity]) -> Expr:
@@ -52,15 +52,13 @@ def read_sides(reader: Reader, node: Map, address: str) -> dict[str, Vector]:
         return {}
     address, where = f"{address}.sides", node.key("sides").where
     own = read_fields(reader, node.part("sides"), SIDES.fields, Around(address))
-    if len(own.quantities) < 3:
-        return {}
     a, b, c = sides = [own.quantities[name] for name in ("PQ", "QR", "PR")]
     for k, side in enumerate(sides):
         others = " + ".join(other.address for other in (sides[k - 1], sides[k - 2]))
         reader.require_less(side, others, "each side of a triangle is shorter than the other two together")
     zero = Quantity(f"{address}.P", Number(0.0, "0"), LENGTH, where)
     of = {"a": a, "b": b, "c": c}
-    sign = "-" if own.options["side"] == "right" else ""
+    sign = "-" if own.options.get("side") == "right" else ""
     height = f"{sign}sqrt((a + b + c) * (b + c - a) * (a + c - b) * (a + b - c)) / (2 * a)"
     x = follows(reader, "(a**2 + c**2 - b**2) / (2 * a)", of, f"{address}.R.x", LENGTH, where)
     y = follows(reader, height, of, f"{address}.R.y", LENGTH, where)

@@ -22,7 +22,7 @@ from gudgeon.language.shown import in_figure
 from gudgeon.language.wanted import told
 from gudgeon.results import trace
 from gudgeon.results.plot_units import label, scale
-from gudgeon.results.series import MASSLESS_HINT, rates
+from gudgeon.results.series import rates
 
 try:
     import matplotlib
@@ -77,8 +77,6 @@ class Plot:
     def forces(self, ax: Axes | None = None) -> Axes:
         """Magnitudes of the forces at the joints with play, with the extremes of all steps; in an ideal scene at all
         joints."""
-        if self.run.source.massless:
-            raise BadValueError("plot.forces: without masses no force is known", hint=MASSLESS_HINT)
         joints = self.run.source.clearances or self.run.source.joints
         return self._curves({f"{joint.name}.F": trace.force(self.run, joint.name) for joint in joints}, ax)
 
