@@ -21,6 +21,7 @@ FLAG = "flag"  # true or false
 TEXT = "text"
 NAME = "name"  # of an entry of the section `names`
 BODY = "body"  # a body or the ground
+CORNERS = "corners"  # three names of points of the same body
 RECORD = "record"  # a mapping with the keys `fields`
 MAPPING = "mapping"  # names, each with an `entry`
 KINDS = "kinds"  # a mapping with one key that is a kind, and that kind's fields
@@ -76,6 +77,7 @@ class Field:
     whole: bool = False  # of a number: 1, 2, 3
     nonzero: bool = False  # of a vector: not both components zero
     values: tuple[str | bool, ...] = ()  # of a word; a flag has (False, True)
+    words: tuple[str, ...] = ()  # that may stand in place of a number
     symbol: str = ""  # as in the literature, in LaTeX
     names: str = ""  # the section that a name is of
     fields: tuple[Field, ...] = ()

@@ -12,6 +12,7 @@ from time import perf_counter
 from typing import Any
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.generator.equations.masses import refuse_massless
 from gudgeon.generator.equations.model import Model, make_model
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.mechanism.mechanism import Mechanism
@@ -37,7 +38,9 @@ def derive(
     with _stage("equations", seconds):
         model = replace(make_model(make_scene(mechanism, scene)), targets=TARGETS)
     with _stage("rank of the rows", seconds):
-        return model.without(find_redundancy(model, describe(model)))
+        model = model.without(find_redundancy(model, describe(model)))
+    refuse_massless(model)
+    return model
 
 
 def closed_linkage(mechanism: Mechanism, scene: str) -> tuple[NumPyLinkage, list[int]]:

@@ -6,22 +6,23 @@ r = (x, y) + A(θ) s; its arm A(θ) s is a symbol pair that turns: d arm/dθ = �
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import sympy as sp
 
-from gudgeon.generator.mechanism.mechanism import GROUND, Body, PointRef, Vector
+from gudgeon.generator.mechanism.mechanism import GROUND, Body, PointRef, Vector, is_massless
 from gudgeon.generator.mechanism.scene import Scene
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.symbols import Symbols
 
-ZERO = sp.Integer(0)
+ZERO, ONE = sp.Integer(0), sp.Integer(1)
+_SMALL = 1e-12  # m^2: where every point is a centre of mass
 
 
 @dataclass(frozen=True)
 class BodySymbols:
-    """Coordinates and velocities of one body; `mass`, `inertia` are slots."""
+    """Coordinates and velocities of one body; `mass`, `inertia` are slots, or mean nothing (`is_massless`)."""
 
     name: str
     index: int  # of x in q
@@ -99,6 +100,9 @@ class Geometry:
             for body in self.mechanism.bodies.values()
             for point in self.point_names(body)
         }
+        if is_massless(self.mechanism):
+            unit = self._unit_inertia()
+            self.bodies = {name: replace(body, mass=ONE, inertia=unit) for name, body in self.bodies.items()}
         self.turned: dict[sp.Symbol, Turned] = {}
         self._turned: dict[tuple[str, sp.Expr, sp.Expr], tuple[sp.Expr, sp.Expr]] = {}
         self._angles: dict[str, tuple[sp.Symbol, sp.Symbol]] = {}
@@ -108,8 +112,16 @@ class Geometry:
         x, y, theta = (new(f"{name}_{c}", f"q[{index + k}]", f"{name}.{c}") for k, c in enumerate(("x", "y", "theta")))
         rates = ("vx", "vy", "omega")
         vx, vy, omega = (new(f"{name}_{c}", f"v[{index + k}]", f"{name}.{c}") for k, c in enumerate(rates))
-        mass, inertia = self.slots.use(body.mass), self.slots.use(body.inertia)
+        mass, inertia = ONE, ONE
+        if not is_massless(self.mechanism) and body.mass and body.inertia:
+            mass, inertia = self.slots.use(body.mass), self.slots.use(body.inertia)
         return BodySymbols(name, index, x, y, theta, vx, vy, omega, mass, inertia)
+
+    def _unit_inertia(self) -> sp.Expr:
+        """Of bodies of 1 kg that are as large as the points of all lie apart: only the metric of a closed linkage."""
+        lengths = [x for pair in self.local.values() for x in pair if x != 0]
+        size = sp.Add(*(x**2 for x in lengths)) / max(len(lengths), 1)
+        return self.slots.derive("unit_inertia", size + sp.Float(_SMALL, 17), "in place of moments of inertia")
 
     @staticmethod
     def point_names(body: Body) -> list[str]:

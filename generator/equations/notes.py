@@ -14,6 +14,10 @@ def scene_notes(model: Model) -> tuple[str, ...]:
             f"redundant rows left out: {', '.join(model.redundancy.dropped)}; reactions not determined by"
             f" rigid bodies: {', '.join(model.redundancy.indeterminate)}"
         )
+    if lacking := [body.name for body in model.scene.mechanism.bodies.values() if body.lacks]:
+        notes.append(
+            f"no mass or no inertia of {', '.join(lacking)}: no forces, torques and energies that follow from it"
+        )
     if model.degrees_of_freedom < 0:
         notes.append(
             f"{-model.degrees_of_freedom} more rows than coordinates: nothing can move, and unless lengths and points"

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from gudgeon.generator.field import (
+    CORNERS,
     KINDS,
     LAW,
     OF_MOTION,
@@ -32,6 +33,7 @@ from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws.law import Law, called
 from gudgeon.language.units import (
     ACCELERATION,
+    DENSITY,
     DIMENSIONLESS,
     INERTIA,
     LENGTH,
@@ -83,12 +85,44 @@ MATERIAL = record(
 POINT = vector("point", "where it is", LENGTH)
 POINT_OF_GROUND = vector("point", "where it is, in ground axes", LENGTH)
 
+SHAPE = record(
+    "shape", "a plate of one thickness, from which inertia follows, and mass by density: one of the first four",
+    number(
+        "bar", "width of a rectangle that is as long as the bar; about the centre of mass", LENGTH,
+        bounds=(Bound(">", 0.0, "a width is positive"),),
+    ),
+    vector(
+        "rectangle", "length and width of a rectangle, about the centre of mass", LENGTH,
+        bounds=(Bound(">", 0.0, "a side is positive"),),
+    ),
+    number(
+        "disc", "radius of a disc, about the centre of mass", LENGTH,
+        bounds=(Bound(">", 0.0, "a radius is positive"),),
+    ),
+    Field("triangle", CORNERS, "corners of a triangle, from which the centre of mass follows too"),
+    number(
+        "density", "density, where the body has no mass of its own", DENSITY,
+        bounds=(Bound(">", 0.0, "a density is positive"),),
+    ),
+    number("thickness", "goes with density", LENGTH, bounds=(Bound(">", 0.0, "a thickness is positive"),)),
+)  # fmt: skip
+
+_SIDE = (Bound(">", 0.0, "a side is positive"),)
+SIDES = record(
+    "sides", "three points P, Q and R of a body by their distances: P is the origin, Q on the x axis",
+    number("PQ", "distance of P and Q", LENGTH, required=True, bounds=_SIDE),
+    number("QR", "distance of Q and R", LENGTH, required=True, bounds=_SIDE),
+    number("PR", "distance of P and R", LENGTH, required=True, bounds=_SIDE),
+    word("side", "where R is, looking from P to Q", ("left", "right"), "left"),
+)  # fmt: skip
+
+_WITHOUT = "from `shape`; else no freedom may be left and nothing may have play"
 BODY = record(
     "body", "a rigid body with its own frame; with a length a bar: its origin is the tail, its x points to the head",
-    number("mass", "mass", MASS, required=True, bounds=(Bound(">", 0.0, "a mass is positive"),)),
+    number("mass", "mass", MASS, otherwise=_WITHOUT, bounds=(Bound(">", 0.0, "a mass is positive"),)),
     number(
-        "inertia", "moment of inertia about the centre of mass", INERTIA, required=True,
-        bounds=(Bound(">", 0.0, "a moment of inertia is positive"),),
+        "inertia", "moment of inertia about the centre of mass; `auto`: of a slender bar, mass length²/12", INERTIA,
+        otherwise=_WITHOUT, words=("auto",), bounds=(Bound(">", 0.0, "a moment of inertia is positive"),),
     ),
     number(
         "length", "length of a bar, from tail to head", LENGTH, otherwise="it is no bar",
@@ -99,6 +133,8 @@ BODY = record(
         otherwise="mid-length of a bar, else the origin",
     ),
     mapping("points", "points by name, in the body's frame: of a bar from its tail, x to its head", POINT),
+    SIDES,
+    SHAPE,
 )  # fmt: skip
 
 BEARING = record(

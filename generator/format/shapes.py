@@ -12,7 +12,7 @@ from itertools import islice
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, InputErrors, Location, MissingKeyError, UnknownKeyError
-from gudgeon.generator.field import KINDS, LAW, MAPPING, PLACE, RECORD, SCALARS, VECTOR, Field
+from gudgeon.generator.field import CORNERS, KINDS, LAW, MAPPING, PLACE, RECORD, SCALARS, VECTOR, Field
 from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.suggestions import known_hint, nearest, unknown_name
@@ -92,6 +92,9 @@ def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
     elif field.kind == PLACE:
         if not isinstance(node, Text):
             yield _Finding(path, "a number, or of a point [x, y]")
+    elif field.kind == CORNERS:
+        if not isinstance(node, Items) or len(node) != 3 or not all(isinstance(item, Text) for item in node):
+            yield _Finding(path, "three points of the body: [P, Q, R]")
     elif not isinstance(node, Map):
         yield _Finding(path, "a mapping")
     elif field.kind == RECORD:

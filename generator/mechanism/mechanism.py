@@ -24,6 +24,7 @@ class Quantity:
     value: Expr
     dimension: Dimension
     where: Location
+    of: tuple[Quantity, ...] = ()  # numbers that `value` names by their addresses: it follows them
 
     @property
     def is_zero(self) -> bool:
@@ -54,12 +55,13 @@ class Body:
     """
 
     name: str
-    mass: Quantity
-    inertia: Quantity  # about the centre of mass
+    mass: Quantity | None  # None: there is none, which kinematics does not ask for
+    inertia: Quantity | None  # about the centre of mass
     length: Quantity | None
     com: Vector | None
     points: Mapping[str, Vector]  # what the user named; tail, head, origin, com are implied
     where: Location
+    lacks: tuple[str, ...] = ()  # keys that dynamics would ask for
 
 
 @dataclass(frozen=True)
@@ -207,7 +209,7 @@ class Condition:
 
     address: str
     relation: str  # ">" ">=" "<" "<="
-    bound: float | str  # a number, or the address of another quantity
+    bound: float | str  # a number, or the address of another quantity, or those of several: "a + b" is their sum
     message: str  # "a mass is positive"
 
 
@@ -229,3 +231,8 @@ class Mechanism:
     sha256: str  # of the file's bytes
     forces: Mapping[str, ForceElement] = field(default_factory=dict)
     freedoms: Quantity | None = None  # what the file says of the closed linkage
+
+
+def is_massless(mechanism: Mechanism) -> bool:
+    """Whether a body has no mass or no inertia: there is kinematics then, and no force that follows from motion."""
+    return any(body.lacks for body in mechanism.bodies.values())

@@ -9,8 +9,11 @@ from gudgeon.generator.mechanism.mechanism import GROUND, Body, Quantity, Start,
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields, read_vector
 from gudgeon.generator.reader.places import IMPLIED_POINTS, Places, coordinate_of
+from gudgeon.generator.reader.shapes import Weighed, read_sides
 from gudgeon.generator.yaml.tree import Items, Map, Text
 from gudgeon.language.names import Namespace, check_name
+from gudgeon.language.tree import Number
+from gudgeon.language.units import LENGTH
 
 # `L1.x` is a coordinate of the body: a point of that name could not be told from it
 _COORDINATES = ("x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
@@ -37,20 +40,36 @@ def read_bodies(reader: Reader, root: Map, namespace: Namespace) -> dict[str, Bo
 
 def _body(reader: Reader, name: Text, node: Map) -> Body:
     address = f"bodies.{name}"
-    own = read_fields(reader, node, BODY.fields, Around(address))
-    points = {}
+    auto = node.get("inertia") == "auto"
+    own = read_fields(reader, node, [f for f in BODY.fields if not (auto and f.name == "inertia")], Around(address))
+    points = read_sides(reader, node, address)
     for point, pair in node.part("points").pairs():
         with reader.collect():
             check_name(point, "point", point.where)
             if point in IMPLIED_POINTS or point in _COORDINATES:
                 what = "every body has it" if point in IMPLIED_POINTS else f"{name}.{point} is a coordinate"
                 raise BadNameError(f"{str(point)!r} cannot name a point: {what}", point.where, "expected another name")
+            if str(point) in points:
+                what = "it is one of sides"
+                raise BadNameError(f"{str(point)!r} cannot name a point: {what}", point.where, "expected another name")
         points[str(point)] = read_vector(reader, pair, point, POINT, f"{address}.points.{point}")
-    numbers = own.quantities
+    weighed = Weighed(reader, address, own)
+    with reader.collect():
+        if auto:
+            weighed.slender(node["inertia"].where)
+        if "shape" in node:
+            implied = _implied(weighed.length, address, name)
+            weighed.shaped(node.part("shape"), node.key("shape"), {**points, **implied}, "inertia" in node)
     return Body(
-        str(name), numbers["mass"], numbers["inertia"], numbers.get("length"), own.vectors.get("com"), points,
-        name.where,
-    )  # fmt: skip
+        str(name), weighed.mass, weighed.inertia, weighed.length, weighed.com, points, name.where, weighed.lacks
+    )
+
+
+def _implied(length: Quantity | None, address: str, name: Text) -> dict[str, Vector]:
+    """The points that a shape may name beside the file's: all but the centre of mass."""
+    zero = Quantity(f"{address}.origin", Number(0.0, "0"), LENGTH, name.where)
+    bar = {} if length is None else {"tail": (zero, zero), "head": (length, zero)}
+    return {"origin": (zero, zero), **bar}
 
 
 def read_ground(reader: Reader, root: Map) -> dict[str, Vector]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import operator
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 
 from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.generator.mechanism.mechanism import Condition, Quantity, SceneSpec
@@ -42,8 +42,10 @@ def _check_with(
         return  # a cycle, told already
     values = _values(reader, known)
 
+    told: dict[str, list[tuple[str, str]]] = {}
+
     def complain(address: str, message: str, hint: str) -> None:
-        reader.errors.append(BadValueError(f"{address} {message}", _place(reader.quantities[address], own), hint))
+        told.setdefault(address, []).append((message, hint))
 
     for address, value in values.items():
         if not math.isfinite(value) and not broken_is_told:
@@ -52,10 +54,8 @@ def _check_with(
         elif address in reader.wholes and math.isfinite(value) and value != math.floor(value):
             complain(address, f"is {value:.6g}{context}", f"expected a whole {reader.wholes[address]}")
     for address, quantity in reader.quantities.items():
-        if not broken_is_told and (".parameters." not in address or address in values):
-            parts = () if address in values else _constant_parts(quantity.value, known)
-            numbers = (float(evaluate(part, known.__getitem__)) for part in parts)
-            wrong = next((number for number in numbers if not math.isfinite(number)), None)
+        if not (broken_is_told or quantity.of) and (".parameters." not in address or address in values):
+            wrong = None if address in values else _no_number_in(quantity.value, known)
             if wrong is not None:
                 hint = "expected finite numbers: is there a division by zero or a root of a negative number?"
                 complain(address, f"has a part that is {wrong}{context}", hint)
@@ -72,6 +72,27 @@ def _check_with(
     for vector in reader.vectors_not_zero:
         if all(values.get(component.address) == 0.0 for component in vector):
             complain(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
+    _tell(reader, told, own)
+
+
+def _tell(reader: Reader, wrong: Mapping[str, Sequence[tuple[str, str]]], own: Mapping[str, Quantity]) -> None:
+    """Errors of (what, hint) by address; nothing of a number that is wrong because another is."""
+    for address, told in wrong.items():
+        quantity = reader.quantities[address]
+        if not _follows(quantity, wrong):
+            place = _place(quantity, own)
+            reader.errors += [BadValueError(f"{address} {message}", place, hint) for message, hint in told]
+
+
+def _follows(quantity: Quantity, wrong: Container[str]) -> bool:
+    """Whether a number is wrong because another is."""
+    return any(part.address in wrong or _follows(part, wrong) for part in quantity.of)
+
+
+def _no_number_in(expr: Expr, known: Mapping[str, float]) -> float | None:
+    """The first of the parts that parameters determine which is not finite."""
+    numbers = (float(evaluate(part, known.__getitem__)) for part in _constant_parts(expr, known))
+    return next((number for number in numbers if not math.isfinite(number)), None)
 
 
 def _constant_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
@@ -118,8 +139,10 @@ def _lost(part: Expr, known: Mapping[str, float]) -> float | None:
     return value if abs(value) < sys.float_info.min and all(math.isfinite(x) and x for x in (left, right)) else None
 
 
-def _values(reader: Reader, known: Mapping[str, float]) -> dict[str, float]:
-    """Every number that parameters alone determine (SI), by address."""
+def _values(reader: Reader, known: dict[str, float]) -> dict[str, float]:
+    """Every number that parameters alone determine (SI), by address; `known` gets those that others follow."""
+    for part in (part for quantity in reader.quantities.values() for part in quantity.of):
+        known[part.address] = float(evaluate(part.value, known.__getitem__))  # in their order: parts come first
     return {
         address: float(evaluate(quantity.value, known.__getitem__))
         for address, quantity in reader.quantities.items()
@@ -136,7 +159,9 @@ def _place(quantity: Quantity, own: Mapping[str, Quantity]) -> Location:
 def _broken(condition: Condition, values: Mapping[str, float]) -> tuple[str, str] | None:
     """The value and what was expected, if a condition does not hold; a number that is NaN was told already."""
     value = values.get(condition.address, math.nan)
-    bound = values.get(condition.bound, math.nan) if isinstance(condition.bound, str) else condition.bound
+    bound = condition.bound
+    if isinstance(bound, str):
+        bound = sum(values.get(address, math.nan) for address in bound.split(" + "))
     if math.isnan(value) or math.isnan(bound) or RELATIONS[condition.relation](value, bound):
         return None
     limit = f"{condition.bound} = {bound:.6g}" if isinstance(condition.bound, str) else f"{bound:.6g}"

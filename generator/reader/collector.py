@@ -147,6 +147,10 @@ class Reader:
         limit = bound.address if isinstance(bound, Quantity) else bound
         self.conditions.append(Condition(quantity.address, relation, limit, message))
 
+    def require_less(self, quantity: Quantity, sum_of: str, message: str) -> None:
+        """A condition whose bound is a sum: addresses with " + " between."""
+        self.conditions.append(Condition(quantity.address, "<", sum_of, message))
+
 
 def _told(error: InputError) -> tuple[str, str, str]:
     """What makes two errors the same: what a contact or scene inherits is wrong once, where it is written."""

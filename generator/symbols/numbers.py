@@ -82,8 +82,16 @@ class Slots:
         return self.entries[f"parameters.{name}"].symbol
 
     def _add(self, address: str, wanted: str, quantity: Quantity) -> sp.Symbol:
-        value = to_sympy(quantity.value, self._parameter)
-        default = float(evaluate(quantity.value, lambda path: self.entries[f"parameters.{path}"].default))
+        parts = {part.address: part for part in quantity.of}
+
+        def symbol(path: str) -> sp.Expr:
+            return self.use(parts[path]) if path in parts else self._parameter(path)
+
+        def number(path: str) -> float:
+            return self.entries[path if path in parts else f"parameters.{path}"].default
+
+        value = to_sympy(quantity.value, symbol)
+        default = float(evaluate(quantity.value, number))
         if not names_any(quantity):
             value = sp.Float(default, 17)
         short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is no y

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from gudgeon.generator.field import (
     BODY,
+    CORNERS,
     FLAG,
     KINDS,
     LAW,
@@ -70,7 +71,8 @@ def _row(field: Field) -> Row:
 
 def _holds(field: Field) -> str:
     if field.kind == NUMBER:
-        return f"number, {_unit(field.dimension)}" + (f"; of {field.varies}" if field.varies else "")
+        words = "".join(f" or `{word}`" for word in field.words)
+        return f"number, {_unit(field.dimension)}{words}" + (f"; of {field.varies}" if field.varies else "")
     if field.kind == VECTOR:
         return f"[x, y], {_unit(field.dimension)}" + (f"; of {field.varies}" if field.varies else "")
     if field.kind in (WORD, FLAG):
@@ -83,6 +85,8 @@ def _holds(field: Field) -> str:
             points = "; `BODY.POINT`, [x, y], m" if field.entry and field.entry.kind == PLACE else ""
             return "numbers: " + ", ".join(f"`BODY.{key}`, {_unit(of)}" for key, of in field.keys.items()) + points
         return f"names: {_holds(field.entry) if field.entry and entry in (NUMBER, VECTOR) else 'mappings'}"
+    if field.kind == CORNERS:
+        return "[POINT, POINT, POINT]"
     return {RECORD: "mapping", KINDS: "mapping", LAW: "mapping", BODY: "body or `ground`"}.get(field.kind, field.kind)
 
 

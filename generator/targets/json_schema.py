@@ -10,6 +10,7 @@ from typing import Any
 
 from gudgeon.generator.field import (
     BODY,
+    CORNERS,
     FLAG,
     KINDS,
     LAW,
@@ -109,6 +110,7 @@ _SIMPLE: Mapping[str, Json] = {
     TEXT: {"type": ["string", "number"]},
     NAME: _reference("name"),
     BODY: _reference("name"),
+    CORNERS: _list(_reference("name"), 3),
     LAW: {"type": "object"},  # what it holds depends on `extends`: see _record
 }
 

@@ -112,6 +112,14 @@ def summary(found: Findings) -> str:
     return f"degrees of freedom {', '.join(counts)}" if counts else "it does not assemble"
 
 
+def _masses(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
+    """What is missing where a scene moves by forces."""
+    moved = [name for name in mechanism.scenes if name in found.scenes and found.scenes[name].scene.freedoms]
+    lacking = [f"{b.name} has no {' and no '.join(b.lacks)} ({b.where})" for b in mechanism.bodies.values() if b.lacks]
+    if moved and lacking:
+        yield "masses", f"scene {', '.join(moved)} moves by forces and cannot be run: {', '.join(lacking)}"
+
+
 def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
     """(whose, what) that a user should know: freedoms, loose bodies, redundant rows, guesses, other assemblies."""
     first = next(iter(found.scenes.values()), None)
@@ -126,6 +134,7 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         count = f"{closed.freedoms} degree{'' if closed.freedoms == 1 else 's'} of freedom"
         meant = f"if that is meant, freedoms: {closed.freedoms}"
         yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {meant}"
+    yield from _masses(mechanism, found)
     if closed.redundant:
         rows = f"{closed.redundant} row{'' if closed.redundant == 1 else 's'}"
         counted = f"by counting there are {closed.gruebler} degrees of freedom, by rank {closed.freedoms}"

@@ -29,12 +29,17 @@ class Slot:
 
 @dataclass(frozen=True)
 class Condition:
-    """What a slot must satisfy; `bound` is a number or another slot's address."""
+    """What a slot must satisfy; `bound` is a number, another slot's address, or several: "a + b" is their sum."""
 
     address: str
     relation: str
     bound: float | str
     message: str
+
+    @property
+    def addresses(self) -> tuple[str, ...]:
+        """The slots whose sum is the bound; none of a number."""
+        return tuple(self.bound.split(" + ")) if isinstance(self.bound, str) else ()
 
 
 @dataclass(frozen=True)
@@ -178,6 +183,8 @@ class KernelSource:
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
+
+    massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
 
     @property
     def degrees_of_freedom(self) -> int:

@@ -65,6 +65,7 @@ STIFFNESS = dimension(mass=1, time=-2)
 DAMPING = dimension(mass=1, time=-1)
 PRESSURE = dimension(length=-1, mass=1, time=-2)
 VISCOSITY = dimension(length=-1, mass=1, time=-1)
+DENSITY = dimension(length=-3, mass=1)
 
 _WORDS: Mapping[Dimension, tuple[str, str]] = {
     DIMENSIONLESS: ("a pure number or an angle", "rad"),
@@ -83,6 +84,7 @@ _WORDS: Mapping[Dimension, tuple[str, str]] = {
     DAMPING: ("a damping coefficient", "N*s/m"),
     PRESSURE: ("a pressure", "Pa"),
     VISCOSITY: ("a viscosity", "Pa*s"),
+    DENSITY: ("a density", "kg/m^3"),
     LENGTH**2: ("an area", "m^2"),
     LENGTH**3: ("a volume", "m^3"),
 }

@@ -213,10 +213,7 @@ class CompiledModel:
             np.empty((N, len(s.series))), np.empty((N, len(s.frictions), 2)), *(np.empty((N, k)) for k in (2, 3, 2)),
         )  # fmt: skip
         failed, first, chunk = self.ffi.new("long *"), 0, 1
-        results = (
-            out.a, out.multipliers, out.reactions, out.torques, out.clearance, out.series, out.friction, out.energy,
-            out.power, out.drift,
-        )  # fmt: skip
+        results = tuple(vars(out).values())  # in their order
         while first < N:
             before, count = perf_counter(), min(chunk, N - first)
             rows = slice(first, first + count)
@@ -234,8 +231,10 @@ class CompiledModel:
         return out
 
     def _mark_indeterminate(self, out: Evaluation) -> None:
-        """NaN where redundant constraints leave a reaction open: rigid bodies cannot tell it."""
+        """NaN where redundant constraints leave a reaction open: rigid bodies cannot tell it; or masses are missing."""
         s = self.source
+        for unknown in (out.multipliers, out.reactions, out.torques, out.energy, out.power) if s.massless else ():
+            unknown[:] = np.nan
         for owner in s.indeterminate:
             out.multipliers[:, [k for k, row in enumerate(s.rows) if row.owner == owner]] = np.nan
             out.reactions[:, [k for k, joint in enumerate(s.joints) if joint.name == owner]] = np.nan

@@ -114,6 +114,7 @@ def _valid(source: KernelSource, p: Array) -> Mask:
     place = {slot.address: k for k, slot in enumerate(source.slots)}
     valid = np.asarray(np.isfinite(p).all(axis=1))
     for condition in source.conditions:
-        bound = p[:, place[condition.bound]] if isinstance(condition.bound, str) else condition.bound
+        several = [place[address] for address in condition.addresses]
+        bound = p[:, several].sum(axis=1) if several else float(condition.bound)
         valid &= RELATIONS[condition.relation](p[:, place[condition.address]], bound)
     return valid

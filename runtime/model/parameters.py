@@ -123,17 +123,18 @@ def without_baumgarte(compiled: CompiledModel, given: Array, is_given: Array) ->
 def check(source: KernelSource, p: Array) -> None:
     """Every condition of the file again, on the values of this run."""
     value = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
-    for slot in source.slots:
-        if not math.isfinite(value[slot.address]):
-            raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
-    for condition in source.conditions:
-        bound = value[condition.bound] if isinstance(condition.bound, str) else condition.bound
-        if not RELATIONS[condition.relation](value[condition.address], bound):
+    for condition in source.conditions:  # first: sides that make no triangle leave a point that is NaN
+        bound = sum(value[a] for a in condition.addresses) if condition.addresses else float(condition.bound)
+        known = math.isfinite(value[condition.address]) and math.isfinite(bound)
+        if known and not RELATIONS[condition.relation](value[condition.address], bound):
             raise BadValueError(
                 f"{condition.address} is {value[condition.address]:.6g}: {condition.message}"
                 + (f" ({condition.bound} is {bound:.6g})" if isinstance(condition.bound, str) else "")
                 + f"; expected {_range(source, condition.address)}"
             )
+    for slot in source.slots:
+        if not math.isfinite(value[slot.address]):
+            raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
     for name, number in zip(source.derived, p[len(source.slots) :].tolist(), strict=True):
         if not math.isfinite(number):
             raise BadValueError(f"{name}, which follows from the parameters, is {number}: not finite with these values")

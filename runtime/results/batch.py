@@ -140,7 +140,7 @@ class Batch:
         for k, name in enumerate(self.source.coordinates):
             for order, (column, values) in enumerate(((name, self.q), (rates(name)[0], self.v))):
                 found[column] = ("run", "time"), values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
-        for k, name in enumerate(("drives", "forces", "clearances")):
+        for k, name in enumerate(() if self.source.massless else ("drives", "forces", "clearances")):
             found[f"work.{name}"] = ("run", "time"), self.work[:, :, k], {"units": "J"}
         names = listed(names, "names", str, "a list of names of series")
         found |= {name: (("run", "time"), self[name]) for name in names}

@@ -261,7 +261,7 @@ def _samples(source: KernelSource, stored: Mapping[str, Array], length: int) -> 
         "q": q, "v": v, "accelerations": a,
         "state": _columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
         "memory": _columns(stored, _memory_names(source), length),
-        "work": _columns(stored, ["work.drives", "work.forces", "work.clearances"], length),
+        "work": _works(source, stored, length),
     }  # fmt: skip
 
 
@@ -292,6 +292,13 @@ def _columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype:
     for column, name in enumerate(names):
         values[:, column] = stored[name] if name else 0.0  # a place that no law's state has
     return values
+
+
+def _works(source: KernelSource, stored: Mapping[str, Array], samples: int) -> Array:
+    """NaN where there are no masses to tell them by."""
+    if source.massless:
+        return np.full((samples, 3), np.nan)
+    return _columns(stored, ["work.drives", "work.forces", "work.clearances"], samples)
 
 
 def _memory_names(source: KernelSource) -> list[str]:

@@ -73,7 +73,7 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
         compared = [name for name in series if name in reference]
         errors = tuple(_extreme(name, run.unit(name), run.t, run[name] - reference[name]) for name in compared)
     forces = {peak.joint: (peak.F, peak.t) for peak in run.diagnostics.peaks}
-    for joint in run.source.joints if not run.source.clearances else ():
+    for joint in run.source.joints if not (run.source.clearances or run.source.massless) else ():
         reaction = _extreme("", "N", run.t, run[f"{joint.name}.F"])
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -270,17 +270,20 @@ class Result:
         """The error for a name that this result does not have; it names the nearest."""
         import difflib
 
+        from gudgeon.results.series import MASSLESS_HINT, catalogue, missing, without_masses
+
         if not isinstance(name, str):
             return UnknownNameError(f"nothing is named {told(name)}", hint="a name is a text: run.names lists all")
         if name in self.parameters:
             return UnknownNameError(f"{name!r} is a parameter, no series", hint=f'see run.parameters["{name}"]')
         if name in self.source.outputs:
-            from gudgeon.results.series import missing
-
             lacking = ", ".join(missing(self.source, self.source.outputs[name], self._catalogue))
             hint = "a joint's play, contact and reaction have results only in the scenes that have them"
+            hint = MASSLESS_HINT if self.source.massless else hint
             scene = self.source.scene
             return UnknownNameError(f"output {name!r} needs {lacking}, which scene {scene!r} lacks", hint=hint)
+        if (why := without_masses(self.source)) and name in catalogue(replace(self.source, massless=())):
+            return UnknownNameError(f"{name!r} is not known: {why}", hint=MASSLESS_HINT)
         nearest = difflib.get_close_matches(str(name), self._catalogue, n=3, cutoff=0.5)
         hint = f"nearest: {', '.join(nearest)}" if nearest else "run.names lists all names"
         return UnknownNameError(f"the scene {self.source.scene!r} has nothing named {name!r}", hint=hint)

@@ -8,6 +8,7 @@
     Phi.max   Phi_dot.max                                  how far the constraints are violated
     lift                                                   an output of the mechanism file
 
+Where a body has no mass, what follows from masses is left out: reactions, torques, multipliers, energies and works.
 The names depend on the scene alone; nothing is computed before somebody asks (`Series.compute`).
 """
 
@@ -61,14 +62,22 @@ class Series:
 def catalogue(source: KernelSource) -> dict[str, Series]:
     """All the names of a scene in the order in which they are listed and stored."""
     found: dict[str, Series] = {}
-    for part in (_bodies, _points, _joints, _clearances, _states, _drives, _elements, _frictions, _multipliers):
+    for part in (_bodies, _points, *(_MOTION_ALONE if source.massless else _PARTS)):
         found.update(part(source))
-    found.update(_balance(source))
-    found.update(_drift(source))
     for name, tree in source.outputs.items():
         if not missing(source, tree, found):
             found[name] = _output(source, name, tree, found)
     return found
+
+
+MASSLESS_HINT = "give every body mass: and inertia:, or a shape: with a density"
+
+
+def without_masses(source: KernelSource) -> str:
+    """Why nothing is known that follows from masses; "" where it is."""
+    if not source.massless:
+        return ""
+    return f"{', '.join(source.massless)} {'has' if len(source.massless) == 1 else 'have'} no mass or no inertia"
 
 
 def missing(source: KernelSource, tree: Any, known: Container[str]) -> list[str]:
@@ -241,6 +250,11 @@ def _drift(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, name in enumerate(DRIFT):
         compute = partial(_evaluated, part="drift", index=(k,))
         yield name, Series("", f"drift, the largest {what[k]}", compute)
+
+
+# what a scene has beside motion; without masses, what does not follow from motion
+_PARTS = (_joints, _clearances, _states, _drives, _elements, _frictions, _multipliers, _balance, _drift)
+_MOTION_ALONE = (_elements, _drift)
 
 
 def _residual(run: Result) -> Array:

@@ -35,7 +35,7 @@ def conclude(
 
     Where Ctrl-C comes meanwhile, or ended the run and (with `soon`) the samples are many, that is left for later.
     """
-    x, evaluation, failed, balance = trajectory, None, False, (math.nan, math.nan)
+    x, evaluation, failed, balance = without_works(compiled, trajectory), None, False, (math.nan, math.nan)
     look = _look(problem, x.interrupted, soon)
     try:
         evaluation = compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p, look)
@@ -56,13 +56,20 @@ def conclude(
         event_states=x.event_states, trace=x.trace,
     )  # fmt: skip
     if evaluation is not None:
-        if told := unbalanced(x.t, evaluation.energy, x.work, balance[0]):
+        if not compiled.source.massless and (told := unbalanced(x.t, evaluation.energy, x.work, balance[0])):
             notes = (*result.diagnostics.notes, *told)
             result = replace(result, diagnostics=replace(result.diagnostics, notes=notes))
         result = with_odd_outputs(result, evaluation)
         if len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
     return result
+
+
+def without_works(compiled: CompiledModel, trajectory: Trajectory) -> Trajectory:
+    """The same, whose works are NaN where there are no masses to tell them by."""
+    if not compiled.source.massless:
+        return trajectory
+    return replace(trajectory, work=np.full_like(trajectory.work, np.nan))
 
 
 def _look(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]:

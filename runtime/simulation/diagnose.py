@@ -14,6 +14,7 @@ from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.results.diagnostics import Diagnostics, Peak
+from gudgeon.results.series import without_masses
 
 BLOCK = 1 << 16  # samples balanced between two looks
 APART = 0.01  # of the mechanism's size: violated constraints that no stabilisation explains
@@ -87,6 +88,8 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
             f"the start is a dead centre: rows {', '.join(tied)} tie each other there; velocities that drives and"
             " start.rates leave open were taken least: give a rate of each body that may move"
         )
+    if why := without_masses(compiled.source):
+        notes.append(f"{why}: reactions, torques, energies and works are not known")
     if problem.stop and len(trajectory.events):
         last = compiled.source.events[trajectory.events["event"][-1]]
         if last.action == "stop":

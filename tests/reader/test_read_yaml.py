@@ -25,7 +25,8 @@ def read(name: str, **kwargs: object) -> Mechanism:
     return read_mechanism(path.read_bytes(), path.name, **kwargs)  # type: ignore[arg-type]
 
 
-def value(mechanism: Mechanism, quantity: Quantity) -> float:
+def value(mechanism: Mechanism, quantity: Quantity | None) -> float:
+    assert quantity is not None
     return float(evaluate(quantity.value, parameter_values(mechanism.parameters).__getitem__))
 
 
@@ -44,7 +45,8 @@ def test_press_in_figures(press: Mechanism) -> None:
     assert len(press.joints) == 11 and len(press.drives) == 2
     assert value(press, press.bodies["L7"].mass) == 0.277
     assert value(press, press.bodies["L1"].inertia) == 3.030e-4
-    assert press.bodies["L7"].inertia.dimension == INERTIA
+    inertia = press.bodies["L7"].inertia
+    assert inertia is not None and inertia.dimension == INERTIA
     assert press.bodies["S9"].length is None
     assert press.gravity is not None and press.gravity[0].is_zero and value(press, press.gravity[1]) == -9.81
     assert press.gravity[1].dimension == ACCELERATION
@@ -65,7 +67,7 @@ def test_press_scenes(press: Mechanism) -> None:
 
 def test_addresses_and_places(press: Mechanism) -> None:
     mass = press.bodies["L2"].mass
-    assert mass.address == "bodies.L2.mass"
+    assert mass is not None and mass.address == "bodies.L2.mass"
     line = PRESS.read_text().splitlines()[mass.where.line - 1]
     assert line[mass.where.column - 1 :].startswith("0.284 kg")
     assert press.joints["guide"].vectors["axis"][1].address == "joints.guide.axis.y"

@@ -78,7 +78,7 @@ def describe(
         tree=tree, closures=closures, motion_pivots=motion_pivots, formulation=formulation,
         chain=chain.names if chain else (), chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
-        lines=_lines(mechanism),
+        lines=_lines(mechanism), massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
         written=tuple(_written(model)), states=_states(model), story=story, lanes=lanes,
     )  # fmt: skip
 
@@ -116,7 +116,7 @@ def _conditions(model: Model) -> tuple[Condition, ...]:
     return tuple(
         Condition(c.address, c.relation, c.bound, c.message)
         for c in model.scene.mechanism.conditions
-        if c.address in used and (not isinstance(c.bound, str) or c.bound in used)
+        if c.address in used and (not isinstance(c.bound, str) or used.issuperset(c.bound.split(" + ")))
     ) + tuple(
         Condition(address, relation, 0.0, "a direction along an axis turns round with load(overrides=...) only")
         for address, relation in model.slots.signs.items()

@@ -45,7 +45,9 @@ def motion_sections(model: Model, notation: Notation) -> list[Section]:
 def _masses(model: Model, notation: Notation) -> list[Block]:
     rows = [cells(body.name, *map(notation.math, model.masses[body.index : body.index + 3])) for body in model.bodies]
     lead = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
-    return [paragraph(lead), *table(cells("body", "x", "y", "angle"), rows)]
+    lacking = [body.name for body in model.scene.mechanism.bodies.values() if body.lacks]
+    told = f"The file gives no mass or no inertia of {', '.join(lacking)}: M only measures how far Newton's steps go."
+    return [paragraph(lead), *table(cells("body", "x", "y", "angle"), rows), *([paragraph(told)] if lacking else [])]
 
 
 def _elements(model: Model, notation: Notation) -> list[Block]:
