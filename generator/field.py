@@ -59,6 +59,7 @@ class Kind:
     targets: str = ""  # "points", "bodies" or "coordinates"; a law has none
     counts: tuple[int, ...] = ()  # how many targets there may be
     also: tuple[str, ...] = ()  # what others call it: told to whoever writes that
+    like: str = ""  # the kind whose keys it has, but those that its name chooses
 
 
 @dataclass(frozen=True)

@@ -68,7 +68,10 @@ def _title(law: Law, name: str) -> str:
 
 def _law(role: str, meaning: str) -> Field:
     def kinds() -> Mapping[str, Kind]:
-        return {name: Kind(_title(law, name), law.fields_as(name)) for name, law in called(role).items()}
+        return {
+            name: Kind(_title(law, name), law.fields_as(name), like="" if name == law.name else law.name)
+            for name, law in called(role).items()
+        }
 
     return Field(role, LAW, meaning, kinds=kinds)
 

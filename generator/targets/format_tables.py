@@ -51,6 +51,10 @@ def _of_kinds(heading: str, of: Field) -> Iterator[str]:
     rows: list[Row] = []
     for name, kind in of.kinds().items() if of.kinds else ():
         itself = ("`law`", f"`{name}`") if of.kind == LAW else (f"`{name}`", _targets(kind))
+        if kind.like:
+            needed = " and ".join(f"`{field.name}`" for field in kind.fields if field.required)
+            rows.append((f"`{name}`", *itself, "needed", "", f"{kind.title}: has its other keys, {needed} is needed"))
+            continue
         rows.append((f"`{name}`", *itself, "needed", "", kind.title))
         rows += [("", *_row(field)) for field in kind.fields]
     yield from _table(heading, of.meaning, ("kind", *_HEAD), rows)

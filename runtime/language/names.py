@@ -57,6 +57,8 @@ def check_name(name: str, what: str, where: Location | None) -> None:
     if what in ("parameter", "output"):  # the others stand in expressions with a dot only
         reason = "it is a function of expressions" if name in FUNCTIONS else reason
         reason = "an expression takes it for no name" if name in WORDS else reason
+    if what == "output" and name == "time":
+        reason = "it is the axis of results"
     if name.startswith("gudgeon") or "__" in name:
         reason = "names that begin with 'gudgeon' or hold '__' are kept for emitted code"
     if reason:

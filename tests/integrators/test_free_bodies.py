@@ -61,7 +61,12 @@ def variants(role: str) -> list[str]:
         if law.role == role:
             for choice in itertools.product(*(option.values for option in law.options)):
                 options = {o.name: str(v).lower() for o, v in zip(law.options, choice, strict=True)}
-                entries = {"law": law.name} | options | {k: repr(v) for k, v in values(law).items()}
+                numbers = {k: repr(v) for k, v in values(law).items()}
+                default = {o.name: str(o.choice).lower() for o in law.options}
+                for chosen, number in law.instead.items():  # the number, or a choice other than the default
+                    left_out = options if options[chosen] == default[chosen] else numbers
+                    left_out.pop(chosen if left_out is options else number)
+                entries = {"law": law.name} | options | numbers
                 found.append("{" + ", ".join(f"{k}: {v}" for k, v in entries.items()) + "}")
     return found
 

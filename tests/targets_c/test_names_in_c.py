@@ -228,7 +228,8 @@ def test_what_expressions_could_not_tell_apart_is_refused() -> None:
 
     for what in ("body", "joint", "drive", "force", "parameter", "output"):
         assert all(refuses(name, what) for name in RESERVED)
-        assert not any(refuses(name, what) for name in ("floor", "free", "int", "main", "class", "time", "index"))
+        assert not any(refuses(name, what) for name in ("floor", "free", "int", "main", "class", "index"))
+        assert refuses("time", what) == (what == "output")
         assert all(refuses(name, what) == (what in ("parameter", "output")) for name in (*FUNCTIONS, *WORDS))
     for what in ("point", "mechanism"):
         assert not any(refuses(name, what) for name in (*RESERVED, *FUNCTIONS, *WORDS, *NOT_IN_CODE))

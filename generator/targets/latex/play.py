@@ -205,6 +205,7 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
     blocks += [
         paragraph(f"Option {option.name}: {_word(equations.options[option.name])} ({option.meaning}).")
         for option in law.options
+        if option.name in equations.options  # one may say nothing beside a number
     ]
     for state in law.states:
         told = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
