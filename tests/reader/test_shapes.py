@@ -135,8 +135,8 @@ def test_sides_are_distances(side: str, sign: int, tmp_path: Path) -> None:
 def test_sides_that_make_no_triangle(tmp_path: Path) -> None:
     """Told with numbers: in the file, at a run, of one run of many."""
     body = f"mass: 1 kg, inertia: 1 kg*m^2, {SIDES}"
-    told = r"swing.yaml:6:\d+: bodies.body.sides.PQ is 0.2 m: each side .*\n.* = 0.14 m"
-    with pytest.raises(BadValueError, match=told):
+    words = r"swing.yaml:6:\d+: bodies.body.sides.PQ is 0.2 m: each side .*\n.* = 0.14 m"
+    with pytest.raises(BadValueError, match=words):
         read_body(body.replace("PQ: s", "PQ: 2*s"))
     for wrong in (0.14, 0.15, 0.02, 0.01):  # degenerate ones too
         with pytest.raises(BadValueError, match=r"bodies.body.sides.\w+ is [\d.]+: each side .* is 0\.\d+\)"):

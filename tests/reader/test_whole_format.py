@@ -15,7 +15,7 @@ from gudgeon.loading.engine import include_flags
 
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
 SCENES = [("every_kind", "ideal"), ("press_as_designed", "ideal"), ("press_as_designed", "fast"),
-          ("press_as_designed", "lubricated"), ("slider_crank", "oiled")]  # fmt: skip
+          ("press_as_designed", "lubricated"), ("slider_crank", "oiled"), ("shapes", "ideal")]  # fmt: skip
 
 
 @pytest.mark.parametrize(("name", "scene"), SCENES)
@@ -30,7 +30,9 @@ def test_emits_without_warnings(name: str, scene: str, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr[:2000]
 
 
-@pytest.mark.parametrize(("name", "scene"), [("every_kind", "ideal"), ("press_as_designed", "fast")])
+@pytest.mark.parametrize(
+    ("name", "scene"), [("every_kind", "ideal"), ("press_as_designed", "fast"), ("shapes", "ideal")]
+)
 def test_assembles(name: str, scene: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Φ = 0 at the start, and Φ_q is its derivative there: a gear's carrier, a driven distance, all of it."""
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path))
