@@ -50,6 +50,7 @@ class Request:
     regenerate: bool
     json: bool
     formulation: str = "reduced"
+    verbose: bool = False
 
 
 @dataclass
@@ -279,7 +280,7 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
         print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
     else:
         console = plain_console(None if sys.stdout.isatty() else 200)
-        for table in tables(source.title or source.mechanism, reports, console.width):
+        for table in tables(source.title or source.mechanism, reports, console.width, request.verbose):
             console.print(table)
         for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
             console.print(f"note: {visible(note)}")

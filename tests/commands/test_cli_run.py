@@ -226,3 +226,32 @@ def test_a_rate_that_a_joint_with_play_forbids_at_the_start_is_told(tmp_path: Pa
     file.write_text(TEXT.replace("piston.x: 0.14}", "piston.x: 0.14}\n  rates: {piston.vx: 3 m/s}"), encoding="utf-8")
     with pytest.raises(AssemblyError, match=r"start\.rates piston\.vx cannot be met: a start closes .* play \(.*B"):
         gudgeon.load(file, "worn").start()
+
+
+@needs_compiler
+def test_the_table_has_the_drives_and_no_rows_that_need_a_legend(call: Gudgeon, pump: str) -> None:
+    plain, verbose = call("run", pump), call("run", pump, "-v")
+    assert plain.exit_code == verbose.exit_code == 0, verbose.output
+    assert "while latched" not in plain.stdout and "while latched" in verbose.stdout
+    assert "Peak of drives" in plain.stdout and "motor.torque" in plain.stdout
+    found = json.loads(call("run", pump, "--json").stdout)["scenes"]["worn"]["drives"]["motor.torque"]
+    torque = gudgeon.Result.load("out/pump_worn.nc")["motor.torque"]
+    assert abs(found["peak"]) == abs(torque).max() and found["unit"] == "N*m"
+
+
+@needs_compiler
+def test_noise_is_shown_as_none(call: Gudgeon, pump: str) -> None:
+    """The bore holds the piston at y = 0 but for rounding; JSON has the number as it is."""
+    text = Path(pump).read_text(encoding="utf-8")
+    Path(pump).write_text(
+        text.replace("axis: [1, 0]}", "axis: [1, 0.75]}").replace("piston.x: 0.14", "piston.x: 0.11"), encoding="utf-8"
+    )
+    watched = ("--watch", "tilted")
+    with Path(pump).open("a", encoding="utf-8") as file:
+        file.write("outputs: {tilted: 0.6 * piston.x - 0.8 * piston.y}\n")
+    done = call("run", pump, *watched)
+    assert done.exit_code == 0, done.output
+    row = next(line for line in done.stdout.splitlines() if line.split()[:1] == ["tilted"])
+    assert "≈ 0" in row and "e-" not in row
+    found = json.loads(call("run", pump, *watched, "--json").stdout)["scenes"]["worn"]["motion"]["tilted"]
+    assert 0.0 < abs(found["peak"]) < 1e-12
