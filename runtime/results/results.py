@@ -243,11 +243,12 @@ class Result:
 
         export.mat(self, path, names)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to a NetCDF file, aside first and then moved into place; OutputError where that fails."""
+    def save(self, path: str | os.PathLike[str], attributes: Mapping[str, str] = MappingProxyType({})) -> None:
+        """Write everything to a NetCDF file, with more attributes, aside first and then moved into place; OutputError
+        where that fails."""
         from gudgeon.results import netcdf
 
-        netcdf.save(self, path)
+        netcdf.save(self, path, attributes)
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Result:

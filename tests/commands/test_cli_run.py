@@ -144,7 +144,7 @@ def test_a_scene_that_cannot_be_assembled_leaves_the_others(call: Gudgeon, tmp_p
 def test_figures_are_shown_even_if_they_cannot_be_written(
     call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full(self: gudgeon.Result, path: Path) -> None:
+    def full(self: gudgeon.Result, path: Path, attributes: object) -> None:
         raise gudgeon.GudgeonError(f"cannot write {path}: No space left on device")
 
     monkeypatch.setattr(gudgeon.Result, "save", full)
@@ -255,3 +255,20 @@ def test_noise_is_shown_as_none(call: Gudgeon, pump: str) -> None:
     assert "≈ 0" in row and "e-" not in row
     found = json.loads(call("run", pump, *watched, "--json").stdout)["scenes"]["worn"]["motion"]["tilted"]
     assert 0.0 < abs(found["peak"]) < 1e-12
+
+
+@needs_compiler
+def test_results_of_another_file_of_the_name_are_not_written_over(call: Gudgeon, pump: str, tmp_path: Path) -> None:
+    """Edited or moved it is the same mechanism; with other bytes in another place it is another."""
+    assert call("run", pump, "--scene", "ideal").exit_code == 0
+    text, before = Path(pump).read_text(encoding="utf-8"), (tmp_path / "out/pump_ideal.nc").read_bytes()
+    other = tmp_path / "other.yaml"
+    other.write_text(text.replace("30 mm", "31 mm"), encoding="utf-8")
+    done = call("run", str(other), "--scene", "ideal")
+    assert done.exit_code == 2 and "another mechanism file" in done.stderr and "--out" in done.stderr
+    assert (tmp_path / "out/pump_ideal.nc").read_bytes() == before
+    assert call("run", str(other), "--scene", "ideal", "--out", "more").exit_code == 0
+    other.write_text(text, encoding="utf-8")
+    assert call("run", str(other), "--scene", "ideal").exit_code == 0  # moved
+    other.write_text(text.replace("30 mm", "31 mm"), encoding="utf-8")
+    assert call("run", str(other), "--scene", "ideal").exit_code == 0  # edited
