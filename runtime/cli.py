@@ -128,6 +128,7 @@ def run(
     regenerate: Annotated[
         bool, typer.Option("--regenerate", help="Derive and compile again, whatever the cache has.")
     ] = False,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Rows that need docs/methods.md too.")] = False,
     json: Json = False,
 ) -> int:
     """Simulate scenes and compare them with the ideal one: a table, a NetCDF file a scene, one picture.
@@ -140,7 +141,7 @@ def run(
 
     request = Request(
         file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, rtol, tuple(watch or ()), out,
-        horizon, regenerate, json, formulation,
+        horizon, regenerate, json, formulation, verbose,
     )  # fmt: skip
     return run_scenes(request)
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from gudgeon.commands.common import check_addresses, check_folder, check_name, chosen_scenes, settings
+from gudgeon.commands.origin import ORIGIN, check_origin, origin_of
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
 from gudgeon.language.shown import visible
@@ -50,6 +51,7 @@ class Request:
     regenerate: bool
     json: bool
     formulation: str = "reduced"
+    verbose: bool = False
 
 
 @dataclass
@@ -74,7 +76,9 @@ def run_scenes(request: Request) -> int:
         simulations = {name: _load(request, name) for name in names}
     _check(request, wanted, simulations)
     for name, simulation in simulations.items():
-        check_name("--out", result_path(request.out, simulation.source.mechanism, name))
+        path = result_path(request.out, simulation.source.mechanism, name)
+        check_name("--out", path)
+        check_origin(path, origin_of(request.file, simulation.source.sha256))
     check_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
     session = Session()
     try:
@@ -178,7 +182,7 @@ def _hand_over(request: Request, ideal: Simulation, session: Session) -> None:
     from gudgeon.results.report import compare, default_watch
 
     runs = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
-    _save(request.out, runs, session)
+    _save(request, runs, session)
     _refer(ideal, session)
     first = session.runs.get(IDEAL) or next(iter([*session.references.values(), *session.runs.values()]))
     watch = request.watch or default_watch(first)
@@ -215,14 +219,14 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
     return ideal.simulate(output=run.t, parameters=values, stop=False)
 
 
-def _save(out: Path, runs: Mapping[str, Result], session: Session) -> None:
+def _save(request: Request, runs: Mapping[str, Result], session: Session) -> None:
     """A NetCDF file a scene; what a full disk refuses goes to `session.unwritten`, and the others are written."""
     if not _have("NetCDF files", "h5py"):
         return
     for scene, run in runs.items():
-        path = result_path(out, run.source.mechanism, scene)
+        path = result_path(request.out, run.source.mechanism, scene)
         try:
-            run.save(path)
+            run.save(path, {ORIGIN: origin_of(request.file, run.source.sha256)})
             session.files[scene] = str(path)
         except GudgeonError as error:
             session.unwritten.append(error)
@@ -270,7 +274,7 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
         print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
     else:
         console = plain_console(None if sys.stdout.isatty() else 200)
-        for table in tables(source.title or source.mechanism, reports, console.width):
+        for table in tables(source.title or source.mechanism, reports, console.width, request.verbose):
             console.print(table)
         for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
             console.print(f"note: {visible(note)}")

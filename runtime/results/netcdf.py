@@ -9,7 +9,9 @@ compiled library. What has no row is not there. A file holds no date: the same r
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -136,9 +138,10 @@ def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
     return xarray.Dataset(found, attrs=dict(table.attributes))
 
 
-def save(run: Result, path: str | os.PathLike[str]) -> None:
-    """Write `run` to `path`. OutputError where it cannot be written; an older file is then as it was."""
-    write(tables(run), path)
+def save(run: Result, path: str | os.PathLike[str], more: Mapping[str, str] = MappingProxyType({})) -> None:
+    """Write `run` to `path`, with more attributes. OutputError where that fails; an older file is then as it was."""
+    root, *others = tables(run)
+    write(iter([replace(root, attributes={**root.attributes, **more}), *others]), path)
 
 
 def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:

@@ -22,6 +22,13 @@ def scale(size: float, unit: str) -> tuple[float, str]:
     return 10.0**-exponent, PREFIXES[exponent] + pretty(unit)
 
 
+def drawn(size: float, unit: str) -> tuple[float, str]:
+    """The same for pictures, where angles are in degrees: rad, rad/s, rad/s²."""
+    if unit == "rad" or unit.startswith("rad/"):
+        return 180.0 / math.pi, "°" + pretty(unit.removeprefix("rad"))
+    return scale(size, unit)
+
+
 def pretty(unit: str) -> str:
     """ "kg*m^2" as "kg·m²"."""
     raised = re.sub(r"\^(-?[\d.]+)", lambda power: power.group(1).translate(_SUPERSCRIPTS), unit)

@@ -1,4 +1,4 @@
-"""Figures of results: one run at a time (`run.plot.orbit("A")`), and several scenes in one picture.
+"""Several scenes in one picture, and what pictures of one run (run_plots.py) are drawn with.
 
 matplotlib is imported with this module, hence only when somebody draws, and never through pyplot
 unless the caller uses pyplot already: no display is needed and no figure is kept alive.
@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import io
 import os
-import sys
 import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -16,12 +15,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
+from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.shown import in_figure
-from gudgeon.language.wanted import told
 from gudgeon.results import trace
-from gudgeon.results.plot_units import label, scale
+from gudgeon.results.plot_units import drawn, label, scale
 from gudgeon.results.series import rates
 
 try:
@@ -39,6 +37,7 @@ if TYPE_CHECKING:
 # Okabe and Ito's palette: told apart by readers with any of the common colour deficiencies
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 IDEAL, UNTRUSTED = "#222222", "#888888"  # beyond a run's horizon
+ACROSS, BESIDE = 4, 6  # circles in a row; words of a legend that fits beside the title
 TITLE = 66  # characters of a line, beside which the legend fits
 STYLE = {
     "font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9, "xtick.labelsize": 8, "ytick.labelsize": 8,
@@ -48,75 +47,28 @@ STYLE = {
 }  # fmt: skip
 
 
-class Plot:
-    """Figures of one run; every method returns its Axes, `axes.figure.savefig(...)` stores them."""
-
-    def __init__(self, run: Result) -> None:
-        self.run = run
-
-    def series(self, *names: str, ax: Axes | None = None) -> Axes:
-        """Series of one unit over time."""
-        return self._curves({name: (self.run.t, self.run[name]) for name in names}, ax)
-
-    def _curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None) -> Axes:
-        """Times and values by the name of a series; all have one unit."""
-        run, names = self.run, list(curves)
-        if not names:
-            raise BadValueError("plot.series: expected the name of a series at least")
-        with matplotlib.rc_context(STYLE):
-            ax = ax or _axes(8.0, 3.6)
-            factor, text = scale(max(_peak(values) for _, values in curves.values()), run.unit(names[0]))
-            for (name, (t, values)), colour in zip(curves.items(), _cycle(len(names)), strict=True):
-                ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
-            ax.set(xlabel="t [s]", ylabel=label(names[0] if len(names) == 1 else "", text), title=_caption(run))
-            mark_horizon(ax, run, IDEAL)
-            if len(names) > 1:
-                ax.legend()
-        return ax
-
-    def forces(self, ax: Axes | None = None) -> Axes:
-        """Magnitudes of the forces at the joints with play, with the extremes of all steps; in an ideal scene at all
-        joints."""
-        joints = self.run.source.clearances or self.run.source.joints
-        return self._curves({f"{joint.name}.F": trace.force(self.run, joint.name) for joint in joints}, ax)
-
-    def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
-        """Path of the journal's centre in its clearance circle, in units of the clearance."""
-        joints = [each.name for each in self.run.source.clearances]
-        if joint not in joints:
-            hint = f"its joints with play: {', '.join(joints) or 'none'}"
-            raise UnknownNameError(f"no orbit of {told(joint)}: expected a joint with play", hint=hint)
-        with matplotlib.rc_context(STYLE):
-            ax = ax or _axes(4.2, 4.4)
-            draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))
-        return ax
+def cycle(count: int) -> list[str]:
+    """Colours of curves beside each other: distinct ones, as far as there are twenty."""
+    if count <= len(COLOURS):
+        return list(COLOURS[:count])
+    pairs = [matplotlib.colors.to_hex(matplotlib.colormaps["tab20"](k)) for k in range(20)]
+    many = [*pairs[::2], *pairs[1::2]]  # the strong ones first
+    return [many[i % len(many)] for i in range(count)]
 
 
-def _axes(width: float, height: float) -> Axes:
-    """Axes of a new figure: pyplot's, if the caller has imported it, so that plt.show() shows them."""
-    if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None:
-        axes: Axes = pyplot.figure(figsize=(width, height), layout="constrained").add_subplot()
-        return axes
-    return Figure(figsize=(width, height), layout="constrained").add_subplot()
-
-
-def _cycle(count: int) -> list[str]:
-    return [COLOURS[i % len(COLOURS)] for i in range(count)]
-
-
-def _peak(values: Any) -> float:
+def peak_of(values: Any) -> float:
     """Largest magnitude, 0 for none."""
     return float(np.nanmax(np.abs(values), initial=0.0))
 
 
-def _caption(run: Result) -> str:
+def caption_of(run: Result) -> str:
     return f"{run.source.mechanism}, {run.source.scene}"
 
 
 def reach(run: Result, joint: str) -> float:
     """Half the side of a square, in units of c, that holds the orbit and the circle."""
     _, x, y = trace.path(run, joint)
-    return 1.04 * max(1.0, _peak(np.hypot(x, y)) / run.constants[f"{joint}.c"])
+    return 1.04 * max(1.0, peak_of(np.hypot(x, y)) / run.constants[f"{joint}.c"])
 
 
 def _trusted(run: Result) -> float | None:
@@ -162,7 +114,7 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
     played = {scene: run for scene, run in runs.items() if run.source.clearances}
     references = dict(reference) if isinstance(reference, Mapping) else dict.fromkeys(played, reference)
     shown = played or dict(runs)
-    colours = dict(zip(shown, _cycle(len(shown)) if played else [IDEAL, *_cycle(len(shown) - 1)], strict=True))
+    colours = dict(zip(shown, cycle(len(shown)) if played else [IDEAL, *cycle(len(shown) - 1)], strict=True))
     joints = list(dict.fromkeys(joint.name for run in played.values() for joint in run.source.clearances))[:4]
     watch = list(watch)[:2]
     with matplotlib.rc_context(STYLE):
@@ -204,7 +156,7 @@ def _draw_motion(
         if not found:
             continue
         ax = part.add_subplot(grid[row, column] if len(names) > 1 else grid[:3, column])
-        factor, text = scale(max(map(_peak, found.values())), runs[next(iter(found))].unit(series))
+        factor, text = drawn(max(map(peak_of, found.values())), runs[next(iter(found))].unit(series))
         for scene, values in found.items():
             ax.plot(runs[scene].t, values * factor, color=colours[scene], lw=0.9)
             mark_horizon(ax, runs[scene], colours[scene])
@@ -224,7 +176,7 @@ def _draw_forces(
         ideal = max((r for r in references.values() if name in r), key=lambda r: r.t[-1], default=None)
         if ideal is not None:
             curves.append((ideal.t, ideal[name], IDEAL, 1.0, "--"))
-        factor, text = scale(max((_peak(values) for _, values, *_ in curves), default=0.0), "N")
+        factor, text = scale(max((peak_of(values) for _, values, *_ in curves), default=0.0), "N")
         for t, values, colour, width, dashes in curves:
             ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
         for scene, run in runs.items():
@@ -261,15 +213,20 @@ def _folded(ax: Axes, text: str) -> str:
 
 
 def _draw_orbits(part: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
-    """A clearance circle for each joint (down) and scene (across); more than six scenes do not fit."""
-    scenes = list(runs)[:6]
-    grid = part.add_gridspec(len(joints), len(scenes))
-    cells = [(row, column) for row in range(len(joints)) for column in range(len(scenes))]
-    found = [(r, c) for r, c in cells if f"{joints[r]}.e" in runs[scenes[c]]]
-    half = max(reach(runs[scenes[c]], joints[r]) for r, c in found)  # one scale: all circles are equally large
-    for row, column in found:
-        scene = scenes[column]
-        draw_orbit(part.add_subplot(grid[row, column]), runs[scene], joints[row], colours[scene], half)
+    """A clearance circle for each joint (down) and scene (across, in so many rows as are needed)."""
+    scenes = list(runs)
+    columns = min(len(scenes), ACROSS)
+    rows = -(-len(scenes) // columns)
+    grid = part.add_gridspec(len(joints) * rows, columns)
+    found = [(joint, scene) for joint in joints for scene in scenes if f"{joint}.e" in runs[scene]]
+    half = max(reach(runs[scene], joint) for joint, scene in found)  # one scale: all circles are equally large
+    for joint, scene in found:
+        row, column = divmod(scenes.index(scene), columns)
+        place = grid[joints.index(joint) * rows + row, column]
+        ax = part.add_subplot(place)
+        draw_orbit(ax, runs[scene], joint, colours[scene], half)
+        if rows > 1:  # the title would be wider than its circle
+            ax.set_title(f"{joint}, {scene}", fontsize=7.5)
     part.supxlabel("journal in the circle e = c, ○ start\nforces: ▾ peak of all steps", fontsize=9, color="#444444")
 
 
@@ -286,6 +243,9 @@ def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str
         handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls="--", label="ideal"))
     if any(_trusted(run) is not None for run in runs.values()):
         handles.append(Patch(facecolor=UNTRUSTED, alpha=0.25, lw=0, label="not to be trusted"))
+    if len(handles) > BESIDE:  # outside, below all panels
+        picture.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), BESIDE), fontsize=9.5)
+        return
     picture.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
 
 

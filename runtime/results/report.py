@@ -15,12 +15,14 @@ import numpy as np
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.plot_units import quantity, scale
 from gudgeon.results.results import Result
-from gudgeon.results.series import rates
+from gudgeon.results.series import MOTION_UNITS, drive_series, rates
 
 if TYPE_CHECKING:
     from rich.table import Table
 
+NOISE, ZERO = 1e-9, "≈ 0"  # a number below this share of what the run has of its kind is shown as none
 COLUMNS = 4  # scenes beside each other in one table
+NEED_A_LEGEND = ("grazes", "δ̇/δ̇⁻ while latched", "steps with it outside ±1")
 # of a joint with play: name -> (unit that a table can scale, what follows the name); the rest is in --json
 CONSTANTS = {"c": ("m", ""), "K": ("", " [N/mⁿ]"), "S": ("N*s", "")}
 
@@ -48,6 +50,8 @@ class SceneReport:
     constants: Mapping[str, float]
     diagnostics: Diagnostics
     events: Mapping[str, tuple[float, ...]] = field(default_factory=dict)  # event -> its times
+    drives: tuple[Extreme, ...] = ()  # torques and forces of the drives
+    scales: Mapping[str, float] = field(default_factory=dict)  # unit -> how large such numbers are in this run
 
 
 def default_watch(reference: Result) -> tuple[str, ...]:
@@ -77,7 +81,24 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
         reaction = _extreme("", "N", run.t, run[f"{joint.name}.F"])
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
-    return SceneReport(run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events)
+    drives = tuple(_extreme(name, run.unit(name), run.t, run[name]) for name in drive_series(run.source))
+    found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives
+    return SceneReport(*found, _scales(run, forces, drives))
+
+
+def _scales(run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequence[Extreme]) -> dict[str, float]:
+    """By unit the largest number of the kind in a run: what rounding is to be compared with."""
+    found: dict[str, float] = {}
+    sizes = [("N", force) for force, _ in forces.values()] + [(drive.unit, abs(drive.peak)) for drive in drives]
+    for order, array in enumerate((run.q, run.v, run.a)):
+        sizes += [
+            (MOTION_UNITS[k % 3][order], float(np.nanmax(np.abs(array[:, k]), initial=0.0)))
+            for k in range(array.shape[1])
+        ]
+    for unit, size in sizes:
+        if math.isfinite(size):
+            found[unit] = max(size, found.get(unit, 0.0))
+    return found
 
 
 def _extreme(name: str, unit: str, t: Any, values: Any) -> Extreme:
@@ -95,6 +116,7 @@ def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
             "motion": {e.name: asdict(e) for e in report.motion},
             "errors": {e.name: asdict(e) for e in report.errors},
             "peak_forces": {joint: {"F": force, "t": t} for joint, (force, t) in report.forces.items()},
+            "drives": {e.name: asdict(e) for e in report.drives},
             "constants": dict(report.constants),
             "events": {name: list(times) for name, times in report.events.items()},
             "diagnostics": asdict(report.diagnostics),
@@ -113,14 +135,14 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def tables(title: str, reports: Sequence[SceneReport], width: int) -> list[Table]:
-    """A scene a column, a quantity a row; so many scenes beside each other as fit into `width` characters."""
+def tables(title: str, reports: Sequence[SceneReport], width: int, verbose: bool = False) -> list[Table]:
+    """A scene a column, a quantity a row, with `verbose` all; as many beside each other as fit `width` characters."""
     from rich.measure import Measurement
 
     from gudgeon.language.shown import plain_console
 
     endless = plain_console(10_000)
-    rows = _rows(reports)
+    rows = [row for row in _rows(reports) if verbose or row[0] not in NEED_A_LEGEND]
     found: list[Table] = []
     for count in range(min(COLUMNS, len(reports)), 0, -1):
         parts = [slice(first, first + count) for first in range(0, len(reports), count)]
@@ -158,6 +180,7 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("Peak error against ideal", _error_rows(reports)),
         ("Motion", _motion_rows(reports)),
         ("Peak force", _force_rows(reports)),
+        ("Peak of drives", _drive_rows(reports)),
         ("Joints with play", _play_rows(reports)),
         ("Events", _event_rows(reports)),
         ("Trust", _trust_rows(reports)),
@@ -168,23 +191,32 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     return rows
 
 
-def _at(value: float, unit: str, t: float) -> str:
+def _at(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
+    if math.isfinite(t) and _is_noise(abs(value), unit, scales):
+        return ZERO
     return f"{quantity(value, unit)} at {t:.4f} s" if math.isfinite(t) else "–"
+
+
+def _is_noise(size: float, unit: str, scales: Mapping[str, float]) -> bool:
+    """Whether a number is what rounding leaves of none."""
+    return 0.0 < size < NOISE * scales.get(unit, 0.0)
 
 
 def _error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     names = dict.fromkeys(e.name for report in reports for e in report.errors)
-    found = [{e.name: _at(e.peak, e.unit, e.t) for e in report.errors} for report in reports]
+    found = [{e.name: _at(e.peak, e.unit, e.t, report.scales) for e in report.errors} for report in reports]
     return [(name, [cells.get(name, "–") for cells in found]) for name in names]
 
 
 def _motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    found = [{e.name: _range(e) for e in report.motion} for report in reports]
+    found = [{e.name: _range(e, report.scales) for e in report.motion} for report in reports]
     names = dict.fromkeys(e.name for report in reports for e in report.motion)
     return [(name, [cells.get(name, "–") for cells in found]) for name in names]
 
 
-def _range(extreme: Extreme) -> str:
+def _range(extreme: Extreme, scales: Mapping[str, float]) -> str:
+    if _is_noise(max(abs(extreme.low), abs(extreme.high)), extreme.unit, scales):
+        return ZERO
     factor, text = scale(max(abs(extreme.low), abs(extreme.high)), extreme.unit)
     return f"{extreme.low * factor:.5g} … {extreme.high * factor:.5g} {text}".strip()
 
@@ -194,8 +226,14 @@ def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     played = dict.fromkeys(peak.joint for report in reports for peak in report.diagnostics.peaks)
     joints = played or dict.fromkeys(joint for report in reports for joint in report.forces)
     missing = (math.nan, math.nan)
-    return [(joint, [_at(r.forces.get(joint, missing)[0], "N", r.forces.get(joint, missing)[1]) for r in reports])
-            for joint in joints]  # fmt: skip
+    return [(joint, [_at(r.forces.get(joint, missing)[0], "N", r.forces.get(joint, missing)[1], r.scales)
+                     for r in reports]) for joint in joints]  # fmt: skip
+
+
+def _drive_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    found = [{e.name: _at(e.peak, e.unit, e.t, report.scales) for e in report.drives} for report in reports]
+    names = dict.fromkeys(e.name for report in reports for e in report.drives)
+    return [(name, [cells.get(name, "–") for cells in found]) for name in names]
 
 
 def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:

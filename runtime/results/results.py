@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trace import Trace
     from gudgeon.model.compiled import CompiledModel, Evaluation
     from gudgeon.results.at_events import AtEvents
-    from gudgeon.results.plots import Plot
+    from gudgeon.results.run_plots import Plot
     from gudgeon.results.series import Series
 
 Array: TypeAlias = NDArray[Any]
@@ -203,8 +203,8 @@ class Result:
 
     @property
     def plot(self) -> Plot:
-        """Figures of this run: `run.plot.orbit("A")`, `.forces()`, `.series("S9.y")`."""
-        from gudgeon.results.plots import Plot
+        """Figures of this run: `run.plot()`, `run.plot("S9.y")`, `run.plot.orbit("A")`, `.forces()`, `.series()`."""
+        from gudgeon.results.run_plots import Plot
 
         return Plot(self)
 
@@ -243,11 +243,12 @@ class Result:
 
         export.mat(self, path, names)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to a NetCDF file, aside first and then moved into place; OutputError where that fails."""
+    def save(self, path: str | os.PathLike[str], attributes: Mapping[str, str] = MappingProxyType({})) -> None:
+        """Write everything to a NetCDF file, with more attributes, aside first and then moved into place; OutputError
+        where that fails."""
         from gudgeon.results import netcdf
 
-        netcdf.save(self, path)
+        netcdf.save(self, path, attributes)
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Result:

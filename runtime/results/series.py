@@ -208,6 +208,11 @@ def _drives(source: KernelSource) -> Iterator[tuple[str, Series]]:
         yield f"{drive.name}.{name}", Series(unit, f"{name} of drive {drive.name}", compute)
 
 
+def drive_series(source: KernelSource) -> list[str]:
+    """Torques and forces of the drives by name."""
+    return [name for name, _ in _drives(source)]
+
+
 def _frictions(source: KernelSource) -> Iterator[tuple[str, Series]]:
     first = len(source.clearances)
     for k, name in enumerate(source.frictions):

@@ -144,7 +144,7 @@ def test_a_scene_that_cannot_be_assembled_leaves_the_others(call: Gudgeon, tmp_p
 def test_figures_are_shown_even_if_they_cannot_be_written(
     call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full(self: gudgeon.Result, path: Path) -> None:
+    def full(self: gudgeon.Result, path: Path, attributes: object) -> None:
         raise gudgeon.GudgeonError(f"cannot write {path}: No space left on device")
 
     monkeypatch.setattr(gudgeon.Result, "save", full)
@@ -226,3 +226,49 @@ def test_a_rate_that_a_joint_with_play_forbids_at_the_start_is_told(tmp_path: Pa
     file.write_text(TEXT.replace("piston.x: 0.14}", "piston.x: 0.14}\n  rates: {piston.vx: 3 m/s}"), encoding="utf-8")
     with pytest.raises(AssemblyError, match=r"start\.rates piston\.vx cannot be met: a start closes .* play \(.*B"):
         gudgeon.load(file, "worn").start()
+
+
+@needs_compiler
+def test_the_table_has_the_drives_and_no_rows_that_need_a_legend(call: Gudgeon, pump: str) -> None:
+    plain, verbose = call("run", pump), call("run", pump, "-v")
+    assert plain.exit_code == verbose.exit_code == 0, verbose.output
+    assert "while latched" not in plain.stdout and "while latched" in verbose.stdout
+    assert "Peak of drives" in plain.stdout and "motor.torque" in plain.stdout
+    found = json.loads(call("run", pump, "--json").stdout)["scenes"]["worn"]["drives"]["motor.torque"]
+    torque = gudgeon.Result.load("out/pump_worn.nc")["motor.torque"]
+    assert abs(found["peak"]) == abs(torque).max() and found["unit"] == "N*m"
+
+
+@needs_compiler
+def test_noise_is_shown_as_none(call: Gudgeon, pump: str) -> None:
+    """The bore holds the piston at y = 0 but for rounding; JSON has the number as it is."""
+    text = Path(pump).read_text(encoding="utf-8")
+    Path(pump).write_text(
+        text.replace("axis: [1, 0]}", "axis: [1, 0.75]}").replace("piston.x: 0.14", "piston.x: 0.11"), encoding="utf-8"
+    )
+    watched = ("--watch", "tilted")
+    with Path(pump).open("a", encoding="utf-8") as file:
+        file.write("outputs: {tilted: 0.6 * piston.x - 0.8 * piston.y}\n")
+    done = call("run", pump, *watched)
+    assert done.exit_code == 0, done.output
+    row = next(line for line in done.stdout.splitlines() if line.split()[:1] == ["tilted"])
+    assert "≈ 0" in row and "e-" not in row
+    found = json.loads(call("run", pump, *watched, "--json").stdout)["scenes"]["worn"]["motion"]["tilted"]
+    assert 0.0 < abs(found["peak"]) < 1e-12
+
+
+@needs_compiler
+def test_results_of_another_file_of_the_name_are_not_written_over(call: Gudgeon, pump: str, tmp_path: Path) -> None:
+    """Edited or moved it is the same mechanism; with other bytes in another place it is another."""
+    assert call("run", pump, "--scene", "ideal").exit_code == 0
+    text, before = Path(pump).read_text(encoding="utf-8"), (tmp_path / "out/pump_ideal.nc").read_bytes()
+    other = tmp_path / "other.yaml"
+    other.write_text(text.replace("30 mm", "31 mm"), encoding="utf-8")
+    done = call("run", str(other), "--scene", "ideal")
+    assert done.exit_code == 2 and "another mechanism file" in done.stderr and "--out" in done.stderr
+    assert (tmp_path / "out/pump_ideal.nc").read_bytes() == before
+    assert call("run", str(other), "--scene", "ideal", "--out", "more").exit_code == 0
+    other.write_text(text, encoding="utf-8")
+    assert call("run", str(other), "--scene", "ideal").exit_code == 0  # moved
+    other.write_text(text.replace("30 mm", "31 mm"), encoding="utf-8")
+    assert call("run", str(other), "--scene", "ideal").exit_code == 0  # edited

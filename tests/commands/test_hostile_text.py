@@ -162,7 +162,7 @@ def test_ctrl_c_while_results_are_saved_ends_with_130_and_says_what_is_missing(
     save: Callable[..., None] = gudgeon.Result.save
     saved = 0
 
-    def interrupted(self: Result, path: Path) -> None:
+    def interrupted(self: Result, path: Path, attributes: object) -> None:
         nonlocal saved
         if saved == full:
             raise KeyboardInterrupt

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -161,3 +162,55 @@ def test_numbers_that_cannot_be_drawn_are_told(tmp_path: Path) -> None:
     with pytest.raises(GudgeonError, match="its numbers cannot be drawn"):
         plots.save_figure(picture, tmp_path / "x.png")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_notebook_shows_what_a_run_plots(run: Result, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fresh one, without pyplot: IPython asks the last value of a cell for a picture."""
+    monkeypatch.delitem(sys.modules, "matplotlib.pyplot", raising=False)
+    for shown in (run.plot(), run.plot("S9.y", "A.F"), run.plot.series("S9.y"), run.plot.orbit("A"), run.plot.forces()):
+        picture = shown._repr_png_()  # type: ignore[union-attr]
+        assert picture is not None and picture.startswith(b"\x89PNG") and len(picture) > 5000
+
+
+def test_pyplot_shows_its_own_figures_once(run: Result) -> None:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure: Any = run.plot()
+    assert pyplot.fignum_exists(figure.number) and figure._repr_png_() is None
+    pyplot.close(figure)
+
+
+def test_a_run_plots_a_panel_for_each_unit(run: Result) -> None:
+    panels = run.plot().get_axes()
+    assert [ax.get_ylabel() for ax in panels] == ["S9.y [mm]", "crank.torque [N·m]", "A.F [N]"]
+    assert len(run.plot("S9.y", "S9.x", "S9.vy").get_axes()) == 2
+    drawn = np.asarray(panels[2].lines[0].get_ydata())
+    assert drawn.max() >= run.diagnostics.peak("A").F  # the peaks of all steps too
+
+
+def test_angles_are_in_degrees_for_people(run: Result, ideal: Result) -> None:
+    ax: Any = run.plot.series("L1.theta")
+    assert ax.get_ylabel() == "L1.theta [°]"
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), np.degrees(run["L1.theta"]))
+    assert run.plot.series("L1.omega").get_ylabel() == "L1.omega [°/s]"
+    assert labels(plots.figure({"ideal": ideal}, {}, ["L1.theta"]))[:3] == [
+        "L1.theta [°]", "L1.omega [°/s]", "L1.alpha [°/s²]",
+    ]  # fmt: skip
+
+
+def test_ten_scenes_are_told_apart(make: Callable[..., Result]) -> None:
+    """A colour and a circle each, the legend within the picture and beside nothing."""
+    runs = {f"a_scene_{k}": make(f"a_scene_{k}") for k in range(10)}
+    picture: Any = plots.figure(runs, make("ideal"), ["S9.y"])
+    assert len({*plots.cycle(10)}) == 10 and len({*plots.cycle(20)}) == 20
+    assert len(picture.subfigs[1].axes) == 10
+    picture.canvas.draw()
+    legend = picture.legends[0].get_window_extent()
+    assert legend.x0 >= 0 and legend.x1 <= picture.bbox.width
+    assert len(picture.legends[0].get_texts()) == 11
+    for part in picture.subfigs:
+        for ax in part.axes:
+            assert not legend.overlaps(ax.get_tightbbox())

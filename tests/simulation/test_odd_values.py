@@ -16,8 +16,8 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError, GudgeonError, InputError
-from gudgeon.results.plots import Plot
 from gudgeon.results.results import Result
+from gudgeon.results.run_plots import Plot
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import axes, bench, box, stress
 from gudgeon.studies.runs import Error

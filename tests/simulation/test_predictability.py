@@ -14,9 +14,10 @@ import pytest
 
 import gudgeon
 from gudgeon.results.diagnostics import Diagnostics
-from gudgeon.results.plots import Plot, figure
+from gudgeon.results.plots import figure
 from gudgeon.results.report import compare, tables
 from gudgeon.results.results import Result
+from gudgeon.results.run_plots import Plot
 from gudgeon.simulation.horizon import horizon
 
 compiled = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")

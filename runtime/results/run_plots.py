@@ -1,0 +1,134 @@
+"""Figures of one run: `run.plot()`, `run.plot.orbit("A")`; a notebook shows them where they end a cell.
+
+matplotlib is imported with this module, hence only when somebody draws, and never through pyplot unless the caller uses
+pyplot already: no display is needed and no figure is kept alive.
+"""
+
+from __future__ import annotations
+
+import io
+import sys
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.wanted import told
+from gudgeon.results import trace
+from gudgeon.results.plot_units import drawn, label
+from gudgeon.results.plots import (
+    COLOURS,
+    IDEAL,
+    STYLE,
+    caption_of,
+    cycle,
+    draw_orbit,
+    mark_horizon,
+    peak_of,
+    reach,
+)
+from gudgeon.results.series import drive_series
+
+import matplotlib  # isort: skip  (plots.py says where it is missing)
+from matplotlib.axes import Axes  # isort: skip
+from matplotlib.figure import Figure  # isort: skip
+
+if TYPE_CHECKING:
+    from gudgeon.results.results import Result
+
+
+class Plot:
+    """Figures of one run; every method returns its Axes, `axes.figure.savefig(...)` stores them.
+
+    `run.plot()` is a figure of what moves and what it takes, `run.plot("S9.y", "A.F")` of these series: a panel for
+    each unit. Notebooks show either.
+    """
+
+    def __init__(self, run: Result) -> None:
+        self.run = run
+
+    def __call__(self, *names: str) -> Figure:
+        """A panel for each unit, the panels wrapped; without names what a reader wants to see (report.py)."""
+        from gudgeon.results.report import default_watch
+
+        run, panels = self.run, dict[str, list[str]]()
+        joints = [joint.name for joint in run.source.clearances or run.source.joints]
+        forces = {f"{joint}.F": trace.force(run, joint) for joint in joints}  # with the extremes of all steps
+        for name in names or (*default_watch(run), *drive_series(run.source), *forces):
+            panels.setdefault(run.unit(name), []).append(name)
+        columns = 1 if len(panels) < 3 else 2
+        rows = -(-len(panels) // columns)
+        with matplotlib.rc_context(STYLE):
+            figure = _figure(6.5 * columns + 1.5, 2.6 * rows + 0.6)
+            for k, own in enumerate(panels.values()):
+                ax = figure.add_subplot(rows, columns, k + 1, axes_class=ShownAxes)
+                self._curves({name: forces.get(name, (run.t, run[name])) for name in own}, ax).set_title("")
+            figure.suptitle(caption_of(run), fontsize=10)
+        return figure
+
+    def series(self, *names: str, ax: Axes | None = None) -> Axes:
+        """Series of one unit over time."""
+        return self._curves({name: (self.run.t, self.run[name]) for name in names}, ax)
+
+    def _curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None) -> Axes:
+        """Times and values by the name of a series; all have one unit."""
+        run, names = self.run, list(curves)
+        if not names:
+            raise BadValueError("plot.series: expected the name of a series at least")
+        with matplotlib.rc_context(STYLE):
+            ax = ax or _axes(8.0, 3.6)
+            factor, text = drawn(max(peak_of(values) for _, values in curves.values()), run.unit(names[0]))
+            for (name, (t, values)), colour in zip(curves.items(), cycle(len(names)), strict=True):
+                ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
+            ax.set(xlabel="t [s]", ylabel=label(names[0] if len(names) == 1 else "", text), title=caption_of(run))
+            mark_horizon(ax, run, IDEAL)
+            if len(names) > 1:
+                ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))  # outside: it hides no curve
+        return ax
+
+    def forces(self, ax: Axes | None = None) -> Axes:
+        """Magnitudes of the forces at the joints with play, with the extremes of all steps; in an ideal scene at all
+        joints."""
+        joints = self.run.source.clearances or self.run.source.joints
+        return self._curves({f"{joint.name}.F": trace.force(self.run, joint.name) for joint in joints}, ax)
+
+    def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
+        """Path of the journal's centre in its clearance circle, in units of the clearance."""
+        joints = [each.name for each in self.run.source.clearances]
+        if joint not in joints:
+            hint = f"its joints with play: {', '.join(joints) or 'none'}"
+            raise UnknownNameError(f"no orbit of {told(joint)}: expected a joint with play", hint=hint)
+        with matplotlib.rc_context(STYLE):
+            ax = ax or _axes(4.2, 4.4)
+            draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))
+        return ax
+
+
+class ShownFigure(Figure):
+    """What a notebook shows where it is the last value of a cell."""
+
+    def _repr_png_(self) -> bytes | None:
+        if self.canvas.manager is not None:  # pyplot shows its own
+            return None
+        drawn_as = io.BytesIO()
+        self.savefig(drawn_as, format="png", metadata={"Software": None})
+        return drawn_as.getvalue()
+
+
+class ShownAxes(Axes):
+    """The same of axes: their figure."""
+
+    def _repr_png_(self) -> bytes | None:
+        shown = getattr(self.figure, "_repr_png_", None)
+        return shown() if shown is not None else None
+
+
+def _figure(width: float, height: float) -> Figure:
+    """A new figure: pyplot's, if the caller has imported it, so that plt.show() shows it."""
+    if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None:
+        made: Figure = pyplot.figure(figsize=(width, height), layout="constrained", FigureClass=ShownFigure)
+        return made
+    return ShownFigure(figsize=(width, height), layout="constrained")
+
+
+def _axes(width: float, height: float) -> Axes:
+    return _figure(width, height).add_subplot(axes_class=ShownAxes)
