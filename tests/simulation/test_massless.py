@@ -34,7 +34,7 @@ def stripped(name: str, tmp_path: Path, keys: str = "mass|inertia", body: str = 
 @pytest.mark.parametrize("name", KINEMATIC)
 def test_the_motion_is_the_same_to_the_bit(name: str, tmp_path: Path) -> None:
     """But for the start's rates, which the metric of M rounds another way."""
-    asked = {"t_end": 0.1, "output": 200}
+    asked: dict[str, Any] = {"t_end": 0.1, "output": 200}
     with_masses = gudgeon.load(ROOT / name).simulate(**asked)
     without = gudgeon.load(stripped(name, tmp_path)).simulate(**asked)
     assert without.source.massless and without.diagnostics.method == "kinematic"
