@@ -15,6 +15,7 @@ from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_grou
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
 from gudgeon.generator.reader.contacts import read_bearings, read_contacts, read_materials
+from gudgeon.generator.reader.curves import read_curves
 from gudgeon.generator.reader.drives import read_drives
 from gudgeon.generator.reader.fields import read_number, text_of
 from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
@@ -53,6 +54,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     """Section by section; what is wrong is collected in the reader."""
     namespace = Namespace()
     title = _read_title(reader, root)
+    curves = read_curves(reader, root)
     parameters = read_parameters(reader, root.part("parameters"))
     gravity = read_gravity(reader, root)
     bodies, ground = read_bodies(reader, root, namespace), read_ground(reader, root)
@@ -89,6 +91,8 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
         sha256=sha256,
         forces=forces,
         freedoms=freedoms,
+        curves=curves,
+        tables=reader.tables,
     )
 
 

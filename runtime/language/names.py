@@ -49,7 +49,7 @@ def check_name(name: str, what: str, where: Location | None) -> None:
     """Raise BadNameError unless `name` can name a thing: a free identifier of at most 64 characters."""
     check_label(name, what, where)
     reason = RESERVED.get(name)
-    if name in FUNCTIONS and what in ("parameter", "output"):  # the others stand in expressions with a dot only
+    if name in FUNCTIONS and what in ("parameter", "output", "curve"):  # the others stand there with a dot only
         reason = "it is a function of expressions"
     if name.startswith("gudgeon") or "__" in name:
         reason = "names that begin with 'gudgeon' or hold '__' are kept for emitted code"

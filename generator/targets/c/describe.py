@@ -78,7 +78,7 @@ def describe(
         tree=tree, closures=closures, motion_pivots=motion_pivots, formulation=formulation,
         chain=chain.names if chain else (), chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
-        lines=_lines(mechanism),
+        lines=_lines(mechanism), tables=tuple(mechanism.tables.items()),
         written=tuple(_written(model)), states=_states(model), story=story, lanes=lanes,
     )  # fmt: skip
 

@@ -11,6 +11,7 @@ from sympy.printing.c import C99CodePrinter
 
 from gudgeon.generator.ir.readable import Readable, share_of_pi
 from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
+from gudgeon.generator.symbols.curves import CurveOf, c_name
 
 _PLAIN = Readable(())
 
@@ -144,6 +145,10 @@ class CPrinter(C99CodePrinter):
             return self.of.branches[expr]
         side, a, b = (self._print(argument) for argument in expr.args)
         return f"({side} < 0.0 ? {b} : {a})"
+
+    def _print_CurveOf(self, expr: CurveOf) -> str:
+        """From curves.py."""
+        return f"curve({c_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"
 
     def _print_Slope(self, expr: sp.Expr) -> str:
         """From finite_slopes.py."""
