@@ -17,7 +17,7 @@ from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields
 from gudgeon.generator.reader.tables import Row, read_table
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
-from gudgeon.language.curves import LEAST, PERIODIC, STOP, Curve, spline
+from gudgeon.language.curves import LEAST, PERIODIC, STOP, Curve, in_pairs, spline
 from gudgeon.language.names import check_name
 from gudgeon.language.units import DIMENSIONLESS, Unit, parse_unit, si_unit
 
@@ -70,12 +70,13 @@ def _curve(reader: Reader, name: Text, node: Map) -> Curve:
     x, y = _numbers(rows, 0, over), _numbers(rows, 1, of)
     _check(owner, ends, rows, x, y, name.where)
     coefficients = spline(x, y, ends)
+    knots, coefficients = in_pairs(x, coefficients) if ends == PERIODIC else (x, coefficients)
     if not all(math.isfinite(c) for piece in coefficients for c in piece):
         hint = "expected points whose slopes are numbers: are two of them too close?"
         raise BadValueError(f"{owner} has a slope that is no number", name.where, hint)
     return Curve(
-        str(name), x, coefficients, ends, extrapolate, over.dimension if over else None, of.dimension if of else None,
-        _si_of(of), str(node["table"]) if "table" in node else "",
+        str(name), knots, coefficients, ends, extrapolate, over.dimension if over else None, of.dimension if of else None,
+        _si_of(of), str(node["table"]) if "table" in node else "", len(x),
     )  # fmt: skip
 
 

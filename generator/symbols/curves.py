@@ -32,6 +32,27 @@ class CurveOf(sp.Function):
         return sp.Integer(0) if rate == 0 or order == _LAST else CurveOf(name, order + 1, x) * rate
 
 
+class CurveOn(sp.Function):
+    """CurveOn(name, k, x, side): the same in pieces of one side, each as its polynomial goes on beyond its knots."""
+
+    nargs = 4
+    is_real = True
+    name, order = CurveOf.name, CurveOf.order
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        name, order, x, side = self.args
+        rate = sp.diff(x, s)
+        return sp.Integer(0) if rate == 0 or order == _LAST else CurveOn(name, order + 1, x, side) * rate
+
+
+class KnotsOf(sp.Function):
+    """KnotsOf(name, x): above zero in the first piece of a curve, below it in the second, and so on; 0 at knots."""
+
+    nargs = 2
+    is_real = True
+    name = CurveOf.name
+
+
 def curve_of(curve: Curve, x: sp.Expr) -> sp.Expr:
     """A curve at x; where it goes on beyond its range, by min and max, whose corners end steps."""
     name, zero, one = Str(curve.name), sp.Integer(0), sp.Integer(1)

@@ -33,6 +33,7 @@ class Curve:
     value: Dimension | None = None
     unit: str | None = None  # SI, of the value: an angle's is rad
     source: str = ""  # the file that the points came from
+    points: int = 0  # how many there were: a piece may have been halved (`in_pairs`)
 
     @property
     def repeats(self) -> bool:
@@ -49,7 +50,7 @@ class Curve:
         ends = f"{self.ends.replace('_', '-')} ends"
         after = "repeated" if self.repeats else {STOP: "none", HOLD: "held", LINE: "straight on"}[self.extrapolate]
         return (
-            f"cubic spline through {len(self.x)} points{f' of {self.source}' * bool(self.source)}, {ends}, "
+            f"cubic spline through {self.points} points{f' of {self.source}' * bool(self.source)}, {ends}, "
             f"{self.range_text}, outside {after}"
         )
 
@@ -100,6 +101,21 @@ class Curve:
         """The curve that `to_data` wrote."""
         name, x, coefficients, ends, extrapolate, unit = data
         return Curve(name, tuple(x), tuple(tuple(c) for c in coefficients), ends, extrapolate, unit=unit)
+
+
+def in_pairs(
+    x: Sequence[float], pieces: Sequence[tuple[float, float, float, float]]
+) -> tuple[tuple[float, ...], tuple[tuple[float, float, float, float], ...]]:
+    """Knots and pieces, of which there are an even number: the last one is halved for it.
+
+    Neighbours are told apart by odd and even, also where the last one is before the first.
+    """
+    if len(pieces) % 2 == 0:
+        return tuple(x), tuple(pieces)
+    half = 0.5 * (x[-1] - x[-2])
+    c = np.array(pieces[-1])
+    second = (*(float(_horner(c, half, order)) for order in (0, 1)), float(_horner(c, half, 2)) / 2.0, pieces[-1][3])
+    return (*x[:-1], x[-2] + half, x[-1]), (*pieces, second)
 
 
 def _horner(c: Any, h: Any, order: int) -> Any:

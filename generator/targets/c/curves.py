@@ -13,7 +13,7 @@ NAME = "curves.c"
 
 def curves_code(curves: Mapping[str, Curve], texts: Iterable[str]) -> str:
     """The file; "" where nothing calls a curve."""
-    called = [curve for curve in curves.values() if any(f"curve({c_name(curve.name)}," in text for text in texts)]
+    called = [curve for curve in curves.values() if any(f"({c_name(curve.name)}," in text for text in texts)]
     if not called:
         return ""
     parts = ['#include "engine/scene/curves.h"\n', *map(_table, called)]

@@ -19,12 +19,20 @@ _CURVE = f'''def curve(of, order, x):
     h, (c0, c1, c2, c3) = x - knots[k], np.moveaxis(c[k], -1, 0)
     value = (c0 + h * (c1 + h * (c2 + h * c3)), c1 + h * (2.0 * c2 + h * (3.0 * c3)),
              2.0 * c2 + h * (6.0 * c3), 6.0 * c3)[order]
-    return np.where(inside, value, np.nan)[()]'''
+    return np.where(inside, value, np.nan)[()]
+
+
+def knots(of, x):
+    """By its sign, whether x is in a piece with an even number or an odd one; 0 at knots."""
+    of, _, repeats = of
+    x = x - (of[-1] - of[0]) * np.floor((x - of[0]) / (of[-1] - of[0])) if repeats else x
+    k = np.clip(np.searchsorted(of, x, side="right") - 1, 0, len(of) - 2)
+    return np.where(k % 2, -1.0, 1.0) * np.where(x == of[k], 0.0, 1.0)'''
 
 
 def with_curves(curves: Mapping[str, Curve], text: str, before: str = "") -> str:
     """What the functions of a text read of curves, without what stands before it; "" where they call none."""
-    called = [curve for curve in curves.values() if f"curve({c_name(curve.name)}," in text]
+    called = [curve for curve in curves.values() if f"({c_name(curve.name)}," in text]
     parts = [_CURVE, *map(_table, called)] if called else []
     return "".join(f"{part}\n\n\n" for part in parts if part not in before)
 
