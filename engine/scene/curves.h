@@ -1,6 +1,6 @@
 /*
- * Curves through points: cubic splines, whose tables the scene's curves.c holds. Outside its range a curve is no number;
- * so far beyond as arguments may be by rounding, its last piece goes on.
+ * Curves through points: cubic splines, whose tables the scene's curves.c holds. Outside its range a curve is no
+ * number; so far beyond as arguments may be by rounding, its last piece goes on.
  */
 #ifndef GUDGEON_CURVES_H
 #define GUDGEON_CURVES_H
@@ -88,11 +88,11 @@ static inline double knots_at(const Curve *f, double x)
 #define knots(which, x) knots_at(&curves[which], x)
 
 #ifdef GUDGEON_LANES_H
-static inline Lanes lanes_curve_at(const Curve *f, int order, Lanes x)
+static inline Lanes lanes_curve_at(const Curve *f, int order, Lanes x, Lanes side)
 {
     Lanes y = {0.0};
     for (int k = 0; k < LANES; k++)
-        y[k] = curve_at(f, order, x[k], 0.0);
+        y[k] = curve_at(f, order, x[k], side[k]);
     return y;
 }
 
@@ -105,7 +105,8 @@ static inline Lanes lanes_knots_at(const Curve *f, Lanes x)
 }
 
 #define lanes_knots(which, x) lanes_knots_at(&curves[which], x)
-#define lanes_curve(which, order, x) lanes_curve_at(&curves[which], order, x)
+#define lanes_curve(which, order, x) lanes_curve_at(&curves[which], order, x, all_of(0.0))
+#define lanes_curve_on(which, order, x, side) lanes_curve_at(&curves[which], order, x, side)
 #endif
 
 #ifdef GUDGEON_RANGES_H

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
+from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadNameError, BadValueError, LimitError, Location, MissingKeyError, UnitError
 from gudgeon.files.beside import read_beside
 from gudgeon.generator.field import WORD
@@ -75,8 +76,8 @@ def _curve(reader: Reader, name: Text, node: Map) -> Curve:
         hint = "expected points whose slopes are numbers: are two of them too close?"
         raise BadValueError(f"{owner} has a slope that is no number", name.where, hint)
     return Curve(
-        str(name), knots, coefficients, ends, extrapolate, over.dimension if over else None, of.dimension if of else None,
-        _si_of(of), str(node["table"]) if "table" in node else "", len(x),
+        str(name), knots, coefficients, ends, extrapolate, over.dimension if over else None,
+        of.dimension if of else None, _si_of(of), str(node["table"]) if "table" in node else "", len(x),
     )  # fmt: skip
 
 
@@ -102,7 +103,7 @@ def _points(items: Items, owner: str) -> list[Row]:
 
 def _table(reader: Reader, name: Text) -> list[Row]:
     """The rows of a table; what was read of it is noted."""
-    data = read_beside(reader.file, str(name), name.where)
+    data = read_beside(reader.file, str(name), MAX_BYTES, name.where)
     reader.tables[str(name)] = hashlib.sha256(data).hexdigest()
     return read_table(data, str(Path(reader.file).parent / name), lambda text: _fraction(text) is not None)
 

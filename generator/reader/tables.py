@@ -52,7 +52,7 @@ def _decoded(data: bytes, file: str) -> str:
 
 
 def _row(line: str, mark: str, file: str, number: int) -> Row:
-    """Both cells of a line, quoted or not."""
+    """Both cells of a line."""
     cells = line.split(mark)
     if len(cells) != 2:
         columns = f"{len(cells)} column{'s' * (len(cells) != 1)}"

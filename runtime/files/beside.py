@@ -6,15 +6,14 @@ import os
 import stat
 from pathlib import Path
 
-from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadValueError, InputError, LimitError, Location
 from gudgeon.files.writing import kind
 
 _PARTS = 8  # of a path, at most
 
 
-def read_beside(file: str | os.PathLike[str], name: str, where: Location | None = None) -> bytes:
-    """The bytes of `name`, a path relative to the folder of `file`. InputError at `where` if it may not be read.
+def read_beside(file: str | os.PathLike[str], name: str, most: int, where: Location | None = None) -> bytes:
+    """At most so many bytes of `name`, a path relative to the folder of `file`. InputError if it may not be read.
 
     No folder on the way and not the file itself may be a link, so that nothing outside is ever read.
     """
@@ -23,7 +22,7 @@ def read_beside(file: str | os.PathLike[str], name: str, where: Location | None 
         hint = "expected the name of a file in the mechanism's folder or below: lift.csv, data/lift.csv"
         raise BadValueError(f"{name[:60]!r} is no path to a table", where, hint)
     try:
-        data, found = _read(Path(file).parent, parts)
+        data, found = _read(Path(file).parent, parts, most)
     except OSError as error:
         linked = _is_link(Path(file).parent, parts)
         why = "a link is not followed" if linked else error.strerror or error
@@ -31,8 +30,8 @@ def read_beside(file: str | os.PathLike[str], name: str, where: Location | None 
         raise InputError(f"cannot read the table {name}: {why}", where, hint) from error
     if not stat.S_ISREG(found.st_mode):
         raise InputError(f"cannot read the table {name}: it is {kind(found)}, not a file", where, "name a CSV file")
-    if (size := max(found.st_size, len(data))) > MAX_BYTES:
-        raise LimitError(f"a table of {size} bytes", where, f"expected at most {MAX_BYTES}")
+    if (size := max(found.st_size, len(data))) > most:
+        raise LimitError(f"a table of {size} bytes", where, f"expected at most {most}")
     return data
 
 
@@ -40,7 +39,7 @@ def _odd(part: str) -> bool:
     return "\\" in part or not part.isprintable()
 
 
-def _read(folder: Path, parts: list[str]) -> tuple[bytes, os.stat_result]:
+def _read(folder: Path, parts: list[str], most: int) -> tuple[bytes, os.stat_result]:
     """Bytes and what they are of; folder by folder, so that nobody can put a link in between."""
     here = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     try:
@@ -56,8 +55,8 @@ def _read(folder: Path, parts: list[str]) -> tuple[bytes, os.stat_result]:
         os.close(here)
     with open(handle, "rb") as opened:
         found = os.fstat(handle)
-        regular = stat.S_ISREG(found.st_mode) and found.st_size <= MAX_BYTES
-        return opened.read(MAX_BYTES + 1) if regular else b"", found
+        regular = stat.S_ISREG(found.st_mode) and found.st_size <= most
+        return opened.read(most + 1) if regular else b"", found
 
 
 def _is_link(folder: Path, parts: list[str]) -> bool:

@@ -114,7 +114,8 @@ def in_pairs(
         return tuple(x), tuple(pieces)
     half = 0.5 * (x[-1] - x[-2])
     c = np.array(pieces[-1])
-    second = (*(float(_horner(c, half, order)) for order in (0, 1)), float(_horner(c, half, 2)) / 2.0, pieces[-1][3])
+    value, slope, bend = (float(_horner(c, half, order)) for order in range(3))
+    second = (value, slope, bend / 2.0, pieces[-1][3])
     return (*x[:-1], x[-2] + half, x[-1]), (*pieces, second)
 
 

@@ -137,7 +137,7 @@ def kernel_source(
 
 def tables_now(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
     """The tables that a source was made with, and the sha256 of what they hold now. InputError if one is gone."""
-    return tuple((name, sha256(read_beside(file, name)).hexdigest()) for name, _ in source.tables)
+    return tuple((name, sha256(read_beside(file, name, MAX_BYTES)).hexdigest()) for name, _ in source.tables)
 
 
 def derived(

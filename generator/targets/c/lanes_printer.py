@@ -88,8 +88,8 @@ class LanesPrinter(printer.CPrinter):
         return f"lanes_curve({c_name(expr.name)}, {expr.order}, {self._vector(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
-        """rk4 holds no side."""
-        return self._print_CurveOf(CurveOf(*expr.args[:3]))
+        x, side = map(self._vector, expr.args[2:])
+        return f"lanes_curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         return f"lanes_knots({c_name(expr.name)}, {self._vector(expr.args[1])})"
