@@ -215,3 +215,12 @@ def test_c_has_no_warnings(text: str, tmp_path: Path) -> None:
         done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr[:2000]
     assert "- `curves.c`: the file's curves" in source.files["README.md"]
+
+
+def test_an_extent_of_nothing_is_no_number_of_c(tmp_path: Path) -> None:
+    """A follower and its guide at one point: a slide had no length that its steps are measured by."""
+    free = "\n  slug: {mass: 1 kg, inertia: 1 kg*m^2}"
+    text = CAM.replace("bodies: {", "bodies:\n  ").replace("1e-3 kg*m^2}}", f"1e-3 kg*m^2}}{free}")
+    text = text.replace("coordinate: follower.y", "distance: [ground.O, follower.origin]")
+    run = loader(tmp_path)(text + "start: {guess: {follower.y: 20 mm}}\n").simulate(0.5, output=50)
+    np.testing.assert_allclose(run["follower.y"], 0.02 + lift()(10.0 * run.t), atol=1e-12)
