@@ -134,9 +134,7 @@ def _numbers(rows: Sequence[Row], column: int, unit: Unit | None) -> tuple[float
     return tuple(found)
 
 
-def _check(
-    owner: str, ends: str, rows: Sequence[Row], x: Sequence[float], y: Sequence[float], where: Location
-) -> None:
+def _check(owner: str, ends: str, rows: Sequence[Row], x: Sequence[float], y: Sequence[float], where: Location) -> None:
     """Enough points, one behind the other; raises BadValueError at the first that is not."""
     if len(x) < LEAST[ends]:
         hint = f"expected at least {LEAST[ends]} for ends: {ends}"
