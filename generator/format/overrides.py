@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, Location
-from gudgeon.generator.field import MAPPING, SCALARS, VECTOR, Field
+from gudgeon.generator.field import MAPPING, POINTS, SCALARS, VECTOR, Field
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.format.shapes import OVERRIDE
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
@@ -74,6 +74,9 @@ def _put(node: Any, parts: list[str], text: Text, address: _Address, field: Fiel
             raise BadValueError(f"{address.text} is {kind_of(node)}", None, _inside(address.text, node))
         return text
     head, rest = parts[0], parts[1:]
+    if field is not None and field.kind == POINTS:
+        message = f"{address.text} is a number of a curve, which is a part of the compiled scene"
+        raise BadValueError(message, None, "scale the curve by a parameter, or write another one into the file")
     if isinstance(node, Items):
         if head not in _AXES or _AXES[head] >= len(node):
             raise address.unknown()

@@ -14,6 +14,7 @@ from gudgeon.generator.field import (
     OF_MOTION,
     OF_RESULTS,
     PLACE,
+    POINTS,
     TEXT,
     WORD,
     Bound,
@@ -31,6 +32,7 @@ from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws.law import Law, called
+from gudgeon.language.curves import ENDS, EXTRAPOLATE, NATURAL, STOP
 from gudgeon.language.units import (
     ACCELERATION,
     DENSITY,
@@ -185,6 +187,16 @@ EVENT = record(
     word("action", "whether the run goes on", ("record", "stop"), "record"),
 )  # fmt: skip
 
+CURVE = record(
+    "curve", "a cubic spline through points, which expressions call as NAME(argument)",
+    Field("points", POINTS, "points, x rising; this or a table", otherwise="the table's"),
+    Field("table", TEXT, "CSV file with two columns, in the mechanism's folder or below", otherwise="the points"),
+    Field("x", TEXT, "unit of x: mm, deg, s", otherwise="SI, of any dimension"),
+    Field("y", TEXT, "unit of y", otherwise="SI, of any dimension"),
+    word("ends", "what holds at both ends; periodic repeats, the last y is the first", ENDS, NATURAL),
+    word("extrapolate", "what holds outside the points: an error, the last value, or the tangent", EXTRAPOLATE, STOP),
+)  # fmt: skip
+
 SIMULATE = record(
     "simulate", "how this scene is run unless the run is told otherwise",
     number(
@@ -235,6 +247,7 @@ FILE = record(
     Field("title", TEXT, "one line for people", otherwise="the name"),
     vector("gravity", "acceleration, in ground axes", ACCELERATION, otherwise="none"),
     mapping("parameters", "numbers by name, for every expression", number("value", "the number", None)),
+    mapping("curves", "curves by name", CURVE),
     mapping("materials", "materials by name", MATERIAL),
     mapping("bodies", "bodies by name: one at least", BODY, required=True),
     mapping("ground", "points of the ground by name, in ground axes", POINT_OF_GROUND),

@@ -12,7 +12,7 @@ from itertools import islice
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, InputErrors, Location, MissingKeyError, UnknownKeyError
-from gudgeon.generator.field import CORNERS, KINDS, LAW, MAPPING, PLACE, RECORD, SCALARS, VECTOR, Field
+from gudgeon.generator.field import CORNERS, KINDS, LAW, MAPPING, PLACE, POINTS, RECORD, SCALARS, VECTOR, Field
 from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.suggestions import known_hint, nearest, unknown_name
@@ -89,6 +89,8 @@ def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
             yield _Finding(path, "a number or a text")
     elif field.kind == VECTOR or field.kind == PLACE and isinstance(node, Items):
         yield from _in_vector(node, path)
+    elif field.kind == POINTS:
+        yield from _in_points(node, path)
     elif field.kind == PLACE:
         if not isinstance(node, Text):
             yield _Finding(path, "a number, or of a point [x, y]")
@@ -119,6 +121,14 @@ def _in_vector(node: Any, path: Path) -> Iterator[_Finding]:
         yield _Finding(path, _TWO)
     else:
         yield from (_Finding((*path, i), "a number or a text") for i in (0, 1) if not isinstance(node[i], Text))
+
+
+def _in_points(node: Any, path: Path) -> Iterator[_Finding]:
+    if not isinstance(node, Items):
+        yield _Finding(path, "a list of points: [[x, y], …]")
+    else:
+        for i, pair in enumerate(node):
+            yield from _in_vector(pair, (*path, i))
 
 
 def _without(document: Map, finding: _Finding, left_out: set[str]) -> Map:

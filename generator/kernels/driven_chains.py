@@ -99,7 +99,8 @@ class ChainKernels:
 
     def shares(self) -> list[str]:
         """What a step of each coordinate is multiplied by to be a number: an angle is one, a slide goes by the size."""
-        return ["1.0" if "." not in name else f"1.0 / (p->{self.size} + DBL_MIN)" for name in self.chain.names]
+        size = f"1.0 / (p->{self.size} + DBL_MIN)" if self.size.is_Symbol else "1.0"  # without one all points are one
+        return ["1.0" if "." not in name else size for name in self.chain.names]
 
     def _step(self) -> Kernel:
         """A step towards the closures at a position."""

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from gudgeon.errors import Location
+from gudgeon.language.curves import Curve
 from gudgeon.language.tree import Expr, Number
 from gudgeon.language.units import Dimension
 
@@ -231,6 +232,8 @@ class Mechanism:
     sha256: str  # of the file's bytes
     forces: Mapping[str, ForceElement] = field(default_factory=dict)
     freedoms: Quantity | None = None  # what the file says of the closed linkage
+    curves: Mapping[str, Curve] = field(default_factory=dict)
+    tables: Mapping[str, str] = field(default_factory=dict)  # files beside this one -> sha256 of what was read
 
 
 def is_massless(mechanism: Mechanism) -> bool:

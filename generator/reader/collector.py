@@ -11,9 +11,10 @@ from gudgeon.errors import BadValueError, ExpressionError, InputError, InputErro
 from gudgeon.generator.format.shapes import ANY_NAME, check_shape
 from gudgeon.generator.mechanism.mechanism import Condition, Quantity, Vector
 from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.language.curves import Curve
 from gudgeon.language.parser import at, check_dimension, parse
 from gudgeon.language.suggestions import unknown_name
-from gudgeon.language.tree import Expr, Name, Number, Unary, names
+from gudgeon.language.tree import CurveCall, Expr, Name, Number, Unary, curve_calls, evaluate, names
 from gudgeon.language.units import DIMENSIONLESS, TIME, Dimension
 
 ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
@@ -36,6 +37,8 @@ class Reader:
         self.conditions: list[Condition] = []
         self.vectors_not_zero: list[Vector] = []
         self.wholes: dict[str, str] = {}  # address -> what is counted
+        self.curves: dict[str, Curve] = {}
+        self.tables: dict[str, str] = {}  # files that curves were read from -> sha256
         self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
         self.uses: dict[str, set[Dimension]] = {}  # of those: what they were used as
         self.left_out: frozenset[str] = frozenset()  # names of entries whose shape is wrong
@@ -110,12 +113,14 @@ class Reader:
             raise ExpressionError(
                 f"{address} stands on several lines", text.where, "expected an expression on one line"
             )
-        return parse(text, text.where, self.parameters)
+        return parse(text, text.where, self.parameters, self.curves)
 
     def check_names(
         self, expr: Expr, where: Location, time: bool = False, result: ResultDimension | None = None
     ) -> Mapping[str, Dimension | None]:
         """The dimension of every name in `expr`. Raises ExpressionError or UnknownNameError at the name."""
+        for call in curve_calls(expr):
+            check_curve(call, at(where, call.offset), time)
         found: dict[str, Dimension | None] = {}
         for name in names(expr):
             place = at(where, name.offset)
@@ -156,6 +161,17 @@ def _told(error: InputError) -> tuple[str, str, str]:
     """What makes two errors the same: what a contact or scene inherits is wrong once, where it is written."""
     message = re.sub(r"\b(contacts\.|scenes\.|in scene )\w+", "", error.message)
     return str(error.where), type(error).__name__, message
+
+
+def check_curve(call: CurveCall, place: Location, varies: bool) -> None:
+    """Raise where a curve may not stand, or is called outside its range by a number that is written there."""
+    (argument,), curve = call.arguments, call.curve
+    if not varies:
+        hint = "expected parameters; a curve can stand in drives, forces, events and outputs only"
+        raise ExpressionError(f"{call.function!r} is a curve, and this number is constant", place, hint)
+    if not any(True for _ in names(argument)) and not curve.within(x := float(evaluate(argument, lambda _: 0.0))):
+        hint = "expected an argument in it, or the key extrapolate: hold, or line"
+        raise BadValueError(f"curve {call.function} at {x:.6g} is outside its range, {curve.range_text}", place, hint)
 
 
 def broken(text: str) -> Number:

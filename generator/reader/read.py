@@ -15,6 +15,7 @@ from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_grou
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
 from gudgeon.generator.reader.contacts import read_bearings, read_contacts, read_materials
+from gudgeon.generator.reader.curves import read_curves
 from gudgeon.generator.reader.drives import read_drives
 from gudgeon.generator.reader.fields import read_number, text_of
 from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
@@ -52,7 +53,7 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
 def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     """Section by section; what is wrong is collected in the reader."""
     namespace = Namespace()
-    title = _read_title(reader, root)
+    title, curves = _read_title(reader, root), read_curves(reader, root)
     parameters = read_parameters(reader, root.part("parameters"))
     gravity = read_gravity(reader, root)
     bodies, ground = read_bodies(reader, root, namespace), read_ground(reader, root)
@@ -68,7 +69,6 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion))
     named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}
     unread = named - {*joints, *drives, *forces} | namespace.twice
-    freedoms = _read_freedoms(reader, root)
     known = ResultNames(places, joints, drives, forces, parameters, unread)
     outputs = _read_outputs(reader, root, namespace, known)
     check_values(reader, parameters, scenes)
@@ -88,7 +88,9 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
         file=reader.file,
         sha256=sha256,
         forces=forces,
-        freedoms=freedoms,
+        freedoms=_read_freedoms(reader, root),
+        curves=curves,
+        tables=reader.tables,
     )
 
 

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
+from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf
+
 
 class SideOf(sp.Function):
     """SideOf(k, g): the side of switch k, −1 or 1 (0 only where g is 0 and nothing is held)."""
@@ -171,7 +173,7 @@ class Switches:
 
         only_known: other corners stay what they are, in a function beside the one that tells them all.
         """
-        if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside):
+        if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside, CurveOf):
             return expression
         arguments = [self.hold(a, owner, sides, only_known) for a in expression.args]
 
@@ -184,6 +186,10 @@ class Switches:
             return sign * symbol
 
         match expression:
+            case CurveOf() if arguments[2].free_symbols:
+                knots = KnotsOf(arguments[0], arguments[2])
+                known = not only_known or self.known(owner, knots) is not None
+                return CurveOn(*arguments, side(knots)) if known else CurveOf(*arguments)
             case sp.Abs():
                 return side(arguments[0]) * arguments[0]
             case sp.sign():

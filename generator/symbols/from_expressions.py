@@ -10,9 +10,10 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.symbols.curves import curve_of
 from gudgeon.generator.symbols.squares import DEGREE, decimal, root
 from gudgeon.generator.symbols.wholes import kept
-from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary
+from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary
 
 
 def smooth_step(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
@@ -80,6 +81,8 @@ class _Reading:
                 return kept(lambda a: self._root(a, _HALF, of), self.value(of))
             case Call(function="hypot", arguments=sides):
                 return kept(lambda a, b: self._root(_square(a) + _square(b), _HALF, *sides), *map(self.value, sides))
+            case CurveCall(arguments=(argument,), curve=curve):
+                return kept(lambda x: curve_of(curve, x), self.value(argument))
             case Call(function=function, arguments=arguments):
                 return kept(_FUNCTIONS[function], *map(self.value, arguments))
             case Binary(operator="**", left=left, right=right):

@@ -14,6 +14,7 @@ from gudgeon.generator.field import (
     NAME,
     NUMBER,
     PLACE,
+    POINTS,
     RECORD,
     VECTOR,
     WORD,
@@ -81,6 +82,8 @@ def _holds(field: Field) -> str:
         return f"[x, y], {_unit(field.dimension)}" + (f"; of {field.varies}" if field.varies else "")
     if field.kind in (WORD, FLAG):
         return " or ".join(f"`{_word(value)}`" for value in field.values)
+    if field.kind == POINTS:
+        return "[[x, y], …], numbers"
     if field.kind == NAME:
         return f"name in `{field.names}`" if field.names else "name"
     if field.kind == MAPPING:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import MISSING, asdict, dataclass, fields
+from hashlib import sha256
 from typing import Any
 
 from gudgeon.contract.ledger import Story
@@ -183,6 +184,13 @@ class KernelSource:
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
+    tables: tuple[tuple[str, str], ...] = ()  # files beside the YAML that curves were read from, and their sha256
+
+    @property
+    def whole_sha256(self) -> str:
+        """SHA-256 of all that the file says: its own, and with tables one over theirs too."""
+        parts = [self.sha256, *(f"{name} {digest}" for name, digest in self.tables)]
+        return sha256("\n".join(parts).encode()).hexdigest() if self.tables else self.sha256
 
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
 

@@ -14,7 +14,7 @@ from fractions import Fraction
 import numpy as np
 
 from gudgeon.errors import Location, UnitError
-from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary, evaluate, names
+from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary, evaluate, names
 from gudgeon.language.units import DIMENSIONLESS, Dimension, describe, unit
 
 _MOST = 24  # bound on exponents: nothing in mechanics needs more
@@ -90,6 +90,8 @@ class _Checker:
                 return self._dimension_of(path) or _ANY
             case Unary(operand=operand):
                 return self.of(operand)
+            case CurveCall():
+                return self._curve(expr)
             case Call():
                 return self._call(expr)
         if expr.operator in ("+", "-"):
@@ -133,6 +135,15 @@ class _Checker:
             message = f"{call.function} expected {describe(DIMENSIONLESS)}, got {describe(found)}"
             raise UnitError(message, self._place(argument))
         return DIMENSIONLESS if isinstance(found, Dimension) else _BARE  # `0.1 * sin(2*pi*t)` may still be a length
+
+    def _curve(self, call: CurveCall) -> _Found:
+        """Its value's dimension, if its argument has the one that the curve is over."""
+        (argument,), over = call.arguments, call.curve.argument
+        found = self.of(argument)
+        if isinstance(found, Dimension) and over is not None and found != over:
+            message = f"curve {call.function} is over {describe(over)}, got {describe(found)}"
+            raise UnitError(message, self._place(argument))
+        return _ANY if call.curve.value is None else call.curve.value
 
     def _product(self, expr: Binary) -> _Found:
         left, right = self.of(expr.left), self.of(expr.right)

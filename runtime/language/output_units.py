@@ -10,7 +10,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import TypeAlias
 
-from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary
+from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary
 
 # exponents of m, kg, s, rad; None: a bare number, which fits any dimension
 Exponents: TypeAlias = tuple[Fraction, Fraction, Fraction, Fraction]
@@ -63,6 +63,8 @@ def _exponents(expression: Expr, unit: Callable[[str], str | None]) -> Exponents
         case Binary(operator="*" | "/" as operator, left=left, right=right):
             factor = _scaled(_exponents(right, unit) or _PLAIN, Fraction(1 if operator == "*" else -1))
             return _sum(_exponents(left, unit) or _PLAIN, factor or _PLAIN)
+        case CurveCall(curve=curve):
+            return None if curve.unit is None else parse(curve.unit)
         case Call(function="sqrt", arguments=(argument,)):
             return _scaled(_exponents(argument, unit), Fraction(1, 2))
         case Call(function="abs" | "min" | "max" | "hypot", arguments=(first, *rest)):

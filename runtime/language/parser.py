@@ -4,7 +4,8 @@
     product = signed {("*" | "/") signed}
     signed  = ("-" | "+") signed | power
     power   = atom ["**" signed]                       right-associative, binds tighter than a sign
-    atom    = number [[" "] unit] | "pi" [" " unit] | name | function "(" sum {"," sum} ")" | "(" sum ")"
+    atom    = number [[" "] unit] | "pi" [" " unit] | name | function "(" sum {"," sum} ")" | curve "(" sum ")"
+            | "(" sum ")"
 
 A unit follows a numeric literal after one space or none, `pi` after one (units.py). The tree holds SI numbers;
 `check_dimension` (dimension_check.py) says whether they fit together.
@@ -12,14 +13,15 @@ A unit follows a numeric literal after one space or none, `pi` after one (units.
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Mapping
 from typing import NoReturn
 
 from gudgeon.errors import ExpressionError, LimitError, Location
+from gudgeon.language.curves import Curve
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.suggestions import nearest
 from gudgeon.language.tokens import Token, Tokenizer, at
-from gudgeon.language.tree import FUNCTIONS, Binary, Call, Expr, Name, Unary
+from gudgeon.language.tree import FUNCTIONS, Binary, Call, CurveCall, Expr, Name, Unary
 from gudgeon.language.units import DIMENSIONLESS, unit
 
 __all__ = ["MAX_DEPTH", "MAX_LENGTH", "MAX_NODES", "MAX_WEIGHT", "at", "check_dimension", "parse"]
@@ -31,22 +33,25 @@ MAX_WEIGHT = 400  # nodes once functions are written out: nested smooth steps gr
 _COPIES = {"smooth_step": 3}  # of its arguments in the formula
 
 
-def parse(text: str, where: Location, parameters: Container[str] = ()) -> Expr:
-    """The tree of `text`, whose first character stands at `where`; `parameters` a unit must not be taken for.
+def parse(
+    text: str, where: Location, parameters: Container[str] = (), curves: Mapping[str, Curve] | None = None
+) -> Expr:
+    """The tree of `text`, whose first character stands at `where`.
 
+    `parameters`: what a unit must not be taken for; `curves` may be called by their names.
     Raises ExpressionError (syntax), UnitError (unknown unit) or LimitError (too long, deep or large),
     each at the exact column.
     """
     if len(text) > MAX_LENGTH:
         raise LimitError(f"an expression of {len(text)} characters", where, f"expected at most {MAX_LENGTH}")
-    return _Parser(text, where, parameters).whole()
+    return _Parser(text, where, parameters, curves or {}).whole()
 
 
 class _Parser:
     """Precedence climbing over the tokens; counts depth and nodes as it builds."""
 
-    def __init__(self, text: str, where: Location, parameters: Container[str]) -> None:
-        self.tokens, self.where = Tokenizer(text, where, parameters), where
+    def __init__(self, text: str, where: Location, parameters: Container[str], curves: Mapping[str, Curve]) -> None:
+        self.tokens, self.where, self.curves = Tokenizer(text, where, parameters), where, curves
         self.token = self.tokens.next()
         self.depths: dict[int, int] = {}  # id of a node -> levels below it
         self.weights: dict[int, int] = {}  # id of a node -> nodes below it, functions written out
@@ -152,25 +157,29 @@ class _Parser:
         self.advance()
 
     def name(self, token: Token, level: int) -> Expr:
-        called = self.token.text == "("
-        if token.text not in FUNCTIONS:
+        called, known = self.token.text == "(", (*self.curves, *FUNCTIONS)
+        if token.text not in known:
             if called:
-                guess = nearest(token.text, FUNCTIONS)
-                hint = (f"did you mean {guess!r}? " if guess else "") + f"expected one of: {', '.join(FUNCTIONS)}"
+                guess = nearest(token.text, known)
+                hint = (f"did you mean {guess!r}? " if guess else "") + f"expected one of: {', '.join(known)}"
                 self.fail(f"unknown function {token.text!r}", token.offset, hint)
             return self.make(Name(token.text, token.offset))
         if not called:
-            self.fail(f"{token.text!r} is a function", token.offset, f"expected {token.text}(…)")
+            what = "curve" if token.text in self.curves else "function"
+            self.fail(f"{token.text!r} is a {what}", token.offset, f"expected {token.text}(…)")
         opened = self.advance().offset
         arguments = [self.sum(level + 1)]
         while self.token.text == ",":
             self.advance()
             arguments.append(self.sum(level + 1))
         self.close(opened)
-        wanted = FUNCTIONS[token.text][0]
+        wanted = 1 if token.text in self.curves else FUNCTIONS[token.text][0]
         if len(arguments) != wanted:
             hint = "smooth_step(t, start, duration) goes from 0 to 1" if token.text in ("smooth_step", "ramp") else ""
             self.fail(
                 f"{token.text} takes {wanted} argument{'s' * (wanted > 1)}, got {len(arguments)}", token.offset, hint
             )
-        return self.make(Call(token.text, tuple(arguments), token.offset), *arguments)
+        call = Call(token.text, tuple(arguments), token.offset)
+        if token.text in self.curves:
+            call = CurveCall(call.function, call.arguments, call.offset, curve=self.curves[token.text])
+        return self.make(call, *arguments)

@@ -8,10 +8,12 @@ compiled model can compute its `outputs` without importing the generator.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
+
+from gudgeon.language.curves import STOP, Curve
 
 
 @dataclass(frozen=True)
@@ -54,6 +56,13 @@ class Call:
     offset: int = 0
 
 
+@dataclass(frozen=True)
+class CurveCall(Call):
+    """A curve of the file at its one argument; `function` is the curve's name."""
+
+    curve: Curve = field(kw_only=True)
+
+
 Expr: TypeAlias = Number | Name | Unary | Binary | Call
 
 
@@ -82,6 +91,8 @@ _OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.true_divide, "**": np.power,
 }  # fmt: skip
 
+_CURVE = "curve"  # heads one in a stored tree: no function has this name
+
 
 def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
     """Value of `expr`, scalars or arrays; `value_of(path)` gives the value of a name."""
@@ -95,6 +106,8 @@ def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
         case Binary(operator=operator, left=left, right=right):
             with np.errstate(all="ignore"):
                 return _OPERATORS[operator](evaluate(left, value_of), evaluate(right, value_of))
+        case CurveCall(arguments=(argument,), curve=curve):
+            return curve.at(evaluate(argument, value_of))
         case Call(function=function, arguments=arguments):
             with np.errstate(all="ignore"):
                 return FUNCTIONS[function][1](*(evaluate(a, value_of) for a in arguments))
@@ -116,13 +129,31 @@ def names(expr: Expr) -> Iterator[Name]:
                 yield from names(argument)
 
 
+def curve_calls(expr: Expr) -> Iterator[CurveCall]:
+    """Every curve that is called in `expr`."""
+    match expr:
+        case Unary(operand=operand):
+            yield from curve_calls(operand)
+        case Binary(left=left, right=right):
+            yield from curve_calls(left)
+            yield from curve_calls(right)
+        case Call(arguments=arguments):
+            if isinstance(expr, CurveCall):
+                yield expr
+            for argument in arguments:
+                yield from curve_calls(argument)
+
+
 def functions(expr: Expr) -> set[str]:
-    """Names of the functions that `expr` calls."""
+    """Names of the functions that `expr` calls; a curve that goes on beyond its range does so by min and max."""
     match expr:
         case Unary(operand=operand):
             return functions(operand)
         case Binary(left=left, right=right):
             return functions(left) | functions(right)
+        case CurveCall(arguments=arguments, curve=curve):
+            own = {"min", "max"} if curve.extrapolate != STOP else set()
+            return own.union(*map(functions, arguments))
         case Call(function=function, arguments=arguments):
             return {function}.union(*map(functions, arguments))
     return set()
@@ -139,6 +170,8 @@ def to_json(expr: Expr) -> Any:
             return ["-", to_json(operand)]
         case Binary(operator=operator, left=left, right=right):
             return [operator, to_json(left), to_json(right)]
+        case CurveCall(arguments=(argument,), curve=curve):
+            return [_CURVE, curve.to_data(), to_json(argument)]
         case Call(function=function, arguments=arguments):
             return [function, *map(to_json, arguments)]
 
@@ -152,6 +185,9 @@ def from_json(data: Any) -> Expr:
     head, *rest = data
     if head == "-" and len(rest) == 1:
         return Unary("-", from_json(rest[0]))
+    if head == _CURVE:
+        curve = Curve.from_data(rest[0])
+        return CurveCall(curve.name, (from_json(rest[1]),), curve=curve)
     if head in _OPERATORS:
         return Binary(head, from_json(rest[0]), from_json(rest[1]))
     return Call(head, tuple(map(from_json, rest)))

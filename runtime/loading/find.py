@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
+from gudgeon.files.beside import read_beside
 from gudgeon.files.writing import kind
 from gudgeon.language.wanted import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
@@ -110,7 +111,7 @@ def kernel_source(
     key = model_key(data, scene, overrides, formulation)
     origin = "cache"
 
-    def make(folder: Path) -> None:
+    def make(folder: Path) -> None:  # what tables the file has is found out here
         nonlocal origin
         source = None
         if not (overrides or regenerate or formulation != FORMULATIONS[0]):
@@ -121,8 +122,22 @@ def kernel_source(
         source = replace(source, overrides=tuple(sorted(overrides.items())))
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
-    entry = cache.fetch("models", key, make, renew=regenerate)
-    return KernelSource.from_json((entry / SOURCE).read_bytes().decode()), origin
+    def fetch(key: str, renew: bool) -> KernelSource:
+        entry = cache.fetch("models", key, make, renew=renew)
+        return KernelSource.from_json((entry / SOURCE).read_bytes().decode())
+
+    source = fetch(key, regenerate)
+    if source.tables and (now := tables_now(source, file)) != source.tables:  # of other bytes: an entry of its own
+        key = digest([key, json.dumps(now)])
+        source = fetch(key, False)
+        if tables_now(source, file) != source.tables:  # edited meanwhile
+            source = fetch(key, True)
+    return source, origin
+
+
+def tables_now(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
+    """The tables that a source was made with, and the sha256 of what they hold now. InputError if one is gone."""
+    return tuple((name, sha256(read_beside(file, name, MAX_BYTES)).hexdigest()) for name, _ in source.tables)
 
 
 def derived(

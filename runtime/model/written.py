@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
-from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, evaluate, from_json, names
+from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Number, Unary, evaluate, from_json, names
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 
 if TYPE_CHECKING:
@@ -176,6 +176,8 @@ def culprit(tree: Expr, values: Values) -> str:
             return f"the power {told[1]} of {told[0]}"
         case Binary(operator=operator):
             return f"{told[0]} {operator} {told[1]}"
+        case CurveCall(function=function, curve=curve):
+            return f"curve {function} at {told[0]}, outside its range, {curve.range_text}"
         case Call(function=function):
             return f"{function} of {', '.join(told)}"
     return "a number that is not finite"

@@ -24,8 +24,9 @@ from gudgeon.language.wanted import path as named
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.hdf5_image import is_damaged
 from gudgeon.results.netcdf import COMPILED, FORMAT, STATES, TRACE, at_event, variable
+from gudgeon.results.netcdf_samples import samples_of
 from gudgeon.results.results import Array, Result
-from gudgeon.results.series import DRIFT, MOTION
+from gudgeon.results.series import DRIFT
 from gudgeon.results.typed import check_typed
 
 OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
@@ -171,7 +172,7 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
     stored = {name: _series(file, name, len(t)) for name in names if _is_there(file, name)}
     p, given, is_given = _numbers(file, source)
     run = Result(
-        compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, **_samples(source, stored, len(t)),
+        compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, **samples_of(source, stored, len(t)),
         impacts=_impacts(file, source), diagnostics=diagnostics, events=_events(file, source), stored=stored,
         trace=_trace(file, source),
     )  # fmt: skip
@@ -254,17 +255,6 @@ def _trace(file: File, source: KernelSource) -> Trace | None:
     return Trace(t, np.moveaxis(np.array(joints).reshape(len(joints), len(COLUMNS), len(t)), 2, 0).copy())
 
 
-def _samples(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
-    """What the integrator stores of rows, from their series; by the names of a Result."""
-    q, v, a = (_motion(source, stored, length, order) for order in range(3))
-    return {
-        "q": q, "v": v, "accelerations": a,
-        "state": _columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
-        "memory": _columns(stored, _memory_names(source), length),
-        "work": _works(source, stored, length),
-    }  # fmt: skip
-
-
 def _at_events(file: File, run: Result) -> Result:
     """The result whose samples are the start of the run and then its events."""
     stored, count = {}, len(run.events)
@@ -273,35 +263,4 @@ def _at_events(file: File, run: Result) -> Result:
         stored[name] = np.concatenate([values[:1], at])
         stored[name].flags.writeable = False
     t = np.concatenate([run.t[:1], run.events["t"]])
-    return replace(run, t=t, **_samples(run.source, stored, 1 + count), trace=None, stored=stored)
-
-
-def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:
-    """q, q̇ or q̈ (order 0, 1, 2) from the bodies' series."""
-    if sorted(body.index for body in source.bodies) != list(range(0, 3 * len(source.bodies), 3)):
-        raise ValueError("the bodies' places in q are not theirs")
-    values = np.empty((samples, 3 * len(source.bodies)))
-    for body in source.bodies:
-        for axis, names in enumerate(MOTION):
-            values[:, body.index + axis] = stored[f"{body.name}.{names[order]}"]
-    return values
-
-
-def _columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype: Any = float) -> Array:
-    values = np.empty((samples, len(names)), dtype)
-    for column, name in enumerate(names):
-        values[:, column] = stored[name] if name else 0.0  # a place that no law's state has
-    return values
-
-
-def _works(source: KernelSource, stored: Mapping[str, Array], samples: int) -> Array:
-    """NaN where there are no masses to tell them by."""
-    if source.massless:
-        return np.full((samples, 3), np.nan)
-    return _columns(stored, ["work.drives", "work.forces", "work.clearances"], samples)
-
-
-def _memory_names(source: KernelSource) -> list[str]:
-    """The series that hold what the right-hand side remembers."""
-    latches = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
-    return [*latches, *(f"{f}.mode" for f in source.frictions), *source.states]
+    return replace(run, t=t, **samples_of(run.source, stored, 1 + count), trace=None, stored=stored)

@@ -100,10 +100,10 @@ def _check_origin(source: KernelSource, start: State) -> None:
             f"start: this state belongs to another mechanism or scene, {start.mechanism} / {start.scene};"
             f" this is {source.mechanism} / {source.scene}"
         )
-    if start.sha256 not in ("", source.sha256):
+    if start.sha256 not in ("", source.whole_sha256):
         raise BadValueError(
             f"start: this state belongs to another mechanism: the file of {source.mechanism} was another one"
-            f" (SHA-256 {start.sha256[:12]}…, now {source.sha256[:12]}…)",
+            f" (SHA-256 {start.sha256[:12]}…, now {source.whole_sha256[:12]}…)",
             hint="go on with the file that it was computed with, or run this one from its start",
         )
     if start.sha256 and tuple(start.overrides) != source.overrides:

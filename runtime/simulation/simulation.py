@@ -85,13 +85,14 @@ class Simulation:
 
     def _loaded_bytes(self) -> bytes:
         """The file's bytes, if they are still those that the kernels were made from."""
-        from gudgeon.loading.find import read_bytes
+        from gudgeon.loading.find import read_bytes, tables_now
 
         data = read_bytes(self.file)
-        if sha256(data).hexdigest() != self.source.sha256:
+        same = sha256(data).hexdigest() == self.source.sha256
+        if not same or tables_now(self.source, self.file) != self.source.tables:
             raise InputError(
-                f"{self.file} was edited after it was loaded: equations derived from it now would not be those of"
-                " this simulation",
+                f"{'a table of ' * same}{self.file} was edited after it was loaded: equations derived from it now would"
+                " not be those of this simulation",
                 hint="load it again with gudgeon.load(…), or put the file back as it was",
             )
         return data

@@ -16,6 +16,8 @@ from gudgeon.generator.kernels.ledger import tell
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions, ranges_printer, readme
 from gudgeon.generator.targets.c import lanes as lanes_code
+from gudgeon.generator.targets.c.curves import NAME as CURVES
+from gudgeon.generator.targets.c.curves import curves_code
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.layout import within
 from gudgeon.generator.targets.c.model_header import header_values, known_bounds
@@ -65,6 +67,8 @@ def _files(program: Program, prepare: Kernel, header: str, bounds: Kernel | None
         "watched.c": _bounds(program, bounds),
     }
     files = {name: text for name, text in files.items() if text}
+    if tables := curves_code(program.model.scene.mechanism.curves, files.values()):
+        files = {CURVES: tables, **files}
     includes = ("model.h", "engine/scene/kernels.h", "engine/scene/trigonometry.h", *files, "engine/scene/scene.c")
     main = "".join(f'#include "{name}"\n' for name in includes)
     return {MAIN: main, "model.h": header, **files}

@@ -9,6 +9,7 @@ from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.solvers.contact_slopes import in_place
 from gudgeon.generator.targets.c import lanes_printer
+from gudgeon.generator.targets.c.curves import curves_code
 from gudgeon.generator.targets.c.model_header import deepest
 from gudgeon.generator.targets.c.play import call_of_film, calls_of_dry
 
@@ -25,7 +26,8 @@ def lanes_code(program: Program, render: Callable[..., str]) -> dict[str, str]:
     wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
     parameters = [model.slots.field(symbol) for symbol in model.slots.members()]
     text = "\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)])
-    return {MAIN: render("lanes.c.jinja", parameters=parameters, deepest=_deepest(model), kernels=text)}
+    curves = bool(curves_code(model.scene.mechanism.curves, (text,)))
+    return {MAIN: render("lanes.c.jinja", parameters=parameters, deepest=_deepest(model), kernels=text, curves=curves)}
 
 
 def _deepest(model: Model) -> list[str]:

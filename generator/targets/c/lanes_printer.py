@@ -31,6 +31,7 @@ from gudgeon.generator.ir.statements import (
 )
 from gudgeon.generator.ir.values import Chosen, Place, Test, Value
 from gudgeon.generator.kernels.shared import CORNER
+from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.c.printer import Text
 
@@ -80,6 +81,18 @@ class LanesPrinter(printer.CPrinter):
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
         return f"(lanes_fabs({self._vector(expr.args[0])}) + 1e-150)"
+
+    def _print_CurveOf(self, expr: CurveOf) -> str:
+        if not expr.free_symbols:
+            return super()._print_CurveOf(expr)
+        return f"lanes_curve({c_name(expr.name)}, {expr.order}, {self._vector(expr.args[2])})"
+
+    def _print_CurveOn(self, expr: CurveOn) -> str:
+        x, side = map(self._vector, expr.args[2:])
+        return f"lanes_curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
+
+    def _print_KnotsOf(self, expr: KnotsOf) -> str:
+        return f"lanes_knots({c_name(expr.name)}, {self._vector(expr.args[1])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
         if expr in self.of.branches:

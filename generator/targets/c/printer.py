@@ -11,6 +11,7 @@ from sympy.printing.c import C99CodePrinter
 
 from gudgeon.generator.ir.readable import Readable, share_of_pi
 from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
+from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 
 _PLAIN = Readable(())
 
@@ -144,6 +145,17 @@ class CPrinter(C99CodePrinter):
             return self.of.branches[expr]
         side, a, b = (self._print(argument) for argument in expr.args)
         return f"({side} < 0.0 ? {b} : {a})"
+
+    def _print_CurveOf(self, expr: CurveOf) -> str:
+        """From curves.py."""
+        return f"curve({c_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"
+
+    def _print_CurveOn(self, expr: CurveOn) -> str:
+        x, side = map(self._print, expr.args[2:])
+        return f"curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
+
+    def _print_KnotsOf(self, expr: KnotsOf) -> str:
+        return f"knots({c_name(expr.name)}, {self._print(expr.args[1])})"
 
     def _print_Slope(self, expr: sp.Expr) -> str:
         """From finite_slopes.py."""

@@ -9,6 +9,7 @@ import sympy as sp
 from gudgeon.generator.ir.kernels import Argument, Kernel
 from gudgeon.generator.ir.readable import NUMBERS, readable
 from gudgeon.generator.ir.values import Value
+from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.targets.c import functions, printer
 
 _TYPES = {"const double": "const Range", "const double *": "const Range *", "Aside *": "Range *"}
@@ -88,6 +89,18 @@ class RangesPrinter(printer.CPrinter):
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
         return self._call("magnitude", expr.args[0])
+
+    def _print_CurveOf(self, expr: CurveOf) -> str:
+        if not expr.free_symbols:
+            return super()._print_CurveOf(expr)
+        return f"range_curve({c_name(expr.name)}, {expr.order}, {self._range(expr.args[2])})"
+
+    def _print_CurveOn(self, expr: CurveOn) -> str:
+        x, side = map(self._range, expr.args[2:])
+        return f"range_curve_on({c_name(expr.name)}, {expr.order}, {x}, {side})"
+
+    def _print_KnotsOf(self, expr: KnotsOf) -> str:
+        return f"range_knots({c_name(expr.name)}, {self._range(expr.args[1])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
         return self._call("pick", *expr.args)

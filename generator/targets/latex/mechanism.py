@@ -54,6 +54,7 @@ def part_sections(model: Model, notation: Notation) -> list[Section]:
         *([Section("Ground", tuple(_ground(model, values)))] if model.scene.mechanism.ground else []),
         Section("Joints", tuple(_joints(model, values))),
         *([Section("Drives", tuple(_drives(model)))] if model.scene.mechanism.drives else []),
+        *([Section("Curves", tuple(_curves(model)))] if model.scene.mechanism.curves else []),
         *([Section("Parameters", tuple(_parameters(model, notation, values)))] if model.scene.parameters else []),
     ]
 
@@ -134,6 +135,12 @@ def _drives(model: Model) -> list[Block]:
         own = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == name]
         rows.append(cells(name, what, as_written(drive.value.value), "".join(own) or "redundant"))
     return table(cells("drive", "prescribes", "value in the file", "row"), rows, (2,))
+
+
+def _curves(model: Model) -> list[Block]:
+    """What an expression's curves are; f' and f'' are their derivatives."""
+    rows = [cells(name, f"{curve.told()} (SI)") for name, curve in model.scene.mechanism.curves.items()]
+    return table(cells("curve", "what it is"), rows, (1,))
 
 
 _STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}

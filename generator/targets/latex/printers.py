@@ -11,10 +11,12 @@ from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
+from gudgeon.generator.symbols.curves import CurveOf
 from gudgeon.generator.targets.latex.letters import Name
 
 LONG = 70  # characters of text beyond which a term is written so that a line may break inside it
 _NO_BODY = 1 << 30
+_PRIME = "'"  # a derivative
 
 
 class _InOrder:
@@ -76,6 +78,9 @@ class TextPrinter(_InOrder, StrPrinter):
 
     _print_Share = _print_Whole
 
+    def _print_CurveOf(self, expr: CurveOf) -> str:
+        return f"{expr.name}{_PRIME * expr.order}({self._print(expr.args[2])})"
+
     def _print_sign(self, expr: sp.Expr) -> str:
         return f"sgn({self._print(expr.args[0])})"
 
@@ -134,6 +139,11 @@ class TexPrinter(_InOrder, LatexPrinter):
             return mantissa
         power = f"10^{{{int(exponent)}}}"
         return power if mantissa == "1" else rf"{mantissa} \cdot {power}"
+
+    def _print_CurveOf(self, expr: CurveOf, exp: str | None = None) -> str:
+        name = expr.name.replace("_", r"\_")
+        text = rf"\mathrm{{{name}}}{_PRIME * expr.order}\left({self._print(expr.args[2])}\right)"
+        return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_sign(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function(r"\operatorname{sgn}", expr, exp)

@@ -17,6 +17,7 @@ from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.targets.numpy.curves import with_curves
 from gudgeon.generator.targets.numpy.layout import WIDTH, docstring, remark
 from gudgeon.generator.targets.numpy.play import pin
 from gudgeon.generator.targets.numpy.printer import function
@@ -43,7 +44,8 @@ class ClosedLinkage:
         kernels = [closed_linkage.mass_kernel(model), *closed_linkage.row_kernels(model),
                    closed_linkage.start_kernel(model), closed_linkage.prepare_kernel(model)]  # fmt: skip
         self.model, self.n, self.m = model, len(model.q), len(model.all_rows)
-        self.source = "\n\n\n".join([_head(model), *map(function, kernels)]) + "\n"
+        text = "\n\n\n".join(map(function, kernels)) + "\n"
+        self.source = f"{_head(model)}\n\n\n{with_curves(model.scene.mechanism.curves, text)}{text}"
         self.functions = _defined(self.source)
 
     def prepare(self, given: Mapping[str, float | str] | None = None) -> SimpleNamespace:
@@ -120,7 +122,9 @@ class NumPyModel(ClosedLinkage):
         laws = [*map(function, program.laws), *map(pin, program.pins)]
         parts = [*_thresholds(program.dynamics), *laws, function(program.dynamics)]
         self.program = program
-        self.source += "\n\n" + "\n\n\n".join(parts) + "\n"
+        text = "\n\n\n".join(parts) + "\n"
+        curves = with_curves(program.model.scene.mechanism.curves, text, self.source)
+        self.source += f"\n\n{curves}{text}"
         self.functions = _defined(self.source)
 
     def dynamics(

@@ -26,6 +26,7 @@ from gudgeon.generator.ir.statements import (
     When,
 )
 from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
+from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.targets.numpy.layout import assigned, code, docstring, indented, remark
 
 _NAMES = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "Max": "maximum", "Min": "minimum",
@@ -122,6 +123,16 @@ class NumPyPrinter(PythonCodePrinter):
             return self.called(self.of.branches[expr])
         side, a, b = map(self._print, expr.args)
         return f"np.where({side} < 0, {b}, {a})"
+
+    def _print_CurveOf(self, expr: CurveOf) -> str:
+        return f"curve({c_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"
+
+    def _print_CurveOn(self, expr: CurveOn) -> str:
+        """Nothing is held here."""
+        return self._print_CurveOf(CurveOf(*expr.args[:3]))
+
+    def _print_KnotsOf(self, expr: KnotsOf) -> str:
+        return f"knots({c_name(expr.name)}, {self._print(expr.args[1])})"
 
     def _print_Whole(self, expr: sp.Expr) -> str:
         return f"({self._print(expr.args[0])})"

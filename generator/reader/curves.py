@@ -1,0 +1,149 @@
+"""Curves: splines through points that the file gives, or a table beside it."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import re
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+
+from gudgeon.contract.limits import MAX_BYTES
+from gudgeon.errors import BadNameError, BadValueError, LimitError, Location, MissingKeyError, UnitError
+from gudgeon.files.beside import read_beside
+from gudgeon.generator.field import WORD
+from gudgeon.generator.format.sections import CURVE
+from gudgeon.generator.reader.collector import Reader
+from gudgeon.generator.reader.fields import Around, read_fields
+from gudgeon.generator.reader.tables import Row, read_table
+from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.language.curves import LEAST, PERIODIC, STOP, Curve, in_pairs, spline
+from gudgeon.language.names import check_name
+from gudgeon.language.units import DIMENSIONLESS, Unit, parse_unit, si_unit
+
+MOST_POINTS = 4000  # of a curve
+_MOST_OF_ALL = 20_000  # of all curves
+_DECIMAL = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?", re.ASCII)
+_LONGEST = 40  # characters of a number
+_NOTHING = Curve("", (0.0, 1.0), ((0.0, 0.0, 0.0, 0.0),), extrapolate="line")  # stands for one that cannot be read
+
+
+def read_curves(reader: Reader, root: Map) -> dict[str, Curve]:
+    """The section `curves:`; reader.curves and reader.tables know them afterwards."""
+    read = 0
+    for name, node in root.part("curves").pairs():
+        reader.curves[str(name)] = _NOTHING
+        with reader.collect():
+            _check_name(root, name)
+        with reader.collect():
+            curve = _curve(reader, name, node)
+            read += len(curve.x)
+            if read > _MOST_OF_ALL:
+                raise LimitError(f"{read} points in curves", name.where, f"expected at most {_MOST_OF_ALL} in all")
+            reader.curves[str(name)] = curve
+    return reader.curves
+
+
+def _check_name(root: Map, name: Text) -> None:
+    check_name(name, "curve", name.where)
+    for section, what in (("parameters", "parameter"), ("outputs", "output")):
+        if name in root.part(section):
+            hint = "expected a name of its own: both stand in expressions"
+            raise BadNameError(f"{name!r} names this curve and a {what}", name.where, hint)
+
+
+def _curve(reader: Reader, name: Text, node: Map) -> Curve:
+    owner = f"curves.{name}"
+    told = len(reader.errors)
+    options = read_fields(reader, node, [f for f in CURVE.fields if f.kind == WORD], Around(owner)).options
+    over, of = _unit(node, "x", owner), _unit(node, "y", owner)
+    if ("points" in node) == ("table" in node):
+        both = "both points and a table" if "points" in node else "neither points nor a table"
+        raise MissingKeyError(f"{owner} has {both}", name.where, "expected points: [[x, y], …] or table: FILE.csv")
+    rows = _table(reader, node["table"]) if "table" in node else _points(node["points"], owner)
+    if len(reader.errors) > told:
+        raise reader.errors.pop()
+    ends, extrapolate = str(options["ends"]), str(options["extrapolate"])
+    if ends == PERIODIC and extrapolate != STOP:
+        where = node["extrapolate"].where
+        raise BadValueError(f"{owner} is periodic and goes on {extrapolate!r}", where, "leave extrapolate out")
+    x, y = _numbers(rows, 0, over), _numbers(rows, 1, of)
+    _check(owner, ends, rows, x, y, name.where)
+    coefficients = spline(x, y, ends)
+    knots, coefficients = in_pairs(x, coefficients) if ends == PERIODIC else (x, coefficients)
+    if not all(math.isfinite(c) for piece in coefficients for c in piece):
+        hint = "expected points whose slopes are numbers: are two of them too close?"
+        raise BadValueError(f"{owner} has a slope that is no number", name.where, hint)
+    return Curve(
+        str(name), knots, coefficients, ends, extrapolate, over.dimension if over else None,
+        of.dimension if of else None, _si_of(of), str(node["table"]) if "table" in node else "", len(x),
+    )  # fmt: skip
+
+
+def _unit(node: Map, key: str, owner: str) -> Unit | None:
+    """The unit of a column; None: bare numbers, SI, which fit any dimension."""
+    if key not in node:
+        return None
+    text = node[key]
+    found = parse_unit(str(text))
+    if found is None or found[1] != len(text):
+        raise UnitError(f"{owner}.{key} is {kind_of(text)}, which is no unit", text.where, "expected one such as deg")
+    return found[0]
+
+
+def _si_of(of: Unit | None) -> str | None:
+    """What results call the unit of its values."""
+    return None if of is None else "rad" if of.dimension == DIMENSIONLESS else si_unit(of.dimension)
+
+
+def _points(items: Items, owner: str) -> list[Row]:
+    return [Row((str(x), str(y)), (x.where, y.where)) for x, y in items]
+
+
+def _table(reader: Reader, name: Text) -> list[Row]:
+    """The rows of a table; what was read of it is noted."""
+    data = read_beside(reader.file, str(name), MAX_BYTES, name.where)
+    reader.tables[str(name)] = hashlib.sha256(data).hexdigest()
+    return read_table(data, str(Path(reader.file).parent / name), lambda text: _fraction(text) is not None)
+
+
+def _fraction(text: str) -> Fraction | None:
+    """A decimal number exactly; None where it is none."""
+    return Fraction(text) if len(text) <= _LONGEST and _DECIMAL.fullmatch(text) else None
+
+
+def _numbers(rows: Sequence[Row], column: int, unit: Unit | None) -> tuple[float, ...]:
+    """A column in SI. Raises BadValueError at what is no number."""
+    if len(rows) > MOST_POINTS:
+        raise LimitError(f"{len(rows)} points", rows[0].where[0], f"expected at most {MOST_POINTS} in a curve")
+    found = []
+    for row in rows:
+        text, where = row.text[column], row.where[column]
+        exact = _fraction(text)
+        if exact is None:
+            hint = "expected a decimal number, with its unit in x: or y:"
+            raise BadValueError(f"{text[:_LONGEST]!r} is no number", where, hint)
+        try:
+            value = unit.to_si(exact) if unit else float(exact)
+        except OverflowError:
+            value = math.inf
+        if not abs(value) < 1e150 or exact and abs(value) < 1e-150:  # powers of them must be numbers of C
+            raise BadValueError(f"{text!r} is out of range", where, "expected a magnitude from 1e-150 to 1e150")
+        found.append(value)
+    return tuple(found)
+
+
+def _check(owner: str, ends: str, rows: Sequence[Row], x: Sequence[float], y: Sequence[float], where: Location) -> None:
+    """Enough points, one behind the other; raises BadValueError at the first that is not."""
+    if len(x) < LEAST[ends]:
+        hint = f"expected at least {LEAST[ends]} for ends: {ends}"
+        raise BadValueError(f"{owner} has {len(x)} point{'s' * (len(x) != 1)}", where, hint)
+    for k in range(1, len(x)):
+        if not x[k] > x[k - 1]:
+            texts = rows[k].text[0], rows[k - 1].text[0]
+            hint = "expected rising x, each once"
+            raise BadValueError(f"{owner}: x is {texts[0]} behind {texts[1]}", rows[k].where[0], hint)
+    if ends == PERIODIC and y[0] != y[-1]:
+        hint = f"expected {rows[0].text[1]}, as in the first point, or other ends"
+        raise BadValueError(f"{owner} is periodic and ends at {rows[-1].text[1]}", rows[-1].where[1], hint)

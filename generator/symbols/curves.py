@@ -1,0 +1,71 @@
+"""Curves of a file as functions of SymPy: a name, which derivative, an argument; their numbers stay outside."""
+
+from __future__ import annotations
+
+import sympy as sp
+from sympy.core.symbol import Str
+
+from gudgeon.language.curves import HOLD, STOP, Curve
+
+_LAST = 3  # derivatives of a cubic: the third has jumps at the knots, and no derivative in between
+
+
+class CurveOf(sp.Function):
+    """CurveOf(name, k, x): the k-th derivative of a curve at x, as it is within its range."""
+
+    nargs = 3
+    is_real = True
+
+    @property
+    def name(self) -> str:
+        """Of the curve."""
+        return str(self.args[0].name)
+
+    @property
+    def order(self) -> int:
+        """Which derivative."""
+        return int(self.args[1])
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        name, order, x = self.args
+        rate = sp.diff(x, s)
+        return sp.Integer(0) if rate == 0 or order == _LAST else CurveOf(name, order + 1, x) * rate
+
+
+class CurveOn(sp.Function):
+    """CurveOn(name, k, x, side): the same in pieces of one side, each as its polynomial goes on beyond its knots."""
+
+    nargs = 4
+    is_real = True
+    name, order = CurveOf.name, CurveOf.order
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        name, order, x, side = self.args
+        rate = sp.diff(x, s)
+        return sp.Integer(0) if rate == 0 or order == _LAST else CurveOn(name, order + 1, x, side) * rate
+
+
+class KnotsOf(sp.Function):
+    """KnotsOf(name, x): above zero in the first piece of a curve, below it in the second, and so on; 0 at knots."""
+
+    nargs = 2
+    is_real = True
+    name = CurveOf.name
+
+
+def curve_of(curve: Curve, x: sp.Expr) -> sp.Expr:
+    """A curve at x; where it goes on beyond its range, by min and max, whose corners end steps."""
+    name, zero, one = Str(curve.name), sp.Integer(0), sp.Integer(1)
+    if curve.repeats or curve.extrapolate == STOP:
+        return CurveOf(name, zero, x)
+    first, last = sp.Float(curve.x[0], 17), sp.Float(curve.x[-1], 17)
+    value = CurveOf(name, zero, sp.Max(first, sp.Min(last, x)))
+    if curve.extrapolate == HOLD:
+        return value
+    down, up = CurveOf(name, one, first), CurveOf(name, one, last)
+    return value + down * sp.Min(0, x - first) + up * sp.Max(0, x - last)
+
+
+def c_name(name: str) -> str:
+    """What the emitted functions call a curve."""
+    return f"CURVE_{name}"

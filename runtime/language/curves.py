@@ -1,0 +1,204 @@
+"""Curves through points: cubic splines with continuous second derivatives, as coefficients and as numbers.
+
+C. de Boor, A Practical Guide to Splines (2001), chapter IV. Between knots k and k + 1 a curve is
+y = c0 + h (c1 + h (c2 + h c3)) with h = x - x_k: all targets evaluate this, by Horner's rule and in this order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gudgeon.language.units import Dimension
+
+NATURAL, CLAMPED, PERIODIC, NOT_A_KNOT = ENDS = ("natural", "clamped", "periodic", "not_a_knot")
+STOP, HOLD, LINE = EXTRAPOLATE = ("none", "hold", "line")
+LEAST = {NATURAL: 2, CLAMPED: 2, PERIODIC: 3, NOT_A_KNOT: 4}  # points
+MARGIN = 1e-9  # of the range: so far outside an argument may be by rounding
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A spline over knots x (n + 1, rising) with coefficients (n, 4); SI. None for a dimension: it fits any."""
+
+    name: str
+    x: tuple[float, ...]
+    coefficients: tuple[tuple[float, float, float, float], ...]
+    ends: str = NATURAL
+    extrapolate: str = STOP  # outside the range; of a periodic curve there is none
+    argument: Dimension | None = None
+    value: Dimension | None = None
+    unit: str | None = None  # SI, of the value: an angle's is rad
+    source: str = ""  # the file that the points came from
+    points: int = 0  # how many there were: a piece may have been halved (`in_pairs`)
+
+    @property
+    def repeats(self) -> bool:
+        """Whether it begins anew beyond its range."""
+        return self.ends == PERIODIC
+
+    @property
+    def range_text(self) -> str:
+        """From where to where it is, SI."""
+        return f"from {self.x[0]:.6g} to {self.x[-1]:.6g}"
+
+    def told(self) -> str:
+        """What it is, in words."""
+        ends = f"{self.ends.replace('_', '-')} ends"
+        after = "repeated" if self.repeats else {STOP: "none", HOLD: "held", LINE: "straight on"}[self.extrapolate]
+        return (
+            f"cubic spline through {self.points} points{f' of {self.source}' * bool(self.source)}, {ends}, "
+            f"{self.range_text}, outside {after}"
+        )
+
+    def end(self, order: int) -> float:
+        """A derivative at the last knot."""
+        return float(_horner(np.array(self.coefficients[-1]), np.float64(self.x[-1] - self.x[-2]), order))
+
+    def within(self, x: Any) -> Any:
+        """Whether there is a value."""
+        if self.repeats or self.extrapolate != STOP:
+            return np.isfinite(x)
+        margin = MARGIN * (self.x[-1] - self.x[0])
+        return (x >= self.x[0] - margin) & (x <= self.x[-1] + margin)
+
+    def at(self, x: Any, order: int = 0) -> Any:
+        """Values, or those of a derivative, at numbers or arrays; NaN outside the range of one that stops there."""
+        x = np.asarray(x, dtype=float)
+        knots, first, last = np.array(self.x), self.x[0], self.x[-1]
+        with np.errstate(invalid="ignore"):
+            inside = self.within(x)
+            if self.repeats:
+                x = x - (last - first) * np.floor((x - first) / (last - first))
+            held = np.clip(x, first, last) if self.extrapolate != STOP else x
+            k = np.clip(np.searchsorted(knots, held, side="right") - 1, 0, len(knots) - 2)
+            value = _horner(np.moveaxis(np.array(self.coefficients)[k], -1, 0), held - knots[k], order)
+            value = self._beyond(value, x, order)
+        return np.where(inside, value, np.nan)[()]
+
+    def _beyond(self, value: Any, x: Any, order: int) -> Any:
+        """What goes on outside as was asked for."""
+        if self.extrapolate == HOLD and order:
+            return np.where((x < self.x[0]) | (x > self.x[-1]), 0.0, value)
+        if self.extrapolate == LINE and order < 2:
+            down, up = self.coefficients[0][1], self.end(1)
+            if order == 1:
+                return np.where(x < self.x[0], down, np.where(x > self.x[-1], up, value))
+            return value + down * np.minimum(x - self.x[0], 0.0) + up * np.maximum(x - self.x[-1], 0.0)
+        if self.extrapolate == LINE:
+            return np.where((x < self.x[0]) | (x > self.x[-1]), 0.0, value)
+        return value
+
+    def to_data(self) -> list[Any]:
+        """What a stored expression keeps of it: not its dimensions, which were checked."""
+        return [self.name, list(self.x), [list(c) for c in self.coefficients], self.ends, self.extrapolate, self.unit]
+
+    @staticmethod
+    def from_data(data: Sequence[Any]) -> Curve:
+        """The curve that `to_data` wrote."""
+        name, x, coefficients, ends, extrapolate, unit = data
+        return Curve(name, tuple(x), tuple(tuple(c) for c in coefficients), ends, extrapolate, unit=unit)
+
+
+def in_pairs(
+    x: Sequence[float], pieces: Sequence[tuple[float, float, float, float]]
+) -> tuple[tuple[float, ...], tuple[tuple[float, float, float, float], ...]]:
+    """Knots and pieces, of which there are an even number: the last one is halved for it.
+
+    Neighbours are told apart by odd and even, also where the last one is before the first.
+    """
+    if len(pieces) % 2 == 0:
+        return tuple(x), tuple(pieces)
+    half = 0.5 * (x[-1] - x[-2])
+    c = np.array(pieces[-1])
+    value, slope, bend = (float(_horner(c, half, order)) for order in range(3))
+    second = (value, slope, bend / 2.0, pieces[-1][3])
+    return (*x[:-1], x[-2] + half, x[-1]), (*pieces, second)
+
+
+def _horner(c: Any, h: Any, order: int) -> Any:
+    """A derivative of c0 + h (c1 + h (c2 + h c3))."""
+    match order:
+        case 0:
+            return c[0] + h * (c[1] + h * (c[2] + h * c[3]))
+        case 1:
+            return c[1] + h * (2.0 * c[2] + h * (3.0 * c[3]))
+        case 2:
+            return 2.0 * c[2] + h * (6.0 * c[3])
+    return 6.0 * c[3]
+
+
+def spline(x: Sequence[float], y: Sequence[float], ends: str) -> tuple[tuple[float, float, float, float], ...]:
+    """Coefficients of the cubic spline through points, (n, 4).
+
+    natural: no second derivative at the ends; clamped: no slope there; not_a_knot: the first two pieces are one
+    polynomial, and the last two; periodic: slope and second derivative of the end are those of the beginning.
+    """
+    h = [b - a for a, b in zip(x, x[1:], strict=False)]
+    rises = [(b - a) / step for a, b, step in zip(y, y[1:], h, strict=False)]
+    slopes = _periodic(h, rises) if ends == PERIODIC else _open(h, rises, ends)
+    return tuple(
+        (y[k], slopes[k], (3.0 * rises[k] - 2.0 * slopes[k] - slopes[k + 1]) / h[k],
+         (slopes[k] + slopes[k + 1] - 2.0 * rises[k]) / h[k] / h[k])
+        for k in range(len(h))
+    )  # fmt: skip
+
+
+def _inner(a: float, b: float, p: float, q: float) -> tuple[float, float, float, float]:
+    """The equation of a knot between pieces of lengths a, b and rises p, q: below, on, above the diagonal, right."""
+    return b, 2.0 * (a + b), a, 3.0 * (b * p + a * q)
+
+
+def _open(h: Sequence[float], rises: Sequence[float], ends: str) -> list[float]:
+    """Slopes at the knots of a curve with two ends."""
+    rows = [_inner(a, b, p, q) for a, b, p, q in zip(h, h[1:], rises, rises[1:], strict=False)]
+    if ends == CLAMPED:
+        first, last = (0.0, 1.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
+    elif ends == NATURAL:
+        first, last = (0.0, 2.0, 1.0, 3.0 * rises[0]), (1.0, 2.0, 0.0, 3.0 * rises[-1])
+    else:
+        above, right = _one_polynomial(h[0], h[1], rises[0], rises[1])
+        first = (0.0, h[1], above, right)
+        below, right = _one_polynomial(h[-1], h[-2], rises[-1], rises[-2])
+        last = (below, h[-2], 0.0, right)
+    return _tridiagonal([first, *rows, last])
+
+
+def _one_polynomial(a: float, b: float, p: float, q: float) -> tuple[float, float]:
+    """Of the outer piece (a, p) and its neighbour: the factor of the inner slope, and the right side."""
+    both = a + b
+    return both, ((a + 2.0 * both) * b * p + a * a * q) / both
+
+
+def _periodic(h: Sequence[float], rises: Sequence[float]) -> list[float]:
+    """Slopes where the end is the beginning: two tridiagonal solves (Sherman and Morrison)."""
+    before = [h[-1], *h[:-1]]
+    rows = [_inner(a, b, p, q) for a, b, p, q in zip(before, h, [rises[-1], *rises[:-1]], rises, strict=True)]
+    corner_up, corner_down = rows[0][0], rows[-1][2]  # entries (first, last) and (last, first)
+    shift = -rows[0][1]
+    kept = [list(row) for row in rows]
+    kept[0][1] -= shift
+    kept[-1][1] -= corner_up * corner_down / shift
+    one = _tridiagonal(kept)
+    for row in kept:
+        row[3] = 0.0
+    kept[0][3], kept[-1][3] = shift, corner_down
+    other = _tridiagonal(kept)
+    share = corner_up / shift
+    factor = (one[0] + share * one[-1]) / (1.0 + other[0] + share * other[-1])
+    slopes = [a - factor * b for a, b in zip(one, other, strict=True)]
+    return [*slopes, slopes[0]]
+
+
+def _tridiagonal(rows: Sequence[Sequence[float]]) -> list[float]:
+    """The solution of rows (below, on, above the diagonal, right); rows are dominated by their diagonals."""
+    above, right = [0.0] * len(rows), [0.0] * len(rows)
+    for k, (below, on, up, given) in enumerate(rows):
+        pivot = on - (below * above[k - 1] if k else 0.0)
+        above[k], right[k] = up / pivot, (given - (below * right[k - 1] if k else 0.0)) / pivot
+    for k in range(len(rows) - 2, -1, -1):
+        right[k] -= above[k] * right[k + 1]
+    return right

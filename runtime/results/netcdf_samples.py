@@ -1,0 +1,54 @@
+"""What the integrator stores of a run, from its series in a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.model.compiled import Array
+from gudgeon.results.series import MOTION
+
+
+def samples_of(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
+    """What the integrator stores of rows, from their series; by the names of a Result."""
+    q, v, a = (_motion(source, stored, length, order) for order in range(3))
+    return {
+        "q": q, "v": v, "accelerations": a,
+        "state": _columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
+        "memory": _columns(stored, _memory_names(source), length),
+        "work": _works(source, stored, length),
+    }  # fmt: skip
+
+
+def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:
+    """q, q̇ or q̈ (order 0, 1, 2) from the bodies' series."""
+    if sorted(body.index for body in source.bodies) != list(range(0, 3 * len(source.bodies), 3)):
+        raise ValueError("the bodies' places in q are not theirs")
+    values = np.empty((samples, 3 * len(source.bodies)))
+    for body in source.bodies:
+        for axis, names in enumerate(MOTION):
+            values[:, body.index + axis] = stored[f"{body.name}.{names[order]}"]
+    return values
+
+
+def _columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype: Any = float) -> Array:
+    values = np.empty((samples, len(names)), dtype)
+    for column, name in enumerate(names):
+        values[:, column] = stored[name] if name else 0.0  # a place that no law's state has
+    return values
+
+
+def _works(source: KernelSource, stored: Mapping[str, Array], samples: int) -> Array:
+    """NaN where there are no masses to tell them by."""
+    if source.massless:
+        return np.full((samples, 3), np.nan)
+    return _columns(stored, ["work.drives", "work.forces", "work.clearances"], samples)
+
+
+def _memory_names(source: KernelSource) -> list[str]:
+    """The series that hold what the right-hand side remembers."""
+    latches = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
+    return [*latches, *(f"{f}.mode" for f in source.frictions), *source.states]
