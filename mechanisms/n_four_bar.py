@@ -28,6 +28,8 @@ bodies:
 
 ground: {{{ground}}}
 
+freedoms: 1
+
 joints:
 {joints}
 

@@ -106,8 +106,9 @@ def test_steps_end_at_knots_in_time(tmp_path: Path, method: str, within: float) 
     assert run["slug.x"][-1] == pytest.approx(want, abs=within)
 
 
-@pytest.mark.parametrize("method", ["dop853", "rodas5p"])
-def test_knots_in_the_state_and_the_tangent_beyond(tmp_path: Path, method: str) -> None:
+@pytest.mark.parametrize(("method", "left"), [("dop853", 1e-8), ("rodas5p", 1e-7)])
+def test_knots_in_the_state_and_the_tangent_beyond(tmp_path: Path, method: str, left: float) -> None:
+    """`left` of the energy (J): what an error of 1e-7 m/s at 3.5 m/s makes of .3 kg."""
     text = slug("-pull(slug.x)").replace("vx: 1 m/s", "vx: 5 m/s")
     run = loader(tmp_path)(text).simulate(1.0, rtol=1e-10, method=method, output=10)
     s = CubicSpline(np.array([-100, -50, 0, 50, 100]) * 1e-3, [-50, -20, 0, 20, 60], bc_type="not-a-knot")
@@ -120,7 +121,7 @@ def test_knots_in_the_state_and_the_tangent_beyond(tmp_path: Path, method: str) 
     assert np.abs(run["slug.x"]).max() > 0.1
     assert run["slug.x"][-1] == pytest.approx(end[0], abs=5e-9)
     assert run["slug.vx"][-1] == pytest.approx(end[1], abs=2e-7)
-    assert run.diagnostics.energy_residual < 1e-8
+    assert run.diagnostics.energy_residual < left
 
 
 def test_the_jacobian_is_that_of_differences(tmp_path: Path) -> None:
