@@ -40,6 +40,26 @@ static inline Lanes lanes_min_of(Lanes x, Lanes y) { return pick(x > y, y, x); }
 static inline Lanes lanes_sign_of(Lanes x) { return pick(x > 0.0, all_of(1.0), pick(x < 0.0, all_of(-1.0), x)); }
 static inline Lanes lanes_fabs(Lanes x) { return (Lanes)((LaneBits)x & 0x7fffffffffffffffLL); }
 
+/* As mod_of, mod_on, period_side. */
+static inline Lanes lanes_mod_of(Lanes a, Lanes b)
+{
+    for (int k = 0; k < LANES; k++)
+        a[k] = mod_of(a[k], b[k]);
+    return a;
+}
+static inline Lanes lanes_mod_on(Lanes a, Lanes b, Lanes side)
+{
+    for (int k = 0; k < LANES; k++)
+        a[k] = mod_on(a[k], b[k], side[k]);
+    return a;
+}
+static inline Lanes lanes_period_side(Lanes a, Lanes b)
+{
+    for (int k = 0; k < LANES; k++)
+        a[k] = period_side(a[k], b[k]);
+    return a;
+}
+
 /* As just_ahead, just_behind, finite_slope. */
 static inline Lanes lanes_just_ahead(Lanes x) { return x + 1e-9 * (1.0 + lanes_fabs(x)); }
 static inline Lanes lanes_just_behind(Lanes x) { return x - 1e-9 * (1.0 + lanes_fabs(x)); }

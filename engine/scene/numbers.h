@@ -44,6 +44,30 @@ static inline double ahead_of(double t) { return t + max_of(32.0 * DBL_EPSILON *
 /* The time at which the rate of a drive is asked for: beyond a jump, if it may jump. */
 static inline double beyond_jump(double t) { return RATE_JUMPS ? ahead_of(t) : t; }
 
+/*
+ * mod(a, b), from 0 to b; on a side, in the periods of even (1) or odd (-1) number, each as it goes on half a period
+ * beyond its ends. period_side: above zero in those of even number, below it in the others, parabolas from 0 to 0.
+ */
+static inline double mod_of(double a, double b)
+{
+    const double rest = fmod(a, b);
+    return rest != 0.0 && (rest < 0.0) != (b < 0.0) ? rest + b : rest;
+}
+
+static inline double mod_on(double a, double b, double side)
+{
+    const double rest = mod_of(a, 2.0 * b), x = rest / b;
+    if (side == 0.0)
+        return mod_of(a, b);
+    return side > 0.0 ? (x < 1.5 ? rest : rest - 2.0 * b) : (x < 0.5 ? rest + b : rest - b);
+}
+
+static inline double period_side(double a, double b)
+{
+    const double x = mod_of(a, 2.0 * b) / b;
+    return x < 1.0 ? 4.0 * x * (1.0 - x) : 4.0 * (x - 1.0) * (x - 2.0);
+}
+
 /* The side of corner k: as it is held, or where g is. */
 static inline double side_of(const double *side, double *g, int k, double value)
 {

@@ -199,6 +199,54 @@ static inline Range range_atan2(Range y, Range x)
     return z;
 }
 
+/*
+ * mod(a, b): between the ends of a period a - k b; on a side the periods of that side alone, half of their neighbours
+ * with them. Of more than one period what any of them may be.
+ */
+static inline Range range_mod_on(Range a, Range b, Range side)
+{
+    const Range x = range_times(a, range_inverse(b));
+    const double held = side.lo == side.hi ? side.lo : 0.0, odd = held < 0.0 ? 1.0 : 0.0;
+    const double every = held == 0.0 ? 1.0 : 2.0, before = held == 0.0 ? 0.0 : 0.5;
+    const double first = every * floor((x.lo + before - odd) / every) + odd;
+    const double last = every * floor((x.hi + before - odd) / every) + odd;
+    if (is_empty(x))
+        return x;
+    if (first == last)
+        return range_add(a, range_times(only(-first), b));
+    Range y = range_times((Range){-before, 1.0 + before, 0.0, 0.0, x.partly}, b);
+    y.down = -INFINITY;
+    y.up = INFINITY;
+    return y;
+}
+
+static inline Range range_mod_of(Range a, Range b) { return range_mod_on(a, b, only(0.0)); }
+
+/* Whether first + 2 n is in [lo, hi] for a whole n. */
+static inline int has_place(double lo, double hi, double first)
+{
+    return !(hi - lo < 2.0) || floor(0.5 * (hi - first)) >= ceil(0.5 * (lo - first));
+}
+
+/* Its slope is 4 where a period of even number begins, -4 where one of odd number does, and linear between. */
+static inline double period_slope(double x)
+{
+    const double rest = mod_of(x, 2.0);
+    return rest < 1.0 ? 4.0 - 8.0 * rest : 8.0 * rest - 12.0;
+}
+
+static inline Range range_period_side(Range a, Range b)
+{
+    const Range x = range_times(a, range_inverse(b));
+    if (is_empty(x))
+        return x;
+    const double from = period_side(x.lo, 1.0), to = period_side(x.hi, 1.0);
+    const double rise = period_slope(x.lo), fall = period_slope(x.hi);
+    return through(x, has_place(x.lo, x.hi, 1.5) ? -1.0 : min_of(from, to),
+        has_place(x.lo, x.hi, 0.5) ? 1.0 : max_of(from, to), has_place(x.lo, x.hi, 1.0) ? -4.0 : min_of(rise, fall),
+        has_place(x.lo, x.hi, 0.0) ? 4.0 : max_of(rise, fall));
+}
+
 /* The side of a corner: as it is held, or wherever its function may be. */
 static inline Range range_side(const double *side, int k, Range g)
 {

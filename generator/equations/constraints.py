@@ -133,7 +133,7 @@ class Constraints:
         return Row(name, owner, kind, unit, phi, phi_q, phi_q_v, -phi_t, gamma)
 
 
-JUMPS = frozenset({"ramp", "abs", "min", "max", "sign"})  # whose slopes jump; smooth_step's does not
+JUMPS = frozenset({"ramp", "abs", "min", "max", "sign", "where", "mod"})  # whose slopes jump; smooth_step's does not
 
 
 @lru_cache(maxsize=256)

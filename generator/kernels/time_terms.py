@@ -17,6 +17,7 @@ from gudgeon.generator.ir.kernels import Argument, Kernel, Section
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Place
 from gudgeon.generator.symbols.corners import Pick, SideOf
+from gudgeon.generator.symbols.periods import ModOn, PeriodsOf
 from gudgeon.generator.symbols.wholes import Whole
 
 NAME = "time_terms"
@@ -133,11 +134,11 @@ class _Terms:
                 return True
             case SideOf():
                 return self.is_tame(value.args[1])
-            case sp.Add() | sp.Mul() | Pick() | Whole():
+            case sp.Add() | sp.Mul() | Pick() | Whole() | ModOn():
                 return all(map(self.is_tame, value.args))
             case sp.Pow() if value.exp.is_Integer and int(value.exp) in _POWERS:
                 return self.is_tame(value.base)
-        if isinstance(value, _LINEAR):
+        if isinstance(value, (*_LINEAR, PeriodsOf)):
             return self.is_linear(value.args[0])
         return False
 

@@ -108,7 +108,7 @@ def _constant_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
             for part in _constant_parts(right, known):
                 yield Binary("/", Number(1.0), part) if operator == "/" and part is right else part
         case Call(function=function, arguments=arguments):
-            divides = arguments[-1] if function in ("ramp", "smooth_step") else None
+            divides = arguments[-1] if function in ("ramp", "smooth_step", "mod") else None
             for argument in arguments:
                 for part in _constant_parts(argument, known):
                     yield Binary("/", Number(1.0), part) if part is divides else part

@@ -1,4 +1,4 @@
-"""Switching functions: where min, max, abs and sign of the equations have their corners.
+"""Switching functions: where min, max, abs, sign, where and mod of the equations have their corners.
 
 Each corner is the zero of a function g of the state. In emitted code its `side` (the sign of g) is either
 taken from g itself or held fixed over a step, so that a method of high order sees a smooth right-hand
@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf
+from gudgeon.generator.symbols.periods import ModOf, ModOn, PeriodsOf
 
 
 class SideOf(sp.Function):
@@ -173,7 +174,7 @@ class Switches:
 
         only_known: other corners stay what they are, in a function beside the one that tells them all.
         """
-        if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside, CurveOf):
+        if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside, CurveOf, ModOf):
             return expression
         arguments = [self.hold(a, owner, sides, only_known) for a in expression.args]
 
@@ -190,6 +191,10 @@ class Switches:
                 knots = KnotsOf(arguments[0], arguments[2])
                 known = not only_known or self.known(owner, knots) is not None
                 return CurveOn(*arguments, side(knots)) if known else CurveOf(*arguments)
+            case ModOf() if len(arguments) == 2:
+                periods = PeriodsOf(*arguments)
+                known = not only_known or self.known(owner, periods) is not None
+                return ModOn(*arguments, side(periods)) if known else ModOf(*arguments)
             case sp.Abs():
                 return side(arguments[0]) * arguments[0]
             case sp.sign():

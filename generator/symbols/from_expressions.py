@@ -10,7 +10,9 @@ import sympy as sp
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.symbols.corners import Pick
 from gudgeon.generator.symbols.curves import curve_of
+from gudgeon.generator.symbols.periods import ModOf
 from gudgeon.generator.symbols.squares import DEGREE, decimal, root
 from gudgeon.generator.symbols.wholes import kept
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary
@@ -25,6 +27,11 @@ def smooth_step(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
 def ramp(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
     """0 before `start`, 1 after `start + duration`, linear between them."""
     return sp.Max(0, sp.Min(1, (t - start) / duration))
+
+
+def where(left: sp.Expr, right: sp.Expr, then: sp.Expr, otherwise: sp.Expr) -> sp.Expr:
+    """`then` where left < right, else `otherwise`."""
+    return then if then == otherwise else Pick(sp.sign(left - right), otherwise, then)
 
 
 _HALF = sp.Rational(1, 2)
@@ -46,6 +53,7 @@ _FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
     "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": exponential, "log": sp.log,
     "abs": sp.Abs, "sign": sp.sign, "min": sp.Min, "max": sp.Max, "smooth_step": smooth_step, "ramp": ramp,
+    "where": where, "mod": ModOf,
 }  # fmt: skip
 
 

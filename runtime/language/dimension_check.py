@@ -30,7 +30,7 @@ class _Flexible:
 _BARE, _ANY = _Flexible(True), _Flexible(False)
 _Found = Dimension | _Flexible
 
-_SAME = ("abs", "min", "max", "hypot")  # the result has the arguments' dimension
+_SAME = ("abs", "min", "max", "hypot", "mod")  # the result has the arguments' dimension
 _RATIO = ("atan2", "sign", "smooth_step", "ramp")  # arguments of one dimension, a pure number comes out
 
 
@@ -124,6 +124,9 @@ class _Checker:
     def _call(self, call: Call) -> _Found:
         if call.function in _SAME:
             return self._same(f"{call.function} of unlike quantities", *call.arguments)
+        if call.function == "where":
+            self._same("cannot compare", *call.arguments[:2])
+            return self._same("where of unlike quantities", *call.arguments[2:])
         if call.function in _RATIO:
             self._same(f"{call.function} of unlike quantities", *call.arguments)
             return DIMENSIONLESS

@@ -67,7 +67,9 @@ def _exponents(expression: Expr, unit: Callable[[str], str | None]) -> Exponents
             return None if curve.unit is None else parse(curve.unit)
         case Call(function="sqrt", arguments=(argument,)):
             return _scaled(_exponents(argument, unit), Fraction(1, 2))
-        case Call(function="abs" | "min" | "max" | "hypot", arguments=(first, *rest)):
+        case Call(function="where", arguments=(_, _, first, *rest)) | Call(
+            function="abs" | "min" | "max" | "hypot" | "mod", arguments=(first, *rest)
+        ):
             return _either(_exponents(first, unit), _exponents(rest[0], unit) if rest else None)
         case Call(function="asin" | "acos" | "atan" | "atan2"):
             return parse("rad")

@@ -5,7 +5,7 @@
     signed  = ("-" | "+") signed | power
     power   = atom ["**" signed]                       right-associative, binds tighter than a sign
     atom    = number [[" "] unit] | "pi" [" " unit] | name | function "(" sum {"," sum} ")" | curve "(" sum ")"
-            | "(" sum ")"
+            | "where(" sum ("<" | "<=" | ">" | ">=") sum "," sum "," sum ")" | "(" sum ")"
 
 A unit follows a numeric literal after one space or none, `pi` after one (units.py). The tree holds SI numbers;
 `check_dimension` (dimension_check.py) says whether they fit together.
@@ -20,7 +20,7 @@ from gudgeon.errors import ExpressionError, LimitError, Location
 from gudgeon.language.curves import Curve
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.suggestions import nearest
-from gudgeon.language.tokens import Token, Tokenizer, at
+from gudgeon.language.tokens import COMPARED, Token, Tokenizer, at
 from gudgeon.language.tree import FUNCTIONS, Binary, Call, CurveCall, Expr, Name, Unary
 from gudgeon.language.units import DIMENSIONLESS, unit
 
@@ -30,7 +30,13 @@ MAX_LENGTH = 1000  # characters
 MAX_DEPTH = 50  # levels of the tree
 MAX_NODES = 300
 MAX_WEIGHT = 400  # nodes once functions are written out: nested smooth steps grow by powers
-_COPIES = {"smooth_step": 3}  # of its arguments in the formula
+_COPIES = {"smooth_step": 3, "mod": 2}  # of its arguments in the formula
+_COMPARISONS = ("<", "<=", ">", ">=")
+_STEP = "smooth_step(t, start, duration) goes from 0 to 1"
+_WRITTEN = {  # what calls look like
+    "smooth_step": _STEP, "ramp": _STEP, "mod": "mod(t, 1 s) begins anew each second",
+    "where": "where(t < 1 s, then, otherwise) is `then` as long as the comparison holds",
+}  # fmt: skip
 
 
 def parse(
@@ -64,7 +70,7 @@ class _Parser:
             self.fail(
                 f"unexpected {self.token}",
                 self.token.offset,
-                "expected an operator (a product is written with '*') or the end",
+                self.compared() or "expected an operator (a product is written with '*') or the end",
             )
         return expr
 
@@ -153,8 +159,12 @@ class _Parser:
     def close(self, opened: int) -> None:
         if self.token.text != ")":
             hint = f"the '(' at column {self.where.column + opened} is open"
-            self.fail(f"expected ')', got {self.token}", self.token.offset, hint)
+            self.fail(f"expected ')', got {self.token}", self.token.offset, self.compared() or hint)
         self.advance()
+
+    def compared(self) -> str:
+        """A hint, where a comparison stands that belongs elsewhere."""
+        return COMPARED if self.token.text in _COMPARISONS else ""
 
     def name(self, token: Token, level: int) -> Expr:
         called, known = self.token.text == "(", (*self.curves, *FUNCTIONS)
@@ -167,19 +177,36 @@ class _Parser:
         if not called:
             what = "curve" if token.text in self.curves else "function"
             self.fail(f"{token.text!r} is a {what}", token.offset, f"expected {token.text}(…)")
-        opened = self.advance().offset
-        arguments = [self.sum(level + 1)]
-        while self.token.text == ",":
-            self.advance()
-            arguments.append(self.sum(level + 1))
-        self.close(opened)
-        wanted = 1 if token.text in self.curves else FUNCTIONS[token.text][0]
-        if len(arguments) != wanted:
-            hint = "smooth_step(t, start, duration) goes from 0 to 1" if token.text in ("smooth_step", "ramp") else ""
-            self.fail(
-                f"{token.text} takes {wanted} argument{'s' * (wanted > 1)}, got {len(arguments)}", token.offset, hint
-            )
-        call = Call(token.text, tuple(arguments), token.offset)
+        arguments = self.arguments(token, level + 1)
+        call = Call(token.text, arguments, token.offset)
         if token.text in self.curves:
             call = CurveCall(call.function, call.arguments, call.offset, curve=self.curves[token.text])
         return self.make(call, *arguments)
+
+    def arguments(self, function: Token, level: int) -> tuple[Expr, ...]:
+        """What stands in brackets, as many as the function takes; the two that where compares are the first."""
+        opened, compares = self.advance().offset, function.text == "where"
+        left = self.sum(level)
+        operator = self.token.text
+        found: list[Expr] = []
+        if compares:
+            if operator not in _COMPARISONS:
+                self.fail(f"expected a comparison, got {self.token}", self.token.offset, _WRITTEN["where"])
+            self.advance()
+            found.append(self.sum(level))
+        while self.token.text == ",":
+            self.advance()
+            found.append(self.sum(level))
+        self.close(opened)
+        wanted = 1 if function.text in self.curves else FUNCTIONS[function.text][0]
+        if len(found) + 1 != wanted:
+            wanted, got = wanted - compares, len(found) + 1 - compares
+            message = f"{function.text} takes {wanted} argument{'s' * (wanted > 1)}, got {got}"
+            self.fail(message, function.offset, _WRITTEN.get(function.text, ""))
+        return _in_order(left, operator, *found) if compares else (left, *found)
+
+
+def _in_order(left: Expr, operator: str, right: Expr, then: Expr, otherwise: Expr) -> tuple[Expr, ...]:
+    """What where compares and gives, as if `<` were written."""
+    compared = (left, right) if operator in ("<", ">=") else (right, left)
+    return (*compared, then, otherwise) if operator in ("<", ">") else (*compared, otherwise, then)

@@ -19,11 +19,11 @@ _MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractio
 _TOKEN = re.compile(
     r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*(?:\.[A-Za-z_][A-Za-z0-9_]*)*)"
-    r"|(?P<operator>\*\*|[-+*/(),])"
+    r"|(?P<operator>\*\*|[<>]=?|[-+*/(),])"
 )
+COMPARED = "two values are compared in where(a < b, then, otherwise) alone, by <, <=, > or >="
 _ADVICE = {
-    "^": "a power is written with **", "%": "there is no remainder", "=": "there are no comparisons",
-    "<": "there are no comparisons", ">": "there are no comparisons", "!": "there are no comparisons",
+    "^": "a power is written with **", "%": "a remainder is written mod(a, b)", "=": COMPARED, "!": COMPARED,
     "[": "there are no subscripts", "]": "there are no subscripts", "'": "there are no strings",
     '"': "there are no strings", "\t": "write a space, not a tab", "\u2212": "write '-'", "\u00b7": "write '*'",
     "\u00d7": "write '*'", "\u00b0": "write deg after a space", "{": "there are no braces", ";": "one expression only",

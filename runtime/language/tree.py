@@ -77,6 +77,16 @@ def ramp(t: Any, start: Any, duration: Any) -> Any:
     return np.clip((t - start) / duration, 0.0, 1.0)
 
 
+def where(left: Any, right: Any, then: Any, otherwise: Any) -> Any:
+    """`then` where left < right, else `otherwise`: `where(left < right, then, otherwise)`."""
+    return np.where(np.less(left, right), then, otherwise)[()]
+
+
+def mod(a: Any, b: Any) -> Any:
+    """What is left of a behind the last whole multiple of b: from 0 to b, with the sign of b."""
+    return np.mod(a, b)
+
+
 # name -> (number of arguments, NumPy function)
 FUNCTIONS: Mapping[str, tuple[int, Callable[..., Any]]] = {
     "sin": (1, np.sin), "cos": (1, np.cos), "tan": (1, np.tan),
@@ -84,7 +94,7 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., Any]]] = {
     "sinh": (1, np.sinh), "cosh": (1, np.cosh), "tanh": (1, np.tanh),
     "exp": (1, np.exp), "log": (1, np.log), "sqrt": (1, np.sqrt), "hypot": (2, np.hypot),
     "abs": (1, np.abs), "sign": (1, np.sign), "min": (2, np.minimum), "max": (2, np.maximum),
-    "smooth_step": (3, smooth_step), "ramp": (3, ramp),
+    "smooth_step": (3, smooth_step), "ramp": (3, ramp), "where": (4, where), "mod": (2, mod),
 }  # fmt: skip
 
 _OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = {

@@ -160,6 +160,9 @@ def culprit(tree: Expr, values: Values) -> str:
             parts: tuple[Expr, ...] = (operand,)
         case Binary(left=left, right=right):
             parts = (left, right)
+        case Call(function="where", arguments=(left, right, then, otherwise)):
+            picked = then if evaluate(left, values) < evaluate(right, values) else otherwise
+            parts = (left, right, picked)
         case Call(arguments=parts):
             pass
         case _:

@@ -1,7 +1,8 @@
 """Corners and jumps of drives that their form does not show: `acos(cos(t))`, `atan2`, a root that touches zero.
 
 What is written with abs, min, max or ramp, or is the root of a square, has its corners found by the generator, and a
-step ends there. What is left is looked for by values, of drives that have a function which may hide it.
+step ends there. What is left is looked for by values, of drives that have a function which may hide it; and whether
+what is written with where or mod is continuous at its corners.
 Where the second differences of f on an even grid stand out they are followed to ever shorter distances h. They go
 with h² where f is smooth, with h where its rate jumps, more slowly where that is infinite, and stay where f jumps.
 Where nothing is free there is no impulse to be left out, but near such a place rates are 0/0 in binary64.
@@ -21,7 +22,8 @@ from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, functions, 
 from gudgeon.model.compiled import Array
 from gudgeon.model.written import of_time, trees
 
-VISIBLE = frozenset({"abs", "min", "max", "ramp", "sign"})
+VISIBLE = frozenset({"abs", "min", "max", "ramp", "sign", "where", "mod"})
+BREAKING = frozenset({"where", "mod"})  # of VISIBLE: the value itself may jump
 _HIDING = frozenset({"sqrt", "hypot", "asin", "acos", "atan", "atan2", "tan", "log"})
 GRID, MOST = 4096, 16  # intervals, candidates
 POINTS, LEVELS = 16, 11  # intervals of a closer look; each is a quarter as wide as the one before
@@ -36,14 +38,17 @@ class Jump:
     t: float
     kind: str
     size: float
+    breaks: bool = False  # between what where and mod choose
 
 
 def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
     """Of all drives between two times (s), in time's order; at most MOST a drive."""
     found = []
     for drive, tree in _that_may_hide(source) if t1 > t0 else ():
-        with np.errstate(all="ignore"):
-            found += _jumps(source, p, tree, drive, t0, t1)
+        found += _jumps(source, p, tree, drive, t0, t1)
+    for drive, tree in _that_may_break(source) if t1 > t0 else ():
+        jumps = _jumps(source, p, tree, drive, t0, t1)
+        found += [replace(jump, breaks=True) for jump in jumps if jump.kind == "value"]
     return sorted(found, key=lambda jump: jump.t)
 
 
@@ -52,18 +57,17 @@ def _looked_at(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jum
     found = hidden_jumps(source, p, t0, t1)
     if _integrates(source):
         return found
-    hiding = {drive for drive, _ in _that_may_hide(source)}
+    known = {drive for drive, _ in (*_that_may_hide(source), *_that_may_break(source))}
     for drive, tree in _with_drives(source) if t1 > t0 else ():
-        if drive not in hiding and _hides(tree):
-            with np.errstate(all="ignore"):
-                found += [jump for jump in _jumps(source, p, tree, drive, t0, t1) if jump.kind != "rate"]
+        if drive not in known and _hides(tree):
+            found += [jump for jump in _jumps(source, p, tree, drive, t0, t1) if jump.kind != "rate"]
     return sorted(found, key=lambda jump: jump.t)
 
 
 def any_in_batch(source: KernelSource, p: Array, t0: float, t1: float) -> bool:
     """Whether a run of a batch meets one, p (runs, numbers); drives with the same numbers are looked at once."""
-    seen = set()
-    for drive, tree in _that_may_hide(source) if t1 > t0 and _integrates(source) else ():
+    seen, breaking = set(), _that_may_break(source)
+    for drive, tree in (*_that_may_hide(source), *breaking) if t1 > t0 and _integrates(source) else ():
         used = {f"parameters.{name.path}" for name in names(tree)}
         columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
         for row in p:
@@ -71,9 +75,9 @@ def any_in_batch(source: KernelSource, p: Array, t0: float, t1: float) -> bool:
             if key in seen:
                 continue
             seen.add(key)
-            with np.errstate(all="ignore"):
-                if any(jump.t > t0 for jump in _jumps(source, row, tree, drive, t0, t1)):
-                    return True
+            jumps = [jump for jump in _jumps(source, row, tree, drive, t0, t1) if jump.t > t0]
+            if any(jump.kind == "value" or (drive, tree) not in breaking for jump in jumps):
+                return True
     return False
 
 
@@ -104,7 +108,8 @@ def up_to_a_jump(problem: Problem) -> tuple[Problem, SolverError | None]:
         return problem, None
     why = "its rate is no number there" if first.kind == "rate" else "no linkage follows it"
     told = _told(first, "the impulse there would be left out" if _integrates(source) else why)
-    return replace(problem, t=problem.t[problem.t < first.t]), SolverError(told, first.t)
+    found_to = 1e-10 * max(abs(t0), abs(first.t)) if first.breaks else 0.0  # at the jump itself it is on either side
+    return replace(problem, t=problem.t[problem.t < first.t - found_to]), SolverError(told, first.t)
 
 
 def _told(jump: Jump, why: str) -> str:
@@ -112,6 +117,11 @@ def _told(jump: Jump, why: str) -> str:
         return (
             f"drive {jump.drive}: its rate is infinite at t = {jump.t:.6g} s: no velocity is a number there\n"
             "  write it so that its rate is bounded, or end the run before"
+        )
+    if jump.breaks:
+        return (
+            f"drive {jump.drive}: it jumps by {jump.size:.4g} at t = {jump.t:.6g} s: no linkage follows it\n"
+            "  what where and mod choose between must meet where they change over, or the run ends before"
         )
     what = f"its rate jumps by about {jump.size:.3g}" if jump.kind == "rate" else f"it jumps by {jump.size:.4g}"
     return (
@@ -133,6 +143,12 @@ def _hides(tree: Expr) -> bool:
     return False
 
 
+def _that_may_break(source: KernelSource) -> list[tuple[str, Expr]]:
+    """Drives whose corners the generator has found, and whose branches may not meet there."""
+    return [(drive, tree) for drive, tree in _with_drives(source) if not BREAKING.isdisjoint(functions(tree))]
+
+
+@np.errstate(all="ignore")
 def _jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
     f = of_time(source, p, tree, np.linspace(t0, t1, GRID + 1))
     bent = np.abs(np.diff(f, 2))

@@ -15,7 +15,7 @@ _ANGLES = ("rad", "deg", "mrad", "rev")
 
 
 class Writer:
-    """Writes expressions in some names, one of `vary` at least. `jumps`: sign may occur, which a drive refuses."""
+    """Writes expressions in some names, one of `vary` at least. `jumps`: sign, where and mod may occur: a drive must not."""
 
     def __init__(
         self, rng: random.Random, names: Mapping[str, Dimension], vary: Collection[str], jumps: bool = True
@@ -72,6 +72,8 @@ class Writer:
             return self._name(of) if rng.random() < 0.7 else self._number(of)
         kind = rng.randrange(13 if of != DIMENSIONLESS else 22)
         a, one = (lambda: self._any(of, depth - 1)), (lambda: self._any(DIMENSIONLESS, depth - 1))
+        if self._jumps and rng.random() < 0.08:
+            return self._chosen(of, depth) if rng.random() < 0.6 else f"mod({a()}, {self._number(of)})"
         match kind:
             case 0 | 1:
                 return f"{a()} {rng.choice('+-')} ({a()})"
@@ -96,6 +98,11 @@ class Writer:
             case 12:
                 return f"{self._number(of)} * {one()}" if depth == 1 else f"({one()}) * {self._factor(of)}"
         return self._of_numbers(kind, depth)
+
+    def _chosen(self, of: Dimension, depth: int) -> str:
+        other = self._rng.choice((of, DIMENSIONLESS, LENGTH, TIME, RATE))
+        compared = f" {self._rng.choice(('<', '<=', '>', '>='))} ".join(self._any(other, depth - 1) for _ in range(2))
+        return f"where({compared}, {self._any(of, depth - 1)}, {self._any(of, depth - 1)})"
 
     def _of_numbers(self, kind: int, depth: int) -> str:
         """What a pure number may be besides."""

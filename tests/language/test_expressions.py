@@ -32,6 +32,8 @@ def write(expr: Expr, above: int = 0, right: bool = False) -> str:
             return repr(value)
         case Name(path=path):
             return path
+        case Call(function="where", arguments=(a, b, *chosen)):
+            return f"where({write(a)} < {write(b)}, {', '.join(map(write, chosen))})"
         case Call(function=function, arguments=arguments):
             return f"{function}({', '.join(write(a) for a in arguments)})"
         case Unary(operand=operand):
@@ -56,7 +58,8 @@ trees = st.recursive(
         inner.map(lambda x: Unary("-", x)),
         st.builds(Binary, st.sampled_from(sorted(PRECEDENCE)), inner, inner),
         st.builds(lambda f, a: Call(f, (a,)), st.sampled_from(["sin", "cos", "exp", "atan", "abs"]), inner),
-        st.builds(lambda f, a, b: Call(f, (a, b)), st.sampled_from(["atan2", "hypot", "min", "max"]), inner, inner),
+        st.builds(lambda f, a, b: Call(f, (a, b)), st.sampled_from(["atan2", "hypot", "min", "max", "mod"]), inner, inner),
+        st.builds(lambda *a: Call("where", a), inner, inner, inner, inner),
     ),
     max_leaves=20,
 )
@@ -74,7 +77,7 @@ def test_against_pythons_own_arithmetic(tree: Expr) -> None:
     But for the last bit: NumPy's power of scalars is not always that of arrays.
     """
     text = write(tree)
-    functions = {name: function for name, (_, function) in FUNCTIONS.items()}
+    functions = {name: function for name, (_, function) in FUNCTIONS.items()} | {"where": np.where}
     values = {name: np.float64(value) for name, value in VALUES.items()}
     # every literal a NumPy number, so that overflow and 0/0 are inf and nan on both sides
     wrapped = write_wrapped(tree)

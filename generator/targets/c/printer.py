@@ -157,6 +157,16 @@ class CPrinter(C99CodePrinter):
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         return f"knots({c_name(expr.name)}, {self._print(expr.args[1])})"
 
+    def _print_ModOf(self, expr: sp.Expr) -> str:
+        """From periods.py."""
+        return self._call("mod_of", *expr.args)
+
+    def _print_ModOn(self, expr: sp.Expr) -> str:
+        return self._call("mod_on", *expr.args)
+
+    def _print_PeriodsOf(self, expr: sp.Expr) -> str:
+        return self._call("period_side", *expr.args)
+
     def _print_Slope(self, expr: sp.Expr) -> str:
         """From finite_slopes.py."""
         return self._call("finite_slope", *expr.args)

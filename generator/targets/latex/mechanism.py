@@ -158,7 +158,9 @@ def as_written(tree: Expr, around: int = 0) -> str:
             sides = (own + 1, own) if operator == "**" else (own, own + 1)
             text = f"{as_written(left, sides[0])} {operator} {as_written(right, sides[1])}"
         case Call(function=function, arguments=arguments):
-            return f"{function}({', '.join(as_written(a) for a in arguments)})"
+            written = [as_written(a) for a in arguments]
+            compared = [" < ".join(written[:2]), *written[2:]] if function == "where" else written
+            return f"{function}({', '.join(compared)})"
         case _:
             return tree.path
     return f"({text})" if own < around else text

@@ -81,6 +81,9 @@ class TextPrinter(_InOrder, StrPrinter):
     def _print_CurveOf(self, expr: CurveOf) -> str:
         return f"{expr.name}{_PRIME * expr.order}({self._print(expr.args[2])})"
 
+    def _print_ModOf(self, expr: sp.Expr) -> str:
+        return f"mod({self._print(expr.args[0])}, {self._print(expr.args[1])})"
+
     def _print_sign(self, expr: sp.Expr) -> str:
         return f"sgn({self._print(expr.args[0])})"
 
@@ -144,6 +147,9 @@ class TexPrinter(_InOrder, LatexPrinter):
         name = expr.name.replace("_", r"\_")
         text = rf"\mathrm{{{name}}}{_PRIME * expr.order}\left({self._print(expr.args[2])}\right)"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
+
+    def _print_ModOf(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._function(r"\operatorname{mod}", expr, exp)
 
     def _print_sign(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function(r"\operatorname{sgn}", expr, exp)

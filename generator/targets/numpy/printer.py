@@ -134,6 +134,16 @@ class NumPyPrinter(PythonCodePrinter):
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         return f"knots({c_name(expr.name)}, {self._print(expr.args[1])})"
 
+    def _print_ModOf(self, expr: sp.Expr) -> str:
+        """No side is held here: the same, too, on one."""
+        return f"np.mod({self._print(expr.args[0])}, {self._print(expr.args[1])})"
+
+    _print_ModOn = _print_ModOf
+
+    def _print_PeriodsOf(self, expr: sp.Expr) -> str:
+        a, b = map(self._print, expr.args)
+        return f"np.sin(np.pi*({a})/({b}))"
+
     def _print_Whole(self, expr: sp.Expr) -> str:
         return f"({self._print(expr.args[0])})"
 

@@ -1,0 +1,157 @@
+"""where and mod: forces that jump against closed forms, motion laws in pieces against what they are made of."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.errors import InputError, SolverError
+from tests.scenes import loader
+
+SLUG = """
+parameters: {k: 300 N/m, soft: 100 N/m, T: 0.15 s, F: 20 N, m: 0.5 kg}
+bodies: {slug: {mass: m, inertia: 1e-3 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {rail: {translational: [ground.O, slug.origin], axis: [1, 0]}}
+forces: {push: {force: slug.com, value: ["%s", 0]}}
+start: {rates: {slug.vx: 1 m/s}}
+"""
+LINKAGE = """
+gravity: [0, -9.81 m/s^2]
+bodies:
+  crank: {length: 0.1 m, mass: 1 kg, inertia: auto}
+  rod: {length: 0.3 m, mass: 1 kg, inertia: auto}
+  slider: {mass: 1 kg, inertia: 1e-3 kg*m^2}
+  bob: {length: 0.2 m, mass: 0.4 kg, inertia: auto}
+ground: {O: [0, 0]}
+joints:
+  shaft: {revolute: [ground.O, crank.tail]}
+  pin: {revolute: [crank.head, rod.tail]}
+  wrist: {revolute: [rod.head, slider.com]}
+  guide: {translational: [ground.O, slider.com], axis: [1, 0]}
+  hook: {revolute: [slider.com, bob.tail]}
+drives: {motor: {angle: crank, value: "%s"}}
+start: {guess: {bob.theta: -90 deg}}
+"""
+
+
+def test_a_push_that_ends(tmp_path: Path) -> None:
+    """A force in pieces of time: the momentum is theirs, to rounding, by every method that chooses its step."""
+    slug = loader(tmp_path)(SLUG % "where(t < 0.3 s, F, where(t >= 0.7 s, -F / 2, 0 N))")
+    t = np.linspace(0.0, 1.0, 41)
+    v = 1.0 + 40.0 * np.minimum(t, 0.3) - 20.0 * np.maximum(t - 0.7, 0.0)
+    for method in ("dop853", "rodas5p"):
+        run = slug.simulate(1.0, output=40, method=method, rtol=1e-9)
+        np.testing.assert_allclose(run["slug.vx"], v, rtol=1e-11)
+
+
+def test_a_sawtooth(tmp_path: Path) -> None:
+    """F(t) = F mod(t, T)/T: each period adds F T/2."""
+    slug = loader(tmp_path)(SLUG % "F * mod(t, T) / T")
+    t = np.linspace(0.0, 2.0, 33)
+    whole, rest = np.divmod(t, 0.15)
+    v = 1.0 + 40.0 * (0.075 * whole + rest**2 / 0.3)
+    for method in ("dop853", "rodas5p"):
+        np.testing.assert_allclose(slug.simulate(2.0, output=32, method=method, rtol=1e-9)["slug.vx"], v, rtol=1e-11)
+    batch = slug.simulate_many({"parameters.T": [0.15, 0.4]}, t_end=2.0, output=32, method="dop853", rtol=1e-9)
+    np.testing.assert_allclose(batch["slug.vx"][0], v, rtol=1e-11)
+    whole, rest = np.divmod(t, 0.4)
+    np.testing.assert_allclose(batch["slug.vx"][1], 1.0 + 40.0 * (0.2 * whole + rest**2 / 0.8), rtol=1e-11)
+
+
+def test_two_springs(tmp_path: Path) -> None:
+    """One on each side of x = 0: half a period of each, π √(m/k), and the same speed at each passage."""
+    slug = loader(tmp_path)(SLUG % "where(slug.x > 0 m, -k, -soft) * slug.x" + "events: {zero: {zero: slug.x}}\n")
+    run = slug.simulate(3.0, rtol=1e-11)
+    period = np.pi * (np.sqrt(0.5 / 300.0) + np.sqrt(0.5 / 100.0))
+    found = np.array(run.events_of("zero"))
+    expected = np.concatenate([np.arange(1, 20) * period, np.arange(20) * period + np.pi * np.sqrt(0.5 / 300.0)])
+    expected = np.sort(expected[expected < 3.0])
+    np.testing.assert_allclose(found[found > 0.0], expected, rtol=1e-9)
+    assert run.diagnostics.energy_residual < 1e-9
+
+
+def test_a_turning_angle_within_one_turn(tmp_path: Path) -> None:
+    """A push over a part of each turn only, mod of an angle that grows without bound: steady torque, known work."""
+    text = """
+bodies: {wheel: {mass: 1 kg, inertia: 0.1 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {axle: {revolute: [ground.O, wheel.com]}}
+forces: {motor: {torque: wheel, value: "where(mod(wheel.theta, 2*pi) < 90 deg, 3 N*m, 0 N*m)"}}
+start: {rates: {wheel.omega: 1 rad/s}}
+outputs: {within: "mod(wheel.theta, 2*pi)"}
+"""
+    run = loader(tmp_path)(text).simulate(4.0, output=400, rtol=1e-10)
+    theta = run["wheel.theta"]
+    turns, rest = np.divmod(theta, 2 * np.pi)
+    work = 3.0 * (turns * np.pi / 2 + np.minimum(rest, np.pi / 2))
+    np.testing.assert_allclose(0.05 * run["wheel.omega"] ** 2, 0.05 + work, rtol=1e-8)
+    assert theta[-1] > 20.0
+    np.testing.assert_allclose(run["within"], rest, atol=1e-12)
+
+
+@pytest.mark.parametrize("method", ["rk4", "dop853", "rodas5p"])
+def test_a_motion_law_in_pieces(method: str, tmp_path: Path) -> None:
+    """min and max say the same as where: the same impulses at the same corners, and the energy balance holds."""
+    load = loader(tmp_path)
+    pieces = "where(t < 0.2 s, 2 rad/s * t, where(t <= 0.5 s, 0.4 - 3 rad/s * (t - 0.2 s), -0.5))"
+    plain = "2 rad/s * min(t, 0.2 s) - 3 rad/s * (max(0.2 s, min(t, 0.5 s)) - 0.2 s)"
+    options = {"step": 1e-3} if method == "rk4" else {"rtol": 1e-10}
+    runs = [load(LINKAGE % value).simulate(0.8, output=64, method=method, **options) for value in (pieces, plain)]
+    np.testing.assert_allclose(runs[0]["bob.theta"], runs[1]["bob.theta"], atol=1e-9)
+    assert runs[0].diagnostics.energy_residual < 1e-8
+    assert np.ptp(runs[0]["bob.theta"]) > 0.1
+
+
+def test_a_motion_law_that_repeats(tmp_path: Path) -> None:
+    """A rise and a return in each period, by mod: what the same law says in a later period, to rounding."""
+    text = LINKAGE.replace("start:", "parameters: {T: 0.25 s}\nstart:")
+    law = "where(mod(t, T) < T/2, smooth_step(mod(t, T), 0 s, T/2), 1 - smooth_step(mod(t, T), T/2, T/2)) * 60 deg"
+    run = loader(tmp_path)(text % law).simulate(1.0, output=400, rtol=1e-9)
+    crank = run["crank.theta"].copy()
+    np.testing.assert_allclose(crank[:101], crank[300:], atol=1e-12)
+    assert abs(crank.max() - np.pi / 3) < 1e-12 and abs(crank[100]) < 1e-12
+    assert run.diagnostics.energy_residual < 1e-7
+
+
+def test_a_drive_must_not_jump(tmp_path: Path) -> None:
+    """Branches that do not meet: the run ends there and says so, also without freedom, in batches, at small jumps."""
+    load = loader(tmp_path)
+    for value, size, at in (("where(t < 0.3 s, t * 1 rad/s, 0.5)", "0.2", 0.3), ("mod(t * 1 rad/s, 0.25)", "0.25", 0.25),
+                            ("where(t < 0.3 s, t * 1 rad/s, t * 1 rad/s + 1e-7)", "1e-07", 0.3)):  # fmt: skip
+        linkage = load(LINKAGE % value)
+        with pytest.raises(SolverError, match=f"motor: it jumps by {size}.* at t = {at}") as caught:
+            linkage.simulate(1.0)
+        assert caught.value.partial.t[-1] <= at
+        batch = linkage.simulate_many([{"gravity.y": -9.0}, {}], t_end=1.0)
+        assert len(batch.failures) == 2
+        assert len(linkage.simulate(0.24).t)
+    bare = LINKAGE.replace("  bob: {length: 0.2 m, mass: 0.4 kg, inertia: auto}\n", "")
+    bare = bare.replace("  hook: {revolute: [slider.com, bob.tail]}\n", "").replace("start:", "x:").partition("x:")[0]
+    with pytest.raises(SolverError, match=r"it jumps by 0.2 at t = 0.3"):
+        load(bare % "where(t < 0.3 s, t * 1 rad/s, 0.5)").simulate(1.0)
+
+
+@pytest.mark.parametrize(
+    ("value", "message", "hint"),
+    [
+        ("where(t, F, 0 N)", "expected a comparison, got ','", "where(t < 1 s, then, otherwise)"),
+        ("where(t < 1 s, F)", "where takes 3 arguments, got 2", "then, otherwise"),
+        ("where(t < 1 m, F, 0 N)", "cannot compare", "expected a time"),
+        ("where(t < 1 s, F, 1 m)", "where of unlike quantities", "expected a force"),
+        ("F * (t < 1 s)", "expected ')', got '<'", "in where(a < b, then, otherwise) alone"),
+        ("mod(t, 1 m) * 1 N/s", "mod of unlike quantities", "expected a time"),
+        ("mod(t) * 1 N/s", "mod takes 2 arguments, got 1", "each second"),
+        ("F % 2", "unexpected character '%'", "mod(a, b)"),
+        ("F * mod(t, 0 s) / 1 s", "has a part that is inf", "a division by zero"),
+    ],
+)
+def test_what_is_refused(value: str, message: str, hint: str, tmp_path: Path) -> None:
+    path = tmp_path / "slug.yaml"
+    path.write_text("format: gudgeon/1\nname: slug\n" + SLUG % value)
+    with pytest.raises(InputError) as caught:
+        gudgeon.load(path)
+    assert message in str(caught.value) and hint in str(caught.value) and "slug.yaml:8:" in str(caught.value)
