@@ -191,7 +191,7 @@ class Switches:
                 knots = KnotsOf(arguments[0], arguments[2])
                 known = not only_known or self.known(owner, knots) is not None
                 return CurveOn(*arguments, side(knots)) if known else CurveOf(*arguments)
-            case ModOf() if len(arguments) == 2:
+            case ModOf():
                 periods = PeriodsOf(*arguments)
                 known = not only_known or self.known(owner, periods) is not None
                 return ModOn(*arguments, side(periods)) if known else ModOf(*arguments)

@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import sympy as sp
 
+from gudgeon.language.tree import mod
 
-class ModOf(sp.Function):
-    """ModOf(a, b): from 0 to b, with the sign of b."""
 
-    nargs = 2
+class _Remainder(sp.Function):
     is_real = True
-
-    @classmethod
-    def eval(cls, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
-        """Of numbers their remainder, exactly."""
-        return a - b * sp.floor(a / b) if a.is_Rational and b.is_Rational and b != 0 else None
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         """That of a, less what b grows in each of the periods that are behind."""
@@ -23,15 +17,25 @@ class ModOf(sp.Function):
         return sp.diff(a, s) - (0 if rate == 0 else rate * (a - self) / b)
 
 
-class ModOn(ModOf):
+class ModOf(_Remainder):
+    """ModOf(a, b): from 0 to b, with the sign of b."""
+
+    nargs = 2
+
+    @classmethod
+    def eval(cls, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
+        """Of numbers their remainder: exactly, or as binary64 has it."""
+        if not (a.is_number and b.is_number):
+            return None
+        if a.is_Rational and b.is_Rational and b != 0:
+            return a - b * sp.floor(a / b)
+        return sp.Float(mod(float(a), float(b)), 17) if b != 0 else sp.nan
+
+
+class ModOn(_Remainder):
     """ModOn(a, b, side): the same in periods of one side, each as it goes on beyond its ends."""
 
     nargs = 3
-
-    @classmethod
-    def eval(cls, a: sp.Expr, b: sp.Expr, side: sp.Expr) -> sp.Expr | None:
-        """As it stands."""
-        return None
 
 
 class PeriodsOf(sp.Function):

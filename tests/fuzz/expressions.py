@@ -15,7 +15,7 @@ _ANGLES = ("rad", "deg", "mrad", "rev")
 
 
 class Writer:
-    """Writes expressions in some names, one of `vary` at least. `jumps`: sign, where and mod may occur: a drive must not."""
+    """Writes expressions in some names, one of `vary` at least. `jumps`: it may, by sign, where and mod."""
 
     def __init__(
         self, rng: random.Random, names: Mapping[str, Dimension], vary: Collection[str], jumps: bool = True

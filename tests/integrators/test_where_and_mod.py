@@ -99,8 +99,9 @@ def test_a_motion_law_in_pieces(method: str, tmp_path: Path) -> None:
     load = loader(tmp_path)
     pieces = "where(t < 0.2 s, 2 rad/s * t, where(t <= 0.5 s, 0.4 - 3 rad/s * (t - 0.2 s), -0.5))"
     plain = "2 rad/s * min(t, 0.2 s) - 3 rad/s * (max(0.2 s, min(t, 0.5 s)) - 0.2 s)"
-    options = {"step": 1e-3} if method == "rk4" else {"rtol": 1e-10}
-    runs = [load(LINKAGE % value).simulate(0.8, output=64, method=method, **options) for value in (pieces, plain)]
+    step, rtol = (1e-3, None) if method == "rk4" else (None, 1e-10)
+    linkages = (load(LINKAGE % value) for value in (pieces, plain))
+    runs = [linkage.simulate(0.8, output=64, method=method, step=step, rtol=rtol) for linkage in linkages]
     np.testing.assert_allclose(runs[0]["bob.theta"], runs[1]["bob.theta"], atol=1e-9)
     assert runs[0].diagnostics.energy_residual < 1e-8
     assert np.ptp(runs[0]["bob.theta"]) > 0.1
@@ -120,8 +121,9 @@ def test_a_motion_law_that_repeats(tmp_path: Path) -> None:
 def test_a_drive_must_not_jump(tmp_path: Path) -> None:
     """Branches that do not meet: the run ends there and says so, also without freedom, in batches, at small jumps."""
     load = loader(tmp_path)
-    for value, size, at in (("where(t < 0.3 s, t * 1 rad/s, 0.5)", "0.2", 0.3), ("mod(t * 1 rad/s, 0.25)", "0.25", 0.25),
-                            ("where(t < 0.3 s, t * 1 rad/s, t * 1 rad/s + 1e-7)", "1e-07", 0.3)):  # fmt: skip
+    cases = (("where(t < 0.3 s, t * 1 rad/s, 0.5)", "0.2", 0.3), ("mod(t * 1 rad/s, 0.25)", "0.25", 0.25),
+             ("where(t < 0.3 s, t * 1 rad/s, t * 1 rad/s + 1e-7)", "1e-07", 0.3))  # fmt: skip
+    for value, size, at in cases:
         linkage = load(LINKAGE % value)
         with pytest.raises(SolverError, match=f"motor: it jumps by {size}.* at t = {at}") as caught:
             linkage.simulate(1.0)

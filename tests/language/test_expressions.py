@@ -58,7 +58,7 @@ trees = st.recursive(
         inner.map(lambda x: Unary("-", x)),
         st.builds(Binary, st.sampled_from(sorted(PRECEDENCE)), inner, inner),
         st.builds(lambda f, a: Call(f, (a,)), st.sampled_from(["sin", "cos", "exp", "atan", "abs"]), inner),
-        st.builds(lambda f, a, b: Call(f, (a, b)), st.sampled_from(["atan2", "hypot", "min", "max", "mod"]), inner, inner),
+        st.builds(lambda f, *a: Call(f, a), st.sampled_from(["atan2", "hypot", "min", "max", "mod"]), inner, inner),
         st.builds(lambda *a: Call("where", a), inner, inner, inner, inner),
     ),
     max_leaves=20,
