@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import BadValueError, UnknownNameError
@@ -46,14 +46,15 @@ class Plot:
     def __init__(self, run: Result) -> None:
         self.run = run
 
-    def __call__(self, *names: str) -> Figure:
+    def __call__(self, *names: str | Sequence[str]) -> Figure:
         """A panel for each unit, the panels wrapped; without names what a reader wants to see (report.py)."""
         from gudgeon.results.report import default_watch
 
+        wanted = [name for of in names for name in (of if isinstance(of, (list, tuple)) else (of,))]
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
         forces = {f"{joint}.F": trace.force(run, joint) for joint in joints}  # with the extremes of all steps
-        for name in names or (*default_watch(run), *drive_series(run.source), *forces):
+        for name in wanted or (*default_watch(run), *drive_series(run.source), *forces):
             panels.setdefault(run.unit(name), []).append(name)
         columns = 1 if len(panels) < 3 else 2
         rows = -(-len(panels) // columns)

@@ -56,6 +56,11 @@ class Simulation:
         self._model: Model | None = None
         self._full: Simulation | None = None
 
+    def __repr__(self) -> str:
+        joints = ", ".join(joint.name for joint in self.source.clearances)
+        of = f"{self.source.mechanism}/{self.source.scene}"
+        return f"<Simulation {of}: {self.compiled.n // 3} bodies{f', play in {joints}' if joints else ''}>"
+
     @property
     def model(self) -> Model:
         """The scene's equations in SymPy, derived when first asked for. InputError if the file was edited since."""

@@ -189,6 +189,7 @@ def test_a_run_plots_a_panel_for_each_unit(run: Result) -> None:
     assert len(run.plot("S9.y", "S9.x", "S9.vy").get_axes()) == 2
     drawn = np.asarray(panels[2].lines[0].get_ydata())
     assert drawn.max() >= run.diagnostics.peak("A").F  # the peaks of all steps too
+    assert labels(run.plot(["S9.y", "A.F"])) == labels(run.plot("S9.y", "A.F"))
 
 
 def test_angles_are_in_degrees_for_people(run: Result, ideal: Result) -> None:
