@@ -91,6 +91,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
         freedoms=_read_freedoms(reader, root),
         curves=curves,
         tables=reader.tables,
+        laws=reader.laws,
     )
 
 
