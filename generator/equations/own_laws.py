@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import sympy as sp
 
 from gudgeon.errors import LawError
 from gudgeon.generator.kinds.laws.built import PAIR, probe
-from gudgeon.generator.kinds.laws.law import OWN, RESULTS, VARIABLES, Law
+from gudgeon.generator.kinds.laws.law import FURTHER, OWN, RESULTS, VARIABLES, Law, laws
 from gudgeon.generator.kinds.laws.registered import ORIGINS, check_name, prefix
 from gudgeon.generator.mechanism.mechanism import LawUse
 from gudgeon.generator.mechanism.scene import Scene
@@ -34,32 +34,53 @@ def own_letters(scene: Scene) -> frozenset[str]:
 
     In emitted code nothing else may be called so. Raises LawError for a name that something else has there.
     """
-    return frozenset(name for law, use in _uses(scene) for name in _letters(law, use))
-
-
-def _uses(scene: Scene) -> Iterator[tuple[Law, LawUse]]:
+    found: set[str] = set()
     for play in scene.play.values():
-        for use in (play.contact.normal, play.contact.friction, play.contact.film):
-            if use is not None and use.law in OWN:
-                yield OWN[use.law], use
+        uses = (play.contact.normal, play.contact.friction, play.contact.film)
+        some = [(laws()[use.law], use) for use in uses if use is not None]
+        if any(law.name in OWN for law, _ in some):
+            names = {law.name: _Names(law, use) for law, use in some}
+            for law in (law for law, _ in some if law.name in OWN):
+                names[law.name].check()
+                found |= {*names[law.name].locals, *law.variables, *law.results}
+            _check_together([names[law.name] for law, _ in some if law.role != "film"])
+    return frozenset(found)
 
 
-def _letters(law: Law, use: LawUse) -> set[str]:
-    made = probe(law, use.options, use.quantities)
-    own = [*(state.name for state in law.states), *(name for name in made.steps if name not in law.results)]
-    numbers = [*use.quantities, *made.derived]
-    reserved = {*PAIR, "transition", *itertools.chain(*VARIABLES.values(), *RESULTS.values()), "deltadot"}
-    for name in (*own, *numbers):
-        told = f"{prefix(law.name, ORIGINS.get(law.name))}"
-        try:
-            check_name(name, "number or abbreviation")
-        except LawError as error:
-            raise LawError(f"{told}{error.message}", hint=error.hint) from None
-        taken = name not in _LETTERS and is_in_code(name)
-        if taken or name in reserved or [*own, *numbers].count(name) > 1:
-            hint = "call the number, state or abbreviation otherwise; its `symbol` may be any letter"
-            raise LawError(f"{told}the emitted C has {name!r} for something else", hint=hint)
-    return {*own, *law.variables, *law.results}
+class _Names:
+    """What a law calls the locals and the numbers of its function."""
+
+    def __init__(self, law: Law, use: LawUse) -> None:
+        made = probe(law, use.options, use.quantities)
+        self.law = law
+        self.locals = [*(state.name for state in law.states), *(name for name in made.steps if name not in law.results)]
+        self.numbers = [*use.quantities, *made.derived]
+
+    def check(self) -> None:
+        """Raise LawError for a name that the emitted C has for something else."""
+        reserved = {*PAIR, "transition", *itertools.chain(*VARIABLES.values(), *FURTHER.values(), *RESULTS.values())}
+        every = [*self.locals, *self.numbers]
+        for name in every:
+            try:
+                check_name(name, "number or abbreviation")
+            except LawError as error:
+                raise LawError(f"{_whose(self.law)}{error.message}", hint=error.hint) from None
+            taken = name in reserved or name not in _LETTERS and is_in_code(name)
+            if taken or every.count(name) > 1:
+                hint = "call the number, state or abbreviation otherwise; a number's `symbol` may be any letter"
+                raise LawError(f"{_whose(self.law)}the emitted C has {name!r} for something else", hint=hint)
+
+
+def _check_together(dry: Sequence[_Names]) -> None:
+    """The slopes of a dry contact are one function: what is local there has one meaning."""
+    for one, other in itertools.permutations(dry, 2):
+        if both := {*one.locals} & {*other.locals, *other.numbers}:
+            told = f"{_whose(one.law)}{min(both)!r} is the name of something in the contact's other law, {other.law.name}"
+            raise LawError(told, hint="call the abbreviation of your own law otherwise")
+
+
+def _whose(law: Law) -> str:
+    return prefix(law.name, ORIGINS.get(law.name))
 
 
 def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], slots: Slots) -> None:
@@ -77,7 +98,7 @@ def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str
             if not math.isfinite(values[-1]):
                 at = ", ".join(f"{s.name} = {x:g} {_UNITS.get(s.name, '')}".strip()
                                for s, x in zip(variables, state, strict=True))  # fmt: skip
-                told = f"{prefix(law.name, ORIGINS.get(law.name))}{name} is {values[-1]:g} at {at}"
+                told = f"{_whose(law)}{name} is {values[-1]:g} at {at}"
                 raise LawError(f"{told}, with the file's numbers", hint="expected a finite real number there")
 
 

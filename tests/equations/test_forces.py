@@ -11,7 +11,7 @@ import sympy as sp
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES, LawInputs, PairSymbols, laws
+from gudgeon.generator.kinds.laws.law import RESULTS, LawInputs, PairSymbols, laws
 from tests.oracles import dry, film
 
 PAIR = PairSymbols(R_i=0.015, R_j=0.0147, c=0.3e-3, L=0.04, E_i=70e9, nu_i=0.3, E_j=206e9, nu_j=0.28)
@@ -31,7 +31,7 @@ class Evaluator:
         self.law = laws()[name]
         values = {p.name: p.default for p in self.law.parameters} | dict(parameters)
         chosen = {o.name: o.choice for o in self.law.options} | options
-        symbols = {v: sp.Symbol(v, real=True) for v in VARIABLES[self.law.role]}
+        symbols = {v: sp.Symbol(v, real=True) for v in self.law.variables}
         pair = PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()})
         numbers = {k: sp.Float(v) for k, v in values.items() if v is not None}
 

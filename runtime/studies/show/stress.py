@@ -110,10 +110,11 @@ def _boundary_table(scene: StressMap) -> Table:
 
 def tell_failures(out: Console, file: str, found: StressMap | StressBox, cells: Sequence[Cell]) -> None:
     """Why, and what to type to see it again; that line is as long as it is, so that it can be copied."""
+    laws = files_of_laws()
     for cell in cells:
         said = cell.reason or f"largest error {share(cell.error.largest)}"
         out.print(f"  {SIGNS[cell.status]} {said}", markup=False, emoji=False)
-        again = command(file, found.scene, cell, found.t_long, found.full)
+        again = command(file, found.scene, cell, found.t_long, found.full, laws)
         out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
 
 
@@ -130,14 +131,25 @@ def legend(found: Sequence[StressMap | StressBox]) -> Text:
     return Text("   ").join(Text(f"{SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
 
 
-def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False) -> str:
+def command(
+    file: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()
+) -> str:  # fmt: skip
     """The line that runs a cell again, of the file as it was typed; as it stands it can be given to a shell."""
     words = ["gudgeon", "run", f"./{file}" if file.startswith("-") else file, "--scene", scene]
     words += ["--method", cell.setting.method, "--step" if cell.setting.fixed else "--rtol", repr(cell.setting.value)]
     words += ["--formulation", "full"] if full else []
     for name, told in cell.parameters.items():
         words += ["--set", f"{name}={told}"]
+    for law in laws:
+        words += ["--laws", law]
     return shlex.join([*words, "--t-end", repr(t_end)])
+
+
+def files_of_laws() -> list[str]:
+    """Those of the user's own laws that are known, as they were typed."""
+    from gudgeon.generator.kinds.laws.registered import ORIGINS
+
+    return [origin.typed for origin in ORIGINS.values() if origin.typed]
 
 
 def verdict(found: Sequence[StressMap], mark_step: float | None) -> list[str]:
