@@ -224,9 +224,10 @@ def bench(
     return bench_file(request, tuple(methods or ()))
 
 
-@app.command()
+@app.command("stress", hidden=True)
+@app.command("map")
 @_told
-def stress(
+def verdicts(
     file: File, scene: Scenes = None, set_: Set = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}.")] = "auto",
     at: Annotated[
@@ -253,15 +254,15 @@ def stress(
     Each run is stable, inaccurate, diverged or outside the model, with its reason; failures with what to
     type to see them again.
 
-    Example: gudgeon stress engine.yaml --scene lubricated --method rk4 --mark-step 0.1ms
+    Example: gudgeon map engine.yaml --scene lubricated --method rk4 --mark-step 0.1ms
 
-    Example: gudgeon stress engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
+    Example: gudgeon map engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
     """
-    from gudgeon.commands.stress import Stress, stress_file
+    from gudgeon.commands.map import Asked, map_file
     from gudgeon.commands.studies import Request
 
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
-    return stress_file(request, Stress(method, at, tuple(axis or ()), box, tuple(range_ or ())))
+    return map_file(request, Asked(method, at, tuple(axis or ()), box, tuple(range_ or ())))
 
 
 def main() -> None:

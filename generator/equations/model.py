@@ -147,7 +147,7 @@ class Model:
 
     @cached_property
     def g(self) -> sp.Matrix:
-        """Generalized applied forces without those of the clearance joints, (n, 1): gravity, force elements."""
+        """Generalized applied forces without those of joints with play, (n, 1): gravity, force elements."""
         gx, gy = self.gravity
         forces = [f for body in self.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
         for element in self.elements.values():

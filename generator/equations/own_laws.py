@@ -75,8 +75,8 @@ def _check_together(dry: Sequence[_Names]) -> None:
     """The slopes of a dry contact are one function: what is local there has one meaning."""
     for one, other in itertools.permutations(dry, 2):
         if both := {*one.locals} & {*other.locals, *other.numbers}:
-            told = f"{_whose(one.law)}{min(both)!r} is the name of something in the contact's other law, {other.law.name}"
-            raise LawError(told, hint="call the abbreviation of your own law otherwise")
+            told = f"{min(both)!r} names something in the contact's other law, {other.law.name}, too"
+            raise LawError(f"{_whose(one.law)}{told}", hint="call the abbreviation of your own law otherwise")
 
 
 def _whose(law: Law) -> str:

@@ -110,7 +110,8 @@ class Symbols:
         """`wanted` as a C identifier that nothing else has."""
         assert not self._frozen, f"{wanted}: derived after the program was made"
         name = re.sub(r"\W", "_", wanted)
-        if name in _TAKEN or name in _letters() or name in self._letters or _MACRO.fullmatch(name) or _FUNCTION.fullmatch(name):
+        taken = name in _TAKEN or name in _letters() or name in self._letters
+        if taken or _MACRO.fullmatch(name) or _FUNCTION.fullmatch(name):
             name = f"par_{name}"
         candidate, count = name, 1
         while candidate in self._names:

@@ -137,7 +137,7 @@ def test_equations_wants_a_known_suffix(call: Gudgeon, pump: str, tmp_path: Path
         "equations PUMP -o FILE/x.tex", "equations PUMP -o LONG.tex", "equations PUMP -o LONG/x.html",
         "emit PUMP -o FILE", "emit PUMP -o FILE/x", "emit PUMP -o LONG", "run PUMP --out FILE", "run PUMP --out LONG",
         "run PUMP --out x/LONG/y", "run LONG.yaml", "check LONG.yaml", "bench PUMP --csv LONG.csv",
-        "stress PUMP --csv FILE/x.csv", "stress PUMP --out LONG", "run /dev/zero", "check /dev", "check pipe.yaml",
+        "map PUMP --csv FILE/x.csv", "map PUMP --out LONG", "run /dev/zero", "check /dev", "check pipe.yaml",
         "emit pipe.yaml -o c", "equations pipe.yaml -o x.txt",
     ],
 )  # fmt: skip
@@ -166,7 +166,7 @@ def test_a_variable_that_cannot_be_is_told(
 
 def test_version_and_help(call: Gudgeon) -> None:
     assert call("--version").stdout == f"gudgeon {gudgeon.__version__}\n"
-    for command in ("run", "check", "emit", "equations", "bench", "stress"):
+    for command in ("run", "check", "emit", "equations", "bench", "map"):
         assert "Example: gudgeon" in call(command, "--help").stdout
 
 

@@ -75,7 +75,7 @@ def test_commands_show_a_title_as_it_stands(call: Gudgeon, tmp_path: Path) -> No
     short = ("--scene", "worn", "--t-end", "1e-4")
     commands = {
         "check": ("nasty.yaml", "-v"), "run": ("nasty.yaml", *short),
-        "stress": ("nasty.yaml", *short, "--quick", "--axis", "rtol=1e-6"),
+        "map": ("nasty.yaml", *short, "--quick", "--axis", "rtol=1e-6"),
         "bench": ("nasty.yaml", *short, "--quick", "--methods", "dop853"),
     }  # fmt: skip
     for command, arguments in commands.items():

@@ -1,9 +1,10 @@
-"""One impact on a spring and a dashpot against closed forms, clipped (the house's law) and pulling (a law of one's own).
+"""One impact on a spring and a dashpot against closed forms, clipped (the house's law) and pulling (one's own).
 
 With the mass m, ω = √(K/m), ζ = D/(2 m ω) = sin φ and the speed v of approach the force is, from the onset,
-F = m v ω e^(−ζ ω t) sin(ω cos φ t + 2 φ)/cos φ. Clipped it ends at its zero, and the restitution is e^(−tan φ (π − 2 φ));
-pulling it goes on to δ = 0 at ω cos φ t = π, and the restitution is e^(−π tan φ). The largest force is m v ω e^(−tan φ
-(π/2 − 3 φ)) while φ < π/6, then D v, at the onset. T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465-469.
+F = m v ω e^(−ζ ω t) sin(ω cos φ t + 2 φ)/cos φ. Clipped it ends at its zero, and the restitution is
+e^(−tan φ (π − 2 φ)); pulling it goes on to δ = 0 at ω cos φ t = π, and the restitution is e^(−π tan φ). The largest
+force is m v ω e^(−tan φ (π/2 − 3 φ)) while φ < π/6, then D v, at the onset.
+T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465-469.
 """
 
 from __future__ import annotations
@@ -11,7 +12,6 @@ from __future__ import annotations
 import math
 import shutil
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest

@@ -23,7 +23,7 @@ from gudgeon.generator.pipeline import derive, generate
 from gudgeon.generator.targets.json_schema import schema
 from gudgeon.generator.targets.latex import equations_text
 from gudgeon.loading.shipped import shipped_file
-from tests.kinds.own import example, example_text, forgotten
+from tests.kinds.own import example_text, forgotten
 from tests.pump import Gudgeon, needs_compiler
 
 TEXT = """\
@@ -41,6 +41,8 @@ contacts: {wall: {normal: {law: dashpot, stiffness: 1e6 N/m, damping: 50 N*s/m}}
 scenes: {wall: {play: {pin: {bearing: b, contact: wall}}, simulate: {t_end: 1 ms, output: 4}}}
 """
 BUILD = '    return {"F_n": K * s.variables["delta"] + D * s.variables["deltadot"]}\n'
+SP = "    import sympy as sp\n"
+DERIVED = '    return {"F_n": s.derive("h", K * s.variables["delta"], "x")}\n'
 
 
 @pytest.fixture(autouse=True)
@@ -100,18 +102,18 @@ WRONG = [
     (BUILD, '    return {"F_t": K}\n', "build returns no F_n"),
     (BUILD, '    return {"F_n": "K"}\n', "F_n is of type str"),
     (BUILD, '    return {"F_n": K > 0}\n', "F_n is of type"),
-    (BUILD, '    import sympy as sp\n    return {"F_n": K * sp.Symbol("w")}\n', r"(?s)F_n uses the symbol w\n.*delta, ratio"),
-    (BUILD, '    import sympy as sp\n    return {"a": K, "F_n": sp.Symbol("a")}\n', r"(?s)uses the symbol a\n.*real=True"),
-    (BUILD, '    import sympy as sp\n    return {"F_n": sp.gamma(K)}\n', r"(?s)F_n uses gamma, .*Max, Min"),
+    (BUILD, SP + '    return {"F_n": K * sp.Symbol("w")}\n', r"(?s)F_n uses the symbol w\n.*delta, ratio"),
+    (BUILD, SP + '    return {"a": K, "F_n": sp.Symbol("a")}\n', r"(?s)uses the symbol a\n.*real=True"),
+    (BUILD, SP + '    return {"F_n": sp.gamma(K)}\n', r"(?s)F_n uses gamma, .*Max, Min"),
     (
-        BUILD, '    import sympy as sp\n    return {"F_n": sp.Piecewise((K, s.variables["delta"] > 1), (D, True))}\n',
+        BUILD, SP + '    return {"F_n": sp.Piecewise((K, s.variables["delta"] > 1), (D, True))}\n',
         "F_n uses Piecewise",
     ),
-    (BUILD, '    import sympy as sp\n    return {"F_n": K * sp.sqrt(-1)}\n', "F_n is not real"),
-    (BUILD, '    import sympy as sp\n    return {"F_n": K * sp.zoo}\n', "F_n is not finite"),
+    (BUILD, SP + '    return {"F_n": K * sp.sqrt(-1)}\n', "F_n is not real"),
+    (BUILD, SP + '    return {"F_n": K * sp.zoo}\n', "F_n is not finite"),
     (BUILD, '    return {"F_n": K / s.variables["delta"]}\n', r"F_n is inf at delta = 0 m, ratio = 1, with the file's"),
     (BUILD, '    return {"F_n": K * s.variables["deltadot"] ** 0.5}\n', r"F_n is nan at .*deltadot = -0.001 m/s"),
-    (BUILD, '    return {"F_n": s.derive("h", K * s.variables["delta"], "x")}\n', r"derive\('h', …\) uses the symbol delta"),
+    (BUILD, DERIVED, r"derive\('h', …\) uses the symbol delta"),
     (BUILD, '    return {"memory": K, "F_n": K}\n', "the emitted C has 'memory' for something else"),
     (BUILD, '    return {"damping": K, "F_n": K}\n', "the emitted C has 'damping' for something else"),
     (BUILD, '    return {"double": K, "F_n": K}\n', "the emitted C has 'double' for something else"),
@@ -195,8 +197,9 @@ def test_scenes_without_it_are_as_they_were(tmp_path: Path) -> None:
 
 def test_numbers_that_are_called_as_its_abbreviations(disc: Path) -> None:
     """A parameter `speed` and an abbreviation `speed` are two things."""
-    steps = '    import sympy as sp\n    speed = sp.Symbol("speed", real=True)\n' \
-            '    return {"speed": 2 * s.variables["deltadot"], "F_n": K * s.variables["delta"] + D * speed / 2}\n'  # fmt: skip
+    steps = SP + """    speed = sp.Symbol("speed", real=True)
+    return {"speed": 2 * s.variables["deltadot"], "F_n": K * s.variables["delta"] + D * speed / 2}
+"""
     gudgeon.register(law_file(disc.parent, BUILD, steps))
     text = disc.read_text(encoding="utf-8").replace("50 N*s/m", "speed * 50 kg/m")
     model = derive(text.encode(), "disc.yaml", "wall")

@@ -31,7 +31,7 @@ LAW = Law(
     name="kelvin_voigt",
     role="normal",
     title="Kelvin and Voigt: a linear spring and a damper side by side",
-    source="W. Goldsmith, Impact (1960); T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469, for its restitution",
+    source="W. Goldsmith, Impact (1960); T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469",
     validity="restitution is the same at any speed; the force begins with damping times speed at the onset",
     fields=(
         number("stiffness", "force by penetration", STIFFNESS, symbol="K", required=True, bounds=(Bound(">", 0.0),)),
