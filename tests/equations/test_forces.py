@@ -11,7 +11,7 @@ import sympy as sp
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gudgeon.generator.kinds.laws.law import RESULTS, LawInputs, PairSymbols, laws
+from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES, LawInputs, PairSymbols, laws
 from tests.oracles import dry, film
 
 PAIR = PairSymbols(R_i=0.015, R_j=0.0147, c=0.3e-3, L=0.04, E_i=70e9, nu_i=0.3, E_j=206e9, nu_j=0.28)
@@ -39,7 +39,8 @@ class Evaluator:
             return expression
 
         steps = self.law.build(LawInputs(numbers, chosen, pair, symbols, derive))
-        known, self._steps = list(symbols.values()), []
+        read = {s.name for step in steps.values() for s in sp.sympify(step).free_symbols}
+        known, self._steps = [s for name, s in symbols.items() if name in (*VARIABLES[self.law.role], *read)], []
         for step, expression in steps.items():
             self._steps.append((step, sp.lambdify(known, expression, "math")))
             known.append(sp.Symbol(step, real=True))
@@ -59,6 +60,7 @@ NORMAL = {g: Evaluator("lankarani_nikravesh", {"restitution": 0.9}, geometry=g) 
 FLORES = {
     g: Evaluator("hertz", {"restitution": 0.9}, dissipation="flores", geometry=g) for g in ("external", "internal")
 }
+VOIGT = Evaluator("kelvin_voigt", {"stiffness": 1e6, "damping": 200.0})
 FRICTION = Evaluator("modified_coulomb", {"mu": 0.15, "v0": 1e-4, "v1": 1e-3})
 
 
@@ -167,3 +169,11 @@ def test_restitution_of_the_normal_law(given_restitution: float, delivered: floa
     law = Evaluator("lankarani_nikravesh", {"restitution": given_restitution})
     factor = law(1e-5, 1.0)[0] / law(1e-5, 0.0)[0] - 1.0
     assert dry.delivered(factor) == pytest.approx(delivered, abs=5e-6)
+
+
+@FAST
+@given(st.floats(0.0, 1e-3), st.floats(-5.0, 5.0))
+def test_kelvin_and_voigt_push_and_never_pull(delta: float, deltadot: float) -> None:
+    (got,) = VOIGT(delta, 1.0, deltadot)
+    assert got == pytest.approx(max(1e6 * delta + 200.0 * deltadot, 0.0), rel=1e-14)
+    assert (got - 1e6 * delta) * deltadot >= -1e-9 or got == 0.0  # beside the spring it only dissipates
