@@ -122,7 +122,7 @@ def test_gains_act_in_the_full_formulation() -> None:
 def test_marked_step_is_a_row(call: Gudgeon, pump: str, tmp_path: Path) -> None:
     done = call("map", pump, "--method", "rk4", "--quick", "--mark-step", "3us", "--t-end", "2ms")
     assert done.exit_code == 0, done.output
-    with open(tmp_path / "out/pump_stress.csv", encoding="utf-8") as file:
+    with open(tmp_path / "out/pump_map.csv", encoding="utf-8") as file:
         assert 3e-6 in {float(row["step_or_tolerance"]) for row in csv.DictReader(file)}
     assert "step 3 µs" in done.stdout
     done = call("bench", PENDULUM, "--scene", "ideal", "--quick", "--methods", "rk4", "--mark-step", "3ms")

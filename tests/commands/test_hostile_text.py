@@ -85,7 +85,7 @@ def test_commands_show_a_title_as_it_stands(call: Gudgeon, tmp_path: Path) -> No
         if command in ("check", "run"):
             words = done.stdout.replace("\n", " ").split()
             assert all(word in words for word in NASTY.split())
-    assert {"out/pump_worn.nc", "out/pump.png", "out/pump_stress.png", "out/pump_bench.png"} <= written(tmp_path)
+    assert {"out/pump_worn.nc", "out/pump.png", "out/pump_map.png", "out/pump_bench.png"} <= written(tmp_path)
     assert Result.load(tmp_path / "out/pump_worn.nc").source.title == NASTY
 
 

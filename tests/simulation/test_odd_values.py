@@ -222,7 +222,7 @@ class _NoPool:
 
 
 @pytest.mark.parametrize("name", STRESS)
-def test_stress(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_map(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(maps, "Pool", _NoPool)
     good: dict[str, Any] = {"quick": True}
     refused_or_used(lambda value: maps.verdict_map(pendulum, **(good | {name: value})))
