@@ -89,6 +89,14 @@ def test_clipped(discs: Discs, method: str, zeta: float) -> None:
     assert run["pin.Fn"].min() >= -1e-9
 
 
+@pytest.mark.parametrize(("zeta", "tolerance"), [(0.3, 1e-3), (0.6, 1e-9), (5.0, 1e-9)])
+def test_the_peak_of_a_contact_that_takes_one_step(discs: Discs, zeta: float, tolerance: float) -> None:
+    """From the onset to where it ceases to push; overdamped too."""
+    (contact,) = impact(discs["clipped"], zeta, method="dop853", rtol=1e-2).impacts
+    expected = peak(zeta) if zeta < 1 else 2 * zeta * MASS * OMEGA * SPEED
+    assert contact["F_peak"] == pytest.approx(expected, rel=tolerance)
+
+
 @pytest.mark.parametrize("method", ["dop853", "rodas5p"])
 @pytest.mark.parametrize("zeta", [0.01, 0.3, 0.8])
 def test_pulling(discs: Discs, method: str, zeta: float) -> None:

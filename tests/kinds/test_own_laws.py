@@ -58,11 +58,11 @@ def disc(tmp_path: Path) -> Path:
     return tmp_path / "disc.yaml"
 
 
-def law_file(folder: Path, old: str = "", new: str = "", name: str = "dashpot.py") -> Path:
+def law_file(folder: Path, old: str = "", new: str = "") -> Path:
     """The example with a change."""
     assert old in example_text()
-    (folder / name).write_text(example_text().replace(old, new, 1) if old else example_text(), encoding="utf-8")
-    return folder / name
+    (folder / "dashpot.py").write_text(example_text().replace(old, new, 1), encoding="utf-8")
+    return folder / "dashpot.py"
 
 
 def test_without_it_the_name_is_unknown_and_what_to_do_is_told(disc: Path) -> None:
@@ -82,6 +82,11 @@ def test_everything_follows_from_it(disc: Path) -> None:
     shown = equations_text(derive(disc.read_bytes(), str(disc), "wall"))
     assert "any book on vibrations" in shown and "F_n = δ·K + δ̇·D" in shown
     assert "dashpot" in json.dumps(schema()) and files_of_laws() == [str(disc.parent / "dashpot.py")]
+
+
+def test_a_number_without_a_symbol_is_called_by_its_name(disc: Path) -> None:
+    gudgeon.register(law_file(disc.parent, ', symbol="K"'))
+    assert "F_n = δ·stiffness + δ̇·D" in equations_text(derive(disc.read_bytes(), str(disc), "wall"))
 
 
 WRONG = [
