@@ -5,7 +5,7 @@ ARGS ?=
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run checks test test-all lint types fuzz bench race stress peers generated tables setup setup-test clean
+.PHONY: help run checks test test-all lint types fuzz bench race map stress peers generated tables setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -50,8 +50,10 @@ race:  ## time to reach an error, gudgeon beside its peers; writes docs/race.md.
 	@sh tools/setup all,bench
 	@.venv/bin/python -m benchmarks.race --write $(ARGS)
 
-stress: setup  ## step of rk4 × clearance: stable, inaccurate, diverged; without --method: tolerance × clearance
-	@$(GUDGEON) stress nine_bar_press --method rk4 --mark-step 0.1ms $(ARGS)
+map: setup  ## step of rk4 × clearance: stable, inaccurate, diverged; without --method: tolerance × clearance
+	@$(GUDGEON) map nine_bar_press --method rk4 --mark-step 0.1ms $(ARGS)
+
+stress: map
 
 peers: setup  ## scikit-sundae, for the methods sundials:*; the next `bench` includes them
 	@.venv/bin/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt scikit-sundae

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         SingularError,
         SolverError,
     )
+    from gudgeon.generator.kinds.laws.registered import register
     from gudgeon.results.join import join
     from gudgeon.results.results import Result
     from gudgeon.simulation.from_file import load
@@ -34,6 +35,7 @@ __version__ = "0.1.0"
 _HOME = {
     "load": "simulation.from_file",
     "join": "results.join",
+    "register": "generator.kinds.laws.registered",
     "Simulation": "simulation.simulation",
     "Result": "results.results",
     "GudgeonError": "errors",
@@ -62,6 +64,7 @@ __all__ = [
     "__version__",
     "join",
     "load",
+    "register",
 ]
 
 

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import wraps
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
 import typer
 
+from gudgeon.commands.options import Csv, End, File, Json, Laws, Mark, Out, Quick, Scenes, Set, path, whole
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 from gudgeon.errors import GudgeonError, MemoryShortage
 from gudgeon.language.shown import visible
@@ -38,11 +39,15 @@ def complain(error: GudgeonError) -> None:
 
 
 def _told(command: Command) -> Command:
-    """Our own errors are told in a line, without a traceback; others are bugs and keep theirs."""
+    """Our own errors are told in a line, without a traceback; others are bugs and keep theirs.
+
+    `laws` of a command are known before it begins.
+    """
 
     @wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
         try:
+            _know(kwargs.pop("laws", None) or ())
             code = command(*args, **kwargs)
         except (GudgeonError, MemoryError) as error:
             complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))
@@ -56,23 +61,12 @@ def _told(command: Command) -> Command:
     return wrapper  # type: ignore[return-value]
 
 
-def _whole(least: int) -> Callable[[str], int]:
-    """Reads a whole number as a file has it: Python alone would take 1_0, and the digits of other scripts."""
+def _know(laws: Iterable[str]) -> None:
+    """Laws of the user's own; a mechanism that needs none does not wait for what reads them."""
+    for file in laws:
+        from gudgeon.generator.kinds.laws.registered import register
 
-    def read(text: str) -> int:
-        told = str(text).strip()
-        if not (told.isascii() and told.removeprefix("-").isdigit()) or len(told) > 18 or int(told) < least:
-            raise typer.BadParameter(f"{visible(text)!r}: expected a whole number, {least} or more")
-        return int(told)
-
-    return read
-
-
-def _path(text: str) -> Path:
-    """A name of a file or folder; of no text Path makes the folder in which one stands."""
-    if not str(text).strip():
-        raise typer.BadParameter(f"{visible(str(text))!r}: expected a name")
-    return Path(text)
+        register(file)
 
 
 def _version(wanted: bool) -> None:
@@ -90,12 +84,6 @@ def _root(
     pass
 
 
-File = Annotated[str, typer.Argument(metavar="FILE", help="A YAML file, or the name of a shipped mechanism.")]
-Scenes = Annotated[list[str] | None, typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
-Out = Annotated[Path, typer.Option("--out", parser=_path, metavar="PATH", help="Folder for what is written.")]
-
-
 @app.command()
 @_told
 def run(
@@ -109,7 +97,7 @@ def run(
         str | None, typer.Option("--t-end", help="Until when, in s or with a unit. [default: the scene's, or 1 s]")
     ] = None,
     output: Annotated[
-        int | None, typer.Option(parser=_whole(1), metavar="COUNT", help="Output intervals. [default: the scene's]")
+        int | None, typer.Option(parser=whole(1), metavar="COUNT", help="Output intervals. [default: the scene's]")
     ] = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …")] = "auto",
@@ -129,8 +117,8 @@ def run(
         bool, typer.Option("--regenerate", help="Derive and compile again, whatever the cache has.")
     ] = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Rows that need docs/methods.md too.")] = False,
-    json: Json = False,
-) -> int:
+    json: Json = False, laws: Laws = None,
+) -> int:  # fmt: skip
     """Simulate scenes and compare them with the ideal one: a table, a NetCDF file a scene, one picture.
 
     The ideal scene (no play) is always run too, at the same times and with the same parameters.
@@ -152,8 +140,8 @@ def check(
     file: File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
     branches: Annotated[bool, typer.Option("--branches", help="Assemblies, and the guess that picks each.")] = False,
-    json: Json = False,
-) -> int:
+    json: Json = False, laws: Laws = None,
+) -> int:  # fmt: skip
     """Is a mechanism file valid, does it assemble, and what can move? Mistakes are told with line and column.
 
     Example: gudgeon check engine.yaml -v
@@ -169,10 +157,10 @@ def emit(
     file: File,
     folder: Annotated[
         Path,
-        typer.Option("--out", "-o", parser=_path, metavar="PATH", help="Folder for the C files, one below it a scene."),
+        typer.Option("--out", "-o", parser=path, metavar="PATH", help="Folder for the C files, one below it a scene."),
     ],
-    scene: Scenes = None,
-) -> int:
+    scene: Scenes = None, laws: Laws = None,
+) -> int:  # fmt: skip
     """Write the generated C, to be read or to be built into something else.
 
     Example: gudgeon emit engine.yaml -o c --scene dry
@@ -186,8 +174,9 @@ def emit(
 @_told
 def equations(
     file: File,
-    target: Annotated[Path, typer.Option("--out", "-o", parser=_path, metavar="PATH", help="x.tex, x.txt or x.html.")],
+    target: Annotated[Path, typer.Option("--out", "-o", parser=path, metavar="PATH", help="x.tex, x.txt or x.html.")],
     scene: Annotated[str, typer.Option("--scene", "-s", help="Which scene.")] = "ideal",
+    laws: Laws = None,
 ) -> int:
     """Write the equations of a scene as LaTeX, text or HTML.
 
@@ -200,7 +189,7 @@ def equations(
 
 @app.command()
 @_told
-def schema() -> int:
+def schema(laws: Laws = None) -> int:
     """Print the JSON Schema of mechanism files, for editors that complete and check YAML.
 
     Example: gudgeon schema > gudgeon.schema.json
@@ -208,18 +197,6 @@ def schema() -> int:
     from gudgeon.commands.schema import print_schema
 
     return print_schema()
-
-
-Quick = Annotated[bool, typer.Option("--quick", help="Fewer runs and a shorter window: seconds, not minutes.")]
-Mark = Annotated[
-    str | None, typer.Option("--mark-step", metavar="STEP", help="Show and tell what becomes of this step: 0.1ms.")
-]
-Set = Annotated[list[str] | None, typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a number: c=0.5mm.")]
-End = Annotated[str | None, typer.Option("--t-end", help="Length of the measured runs, in s or with a unit.")]
-Csv = Annotated[
-    Path | None,
-    typer.Option("--csv", parser=_path, metavar="PATH", help="Where the table goes, the picture beside it."),
-]
 
 
 @app.command()
@@ -231,7 +208,7 @@ def bench(
         list[str] | None,
         typer.Option("--methods", metavar="NAMES", help=f"Only these: {','.join(OFFERED)},scipy:*,sundials:cvode."),
     ] = None,
-    json: Json = False,
+    json: Json = False, laws: Laws = None,
 ) -> int:  # fmt: skip
     """Run time against error with every method, for each scene: a table, a CSV file, a picture.
 
@@ -247,9 +224,10 @@ def bench(
     return bench_file(request, tuple(methods or ()))
 
 
-@app.command()
+@app.command("stress", hidden=True)
+@app.command("map")
 @_told
-def stress(
+def verdicts(
     file: File, scene: Scenes = None, set_: Set = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}.")] = "auto",
     at: Annotated[
@@ -262,29 +240,29 @@ def stress(
     ] = None,
     box: Annotated[
         int | None,
-        typer.Option("--box", parser=_whole(0), metavar="COUNT",
+        typer.Option("--box", parser=whole(0), metavar="COUNT",
                      help="All corners of the box of --range and so many Sobol points."),
     ] = None,
     range_: Annotated[
         list[str] | None, typer.Option("--range", metavar="NAME=LOW..HIGH", help="An edge of the box.")
     ] = None,
     t_end: End = None, out: Out = Path("out"), csv: Csv = None, quick: Quick = False, mark: Mark = None,
-    json: Json = False,
+    json: Json = False, laws: Laws = None,
 ) -> int:  # fmt: skip
     """Tolerance (rk4: step) × clearance, or what --axis or --box say: where is a run stable, where does it fail?
 
     Each run is stable, inaccurate, diverged or outside the model, with its reason; failures with what to
     type to see them again.
 
-    Example: gudgeon stress engine.yaml --scene lubricated --method rk4 --mark-step 0.1ms
+    Example: gudgeon map engine.yaml --scene lubricated --method rk4 --mark-step 0.1ms
 
-    Example: gudgeon stress engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
+    Example: gudgeon map engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
     """
-    from gudgeon.commands.stress import Stress, stress_file
+    from gudgeon.commands.map import Asked, map_file
     from gudgeon.commands.studies import Request
 
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
-    return stress_file(request, Stress(method, at, tuple(axis or ()), box, tuple(range_ or ())))
+    return map_file(request, Asked(method, at, tuple(axis or ()), box, tuple(range_ or ())))
 
 
 def main() -> None:

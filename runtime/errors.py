@@ -101,6 +101,10 @@ class JoinError(InputError):
     """A joint or drive that cannot be: a body joined to itself, ground to ground."""
 
 
+class LawError(InputError):
+    """A force law of the user's own that cannot be used: its file and name, what is wrong, what it may have."""
+
+
 class InputErrors(InputError):
     """All the errors of one file at once, in the order of their places."""
 

@@ -30,7 +30,7 @@ from gudgeon.assembly.start import search, smallest
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
-from gudgeon.studies.stress import stress
+from gudgeon.studies.map import verdict_map
 from tests.assembly.test_large import squares
 from tests.simulation.kept import check_kept
 
@@ -188,7 +188,7 @@ def activities(folder: Path) -> list[Activity]:
         run_of("run scipy", oil, 2e-3, output=50, method="scipy:DOP853"),
         batch_of("batch auto", dry), batch_of("batch lanes", dry, method="rk4", step=2e-6),
         Activity("horizon", lambda: dry.simulate(0.3, output=300, horizon=True), lambda _: None),
-        Activity("stress", lambda: stress(oil, t_long=0.05, quick=True), lambda _: None),
+        Activity("map", lambda: verdict_map(oil, t_long=0.05, quick=True), lambda _: None),
         Activity("start", start_again, lambda _: None),
         Activity("save", lambda: long.save(folder / "run.nc"), check_saved),
         Activity("compile", compile_cold, check_cache),

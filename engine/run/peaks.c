@@ -101,8 +101,9 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
         return;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double slope = total_force(&aside.clearance[i]) - after[i];
-        if ((near >> i % 16 & 1) && run->rising[i] && slope < 0.0 && make_dense(run, p, step) == 0)
+        const int let_go = after[i] < 1e-6 * before[i]; /* where a law ceases to push: beyond it, held, it would pull */
+        if ((near >> i % 16 & 1) && run->rising[i] && (slope < 0.0 || let_go) && make_dense(run, p, step) == 0)
             inner_peak(run, step, share, i, p);
-        run->rising[i] = slope > 0.0;
+        run->rising[i] = slope > 0.0 && !let_go;
     }
 }

@@ -18,6 +18,7 @@ from gudgeon.generator.equations.events import Event, make_event, refuse_constan
 from gudgeon.generator.equations.friction import Friction, make_friction
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry
 from gudgeon.generator.equations.loads import AppliedElement, apply_element
+from gudgeon.generator.equations.own_laws import own_letters
 from gudgeon.generator.equations.play import Clearance, make_clearance
 from gudgeon.generator.ir.finite_slopes import as_written
 from gudgeon.generator.mechanism.scene import Scene
@@ -146,7 +147,7 @@ class Model:
 
     @cached_property
     def g(self) -> sp.Matrix:
-        """Generalized applied forces without those of the clearance joints, (n, 1): gravity, force elements."""
+        """Generalized applied forces without those of joints with play, (n, 1): gravity, force elements."""
         gx, gy = self.gravity
         forces = [f for body in self.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
         for element in self.elements.values():
@@ -156,7 +157,7 @@ class Model:
 
 def make_model(scene: Scene) -> Model:
     """Derive one scene, joint by joint."""
-    mechanism, symbols = scene.mechanism, Symbols()
+    mechanism, symbols = scene.mechanism, Symbols(own_letters(scene))
     slots = Slots(scene, symbols)
     geometry = Geometry(scene, symbols, slots)
     constraints = Constraints(geometry)

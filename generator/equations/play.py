@@ -10,7 +10,9 @@ import sympy as sp
 
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
-from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols, State, laws
+from gudgeon.generator.equations.own_laws import check_numbers
+from gudgeon.generator.kinds.laws.built import build
+from gudgeon.generator.kinds.laws.law import FURTHER, OWN, Law, LawInputs, PairSymbols, State, laws
 from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.language.units import VELOCITY
@@ -23,6 +25,7 @@ VELOCITY_FLOOR = 1e-6  # m/s, least impact velocity that an onset stores
 class LawEquations:
     """A law with its symbols filled in; `steps` are abbreviations, then the role's results.
 
+    `variables` are what its function is given: those of its role, and what it reads besides.
     `numbers` are those of the file by their names there, `derived` what the law makes of them and of the pair.
     """
 
@@ -32,6 +35,12 @@ class LawEquations:
     steps: Mapping[str, sp.Expr]
     numbers: Mapping[str, sp.Expr]
     derived: Mapping[str, sp.Expr]
+
+
+    @property
+    def further(self) -> tuple[str, ...]:
+        """What it reads besides what all of its role do."""
+        return tuple(symbol.name for symbol in self.variables if symbol.name in FURTHER.get(self.law.role, ()))
 
 
 @dataclass(frozen=True)
@@ -123,8 +132,10 @@ def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEqu
         derived[name] = derive(name, expression, meaning)
         return derived[name]
 
-    steps = law.build(LawInputs(parameters, use.options, pair, variables, told))
-    missing = set(law.results) - set(steps)
-    if missing:
-        raise TypeError(f"law {law.name} returns no {', '.join(sorted(missing))}")
-    return LawEquations(law, use.options, tuple(variables.values()), steps, parameters, derived)
+    steps = build(law, LawInputs(parameters, use.options, pair, variables, told))
+    read = {symbol.name for step in steps.values() for symbol in step.free_symbols}
+    unread = {name for name in FURTHER.get(law.role, ()) if name not in read}
+    own = tuple(symbol for name, symbol in variables.items() if name not in unread)
+    if law.name in OWN:
+        check_numbers(law, own, steps, slots)
+    return LawEquations(law, use.options, own, steps, parameters, derived)

@@ -29,7 +29,7 @@ def dynamics_kernel(
     system: System, kkt: KKT, name: str = "dynamics", doc: Sequence[str] = _DOC, stabilised: bool = True,
     rescue: OnDependence | None = None,
 ) -> Kernel:  # fmt: skip
-    """q̈ and λ at a state, clearance forces included.
+    """q̈ and λ at a state, forces of joints with play included.
 
     Without stabilisation the rows are γ alone and Φ, Φ̇ are not computed: for methods that project.
     """
@@ -157,7 +157,7 @@ def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) ->
 
 
 def _powers(build: KernelBuilder, kkt: KKT, on_given: Mapping[str, sp.Expr]) -> None:
-    """Power of the drives, of the force elements that store nothing, of the clearance forces (W).
+    """Power of the drives, of the force elements that store nothing, of the joints with play (W).
 
     A drive does −λᵀν, and what inertia and loads need at a coordinate that it prescribes.
     """

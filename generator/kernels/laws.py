@@ -11,6 +11,7 @@ from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
 from gudgeon.generator.ir.signatures import PARAMETERS, SIDES
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
+from gudgeon.generator.kinds.laws.law import OWN
 
 
 def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedCall]:
@@ -32,10 +33,12 @@ def _meanings(model: Model, equations: LawEquations) -> dict[str, str]:
 
 
 def law_name(equations: LawEquations) -> str:
-    """The law's own name, with the options that are not the usual ones."""
+    """The law's own name, "own_" before it if it is the user's, with the options that are not the usual ones."""
     usual = {option.name: option.default for option in equations.law.options}
     chosen = {name: value for name, value in equations.options.items() if value != usual[name]}
-    return "_".join([equations.law.name, *(name if value is True else str(value) for name, value in chosen.items())])
+    name = equations.law.name
+    name = f"own_{name}" if name in OWN else name  # whatever the user calls it, no function of the scene
+    return "_".join([name, *(name if value is True else str(value) for name, value in chosen.items())])
 
 
 def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:

@@ -42,6 +42,11 @@ class Pin:
     corners: range = range(0)  # numbers of its switches
 
     @property
+    def further(self) -> tuple[str, ...]:
+        """What its normal law reads besides δ and δ̇/δ̇⁻."""
+        return self.clearance.normal.further if self.clearance.normal else ()
+
+    @property
     def has_transition(self) -> bool:
         """Film and dry contact, blended."""
         return self.clearance.film is not None and self.clearance.normal is not None

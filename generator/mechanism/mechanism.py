@@ -234,6 +234,7 @@ class Mechanism:
     freedoms: Quantity | None = None  # what the file says of the closed linkage
     curves: Mapping[str, Curve] = field(default_factory=dict)
     tables: Mapping[str, str] = field(default_factory=dict)  # files beside this one -> sha256 of what was read
+    laws: Mapping[str, str] = field(default_factory=dict)  # the user's own that it uses -> what they say, as a key
 
 
 def is_massless(mechanism: Mechanism) -> bool:

@@ -39,6 +39,7 @@ class Reader:
         self.wholes: dict[str, str] = {}  # address -> what is counted
         self.curves: dict[str, Curve] = {}
         self.tables: dict[str, str] = {}  # files that curves were read from -> sha256
+        self.laws: dict[str, str] = {}  # laws of the user's own -> their keys
         self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
         self.uses: dict[str, set[Dimension]] = {}  # of those: what they were used as
         self.left_out: frozenset[str] = frozenset()  # names of entries whose shape is wrong

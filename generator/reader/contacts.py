@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from gudgeon.errors import BadValueError, MissingKeyError
+from gudgeon.errors import BadValueError, MissingKeyError, UnknownNameError
 from gudgeon.generator.field import LAW
 from gudgeon.generator.format.sections import BEARING, CONTACT, MATERIAL
 from gudgeon.generator.format.shapes import missing_key
-from gudgeon.generator.kinds.laws.law import called
+from gudgeon.generator.kinds.laws.law import OWN, called
+from gudgeon.generator.kinds.laws.registered import key_of
 from gudgeon.generator.mechanism.mechanism import Bearing, Contact, LawUse, Material
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.extends import parents_first
@@ -121,8 +122,11 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
         other = next((r for r in _ROLES if text in called(r)), None)
         if other is not None:
             raise BadValueError(f"{text} is a {other} law", text.where, known_hint(text, fitting))
-        raise unknown_name(f"{role} law", text, fitting, text.where)
+        hint = f"{known_hint(text, fitting)}\n  a law of your own is made known by --laws FILE.py, or gudgeon.register"
+        raise UnknownNameError(f"unknown {role} law {str(text)[:200]!r}", text.where, hint)
     law, fields = fitting[text], fitting[text].fields_as(text)
+    if law.name in OWN:
+        reader.laws[law.name] = key_of(law.name)
     mistyped = check_keys(reader, node, ["law", *field_names(fields)], address)
     own = read_fields(reader, node, fields, Around(address, str(text), text.where, mistyped))
     for choice, number in law.instead.items():

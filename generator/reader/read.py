@@ -90,7 +90,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
         forces=forces,
         freedoms=_read_freedoms(reader, root),
         curves=curves,
-        tables=reader.tables,
+        tables=reader.tables, laws=reader.laws,
     )
 
 

@@ -110,7 +110,8 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     for step in contact.before_dry(clearance):
         slopes.step(unlatched(step))
     slopes.section("contact")
-    F_n = slopes.law(normal, (DEPTH, contact.ratio))["F_n"]
+    further = [sp.Symbol(name, real=True) for name in normal.further]  # inputs of this function as well
+    F_n = slopes.law(normal, (DEPTH, contact.ratio, *further))["F_n"]
     tangential = contact.of_part(contact.F_along_t, "dry")
     if clearance.friction is not None:
         states = [sp.Symbol(f"latch->state[{k}]", real=True) for k in range(len(clearance.states))]  # as they are

@@ -14,7 +14,7 @@ from functools import cache
 
 import sympy as sp
 
-from gudgeon.generator.kinds.laws.law import laws
+from gudgeon.generator.kinds.laws.law import house
 from gudgeon.generator.symbols.corners import Switches
 from gudgeon.language.names import NOT_IN_CODE
 
@@ -36,11 +36,10 @@ finite_slope just_ahead just_behind
 _TAKEN = (NOT_IN_CODE - {"time"}).union(_WORDS.split())  # each model has a symbol of that name first: t
 
 
-
 @cache
 def _letters() -> frozenset[str]:
-    """What force laws call what they are given and what they give: their functions' own names."""
-    return frozenset(name for law in laws().values() for name in (*law.variables, *law.results))
+    """What the laws of the house call what they are given and what they give: their functions' own names."""
+    return frozenset(name for law in house().values() for name in (*law.variables, *law.results))
 
 
 # Object-like macros of the C and Python headers: most have no small letter; `A_K` is short for the K of joint A.
@@ -56,6 +55,12 @@ _FUNCTION = re.compile(
 )
 
 
+def is_in_code(name: str) -> bool:
+    """Whether emitted C has a name for something of its own; short ones in capitals, K or S, are nobody's macros."""
+    macro = len(name) > 2 and _MACRO.fullmatch(name)
+    return bool(name in _TAKEN or macro or _FUNCTION.fullmatch(name))
+
+
 @dataclass(frozen=True)
 class SymbolInfo:
     """`home` is the C text that reads the symbol; empty for a local of its kernel."""
@@ -68,12 +73,14 @@ class SymbolInfo:
 class Symbols:
     """All the symbols of one model, in the order in which they were made."""
 
-    def __init__(self) -> None:
+    def __init__(self, letters: Collection[str] = ()) -> None:
+        """`letters`: what the laws of the scene that are the user's own call their variables and abbreviations."""
         self.info: dict[sp.Symbol, SymbolInfo] = {}
         self.definitions: dict[sp.Symbol, sp.Expr] = {}
         self.rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
         self.switches = Switches()
         self._names: set[str] = set()
+        self._letters = frozenset(letters)
         self._shared: Symbols | None = None  # who else has the members of Parameters
         self._frozen = False
         self._numbered: dict[str, str] = {}  # names that others had before: what was wanted
@@ -84,7 +91,7 @@ class Symbols:
 
     def beside(self) -> Symbols:
         """Other symbols for other functions of the same library: they share the members of Parameters only."""
-        other = Symbols()
+        other = Symbols(self._letters)
         other._shared, other.switches = self, self.switches.beside()
         for symbol, info in self.info.items():
             if info.home.startswith("p->"):
@@ -103,7 +110,8 @@ class Symbols:
         """`wanted` as a C identifier that nothing else has."""
         assert not self._frozen, f"{wanted}: derived after the program was made"
         name = re.sub(r"\W", "_", wanted)
-        if name in _TAKEN or name in _letters() or _MACRO.fullmatch(name) or _FUNCTION.fullmatch(name):
+        taken = name in _TAKEN or name in _letters() or name in self._letters
+        if taken or _MACRO.fullmatch(name) or _FUNCTION.fullmatch(name):
             name = f"par_{name}"
         candidate, count = name, 1
         while candidate in self._names:

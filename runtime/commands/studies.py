@@ -1,4 +1,4 @@
-"""What `gudgeon bench` and `gudgeon stress` share: the scenes, their numbers, where the table goes, Ctrl-C."""
+"""What `gudgeon bench` and `gudgeon map` share: the scenes, their numbers, where the table goes, Ctrl-C."""
 
 from __future__ import annotations
 

@@ -185,12 +185,13 @@ class KernelSource:
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
     tables: tuple[tuple[str, str], ...] = ()  # files beside the YAML that curves were read from, and their sha256
+    laws: tuple[tuple[str, str], ...] = ()  # of the user's own, and what they said (kinds/laws/registered.py)
 
     @property
     def whole_sha256(self) -> str:
-        """SHA-256 of all that the file says: its own, and with tables one over theirs too."""
-        parts = [self.sha256, *(f"{name} {digest}" for name, digest in self.tables)]
-        return sha256("\n".join(parts).encode()).hexdigest() if self.tables else self.sha256
+        """SHA-256 of all that the file says: its own, and with tables or laws of the user's one over theirs too."""
+        parts = [self.sha256, *(f"{name} {digest}" for name, digest in (*self.tables, *self.laws))]
+        return sha256("\n".join(parts).encode()).hexdigest() if len(parts) > 1 else self.sha256
 
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
 

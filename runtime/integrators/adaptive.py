@@ -8,7 +8,7 @@
 
 The error of a step is controlled component by component: lengths to rtol · L, angles to rtol · L/S, velocities
 to rtol times the largest speed of their kind so far. S is the mechanism's size; L is S in a scene without play
-and the smallest radial clearance in a scene with play, since what happens in the clearance decides the motion.
+and the smallest radial clearance in a scene with play, since what happens in the play decides the motion.
 A film's force follows the journal's speed in its bearing, L/S of the links' speeds: where there is a film, rtol of
 velocities is FELT_BY_FILMS · L/S at most, or their errors throw the journal about and steps are lost on that.
 """

@@ -95,7 +95,7 @@ class Trajectory:
     a: Array | None  # None: not looked at by the method
     memory: Array  # (N, n_clearances + n_frictions)
     state: NDArray[Any]  # (N, n_clearances) int8
-    work: Array  # (N, 3) J: drives, applied forces, clearance forces
+    work: Array  # (N, 3) J: drives, applied forces, joints with play
     impacts: NDArray[Any]  # results.IMPACT_DTYPE
     peaks: Array  # (n_clearances, 3): F, t, e_max
     counts: Counts

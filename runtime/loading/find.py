@@ -111,7 +111,7 @@ def kernel_source(
     key = model_key(data, scene, overrides, formulation)
     origin = "cache"
 
-    def make(folder: Path) -> None:  # what tables the file has is found out here
+    def make(folder: Path) -> None:  # what tables and laws the file has is found out here
         nonlocal origin
         source = None
         if not (overrides or regenerate or formulation != FORMULATIONS[0]):
@@ -127,10 +127,11 @@ def kernel_source(
         return KernelSource.from_json((entry / SOURCE).read_bytes().decode())
 
     source = fetch(key, regenerate)
-    if source.tables and (now := tables_now(source, file)) != source.tables:  # of other bytes: an entry of its own
+    now = tables_now(source, file), laws_now(source)
+    if now != (source.tables, source.laws):  # of other bytes: an entry of its own
         key = digest([key, json.dumps(now)])
         source = fetch(key, False)
-        if tables_now(source, file) != source.tables:  # edited meanwhile
+        if (tables_now(source, file), laws_now(source)) != (source.tables, source.laws):  # edited meanwhile
             source = fetch(key, True)
     return source, origin
 
@@ -138,6 +139,15 @@ def kernel_source(
 def tables_now(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
     """The tables that a source was made with, and the sha256 of what they hold now. InputError if one is gone."""
     return tuple((name, sha256(read_beside(file, name, MAX_BYTES)).hexdigest()) for name, _ in source.tables)
+
+
+def laws_now(source: KernelSource) -> tuple[tuple[str, str], ...]:
+    """The user's laws that a source was made with, and what those say that are registered now; "": there is none."""
+    if not source.laws:
+        return ()
+    from gudgeon.generator.kinds.laws.registered import key_of
+
+    return tuple((name, key_of(name)) for name, _ in source.laws)
 
 
 def derived(

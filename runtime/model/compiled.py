@@ -41,7 +41,7 @@ class Evaluation:
     series: Array  # (N, n_series) results of force elements
     friction: Array  # (N, n_frictions, 2) force on the second body along the direction, slip
     energy: Array  # (N, 2) kinetic, potential
-    power: Array  # (N, 3) of drives, of force elements (but what they store), of clearance forces (W)
+    power: Array  # (N, 3) of drives, of force elements (but what they store), of joints with play (W)
     drift: Array  # (N, 2) largest |Φ| (m, rad) and |Φ̇| (m/s, rad/s) of the rows
 
 

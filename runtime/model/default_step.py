@@ -1,7 +1,7 @@
 """A default step for fixed-step RK4 where neither the call nor the scene gives one.
 
 Three time scales bound it: the motion itself, a film's damping near ε = 0 (rate about πS/(c m), RK4
-is stable below 2.78 of it) and a dry contact's half period. Only a default: `bench` and `stress`
+is stable below 2.78 of it) and a dry contact's half period. Only a default: `bench` and `map`
 measure what a step is worth.
 """
 

@@ -51,7 +51,7 @@ class Batch:
     t: Array  # (N,) s
     q: Array  # (n, N, n_q)
     v: Array
-    work: Array  # (n, N, 3) J: drives, applied forces, clearance forces
+    work: Array  # (n, N, 3) J: drives, applied forces, joints with play
     state: Array  # (n, N, n_clearances) int8: 0 free, 1 impact, 2 contact
     samples: Array  # (n,) output times that were reached; where an event or Ctrl-C ended a run, the last is its end's
     t_last: Array  # (n,) s, where each run ended

@@ -77,7 +77,7 @@ class Result:
     accelerations: Array | None  # (N, n), None: `a` computes them when they are first asked for
     state: Array  # (N, n_clearances) int8
     memory: Array  # (N, n_clearances)
-    work: Array  # (N, 3) J: drives, applied forces, clearance forces
+    work: Array  # (N, 3) J: drives, applied forces, joints with play
     impacts: Array  # IMPACT_DTYPE, one an onset
     diagnostics: Diagnostics
     events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: what the file's `events` watch
@@ -196,7 +196,7 @@ class Result:
 
     @cached_property
     def evaluation(self) -> Evaluation:
-        """Accelerations, multipliers, reactions, torques, clearance forces and energies at all samples."""
+        """Accelerations, multipliers, reactions, torques, forces of joints with play and energies at all samples."""
         if self.compiled is None:
             raise GudgeonError("this result was read from a file that lacks the series; run the scene again")
         return self.compiled.evaluate(self.t, self.q, self.v, self.memory, self.p)

@@ -90,7 +90,7 @@ class Simulation:
 
     def _loaded_bytes(self) -> bytes:
         """The file's bytes, if they are still those that the kernels were made from."""
-        from gudgeon.loading.find import read_bytes, tables_now
+        from gudgeon.loading.find import laws_now, read_bytes, tables_now
 
         data = read_bytes(self.file)
         same = sha256(data).hexdigest() == self.source.sha256
@@ -100,6 +100,11 @@ class Simulation:
                 " not be those of this simulation",
                 hint="load it again with gudgeon.load(…), or put the file back as it was",
             )
+        for (name, then), (_, now) in zip(self.source.laws, laws_now(self.source), strict=True):
+            if now != then:
+                what = "is another one now" if now else "is not registered in this process"
+                hint = "gudgeon.register it as it was" if not now else "load the mechanism again with gudgeon.load(…)"
+                raise InputError(f"the law {name}, with which this simulation was made, {what}", hint=hint)
         return data
 
     def __getstate__(self) -> dict[str, Any]:

@@ -1,1 +1,1 @@
-"""Many runs judged: bench, stress map, box of parameters."""
+"""Many runs judged: bench, map of verdicts, box of parameters."""

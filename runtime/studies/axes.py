@@ -1,4 +1,4 @@
-"""What a map or a box of `gudgeon stress` varies: a step, a tolerance, a run-time number, or several together."""
+"""What a map or a box of `gudgeon map` varies: a step, a tolerance, a run-time number, or several together."""
 
 from __future__ import annotations
 

@@ -18,6 +18,8 @@ from gudgeon.commands.check import check_file
 from gudgeon.commands.emit import emit_c
 from gudgeon.commands.equations import write_equations
 from gudgeon.commands.studies import Request, load_scenes
+from gudgeon.studies import map as maps
+from gudgeon.studies import stress
 from tests.pump import TEXT, Gudgeon, needs_compiler, written
 
 CHECKED = """\
@@ -137,7 +139,7 @@ def test_equations_wants_a_known_suffix(call: Gudgeon, pump: str, tmp_path: Path
         "equations PUMP -o FILE/x.tex", "equations PUMP -o LONG.tex", "equations PUMP -o LONG/x.html",
         "emit PUMP -o FILE", "emit PUMP -o FILE/x", "emit PUMP -o LONG", "run PUMP --out FILE", "run PUMP --out LONG",
         "run PUMP --out x/LONG/y", "run LONG.yaml", "check LONG.yaml", "bench PUMP --csv LONG.csv",
-        "stress PUMP --csv FILE/x.csv", "stress PUMP --out LONG", "run /dev/zero", "check /dev", "check pipe.yaml",
+        "map PUMP --csv FILE/x.csv", "map PUMP --out LONG", "run /dev/zero", "check /dev", "check pipe.yaml",
         "emit pipe.yaml -o c", "equations pipe.yaml -o x.txt",
     ],
 )  # fmt: skip
@@ -166,8 +168,18 @@ def test_a_variable_that_cannot_be_is_told(
 
 def test_version_and_help(call: Gudgeon) -> None:
     assert call("--version").stdout == f"gudgeon {gudgeon.__version__}\n"
-    for command in ("run", "check", "emit", "equations", "bench", "stress"):
+    for command in ("run", "check", "emit", "equations", "bench", "map"):
         assert "Example: gudgeon" in call(command, "--help").stdout
+
+
+def test_stress_is_another_name_of_map(call: Gudgeon, pump: str) -> None:
+    """Listed once, and the same: what it was called before."""
+    shown = call("--help").stdout
+    assert " map " in shown and "stress" not in shown
+    assert call("stress", "--help").stdout.splitlines()[4:] == call("map", "--help").stdout.splitlines()[4:]
+    told = [call(name, pump, "--range", "c=1mm..2mm") for name in ("map", "stress")]
+    assert told[0].stderr == told[1].stderr and [done.exit_code for done in told] == [2, 2]
+    assert (stress.stress, stress.stress_box) == (maps.verdict_map, maps.verdict_box)
 
 
 def test_schema_is_json_schema(call: Gudgeon) -> None:

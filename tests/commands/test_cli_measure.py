@@ -1,4 +1,4 @@
-"""`gudgeon bench` and `gudgeon stress` as a user types them: what is refused, and what is told of what is left out."""
+"""`gudgeon bench` and `gudgeon map` as a user types them: what is refused, and what is told of what is left out."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from gudgeon.errors import BadValueError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.studies.axes import axis
 from gudgeon.studies.bench import bench
+from gudgeon.studies.map import verdict_map
 from gudgeon.studies.methods import ADAPTIVE, choice
 from gudgeon.studies.show.bench import notes
-from gudgeon.studies.stress import stress
 from tests.pump import Gudgeon, needs_compiler, written
 
 pytestmark = needs_compiler
@@ -51,18 +51,18 @@ PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pend
 def test_options_that_say_nothing_are_refused(
     arguments: tuple[str, ...], told: str, call: Gudgeon, pump: str, tmp_path: Path
 ) -> None:
-    done = call("stress", pump, *arguments)
+    done = call("map", pump, *arguments)
     assert done.exit_code == 2, done.output
     assert told in done.stderr and "load(" not in done.stderr
     assert written(tmp_path) == set()
 
 
-def test_what_stress_prints_runs_as_it_stands(call: Gudgeon, pump: str, tmp_path: Path) -> None:
+def test_what_a_map_prints_runs_as_it_stands(call: Gudgeon, pump: str, tmp_path: Path) -> None:
     """For a file of one's own, whatever it is called, with its settings; as a shell reads the line."""
     (tmp_path / "my dir").mkdir()
     Path(pump).rename(tmp_path / "my dir/the pump's.yaml")
     how = ("--box", "0", "--range", "c=.2mm..0.25mm", "--at", "1e-3", "--set", "omega=18 rad/s", "--t-end", "2ms")
-    done = call("stress", "my dir/the pump's.yaml", "--quick", *how)
+    done = call("map", "my dir/the pump's.yaml", "--quick", *how)
     assert done.exit_code == 0, done.output
     lines = [line for line in done.stdout.splitlines() if line.strip().startswith("gudgeon run ")]
     assert lines
@@ -73,7 +73,7 @@ def test_what_stress_prints_runs_as_it_stands(call: Gudgeon, pump: str, tmp_path
     assert gudgeon.Result.load(tmp_path / "out/pump_worn.nc").t[-1] == 2e-3
 
 
-@pytest.mark.parametrize("command", ["bench", "stress"])
+@pytest.mark.parametrize("command", ["bench", "map"])
 def test_what_was_measured_is_shown_though_the_disk_is_full(
     command: str, call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
@@ -91,7 +91,7 @@ def test_what_was_measured_is_shown_though_the_disk_is_full(
     assert written(tmp_path) == set()
 
 
-@pytest.mark.parametrize("command", ["bench", "stress"])
+@pytest.mark.parametrize("command", ["bench", "map"])
 def test_where_nothing_can_be_written_nothing_is_run(
     command: str, call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -111,18 +111,18 @@ def test_gains_act_in_the_full_formulation() -> None:
     """With a long step the constraints drift, and stronger terms pull back more of it."""
     dry = gudgeon.load("nine_bar_press", scene="dry")
     axes = [axis(dry, "gains", [0.1, 100.0]), axis(dry, "step", [2e-5])]
-    found = stress(dry, axes, method="rk4", t_long=5e-3, t_short=2e-3)
+    found = verdict_map(dry, axes, method="rk4", t_long=5e-3, t_short=2e-3)
     weak, strong = (found.cell(2e-5, gain) for gain in (0.1, 100.0))
     assert found.full and weak.energy != strong.energy
-    assert not stress(dry, axes[1:], method="rk4", t_long=5e-3, t_short=2e-3, quick=True).full
+    assert not verdict_map(dry, axes[1:], method="rk4", t_long=5e-3, t_short=2e-3, quick=True).full
     with pytest.raises(BadValueError, match="dop853"):
-        stress(dry, axes[:1], method="dop853")
+        verdict_map(dry, axes[:1], method="dop853")
 
 
 def test_marked_step_is_a_row(call: Gudgeon, pump: str, tmp_path: Path) -> None:
-    done = call("stress", pump, "--method", "rk4", "--quick", "--mark-step", "3us", "--t-end", "2ms")
+    done = call("map", pump, "--method", "rk4", "--quick", "--mark-step", "3us", "--t-end", "2ms")
     assert done.exit_code == 0, done.output
-    with open(tmp_path / "out/pump_stress.csv", encoding="utf-8") as file:
+    with open(tmp_path / "out/pump_map.csv", encoding="utf-8") as file:
         assert 3e-6 in {float(row["step_or_tolerance"]) for row in csv.DictReader(file)}
     assert "step 3 µs" in done.stdout
     done = call("bench", PENDULUM, "--scene", "ideal", "--quick", "--methods", "rk4", "--mark-step", "3ms")

@@ -75,7 +75,7 @@ def test_commands_show_a_title_as_it_stands(call: Gudgeon, tmp_path: Path) -> No
     short = ("--scene", "worn", "--t-end", "1e-4")
     commands = {
         "check": ("nasty.yaml", "-v"), "run": ("nasty.yaml", *short),
-        "stress": ("nasty.yaml", *short, "--quick", "--axis", "rtol=1e-6"),
+        "map": ("nasty.yaml", *short, "--quick", "--axis", "rtol=1e-6"),
         "bench": ("nasty.yaml", *short, "--quick", "--methods", "dop853"),
     }  # fmt: skip
     for command, arguments in commands.items():
@@ -85,7 +85,7 @@ def test_commands_show_a_title_as_it_stands(call: Gudgeon, tmp_path: Path) -> No
         if command in ("check", "run"):
             words = done.stdout.replace("\n", " ").split()
             assert all(word in words for word in NASTY.split())
-    assert {"out/pump_worn.nc", "out/pump.png", "out/pump_stress.png", "out/pump_bench.png"} <= written(tmp_path)
+    assert {"out/pump_worn.nc", "out/pump.png", "out/pump_map.png", "out/pump_bench.png"} <= written(tmp_path)
     assert Result.load(tmp_path / "out/pump_worn.nc").source.title == NASTY
 
 

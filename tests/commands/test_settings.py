@@ -15,7 +15,7 @@ from tests.pump import TEXT, Gudgeon, needs_compiler
 pytestmark = needs_compiler
 
 
-@pytest.mark.parametrize("command", ["run", "bench", "stress"])
+@pytest.mark.parametrize("command", ["run", "bench", "map"])
 def test_an_expression_of_time_is_told_with_its_place(command: str, call: Gudgeon, pump: str) -> None:
     done = call(command, pump, "--set", "drives.motor.value=3")
     line = next(k for k, text in enumerate(TEXT.splitlines(), 1) if "motor" in text)

@@ -163,7 +163,7 @@ class ComplexStep:
         if joint.clip_ratio:
             ratio = _greatest(-1.0 + 0j, _least(1.0 + 0j, ratio))
         a_i, a_j = R_i + delta / 2, R_j - delta / 2
-        (normal,) = self._law(joint.normal, delta, ratio)
+        (normal,) = self._law(joint.normal, delta, ratio, *[v_n] * len(joint.normal.further))
         tangential = 0.0
         if joint.friction is not None:
             (tangential,) = self._law(joint.friction, normal, v_t + w_j * a_j - w_i * a_i)

@@ -31,7 +31,7 @@ class Evaluator:
         self.law = laws()[name]
         values = {p.name: p.default for p in self.law.parameters} | dict(parameters)
         chosen = {o.name: o.choice for o in self.law.options} | options
-        symbols = {v: sp.Symbol(v, real=True) for v in VARIABLES[self.law.role]}
+        symbols = {v: sp.Symbol(v, real=True) for v in self.law.variables}
         pair = PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()})
         numbers = {k: sp.Float(v) for k, v in values.items() if v is not None}
 
@@ -39,7 +39,8 @@ class Evaluator:
             return expression
 
         steps = self.law.build(LawInputs(numbers, chosen, pair, symbols, derive))
-        known, self._steps = list(symbols.values()), []
+        read = {s.name for step in steps.values() for s in sp.sympify(step).free_symbols}
+        known, self._steps = [s for name, s in symbols.items() if name in (*VARIABLES[self.law.role], *read)], []
         for step, expression in steps.items():
             self._steps.append((step, sp.lambdify(known, expression, "math")))
             known.append(sp.Symbol(step, real=True))
@@ -59,6 +60,7 @@ NORMAL = {g: Evaluator("lankarani_nikravesh", {"restitution": 0.9}, geometry=g) 
 FLORES = {
     g: Evaluator("hertz", {"restitution": 0.9}, dissipation="flores", geometry=g) for g in ("external", "internal")
 }
+VOIGT = Evaluator("kelvin_voigt", {"stiffness": 1e6, "damping": 200.0})
 FRICTION = Evaluator("modified_coulomb", {"mu": 0.15, "v0": 1e-4, "v1": 1e-3})
 
 
@@ -167,3 +169,11 @@ def test_restitution_of_the_normal_law(given_restitution: float, delivered: floa
     law = Evaluator("lankarani_nikravesh", {"restitution": given_restitution})
     factor = law(1e-5, 1.0)[0] / law(1e-5, 0.0)[0] - 1.0
     assert dry.delivered(factor) == pytest.approx(delivered, abs=5e-6)
+
+
+@FAST
+@given(st.floats(0.0, 1e-3), st.floats(-5.0, 5.0))
+def test_kelvin_and_voigt_push_and_never_pull(delta: float, deltadot: float) -> None:
+    (got,) = VOIGT(delta, 1.0, deltadot)
+    assert got == pytest.approx(max(1e6 * delta + 200.0 * deltadot, 0.0), rel=1e-14)
+    assert (got - 1e6 * delta) * deltadot >= -1e-9 or got == 0.0  # beside the spring it only dissipates

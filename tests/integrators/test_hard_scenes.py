@@ -254,7 +254,7 @@ def test_momentum_of_three_bodies_in_flight(load: Load, method: str) -> None:
 
 @pytest.mark.parametrize(("method", "code"), [("rodas5p", 0), ("nonsense", 2)])
 def test_run_takes_the_method_that_is_asked_for(tmp_path: Path, method: str, code: int) -> None:
-    """`--scene ideal --method rodas5p`, as `gudgeon stress` prints it to see a cell again."""
+    """`--scene ideal --method rodas5p`, as `gudgeon map` prints it to see a cell again."""
     options = ["--scene", "ideal", "--method", method, "--t-end", "0.1s", "--out", str(tmp_path), "--json"]
     result = CliRunner().invoke(app, ["run", "pendulum", *options])
     assert result.exit_code == code

@@ -132,3 +132,13 @@ def test_a_law_of_hertz_without_friction() -> None:
         subject = make(text, "press", "dry")
         for memory in ((NAN, NAN), (0.02, NAN)):
             subject.compare(0.0, journal_at(subject, (0.0, 1.1 * C), (0.01, 0.03), 2.0), np.array(memory))
+
+
+@pytest.mark.parametrize("scene", ["dry", "lubricated"])
+def test_a_law_of_the_rate_itself(scene: str) -> None:
+    """Kelvin and Voigt's: slopes by δ̇, pushing and let go, alone and in the transition from a film."""
+    text = PRESS.replace(b"lankarani_nikravesh, restitution: 0.9", b"kelvin_voigt, stiffness: 1e7, damping: 2e3")
+    subject = make(text.replace(b", geometry: external", b""), "press", scene)
+    for rate in (0.3, -0.02, -2.0):
+        for memory in ((NAN, NAN), (0.02, NAN)):
+            subject.compare(0.0, journal_at(subject, (0.3 * C, -1.05 * C), (0.0, -rate), 2.0), np.array(memory))

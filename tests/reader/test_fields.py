@@ -130,7 +130,7 @@ def build(s):
     return {"F_n": spring * s.variables["delta"] * sp.Max(1 + loss * s.variables["ratio"], 0)}
 
 LAW = Law(
-    "kelvin_voigt", "normal", "a spring that loses", "a test", "never",
+    "lossy_spring", "normal", "a spring that loses", "a test", "never",
     (
         number("spring", "force by penetration", STIFFNESS, symbol="K", required=True, bounds=(Bound(">", 0.0),)),
         number("loss", "of what is lost", DIMENSIONLESS, symbol="a", default=0.25, bounds=(Bound(">=", 0.0),)),
@@ -143,8 +143,8 @@ LAW = Law(
 @pytest.fixture
 def one_file_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """A joint, a force element and a law more: a file in the folder of each, and nothing else."""
-    caches = (joint_types, element_types, law.laws)
-    for package, name, text in (joints, "strut", JOINT), (forces, "fan", FORCE), (laws, "kelvin_voigt", LAW_FILE):
+    caches = (joint_types, element_types, law.house)
+    for package, name, text in (joints, "strut", JOINT), (forces, "fan", FORCE), (laws, "lossy_spring", LAW_FILE):
         folder = tmp_path / name
         folder.mkdir()
         (folder / f"{name}.py").write_text(text, encoding="utf-8")
@@ -152,7 +152,7 @@ def one_file_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[N
     for cache in caches:
         cache.cache_clear()
     yield
-    for package, name in (joints, "strut"), (forces, "fan"), (laws, "kelvin_voigt"):
+    for package, name in (joints, "strut"), (forces, "fan"), (laws, "lossy_spring"):
         sys.modules.pop(f"{package.__name__}.{name}", None)
     for cache in caches:
         cache.cache_clear()
@@ -161,7 +161,7 @@ def one_file_each(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[N
 TEXT = CRANK.read_text(encoding="utf-8")
 assert TEXT.count("\njoints:\n") == 1 and TEXT.count("law: lankarani_nikravesh, restitution: 0.9") == 1
 WITH = TEXT.replace("\njoints:\n", "\nforces: {wind: {fan: rod.head, push: 2 N * sin(t*1 rad/s)}}\njoints:\n")
-WITH = WITH.replace("law: lankarani_nikravesh, restitution: 0.9", "law: kelvin_voigt, spring: 1 kN/mm")
+WITH = WITH.replace("law: lankarani_nikravesh, restitution: 0.9", "law: lossy_spring, spring: 1 kN/mm")
 STRUT = WITH.replace("\njoints:\n", "\njoints:\n  bar: {strut: [ground.O, rod.head], reach: 20 cm}\n")
 
 
@@ -181,7 +181,7 @@ def test_the_reader_reads_by_it() -> None:
     assert mechanism.joints["bar"].options == {"bent": "false"}
     assert mechanism.forces["wind"].options == {"way": "right"}
     normal = mechanism.scenes["dry"].play["wristpin"].contact.normal
-    assert normal is not None and normal.law == "kelvin_voigt" and set(normal.quantities) == {"spring", "loss"}
+    assert normal is not None and normal.law == "lossy_spring" and set(normal.quantities) == {"spring", "loss"}
     with pytest.raises(MissingKeyError, match="joints.bar has no reach"):
         read(STRUT.replace(", reach: 20 cm", ""))
     with pytest.raises(UnknownKeyError, match="did you mean 'reach'"):
@@ -210,7 +210,7 @@ def test_schema_and_page_show_it() -> None:
 @pytest.mark.usefixtures("one_file_each")
 def test_equations_follow() -> None:
     model = derive(WITH.encode(), "f", "dry")
-    assert [clearance.normal.law.name for clearance in model.clearances if clearance.normal] == ["kelvin_voigt"]
+    assert [clearance.normal.law.name for clearance in model.clearances if clearance.normal] == ["lossy_spring"]
     assert "wind" in model.elements
 
 

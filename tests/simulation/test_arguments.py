@@ -104,7 +104,7 @@ def test_text_that_is_no_number_in_a_file_is_none_anywhere(text: str, call: Gudg
 @pytest.mark.parametrize("text", ["1_0", "\uff11", "٣", "1e1", "-1", "1.5"])
 def test_a_count_is_what_a_file_takes(text: str, call: Gudgeon) -> None:
     """--output 1_0 was ten."""
-    for line in (["run", "pendulum", "--output"], ["stress", "pendulum", "--range", "g=1..2", "--box"]):
+    for line in (["run", "pendulum", "--output"], ["map", "pendulum", "--range", "g=1..2", "--box"]):
         done = call(*line, text)
         assert done.exit_code == 2 and "whole number" in done.stderr, done.output
 
@@ -149,7 +149,7 @@ def test_a_number_that_is_set_twice_is_told(call: Gudgeon) -> None:
     with pytest.raises(BadValueError, match="given twice"):
         pendulum.simulate_many({name: [value] for name, value in twice.items()}, 0.01)
     for settings in (("g=1", "g=2"), ("g=1", "parameters.g=2"), ("g=1", "g=1")):
-        for command in ("run", "bench", "stress"):
+        for command in ("run", "bench", "map"):
             line = [part for setting in settings for part in ("--set", setting)]
             done = call(command, "pendulum", *line)
             assert done.exit_code == 2 and f"this number is set already, by --set {settings[0]}" in done.output

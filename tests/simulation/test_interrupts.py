@@ -17,10 +17,10 @@ from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.simulation.horizon import UNFINISHED
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import bench as benches
-from gudgeon.studies import stress as stresses
+from gudgeon.studies import map as maps
 from gudgeon.studies.bench import bench
 from gudgeon.studies.box import Range
-from gudgeon.studies.stress import stress, stress_box
+from gudgeon.studies.map import verdict_box, verdict_map
 from gudgeon.studies.verdicts import Status
 from tests.pump import Gudgeon, needs_compiler, written
 
@@ -121,9 +121,9 @@ def test_nothing_computed_is_told_so(call: Gudgeon, pump: str, tmp_path: Path, m
 
 def test_what_a_box_has_judged_is_kept(one_thread: None, monkeypatch: pytest.MonkeyPatch) -> None:
     edges, whole = [Range("omega", 5.0, 20.0)], None
-    whole = stress_box(press("dry"), edges, 2, t_long=0.01)
-    monkeypatch.setattr(stresses, "judge_point", ctrl_c_at(3, stresses.judge_point))
-    found = stress_box(press("dry"), edges, 2, t_long=0.01)
+    whole = verdict_box(press("dry"), edges, 2, t_long=0.01)
+    monkeypatch.setattr(maps, "judge_point", ctrl_c_at(3, maps.judge_point))
+    found = verdict_box(press("dry"), edges, 2, t_long=0.01)
     assert found.interrupted and found.done == (2, 4) and not whole.interrupted
     assert [cell.status for cell in found.cells[:2]] == [cell.status for cell in whole.cells[:2]]
     assert [cell.error for cell in found.cells[:2]] == [cell.error for cell in whole.cells[:2]]
@@ -132,32 +132,32 @@ def test_what_a_box_has_judged_is_kept(one_thread: None, monkeypatch: pytest.Mon
 
 
 def test_where_nothing_was_judged_there_is_nothing_to_keep(one_thread: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(stresses, "judge_point", ctrl_c_at(1, stresses.judge_point))
+    monkeypatch.setattr(maps, "judge_point", ctrl_c_at(1, maps.judge_point))
     with pytest.raises(KeyboardInterrupt):
-        stress_box(press("dry"), [Range("omega", 5.0, 20.0)], 2, t_long=0.01)
+        verdict_box(press("dry"), [Range("omega", 5.0, 20.0)], 2, t_long=0.01)
 
 
 def test_a_box_is_written_as_a_part(
     call: Gudgeon, one_thread: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    judged = stresses.judge_point
-    arguments = ("stress", "nine_bar_press", "--scene", "dry", "--scene", "lubricated", "--box", "1", "--range",
+    judged = maps.judge_point
+    arguments = ("map", "nine_bar_press", "--scene", "dry", "--scene", "lubricated", "--box", "1", "--range",
                  "omega=5..20", "--t-end", "5ms")  # fmt: skip
-    monkeypatch.setattr(stresses, "judge_point", ctrl_c_at(3, judged))
+    monkeypatch.setattr(maps, "judge_point", ctrl_c_at(3, judged))
     done = call(*arguments)
     assert done.exit_code == 130, done.output
     assert "partial (dry: 2 of 3 runs; lubricated: not begun)" in done.stderr
     assert "interrupted after 2 of 3 runs" in done.stdout and "1 not judged" in done.stdout
-    with open(tmp_path / "out/nine_bar_press_stress.csv", encoding="utf-8") as file:
+    with open(tmp_path / "out/nine_bar_press_map.csv", encoding="utf-8") as file:
         assert [row["status"] for row in csv.DictReader(file)].count("not judged") == 1
-    assert (tmp_path / "out/nine_bar_press_stress.png").exists()
-    monkeypatch.setattr(stresses, "judge_point", ctrl_c_at(3, judged))
+    assert (tmp_path / "out/nine_bar_press_map.png").exists()
+    monkeypatch.setattr(maps, "judge_point", ctrl_c_at(3, judged))
     assert json.loads(call(*arguments, "--json").stdout)["interrupted"] is True
 
 
 def test_a_map_keeps_its_shape(one_thread: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(stresses, "judge_point", ctrl_c_at(2, stresses.judge_point))
-    found = stress(press("lubricated"), t_long=0.005, quick=True)
+    monkeypatch.setattr(maps, "judge_point", ctrl_c_at(2, maps.judge_point))
+    found = verdict_map(press("lubricated"), t_long=0.005, quick=True)
     assert found.done == (1, 2) and found.interrupted
     assert found.cell(1e-8, C).status is Status.STABLE and found.cell(1e-6, C).status is Status.MISSING
 

@@ -19,7 +19,8 @@ from gudgeon.errors import BadValueError, GudgeonError, InputError
 from gudgeon.results.results import Result
 from gudgeon.results.run_plots import Plot
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies import axes, bench, box, stress
+from gudgeon.studies import axes, bench, box
+from gudgeon.studies import map as maps
 from gudgeon.studies.runs import Error
 
 pandas = pytest.importorskip("pandas", reason="a Series of pandas is one of the values")
@@ -221,18 +222,18 @@ class _NoPool:
 
 
 @pytest.mark.parametrize("name", STRESS)
-def test_stress(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(stress, "Pool", _NoPool)
+def test_map(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(maps, "Pool", _NoPool)
     good: dict[str, Any] = {"quick": True}
-    refused_or_used(lambda value: stress.stress(pendulum, **(good | {name: value})))
+    refused_or_used(lambda value: maps.verdict_map(pendulum, **(good | {name: value})))
 
 
 @pytest.mark.parametrize("name", BOX)
 def test_stress_box(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(stress, "Pool", _NoPool)
+    monkeypatch.setattr(maps, "Pool", _NoPool)
     ranges = [box.Range(pendulum.source.slots[0].address, 1.0, 2.0)]
     good: dict[str, Any] = {"ranges": ranges, "count": 2}
-    refused_or_used(lambda value: stress.stress_box(pendulum, **(good | {name: value})))
+    refused_or_used(lambda value: maps.verdict_box(pendulum, **(good | {name: value})))
 
 
 def test_axes(pendulum: Simulation) -> None:
@@ -298,13 +299,13 @@ def test_a_state_that_contradicts_itself(code: int, rate: float, told: str) -> N
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["stress", "slider_crank", "--scene", "dry", "--axis", "c=1..2:0"], "a whole number of values after ':'"),
-        (["stress", "slider_crank", "--scene", "dry", "--axis", "c=1..2:"], "a whole number of values after ':'"),
-        (["stress", "slider_crank", "--scene", "dry", "--axis", "c=1,2:3"], "only a range"),
+        (["map", "slider_crank", "--scene", "dry", "--axis", "c=1..2:0"], "a whole number of values after ':'"),
+        (["map", "slider_crank", "--scene", "dry", "--axis", "c=1..2:"], "a whole number of values after ':'"),
+        (["map", "slider_crank", "--scene", "dry", "--axis", "c=1,2:3"], "only a range"),
         (["bench", "pendulum", "--methods", ""], "--methods '': expected names of methods"),
         (["bench", "pendulum", "--methods", " , "], "expected names of methods"),
         *[([command, "pendulum", "--out", ""], "'': expected a name")
-          for command in ("run", "emit", "equations", "bench", "stress")],
+          for command in ("run", "emit", "equations", "bench", "map")],
         (["bench", "pendulum", "--csv", ""], "'': expected a name"),
     ],
 )  # fmt: skip

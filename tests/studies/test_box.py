@@ -16,10 +16,10 @@ from gudgeon.cli import app
 from gudgeon.errors import BadValueError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.box import Range, _horizon, corners, judge_point, predictable, sobol
+from gudgeon.studies.map import VerdictBox, verdict_box
 from gudgeon.studies.runs import ONSETS, Error, Setting, Work
 from gudgeon.studies.show.box import WORST, count, grouped, kind, worst_cells
 from gudgeon.studies.show.box_figure import box_figure, telling
-from gudgeon.studies.stress import StressBox, stress_box
 from gudgeon.studies.verdicts import STRICT, Cell, Limits, Status, limits_of
 from tests.pump import needs_compiler
 
@@ -47,11 +47,11 @@ def test_corners_and_sobol_points_fill_the_box_and_are_the_same_every_time() -> 
 @needs_compiler
 def test_box_judges_every_corner_and_point() -> None:
     dry = press("dry")
-    found = stress_box(dry, [Range("omega", 5.0, 20.0)], 2, t_long=0.02)
+    found = verdict_box(dry, [Range("omega", 5.0, 20.0)], 2, t_long=0.02)
     assert [cell.parameters["omega"] for cell in found.cells[:2]] == [5.0, 20.0] and len(found.cells) == 4
     assert not any(cell.failed for cell in found.cells)
     with pytest.raises(BadValueError, match="radius"):
-        stress_box(dry, [Range("c", 1e-3, 0.02)], 0)
+        verdict_box(dry, [Range("c", 1e-3, 0.02)], 0)
 
 
 @needs_compiler
@@ -90,7 +90,7 @@ def test_run_that_takes_too_long_is_ended_and_fails() -> None:
 @needs_compiler
 def test_command_judges_a_box(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table = tmp_path / "box.csv"
-    app(["stress", "nine_bar_press", "--scene", "dry", "--box", "1", "--range", "c=.1mm..1mm", "--range",
+    app(["map", "nine_bar_press", "--scene", "dry", "--box", "1", "--range", "c=.1mm..1mm", "--range",
          "stiffness=50GPa..100GPa", "--t-end", "10ms", "--csv", str(table), "--json"],
         standalone_mode=False)  # fmt: skip
     cells = json.loads(capsys.readouterr().out)["cells"]
@@ -102,10 +102,10 @@ def cell(status: Status, reason: str = "", error: float = math.nan) -> Cell:
     return Cell(AUTO, {}, status, reason, "", Error(motion=error))
 
 
-def made(verdict: list[tuple[Status, float]], edges: tuple[Range, ...]) -> StressBox:
+def made(verdict: list[tuple[Status, float]], edges: tuple[Range, ...]) -> VerdictBox:
     """Points of a box with given verdicts and errors."""
     points = (*corners(edges), *sobol(edges, len(verdict) - 2 ** len(edges)))
-    return StressBox("made", AUTO, edges, points, tuple(cell(s, "why", e) for s, e in verdict), 1.0)
+    return VerdictBox("made", AUTO, edges, points, tuple(cell(s, "why", e) for s, e in verdict), 1.0)
 
 
 def test_reasons_are_grouped_without_their_numbers() -> None:

@@ -49,6 +49,8 @@ VARIABLES: Mapping[str, tuple[str, ...]] = {
     "friction": ("F_n", "v_t"),  # normal force (N), slip (m/s)
     "film": ("epsilon", "w_n", "w_t"),  # ε < 1, effective squeeze velocity over c (1/s)
 }
+# What a law of the role may read besides: it is an argument of those that do.
+FURTHER: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
 RESULTS: Mapping[str, tuple[str, ...]] = {"normal": ("F_n",), "friction": ("F_t",), "film": ("F_r", "F_t", "T0")}
 
 
@@ -83,8 +85,8 @@ class Law:
 
     @property
     def variables(self) -> tuple[str, ...]:
-        """What `build` is given by name: what all of its role are, then states."""
-        return (*VARIABLES[self.role], *(state.name for state in self.states))
+        """What `build` is given by name: what all of its role are, what it may read besides, then states."""
+        return (*VARIABLES[self.role], *FURTHER.get(self.role, ()), *(state.name for state in self.states))
 
     @property
     def results(self) -> tuple[str, ...]:
@@ -112,10 +114,18 @@ class Law:
         )
 
 
+OWN: dict[str, Law] = {}  # laws of the user's own (registered.py)
+
+
 @cache
-def laws() -> Mapping[str, Law]:
-    """All the laws in this folder by name."""
+def house() -> Mapping[str, Law]:
+    """The laws in this folder by name."""
     return {law.name: law for law in declared("gudgeon.generator.kinds.laws", "LAW", Law)}
+
+
+def laws() -> Mapping[str, Law]:
+    """All the laws by name: those in this folder, and the user's own."""
+    return {**house(), **OWN}
 
 
 def called(role: str) -> Mapping[str, Law]:

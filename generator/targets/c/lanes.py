@@ -41,8 +41,7 @@ def _pin(pin: Pin, render: Callable[..., str]) -> str:
     steps = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
     parts = {name: lanes_printer.statements(getattr(pin, name)) for name in steps}
     if clearance.normal is not None:
-        given = ("lanes_max_of(delta, all_of(0.0))", "ratio")
-        parts["dry_law"] = calls_of_dry(pin, given, "Lanes", sides=False)
+        parts["dry_law"] = calls_of_dry(pin, "lanes_max_of(delta, all_of(0.0))", "Lanes", sides=False)
     if clearance.film is not None:
         parts["film_law"] = call_of_film(pin, "Lanes", sides=False)
     return render(

@@ -39,7 +39,7 @@ def clearance_code(pin: Pin, render: Render, states: int) -> str:
     if clearance.normal is not None:
         ratio = {"ratio": _RATIO, "ratio_name": "unclipped" if clearance.clip_ratio else "ratio"}
         steps: dict[str, Any] = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
-        steps["law"] = calls_of_dry(pin, ("max_of(delta, 0.0)", "ratio"), "double")
+        steps["law"] = calls_of_dry(pin, "max_of(delta, 0.0)", "double")
         laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
         steps["unread"] = functions.unread_sides(laws, (*pin.before_dry, *pin.after_dry))
         steps["rates"] = _braced("rate", clearance, states)
@@ -70,8 +70,9 @@ def _braced(array: str, clearance: Clearance, states: int) -> str:
     return f"{{{', '.join(rates)}}}" if rates else ""
 
 
-def calls_of_dry(pin: Pin, given: Sequence[str], number: str, sides: bool = True) -> str:
-    """Normal force, then friction, if there is any."""
+def calls_of_dry(pin: Pin, delta: str, number: str, sides: bool = True) -> str:
+    """Normal force, of `delta`, then friction, if there is any."""
+    given: Sequence[str] = [delta, "ratio", *pin.further]
     lines = [f"{number} F_n;", functions.shared_call(pin.laws["normal"], given, ("&F_n",), sides)]
     if "friction" in pin.laws:
         states = range(len(pin.clearance.states))

@@ -10,6 +10,7 @@ from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
+from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.laws.law import RESULTS
 from gudgeon.generator.mechanism.mechanism import LawUse, Play, Quantity
 from gudgeon.generator.targets.latex import play_letters as contact_names
@@ -61,7 +62,7 @@ class JointWithPlay:
             yield self.clearance.transition, letter("e", "0")
         for equations, use in self.laws():
             for parameter in equations.law.parameters:
-                yield self._slot(use.quantities[parameter.name]), of_latex(parameter.symbol)
+                yield self._slot(use.quantities[parameter.name]), of_latex(_sign(parameter))
         for name, value in constants.items():
             yield value, _LAW_LETTERS.get(name) or word(name)
         for equations, _ in self.laws():
@@ -85,7 +86,7 @@ class JointWithPlay:
             yield material.nu, rf"\nu{index}", f"Poisson's ratio of {material.name} ({what})"
         for equations, use in self.laws():
             for parameter in equations.law.parameters:
-                yield use.quantities[parameter.name], parameter.symbol, parameter.meaning
+                yield use.quantities[parameter.name], _sign(parameter), parameter.meaning
         if self.play.contact.transition is not None:
             yield self.play.contact.transition, "e_0", "width of the transition from film to dry contact"
 
@@ -107,6 +108,11 @@ class JointWithPlay:
 
     def shown(self, steps: list[Step]) -> list[Block]:
         return [equation(step.symbol, self.notation.expand(step.value), self.notation) for step in steps]
+
+
+def _sign(parameter: Field) -> str:
+    """A law's number in LaTeX: its symbol, or where it has none its name."""
+    return parameter.symbol or word(parameter.name).latex
 
 
 def play_sections(model: Model, notation: Notation) -> list[Section]:

@@ -1,4 +1,4 @@
-"""What `gudgeon stress --box` prints and writes: counts by verdict and reason, the worst points, CSV, a figure."""
+"""What `gudgeon map --box` prints and writes: counts by verdict and reason, the worst points, CSV, a figure."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.studies.show.stress import COLOURS, FULL, SIGNS, partial, stress_rows, tell_failures
+from gudgeon.studies.map import VerdictBox
+from gudgeon.studies.show.map import COLOURS, FULL, SIGNS, cell_rows, partial, tell_failures
 from gudgeon.studies.show.tables import console, new_table, print_json, write_files
-from gudgeon.studies.stress import StressBox
 from gudgeon.studies.verdicts import SEVERITY, Cell, Status
 from gudgeon.studies.words import seconds, share
 
@@ -24,9 +24,9 @@ WORST = 8  # points that are told with what runs them again; the rest is in the 
 _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 
 
-def show_box(source: KernelSource, file: str, found: Sequence[StressBox], table: Path, as_json: bool = False) -> None:
+def show_box(source: KernelSource, file: str, found: Sequence[VerdictBox], table: Path, as_json: bool = False) -> None:
     """Print everything (or only JSON), write the table and beside it the picture."""
-    rows = [row for box in found for row in stress_rows(box)]
+    rows = [row for box in found for row in cell_rows(box)]
 
     def draw() -> Figure:
         from gudgeon.studies.show.box_figure import box_figure
@@ -39,10 +39,10 @@ def show_box(source: KernelSource, file: str, found: Sequence[StressBox], table:
         raise failed
 
 
-def _show(source: KernelSource, file: str, found: Sequence[StressBox], written: Sequence[Path], as_json: bool) -> None:
+def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written: Sequence[Path], as_json: bool) -> None:
     """What was found, and what was written of it."""
     if as_json:
-        rows = [row for one in found for row in stress_rows(one)]
+        rows = [row for one in found for row in cell_rows(one)]
         print_json({"mechanism": source.mechanism, "interrupted": any(box.interrupted for box in found),
                     "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
         return

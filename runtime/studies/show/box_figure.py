@@ -1,4 +1,4 @@
-"""The figure of `gudgeon stress --box`: where in the box which verdict lies."""
+"""The figure of `gudgeon map --box`: where in the box which verdict lies."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from gudgeon.model.compiled import Array
 from gudgeon.results.plot_units import label, pretty, quantity
 from gudgeon.results.plots import IDEAL, STYLE
 from gudgeon.studies.box import Range
+from gudgeon.studies.map import VerdictBox
 from gudgeon.studies.show.box import count
-from gudgeon.studies.stress import StressBox
 from gudgeon.studies.verdicts import SEVERITY, Status
 from gudgeon.studies.words import seconds
 
@@ -31,7 +31,7 @@ LOOK = {
 }  # fmt: skip
 
 
-def box_figure(title: str, found: Sequence[StressBox]) -> Figure:
+def box_figure(title: str, found: Sequence[VerdictBox]) -> Figure:
     """A row a scene: verdicts over the two ranges that tell most of them, and every point across all ranges."""
     wide = max(len(box.ranges) for box in found) > 2
     with matplotlib.rc_context(STYLE):
@@ -51,7 +51,7 @@ def box_figure(title: str, found: Sequence[StressBox]) -> Figure:
     return picture
 
 
-def telling(box: StressBox) -> list[int]:
+def telling(box: VerdictBox) -> list[int]:
     """Ranges in the order in which their logarithms go with the verdict; where all agree, with the largest error."""
     verdicts = [-SEVERITY.index(cell.status) for cell in box.cells]
     errors = [math.log10(max(cell.error.largest, 1e-16)) if cell.error.largest == cell.error.largest else math.nan
@@ -70,19 +70,19 @@ def _together(x: Array, y: Array) -> float:
     return float(abs(np.corrcoef(x, y)[0, 1]))
 
 
-def _ordered(box: StressBox) -> list[int]:
+def _ordered(box: VerdictBox) -> list[int]:
     """Points with the worst last: what lies on top is what matters."""
     return sorted(range(len(box.cells)), key=lambda k: -SEVERITY.index(box.cells[k].status))
 
 
-def _marker(box: StressBox, k: int) -> dict[str, Any]:
+def _marker(box: VerdictBox, k: int) -> dict[str, Any]:
     colour, marker = LOOK[box.cells[k].status]
     corner = k < 2 ** len(box.ranges)
     return {"c": [colour], "marker": marker, "s": 52 if corner else 26, "edgecolors": IDEAL if corner else colour,
             "linewidths": 0.9 if corner else 0.4}  # fmt: skip
 
 
-def _scatter(ax: Axes, box: StressBox) -> None:
+def _scatter(ax: Axes, box: VerdictBox) -> None:
     order = telling(box)
     across = box.ranges[order[0]]
     up = box.ranges[order[1]] if len(order) > 1 else None
@@ -98,7 +98,7 @@ def _scatter(ax: Axes, box: StressBox) -> None:
                     fontsize=8, color="#666666", annotation_clip=False)  # fmt: skip
 
 
-def _parallel(ax: Axes, box: StressBox) -> None:
+def _parallel(ax: Axes, box: VerdictBox) -> None:
     """Each range an axis from low to high, each point a line across them."""
     logs = [(math.log(edge.low), math.log(edge.high)) for edge in box.ranges]
     for z, k in enumerate(_ordered(box)):

@@ -1,4 +1,4 @@
-"""The figure of `gudgeon stress`: a map of verdicts."""
+"""The figure of `gudgeon map`: a map of verdicts."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from matplotlib.patches import Patch, Rectangle
 
 from gudgeon.language.shown import in_figure
 from gudgeon.results.plots import IDEAL, STYLE
-from gudgeon.studies.show.stress_words import explain, value
-from gudgeon.studies.stress import StressMap
+from gudgeon.studies.map import VerdictMap
+from gudgeon.studies.show.map_words import explain, value
 from gudgeon.studies.verdicts import Cell, Status
 from gudgeon.studies.words import seconds
 
@@ -27,7 +27,7 @@ FILL = {
 NAMES = {"step": "step", "rtol": "tolerance", "clearance": "radial clearance"}
 
 
-def stress_figure(title: str, found: Sequence[StressMap], mark_step: float | None = None) -> Figure:
+def map_figure(title: str, found: Sequence[VerdictMap], mark_step: float | None = None) -> Figure:
     """A panel a scene, each cell its verdict and the number behind it."""
     columns = max(len(scene.columns.values) for scene in found)
     rows = max(len(scene.rows.values) for scene in found)
@@ -52,7 +52,7 @@ def stress_figure(title: str, found: Sequence[StressMap], mark_step: float | Non
     return picture
 
 
-def _draw_map(ax: Axes, scene: StressMap, mark_step: float | None) -> None:
+def _draw_map(ax: Axes, scene: VerdictMap, mark_step: float | None) -> None:
     rows, columns = scene.rows.values, scene.columns.values
     for i, y in enumerate(rows):
         for j, x in enumerate(columns):
@@ -69,7 +69,7 @@ def _draw_map(ax: Axes, scene: StressMap, mark_step: float | None) -> None:
     ax.spines[:].set_visible(False)
 
 
-def _marked(scene: StressMap, row: float, step: float | None) -> bool:
+def _marked(scene: VerdictMap, row: float, step: float | None) -> bool:
     return scene.rows.name == "step" and step is not None and math.isclose(row, step)
 
 

@@ -17,9 +17,9 @@ from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import words
 from gudgeon.studies.axes import Axis, axis, clearances, typed
+from gudgeon.studies.map import VerdictMap, default_clearances, default_steps, verdict_map
 from gudgeon.studies.runs import Attempt, Error, Setting, Work
-from gudgeon.studies.show.stress import command, verdict
-from gudgeon.studies.stress import StressMap, default_clearances, default_steps, stress
+from gudgeon.studies.show.map import command, verdict
 from gudgeon.studies.verdicts import Cell, Limits, Status, judge
 from tests.pump import needs_compiler
 
@@ -32,10 +32,10 @@ def press(scene: str) -> Simulation:
     return gudgeon.load("nine_bar_press", scene=scene)
 
 
-def by_step(scene: str, steps: list[float], play: list[float], **options: Any) -> StressMap:
+def by_step(scene: str, steps: list[float], play: list[float], **options: Any) -> VerdictMap:
     """Steps of rk4 × clearance."""
     axes = [axis(press(scene), "step", steps), clearances(press(scene), play)]
-    return stress(press(scene), axes, method="rk4", **options)
+    return verdict_map(press(scene), axes, method="rk4", **options)
 
 
 def rk4(step: float) -> Setting:
@@ -43,7 +43,7 @@ def rk4(step: float) -> Setting:
 
 
 @cache
-def lubricated() -> StressMap:
+def lubricated() -> VerdictMap:
     return by_step("lubricated", [5e-6, 2e-5, 1e-4], [0.2e-3, C], t_long=0.03, t_short=0.01)
 
 
@@ -128,10 +128,10 @@ def test_lost_contact_is_seen() -> None:
     assert cell.status is Status.DIVERGED and "lost contact" in cell.reason
 
 
-def made(statuses: list[Status]) -> StressMap:
+def made(statuses: list[Status]) -> VerdictMap:
     steps = tuple(10.0 ** (k - 6) for k in range(len(statuses)))
     cells = tuple(Cell(rk4(h), {}, s, "", "", Error()) for h, s in zip(steps, statuses, strict=True))
-    return StressMap("made", rk4(1e-6), Axis("step", steps, "s"), Axis("clearance", (C,), "m"), cells, 1.0)
+    return VerdictMap("made", rk4(1e-6), Axis("step", steps, "s"), Axis("clearance", (C,), "m"), cells, 1.0)
 
 
 def test_largest_stable_step_has_only_stable_ones_below() -> None:
@@ -158,7 +158,7 @@ def test_axis_of_steps_starts_at_the_shortest_scene() -> None:
 @needs_compiler
 def test_scene_without_freedom_has_no_step_to_choose() -> None:
     with pytest.raises(BadValueError, match="no degree of freedom"):
-        stress(press("ideal"))
+        verdict_map(press("ideal"))
 
 
 @needs_compiler
@@ -170,7 +170,7 @@ def test_clearance_beyond_the_radius_is_refused() -> None:
 @needs_compiler
 def test_scene_without_play_has_one_column() -> None:
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
-    found = stress(pendulum, [axis(pendulum, "step", [1e-3, 2e-1])], method="rk4", t_long=2.0)
+    found = verdict_map(pendulum, [axis(pendulum, "step", [1e-3, 2e-1])], method="rk4", t_long=2.0)
     assert len(found.columns.values) == 1 and math.isnan(found.columns.values[0])
     assert found.cell(1e-3, math.nan).status is Status.STABLE
     assert found.cell(2e-1, math.nan).status is not Status.STABLE
@@ -189,7 +189,7 @@ def test_interruption_ends_all_threads() -> None:
 
 @needs_compiler
 def test_tolerance_times_clearance_is_the_usual_map() -> None:
-    found = stress(press("lubricated"), t_long=0.01, quick=True)
+    found = verdict_map(press("lubricated"), t_long=0.01, quick=True)
     assert found.rows.name == "rtol" and found.columns.name == "clearance" and not found.setting.fixed
     assert all(cell.status is Status.STABLE for cell in found.cells)
     assert found.cell(1e-8, C).error.path < found.cell(1e-6, C).error.path
@@ -200,7 +200,7 @@ def test_tolerance_times_clearance_is_the_usual_map() -> None:
 def test_two_axes_of_numbers_take_one_tolerance_and_give_what_runs_them_again() -> None:
     dry = press("dry")
     axes = [typed(dry, "omega=20,60"), typed(dry, "stiffness=1GPa..400GPa:2")]
-    found = stress(dry, axes, t_long=0.02)
+    found = verdict_map(dry, axes, t_long=0.02)
     assert found.columns.values == (20.0, 60.0) and found.rows.values == (1e9, 4e11)
     soft, hard = found.cell(1e9, 60.0), found.cell(4e11, 20.0)
     assert soft.status is Status.OUTSIDE and hard.status is Status.STABLE
@@ -209,6 +209,7 @@ def test_two_axes_of_numbers_take_one_tolerance_and_give_what_runs_them_again() 
     )
     told = command("nine_bar_press", "dry", hard, 0.02)
     assert "--rtol 1e-08" in told and "--set parameters.omega=20.0" in told and told.endswith("--t-end 0.02")
+    assert command("x.yaml", "dry", hard, 0.02, laws=["my laws/soft.py"]).count(" --laws 'my laws/soft.py' ") == 1
 
 
 @needs_compiler
@@ -219,7 +220,7 @@ def test_axes_that_do_not_fit_are_refused() -> None:
         ([axis(dry, "rtol", [1e-5])] * 2, "auto"), ([axis(dry, "rtol", [0.0])], "auto"),
     ):  # fmt: skip
         with pytest.raises(BadValueError, match="axis|axes"):
-            stress(dry, axes, method=method)
+            verdict_map(dry, axes, method=method)
     for text in ("omega", "omega=2..1", "omega=1..2:x"):
         with pytest.raises(BadValueError, match="expected"):
             typed(dry, text)
@@ -243,13 +244,13 @@ def test_groups_keep_the_ratios_of_their_numbers() -> None:
 
 @needs_compiler
 def test_command_writes_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    arguments = ["stress", PENDULUM, "--scene", "dry", "--quick", "--out", str(tmp_path)]
+    arguments = ["map", PENDULUM, "--scene", "dry", "--quick", "--out", str(tmp_path)]
     app([*arguments, "--method", "rk4"], standalone_mode=False)
-    with open(tmp_path / "double_pendulum_stress.csv", encoding="utf-8") as file:
+    with open(tmp_path / "double_pendulum_map.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert {row["status"] for row in rows} <= {status.value for status in Status}
     assert len({row["step_or_tolerance"] for row in rows}) == 3
-    assert (tmp_path / "double_pendulum_stress.png").stat().st_size > 5_000
+    assert (tmp_path / "double_pendulum_map.png").stat().st_size > 5_000
     assert "largest stable step" in capsys.readouterr().out
 
 

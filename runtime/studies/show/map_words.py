@@ -1,4 +1,4 @@
-"""Reasons and values of a stress map in words."""
+"""Reasons and values of a map in words."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from gudgeon.results.plot_units import quantity
 from gudgeon.studies.axes import Axis
+from gudgeon.studies.map import VerdictMap
 from gudgeon.studies.runs import Setting
-from gudgeon.studies.stress import StressMap
 from gudgeon.studies.words import clearance, seconds
 
 PASCAL = {"kg/m/s^2": "Pa", "kg/m/s": "Pa*s"}  # what only base units are known of
@@ -30,7 +30,7 @@ def value(axis: Axis, x: float) -> str:
     return seconds(x) if axis.unit == "s" else quantity(x, PASCAL.get(axis.unit, axis.unit), 3)
 
 
-def explain(found: Sequence[StressMap]) -> str:
+def explain(found: Sequence[VerdictMap]) -> str:
     """What stands in the cells, of all that may stand there what does; three to a line."""
     used = {cell.label.split(" ")[0] for scene in found for cell in scene.cells}
     told = dict.fromkeys(text for word, text in LABELS.items() if word in used)

@@ -1,4 +1,4 @@
-"""`gudgeon stress`: a map or a box of every scene, judged, shown, written."""
+"""`gudgeon map`: a map or a box of every scene, judged, shown, written."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from gudgeon.model.parameters import addresses, number, value
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import GROUPS, SETTINGS, axis, typed
 from gudgeon.studies.box import Range
+from gudgeon.studies.map import USUAL, VerdictBox, VerdictMap, default_steps, verdict_box, verdict_map
 from gudgeon.studies.runs import FIXED, Setting, natural_step
 from gudgeon.studies.show.box import show_box
-from gudgeon.studies.show.stress import show_stress
-from gudgeon.studies.show.stress_words import PASCAL
-from gudgeon.studies.stress import USUAL, StressBox, StressMap, default_steps, stress, stress_box
+from gudgeon.studies.show.map import show_map
+from gudgeon.studies.show.map_words import PASCAL
 
 
 @dataclass(frozen=True)
-class Stress:
-    """What only `stress` is asked for."""
+class Asked:
+    """What only `map` is asked for."""
 
     method: str = "auto"
     at: str | None = None  # a step or a tolerance, where no axis is one
@@ -40,7 +40,7 @@ class Stress:
         return self.method in FIXED
 
 
-def stress_file(request: Request, asked: Stress) -> int:
+def map_file(request: Request, asked: Asked) -> int:
     """Judge, print, write the table and the picture; the exit code."""
     step, t_end = request.seconds("--mark-step", request.mark), request.seconds("--t-end", request.t_end)
     _check(asked, step)
@@ -53,37 +53,37 @@ def stress_file(request: Request, asked: Stress) -> int:
                 print(f"{simulation.source.scene}: no degree of freedom, nothing is integrated, no step to choose")
     if not moving:
         return 0
-    table = request.table(moving[0].source.mechanism, "stress")
+    table = request.table(moving[0].source.mechanism, "map")
     if asked.box is not None:
         return _box(request, asked, moving, t_end, wanted, table)
     steps = sorted({*default_steps(moving, request.quick), *([] if step is None else [step])})
 
-    def one(simulation: Simulation, report: Report | None) -> StressMap:
+    def one(simulation: Simulation, report: Report | None) -> VerdictMap:
         parameters = request.of(simulation)
         axes = [typed(simulation, text, parameters) for text in asked.axes]
         if asked.fixed and not any(a.of_method for a in axes) and len(axes) < 2:
             axes = [axis(simulation, "step", steps), *axes]
-        return stress(
+        return verdict_map(
             simulation, axes, method=asked.method, value=wanted, t_long=t_end, parameters=parameters,
             quick=request.quick, progress=report,
         )  # fmt: skip
 
     found, interrupted = each(moving, one, request.json)
     if found:
-        show_stress(moving[0].source, request.file, found, table, step, request.json)
+        show_map(moving[0].source, request.file, found, table, step, request.json)
     return exit_code(moving, found, interrupted)
 
 
 def _box(
-    request: Request, asked: Stress, moving: Sequence[Simulation], t_end: float | None, wanted: float | None,
+    request: Request, asked: Asked, moving: Sequence[Simulation], t_end: float | None, wanted: float | None,
     table: Path,
 ) -> int:  # fmt: skip
-    def one(simulation: Simulation, report: Report | None) -> StressBox:
+    def one(simulation: Simulation, report: Report | None) -> VerdictBox:
         parameters = request.of(simulation)
         axes = {a.name: a for a in (typed(simulation, text, parameters) for text in asked.ranges)}
         ranges = [Range(a.name, a.values[0], a.values[-1], PASCAL.get(a.unit, a.unit)) for a in axes.values()]
         usual = natural_step(simulation, parameters) if asked.fixed else USUAL
-        return stress_box(
+        return verdict_box(
             simulation, ranges, asked.box or 0, setting=Setting(asked.method, wanted or usual), t_long=t_end,
             parameters=parameters, addresses=axes, quick=request.quick, progress=report,
         )  # fmt: skip
@@ -94,7 +94,7 @@ def _box(
     return exit_code(moving, found, interrupted)
 
 
-def _check(asked: Stress, step: float | None) -> None:
+def _check(asked: Asked, step: float | None) -> None:
     """Options that would say nothing together are refused: what was typed was meant."""
     if asked.method not in OFFERED:
         raise BadValueError(f"--method {asked.method!r}: expected {', '.join(OFFERED)}")
@@ -133,7 +133,7 @@ def _check_once(option: str, texts: Sequence[str]) -> None:
         varied[name] = text
 
 
-def _check_names(asked: Stress, loaded: Sequence[Simulation]) -> None:
+def _check_names(asked: Asked, loaded: Sequence[Simulation]) -> None:
     """A name that no scene has is told with the nearest ones."""
     every = [name for simulation in loaded for name in addresses(simulation.source)]
     known = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
@@ -147,7 +147,7 @@ def _name(text: str) -> str:
     return text.partition("=")[0].strip()
 
 
-def _value(asked: Stress) -> float | None:
+def _value(asked: Asked) -> float | None:
     """The step (s) or tolerance of --at."""
     if asked.at is None:
         return None

@@ -1,4 +1,4 @@
-"""What `gudgeon stress` prints and writes: maps, failures with all their numbers, CSV, JSON, a figure."""
+"""What `gudgeon map` prints and writes: maps, failures with all their numbers, CSV, JSON, a figure."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.studies.show.stress_words import explain, value
+from gudgeon.studies.map import VerdictBox, VerdictMap
+from gudgeon.studies.show.map_words import explain, value
 from gudgeon.studies.show.tables import console, new_table, print_json, write_files
-from gudgeon.studies.stress import StressBox, StressMap
 from gudgeon.studies.verdicts import Cell, Status
 from gudgeon.studies.words import seconds, share
 
@@ -31,17 +31,17 @@ SIGNS = {Status.STABLE: "✓", Status.OUTSIDE: "○", Status.INACCURATE: "≈", 
          Status.MISSING: "·"}  # fmt: skip
 
 
-def show_stress(
-    source: KernelSource, file: str, found: Sequence[StressMap], table: Path, mark_step: float | None,
+def show_map(
+    source: KernelSource, file: str, found: Sequence[VerdictMap], table: Path, mark_step: float | None,
     as_json: bool = False,
 ) -> None:  # fmt: skip
     """Print everything (or only JSON), write the table and beside it the picture."""
-    rows = [row for scene in found for row in stress_rows(scene)]
+    rows = [row for scene in found for row in cell_rows(scene)]
 
     def draw() -> Figure:
-        from gudgeon.studies.show.stress_figure import stress_figure
+        from gudgeon.studies.show.map_figure import map_figure
 
-        return stress_figure(source.title or source.mechanism, found, mark_step)
+        return map_figure(source.title or source.mechanism, found, mark_step)
 
     written, failed = write_files(table, rows, draw)
     _show(source, file, found, written, mark_step, as_json)
@@ -50,12 +50,12 @@ def show_stress(
 
 
 def _show(
-    source: KernelSource, file: str, found: Sequence[StressMap], written: Sequence[Path], mark_step: float | None,
+    source: KernelSource, file: str, found: Sequence[VerdictMap], written: Sequence[Path], mark_step: float | None,
     as_json: bool,
 ) -> None:  # fmt: skip
     """What was found, and what was written of it."""
     if as_json:
-        rows = [row for one in found for row in stress_rows(one)]
+        rows = [row for one in found for row in cell_rows(one)]
         print_json({"mechanism": source.mechanism, "interrupted": any(scene.interrupted for scene in found),
                     "cells": rows, "files": [str(path) for path in written]})  # fmt: skip
         return
@@ -83,7 +83,7 @@ def _show(
         out.print(f"wrote {path}")
 
 
-def _map_table(scene: StressMap) -> Table:
+def _map_table(scene: VerdictMap) -> Table:
     """Rows down, columns across; each cell its verdict and the number behind it."""
     from rich.text import Text
 
@@ -96,7 +96,7 @@ def _map_table(scene: StressMap) -> Table:
     return table
 
 
-def _boundary_table(scene: StressMap) -> Table:
+def _boundary_table(scene: VerdictMap) -> Table:
     name = scene.columns.name
     table = new_table((name, "largest stable step", "the next one"), left=("the next one",))
     for x in scene.columns.values:
@@ -108,21 +108,22 @@ def _boundary_table(scene: StressMap) -> Table:
     return table
 
 
-def tell_failures(out: Console, file: str, found: StressMap | StressBox, cells: Sequence[Cell]) -> None:
+def tell_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells: Sequence[Cell]) -> None:
     """Why, and what to type to see it again; that line is as long as it is, so that it can be copied."""
+    laws = files_of_laws()
     for cell in cells:
         said = cell.reason or f"largest error {share(cell.error.largest)}"
         out.print(f"  {SIGNS[cell.status]} {said}", markup=False, emoji=False)
-        again = command(file, found.scene, cell, found.t_long, found.full)
+        again = command(file, found.scene, cell, found.t_long, found.full, laws)
         out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
 
 
-def partial(found: StressMap | StressBox) -> str:
+def partial(found: VerdictMap | VerdictBox) -> str:
     """What follows the title of what Ctrl-C cut short."""
     return " (partial: interrupted after {} of {} runs)".format(*found.done) if found.interrupted else ""
 
 
-def legend(found: Sequence[StressMap | StressBox]) -> Text:
+def legend(found: Sequence[VerdictMap | VerdictBox]) -> Text:
     """Signs and verdicts, "not judged" only where there is such a cell."""
     from rich.text import Text
 
@@ -130,17 +131,28 @@ def legend(found: Sequence[StressMap | StressBox]) -> Text:
     return Text("   ").join(Text(f"{SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
 
 
-def command(file: str, scene: str, cell: Cell, t_end: float, full: bool = False) -> str:
+def command(
+    file: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()
+) -> str:  # fmt: skip
     """The line that runs a cell again, of the file as it was typed; as it stands it can be given to a shell."""
     words = ["gudgeon", "run", f"./{file}" if file.startswith("-") else file, "--scene", scene]
     words += ["--method", cell.setting.method, "--step" if cell.setting.fixed else "--rtol", repr(cell.setting.value)]
     words += ["--formulation", "full"] if full else []
     for name, told in cell.parameters.items():
         words += ["--set", f"{name}={told}"]
+    for law in laws:
+        words += ["--laws", law]
     return shlex.join([*words, "--t-end", repr(t_end)])
 
 
-def verdict(found: Sequence[StressMap], mark_step: float | None) -> list[str]:
+def files_of_laws() -> list[str]:
+    """Those of the user's own laws that are known, as they were typed."""
+    from gudgeon.generator.kinds.laws.registered import ORIGINS
+
+    return [origin.typed for origin in ORIGINS.values() if origin.typed]
+
+
+def verdict(found: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
     """One line a scene on the marked step, from the cells; nothing without one."""
     lines = []
     for scene in (s for s in found if s.rows.name == "step"):
@@ -157,7 +169,7 @@ def verdict(found: Sequence[StressMap], mark_step: float | None) -> list[str]:
     return lines
 
 
-def stress_rows(found: StressMap | StressBox) -> list[dict[str, Any]]:
+def cell_rows(found: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
     """A row a cell, with what it takes to see it again."""
     return [
         {

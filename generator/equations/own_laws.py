@@ -1,0 +1,117 @@
+"""Laws of the user's own in a scene: their names in the emitted C, and whether their forces are numbers."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import sympy as sp
+
+from gudgeon.errors import LawError
+from gudgeon.generator.kinds.laws.built import PAIR, probe
+from gudgeon.generator.kinds.laws.law import FURTHER, OWN, RESULTS, VARIABLES, Law, laws
+from gudgeon.generator.kinds.laws.registered import ORIGINS, check_name, prefix
+from gudgeon.generator.mechanism.mechanism import LawUse
+from gudgeon.generator.mechanism.scene import Scene
+from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.symbols import is_in_code
+
+_LETTERS = frozenset(("root", "W", "factor"))  # abbreviations of the house, which may be those of others
+# Where forces are looked at: δ (m), ratios, δ̇ (m/s); F_n (N), slip (m/s); ε, 1/s. A state is a deflection (m).
+_LOOKS: Mapping[str, tuple[float, ...]] = {
+    "delta": (0.0, 1e-9, 1e-6, 1e-4), "ratio": (1.0, 0.3, 0.0, -0.4, -1.0), "deltadot": (1.0, 1e-3, 0.0, -1e-3, -1.0),
+    "F_n": (0.0, 1.0, 1e3), "v_t": (-1.0, -1e-4, 0.0, 1e-4, 1.0),
+    "epsilon": (0.0, 0.5, 0.9999), "w_n": (-10.0, 0.0, 10.0), "w_t": (-10.0, 0.0, 10.0),
+}  # fmt: skip
+_STATE = (0.0, 1e-6, -1e-6)
+_UNITS = {"delta": "m", "deltadot": "m/s", "F_n": "N", "v_t": "m/s", "w_n": "1/s", "w_t": "1/s"}
+
+
+def own_letters(scene: Scene) -> frozenset[str]:
+    """What the scene's laws that are the user's own call their variables, results and abbreviations.
+
+    In emitted code nothing else may be called so. Raises LawError for a name that something else has there.
+    """
+    found: set[str] = set()
+    for play in scene.play.values():
+        uses = (play.contact.normal, play.contact.friction, play.contact.film)
+        some = [(laws()[use.law], use) for use in uses if use is not None]
+        if any(law.name in OWN for law, _ in some):
+            names = {law.name: _Names(law, use) for law, use in some}
+            for law in (law for law, _ in some if law.name in OWN):
+                names[law.name].check()
+                found |= {*names[law.name].locals, *law.variables, *law.results}
+            _check_together([names[law.name] for law, _ in some if law.role != "film"])
+    return frozenset(found)
+
+
+class _Names:
+    """What a law calls the locals and the numbers of its function."""
+
+    def __init__(self, law: Law, use: LawUse) -> None:
+        made = probe(law, use.options, use.quantities)
+        self.law = law
+        self.locals = [*(state.name for state in law.states), *(name for name in made.steps if name not in law.results)]
+        self.numbers = [*use.quantities, *made.derived]
+
+    def check(self) -> None:
+        """Raise LawError for a name that the emitted C has for something else."""
+        reserved = {*PAIR, "transition", *itertools.chain(*VARIABLES.values(), *FURTHER.values(), *RESULTS.values())}
+        every = [*self.locals, *self.numbers]
+        for name in every:
+            try:
+                check_name(name, "number or abbreviation")
+            except LawError as error:
+                raise LawError(f"{_whose(self.law)}{error.message}", hint=error.hint) from None
+            taken = name in reserved or name not in _LETTERS and is_in_code(name)
+            if taken or every.count(name) > 1:
+                hint = "call the number, state or abbreviation otherwise; a number's `symbol` may be any letter"
+                raise LawError(f"{_whose(self.law)}the emitted C has {name!r} for something else", hint=hint)
+
+
+def _check_together(dry: Sequence[_Names]) -> None:
+    """The slopes of a dry contact are one function: what is local there has one meaning."""
+    for one, other in itertools.permutations(dry, 2):
+        if both := {*one.locals} & {*other.locals, *other.numbers}:
+            told = f"{min(both)!r} names something in the contact's other law, {other.law.name}, too"
+            raise LawError(f"{_whose(one.law)}{told}", hint="call the abbreviation of your own law otherwise")
+
+
+def _whose(law: Law) -> str:
+    return prefix(law.name, ORIGINS.get(law.name))
+
+
+def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], slots: Slots) -> None:
+    """Raise LawError where a force is no finite real number, with the numbers that the file gives."""
+    numbers = {symbol: np.float64(_number(slots, symbol)) for symbol in _constants(steps, slots)}
+    known, functions = [*numbers, *variables], {}
+    for name, step in steps.items():
+        functions[name] = sp.lambdify(known, step, "numpy")
+        known.append(sp.Symbol(name, real=True))
+    for state in itertools.product(*(_LOOKS.get(symbol.name, _STATE) for symbol in variables)):
+        values = [*numbers.values(), *map(np.float64, state)]
+        for name, function in functions.items():
+            with np.errstate(all="ignore"):
+                values.append(np.float64(function(*values)))
+            if not math.isfinite(values[-1]):
+                at = ", ".join(f"{s.name} = {x:g} {_UNITS.get(s.name, '')}".strip()
+                               for s, x in zip(variables, state, strict=True))  # fmt: skip
+                told = f"{_whose(law)}{name} is {values[-1]:g} at {at}"
+                raise LawError(f"{told}, with the file's numbers", hint="expected a finite real number there")
+
+
+def _constants(steps: Mapping[str, sp.Expr], slots: Slots) -> set[sp.Symbol]:
+    members = set(slots.members())
+    return {symbol for step in steps.values() for symbol in step.free_symbols if symbol in members}
+
+
+def _number(slots: Slots, symbol: sp.Symbol) -> float:
+    """The file's own value of a number, or of what is derived from such."""
+    for entry in slots.entries.values():
+        if entry.symbol == symbol:
+            return entry.default
+    value = slots.derived[symbol]
+    number = value.xreplace({s: sp.Float(_number(slots, s), 17) for s in value.free_symbols})
+    return float(number) if number.is_real else math.nan

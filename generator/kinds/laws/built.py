@@ -1,0 +1,174 @@
+"""What a law's `build` gives, looked at: the results of its role, made of what it was given and of what C can have."""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import os
+import uuid
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from gudgeon.errors import LawError
+from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols
+from gudgeon.generator.kinds.laws.registered import ORIGINS, place_in, prefix, told
+
+PAIR = tuple(PairSymbols.__annotations__)
+FUNCTIONS = (
+    "Abs", "Max", "Min", "sign", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh",
+    "tanh",
+)  # fmt: skip
+_CHOICES = 64  # combinations of a law's options and numbers that are tried
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A law in symbols of its own: its steps, and what its numbers are derived from."""
+
+    steps: Mapping[str, Any]
+    derived: Mapping[str, Any]
+
+
+def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
+    """Its abbreviations and results as SymPy, in their order. Raises LawError for what it may not give or use."""
+    import sympy as sp
+
+    given = {symbol for x in (*inputs.parameters.values(), *vars(inputs.pair).values()) for symbol in _symbols(x)}
+
+    def derive(name: Any, expression: Any, meaning: Any) -> Any:
+        if not isinstance(name, str) or not isinstance(meaning, str):
+            raise _error(law, f"derive({name!r}, …) wants a name, an expression and its meaning")
+        value = _value(law, f"derive({name!r}, …)", expression)
+        _check(law, f"derive({name!r}, …)", value, given, "its parameters and the pair's numbers alone")
+        made = inputs.derive(name, value, meaning)
+        given.update(_symbols(made))
+        return made
+
+    try:
+        steps = law.build(replace(inputs, derive=derive))
+    except LawError:
+        raise
+    except Exception as error:
+        place = place_in(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
+        hint = f"it is given {_offered(law)}" if isinstance(error, KeyError) else ""
+        raise _error(law, f"build raised {told(error)}", hint, place) from error
+    results = _checked_names(law, steps)
+    found, known = {}, given | {symbol for x in inputs.variables.values() for symbol in _symbols(x)}
+    for name, step in steps.items():
+        found[name] = value = _value(law, name, step)
+        _check(law, name, value, known, f"{_offered(law)}, and abbreviations returned before")
+        if name not in results:
+            known.add(sp.Symbol(name, real=True))
+    return found
+
+
+def probe(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -> Probe:
+    """A law by itself: for the names that it uses, and for what tells it from another one."""
+    import sympy as sp
+
+    derived: dict[str, Any] = {}
+
+    def derive(name: str, expression: Any, meaning: str) -> Any:
+        derived[name] = expression
+        return _real(f"probe_{name}")
+
+    inputs = LawInputs(
+        {name: _real(f"probe_{name}") for name in numbers}, options,
+        PairSymbols(**{name: _real(f"probe_{name}") for name in PAIR}),
+        {name: sp.Symbol(name, real=True) for name in law.variables}, derive,
+    )  # fmt: skip
+    return Probe(build(law, inputs), derived)
+
+
+def key_of_law(law: Law) -> str:
+    """What a law that has no file says: its declaration, and what `build` derives to for every choice of its keys.
+
+    Of too many choices, or where one fails, it is another one in each process: never what another process derived.
+    """
+    import sympy as sp
+
+    declared = (law.name, law.role, law.title, law.source, law.validity, law.fields, law.states, law.also, law.instead)
+    digest = hashlib.sha256(repr(declared).encode())
+    choices = list(itertools.islice(_choices(law), _CHOICES + 1))
+    if len(choices) > _CHOICES:
+        return f"{os.getpid()} {uuid.uuid4()}"
+    for options, numbers in choices:
+        try:
+            made = probe(law, options, numbers)
+        except LawError as error:
+            digest.update(str(error).encode())
+            continue
+        for name, value in (*made.derived.items(), *made.steps.items()):
+            digest.update(f"{name} = {sp.srepr(value)}\n".encode())
+    return digest.hexdigest()
+
+
+def _choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[str, ...]]]:
+    """Every combination of its options, and of its numbers that may be left out."""
+    needed = [own.name for own in law.parameters if own.required or own.default is not None]
+    free = [own.name for own in law.parameters if own.name not in needed]
+    names = [own.name for own in law.options]
+    for values in itertools.product(*(own.values for own in law.options)):
+        for some in itertools.product((True, False), repeat=len(free)):
+            left = [name for name, there in zip(free, some, strict=True) if there]
+            yield dict(zip(names, values, strict=True)), (*needed, *left)
+
+
+def _checked_names(law: Law, steps: Any) -> frozenset[str]:
+    """The role's results, all of which are there, by names."""
+    results = law.results
+    expected = f"expected {{{', '.join(f'{name!r}: …' for name in results)}}}"
+    if not isinstance(steps, Mapping) or not all(isinstance(name, str) for name in steps):
+        raise _error(law, f"build returns {type(steps).__name__}, not forces by name", expected)
+    if missing := [name for name in results if name not in steps]:
+        raise _error(law, f"build returns no {', '.join(missing)}", expected)
+    return frozenset(results)
+
+
+def _value(law: Law, what: str, value: Any) -> Any:
+    import sympy as sp
+
+    if isinstance(value, (bool, str)) or not isinstance(value, (sp.Expr, int, float)):
+        raise _error(law, f"{what} is of type {type(value).__name__}", "expected a SymPy expression or a number")
+    return sp.sympify(value)
+
+
+def _check(law: Law, what: str, value: Any, known: set[Any], may: str) -> None:
+    """Raise LawError for a symbol that is not known, a function that C has not, what is not finite or not real."""
+    import sympy as sp
+
+    if strange := sorted(str(symbol) for symbol in value.free_symbols - known):
+        named = strange[0] in {str(symbol) for symbol in known}
+        hint = "an abbreviation is sp.Symbol(name, real=True)" if named else f"it may use {may}"
+        raise _error(law, f"{what} uses the symbol {strange[0]}", hint)
+    functions = tuple(getattr(sp, name) for name in FUNCTIONS)
+    for part in sp.preorder_traversal(value):
+        if part in (sp.nan, sp.zoo, sp.oo, -sp.oo, sp.I):
+            why = "is not real" if part == sp.I else "is not finite"
+            raise _error(law, f"{what} {why}: {sp.sstr(value)[:80]}", "expected a real number for every δ > 0")
+        plain = part.is_Number or part.is_NumberSymbol or part.is_Symbol or part.is_Add or part.is_Mul or part.is_Pow
+        if not plain and not isinstance(part, functions):
+            hint = f"expected + - * / **, sqrt, {', '.join(FUNCTIONS)}"
+            raise _error(law, f"{what} uses {type(part).__name__}, which C is not given", hint)
+
+
+def _offered(law: Law) -> str:
+    """What `build` may use, in words."""
+    numbers = ", ".join(own.name for own in law.parameters) or "none"
+    return f"variables: {', '.join(law.variables)}; parameters: {numbers}; pair: {', '.join(PAIR)}"
+
+
+def _error(law: Law, message: str, hint: str = "", place: Any = None) -> LawError:
+    named = prefix(law.name, None if place else ORIGINS.get(law.name))
+    return LawError(f"{named}{message}", place, hint)
+
+
+def _symbols(value: Any) -> set[Any]:
+    return set(getattr(value, "free_symbols", ()))
+
+
+def _real(name: str) -> Any:
+    import sympy as sp
+
+    return sp.Symbol(name, real=True)

@@ -1,0 +1,41 @@
+"""A spring and a damper side by side: Kelvin and Voigt's contact, which pushes and never pulls.
+
+    F_n = K δ + D δ̇,   never negative
+
+The force begins with D δ̇⁻: it jumps at the onset. It ends where K δ = −D δ̇, before δ = 0, so that none is left to
+jump at the separation. With the reduced mass m, ω = √(K/m) and ζ = D/(2 m ω) < 1 the restitution is
+
+    e = exp(−(ζ/√(1 − ζ²)) (π − 2 arcsin ζ))
+
+at any speed (T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465–469); the model: W. Goldsmith, Impact (1960).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.field import Bound, number
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.language.units import DAMPING, STIFFNESS
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_n (N), compressive, for δ > 0."""
+    import sympy as sp
+
+    K, D = s.parameters["stiffness"], s.parameters["damping"]
+    return {"F_n": sp.Max(K * s.variables["delta"] + D * s.variables["deltadot"], 0)}
+
+
+LAW = Law(
+    name="kelvin_voigt",
+    role="normal",
+    title="Kelvin and Voigt: a linear spring and a damper side by side",
+    source="W. Goldsmith, Impact (1960); T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465-469",
+    validity="restitution is the same at any speed; the force begins with damping times speed at the onset",
+    fields=(
+        number("stiffness", "force by penetration", STIFFNESS, symbol="K", required=True, bounds=(Bound(">", 0.0),)),
+        number("damping", "force by its rate", DAMPING, symbol="D", required=True, bounds=(Bound(">", 0.0),)),
+    ),
+    build=build,
+)  # fmt: skip

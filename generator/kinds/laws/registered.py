@@ -1,0 +1,186 @@
+"""Laws of the user's own: a file that exports `LAW`, as those of this folder do, or a Law made in Python.
+
+Only the command line and Python name such a file, for it is run as Python: no text of a mechanism does. A scene that
+uses a law is kept in the cache under the law's key: edited, it is derived anew.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+import sysconfig
+import traceback
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from gudgeon.errors import BadNameError, LawError, Location, shortened
+from gudgeon.generator.field import FLAG, NUMBER, WORD, Field
+from gudgeon.generator.kinds.laws.law import OWN, RESULTS, Law, State, house
+from gudgeon.language.names import check_label
+from gudgeon.language.suggestions import known_hint
+from gudgeon.language.wanted import path
+
+WHOLE = "docs/describing.md has one whole"
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a law comes from: its file as it was typed, and where that is; "" of one that was made in Python.
+
+    `key`: the SHA-256 of the file and of what it imports from beside it, else of what it derives to; "": not asked yet.
+    """
+
+    typed: str
+    file: str
+    key: str
+
+
+ORIGINS: dict[str, Origin] = {}  # of the laws in OWN
+
+
+def register(law: str | os.PathLike[str] | Law) -> Law:
+    """Makes a force law of your own known to every mechanism that is read from now on; it is returned.
+
+    law: a Python file that exports `LAW`, which is run, or a Law. To register it again, edited, replaces it.
+    Raises LawError, an InputError, for a file that cannot be read, fails or has no LAW, a name that another law has,
+    and a declaration that is none; what `build` gives is looked at when a scene uses it.
+    """
+    own, origin = (law, Origin("", "", "")) if isinstance(law, Law) else _of_file(path(law, "law"))
+    try:
+        _check(own, origin)
+    except LawError as error:
+        raise LawError(f"{prefix(own.name, origin)}{error.message}", hint=error.hint) from None
+    OWN[own.name], ORIGINS[own.name] = own, origin
+    return own
+
+
+def prefix(name: object, origin: Origin | None) -> str:
+    """What begins an error about a law: its file and name."""
+    file = f"{origin.typed}: " if origin is not None and origin.typed else ""
+    return f"{file}law {name}: " if isinstance(name, str) else file
+
+
+def key_of(name: str) -> str:
+    """What a law of the user's own says now, as a SHA-256; "" where there is none of that name."""
+    if name not in OWN:
+        return ""
+    if not ORIGINS[name].key:
+        from gudgeon.generator.kinds.laws.built import key_of_law
+
+        ORIGINS[name] = replace(ORIGINS[name], key=key_of_law(OWN[name]))
+    return ORIGINS[name].key
+
+
+def place_in(error: BaseException, file: str) -> Location | None:
+    """Where in a file an error arose; None: not there."""
+    if isinstance(error, SyntaxError) and error.filename == file:
+        return Location(file, error.lineno or 1, error.offset or 1)
+    lines = [line for frame, line in traceback.walk_tb(error.__traceback__) if frame.f_code.co_filename == file]
+    return Location(file, lines[-1], 1) if lines else None
+
+
+def _of_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
+    """Runs a file. What it does at its top is the user's own business."""
+    shown = shortened(typed)
+    try:
+        data = Path(typed).read_bytes()
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", "") or error
+        hint = f"expected a Python file that exports LAW; {WHOLE}"
+        raise LawError(f"cannot read the law {shown}: {why}", hint=hint) from error
+    digest = hashlib.sha256(data)
+    module = ModuleType(f"gudgeon_law_{digest.hexdigest()[:16]}")
+    module.__file__ = os.path.abspath(typed)
+    sys.modules[module.__name__] = module  # a dataclass looks for its own module
+    try:
+        exec(compile(data, shown, "exec"), module.__dict__)
+    except (Exception, SystemExit) as error:
+        del sys.modules[module.__name__]
+        place = place_in(error, shown) or Location(shown, 1, 1)
+        raise LawError(f"the law cannot be read: {told(error)}", place) from error
+    law = getattr(module, "LAW", None)
+    if not isinstance(law, Law):
+        what = "no LAW" if law is None else f"a LAW of type {type(law).__name__}"
+        raise LawError(f"{shown} has {what}", hint=f"expected LAW = Law(name=…, role=…, build=build); {WHOLE}")
+    for other in _beside(module, {module}):
+        digest.update(Path(str(other.__file__)).read_bytes())
+    return law, Origin(shown, str(module.__file__), digest.hexdigest())
+
+
+def told(error: BaseException) -> str:
+    """An error of Python's as one line."""
+    text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
+    return f"{type(error).__name__}{': ' if text else ''}{text}"
+
+
+def _beside(module: ModuleType, seen: set[ModuleType]) -> Iterator[ModuleType]:
+    """The user's own modules that a law's file imports at its top: neither Python's, nor installed ones, nor ours."""
+    installed = tuple(sysconfig.get_paths()[name] for name in ("stdlib", "platstdlib", "purelib", "platlib"))
+    for value in list(vars(module).values()):
+        other = value if isinstance(value, ModuleType) else sys.modules.get(getattr(value, "__module__", None) or "")
+        if other is None or other in seen:
+            continue
+        seen.add(other)
+        file = getattr(other, "__file__", None)
+        if file and not other.__name__.startswith("gudgeon") and not os.path.abspath(file).startswith(installed):
+            yield other
+            yield from _beside(other, seen)
+
+
+def _check(law: Law, origin: Origin) -> None:
+    """Raise LawError for a declaration that is none, or a name that is another's."""
+    for name in ("name", "title", "source", "validity"):
+        _need(isinstance(getattr(law, name), str), f"its {name} is no text")
+    check_name(law.name, "law")
+    for what in (law.name, *law.also):
+        taken = {name for other in house().values() for name in (other.name, *other.also)}
+        _need(what not in taken, f"{what} is a law of gudgeon's", "give yours another name")
+        others = [other for other in OWN.values() if other.name != law.name]
+        _need(all(what not in (o.name, *o.also) for o in others), f"{what} is another registered law's name")
+    known = ORIGINS.get(law.name)
+    if known is not None and known.file != origin.file:
+        whose = f"that of {known.typed}" if known.typed else "one made in Python"
+        raise LawError(f"another law of this name is registered, {whose}", hint="give one of them another name")
+    _need(law.role in RESULTS, f"unknown role {law.role!r}", known_hint(str(law.role), RESULTS))
+    _need(callable(law.build), "its build is no function", "expected build(inputs), which returns its forces by name")
+    _check_keys(law)
+
+
+def _check_keys(law: Law) -> None:
+    """Its fields and states."""
+    _need(all(isinstance(own, Field) for own in law.fields), "a field is none", "expected number(…), word(…), flag(…)")
+    kinds = {own.name: own.kind for own in law.fields}
+    names = [*(own.name for own in law.fields), *(state.name for state in law.states if isinstance(state, State))]
+    for name in names:
+        check_name(name, "number or option")
+        _need(name != "law" and names.count(name) == 1, f"{name!r} names two keys")
+    for own in law.fields:
+        usable = own.kind in (NUMBER, WORD, FLAG) and not own.varies
+        _need(usable, f"{own.name} is no key of a law", "expected number(…) without `varies`, word(…) or flag(…)")
+        limits = [bound.limit for bound in own.bounds if isinstance(bound.limit, str)]
+        _need(all(limit in kinds for limit in limits), f"a bound of {own.name} names no key of the law")
+    _need(all(isinstance(state, State) for state in law.states), "a state is none", "expected State(name, meaning)")
+    _need(law.role == "friction" or not law.states, "it has inner states", "only laws of friction have them so far")
+    known = {own.name for own in law.options}
+    _need({key for choices in law.also.values() for key in choices} <= known, "`also` chooses what is no option")
+    _need({*law.instead} <= known and {*law.instead.values()} <= {*kinds}, "`instead` names no key of the law")
+
+
+def check_name(name: Any, what: str) -> None:
+    """Raise LawError unless it is an identifier that emitted code keeps for nothing else."""
+    _need(isinstance(name, str), f"the name of a {what} is no text")
+    try:
+        check_label(name, what, None)
+    except BadNameError as error:
+        raise LawError(error.message, hint=error.hint) from None
+    kept = "__" in name or name.startswith("gudgeon")
+    _need(not kept, f"{name!r} is kept for emitted code", "choose another name")
+
+
+def _need(fine: bool, message: str, hint: str = "") -> None:
+    if not fine:
+        raise LawError(message, hint=hint)

@@ -1,0 +1,51 @@
+"""Options of several commands, as typer reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gudgeon.language.shown import visible
+
+
+def whole(least: int) -> Callable[[str], int]:
+    """Reads a whole number as a file has it: Python alone would take 1_0, and the digits of other scripts."""
+
+    def read(text: str) -> int:
+        told = str(text).strip()
+        if not (told.isascii() and told.removeprefix("-").isdigit()) or len(told) > 18 or int(told) < least:
+            raise typer.BadParameter(f"{visible(text)!r}: expected a whole number, {least} or more")
+        return int(told)
+
+    return read
+
+
+def path(text: str) -> Path:
+    """A name of a file or folder; of no text Path makes the folder in which one stands."""
+    if not str(text).strip():
+        raise typer.BadParameter(f"{visible(str(text))!r}: expected a name")
+    return Path(text)
+
+
+File = Annotated[str, typer.Argument(metavar="FILE", help="A YAML file, or the name of a shipped mechanism.")]
+Scenes = Annotated[list[str] | None, typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
+Out = Annotated[Path, typer.Option("--out", parser=path, metavar="PATH", help="Folder for what is written.")]
+Laws = Annotated[
+    list[str] | None,
+    typer.Option("--laws", metavar="FILE.py", help="A force law of your own: the file is run as Python; repeatable."),
+]
+# of studies
+Quick = Annotated[bool, typer.Option("--quick", help="Fewer runs and a shorter window: seconds, not minutes.")]
+Mark = Annotated[
+    str | None, typer.Option("--mark-step", metavar="STEP", help="Show and tell what becomes of this step: 0.1ms.")
+]
+Set = Annotated[list[str] | None, typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a number: c=0.5mm.")]
+End = Annotated[str | None, typer.Option("--t-end", help="Length of the measured runs, in s or with a unit.")]
+Csv = Annotated[
+    Path | None,
+    typer.Option("--csv", parser=path, metavar="PATH", help="Where the table goes, the picture beside it."),
+]

@@ -1,0 +1,300 @@
+"""`gudgeon map`: a map or a box of runs, each stable, inaccurate, diverged or outside the model.
+
+A run is asked two questions. Does it stay sane over a good part of the motion (finite, closed, its energy
+accounted for, no contact lost)? And does it agree with a finer one, a tenth of the step or a hundredth of
+the tolerance, over the first few contacts? `cells.Limits` has the numbers, every cell its reason.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from gudgeon.errors import BadValueError
+from gudgeon.language.wanted import flag, function, instance, listed, mapping, optional, optional_positive, text, whole
+from gudgeon.model.default_step import scene_end
+from gudgeon.model.parameters import prepare
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.axes import GAINS, Axis, axis, clearances
+from gudgeon.studies.box import Range, corners, judge_point, sobol
+from gudgeon.studies.runs import FIXED, NAN, Attempt, Parameters, Setting, Work, natural_step, round_numbers, window
+from gudgeon.studies.threads import Pool, Report
+from gudgeon.studies.verdicts import Cell, Limits, Status, judge, not_judged
+
+LONG, SHORT = 300_000, 1_000_000  # steps of the two windows with the shortest step (of the reference)
+COARSEST = 200  # the longest step, of the shortest scene's
+CLEARANCES = (1 / 6, 10 / 3)  # the axis, of the file's clearance
+TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
+USUAL = 1e-8  # tolerance where neither axis is one
+FINER = 10
+MOST_POINTS = 10**6
+LIMIT = 120.0  # s of processor time of a run
+
+
+class _Judged:
+    """What Ctrl-C may leave in part."""
+
+    cells: tuple[Cell, ...]
+
+    @property
+    def done(self) -> tuple[int, int]:
+        """Cells that are judged, and all."""
+        return _done(self.cells)
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether Ctrl-C left cells that are not judged."""
+        return any(cell.status is Status.MISSING for cell in self.cells)
+
+
+@dataclass(frozen=True)
+class VerdictMap(_Judged):
+    """The cells of one scene over two axes, column by column; both axes ascend."""
+
+    scene: str
+    setting: Setting  # its value counts where neither axis is the method's
+    rows: Axis
+    columns: Axis
+    cells: tuple[Cell, ...]
+    t_long: float  # s, over which stability is judged
+    full: bool = False  # whether the full formulation was asked for: Baumgarte's gains act there
+
+    def cell(self, row: float, column: float) -> Cell:
+        """One cell; KeyError if it is not in the map."""
+        if row not in self.rows.values or (column not in self.columns.values and column == column):
+            raise KeyError((row, column))
+        place = self.columns.values.index(column) if column == column else 0
+        return self.cells[place * len(self.rows.values) + self.rows.values.index(row)]
+
+    def largest_stable(self, column: float) -> float:
+        """The largest row value with which it and every smaller one is stable; NaN: none."""
+        best = NAN
+        for row in self.rows.values:
+            if self.cell(row, column).status is not Status.STABLE:
+                break
+            best = row
+        return best
+
+
+@dataclass(frozen=True)
+class VerdictBox(_Judged):
+    """All corners of a box, then Sobol points in it."""
+
+    scene: str
+    setting: Setting
+    ranges: tuple[Range, ...]
+    points: tuple[Mapping[str, float], ...]  # of the cells: range -> value
+    cells: tuple[Cell, ...]
+    t_long: float
+    full: bool = False
+
+
+def verdict_map(
+    simulation: Simulation, axes: Sequence[Axis] = (), *, method: str = "auto", value: float | None = None,
+    t_long: float | None = None, t_short: float | None = None, parameters: Parameters | None = None,
+    limits: Limits | None = None, quick: bool = False, progress: Report | None = None,
+) -> VerdictMap:  # fmt: skip
+    """Judge every pair of at most two axes (`gudgeon.measure.axes`), by default tolerance (rk4: step) × clearance.
+
+    `value`: the step or tolerance where neither axis is one. `t_long` (s) is the run over which a cell has to
+    stay sane; `t_short` bounds the window in which a step is compared with a tenth of itself (see `window`);
+    `parameters` as in `simulate`; `quick` takes a few pairs. After Ctrl-C what was judged until then, the rest
+    Status.MISSING. Raises BadValueError for a scene in which nothing is integrated, and for axes that do not fit.
+    """
+    _check(simulation)
+    axes, method = listed(axes, "axes", Axis, "a list of Axis"), text(method, "method")
+    limits, quick = optional(limits, "limits", Limits), flag(quick, "quick")
+    t_long, t_short = optional_positive(t_long, "t_long"), optional_positive(t_short, "t_short")
+    value, progress = optional_positive(value, "value"), function(progress, "progress")
+    given, full = dict(mapping(parameters, "parameters")), needs_full(axes, method)
+    simulation = simulation.full if full else simulation
+    rows, columns = arrange(simulation, axes, method, given, quick)
+    usual = Setting(method, value or (natural_step(simulation, given) if method in FIXED else USUAL))
+    jobs = _jobs(simulation, rows, columns, usual, given)
+    least = min(setting.value for job in jobs for setting in job.settings) if usual.fixed else math.inf
+    t_long = t_long or min(scene_end(simulation.source), LONG * least) / (10 if quick else 1)
+    longest = t_short or SHORT * least / FINER / (10 if quick else 1)
+    with Pool[_Job, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
+        found = pool.map(lambda job, tick: _judge(simulation, job, t_long, longest, limits, tick), jobs)
+    missing = ([not_judged(job.parameters, setting) for setting in job.settings] for job in jobs)
+    cells = tuple(cell for own, none in zip(found, missing, strict=True) for cell in own or none)
+    return VerdictMap(simulation.source.scene, usual, rows, columns, cells, t_long, full)
+
+
+def arrange(
+    simulation: Simulation, axes: Sequence[Axis], method: str, parameters: Parameters, quick: bool = False
+) -> tuple[Axis, Axis]:
+    """(rows, columns): the method's own axis is the rows; what is not given is as usual."""
+    own, others = [a for a in axes if a.of_method], [a for a in axes if not a.of_method]
+    wanted = "step" if method in FIXED else "rtol"
+    if len(axes) > 2 or len(own) > 1 or len({a.name for a in axes}) < len(axes):
+        raise BadValueError(f"axes {', '.join(a.name for a in axes)}: expected two different ones, step or rtol once")
+    if own and own[0].name != wanted:
+        raise BadValueError(f"axis {own[0].name} does not fit: method {method} takes a {wanted}")
+    if any(not value > 0 for a in own for value in a.values):
+        raise BadValueError(f"axis {wanted}: expected positive values")
+    if len(others) == 2:
+        return others[1], others[0]
+    if not own:
+        tolerances = TOLERANCES[1:3] if quick else TOLERANCES
+        own = [axis(simulation, wanted, default_steps([simulation], quick) if method in FIXED else tolerances)]
+    return own[0], others[0] if others else _usual_clearances(simulation, parameters, quick)
+
+
+def verdict_box(
+    simulation: Simulation, ranges: Sequence[Range], count: int, *, setting: Setting | None = None,
+    t_long: float | None = None, parameters: Parameters | None = None, limits: Limits | None = None,
+    addresses: Mapping[str, Axis] | None = None, quick: bool = False, progress: Report | None = None,
+) -> VerdictBox:  # fmt: skip
+    """Judge all corners of the box and `count` Sobol points; `addresses`: axes for names that are groups.
+
+    `quick`: over a tenth of the time. After Ctrl-C what was judged until then, the rest Status.MISSING.
+    """
+    _check(simulation)
+    ranges, count = listed(ranges, "ranges", Range, "a list of Range"), whole(count, "count", 0, MOST_POINTS)
+    limits, quick = optional(limits, "limits", Limits), flag(quick, "quick")
+    t_long, progress = optional_positive(t_long, "t_long"), function(progress, "progress")
+    setting, parameters = optional(setting, "setting", Setting), mapping(parameters, "parameters")
+    if not ranges:
+        raise BadValueError("a box wants ranges: --range name=low..high")
+    setting, t_long = setting or Setting("auto", USUAL), t_long or scene_end(simulation.source) / (10 if quick else 1)
+    known = {name: instance(edge, f"addresses: {name}", Axis) for name, edge in mapping(addresses, "addresses").items()}
+    full = needs_full([known.get(edge.name) or axis(simulation, edge.name, ()) for edge in ranges], setting.method)
+    simulation = simulation.full if full else simulation
+
+    def moved(point: Mapping[str, float]) -> dict[str, float | str]:
+        found: dict[str, float | str] = dict(parameters)
+        for name, value in point.items():
+            found |= known[name].parameters(value) if name in known else {name: value}
+        return found
+
+    def one(point: Mapping[str, float], tick: Report) -> Cell:
+        return judge_point(simulation, moved(point), t_long, setting, limits, LIMIT, tick)
+
+    points = [*corners(ranges), *sobol(ranges, count)]
+    for point in points:
+        prepare(simulation.compiled, moved(point))
+    with Pool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
+        found = pool.map(one, points)
+    cells = tuple(cell or not_judged(moved(point), setting) for cell, point in zip(found, points, strict=True))
+    return VerdictBox(simulation.source.scene, setting, tuple(ranges), tuple(points), cells, t_long, full)
+
+
+def needs_full(axes: Sequence[Axis], method: str) -> bool:
+    """Whether an axis moves Baumgarte's gains, which pull back what drifts in the full formulation with rk4.
+
+    Everybody else projects onto the constraints: BadValueError, for no gain would change anything.
+    """
+    moved = next((a.name for a in axes if any(address in GAINS for address, _ in a.ratios)), "")
+    if moved and method != "rk4":
+        raise BadValueError(f"axis {moved}: method {method!r} projects and has no gains", hint="take --method rk4")
+    return bool(moved)
+
+
+def _done(cells: Sequence[Cell]) -> tuple[int, int]:
+    return sum(cell.status is not Status.MISSING for cell in cells), len(cells)
+
+
+def default_steps(simulations: Sequence[Simulation], quick: bool = False) -> tuple[float, ...]:
+    """1, 2, 5 · 10^k from the shortest step of a plain run of any of the scenes."""
+    usual = min(natural_step(simulation) for simulation in simulations)
+    steps = round_numbers(usual, COARSEST * usual)
+    return steps[3::2] if quick else steps
+
+
+def default_clearances(c: float, quick: bool = False) -> tuple[float, ...]:
+    """1, 2, 5 · 10^k m around the file's clearance, and that itself."""
+    if quick:
+        return (c,)
+    return tuple(sorted({*round_numbers(CLEARANCES[0] * c, CLEARANCES[1] * c), float(f"{c:.6g}")}))
+
+
+def _usual_clearances(simulation: Simulation, parameters: Parameters, quick: bool) -> Axis:
+    """Those that the file's conditions allow (a clearance stays below its bearing's radius)."""
+    if not simulation.source.clearances:
+        return clearances(simulation, ())
+    p = prepare(simulation.compiled, parameters)[0]
+    usual = float(p[simulation.source.clearances[0].clearance])
+    found = clearances(simulation, default_clearances(usual, quick), parameters)
+    allowed = []
+    for c in found.values:
+        try:
+            prepare(simulation.compiled, {**parameters, **found.parameters(c)})
+        except BadValueError:
+            continue
+        allowed.append(c)
+    return replace(found, values=tuple(allowed))
+
+
+@dataclass(frozen=True)
+class _Job:
+    """One set of parameters with all settings that are asked of it."""
+
+    parameters: dict[str, float | str]
+    settings: tuple[Setting, ...]
+
+
+def _check(simulation: Simulation) -> None:
+    if simulation.source.degrees_of_freedom == 0:
+        raise BadValueError(f"scene {simulation.source.scene!r} has no degree of freedom: there is no step to choose")
+
+
+def _jobs(
+    simulation: Simulation, rows: Axis, columns: Axis, usual: Setting, given: dict[str, float | str]
+) -> list[_Job]:
+    """Column by column; the cells of all jobs in order are the map's. Raises BadValueError for a value."""
+    found = []
+    for x in columns.values:
+        if rows.of_method:
+            settings = tuple(Setting(usual.method, y) for y in rows.values)
+            moved = {**given, **columns.parameters(x)}
+            # fixed steps serve as references for each other, tolerances need nobody
+            found += [_Job(moved, settings)] if usual.fixed else [_Job(moved, (setting,)) for setting in settings]
+            continue
+        for y in rows.values:
+            found.append(_Job({**given, **columns.parameters(x), **rows.parameters(y)}, (usual,)))
+    for job in found:
+        prepare(simulation.compiled, job.parameters)
+    return found
+
+
+def _judge(
+    simulation: Simulation, job: _Job, t_long: float, longest: float, limits: Limits | None, tick: Report
+) -> list[Cell]:
+    """A tolerance is judged like a point of a box."""
+    if job.settings[0].fixed:
+        return _steps(simulation, job, t_long, longest, limits, tick)
+    return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, LIMIT, tick)]
+
+
+def _steps(
+    simulation: Simulation, job: _Job, t_long: float, longest: float, limits: Limits | None, tick: Report
+) -> list[Cell]:
+    """All steps: long runs, and short ones over the first contacts."""
+    steps = [setting.finer(1) for setting in job.settings]
+    usual = min(natural_step(simulation), *(setting.value for setting in steps))
+    short = window(simulation, longest, Setting("rk4", usual), job.parameters)
+    long = Work(simulation, t_long, job.parameters)
+    every = sorted({x for step in steps for x in (step, step.finer(FINER))}, key=lambda x: -x.value)
+    pieces = [(work, step) for work, wanted in ((short, every), (long, steps)) for step in wanted]
+    cost, done = sum(work.t_end / step.value for work, step in pieces), 0.0
+    found: dict[tuple[Work, Setting], Attempt] = {}
+    for work, step in pieces:
+        share = work.t_end / step.value / cost
+        found[work, step] = work.run(step, _part(tick, done, share))
+        done += share
+    cells = []
+    for step in steps:
+        tenth = step.finer(FINER)
+        pairs = [(found[short, step], found[short, tenth])]
+        fine = found.get((long, tenth))
+        if fine is not None and fine.run is not None and not len(fine.run.impacts):
+            pairs.append((found[long, step], fine))  # without contact errors mean something for longer
+        cells.append(judge(job.parameters, found[long, step], pairs, limits))
+    return cells
+
+
+def _part(tick: Report, done: float, share: float) -> Report:
+    """A run's progress as a part of its column's."""
+    return lambda fraction, text: tick(done + share * fraction, text)
