@@ -42,10 +42,10 @@ class Failure:
 class ResultOf(Protocol):
     """Where a batch has its runs from."""
 
-    def __call__(self, run: int) -> Result:
+    def __call__(self, i: int, /) -> Result:
         """The full result; raises the error of a run that failed, with what it reached."""
 
-    def bare(self, run: int, parts: frozenset[str]) -> Result | None:
+    def bare(self, i: int, parts: frozenset[str], /) -> Result | None:
         """Its samples for series that need at most these parts of an Evaluation; None where there is none."""
 
 

@@ -65,8 +65,9 @@ class EachRun:
         found: dict[int, Array] = {}
         same: dict[Any, Array] = {}
         for i in range(len(p)):
-            if i not in left_out and (t := self._of_run(i, p[i], t0, same)) is not None:
-                found[i] = t
+            own = None if i in left_out else self._of_run(i, p[i], t0, same)
+            if own is not None:
+                found[i] = own
         if self.bad and not found:
             raise next(iter(self.bad.values()))
         return Times.of_runs(found or {0: np.array([t0])}, len(p))
@@ -143,5 +144,5 @@ def _none_of(row: Any) -> str:
         t = np.asarray(row if np.size(row) <= MOST_OUTPUT else (), dtype=float)
     except (TypeError, ValueError):
         return ""
-    odd = np.flatnonzero(~np.isfinite(t)) if t.ndim == 1 else ()
-    return f"output[{odd[0]}] is {t[odd[0]]}: expected finite numbers" if len(odd) else ""
+    odd = np.flatnonzero(~np.isfinite(t)).tolist() if t.ndim == 1 else []
+    return f"output[{odd[0]}] is {t[odd[0]]}: expected finite numbers" if odd else ""
