@@ -49,7 +49,7 @@ class Seen:
         def together(own: lanes.Lanes, runs: Runs, group: list[int], memories: np.ndarray) -> None:
             plain(own, runs, group, memories)
             self.groups.append(group)
-            self.arrived += [i for i in group if runs.arrays["done"][i] == len(runs.times)]
+            self.arrived += [i for i in group if runs.arrays["done"][i] == runs.times.count[i]]
 
         monkeypatch.setattr(lanes.Lanes, "together", together)
 
