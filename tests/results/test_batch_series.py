@@ -58,7 +58,12 @@ def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.M
     monkeypatch.setattr(type(batch.result), "__call__", None)
     known, asked = catalogue(batch.source), list[frozenset[str]]()
     plain = Bare.evaluation.func  # type: ignore[attr-defined]
-    monkeypatch.setattr(Bare, "evaluation", property(lambda run: asked.append(run.parts) or plain(run)))
+
+    def noted(run: Bare) -> object:
+        asked.append(run.parts)
+        return plain(run)
+
+    monkeypatch.setattr(Bare, "evaluation", property(noted))
     for name in known:
         asked.clear()
         found = batch[name]

@@ -50,7 +50,7 @@ def test_an_end_that_follows_the_numbers_of_each_run(scene: str, options: dict[s
 
 
 def test_times_of_each_run_may_be_of_different_numbers() -> None:
-    times = [np.linspace(0.0, 0.004, 5), [0.001, 0.002], (0.0, 0.001, 0.006)]
+    times: list[Any] = [np.linspace(0.0, 0.004, 5), [0.001, 0.002], (0.0, 0.001, 0.006)]
     batch = press().simulate_many({"c": 4e-4}, output=times)
     assert batch.t.shape == (3, 5) and batch.samples.tolist() == [5, 3, 3]
     for i, own in enumerate(times):
@@ -74,7 +74,7 @@ def test_times_that_are_the_same_are_those_of_all(given: Any) -> None:
 
 @pytest.mark.parametrize("method", ["rk4", "dop853"])
 def test_steps_of_each_run(method: str) -> None:
-    steps = [5e-6, "4 us", 1e-5, 1e-5]
+    steps: list[float | str] = [5e-6, "4 us", 1e-5, 1e-5]
     batch = press().simulate_many({"c": 4e-4}, 0.004, output=4, method=method, step=steps)
     assert batch.t.shape == (5,) and len({x.tobytes() for x in batch.q}) == 3
     for i, step in enumerate(steps):
@@ -112,8 +112,8 @@ MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"output": [[0.0, 0.1], [0.0, 0.1], [0.1, 0.0]]}, "run 2: output: expected increasing times"),
     ({"output": [[0.0, 0.1], 1.0, [0.1, 0.2]]}, r"run 1: output has shape \(\)"),
     ({"output": [[0.0, 0.1]] * 3, "t_end": [0.1, 0.2, 0.1]}, "run 1: t_end is 0.2 s, and the times of output end"),
-    ({"output": np.ma.array(np.zeros((3, 2)), mask=np.eye(3, 2))}, "is masked"),
-    ({"t_end": np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0])}, r"t_end\[1\] is masked"),
+    ({"output": np.ma.array(np.zeros((3, 2)), mask=np.eye(3, 2, dtype=bool))}, "is masked"),
+    ({"t_end": np.ma.array([1.0, 2.0, 3.0], mask=[False, True, False])}, r"t_end\[1\] is masked"),
     ({"t_end": np.ones((3, 2))}, r"t_end has shape \(3, 2\)"),
 ]  # fmt: skip
 

@@ -63,7 +63,8 @@ def test_a_run_ends_by_its_own_numbers(worn: Simulation) -> None:
 @pytest.mark.parametrize("scene", ["worn", "plain"])
 def test_so_does_each_run_of_a_batch(scene: str, worn: Simulation, plain: Simulation) -> None:
     """The one goes from start to end in C, the other one without a freedom in Python."""
-    simulation, columns = (worn if scene == "worn" else plain), {"omega": [20.0, 30.0, 40.0], "turns": [10.0, 12.0, 10.0]}
+    simulation = worn if scene == "worn" else plain
+    columns = {"omega": [20.0, 30.0, 40.0], "turns": [10.0, 12.0, 10.0]}
     batch = simulation.simulate_many(columns)
     assert batch.t.shape == (3, 49 if scene == "worn" else 1001) and not batch.failures
     for i in range(3):
