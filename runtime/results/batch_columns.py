@@ -62,10 +62,10 @@ def kept_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
         yield from ((i, table) for table in tables if table.length)
 
 
-def read_times(whole: Whole, count: int) -> Array:
+def read_times(whole: Whole, count: int, own: bool) -> Array:
     """(N,), or (n, N) where each run has its own."""
     t = whole.file.numbers(f"{TIMES}/time")
-    if not whole.file.has(f"{TIMES}/{OWNER}"):
+    if not own:
         return t
     return _spread(whole, TIMES, t, count, max(whole.count(TIMES, i) for i in range(count)))
 

@@ -57,7 +57,7 @@ def tables(batch: Batch) -> Iterator[Table]:
     runs = {i: run for i in began if (run := batch.partial(i)) is not None}
     parts = [(i, table) for i, run in runs.items() for table in netcdf.tables(run)]
     about = {"seconds": repr(batch.seconds), "threads": batch.threads, "interrupted": batch.interrupted}
-    about |= {} if batch.states else {"kept": [*batch.kept]}
+    about |= {"own_times": batch.t.ndim == 2} | ({} if batch.states else {"kept": [*batch.kept]})
     attributes = {
         "gudgeon": FORMATS[0], "title": batch.source.title, "mechanism": batch.source.mechanism,
         "scene": batch.source.scene, "batch": json.dumps(about),
@@ -220,7 +220,8 @@ def _batch(opened_file: Any, size: int) -> Batch:
     failed = {i: _error(text, runs.get(i)) for i, text in enumerate(told) if text}
     if missing := [i for i in range(count) if kept is None and i not in runs and i not in failed]:
         raise ValueError(f"run {missing[0]} has neither a result nor a failure")
-    t, numbers = read_times(whole, count), {name: file.either(f"{RUNS}/{name}", count) for name in COUNTS}
+    t = read_times(whole, count, bool(about.get("own_times")))
+    numbers = {name: file.either(f"{RUNS}/{name}", count) for name in COUNTS}
     own, samples = [_RunOf(whole, i) for i in range(count)], file.numbers(f"{RUNS}/samples", count, "i8")
     padded = [_padded(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
     return Batch(
