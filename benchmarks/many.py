@@ -10,7 +10,8 @@ which owes nothing to gudgeon. Times are of whole batches: starts assembled, run
 Then rk4 with one step for all, in one thread: runs side by side in vector registers against the same one after the
 other, which gives the same bits. Then whole calls of `simulate` in two threads of the caller's (a ThreadPool) against
 one after the other, beside `simulate_many` with two threads against one; what a call does besides, reactions and energy
-balance among it, is its processor time less that of a run of the batch. Last a series of 1,000 runs of 201 samples,
+balance among it, is its processor time less that of a run of the batch; `waiting` is the share of its time in the pool
+in which it neither runs nor waits for a core, but for Python's lock. Last a series of 1,000 runs of 201 samples,
 against one taken from each run's whole result.
 """
 
@@ -21,6 +22,7 @@ import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
+from pathlib import Path
 from threading import Thread
 from time import perf_counter, process_time
 
@@ -131,9 +133,33 @@ def in_turns(works: dict[str, Callable[[], object]], repeats: int) -> dict[str, 
     return found
 
 
+def waited(work: Callable[[float], object], values: list[float], threads: int) -> float:
+    """Share of a call's wall time in which its thread neither ran nor waited for a core: for a lock. NaN: not Linux.
+
+    Other work on the machine makes that larger, for who has the lock waits for a core too, but not by itself.
+    """
+    def clocks() -> tuple[float, float]:
+        ran, ready, _ = map(int, Path("/proc/thread-self/schedstat").read_text().split())
+        return perf_counter(), 1e-9 * (ran + ready)
+
+    def one(value: float) -> tuple[float, float]:
+        before = clocks()
+        work(value)
+        (wall, busy), (wall_0, busy_0) = clocks(), before
+        return wall - wall_0, busy - busy_0
+
+    if not Path("/proc/thread-self/schedstat").exists():
+        return math.nan
+    with ThreadPoolExecutor(threads) as pool:
+        times = np.array(list(pool.map(one, values)))
+    wall, busy = times.sum(axis=0).tolist()
+    return float(1.0 - busy / wall)
+
+
 def outside(repeats: int) -> None:
     """Prints how whole calls in threads of the caller's scale, beside the batch's own threads."""
-    print("\n  two threads against one          CPU ms: a run  besides  in a pool  in a batch  that only hash")
+    print("\n  two threads against one          CPU ms: a run  besides  in a pool  in a batch  that only hash  "
+          "waiting")
     for scene, t_end in (("lubricated", 1.0), ("dry", 0.2)):
         _outside(gudgeon.load("nine_bar_press", scene=scene), t_end, repeats)
 
@@ -165,6 +191,7 @@ def _outside(simulation: Simulation, t_end: float, repeats: int) -> None:
     found = in_turns(works, repeats)
     ratios = found["one"] / found["pool"], found["batch 1"] / found["batch 2"], machine(repeats)
     told = "".join(f"{x:{width}.2f}" for x, width in zip(ratios, (11, 12, 16), strict=True))
+    told += f"{100.0 * waited(one, 4 * clearances, 2):8.1f} %"
     ms = 1e3 / RUNS_OUTSIDE
     print(f"  {'nine_bar_press, ' + simulation.source.scene:<36} {ms * in_c:10.2f} {ms * other:8.2f}{told}")
 
