@@ -1,6 +1,6 @@
 """200 lubricated runs, clearance x speed: time a run and core, what a second thread brings, and a vector to rk4.
 
-    python -m benchmarks.many [--clearances 10] [--speeds 20]
+    python -m benchmarks.many [--clearances 10] [--speeds 20] [--beside | --outside | --series]
 
 The press of the race (l5 = .25 m, no gravity), c = .3 ... .8 mm, omega = pi ... 8 pi, .4 s each, 201 outputs. The
 loosest tolerance of a list whose worst slider error over all runs is at most 1e-6 of the ideal stroke is timed, the
@@ -8,14 +8,21 @@ reference being the stiff method at 1e-10; at the race's clearance and speed it 
 which owes nothing to gudgeon. Times are of whole batches: starts assembled, runs, arrays.
 
 Then rk4 with one step for all, in one thread: runs side by side in vector registers against the same one after the
-other, which gives the same bits.
+other, which gives the same bits. Then whole calls of `simulate` in two threads of the caller's (a ThreadPool) against
+one after the other, beside `simulate_many` with two threads against one; what a call does besides, reactions and energy
+balance among it, is its processor time less that of a run of the batch; `waiting` is the share of its time in the pool
+in which it neither runs nor waits for a core, but for Python's lock. Last a series of 1,000 runs of 201 samples,
+against one taken from each run's whole result.
 """
 
 from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
+from pathlib import Path
 from threading import Thread
 from time import perf_counter, process_time
 
@@ -24,9 +31,11 @@ import numpy as np
 import gudgeon
 from benchmarks.peers import press
 from gudgeon.results.batch import Batch
+from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
 BATCH = 64  # runs side by side
+RUNS_OUTSIDE = 24
 # mechanism, scene, columns (address, from, to), end and step in s
 BESIDE: tuple[tuple[str, str, dict[str, tuple[float, float]], float, float], ...] = (
     ("andrews_squeezer", "ideal", {"bodies.OF.mass": (0.03, 0.06)}, 0.03, 1e-5),
@@ -113,6 +122,98 @@ def side_by_side(repeats: int) -> None:
         print(f"  {name + ', ' + scene:<48} {alone:9.3f} {beside:13.3f} {alone / beside:6.1f}")
 
 
+def in_turns(works: dict[str, Callable[[], object]], repeats: int) -> dict[str, float]:
+    """Least wall time of each, s."""
+    found = dict.fromkeys(works, math.inf)
+    for _ in range(repeats):
+        for name, work in works.items():
+            before = perf_counter()
+            work()
+            found[name] = min(found[name], perf_counter() - before)
+    return found
+
+
+def waited(work: Callable[[float], object], values: list[float], threads: int) -> float:
+    """Share of a call's wall time in which its thread neither ran nor waited for a core: for a lock. NaN: not Linux.
+
+    Other work on the machine makes that larger, for who has the lock waits for a core too, but not by itself.
+    """
+    def clocks() -> tuple[float, float]:
+        ran, ready, _ = map(int, Path("/proc/thread-self/schedstat").read_text().split())
+        return perf_counter(), 1e-9 * (ran + ready)
+
+    def one(value: float) -> tuple[float, float]:
+        before = clocks()
+        work(value)
+        (wall, busy), (wall_0, busy_0) = clocks(), before
+        return wall - wall_0, busy - busy_0
+
+    if not Path("/proc/thread-self/schedstat").exists():
+        return math.nan
+    with ThreadPoolExecutor(threads) as pool:
+        times = np.array(list(pool.map(one, values)))
+    wall, busy = times.sum(axis=0).tolist()
+    return float(1.0 - busy / wall)
+
+
+def outside(repeats: int) -> None:
+    """Prints how whole calls in threads of the caller's scale, beside the batch's own threads."""
+    print("\n  two threads against one          CPU ms: a run  besides  in a pool  in a batch  that only hash  "
+          "waiting")
+    for scene, t_end in (("lubricated", 1.0), ("dry", 0.2)):
+        _outside(gudgeon.load("nine_bar_press", scene=scene), t_end, repeats)
+
+
+def _outside(simulation: Simulation, t_end: float, repeats: int) -> None:
+    clearances = np.linspace(4e-4, 8e-4, RUNS_OUTSIDE).tolist()
+
+    def one(c: float) -> Result:
+        return simulation.simulate(t_end, output=200, parameters={"c": c})
+
+    def pool() -> None:
+        with ThreadPoolExecutor(2) as threads:
+            list(threads.map(one, clearances))
+
+    def batch(threads: int) -> None:
+        simulation.simulate_many({"c": clearances}, t_end, output=200, threads=threads)
+
+    one(4e-4)
+    before = process_time()
+    batch(1)
+    in_c = process_time() - before
+    before = process_time()
+    list(map(one, clearances))
+    other = process_time() - before - in_c
+    works: dict[str, Callable[[], object]] = {
+        "one": lambda: list(map(one, clearances)), "pool": pool,
+        "batch 1": lambda: batch(1), "batch 2": lambda: batch(2),
+    }  # fmt: skip
+    found = in_turns(works, repeats)
+    ratios = found["one"] / found["pool"], found["batch 1"] / found["batch 2"], machine(repeats)
+    told = "".join(f"{x:{width}.2f}" for x, width in zip(ratios, (11, 12, 16), strict=True))
+    told += f"{100.0 * waited(one, 4 * clearances, 2):8.1f} %"
+    ms = 1e3 / RUNS_OUTSIDE
+    print(f"  {'nine_bar_press, ' + simulation.source.scene:<36} {ms * in_c:10.2f} {ms * other:8.2f}{told}")
+
+
+def series(repeats: int) -> None:
+    """Prints what a series of many runs takes, in threads from the states, and one by one from whole results."""
+    simulation = gudgeon.load("nine_bar_press", scene="dry")
+    batch = simulation.simulate_many({"c": np.linspace(3e-4, 8e-4, 1000)}, 0.02, output=200)
+    print(f"\n  a series of {len(batch)} runs of {len(batch.t)} samples, ms: in threads  run by run   ratio")
+    for name in ("S9.y", "S9.ay", "A.F"):
+        quick, slow = math.inf, math.inf
+        for k in range(repeats):
+            before = perf_counter()
+            _ = batch[name]
+            quick = min(quick, perf_counter() - before)
+            if k == 0:  # it takes seconds
+                before = perf_counter()
+                _ = [batch[i][name] for i in range(len(batch))]
+                slow = perf_counter() - before
+        print(f"  {name:<42} {1e3 * quick:12.1f} {1e3 * slow:11.0f} {slow / quick:7.0f}")
+
+
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
@@ -120,9 +221,14 @@ def main() -> None:
     parser.add_argument("--speeds", type=int, default=20)
     parser.add_argument("--repeats", type=int, default=9)
     parser.add_argument("--beside", action="store_true", help="only rk4's runs side by side")
+    parser.add_argument("--outside", action="store_true", help="only threads of the caller's")
+    parser.add_argument("--series", action="store_true", help="only series of a batch")
     options = parser.parse_args()
-    if options.beside:
-        return side_by_side(options.repeats)
+    parts = {side_by_side: options.beside, outside: options.outside, series: options.series}
+    if any(parts.values()):
+        for part in (part for part, wanted in parts.items() if wanted):
+            part(options.repeats)
+        return
     simulation = gudgeon.load("nine_bar_press", scene="lubricated")
     parameters = grid(options.clearances, options.speeds)
     reference = run(simulation, parameters, method="rodas5p", rtol=1e-10)
@@ -140,7 +246,8 @@ def main() -> None:
     print(f"  1 thread   {1e3 * one / n:8.2f}   {1e3 * cpu_one / n:12.2f}")
     print(f"  2 threads  {1e3 * two / n:8.2f}   {1e3 * cpu_two / n:12.2f}")
     print(f"  two threads are {one / two:.2f} times as fast as one; two that only hash: {machine(options.repeats):.2f}")
-    side_by_side(options.repeats)
+    for part in parts:
+        part(options.repeats)
 
 
 if __name__ == "__main__":

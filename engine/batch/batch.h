@@ -11,6 +11,11 @@ enum {
 
 #define GLANCE 0.02 /* s between two looks at whether the batch is ending */
 
+/* Times of run i, the last of them, and the first row of its samples. */
+static inline const double *times_of(const Batch *b, long i) { return b->t + i * b->apart; }
+static inline double t_end_of(const Batch *b, long i) { return times_of(b, i)[b->wanted[i] - 1]; }
+static inline long rows_of(const Batch *b, long i) { return b->place[i] * b->samples; }
+
 /* A joint's latch (closed: 0 or 1), the sides of events: what the kernels and rk4 remember. */
 typedef struct {
     double closed, deltadot_minus;

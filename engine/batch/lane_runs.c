@@ -140,7 +140,7 @@ static void single_steps(Side *side, LaneBits rare, const LaneRun *x)
 static LaneBits alone(const Side *side, double h, double t_new)
 {
     const Batch *b = side->b;
-    const int last = N_USER_EVENTS > 0 && t_new >= b->t[b->samples - 1];
+    const int last = N_USER_EVENTS > 0 && t_new >= t_end_of(b, side->number[first_of(side)]);
     LaneBits some = {0};
     for (int k = 0; k < LANES && (N_CORNERS > 0 || last); k++) {
         const double t = side->x.t[k];
@@ -157,8 +157,8 @@ static void advance(Side *side)
     const int first = first_of(side);
     const long i = side->number[first];
     double h;
-    const double t_new = step_end(b->t[0], b->t[b->samples - 1], b->step[i], side->x.steps[first] + 1.0, &h);
-    const int sampled = b->t[b->done[i]] < t_new + h;
+    const double t_new = step_end(times_of(b, i)[0], t_end_of(b, i), b->step[i], side->x.steps[first] + 1.0, &h);
+    const int sampled = times_of(b, i)[b->done[i]] < t_new + h;
     LaneRun before;
     const LaneBits parted = alone(side, h, t_new);
     const LaneBits rare = parted | lane_step(&side->x, h, t_new, &side->p, sampled || any_of(parted), &before);
@@ -184,10 +184,10 @@ static double seconds_now(void)
 int gudgeon_lane_count(void) { return LANES; }
 
 /*
- * Runs number[k] (LANES of them, -1: none), which have the same step and have come equally far, each in a memory of
- * its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes on alone
- * from where it is (gudgeon_many), because it has come to its end, is the last, most steps are rare, or the batch is
- * ending.
+ * Runs number[k] (LANES of them, -1: none), which have the same step and times and have come equally far, each in a
+ * memory of its own. Returns GOES_ON after `limit` steps, to be called again, or ALL_OVER: what is not over then goes
+ * on alone from where it is (gudgeon_many), because it has come to its end, is the last, most steps are rare, or the
+ * batch is ending.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
@@ -203,7 +203,8 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     }
     mirror(&side);
     while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
-        if (side.b->done[side.number[first_of(&side)]] == side.b->samples || *side.b->ending) {
+        const long i = side.number[first_of(&side)];
+        if (side.b->done[i] == side.b->wanted[i] || *side.b->ending) {
             together = 0;
             break;
         }

@@ -12,24 +12,25 @@ static int start_run(const Batch *b, long i, Run *run)
     double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0}, residual;
     Asked asked;
     set_asked(&asked, is_ending, (void *)b, GLANCE);
-    const double *p = b->p + i * b->numbers;
-    if (!b->started[i] && close_start(b->t[0], p, b->size[i], start, start + N_Q, &residual, &asked))
+    const double *p = b->p + i * b->numbers, t0 = times_of(b, i)[0];
+    if (!b->started[i] && close_start(t0, p, b->size[i], start, start + N_Q, &residual, &asked))
         return asked.stop ? STOPPED : NOT_CLOSED;
     for (int k = 0; k < 2 * N_Q; k++)
         y[k] = start[k];
-    gudgeon_run_start(run, b->p_motion + i * b->numbers, b->t[0], y, b->remembered + i * AT_LEAST_ONE(N_MEMORY));
+    gudgeon_run_start(run, b->p_motion + i * b->numbers, t0, y, b->remembered + i * AT_LEAST_ONE(N_MEMORY));
     gudgeon_run_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
     gudgeon_run_stop(run, b->stop);
     gudgeon_run_asks(run, is_ending, (void *)b, GLANCE);
     if (b->choice >= 0)
-        gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i, b->fixed);
+        gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i,
+            b->fixed ? b->step[i] : 0.0);
     return 0;
 }
 
 /* Row k of run i's samples is the present state. */
 static void take_sample(const Batch *b, long i, long k, Run *run)
 {
-    const long row = i * b->samples + k;
+    const long row = rows_of(b, i) + k;
     store_sample(run, run->t, run->y, (const Parameters *)(b->p_motion + i * b->numbers), 0, b->y + row * N_S,
         b->latched + row * AT_LEAST_ONE(N_MEMORY), b->state + row * AT_LEAST_ONE(N_CLEARANCES));
 }
@@ -37,13 +38,13 @@ static void take_sample(const Batch *b, long i, long k, Run *run)
 /* Steps of run i, at most `limit`, with their samples. */
 static int advance(const Batch *b, long i, long limit, Run *run)
 {
-    const double *p = b->p_motion + i * b->numbers;
-    const long row = i * b->samples;
+    const double *p = b->p_motion + i * b->numbers, *t = times_of(b, i);
+    const long row = rows_of(b, i), n = b->wanted[i];
     double *y = b->y + row * N_S, *latched = b->latched + row * AT_LEAST_ONE(N_MEMORY);
     signed char *state = b->state + row * AT_LEAST_ONE(N_CLEARANCES);
     const int status = b->choice < 0
-        ? gudgeon_rk4_run(run, p, b->step[i], b->samples, b->t, limit, y, latched, state, b->done + i)
-        : gudgeon_adaptive_run(run, p, b->samples, b->t, limit, y, latched, state, b->done + i);
+        ? gudgeon_rk4_run(run, p, b->step[i], n, t, limit, y, latched, state, b->done + i)
+        : gudgeon_adaptive_run(run, p, n, t, limit, y, latched, state, b->done + i);
     b->t_last[i] = run->t;
     return status;
 }
@@ -51,14 +52,15 @@ static int advance(const Batch *b, long i, long limit, Run *run)
 /* Run i is over: its report; where an event or Ctrl-C ended it, a last sample in place of those that are as late. */
 static void end_run(const Batch *b, long i, int status, Run *run)
 {
+    const double *times = times_of(b, i), t_end = t_end_of(b, i);
     double t, *last = b->last + i * N_S, latched[AT_LEAST_ONE(N_MEMORY)];
     signed char state[AT_LEAST_ONE(N_CLEARANCES)];
     const double apart = status == STOPPED ? 0.0
-        : max_of(32.0 * DBL_EPSILON * max_of(fabs(b->t[0]), fabs(b->t[b->samples - 1])),
-            min_of(1e-11, 1e-10 * (b->t[b->samples - 1] - b->t[0]))); /* as Python's Session has it */
+        : max_of(32.0 * DBL_EPSILON * max_of(fabs(times[0]), fabs(t_end)),
+            min_of(1e-11, 1e-10 * (t_end - times[0]))); /* as Python's Session has it */
     if (status == ENDED || (status == STOPPED && b->done[i] > 0)) {
         b->t_last[i] = run->t;
-        while (b->done[i] > 0 && b->t[b->done[i] - 1] >= run->t - apart)
+        while (b->done[i] > 0 && times[b->done[i] - 1] >= run->t - apart)
             b->done[i]--;
         take_sample(b, i, b->done[i]++, run);
     }
@@ -94,11 +96,11 @@ int gudgeon_many(const void *batch, void *memory, long *current, long end)
         if (b->phase[i] != BEGUN)
             continue;
         const double before = seconds_now();
-        const int status = *b->ending && b->done[i] < b->samples ? STOPPED : advance(b, i, b->limit, run);
+        const int status = *b->ending && b->done[i] < b->wanted[i] ? STOPPED : advance(b, i, b->limit, run);
         b->seconds[i] += seconds_now() - before;
         if (status == EVENTS_FULL)
             return LISTS;
-        if (!status && b->done[i] < b->samples)
+        if (!status && b->done[i] < b->wanted[i])
             return GOES_ON;
         end_run(b, i, status, run);
         if (has_lists(run))
@@ -174,9 +176,9 @@ static void samples_single(const Batch *b, long i, const Moving *before, void *m
 {
     Run *run = memory;
     const Parameters *p = (const Parameters *)(b->p_motion + i * b->numbers);
-    const long row = i * b->samples;
+    const long row = rows_of(b, i);
     const Samples out = {
-        .n = b->samples, .done = b->done + i, .t = b->t, .y = b->y + row * N_S,
+        .n = b->wanted[i], .done = b->done + i, .t = times_of(b, i), .y = b->y + row * N_S,
         .latched = b->latched + row * AT_LEAST_ONE(N_MEMORY), .state = b->state + row * AT_LEAST_ONE(N_CLEARANCES)
     };
     Beginning from = {.t = before->t};

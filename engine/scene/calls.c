@@ -88,7 +88,10 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *mem
     return sum;
 }
 
-/* Everything at n samples; returns 0 or the pivot that vanished, with the sample in `failed`. */
+/*
+ * Everything at n samples, but for arrays that are NULL; reactions, torques, series and energy belong together.
+ * Returns 0 or the pivot that vanished, with the sample in `failed`.
+ */
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
     double *series, double *friction, double *energy, double *power, double *drift, long *failed)
@@ -108,24 +111,26 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             *failed = i;
             return status;
         }
-        for (int k = 0; k < N_Q; k++)
+        for (int k = 0; a && k < N_Q; k++)
             a[i * N_Q + k] = dy[N_Q + k];
-        for (int k = 0; k < N_ROWS; k++)
+        for (int k = 0; lambda && k < N_ROWS; k++)
             lambda[i * N_ROWS + k] = aside.lambda[k];
-        for (int k = 0; k < N_WORK; k++)
+        for (int k = 0; power && k < N_WORK; k++)
             power[i * N_WORK + k] = aside.power[k];
-        drift[2 * i] = drift[2 * i + 1] = 0.0;
-        for (int k = 0; k < N_ROWS; k++) {
+        for (int k = 0; drift && k < 2; k++)
+            drift[2 * i + k] = 0.0;
+        for (int k = 0; drift && k < N_ROWS; k++) {
             drift[2 * i] = max_of(fabs(aside.phi[k]), drift[2 * i]);
             drift[2 * i + 1] = max_of(fabs(aside.phi_dot[k]), drift[2 * i + 1]);
         }
-        outputs(t[i], y, y + N_Q, p, aside.lambda, reactions + i * 3 * N_JOINTS, torques + i * N_DRIVES,
-            series + i * N_SERIES, energy + 2 * i);
-        for (int k = 0; k < N_FRICTIONS; k++) {
+        if (energy)
+            outputs(t[i], y, y + N_Q, p, aside.lambda, reactions + i * 3 * N_JOINTS, torques + i * N_DRIVES,
+                series + i * N_SERIES, energy + 2 * i);
+        for (int k = 0; friction && k < N_FRICTIONS; k++) {
             friction[(i * N_FRICTIONS + k) * 2] = aside.friction[k].force;
             friction[(i * N_FRICTIONS + k) * 2 + 1] = aside.friction[k].v;
         }
-        for (int k = 0; k < N_CLEARANCES; k++) {
+        for (int k = 0; clearance && k < N_CLEARANCES; k++) {
             const Clearance *joint = &aside.clearance[k];
             double *out = clearance + (i * N_CLEARANCES + k) * 9;
             out[0] = joint->Fx;

@@ -59,18 +59,23 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
     double *y, double *latched, signed char *state, long *done);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
 
-/* Arrays with a row for each run; `numbers` are the doubles of Parameters, `samples` the times of t. */
+/*
+ * Arrays with a row for each run; `numbers` are the doubles of Parameters. Samples of run i begin at row
+ * place[i] * samples: runs that are over may have left their place to others.
+ */
 typedef struct {
-    long samples, numbers, limit;         /* steps after which a call returns */
+    long samples, numbers, limit;         /* rows of a place; steps after which a call returns */
     int choice, automatic, stop;          /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
-    double fixed, *t;
+    int fixed;                            /* whether methods that choose their step take a given one */
+    double *t;
+    long apart, *wanted, *place;          /* times of run i: wanted[i] of them from t + i * apart; 0: those of all */
     double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
-    double *step, *scale, *least;         /* rk4's step; tolerances as gudgeon_adaptive_setup takes them */
+    double *step, *scale, *least;         /* rk4's and given steps; tolerances as gudgeon_adaptive_setup takes them */
     double *start;                        /* (q, v) where `started`, else filled here */
     unsigned char *started, *phase;
     double *remembered;                   /* latches, modes, inner states at the start, as in a sample */
     signed char *codes;                   /* of the contacts that a run goes on with */
-    double *y, *latched;                  /* samples */
+    double *y, *latched;                  /* samples, by place */
     signed char *state;
     long *done;                           /* samples stored */
     int *status;

@@ -17,8 +17,8 @@ from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
 from gudgeon.language.shown import visible
 from gudgeon.language.suggestions import unknown
-from gudgeon.model.default_step import T_END, scene_end
-from gudgeon.model.parameters import addresses, value
+from gudgeon.model.default_step import T_END, scene_end, scene_number
+from gudgeon.model.parameters import addresses, prepare, value
 from gudgeon.results.results import Result
 from gudgeon.simulation.from_file import load
 
@@ -126,8 +126,6 @@ def _interrupted(names: Iterable[str], session: Session) -> str:
 
 def _check(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
     """Names that no scene has and values that are not valid are told before anything is run or written."""
-    from gudgeon.model.parameters import prepare
-
     check_addresses(settings, request.file, [simulation.source for simulation in simulations.values()])
     for simulation in simulations.values():
         prepare(simulation.compiled, _own(settings, simulation))
@@ -149,13 +147,14 @@ def _own(settings: Settings, simulation: Simulation) -> dict[str, float | str]:
 def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Simulation], session: Session) -> None:
     """All scenes, the ideal one last: it lasts as long as the longest, and is to be had cheaply."""
     t_end, step = (None if text is None else value(text) for text in (request.t_end, request.step))
-    longest = max((scene_end(s.source) for n, s in simulations.items() if n != IDEAL), default=T_END)
+    own = {name: prepare(s.compiled, _own(settings, s))[0] for name, s in simulations.items()}
+    longest = max((scene_end(s.source, own[n]) for n, s in simulations.items() if n != IDEAL), default=T_END)
     with progress_bar(quiet=request.json) as bar:
         for name in sorted(simulations, key=lambda name: name == IDEAL):
             simulation, until = simulations[name], t_end
             method = "auto" if name == IDEAL and len(simulations) > 1 else request.method
             if until is None:
-                until = simulation.source.simulate.get("t_end", longest if name == IDEAL else T_END)
+                until = scene_number(simulation.source, "t_end", own[name], longest if name == IDEAL else T_END)
             try:
                 run = simulation.simulate(
                     until, output=request.output, method=method, step=step,

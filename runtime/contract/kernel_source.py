@@ -104,7 +104,10 @@ class SeriesInfo:
 
 @dataclass(frozen=True)
 class WrittenInfo:
-    """An expression of t or motion in the file: a drive's, a force's, an event's; `tree` is its JSON."""
+    """An expression of the file, of t or motion (a drive's, a force's, an event's) or of a scene's `simulate`.
+
+    `tree` is its JSON.
+    """
 
     address: str  # "drives.crank.value"
     tree: str
@@ -184,6 +187,7 @@ class KernelSource:
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
+    simulate_written: tuple[WrittenInfo, ...] = ()  # of `simulate`, what follows parameters: its value is the default
     tables: tuple[tuple[str, str], ...] = ()  # files beside the YAML that curves were read from, and their sha256
     laws: tuple[tuple[str, str], ...] = ()  # of the user's own, and what they said (kinds/laws/registered.py)
 
@@ -232,7 +236,7 @@ class KernelSource:
             "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
             "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
-            "written": WrittenInfo,
+            "written": WrittenInfo, "simulate_written": WrittenInfo,
         }  # fmt: skip
         for key, kind in kinds.items():
             data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))

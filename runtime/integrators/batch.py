@@ -7,8 +7,9 @@ lists of contacts and events.
 from __future__ import annotations
 
 import math
+import os
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +23,7 @@ from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.failure import INTERRUPTED, NOT_FINITE, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, no_states, told_apart
+from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.waiting.ctrl_c import CtrlC
@@ -34,27 +36,39 @@ PORTION = 16  # runs handed out at once, at most
 GLANCE = 0.05  # s between two looks of the waiting thread
 
 
+def available_threads() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 class Runs:
-    """Arrays by run, and by sample where there are samples; what is not reached is NaN."""
+    """Arrays by run, and by place where there are samples; what is not reached is NaN.
+
+    Each run has a place of its own for its samples or, with `over`, that of the thread which it goes on in: what
+    `over` does not take of a run that is over, once in that thread, is lost.
+    """
 
     def __init__(
-        self, compiled: CompiledModel, p: Array, motion: Array, times: Array, method: str, step: Array, rtol: float,
-        stop: bool, side_by_side: bool,
+        self, compiled: CompiledModel, p: Array, motion: Array, times: Times, method: str, step: Array, rtol: float,
+        stop: bool, side_by_side: bool, threads: int, over: Callable[[Runs, int], None] | None = None,
     ) -> None:  # fmt: skip
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
-        self.compiled, self.method, self.times = compiled, method, times
-        n, N, size, nc = len(p), len(times), 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
-        self.n = n
+        self.compiled, self.method, self.times, self.threads, self.over = compiled, method, times, threads, over
+        n, N, size, nc = len(p), times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
+        self.lanes = Lanes(compiled) if side_by_side and lanes.wanted(compiled, method, step) else None
+        self.n, self.abreast = n, self.lanes.count if self.lanes else 1
+        places = threads * self.abreast if over else n
         scale, least = adaptive.tolerances(compiled, p, rtol)
         self.arrays: dict[str, NDArray[Any]] = {
-            "t": times, "p": p, "p_motion": motion, "size": mechanism_sizes(compiled, p), "step": step,
-            "scale": scale, "least": least, "start": np.full((n, 2 * compiled.n), np.nan),
-            "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((n, N, size)),
+            "t": times.t, "wanted": times.count, "place": np.arange(n) % places, "p": p, "p_motion": motion,
+            "size": mechanism_sizes(compiled, p), "step": step, "scale": scale, "least": least,
+            "start": np.full((n, 2 * compiled.n), np.nan),
+            "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((places, N, size)),
             "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan), "codes": np.zeros((n, nc), np.int8),
-            "latched": np.empty((n, N, max(compiled.n_memory, 1))), "state": np.zeros((n, N, nc), np.int8),
+            "latched": np.empty((places, N, max(compiled.n_memory, 1))), "state": np.zeros((places, N, nc), np.int8),
             "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
-            "t_last": np.full(n, times[0]), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
+            "t_last": np.full(n, np.nanmin(times.t)), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
             "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, 4), np.nan),
             "peaks": np.full((n, nc, 3), np.nan), "ending": np.zeros(1, np.intc),
         }  # fmt: skip
@@ -64,15 +78,14 @@ class Runs:
         self.events = [[no_states(compiled)] for _ in range(n)]
         self.failures: dict[int, GudgeonError] = {}
         self.interrupted = False
-        self.lanes = Lanes(compiled) if side_by_side and lanes.wanted(compiled, method, step) else None
 
     def _struct(self, fixed: bool, stop: bool) -> Any:
         struct = self.compiled.ffi.new("Batch *")
         explicit = self.method == "rk4"
-        struct.samples, struct.numbers = len(self.times), self.arrays["p"].shape[1]
+        struct.samples, struct.apart, struct.numbers = self.times.most, self.times.apart, self.arrays["p"].shape[1]
         struct.limit = rk4.CHUNK if explicit else adaptive.CHUNK
         struct.choice, struct.automatic = (-1, 0) if explicit else adaptive.choice_of(self.compiled, self.method)
-        struct.fixed, struct.stop = float(self.arrays["step"][0]) if fixed else 0.0, int(stop)
+        struct.fixed, struct.stop = int(fixed), int(stop)
         kinds = {"uint8": "unsigned char *", "int8": "signed char *", "int32": "int *", "int64": "long *"}
         for name, array in self.arrays.items():
             setattr(struct, name, self.compiled.pointer(array, kinds.get(array.dtype.name, "double *"), True))
@@ -80,7 +93,13 @@ class Runs:
 
     def __getstate__(self) -> dict[str, Any]:
         """What is over: arrays and lists, without what C worked on."""
-        return self.__dict__ | {"struct": None, "lanes": None}
+        return self.__dict__ | {"struct": None, "lanes": None, "over": None}
+
+    def let_go(self) -> None:
+        """Samples that `over` has taken what it wanted of."""
+        self.arrays |= {name: self.arrays[name][:0] for name in ("y", "latched", "state")}
+        self.arrays |= {name: np.zeros_like(self.arrays[name]) for name in ("y", "latched", "state")}
+        self.struct, self.over = None, None
 
     @property
     def stopping(self) -> bool:
@@ -101,15 +120,15 @@ class Runs:
         self.failures.update(failures)
         self.arrays["phase"][list(failures)] = OVER
 
-    def run(self, threads: int, progress: Progress | None) -> None:
+    def run(self, progress: Progress | None) -> None:
         """All of them. Ctrl-C ends them where they are."""
         with CtrlC() as ctrl_c:
             try:
-                self._in_threads(threads, progress, range(self.n), ctrl_c)
+                self._in_threads(progress, range(self.n), ctrl_c)
                 left = self._not_closed()
                 if left:
                     again = [i for i in left if self._assemble(i, ctrl_c)]
-                    self._in_threads(threads, progress, again, ctrl_c)
+                    self._in_threads(progress, again, ctrl_c)
                 ctrl_c.take()
             except KeyboardInterrupt:
                 self.interrupted = True
@@ -118,24 +137,25 @@ class Runs:
     def _judge(self) -> None:
         """Lists the runs that did not come to their ends, and marks what was not reached."""
         self._not_closed()
-        for i in range(self.n) if self.method != "rk4" else ():
+        for i in range(self.n) if self.method != "rk4" and not self.over else ():
             self._take_back(i)
         for i in np.flatnonzero(self.arrays["phase"] != OVER).tolist():
             self.failures[i] = SolverError(INTERRUPTED, float(self.arrays["t_last"][i]))
         for i in np.flatnonzero(~np.isin(self.arrays["status"], (0, ENDED))).tolist():
             if i not in self.failures:
                 self.failures[i] = self._failure(i)
-        for i, done in enumerate(self.arrays["done"].tolist()):
-            if done < len(self.times):
+        for i, done in enumerate(self.arrays["done"].tolist() if not self.over else ()):
+            if done < self.times.most:
                 self.arrays["y"][i, done:], self.arrays["latched"][i, done:] = np.nan, np.nan
 
     def _take_back(self, i: int) -> None:
         """Samples of run i from the first on that is no number, as a single run does it."""
         x = self.arrays
-        k = adaptive.first_odd(x["y"][i, : x["done"][i]], self.compiled.n)
+        y = x["y"][x["place"][i]]
+        k = adaptive.first_odd(y[: x["done"][i]], self.compiled.n)
         if k:
-            x["done"][i], x["status"][i], x["t_last"][i] = k, NOT_FINITE, self.times[k]
-            x["last"][i] = x["y"][i, k - 1]
+            x["done"][i], x["status"][i], x["t_last"][i] = k, NOT_FINITE, self.times.of(i)[k]
+            x["last"][i] = y[k - 1]
 
     def _not_closed(self) -> list[int]:
         """Runs whose start C could not close: they are yet to begin."""
@@ -155,14 +175,13 @@ class Runs:
         self.arrays["started"][i] = 1
         return True
 
-    def _in_threads(self, threads: int, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC) -> None:
-        portion = max(1, min(PORTION, len(wanted) // (8 * threads)))
-        if self.lanes:
-            portion = math.ceil(portion / self.lanes.count) * self.lanes.count
+    def _in_threads(self, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC) -> None:
+        portion = max(1, min(PORTION, len(wanted) // (8 * self.threads)))
+        portion = math.ceil(portion / self.abreast) * self.abreast
         portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
-        with ThreadPoolExecutor(threads, thread_name_prefix="gudgeon") as pool:
+        with ThreadPoolExecutor(self.threads, thread_name_prefix="gudgeon") as pool:
             try:
-                waiting: set[Future[None]] = {pool.submit(self._work, portions) for _ in range(threads)}
+                waiting: set[Future[None]] = {pool.submit(self._work, portions, k) for k in range(self.threads)}
                 while waiting:
                     ended, waiting = wait(waiting, GLANCE)
                     ctrl_c.take()
@@ -174,24 +193,34 @@ class Runs:
                 self.arrays["ending"][0] = 1
                 raise
 
-    def _work(self, portions: deque[range | list[int]]) -> None:
+    def _work(self, portions: deque[range | list[int]], worker: int) -> None:
         """One thread: portions of runs until none is left."""
-        size, count = self.compiled.lib.gudgeon_run_size(), self.lanes.count if self.lanes else 1
-        memories = np.zeros((count, size), dtype=np.uint8)
+        memories = np.zeros((self.abreast, self.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
         while portions and not self.stopping:
             try:
                 portion = portions.popleft()
             except IndexError:  # another thread was quicker
                 return
-            if self.lanes is None and isinstance(portion, range):
+            if self.lanes is None and self.over is None and isinstance(portion, range):
                 self._alone(portion.start, portion.stop, memories[0])
                 continue
             new = [i for i in portion if self.arrays["phase"][i] == NEW]
-            for group in self.lanes.groups(new, self.arrays["step"]) if self.lanes else [[i] for i in new]:
-                if self.lanes and len(group) >= lanes.LEAST and not self.stopping:
-                    self.lanes.together(self, group, memories)
-                for k, i in enumerate(group):
-                    self._alone(i, i + 1, memories[k])
+            steps = self.arrays["step"]
+            for group in self.lanes.groups(new, steps, self.times) if self.lanes else [[i] for i in new]:
+                self._group(group, memories, worker * self.abreast)
+
+    def _group(self, group: list[int], memories: NDArray[np.uint8], place: int) -> None:
+        """Runs that go side by side as far as they do, and then each to its end."""
+        if self.over:
+            self.arrays["place"][group] = place + np.arange(len(group))
+        if self.lanes and len(group) >= lanes.LEAST and not self.stopping:
+            self.lanes.together(self, group, memories)
+        for k, i in enumerate(group):
+            self._alone(i, i + 1, memories[k])
+            if self.over and self.arrays["phase"][i] == OVER and self.arrays["status"][i] != NOT_CLOSED:
+                if self.method != "rk4":
+                    self._take_back(i)
+                self.over(self, i)
 
     def _alone(self, first: int, end: int, memory: NDArray[np.uint8]) -> None:
         """Runs one after the other, from where they are to their ends."""
@@ -208,11 +237,11 @@ class Runs:
     def fetch(self, i: int, run: Any, last: bool) -> None:
         """Takes over the lists of contacts and events of run i."""
         self.impacts[i].append(fetch_impacts(self.compiled, run, last))
-        self.events[i].append(fetch_events(self.compiled, run, self.times))
+        self.events[i].append(fetch_events(self.compiled, run, self.times.of(i)))
 
     def _failure(self, i: int) -> GudgeonError:
         """What ended run i, as a single run says it."""
-        x = {name: array[i] for name, array in self.arrays.items() if len(array) == self.n}
+        x = {name: self.arrays[name][i] for name in ("status", "t_last", "last", "peaks", "p_motion", "step")}
         advice = adaptive.ADVICE if self.method != "rk4" else rk4.ADVICE.format(float(x["step"]))
         joints = len(self.compiled.source.clearances)
         numbers = (int(x["status"]), float(x["t_last"]), advice, x["last"], x["peaks"][:joints, 2], x["p_motion"])
@@ -231,18 +260,24 @@ class Runs:
         """Sums and maxima over the steps of run i."""
         return counts_of(self.arrays["counts"][i], self.arrays["residuals"][i])
 
+    def samples(self, i: int) -> tuple[Array, Array, Array, NDArray[Any]]:
+        """Times of the samples of run i that were reached, and views of these: (q, v, works), memory, codes."""
+        x, compiled, k = self.arrays, self.compiled, int(self.arrays["place"][i])
+        done = int(x["done"][i])
+        t = self.times.of(i)[:done].copy()
+        if done and x["status"][i] in (ENDED, STOPPED):
+            t[-1] = x["t_last"][i]
+        joints = len(compiled.source.clearances)
+        return t, x["y"][k, :done], x["latched"][k, :done, : compiled.n_memory], x["state"][k, :done, :joints]
+
     def trajectory(self, i: int) -> Trajectory:
         """Run i as its method would hand it back."""
-        compiled, n, done = self.compiled, self.compiled.n, int(self.arrays["done"][i])
-        y, memory, state = (self.arrays[name][i, :done] for name in ("y", "latched", "state"))
-        t = self.times[:done].copy()
-        if done and self.arrays["status"][i] in (ENDED, STOPPED):
-            t[-1] = self.arrays["t_last"][i]
+        compiled, n = self.compiled, self.compiled.n
+        t, y, memory, state = self.samples(i)
         error, (events, no_number) = self.failures.get(i), told_apart(compiled, np.concatenate(self.events[i]))
         joints = len(compiled.source.clearances)
         return Trajectory(
-            t, y[:, :n].copy(), y[:, n : 2 * n].copy(), None, memory[:, : compiled.n_memory].copy(),
-            state[:, :joints].copy(), y[:, 2 * n :].copy(),
+            t, y[:, :n].copy(), y[:, n : 2 * n].copy(), None, memory.copy(), state.copy(), y[:, 2 * n :].copy(),
             self.impacts_of(i), self.arrays["peaks"][i, :joints].copy(), self.counts(i),
             self.interrupted and error is not None, error if isinstance(error, SolverError) else None,
             seconds=float(self.arrays["seconds"][i]), events=plain(events),

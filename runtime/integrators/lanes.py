@@ -17,6 +17,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
     from gudgeon.integrators.batch import Runs
+    from gudgeon.integrators.times import Times
 
 NEW, OVER = 0, 2  # phases of a run
 NOT_CLOSED = -9  # status: the start is left to the search in Python
@@ -38,11 +39,12 @@ class Lanes:
         single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single())
         self.single = self.ffi.cast("void *", int(single))
 
-    def groups(self, numbers: list[int], steps: Array) -> list[list[int]]:
-        """Runs that go side by side: neighbours with the same step."""
+    def groups(self, numbers: list[int], steps: Array, times: Times) -> list[list[int]]:
+        """Runs that go side by side: neighbours with the same step and times."""
         groups: list[list[int]] = []
         for i in numbers:
-            if groups and len(groups[-1]) < self.count and steps[groups[-1][0]] == steps[i]:
+            first = groups[-1][0] if groups and len(groups[-1]) < self.count else i
+            if first != i and steps[first] == steps[i] and times.same(first, i):
                 groups[-1].append(i)
             else:
                 groups.append([i])

@@ -8,10 +8,8 @@ is taken from the cache (or compiled) again when it is first asked for there.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Collection
 from functools import cached_property
-from time import perf_counter
 from types import ModuleType
 from typing import Any, TypeAlias
 
@@ -22,27 +20,11 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import SingularError
 from gudgeon.language.wanted import number_of, time
 from gudgeon.model.arrays import FLAG, pointer, taken
+from gudgeon.model.evaluation import PARTS, Evaluation, evaluate
 
 Array: TypeAlias = NDArray[np.float64]
 
 N_WORK = 3  # works that are integrated with the motion
-CLEARANCE_COLUMNS = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt")
-
-
-@dataclass(frozen=True)
-class Evaluation:
-    """Everything that follows from N samples, SI."""
-
-    a: Array  # (N, n) q̈
-    multipliers: Array  # (N, m) λ
-    reactions: Array  # (N, n_joints, 3) Fx, Fy, M on the second body at the joint's point, ground axes
-    torques: Array  # (N, n_drives) torque (N·m) or force (N) of each drive
-    clearance: Array  # (N, n_clearances, 9) CLEARANCE_COLUMNS: force on the journal; Fn > 0 pushes it back
-    series: Array  # (N, n_series) results of force elements
-    friction: Array  # (N, n_frictions, 2) force on the second body along the direction, slip
-    energy: Array  # (N, 2) kinetic, potential
-    power: Array  # (N, 3) of drives, of force elements (but what they store), of joints with play (W)
-    drift: Array  # (N, 2) largest |Φ| (m, rad) and |Φ̇| (m/s, rad/s) of the rows
 
 
 class CompiledModel:
@@ -195,50 +177,14 @@ class CompiledModel:
 
     def evaluate(
         self, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: ArrayLike,
-        take: Callable[[], object] = lambda: None,
+        take: Callable[[], object] = lambda: None, parts: Collection[str] = PARTS,
     ) -> Evaluation:  # fmt: skip
         """Everything at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions).
 
-        `take` is called every few milliseconds, and what it raises is passed on.
+        `take` is called every few milliseconds, and what it raises is passed on. `parts`: of an Evaluation, what is
+        wanted. Raises SingularError for a sample that has no accelerations.
         """
-        s, time = self.source, taken(t, "t", (None,))
-        N = len(time)
-        latched = _table(memory, "memory", N, None)
-        if self.n_memory or latched.shape[1] > 1:  # in a scene that remembers nothing one number stands for none
-            _table(latched, "memory", N, self.n_memory)
-        inputs = (("q", _table(q, "q", N, self.n)), ("v", _table(v, "v", N, self.n)), ("memory", latched))
-        out = Evaluation(
-            np.empty((N, self.n)), np.empty((N, len(s.rows))), np.empty((N, len(s.joints), 3)),
-            np.empty((N, len(s.drives))), np.empty((N, len(s.clearances), len(CLEARANCE_COLUMNS))),
-            np.empty((N, len(s.series))), np.empty((N, len(s.frictions), 2)), *(np.empty((N, k)) for k in (2, 3, 2)),
-        )  # fmt: skip
-        failed, first, chunk = self.ffi.new("long *"), 0, 1
-        results = tuple(vars(out).values())  # in their order
-        while first < N:
-            before, count = perf_counter(), min(chunk, N - first)
-            rows = slice(first, first + count)
-            given = [taken(values[rows], name, (count, None)) for name, values in inputs]
-            status = self.lib.gudgeon_evaluate(
-                count, self.pointer(time[rows]), *map(self.pointer, given), self._numbers(p),
-                *(self._out(a[first:]) for a in results), failed,
-            )  # fmt: skip
-            if status:
-                self.check_pivot(status, float(time[first + failed[0]]))
-            first += count
-            chunk = 4 * count if perf_counter() - before < 5e-3 else max(1, count // 4)
-            take()
-        self._mark_indeterminate(out)
-        return out
-
-    def _mark_indeterminate(self, out: Evaluation) -> None:
-        """NaN where redundant constraints leave a reaction open: rigid bodies cannot tell it; or masses are missing."""
-        s = self.source
-        for unknown in (out.multipliers, out.reactions, out.torques, out.energy, out.power) if s.massless else ():
-            unknown[:] = np.nan
-        for owner in s.indeterminate:
-            out.multipliers[:, [k for k, row in enumerate(s.rows) if row.owner == owner]] = np.nan
-            out.reactions[:, [k for k, joint in enumerate(s.joints) if joint.name == owner]] = np.nan
-            out.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
+        return evaluate(self, t, q, v, memory, p, take, parts)
 
     def memory_array(self, memory: ArrayLike | None) -> Array:
         """δ̇⁻ a joint with play, mode a friction; None: all joints free, every mode still to be found.
@@ -285,14 +231,6 @@ class CompiledModel:
     def _out(self, array: Array) -> Any:
         """A pointer to what C fills."""
         return self.pointer(array, written=True)
-
-
-def _table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Array:
-    """Checked as `taken` does; of an array of doubles, however it lies, no copy: its rows are taken piece by piece."""
-    if type(values) is not np.ndarray or values.dtype != np.float64:
-        return taken(values, name, (rows, columns))
-    taken(values[:0] if values.ndim else values, name, (0, columns))
-    return values if len(values) == rows else taken(values, name, (rows, columns))
 
 
 def _index(source: KernelSource, row: str) -> int:

@@ -1,5 +1,6 @@
-"""A default step for fixed-step RK4 where neither the call nor the scene gives one.
+"""What a scene says of its runs (`simulate:`), and a default step for rk4 where neither the call nor the scene does.
 
+The scene's t_end, output and step may follow parameters (`t_end: 2*pi/omega`): they are those of the run's own numbers.
 Three time scales bound it: the motion itself, a film's damping near ε = 0 (rate about πS/(c m), RK4
 is stable below 2.78 of it) and a dry contact's half period. Only a default: `bench` and `map`
 measure what a step is worth.
@@ -7,10 +8,15 @@ measure what a step is worth.
 
 from __future__ import annotations
 
+import json
 import math
+from collections.abc import Mapping
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import BadValueError
+from gudgeon.language.tree import evaluate, from_json
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.parameters import prepare
 
 T_END = 1.0  # s, of a scene that does not say
 SMOOTH = 2e-4  # of the run's length, at most
@@ -19,14 +25,37 @@ CONTACT = 1.0 / 50.0  # of a contact's time
 IMPACT_SPEED = 0.1  # m/s, of the contact that the estimate takes
 
 
-def scene_end(source: KernelSource) -> float:
-    """When a plain run of the scene ends (s): as the file says, or T_END."""
-    return float(source.simulate.get("t_end", T_END))
+def scene_number(source: KernelSource, name: str, p: Array, otherwise: float) -> float:
+    """The scene's own t_end, output or step with the numbers p of a run; `otherwise` where it says nothing.
+
+    Raises BadValueError, with the line, for an expression that has no fit value with these numbers.
+    """
+    written = next((one for one in source.simulate_written if one.address.rpartition(".")[2] == name), None)
+    if written is None:
+        return float(source.simulate.get(name, otherwise))
+    values = {slot.address: float(number) for slot, number in zip(source.slots, p, strict=False)}
+    found = float(evaluate(from_json(json.loads(written.tree)), lambda path: values[f"parameters.{path}"]))
+    whole = name == "output"
+    if not (math.isfinite(found) and (found >= 1.0 and found == round(found) if whole else found > 0.0)):
+        expected = "a whole number, 1 or more" if whole else "a positive time (s)"
+        where = f"{written.address} (line {written.line}, column {written.column})"
+        raise BadValueError(f"{where} is {found:g} with this run's numbers: expected {expected}")
+    return found
+
+
+def scene_end(source: KernelSource, p: Array) -> float:
+    """When a plain run of the scene with the numbers p ends (s): as the file says, or T_END."""
+    return scene_number(source, "t_end", p, T_END)
+
+
+def plain_end(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> float:
+    """The same with these parameters, as `simulate` takes them."""
+    return scene_end(compiled.source, prepare(compiled, parameters)[0])
 
 
 def scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
     """The step (s) that a plain run takes: the file's, or the default."""
-    own = float(compiled.source.simulate.get("step", 0.0))
+    own = scene_number(compiled.source, "step", p, 0.0)
     return own or default_step(compiled, p, duration if duration > 0.0 else T_END)
 
 

@@ -63,7 +63,7 @@ def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]]:
             raise BadValueError("parameters: expected a mapping for every run, or one of columns: {address: values}")
         return rows
     parameters = mapping(parameters, "parameters", "a mapping for every run, or {address: values}")
-    columns = {name: _column(name, values) for name, values in parameters.items()}
+    columns = {name: column(f"parameters: {name}", values) for name, values in parameters.items()}
     lengths = {name: len(column) for name, column in columns.items() if column is not None}
     if len(set(lengths.values())) > 1:
         told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
@@ -73,18 +73,18 @@ def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]]:
     return [{name: column[i] for name, column in whole.items()} for i in range(n)]
 
 
-def _column(name: str, values: Any) -> list[Any] | None:
-    """The values of every run; None where one stands for all."""
+def column(name: str, values: Any) -> list[Any] | None:
+    """The values of every run; None where one stands for all. Raises BadValueError, which begins with `name`."""
     try:
         shape = () if isinstance(values, (str, bytes, Mapping)) else np.shape(values)
     except ValueError:  # rows of different lengths
-        raise BadValueError(f"parameters: {name} is {told(values)}: expected one value for every run") from None
+        raise BadValueError(f"{name} is {told(values)}: expected one value for every run") from None
     if not shape:
         return None
     if len(shape) != 1:
-        raise BadValueError(f"parameters: {name} has shape {shape}, expected one value for every run")
+        raise BadValueError(f"{name} has shape {shape}, expected one value for every run")
     if isinstance(values, np.ndarray):
-        return taken(values, f"parameters: {name}").tolist() if values.dtype.kind in "biuf" else values.tolist()
+        return taken(values, name).tolist() if values.dtype.kind in "biuf" else values.tolist()
     return list(values)
 
 

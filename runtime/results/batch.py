@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
-from gudgeon.language.wanted import listed, refuse, text, told
+from gudgeon.language.wanted import refuse, text, told
+from gudgeon.results.batch_series import kept_text, series, wanted_names
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, rates
 
@@ -38,21 +39,44 @@ class Failure:
         return f"run {self.run}: {self.error}"
 
 
-@dataclass(eq=False, repr=False)
-class Batch:
-    """n runs over N common output times; SI. What a run did not reach is NaN.
+class ResultOf(Protocol):
+    """Where a batch has its runs from."""
 
-    `batch[i]` is the full Result of run i, made when it is asked for (and anew each time), the same as that of
-    the run alone; of a run that failed it raises the error, whose `partial` is the result up to there.
-    `batch["S9.y"]` is that series of all runs, (n, N), made from these. It may be pickled, as a Result may.
-    """
+    def __call__(self, i: int, /) -> Result:
+        """The full result; raises the error of a run that failed, with what it reached."""
 
-    source: KernelSource
-    t: Array  # (N,) s
+    def bare(self, i: int, parts: frozenset[str], /) -> Result | None:
+        """Its samples for series that need at most these parts of an Evaluation; None where there is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class States:
+    """Samples of n runs at N times each, SI; NaN (codes: 0) where a run has none."""
+
     q: Array  # (n, N, n_q)
     v: Array
     work: Array  # (n, N, 3) J: drives, applied forces, joints with play
     state: Array  # (n, N, n_clearances) int8: 0 free, 1 impact, 2 contact
+
+
+@dataclass(eq=False, repr=False)
+class Batch:
+    """n runs, each with at most N samples; SI. What a run did not reach is NaN.
+
+    `batch[i]` is the full Result of run i, made when it is asked for (and anew each time), the same as that of
+    the run alone; of a run that failed it raises the error, whose `partial` is the result up to there.
+    `batch["S9.y"]` is that series of all runs, (n, N), evaluated in threads. It may be pickled, as a Result may.
+
+    `t` are the output times that were asked for: (N,) where they are those of all runs, which is so unless runs end
+    at different times or were given times of their own; then (n, N), NaN behind a run's last. `times` is (n, N)
+    always, and `batch["t"]` when the samples were taken: where an event or Ctrl-C ended a run, its end is the last.
+    `q`, `v` (n, N, n_q), `work` (n, N, 3; J) and `state` (n, N, n_clearances) are the states at the samples. A batch
+    of which only some series were kept has none, and no `batch[i]`: asking for them is a GudgeonError.
+    """
+
+    source: KernelSource
+    t: Array  # (N,) s, or (n, N)
+    states: States | None  # None: only some series were kept
     samples: Array  # (n,) output times that were reached; where an event or Ctrl-C ended a run, the last is its end's
     t_last: Array  # (n,) s, where each run ended
     parameters: Mapping[str, Array]  # address -> (n,) values, of what was given to any run
@@ -64,14 +88,47 @@ class Batch:
     seconds: float  # wall time of all runs
     threads: int
     interrupted: bool
-    result: Callable[[int], Result] = field(repr=False)
+    result: ResultOf = field(repr=False)
+    kept: Mapping[str, Array] = field(default_factory=dict)  # series (n, N) instead of states, and "t"
 
     def __len__(self) -> int:
-        return len(self.q)
+        return len(self.samples)
 
     def __repr__(self) -> str:
         failed = f", {len(self.failures)} failed" if self.failures else ""
-        return f"<Batch {self.source.mechanism}/{self.source.scene}: {len(self)} runs of {len(self.t)} samples{failed}>"
+        samples = f"{len(self)} runs of {self.t.shape[-1]} samples"
+        return f"<Batch {self.source.mechanism}/{self.source.scene}: {samples}{failed}>"
+
+    @property
+    def times(self) -> Array:
+        """Output times that were asked for, (n, N), s; not to be written."""
+        return np.broadcast_to(self.t, (len(self), self.t.shape[-1]))
+
+    @property
+    def q(self) -> Array:
+        """Coordinates, (n, N, n_q)."""
+        return self._states.q
+
+    @property
+    def v(self) -> Array:
+        """Their velocities, (n, N, n_q)."""
+        return self._states.v
+
+    @property
+    def work(self) -> Array:
+        """Works of drives, applied forces, clearance forces, (n, N, 3), J."""
+        return self._states.work
+
+    @property
+    def state(self) -> Array:
+        """0 free, 1 impact, 2 contact, (n, N, n_clearances)."""
+        return self._states.state
+
+    @property
+    def _states(self) -> States:
+        if self.states is None:
+            raise GudgeonError(f"the states of these runs were not kept: {kept_text(self)}")
+        return self.states
 
     @overload
     def __getitem__(self, key: str) -> Array: ...
@@ -79,11 +136,12 @@ class Batch:
     def __getitem__(self, key: int) -> Result: ...
     def __getitem__(self, key: int | str) -> Result | Array:
         if isinstance(key, str):
-            return self._series(key)
+            return series(self, [key])[key]
         if not isinstance(key, (int, np.integer)) or isinstance(key, bool):
             refuse("a run of a batch", key, "its number, or the name of a series")
         if not -len(self) <= key < len(self):
             raise IndexError(f"run {told(key)}: there are {len(self)}")
+        _ = self._states
         return self.result(int(key) % len(self))
 
     @property
@@ -95,6 +153,7 @@ class Batch:
 
     def partial(self, i: int) -> Result | None:
         """The result of run i as far as it came; None where it did not begin."""
+        _ = self._states
         try:
             return self[i]
         except GudgeonError as error:
@@ -106,18 +165,11 @@ class Batch:
         runs = map(self.partial, range(len(self)))
         return tuple(None if run is None else run.at_events(name) for run in runs)
 
-    def _series(self, name: str) -> Array:
-        out = np.full((len(self), len(self.t)), np.nan)
-        for i in range(len(self)):
-            run = self.partial(i)
-            if run is not None:
-                out[i, : len(run.t)] = run[name]
-        return out
-
     def to_xarray(self, names: Iterable[str] = (), part: str = "series") -> xarray.Dataset:
         """A Dataset over `run` and `time`, every series by its name in a Result, those of `names` too.
 
-        Over `run` alone: samples, ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks.
+        Runs with times of their own have them as `t` over both; `time` then only counts. Over `run` alone: samples,
+        ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks.
         `.to_dataframe()` has a row for each run and time. part: "impacts", "events" and what else a Result has as a
         table of its own: a row each, with its `run`.
         """
@@ -137,20 +189,28 @@ class Batch:
         found |= {name: ("run", values) for name, values in self.diagnostics.items()}
         for k, joint in enumerate(self.source.clearances):
             found |= {f"{joint.name}.peak.{name}": ("run", self.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
-        for k, name in enumerate(self.source.coordinates):
-            for order, (column, values) in enumerate(((name, self.q), (rates(name)[0], self.v))):
-                found[column] = ("run", "time"), values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
-        for k, name in enumerate(() if self.source.massless else ("drives", "forces", "clearances")):
-            found[f"work.{name}"] = ("run", "time"), self.work[:, :, k], {"units": "J"}
-        names = listed(names, "names", str, "a list of names of series")
-        found |= {name: (("run", "time"), self[name]) for name in names}
-        coordinates: dict[str, Any] = {"time": ("time", self.t, {"units": "s"})}
+        found |= self._samples(names)
+        coordinates: dict[str, Any] = {"time": ("time", self.t, {"units": "s"})} if self.t.ndim == 1 else {}
         coordinates |= {name: ("run", values) for name, values in self.parameters.items()}
         attributes = {"mechanism": self.source.mechanism, "scene": self.source.scene, "title": self.source.title}
         return xarray.Dataset(found, coordinates, attributes)
 
+    def _samples(self, names: Iterable[str]) -> dict[str, Any]:
+        """Variables over run and time."""
+        over, found = ("run", "time"), dict[str, Any]()
+        if self.t.ndim == 2:
+            found["t"] = over, self.t, {"units": "s"}
+        for k, name in enumerate(self.source.coordinates if self.states else ()):
+            for order, (column, values) in enumerate(((name, self.q), (rates(name)[0], self.v))):
+                found[column] = over, values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
+        for k, name in enumerate(() if self.source.massless or not self.states else ("drives", "forces", "clearances")):
+            found[f"work.{name}"] = over, self.work[:, :, k], {"units": "J"}
+        names = [*(name for name in self.kept if name != "t"), *wanted_names(self.source, names)]
+        return found | {name: (over, values) for name, values in series(self, names).items()}
+
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to one NetCDF file, every series of every run too; OutputError where that fails."""
+        """Write everything to one NetCDF file, every series of every run (those that were kept); OutputError where
+        that fails."""
         from gudgeon.results import batch_file
 
         batch_file.save(self, path)
@@ -163,7 +223,8 @@ class Batch:
         return batch_file.load(path)
 
     def to_dataframe(self, names: Iterable[str] = ()) -> pandas.DataFrame:
-        """A long table of pandas: run, what was given to it, t, and these series, or all; a row each sample reached.
+        """A long table of pandas: run, what was given to it, t, and these series, or all that there are; a row each
+        sample reached.
 
         SI, units in `attrs["units"]`.
         """

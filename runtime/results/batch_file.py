@@ -1,7 +1,8 @@
 """A batch as one NetCDF 4 file, and back, bit for bit: its runs' tables one after the other, each row with its run.
 
 `series` are long tables over the samples that were reached, as are `impacts`, `events` and the others that the file of
-one run has (netcdf.py); `runs` has a row a run: its diagnostics, failure, ends and peaks, `given` what was given to it.
+one run has (netcdf.py); `runs` has a row a run: its diagnostics, failure, ends and peaks, `given` what was given to it,
+`times` when samples were asked for, of all runs or of each. Where series were kept instead of states, `kept` are these.
 Read back it needs no compiled library; the file is believed no more than that of one run.
 """
 
@@ -19,18 +20,29 @@ import numpy as np
 from gudgeon import errors
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, UnknownNameError
-from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, no_events
+from gudgeon.integrators.trajectory import Counts
 from gudgeon.results import netcdf
-from gudgeon.results.batch import PEAK_DTYPE, Batch, as_failures
+from gudgeon.results.batch import PEAK_DTYPE, Batch, States, as_failures
+from gudgeon.results.batch_columns import (
+    KEPT,
+    OWNER,
+    TIMES,
+    beside_owner,
+    kept_tables,
+    long_table,
+    read_kept,
+    read_times,
+    times,
+)
 from gudgeon.results.hdf5_image import Table, Variable
-from gudgeon.results.netcdf_read import File, opened, result_of, source_of
+from gudgeon.results.netcdf_read import File, events_of, impacts_of, opened, result_of, source_of
 from gudgeon.results.results import Array, Result
 
 if TYPE_CHECKING:
     import xarray
 
-FORMAT = "gudgeon-batch/1"
-RUNS, GIVEN, TIMES = "runs", "given", "times"
+FORMATS = ("gudgeon-batch/2", "gudgeon-batch/1")  # what is written, and what was before runs had their own times
+RUNS, GIVEN = "runs", "given"
 COUNTS = (*(field.name for field in fields(Counts)), "seconds")
 
 
@@ -41,15 +53,20 @@ def save(batch: Batch, path: str | os.PathLike[str]) -> None:
 
 def tables(batch: Batch) -> Iterator[Table]:
     """All that a file holds."""
-    runs = {i: run for i in range(len(batch)) if (run := batch.partial(i)) is not None}
+    began = range(len(batch) if batch.states else 0)
+    runs = {i: run for i in began if (run := batch.partial(i)) is not None}
     parts = [(i, table) for i, run in runs.items() for table in netcdf.tables(run)]
     about = {"seconds": repr(batch.seconds), "threads": batch.threads, "interrupted": batch.interrupted}
+    about |= {"own_times": batch.t.ndim == 2} | ({} if batch.states else {"kept": [*batch.kept]})
     attributes = {
-        "gudgeon": FORMAT, "title": batch.source.title, "mechanism": batch.source.mechanism,
+        "gudgeon": FORMATS[0], "title": batch.source.title, "mechanism": batch.source.mechanism,
         "scene": batch.source.scene, "batch": json.dumps(about),
     }  # fmt: skip
     yield Table("", "run", (Variable("run", np.arange(len(batch)), "", "number of the run"),), attributes)
-    yield Table(TIMES, "time", (Variable("time", batch.t, "s", "time that was asked for"),), {})
+    yield times(batch)
+    if not batch.states:
+        parts += kept_tables(batch)
+        yield long_table(KEPT, [(i, table) for i, table in parts if table.group == KEPT], {})
     yield Table(RUNS, "number", tuple(_runs(batch, runs)), {})
     units = {slot.address: slot.unit for slot in batch.source.slots}
     given = (Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items())
@@ -57,7 +74,7 @@ def tables(batch: Batch) -> Iterator[Table]:
     for group in ("", *netcdf.PARTS, netcdf.COMPILED):
         own = [(i, table) for i, table in parts if table.group == group and table.length]
         source = {"source": batch.source.to_json()} if group == netcdf.COMPILED else {}
-        yield _long(group or netcdf.SERIES, own, source)
+        yield long_table(group or netcdf.SERIES, own, source)
 
 
 def dataset(batch: Batch, part: str) -> xarray.Dataset:
@@ -66,26 +83,20 @@ def dataset(batch: Batch, part: str) -> xarray.Dataset:
 
     if part not in netcdf.PARTS:
         raise UnknownNameError(f"a batch has no part {part!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
-    began = [(i, run) for i in range(len(batch)) if (run := batch.partial(i)) is not None]
-    own = [(i, table) for i, run in began for table in netcdf.tables(run) if table.group == part and table.length]
-    found: dict[str, Any] = {v.name: ("row", v.values, v.attributes) for v in _long(part, own, {}).variables}
+    if batch.states is None and part in ("impacts", "events"):
+        own = [(i, table) for i, table in kept_tables(batch) if table.group == part]
+    else:
+        began = [(i, run) for i in range(len(batch)) if (run := batch.partial(i)) is not None]
+        own = [(i, table) for i, run in began for table in netcdf.tables(run) if table.group == part and table.length]
+    found: dict[str, Any] = {v.name: ("row", v.values, v.attributes) for v in long_table(part, own, {}).variables}
     return xarray.Dataset(found)
-
-
-def _long(group: str, parts: list[tuple[int, Table]], attributes: dict[str, str]) -> Table:
-    """The same table of several runs as one, whose first column is the run."""
-    rows = [np.full(table.length, i, np.int32) for i, table in parts]
-    found = [Variable("run", np.concatenate(rows), "", "number of the run")] if parts else []
-    for k, first in enumerate(parts[0][1].variables if parts else ()):
-        values = np.concatenate([table.variables[k].values for _, table in parts])
-        found.append(Variable(first.name, values, first.unit, first.meaning))
-    return Table(group, "row", tuple(found), attributes)
 
 
 def _runs(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
     failed = {failure.run: failure.error for failure in batch.failures}
-    told = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
-    yield Variable("diagnostics", np.array(told, dtype=object), "", "what the run says of itself, JSON")
+    if batch.states:
+        told = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
+        yield Variable("diagnostics", np.array(told, dtype=object), "", "what the run says of itself, JSON")
     told = [_told(failed[i]) if i in failed else "" for i in range(len(batch))]
     yield Variable("failure", np.array(told, dtype=object), "", "why it did not come to its end, JSON")
     yield Variable("samples", batch.samples.astype(np.int64), "", "output times that were reached")
@@ -123,7 +134,7 @@ def load(path: str | os.PathLike[str]) -> Batch:
 class _RunOf(File):
     """The rows of one run in the tables of all, for the reader of a single run's file."""
 
-    def __init__(self, whole: _Whole, run: int) -> None:
+    def __init__(self, whole: Whole, run: int) -> None:
         self.whole, self.run, self.is_old = whole, run, False
 
     def has(self, group: str) -> bool:
@@ -144,17 +155,18 @@ class _RunOf(File):
         return found
 
 
-class _Whole:
+class Whole:
     """Columns of the file, read once each, and where runs begin in them."""
 
-    def __init__(self, file: File, count: int) -> None:
-        self.file, self.diagnostics = file, file.texts(f"{RUNS}/diagnostics", count) if count else []
+    def __init__(self, file: File, count: int, states: bool) -> None:
+        told = count and states
+        self.file, self.diagnostics = file, file.texts(f"{RUNS}/diagnostics", count) if told else [""] * count
         self.columns: dict[str, Array] = {}
         self.begins: dict[str, Array] = {}
-        for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.COMPILED):
-            owner = np.zeros(0, np.int32)
-            if file.has(group) and (group != netcdf.COMPILED or file.has(f"{group}/run")):
-                owner = file.numbers(f"{group}/run", None, "i4")
+        for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.COMPILED, KEPT, TIMES):
+            owner, always = np.zeros(0, np.int32), group not in (netcdf.COMPILED, TIMES)
+            if file.has(group) and (always or file.has(f"{group}/{OWNER}")):
+                owner = file.numbers(f"{group}/{OWNER}", None, "i4")
             if len(owner) and (owner[0] < 0 or owner[-1] >= count or (np.diff(owner) < 0).any()):
                 raise ValueError(f"the rows of {group} are of no run")
             self.begins[group] = np.searchsorted(owner, np.arange(count + 1))
@@ -169,7 +181,7 @@ class _Whole:
 
     def column(self, name: str, dtype: str) -> Array:
         """By "group/name"; the series have no group in the file of one run. Texts for no dtype."""
-        name = name if "/" in name else f"{netcdf.SERIES}/{name}"
+        name = name if "/" in name else f"{netcdf.SERIES}/{beside_owner(name)}"
         if name not in self.columns:
             rows = int(self.begins[name.rpartition("/")[0]][-1])
             texts = np.array(self.file.texts(name, rows), dtype=object) if not dtype else None
@@ -189,28 +201,34 @@ class _Stored:
             raise self.errors[i]
         return self.runs[i]
 
+    def bare(self, i: int, parts: frozenset[str]) -> Result | None:
+        """Run i, of which every series is stored."""
+        return self.runs.get(i)
+
 
 def _batch(opened_file: Any, size: int) -> Batch:
     from gudgeon.results.series import catalogue
 
-    file = File(opened_file, size, (FORMAT,))
-    source, count = source_of(file), len(file.numbers("run", None, "i8"))
-    names, whole = tuple(catalogue(source)), _Whole(file, count)
+    file = File(opened_file, size, FORMATS)
+    source, count = source_of(file), len(file.numbers(OWNER, None, "i8"))
+    about = json.loads(file.text("batch"))
+    kept = about.get("kept")
+    names, whole = tuple(catalogue(source)), Whole(file, count, kept is None)
     began = [i for i in range(count) if whole.diagnostics[i]]
     runs = {i: result_of(_RunOf(whole, i), source, names) for i in began}
     told = file.texts(f"{RUNS}/failure", count)
     failed = {i: _error(text, runs.get(i)) for i, text in enumerate(told) if text}
-    if missing := [i for i in range(count) if i not in runs and i not in failed]:
+    if missing := [i for i in range(count) if kept is None and i not in runs and i not in failed]:
         raise ValueError(f"run {missing[0]} has neither a result nor a failure")
-    t, about = file.numbers(f"{TIMES}/time"), json.loads(file.text("batch"))
-    padded = {name: _padded(runs, name, count, len(t), source) for name in ("q", "v", "work", "state")}
+    t = read_times(whole, count, bool(about.get("own_times")))
     numbers = {name: file.either(f"{RUNS}/{name}", count) for name in COUNTS}
-    empty = np.zeros(0, IMPACT_DTYPE)
+    own, samples = [_RunOf(whole, i) for i in range(count)], file.numbers(f"{RUNS}/samples", count, "i8")
+    padded = [_padded(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
     return Batch(
-        source=source, t=t, **padded, samples=file.numbers(f"{RUNS}/samples", count, "i8"),
+        source=source, t=t, states=States(*padded) if kept is None else None, samples=samples,
+        kept={} if kept is None else read_kept(whole, kept, names, samples, t.shape[-1]),
         t_last=file.numbers(f"{RUNS}/t_last", count), parameters=_given(file, source, count),
-        impacts=tuple(runs[i].impacts if i in runs else empty for i in range(count)),
-        events=tuple(runs[i].events if i in runs else no_events() for i in range(count)),
+        impacts=tuple(impacts_of(run, source) for run in own), events=tuple(events_of(run, source) for run in own),
         peaks=_peaks(file, source, count), diagnostics=numbers, failures=as_failures(failed),
         seconds=float(about["seconds"]), threads=int(about["threads"]), interrupted=bool(about["interrupted"]),
         result=_Stored(runs, failed),

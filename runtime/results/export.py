@@ -59,7 +59,7 @@ def batch_dataframe(batch: Batch, names: Iterable[str]) -> pandas.DataFrame:
     """See Batch.to_dataframe."""
     from gudgeon.results.series import catalogue
 
-    frames, names = _pandas(), listed(names, "names", str, "a list of names of series")
+    frames = _pandas()
     parts = list(_runs(batch, names))
     columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
     units = {"t": "s"} | {name: series.unit for name, series in catalogue(batch.source).items()}
@@ -81,15 +81,17 @@ def _pandas() -> Any:
     return pandas
 
 
-def _runs(batch: Batch, names: Sequence[str]) -> Iterator[Columns]:
+def _runs(batch: Batch, names: Iterable[str]) -> Iterator[Columns]:
     """The columns of one run after the other; one that did not begin has no row."""
-    for i in range(len(batch)):
-        run = batch.partial(i)
-        if run is None:
-            continue
-        rows, given = len(run.t), {name: values[i] for name, values in batch.parameters.items()}
-        same = {"run": np.full(rows, i)} | {name: np.full(rows, value) for name, value in given.items()}
-        yield same | {"t": run.t} | {name: run[name] for name in wanted_series(run, names)}
+    from gudgeon.results.batch_series import rows, wanted_names
+    from gudgeon.results.series import catalogue
+
+    every = batch.kept if batch.states is None else catalogue(batch.source)
+    series = [name for name in wanted_names(batch.source, names) if name != "t"] or [n for n in every if n != "t"]
+    for i, t, own in rows(batch, series):
+        given = {name: values[i] for name, values in batch.parameters.items()}
+        same = {"run": np.full(len(t), i)} | {name: np.full(len(t), value) for name, value in given.items()}
+        yield same | {"t": t} | own
 
 
 def csv(run: Result, path: str | os.PathLike[str], names: Iterable[str]) -> None:
@@ -100,7 +102,7 @@ def csv(run: Result, path: str | os.PathLike[str], names: Iterable[str]) -> None
 
 def batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[str]) -> None:
     """See Batch.to_csv."""
-    _write_csv(path, _runs(batch, listed(names, "names", str, "a list of names of series")))
+    _write_csv(path, _runs(batch, names))
 
 
 def _write_csv(path: str | os.PathLike[str], parts: Iterator[Columns]) -> None:

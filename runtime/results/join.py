@@ -35,9 +35,21 @@ def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
         import xarray
     except ModuleNotFoundError as error:
         raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
+    _check_times(found)
     parts, along = [run.to_xarray() for run in found], pandas.Index(scenes, name="scene")
     attributes = {"mechanism": names[0], "title": found[0].source.title}
     joined: xarray.Dataset = xarray.concat(
         parts, along, data_vars="all", coords="different", compat="equals", join="outer", combine_attrs="drop_conflicts"
     )
     return joined.assign_attrs(attributes)
+
+
+def _check_times(found: list[Result | Batch]) -> None:
+    """BadValueError for batches whose samples do not lie side by side: runs with times of their own."""
+    forms = {run.t.shape[1:] for run in found}
+    if len(forms) > 1:
+        own = next(run for run in found if run.t.ndim == 2)
+        raise BadValueError(
+            f"join: the runs of scene {own.source.scene!r} have times of their own, and not as many as those of others",
+            hint="join batches over common times, or of as many samples each",
+        )

@@ -47,9 +47,9 @@ def tables(run: Result) -> Iterator[Table]:
     """All that a file holds: series over `time` at its root, groups over their own dimensions."""
     yield Table("", "time", tuple(_series(run)), attributes(run))
     joints = [joint.name for joint in run.source.clearances]
-    yield Table("impacts", "impact", tuple(_records(run.impacts, IMPACTS, joints)), {})
+    yield Table("impacts", "impact", tuple(records(run.impacts, IMPACTS, joints)), {})
     events = [event.name for event in run.source.events]
-    yield Table("events", "occurrence", tuple(_records(run.events, EVENTS, events)), {})
+    yield Table("events", "occurrence", tuple(records(run.events, EVENTS, events)), {})
     yield Table(STATES, "occurrence", tuple(_states(run, events)), {})
     yield Table("parameters", "address", tuple(_parameters(run)), {})
     traced = (Variable(name, *of) for name, of in trace.variables(run).items())
@@ -76,7 +76,7 @@ def _states(run: Result, events: list[str]) -> Iterator[Variable]:
     except GudgeonError:  # an older file, a motion that cannot be followed or evaluated there: the samples are whole
         return
     if found:
-        yield from list(_records(run.events, EVENTS, events))
+        yield from list(records(run.events, EVENTS, events))
     for name, values in found.items():
         yield Variable(at_event(name), values, run.unit(name), run.meaning(name))
 
@@ -86,7 +86,7 @@ def at_event(name: str) -> str:
     return f"output.{name}" if name in (*EVENTS, "occurrence") else name
 
 
-def _records(rows: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:
+def records(rows: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:
     """Columns of impacts or events; the first one's numbers as the names that they stand for."""
     for k, (name, (unit, meaning)) in enumerate(columns.items()):
         yield Variable(name, _texts([names[i] for i in rows[name]]) if k == 0 else rows[name], unit, meaning)

@@ -173,7 +173,7 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
     p, given, is_given = _numbers(file, source)
     run = Result(
         compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, **samples_of(source, stored, len(t)),
-        impacts=_impacts(file, source), diagnostics=diagnostics, events=_events(file, source), stored=stored,
+        impacts=impacts_of(file, source), diagnostics=diagnostics, events=events_of(file, source), stored=stored,
         trace=_trace(file, source),
     )  # fmt: skip
     if file.has(STATES):
@@ -219,11 +219,13 @@ def _numbers(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
     return np.concatenate([values, prepared]), given, is_given.astype(bool)
 
 
-def _impacts(file: File, source: KernelSource) -> Array:
+def impacts_of(file: File, source: KernelSource) -> Array:
+    """IMPACT_DTYPE, the contacts of the file's run."""
     return _records(file, "impact", IMPACT_DTYPE, [joint.name for joint in source.clearances])
 
 
-def _events(file: File, source: KernelSource) -> Array:
+def events_of(file: File, source: KernelSource) -> Array:
+    """EVENT_DTYPE, its events."""
     return _records(file, "event", EVENT_DTYPE, [event.name for event in source.events])
 
 

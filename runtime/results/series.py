@@ -14,9 +14,11 @@ The names depend on the scene alone; nothing is computed before somebody asks (`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator
+import weakref
+from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -57,10 +59,23 @@ class Series:
     unit: str
     meaning: str
     compute: Callable[[Result], Array]
+    parts: frozenset[str] = frozenset()  # of an Evaluation, all that it needs
+    stored: tuple[str, int] | None = None  # the array of a run, and its column, that it is
 
 
-def catalogue(source: KernelSource) -> dict[str, Series]:
-    """All the names of a scene in the order in which they are listed and stored."""
+_catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a source, while that lives
+
+
+def catalogue(source: KernelSource) -> Mapping[str, Series]:
+    """All the names of a scene in the order in which they are listed and stored; made once a source."""
+    key = id(source)
+    if key not in _catalogues:
+        lives = weakref.ref(source, lambda _: _catalogues.pop(key, None))
+        _catalogues[key] = lives, MappingProxyType(_made(source))
+    return _catalogues[key][1]
+
+
+def _made(source: KernelSource) -> dict[str, Series]:
     found: dict[str, Series] = {}
     for part in (_bodies, _points, *(_MOTION_ALONE if source.massless else _PARTS)):
         found.update(part(source))
@@ -104,11 +119,22 @@ def _bodies(source: KernelSource) -> Iterator[tuple[str, Series]]:
         for axis in range(3):
             for order, array in enumerate(("q", "v", "a")):
                 meaning = f"{body.name}, {MOTION_WORDS[order]}{_AXES[axis]} of the centre of mass"
-                compute = partial(_column, array=array, column=body.index + axis)
-                yield f"{body.name}.{MOTION[axis][order]}", Series(MOTION_UNITS[axis][order], meaning, compute)
+                series = _stored(MOTION_UNITS[axis][order], meaning, array, body.index + axis)
+                yield f"{body.name}.{MOTION[axis][order]}", series
 
 
 _AXES = ("x", "y", "angle")
+
+
+def _stored(unit: str, meaning: str, array: str, column: int) -> Series:
+    """A column of q, v, state, memory or work, or of the accelerations, which are evaluated."""
+    parts = frozenset({"a"} if array == "a" else ())
+    return Series(unit, meaning, partial(_column, array=array, column=column), parts, (array, column))
+
+
+def _of(unit: str, meaning: str, part: str, *index: int) -> Series:
+    """A column of a part of the Evaluation."""
+    return Series(unit, meaning, partial(_evaluated, part=part, index=index), frozenset({part}))
 
 
 def _column(run: Result, array: str, column: int) -> Array:
@@ -122,7 +148,8 @@ def _points(source: KernelSource) -> Iterator[tuple[str, Series]]:
             for axis in range(2):
                 meaning = f"point {point.name}, {MOTION_WORDS[order]}{_AXES[axis]} in ground axes"
                 compute = partial(_point, point=point, axis=axis, order=order)
-                yield f"{point.name}.{MOTION[axis][order]}", Series(MOTION_UNITS[axis][order], meaning, compute)
+                parts = frozenset({"a"} if order == 2 else ())
+                yield f"{point.name}.{MOTION[axis][order]}", Series(MOTION_UNITS[axis][order], meaning, compute, parts)
 
 
 def _point(run: Result, point: PointInfo, axis: int, order: int) -> Array:
@@ -148,9 +175,9 @@ def _joints(source: KernelSource) -> Iterator[tuple[str, Series]]:
         for column, (name, unit, what) in enumerate(
             (("Fx", "N", "reaction force, x"), ("Fy", "N", "reaction force, y"), ("M", "N*m", "reaction moment"))
         ):
-            compute = partial(_evaluated, part="reactions", index=(k, column))
-            yield f"{joint.name}.{name}", Series(unit, f"{what}: {on}", compute)
-        yield f"{joint.name}.F", Series("N", f"reaction force, magnitude: {on}", partial(_magnitude, name=joint.name))
+            yield f"{joint.name}.{name}", _of(unit, f"{what}: {on}", "reactions", k, column)
+        magnitude = partial(_magnitude, name=joint.name)
+        yield f"{joint.name}.F", Series("N", f"reaction force, magnitude: {on}", magnitude, frozenset({"reactions"}))
 
 
 def _body_name(source: KernelSource, joint: JointInfo) -> str:
@@ -169,18 +196,16 @@ def _magnitude(run: Result, name: str) -> Array:
 
 def _clearances(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, joint in enumerate(source.clearances):
-        at = f": joint {joint.name} with play"
+        at, parts = f": joint {joint.name} with play", frozenset({"clearance"})
         for name, (column, unit, meaning) in CLEARANCE.items():
-            compute = partial(_evaluated, part="clearance", index=(k, column))
-            yield f"{joint.name}.{name}", Series(unit, meaning + at, compute)
-        force = Series("N", f"force on the journal, magnitude{at}", partial(_magnitude, name=joint.name))
+            yield f"{joint.name}.{name}", _of(unit, meaning + at, "clearance", k, column)
+        force = Series("N", f"force on the journal, magnitude{at}", partial(_magnitude, name=joint.name), parts)
         yield f"{joint.name}.F", force
-        yield f"{joint.name}.delta", Series("m", f"penetration e − c{at}", partial(_penetration, joint=joint))
-        yield f"{joint.name}.eps", Series("", f"eccentricity ratio e/c{at}", partial(_ratio, joint=joint))
-        state = partial(_column, array="state", column=k)
-        yield f"{joint.name}.state", Series("", f"0 free, 1 impact, 2 contact{at}", state)
-        latched = partial(_column, array="memory", column=k)
-        yield f"{joint.name}.deltadot_minus", Series("m/s", f"rate of penetration at the last onset{at}", latched)
+        yield f"{joint.name}.delta", Series("m", f"penetration e − c{at}", partial(_penetration, joint=joint), parts)
+        yield f"{joint.name}.eps", Series("", f"eccentricity ratio e/c{at}", partial(_ratio, joint=joint), parts)
+        yield f"{joint.name}.state", _stored("", f"0 free, 1 impact, 2 contact{at}", "state", k)
+        latched = _stored("m/s", f"rate of penetration at the last onset{at}", "memory", k)
+        yield f"{joint.name}.deltadot_minus", latched
 
 
 def _states(source: KernelSource) -> Iterator[tuple[str, Series]]:
@@ -188,8 +213,7 @@ def _states(source: KernelSource) -> Iterator[tuple[str, Series]]:
     first = len(source.clearances) + len(source.frictions)
     for k, name in enumerate(source.states):
         if name:
-            compute = partial(_column, array="memory", column=first + k)
-            yield name, Series("m", "inner state of the joint's law of friction", compute)
+            yield name, _stored("m", "inner state of the joint's law of friction", "memory", first + k)
 
 
 def _penetration(run: Result, joint: ClearanceInfo) -> Array:
@@ -204,8 +228,7 @@ def _drives(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, drive in enumerate(source.drives):
         turns = drive.unit == "rad"
         name, unit = ("torque", "N*m") if turns else ("force", "N")
-        compute = partial(_evaluated, part="torques", index=(k,))
-        yield f"{drive.name}.{name}", Series(unit, f"{name} of drive {drive.name}", compute)
+        yield f"{drive.name}.{name}", _of(unit, f"{name} of drive {drive.name}", "torques", k)
 
 
 def drive_series(source: KernelSource) -> list[str]:
@@ -216,34 +239,30 @@ def drive_series(source: KernelSource) -> list[str]:
 def _frictions(source: KernelSource) -> Iterator[tuple[str, Series]]:
     first = len(source.clearances)
     for k, name in enumerate(source.frictions):
-        force, slip = (partial(_evaluated, part="friction", index=(k, column)) for column in (0, 1))
-        yield f"{name}.F", Series("N", "friction on the second body", force)
-        yield f"{name}.v", Series("m/s", "slip", slip)
-        mode = partial(_column, array="memory", column=first + k)
-        yield f"{name}.mode", Series("", "0 stick, else the sign of the slip", mode)
+        yield f"{name}.F", _of("N", "friction on the second body", "friction", k, 0)
+        yield f"{name}.v", _of("m/s", "slip", "friction", k, 1)
+        yield f"{name}.mode", _stored("", "0 stick, else the sign of the slip", "memory", first + k)
 
 
 def _elements(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, series in enumerate(source.series):
-        compute = partial(_evaluated, part="series", index=(k,))
-        yield series.name, Series(series.unit, "result of a force element", compute)
+        yield series.name, _of(series.unit, "result of a force element", "series", k)
 
 
 def _multipliers(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, row in enumerate(source.rows):
         unit = "N" if row.unit == "m" else "N*m"
-        compute = partial(_evaluated, part="multipliers", index=(k,))
-        yield f"lambda.{row.name}", Series(unit, f"multiplier of the constraint {row.name}", compute)
+        yield f"lambda.{row.name}", _of(unit, f"multiplier of the constraint {row.name}", "multipliers", k)
 
 
 def _balance(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, name in enumerate(("kinetic", "potential")):
-        compute = partial(_evaluated, part="energy", index=(k,))
-        yield f"energy.{name}", Series("J", f"{name} energy", compute)
-    yield "energy.residual", Series("J", "kinetic + potential energy less their start less all work", _residual)
+        yield f"energy.{name}", _of("J", f"{name} energy", "energy", k)
+    told = "kinetic + potential energy less their start less all work"
+    yield "energy.residual", Series("J", told, _residual, frozenset({"energy"}))
     for k, name in enumerate(("drives", "forces", "clearances")):
         meaning = f"work done so far by the {'joints with play' if name == 'clearances' else name}"
-        yield f"work.{name}", Series("J", meaning, partial(_column, array="work", column=k))
+        yield f"work.{name}", _stored("J", meaning, "work", k)
 
 
 DRIFT = ("Phi.max", "Phi_dot.max")
@@ -253,8 +272,7 @@ def _drift(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Lengths and angles beside each other, as in diagnostics.phi_max."""
     what = ("|Φ|: m of rows of lengths, rad of rows of angles", "|Φ̇|: m/s of rows of lengths, rad/s of rows of angles")
     for k, name in enumerate(DRIFT):
-        compute = partial(_evaluated, part="drift", index=(k,))
-        yield name, Series("", f"drift, the largest {what[k]}", compute)
+        yield name, _of("", f"drift, the largest {what[k]}", "drift", k)
 
 
 # what a scene has beside motion; without masses, what does not follow from motion
@@ -267,7 +285,7 @@ def _residual(run: Result) -> Array:
     return energy - energy[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
 
 
-def _output(source: KernelSource, name: str, tree: Any, known: dict[str, Series]) -> Series:
+def _output(source: KernelSource, name: str, tree: Any, known: Mapping[str, Series]) -> Series:
     expression = expression_tree.from_json(tree)
     wanted = {used.path for used in expression_tree.names(expression)}
     units = {"t": "s"} | {slot.address.removeprefix("parameters."): slot.unit for slot in source.slots}
@@ -278,4 +296,5 @@ def _output(source: KernelSource, name: str, tree: Any, known: dict[str, Series]
         values = expression_tree.evaluate(expression, run.value_of)
         return np.array(np.broadcast_to(values, run.t.shape), dtype=float)
 
-    return Series(unit_of(expression, units.get), f"output {name}", compute)
+    parts = frozenset(part for path in wanted if path in known for part in known[path].parts)
+    return Series(unit_of(expression, units.get), f"output {name}", compute, parts)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +16,7 @@ from gudgeon.language.quantities import holds_names, number_of_names
 from gudgeon.language.wanted import told
 from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.default_step import scene_end, scene_step
+from gudgeon.model.default_step import scene_end, scene_number, scene_step
 from gudgeon.model.parameters import number, spaced
 
 METHODS = {
@@ -34,35 +33,32 @@ def seconds(name: str, value: float | str) -> float:
     return number(value, Slot(name, "s", 0.0, False, (0, 0, 1)))
 
 
-def end_of(source: KernelSource, t_end: float | str | None, p: Sequence[Array]) -> float | str | None:
-    """t_end (s) where it is an expression of numbers of the run, '2*pi/omega', by each row of p; else as it is.
-
-    Raises BadValueError where rows differ: the runs of a batch have their times together.
-    """
+def end_of(source: KernelSource, t_end: float | str | None, p: Array) -> float | str | None:
+    """t_end (s) where it is an expression of numbers of the run, '2*pi/omega', by these; else as it is."""
     if not isinstance(t_end, str) or not holds_names(spaced(t_end)):
         return t_end
-    slots = {slot.address.removeprefix("parameters."): k for k, slot in enumerate(source.slots)}
-    of = [slot.dimension for slot in source.slots]
-    ends = {
-        number_of_names(spaced(t_end), "t_end", (0, 0, 1), {name: (float(row[k]), of[k]) for name, k in slots.items()})
-        for row in p
+    known = {
+        slot.address.removeprefix("parameters."): (float(number), slot.dimension)
+        for slot, number in zip(source.slots, p, strict=False)
     }
-    if len(ends) > 1:
-        told = f"t_end is {t_end!r}: {min(ends):.6g} s to {max(ends):.6g} s by the runs' numbers"
-        raise BadValueError(told, hint="the runs of a batch have their times together: give the longest")
-    return next(iter(ends))
+    return number_of_names(spaced(t_end), "t_end", (0, 0, 1), known)
 
 
-def output_times(source: KernelSource, t0: float, t_end: float | str | None, output: int | ArrayLike | None) -> Array:
-    """Output times (s), increasing, the first is t0; a copy of those that were given. Raises BadValueError."""
+def output_times(
+    source: KernelSource, p: Array, t0: float, t_end: float | str | None, output: int | ArrayLike | None
+) -> Array:
+    """Output times (s) of a run with the numbers p, increasing, the first is t0; a copy of those that were given.
+
+    Raises BadValueError.
+    """
     if output is not None and not isinstance(output, (int, np.integer)):
         times = _given_times(t0, output)
         _check_both(None if t_end is None else seconds("t_end", t_end), float(times[-1]))
         return times
-    end = seconds("t_end", scene_end(source) if t_end is None else t_end)
+    end = seconds("t_end", scene_end(source, p) if t_end is None else t_end)
     if not end > t0:
         raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
-    intervals = source.simulate.get("output", DEFAULT_OUTPUT) if output is None else output
+    intervals = scene_number(source, "output", p, DEFAULT_OUTPUT) if output is None else output
     if isinstance(intervals, bool) or not 1 <= intervals <= MOST_OUTPUT:
         raise BadValueError(f"output is {told(intervals)}: expected a number of intervals, 1 to {MOST_OUTPUT:.0e}")
     _check_end("t_end is", t0, end, 4 * int(intervals))

@@ -64,15 +64,15 @@ def _looked_at(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jum
     return sorted(found, key=lambda jump: jump.t)
 
 
-def any_in_batch(source: KernelSource, p: Array, t0: float, t1: float) -> bool:
-    """Whether a run of a batch meets one, p (runs, numbers); drives with the same numbers are looked at once."""
+def any_in_batch(source: KernelSource, p: Array, t0: float, ends: Array) -> bool:
+    """Whether a run of a batch meets one until its end, p (runs, numbers); the same drives are looked at once."""
     seen, breaking = set(), _that_may_break(source)
-    for drive, tree in (*_that_may_hide(source), *breaking) if t1 > t0 and _integrates(source) else ():
+    for drive, tree in (*_that_may_hide(source), *breaking) if _integrates(source) else ():
         used = {f"parameters.{name.path}" for name in names(tree)}
         columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
-        for row in p:
-            key = (drive, row[columns].tobytes())
-            if key in seen:
+        for row, t1 in zip(p, ends.tolist(), strict=True):
+            key = (drive, t1, row[columns].tobytes())
+            if key in seen or not t1 > t0:
                 continue
             seen.add(key)
             jumps = [jump for jump in _jumps(source, row, tree, drive, t0, t1) if jump.t > t0]

@@ -3,93 +3,136 @@
 from __future__ import annotations
 
 import math
-import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from gudgeon.assembly.redundant_rows import left_out
 from gudgeon.contract.methods import ADAPTIVE, INTEGRATORS
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators import batch as many
+from gudgeon.integrators.batch import available_threads
+from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Counts, Problem, Progress
 from gudgeon.language.wanted import flag, function, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import ParameterSets, each_of, prepare_sets, rows_of
-from gudgeon.results.batch import Batch, as_failures, given_values, peaks_of
+from gudgeon.results.bare import Bare, bare
+from gudgeon.results.batch import Batch, States, as_failures, given_values, peaks_of
+from gudgeon.results.batch_series import STATES, parts_of, wanted_names
 from gudgeon.results.results import Result, State
-from gudgeon.simulation.arguments import MAX_STEPS, end_of, method_of, output_times, step_of
+from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.conclusion import conclude
+from gudgeon.simulation.each_run import EachRun
 from gudgeon.simulation.hidden_jumps import any_in_batch
 from gudgeon.simulation.restart import check_fits, numbers, own_each
-from gudgeon.simulation.single_runs import run_singly
+from gudgeon.simulation.single_runs import Asked, run_singly
 
 if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.simulation.simulation import Simulation
 
 COUNTS = tuple(field.name for field in fields(Counts))
 
 
-def available_threads() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def simulate_many(
-    simulation: Simulation, parameters: ParameterSets, t_end: float | str | None, output: int | ArrayLike | None,
-    method: str, rtol: float | str | None, step: float | str | None, threads: int | None, progress: Progress | None,
-    stop: bool, side_by_side: bool = True, start: State | Sequence[State] | None = None,
+    simulation: Simulation, parameters: ParameterSets, t_end: Any, output: Any, method: str, rtol: float | str | None,
+    step: Any, threads: int | None, progress: Progress | None, stop: bool, side_by_side: bool = True,
+    start: State | Sequence[State] | None = None, keep: str | Iterable[str] = STATES,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
-    starts = _Starts(simulation, parameters, start)
-    given, is_given, t0 = starts.given, starts.is_given, starts.t
+    compiled, source = simulation.compiled, simulation.source
+    each = EachRun(compiled, t_end, output, step)
+    starts = _Starts(simulation, parameters, start, each)
     method, progress = text(method, "method"), function(progress, "progress")
     stop, side_by_side = flag(stop, "stop"), flag(side_by_side, "side_by_side")
     workers = available_threads() if threads is None else threads
     if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
         raise BadValueError(f"threads is {told(threads)}: expected a number of threads, 1 or more")
-    workers = int(min(workers, max(len(given), 1)))  # no more than there is to do
-    if isinstance(t_end, str):
-        good = [k for k in range(len(given)) if k not in starts.bad]
-        t_end = end_of(simulation.source, t_end, [simulation.compiled.prepare(given[k], is_given[k]) for k in good])
-    times = output_times(simulation.source, t0, t_end, output)
-    chosen = method_of(simulation.source, method, step is not None)
+    workers = int(min(workers, max(len(starts.given), 1)))  # no more than there is to do
+    series = _kept(source, keep)
+    chosen = method_of(source, method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)
-    in_c = chosen in (*INTEGRATORS, ADAPTIVE) and not left_out(simulation.compiled)
-    if in_c:
-        p, motion, bad = prepare_sets(simulation.compiled, given, is_given, chosen != "rk4")
-        bad |= starts.bad | starts.unfit(p, bad)
-        fine = np.delete(p, list(bad), axis=0)
-        in_c = not any_in_batch(simulation.source, fine, t0, float(times[-1]))  # else each run looks for its own
-    if in_c:
-        steps = np.array([step_of(simulation.compiled, step, chosen, row, float(times[-1] - t0)) for row in p])
-        if ((times[-1] - t0) / steps).max() > MAX_STEPS:
-            raise BadValueError(f"step {steps.min():.3g} s means more than {MAX_STEPS:.0e} steps")
-        runs = many.Runs(simulation.compiled, p, motion, times, chosen, steps, tolerance, stop, side_by_side)
-        runs.begin(starts.states)
-        runs.leave_out(bad)
-        before = time.perf_counter()
-        runs.run(workers, progress)
-        batch = _of_runs(_Results(simulation, runs, starts, tolerance, stop, chosen))
-        return replace(batch, seconds=time.perf_counter() - before, threads=workers)
-    options = {"t_end": t_end, "output": output, "method": method, "rtol": rtol, "step": step, "stop": stop}
-    return run_singly(simulation, given, is_given, times, options, workers, progress, starts.states, starts.bad)
+    asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side, series)
+    p, motion, bad = prepare_sets(compiled, starts.given, starts.is_given, chosen != "rk4")
+    bad |= starts.bad | starts.unfit(p, bad)
+    times = each.times(p, starts.t, bad)
+    steps = each.lengths_of_steps(chosen, p, times, bad)
+    bad |= each.bad
+    if chosen in (*INTEGRATORS, ADAPTIVE) and not left_out(compiled):
+        good = np.delete(np.arange(len(p)), list(bad))
+        ends = np.array([times.of(i)[-1] for i in good.tolist()])
+        if not any_in_batch(source, p[good], starts.t, ends):  # else each run looks for its own
+            return _in_c(simulation, starts, (p, motion, steps), times, bad, asked)
+    options = {"method": method, "rtol": rtol, "stop": stop}
+    given = [step] * len(p) if each.steps is None else each.steps
+    own = [options | {"output": times.of(i), "step": given[i]} for i in range(len(p))]
+    return run_singly(simulation, (starts.given, starts.is_given, p), times, own, starts.states, bad, asked)
+
+
+def _kept(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
+    """Names of the series to be kept; None: states."""
+    if isinstance(keep, str):
+        if keep == STATES:
+            return None
+        raise BadValueError(f"keep is {told(keep)}: expected {STATES!r} or a list of names of series")
+    return tuple(name for name in wanted_names(source, keep, "keep") if name != "t")
+
+
+def _in_c(
+    simulation: Simulation, starts: _Starts, numbers: tuple[Array, Array, Array], times: Times, bad: dict[int, Any],
+    asked: Asked,
+) -> Batch:  # fmt: skip
+    """Runs that go from start to end in C."""
+    p, motion, steps = numbers
+    kept = None if asked.keep is None else _Kept(simulation.source, asked.keep, len(p), times)
+    runs = many.Runs(
+        simulation.compiled, p, motion, times, asked.method, steps, asked.rtol, asked.stop, asked.side_by_side,
+        asked.threads, kept,
+    )  # fmt: skip
+    runs.begin(starts.states)
+    runs.leave_out(bad)
+    before = time.perf_counter()
+    runs.run(asked.progress)
+    batch = _of_runs(_Results(simulation, runs, starts, asked.rtol, asked.stop, asked.method), kept)
+    return replace(batch, seconds=time.perf_counter() - before, threads=asked.threads)
+
+
+class _Kept:
+    """Series of runs, computed as soon as a run is over: nobody needs its states any more."""
+
+    def __init__(self, source: KernelSource, names: tuple[str, ...], n: int, times: Times) -> None:
+        self.names, self.parts = names, parts_of(source, names)
+        self.arrays = {name: np.full((n, times.most), np.nan) for name in ("t", *names)}
+
+    def __call__(self, runs: many.Runs, i: int) -> None:
+        """Takes those of run i; where they cannot be computed, that is what it failed of."""
+        run = bare_of(runs, i, self.parts)
+        if run is None:
+            return
+        try:
+            for name in ("t", *self.names):
+                self.arrays[name][i, : len(run.t)] = run[name]
+        except SolverError as error:
+            runs.failures.setdefault(i, error)
 
 
 class _Starts:
     """Numbers of all runs, (n_runs, n_slots), states from which they go on (none: from t = 0), what cannot begin."""
 
-    def __init__(self, simulation: Simulation, parameters: ParameterSets, start: Any) -> None:
+    def __init__(self, simulation: Simulation, parameters: ParameterSets, start: Any, each: EachRun) -> None:
         self.compiled = simulation.compiled
         rows, self.bad = rows_of(parameters)
-        self.states = own_each(simulation.source, start, len(rows))
+        runs = each.length(len(rows))
+        self.states = own_each(simulation.source, start, runs)
         if len(rows) == 1:
-            rows = rows * max(1, len(self.states))
+            rows = rows * max(runs, len(self.states))
+        if len(rows) != runs:
+            each.length(len(rows))
         self.t = self.states[0].t if self.states else 0.0
         self.remarks: list[tuple[str, ...]] = []
         self.given, self.is_given = each_of(rows, self._slots)
@@ -125,11 +168,12 @@ class _Results:
     def __call__(self, i: int) -> Result:
         """Raises the error of a run that failed, with what it reached."""
         runs, compiled, x, n = self.runs, self.simulation.compiled, self.runs.arrays, self.simulation.compiled.n
+        times = runs.times.of(i)
         error = runs.failures.get(i)
         if error is not None and not x["done"][i]:
             raise error
         problem = Problem(
-            compiled, x["p"][i], runs.times, x["start"][i, :n], x["start"][i, n:],
+            compiled, x["p"][i], times, x["start"][i, :n], x["start"][i, n:],
             x["remembered"][i, : compiled.n_memory], float(x["step"][i]), method=self.method, rtol=self.rtol,
             p_free=None if self.method == "rk4" else x["p_motion"][i], stop=self.stop, remarks=self.starts.remarks[i],
         )  # fmt: skip
@@ -143,18 +187,34 @@ class _Results:
         return made
 
 
-def _of_runs(results: _Results) -> Batch:
+    def bare(self, i: int, parts: frozenset[str]) -> Bare | None:
+        """Run i as ResultOf has it."""
+        return bare_of(self.runs, i, parts)
+
+
+def bare_of(runs: many.Runs, i: int, parts: frozenset[str]) -> Bare | None:
+    """The samples of run i; None where there is none."""
+    if not runs.arrays["done"][i]:
+        return None
+    n, source, p = runs.compiled.n, runs.compiled.source, runs.arrays["p"][i]
+    t, y, memory, state = runs.samples(i)
+    return bare(source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory, state, parts)
+
+
+def _of_runs(results: _Results, kept: _Kept | None) -> Batch:
     """What C has stored, without a copy."""
     runs, source = results.runs, results.simulation.source
     x, n, y, joints = runs.arrays, results.simulation.compiled.n, runs.arrays["y"], len(source.clearances)
+    states = States(y[:, :, :n], y[:, :, n : 2 * n], y[:, :, 2 * n :], x["state"][:, :, :joints])
+    if kept:
+        runs.let_go()
     impacts = tuple(runs.impacts_of(i) for i in range(runs.n))
     counts = [runs.counts(i) for i in range(runs.n)]
     numbers = {name: np.array([getattr(c, name) for c in counts]) for name in COUNTS} | {"seconds": x["seconds"]}
     return Batch(
-        source=source, t=runs.times, q=y[:, :, :n], v=y[:, :, n : 2 * n], work=y[:, :, 2 * n :],
-        state=x["state"][:, :, :joints], samples=x["done"], t_last=x["t_last"],
+        source=source, t=runs.times.t, states=None if kept else states, samples=x["done"], t_last=x["t_last"],
         parameters=given_values(source, x["p"], results.starts.is_given), impacts=impacts,
         events=tuple(runs.events_of(i) for i in range(runs.n)),
         peaks=peaks_of(x["peaks"][:, :joints], impacts), diagnostics=numbers, failures=as_failures(runs.failures),
-        seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results,
+        seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results, kept=kept.arrays if kept else {},
     )  # fmt: skip

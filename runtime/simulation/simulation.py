@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from hashlib import sha256
@@ -197,7 +197,7 @@ class Simulation:
         begin = None if start is None else own(self.source, start)
         given, is_given, remarks = numbers(self.compiled, begin, parameters)
         p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
-        times = output_times(self.source, t0, end_of(self.source, t_end, [p]), output)
+        times = output_times(self.source, p, t0, end_of(self.source, t_end, p), output)
         if self.source.degrees_of_freedom < 0:
             assemble(self.compiled, p)  # names the joints that contradict each other
         chosen = method_of(self.source, method, step is not None)
@@ -222,10 +222,11 @@ class Simulation:
         return result
 
     def simulate_many(
-        self, parameters: ParameterSets, t_end: float | str | None = None, *, output: int | ArrayLike | None = None,
-        method: str = "auto", rtol: float | str | None = None, step: float | str | None = None,
+        self, parameters: ParameterSets, t_end: float | str | Sequence[float | str] | ArrayLike | None = None, *,
+        output: int | ArrayLike | Sequence[ArrayLike] | None = None, method: str = "auto",
+        rtol: float | str | None = None, step: float | str | Sequence[float | str] | ArrayLike | None = None,
         threads: int | None = None, progress: Progress | None = None, stop: bool = True, side_by_side: bool = True,
-        start: State | Sequence[State] | None = None,
+        start: State | Sequence[State] | None = None, keep: str | Iterable[str] = "states",
     ) -> Batch:  # fmt: skip
         """Run the scene with each of many parameter sets, in threads; arguments as in `simulate`.
 
@@ -235,15 +236,20 @@ class Simulation:
         fails, or whose parameters break a condition of the file, is listed in `failures` and stops no other. Ctrl-C
         ends all where they are.
         `start`: a state for all runs or one a run (the `final` of others), at one time; numbers as in `simulate`.
-        `side_by_side`: whether runs of rk4 that have the same step may share vector registers, several in each
-        thread; the numbers are the same without, and what that takes is compiled on its first use.
+        `t_end` and `step` may be sequences with one value a run, `output` an array (n, N) or a sequence with the times
+        of each run, as many as it likes; an expression, t_end "2*pi/omega", is that of each run's own numbers. The
+        batch's `t` then has a row a run. A NaN among them fails its own run; what else is none is refused.
+        `keep`: names of series, ["S9.y", "A.F"], which are then evaluated as soon as a run is over: its states are let
+        go, and memory is that of the series alone. A run of which one cannot be evaluated has failed.
+        `side_by_side`: whether runs of rk4 that have the same step and times may share vector registers, several in
+        each thread; the numbers are the same without, and what that takes is compiled on its first use.
 
         Raises InputError for arguments.
         """
         from gudgeon.simulation.simulate_many import simulate_many
 
         return simulate_many(
-            self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start
+            self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start, keep
         )
 
     def _ran(self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array) -> Result:

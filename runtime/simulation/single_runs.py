@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,10 +16,12 @@ import numpy as np
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.batch import GLANCE
 from gudgeon.integrators.failure import INTERRUPTED
+from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, no_events
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import Mask
-from gudgeon.results.batch import Batch, as_failures, given_values, peaks_of
+from gudgeon.results.batch import Batch, States, as_failures, given_values, peaks_of
+from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result, State
 from gudgeon.waiting.ctrl_c import CtrlC
 
@@ -27,33 +29,73 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 
+@dataclass(frozen=True)
+class Asked:
+    """What every run of a batch is asked for, checked."""
+
+    method: str
+    rtol: float
+    threads: int
+    progress: Progress | None
+    stop: bool
+    side_by_side: bool
+    keep: tuple[str, ...] | None  # series; None: states
+
+
+@dataclass(frozen=True, eq=False)
+class _Kept:
+    """What is left of a run's Result where only series of it are kept."""
+
+    t: Array
+    impacts: Array
+    events: Array
+    diagnostics: Diagnostics
+
+
 class _Runs:
     """Results and errors of runs by their number; a run may have both."""
 
     def __init__(
-        self, simulation: Simulation, given: Array, is_given: Mask, options: dict[str, Any], starts: Sequence[State]
-    ) -> None:
+        self, simulation: Simulation, given: Array, is_given: Mask, options: Sequence[dict[str, Any]],
+        starts: Sequence[State], keep: tuple[str, ...] | None, N: int,
+    ) -> None:  # fmt: skip
         self.simulation, self.given, self.is_given, self.options = simulation, given, is_given, options
         self.n, self.interrupted, self.ending, self.starts = len(given), False, False, starts
         self.results: dict[int, Result] = {}
+        self.left: dict[int, Result | _Kept] = {}  # of each that began: its result, or what is kept of it
         self.errors: dict[int, GudgeonError] = {}
+        self.keep = keep
+        self.kept = {} if keep is None else {name: np.full((self.n, N), np.nan) for name in ("t", *keep)}
 
     def _one(self, i: int) -> None:
         slots = self.simulation.source.slots
         parameters = {slots[k].address: float(self.given[i, k]) for k in np.flatnonzero(self.is_given[i]).tolist()}
         try:
             begin = self.starts[i] if self.starts else None
-            run = self.simulation.simulate(parameters=parameters, start=begin, progress=self._tick, **self.options)
-            self.results[i] = run
+            run = self.simulation.simulate(parameters=parameters, start=begin, progress=self._tick, **self.options[i])
+            self._take(i, run)
             if run.diagnostics.interrupted:
                 self.errors[i] = SolverError(INTERRUPTED, float(run.t[-1]))
-                self.errors[i].partial = run  # type: ignore[attr-defined]
+                if self.keep is None:
+                    self.errors[i].partial = run  # type: ignore[attr-defined]
         except KeyboardInterrupt:  # before it had anything
             pass
         except GudgeonError as error:
             self.errors[i], partial = error, getattr(error, "partial", None)
             if isinstance(partial, Result):
-                self.results[i] = partial
+                self._take(i, partial)
+
+    def _take(self, i: int, run: Result) -> None:
+        """Its result, or the series of it that are kept; where one cannot be computed, that is what it failed of."""
+        if self.keep is None:
+            self.results[i] = self.left[i] = run
+            return
+        self.left[i] = _Kept(run.t, run.impacts, run.events, run.diagnostics)
+        try:
+            for name in self.kept:
+                self.kept[name][i, : len(run.t)] = run[name]
+        except SolverError as error:
+            self.errors.setdefault(i, error)
 
     def _tick(self, fraction: float, text: str) -> None:
         if self.ending:
@@ -77,18 +119,22 @@ class _Runs:
                 self.ending = True
                 pool.shutdown(cancel_futures=True)
         for i in range(self.n):
-            if i not in self.results and i not in self.errors:
+            if i not in self.left and i not in self.errors:
                 self.errors[i] = SolverError(INTERRUPTED, t_first)
 
     def __getstate__(self) -> dict[str, Any]:
         """What is over."""
-        return self.__dict__ | {"simulation": None, "options": {}}
+        return self.__dict__ | {"simulation": None, "options": ()}
 
-    def result(self, i: int) -> Result:
+    def __call__(self, i: int) -> Result:
         """Run i, as it went."""
         if i in self.errors:
             raise self.errors[i]
         return self.results[i]
+
+    def bare(self, i: int, parts: frozenset[str]) -> Result | None:
+        """Run i as ResultOf has it."""
+        return self.results.get(i)
 
     def padded(self, name: str, N: int) -> Array:
         """A result's array of all runs, (n, N, ...), NaN (whole numbers: 0) where a run has no sample."""
@@ -102,32 +148,32 @@ class _Runs:
     def counts(self) -> dict[str, Array]:
         """Diagnostics that are numbers, (n,) each; NaN for runs that did not begin."""
         names = (*(field.name for field in fields(Counts)), "seconds")
-        rows = [self.results[i].diagnostics if i in self.results else None for i in range(self.n)]
+        rows = [self.left[i].diagnostics if i in self.left else None for i in range(self.n)]
         return {name: np.array([np.nan if row is None else getattr(row, name, 0) for row in rows]) for name in names}
 
 
 def run_singly(
-    simulation: Simulation, given: Array, is_given: Mask, times: Array, options: dict[str, Any], threads: int,
-    progress: Progress | None, starts: Sequence[State], bad: Mapping[int, GudgeonError],
+    simulation: Simulation, numbers: tuple[Array, Mask, Array], times: Times, options: Sequence[dict[str, Any]],
+    starts: Sequence[State], bad: Mapping[int, GudgeonError], asked: Asked,
 ) -> Batch:  # fmt: skip
-    """The batch of simulation.simulate(parameters=..., **options) for each row of given (n, n_slots)."""
-    before = time.perf_counter()
-    runs, source, N = _Runs(simulation, given, is_given, options, starts), simulation.source, len(times)
+    """The batch of simulation.simulate(parameters=…, **options) of each run; its values, mask and p (n, ...)."""
+    before, (given, is_given, p) = time.perf_counter(), numbers
+    source, N, t0 = simulation.source, times.most, float(np.nanmin(times.t))
+    runs = _Runs(simulation, given, is_given, options, starts, asked.keep, N)
     runs.errors |= bad
-    runs.run(threads, progress, float(times[0]))
-    p = np.array([simulation.compiled.prepare(*pair) for pair in zip(given, is_given, strict=True)])
-    found = [runs.results.get(i) for i in range(runs.n)]
+    runs.run(asked.threads, asked.progress, t0)
+    found = [runs.left.get(i) for i in range(runs.n)]
     impacts = tuple(np.zeros(0, IMPACT_DTYPE) if run is None else run.impacts for run in found)
     peaks = np.full((runs.n, len(source.clearances), 3), np.nan)
-    for i, run in runs.results.items():
+    for i, run in runs.left.items():
         for k, peak in enumerate(run.diagnostics.peaks):
             peaks[i, k] = peak.F, peak.t, peak.e_max
+    states = None if runs.kept else States(*(runs.padded(name, N) for name in ("q", "v", "work", "state")))
     return Batch(
-        source=source, t=times, **{name: runs.padded(name, N) for name in ("q", "v", "work", "state")},
-        samples=np.array([0 if run is None else len(run.t) for run in found]),
-        t_last=np.array([times[0] if run is None else run.t[-1] for run in found]),
+        source=source, t=times.t, states=states, samples=np.array([0 if run is None else len(run.t) for run in found]),
+        t_last=np.array([t0 if run is None else run.t[-1] for run in found]),
         parameters=given_values(source, p, is_given), impacts=impacts,
         events=tuple(no_events() if run is None else run.events for run in found), peaks=peaks_of(peaks, impacts),
         diagnostics=runs.counts(), failures=as_failures(runs.errors), seconds=time.perf_counter() - before,
-        threads=threads, interrupted=runs.interrupted, result=runs.result,
+        threads=asked.threads, interrupted=runs.interrupted, result=runs, kept=runs.kept,
     )  # fmt: skip

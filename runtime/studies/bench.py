@@ -16,7 +16,7 @@ import numpy as np
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.language.wanted import flag, function, mapping, numbers, positive
-from gudgeon.model.default_step import scene_end
+from gudgeon.model.default_step import plain_end
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import runs as measured
 from gudgeon.studies.methods import ADAPTIVE, choice
@@ -253,7 +253,7 @@ def _kinematic(
     progress: Report | None,
 ) -> SceneBench:  # fmt: skip
     """No step and no reference: the error is what Newton's method leaves open of the constraints."""
-    work = Work(simulation, t_end or scene_end(simulation.source), parameters)
+    work = Work(simulation, t_end or plain_end(simulation.compiled, parameters), parameters)
     rows = []
     for done, count in enumerate(counts):
         if progress:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from gudgeon.errors import BadValueError
 from gudgeon.language.wanted import flag, function, instance, listed, mapping, optional, optional_positive, text, whole
-from gudgeon.model.default_step import scene_end
+from gudgeon.model.default_step import plain_end
 from gudgeon.model.parameters import prepare
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import GAINS, Axis, axis, clearances
@@ -113,7 +113,7 @@ def verdict_map(
     usual = Setting(method, value or (natural_step(simulation, given) if method in FIXED else USUAL))
     jobs = _jobs(simulation, rows, columns, usual, given)
     least = min(setting.value for job in jobs for setting in job.settings) if usual.fixed else math.inf
-    t_long = t_long or min(scene_end(simulation.source), LONG * least) / (10 if quick else 1)
+    t_long = t_long or min(plain_end(simulation.compiled, given), LONG * least) / (10 if quick else 1)
     longest = t_short or SHORT * least / FINER / (10 if quick else 1)
     with Pool[_Job, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
         found = pool.map(lambda job, tick: _judge(simulation, job, t_long, longest, limits, tick), jobs)
@@ -154,20 +154,18 @@ def verdict_box(
     _check(simulation)
     ranges, count = listed(ranges, "ranges", Range, "a list of Range"), whole(count, "count", 0, MOST_POINTS)
     limits, quick = optional(limits, "limits", Limits), flag(quick, "quick")
-    t_long, progress = optional_positive(t_long, "t_long"), function(progress, "progress")
-    setting, parameters = optional(setting, "setting", Setting), mapping(parameters, "parameters")
+    t_long, parameters = optional_positive(t_long, "t_long"), mapping(parameters, "parameters")
+    progress, setting = function(progress, "progress"), optional(setting, "setting", Setting) or Setting("auto", USUAL)
     if not ranges:
         raise BadValueError("a box wants ranges: --range name=low..high")
-    setting, t_long = setting or Setting("auto", USUAL), t_long or scene_end(simulation.source) / (10 if quick else 1)
+    t_long = t_long or plain_end(simulation.compiled, parameters) / (10 if quick else 1)
     known = {name: instance(edge, f"addresses: {name}", Axis) for name, edge in mapping(addresses, "addresses").items()}
     full = needs_full([known.get(edge.name) or axis(simulation, edge.name, ()) for edge in ranges], setting.method)
     simulation = simulation.full if full else simulation
 
     def moved(point: Mapping[str, float]) -> dict[str, float | str]:
-        found: dict[str, float | str] = dict(parameters)
-        for name, value in point.items():
-            found |= known[name].parameters(value) if name in known else {name: value}
-        return found
+        own = (known[name].parameters(x) if name in known else {name: x} for name, x in point.items())
+        return dict(parameters) | {address: x for part in own for address, x in part.items()}
 
     def one(point: Mapping[str, float], tick: Report) -> Cell:
         return judge_point(simulation, moved(point), t_long, setting, limits, LIMIT, tick)

@@ -15,7 +15,7 @@ from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.adaptive import SMALLEST
 from gudgeon.integrators.trajectory import Progress
 from gudgeon.model.compiled import Array
-from gudgeon.model.default_step import scene_end, scene_step
+from gudgeon.model.default_step import plain_end, scene_end, scene_step
 from gudgeon.model.parameters import prepare
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
@@ -174,7 +174,7 @@ def round_numbers(low: float, high: float) -> tuple[float, ...]:
 def natural_step(simulation: Simulation, parameters: Parameters | None = None) -> float:
     """The step (s) that a plain run would take: the scene's, or the default."""
     p = prepare(simulation.compiled, parameters)[0]
-    return scene_step(simulation.compiled, p, scene_end(simulation.source))
+    return scene_step(simulation.compiled, p, scene_end(simulation.source, p))
 
 
 def window(simulation: Simulation, longest: float, setting: Setting, parameters: Parameters | None = None) -> Work:
@@ -185,7 +185,7 @@ def window(simulation: Simulation, longest: float, setting: Setting, parameters:
     half-way between the fourth onset and the next.
     """
     parameters = dict(parameters or {})
-    longest = min(longest, scene_end(simulation.source))
+    longest = min(longest, plain_end(simulation.compiled, parameters))
     for halvings in range(PILOTS, -1, -1) if simulation.source.clearances else ():
         span = longest / 2**halvings
         pilot = attempt(simulation, np.linspace(0.0, span, 3), setting, parameters)

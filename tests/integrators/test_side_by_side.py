@@ -13,6 +13,7 @@ import gudgeon
 from gudgeon.errors import GudgeonError
 from gudgeon.integrators import lanes
 from gudgeon.integrators.batch import Runs
+from gudgeon.integrators.times import Times
 from gudgeon.results.batch import Batch
 from tests.simulation.test_many import assert_same
 
@@ -49,7 +50,7 @@ class Seen:
         def together(own: lanes.Lanes, runs: Runs, group: list[int], memories: np.ndarray) -> None:
             plain(own, runs, group, memories)
             self.groups.append(group)
-            self.arrived += [i for i in group if runs.arrays["done"][i] == len(runs.times)]
+            self.arrived += [i for i in group if runs.arrays["done"][i] == runs.times.count[i]]
 
         monkeypatch.setattr(lanes.Lanes, "together", together)
 
@@ -219,8 +220,11 @@ def test_only_runs_with_the_same_step_share_a_vector() -> None:
     own = lanes.Lanes.__new__(lanes.Lanes)
     own.count = 4
     steps = np.array([1.0, 1.0, 2.0, 2.0, 2.0, 2.0, 2.0, 1.0])
-    assert own.groups([0, 1, 2, 3, 4, 5, 6, 7], steps) == [[0, 1], [2, 3, 4, 5], [6], [7]]
-    assert own.groups([0, 1, 7], steps) == [[0, 1, 7]]
+    same = Times(np.linspace(0.0, 1.0, 3), np.full(8, 3))
+    assert own.groups([0, 1, 2, 3, 4, 5, 6, 7], steps, same) == [[0, 1], [2, 3, 4, 5], [6], [7]]
+    times = Times.of_runs({k: np.linspace(0.0, 1.0 + (k == 3), 3) for k in range(8)}, 8)
+    assert own.groups([0, 1, 2, 3, 4, 5, 6, 7], steps, times) == [[0, 1], [2], [3], [4, 5, 6], [7]]
+    assert own.groups([0, 1, 7], steps, same) == [[0, 1, 7]]
 
 
 def test_runs_with_steps_of_their_own_go_alone(monkeypatch: pytest.MonkeyPatch) -> None:

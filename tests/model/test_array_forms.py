@@ -231,6 +231,16 @@ def run_arguments(
     yield Argument("many output", times, whole, lambda x: many([2.0, 3.0], output=x))
     yield Argument("many column", fine(2.0, 2.5, 3.25), np.array([2.0, 3.0, 4.0]), lambda x: many(x, output=times))
 
+    rows, ends = fine(0.0, 0.25, 0.5, 0.0, 0.375, 0.5).reshape(2, 3) / (16 if "scipy" in method else 1), fine(0.25, 0.5)
+    yield Argument("many rows", rows, np.array([[0.0, 1.0], [0.0, 2.0]]), lambda x: many([2.0, 3.0], output=x))
+    if "scipy" not in method:
+        yield Argument("many t_end", ends, whole + 1.0, lambda x: many([2.0, 3.0], t_end=x, output=2))
+    if method == "rk4":
+        steps, given = fine(2.0**-9, 2.0**-10), {**options}
+        given.pop("step")
+        yield Argument("many step", steps, whole + 1.0, lambda x: raw(
+            simulation.simulate_many({parameter: [2.0, 3.0]}, threads=1, output=times, step=x, **given).q))  # fmt: skip
+
     def going_on(name: str, values: Any) -> bytes:
         return raw(simulation.simulate(output=times, start=replace(state, **{name: values}), **options))
 

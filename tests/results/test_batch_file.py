@@ -143,3 +143,32 @@ def test_rows_of_no_run_are_refused(tmp_path: Path) -> None:
         file["series/run"][-1] = 2
     with pytest.raises(InputError):
         Batch.load(path)
+
+
+def test_files_of_before_runs_had_their_own_times_are_read(tmp_path: Path) -> None:
+    """They say so, and have nothing else that differs."""
+    path = tmp_path / "batch.nc"
+    batch = valve(tmp_path).simulate_many({"w": [5.0, 7.0]}, 0.2, output=7)
+    batch.save(path)
+    with h5py.File(path, "r+") as file:
+        assert bytes(file.attrs["gudgeon"]) == b"gudgeon-batch/2" and "kept" not in file
+        file.attrs["gudgeon"] = "gudgeon-batch/1"
+    assert_same(batch, Batch.load(path))
+
+
+def test_an_output_may_be_called_like_the_column_of_runs(tmp_path: Path) -> None:
+    text = PUMP + "outputs: {run: 2 * piston.x}\n"
+    for keep in ("states", ["run"]):
+        batch = worn(tmp_path, text).simulate_many({"c": ["0.2 mm", "0.4 mm"]}, 0.002, output=3, keep=keep)
+        batch.save(tmp_path / "batch.nc")
+        assert Batch.load(tmp_path / "batch.nc")["run"].tobytes() == batch["run"].tobytes()
+
+
+@pytest.mark.parametrize("what", ["kept/run", "kept/time", "kept/lift", "times/run", "times/time"])
+def test_a_file_of_series_that_lacks_one_is_refused(what: str, tmp_path: Path) -> None:
+    path = tmp_path / "batch.nc"
+    valve(tmp_path).simulate_many({"w": [5.0, 7.0]}, [0.2, 0.3], output=7, keep=["lift"]).save(path)
+    with h5py.File(path, "r+") as file:
+        del file[what]
+    with pytest.raises(InputError):
+        Batch.load(path)

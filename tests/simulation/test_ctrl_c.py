@@ -23,6 +23,7 @@ from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.batch import GLANCE
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
+from gudgeon.model import evaluation
 from gudgeon.results.results import Result
 from gudgeon.simulation import conclusion
 from gudgeon.simulation.simulation import Simulation
@@ -143,6 +144,7 @@ def test_what_follows_from_the_samples_can_wait(name: str, number: int, monkeypa
 def test_ctrl_c_while_the_energy_is_balanced(look: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """All samples are there, and their accelerations are found when they are asked for."""
     monkeypatch.setattr(conclusion, "EVERY", -1.0)
+    monkeypatch.setattr(evaluation, "FIRST", 1)
     simulation, options = case("dry", "auto")
     looks = 0
 

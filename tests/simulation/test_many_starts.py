@@ -113,14 +113,14 @@ def test_a_number_that_is_none_fails_its_own_run(odd: float, scene: str) -> None
 
 
 def test_an_end_may_hang_on_numbers() -> None:
-    """One turn, whatever the speed; the runs of a batch have their times together."""
+    """One turn, whatever the speed; a batch whose runs all end then has common times."""
     for omega in (6.0, 7.0):
         run = press("ideal").simulate("2*pi/omega", output=4, parameters={"omega": omega})
         assert run.t[-1] == 2.0 * math.pi / omega
     batch = press("ideal").simulate_many({"omega": 6.0, "bodies.L7.mass": [1.0, 2.0]}, "2*pi/omega", output=2)
     assert batch.t[-1] == 2.0 * math.pi / 6.0
-    with pytest.raises(BadValueError, match="t_end is '2.pi/omega': 0.897598 s to 1.0472 s"):
-        press("ideal").simulate_many({"omega": [6.0, 7.0]}, "2*pi/omega", output=2)
+    batch = press("ideal").simulate_many({"omega": [6.0, 7.0]}, "2*pi/omega", output=2)
+    np.testing.assert_array_equal(batch.t[:, -1], 2.0 * math.pi / np.array([6.0, 7.0]))
     with pytest.raises(gudgeon.errors.InputError, match="unknown name 'omga'"):
         press("ideal").simulate("2*pi/omga")
     with pytest.raises(gudgeon.errors.InputError, match=r"expected a time \(s\)"):

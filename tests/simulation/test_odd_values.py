@@ -92,7 +92,7 @@ def test_simulate(pendulum: Simulation, name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["parameters", *(n for n in ARGUMENTS if n not in ("start", "horizon", "parameters")),
-                                  "threads", "side_by_side"])  # fmt: skip
+                                  "threads", "side_by_side", "keep"])  # fmt: skip
 def test_simulate_many(pendulum: Simulation, name: str) -> None:
     good = {"parameters": [{}]} | RUN
     refused_or_used(lambda value: pendulum.simulate_many(**(good | {name: value})), but=CALLED.get(name, ""))

@@ -28,7 +28,7 @@ from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
-from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism
+from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism, Quantity
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.language.tree import names, to_json
 from gudgeon.language.units import Dimension
@@ -80,7 +80,8 @@ def describe(
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         lines=_lines(mechanism), massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
         tables=tuple(mechanism.tables.items()), laws=tuple(sorted(mechanism.laws.items())),
-        written=tuple(_written(model)), states=_states(model), story=story, lanes=lanes,
+        written=tuple(_written(model)), simulate_written=tuple(_simulate_written(model)),
+        states=_states(model), story=story, lanes=lanes,
     )  # fmt: skip
 
 
@@ -133,8 +134,12 @@ def _written(model: Model) -> Iterator[WrittenInfo]:
     found += [event.zero for event in scene.events.values()]
     for quantity in found:
         if any(name.path == "t" or "." in name.path for name in names(quantity.value)):
-            tree = json.dumps(to_json(quantity.value))
-            yield WrittenInfo(quantity.address, tree, quantity.where.line, quantity.where.column)
+            yield _info(quantity)
+
+
+def _info(quantity: Quantity) -> WrittenInfo:
+    where = quantity.where
+    return WrittenInfo(quantity.address, json.dumps(to_json(quantity.value)), where.line, where.column)
 
 
 def _prepared(model: Model) -> list[sp.Symbol]:
@@ -185,6 +190,13 @@ def _simulate(model: Model) -> dict[str, float]:
         name: float(evaluate(quantity.value, lambda path: defaults[f"parameters.{path}"]))
         for name, quantity in model.scene.simulate.items()
     }
+
+
+def _simulate_written(model: Model) -> Iterator[WrittenInfo]:
+    """What of the scene's own t_end, output and step follows parameters."""
+    for quantity in model.scene.simulate.values():
+        if next(names(quantity.value), None) is not None:
+            yield _info(quantity)
 
 
 def _exponents(dimension: Dimension) -> tuple[float, float, float]:

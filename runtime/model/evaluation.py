@@ -1,0 +1,101 @@
+"""Everything that follows from samples of a run: one pass of the compiled model over them, in C."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, fields
+from time import perf_counter
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gudgeon.model.arrays import taken
+
+if TYPE_CHECKING:
+    from gudgeon.model.compiled import CompiledModel
+
+Array: TypeAlias = NDArray[np.float64]
+
+CLEARANCE_COLUMNS = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt")
+FIRST, SOON = 64, 5e-3  # samples of the first call of C; s that one is to take, or Ctrl-C would wait
+OUTPUTS = frozenset({"reactions", "torques", "series", "energy"})  # what one function of the scene computes
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Everything that follows from N samples, SI; what was not asked for has no row."""
+
+    a: Array  # (N, n) q̈
+    multipliers: Array  # (N, m) λ
+    reactions: Array  # (N, n_joints, 3) Fx, Fy, M on the second body at the joint's point, ground axes
+    torques: Array  # (N, n_drives) torque (N·m) or force (N) of each drive
+    clearance: Array  # (N, n_clearances, 9) CLEARANCE_COLUMNS: force on the journal; Fn > 0 pushes it back
+    series: Array  # (N, n_series) results of force elements
+    friction: Array  # (N, n_frictions, 2) force on the second body along the direction, slip
+    energy: Array  # (N, 2) kinetic, potential
+    power: Array  # (N, 3) of drives, of force elements (but what they store), of joints with play (W)
+    drift: Array  # (N, 2) largest |Φ| (m, rad) and |Φ̇| (m/s, rad/s) of the rows
+
+
+PARTS = frozenset(field.name for field in fields(Evaluation))
+
+
+def evaluate(
+    compiled: CompiledModel, t: ArrayLike, q: ArrayLike, v: ArrayLike, memory: ArrayLike, p: ArrayLike,
+    take: Callable[[], object], parts: Collection[str],
+) -> Evaluation:  # fmt: skip
+    """See CompiledModel.evaluate."""
+    time = taken(t, "t", (None,))
+    N = len(time)
+    latched = _table(memory, "memory", N, None)
+    if compiled.n_memory or latched.shape[1] > 1:  # in a scene that remembers nothing one number stands for none
+        _table(latched, "memory", N, compiled.n_memory)
+    inputs = (("q", _table(q, "q", N, compiled.n)), ("v", _table(v, "v", N, compiled.n)), ("memory", latched))
+    out = _room(compiled, N, parts)
+    failed, first, chunk = compiled.ffi.new("long *"), 0, FIRST
+    results, numbers = tuple(vars(out).values()), compiled.pointer(taken(p, "p", (compiled.n_p,)))  # in C's order
+    while first < N:
+        before, count = perf_counter(), min(chunk, N - first)
+        rows = slice(first, first + count)
+        given = [compiled.pointer(taken(values[rows], name, (count, None))) for name, values in inputs]
+        filled = [compiled.pointer(x[first:], written=True) if len(x) else compiled.ffi.NULL for x in results]
+        status = compiled.lib.gudgeon_evaluate(count, compiled.pointer(time[rows]), *given, numbers, *filled, failed)
+        if status:
+            compiled.check_pivot(status, float(time[first + failed[0]]))
+        first += count
+        chunk = 4 * count if perf_counter() - before < SOON else max(1, count // 4)
+        take()
+    _mark_indeterminate(compiled, out)
+    return out
+
+
+def _room(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:
+    """What C fills; (0, ...) of a part that nobody wants."""
+    s = compiled.source
+    widths: dict[str, tuple[int, ...]] = {
+        "a": (compiled.n,), "multipliers": (len(s.rows),), "reactions": (len(s.joints), 3),
+        "torques": (len(s.drives),), "clearance": (len(s.clearances), len(CLEARANCE_COLUMNS)),
+        "series": (len(s.series),), "friction": (len(s.frictions), 2), "energy": (2,), "power": (3,), "drift": (2,),
+    }  # fmt: skip
+    wanted = {*parts, *OUTPUTS} if OUTPUTS & {*parts} else {*parts}
+    return Evaluation(**{name: np.empty((N if name in wanted else 0, *width)) for name, width in widths.items()})
+
+
+def _mark_indeterminate(compiled: CompiledModel, out: Evaluation) -> None:
+    """NaN where redundant constraints leave a reaction open: rigid bodies cannot tell it; or masses are missing."""
+    s = compiled.source
+    for unknown in (out.multipliers, out.reactions, out.torques, out.energy, out.power) if s.massless else ():
+        unknown[:] = np.nan
+    for owner in s.indeterminate:
+        out.multipliers[:, [k for k, row in enumerate(s.rows) if row.owner == owner]] = np.nan
+        out.reactions[:, [k for k, joint in enumerate(s.joints) if joint.name == owner]] = np.nan
+        out.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
+
+
+def _table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Array:
+    """Checked as `taken` does; of an array of doubles, however it lies, no copy: its rows are taken piece by piece."""
+    if type(values) is not np.ndarray or values.dtype != np.float64:
+        return taken(values, name, (rows, columns))
+    taken(values[:0] if values.ndim else values, name, (0, columns))
+    return values if len(values) == rows else taken(values, name, (rows, columns))

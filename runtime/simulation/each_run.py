@@ -1,0 +1,148 @@
+"""Times and steps of a batch: t_end, output and step stand for all runs, or each run has its own."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from gudgeon.errors import BadValueError, InputError
+from gudgeon.integrators.times import Times
+from gudgeon.language.quantities import holds_names
+from gudgeon.model.arrays import taken
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.parameter_sets import column
+from gudgeon.model.parameters import spaced
+from gudgeon.simulation.arguments import MAX_STEPS, MOST_OUTPUT, end_of, output_times, step_of
+
+Errors = dict[int, BadValueError]
+
+
+def rows_of_times(output: Any) -> list[Any] | None:
+    """The output times of the runs, a row each, of a list of rows or an array (n, N); None: it stands for all."""
+    if getattr(output, "ndim", None) == 2:
+        return list(taken(output, "output", (None, None), most=MOST_OUTPUT))
+    of_objects = getattr(output, "ndim", None) == 1 and getattr(output, "dtype", None) == np.dtype(object)
+    if not (isinstance(output, (list, tuple)) or of_objects):
+        return None
+    several = any(isinstance(row, (list, tuple)) or getattr(row, "ndim", 0) for row in output)
+    return list(output) if several else None
+
+
+@dataclass
+class EachRun:
+    """What is given for all runs or for each. A number that is none fails its own run, as among the columns."""
+
+    compiled: CompiledModel
+    t_end: Any
+    output: Any
+    step: Any
+    bad: Errors = field(default_factory=dict)  # runs that have no times or step
+
+    def __post_init__(self) -> None:
+        self.ends, self.steps = column("t_end", self.t_end), column("step", self.step)
+        self.rows = rows_of_times(self.output)
+
+    def length(self, runs: int) -> int:
+        """How many runs there are where the parameters are those of `runs`; BadValueError where that does not fit."""
+        for name, values in (("t_end", self.ends), ("output", self.rows), ("step", self.steps)):
+            if values is not None and (not values or runs not in (1, len(values))):
+                of = "rows of times" if name == "output" else "values"
+                told = f"{name} has {len(values)} {of} for {runs} run{'s' if runs > 1 else ''}"
+                raise BadValueError(told, hint="one for all runs, or one for every run")
+            runs = runs if values is None else len(values)
+        return runs
+
+    def times(self, p: Array, t0: float, left_out: dict[int, Any]) -> Times:
+        """Of all runs with the numbers p (n, ...) from t0 (s), but for those that are left out."""
+        source = self.compiled.source
+        follows = isinstance(self.t_end, str) and holds_names(spaced(self.t_end)) or bool(source.simulate_written)
+        if self.ends is None and self.rows is None and not follows:
+            t = output_times(source, p[0], t0, self.t_end, self.output)
+            return Times(t, np.full(len(p), len(t)))
+        found: dict[int, Array] = {}
+        same: dict[Any, Array] = {}
+        for i in range(len(p)):
+            own = None if i in left_out else self._of_run(i, p[i], t0, same)
+            if own is not None:
+                found[i] = own
+        if self.bad and not found:
+            raise next(iter(self.bad.values()))
+        return Times.of_runs(found or {0: np.array([t0])}, len(p))
+
+    def _of_run(self, i: int, p: Array, t0: float, same: dict[Any, Array]) -> Array | None:
+        """Times of run i, an array for all that have `same`; None where they are no numbers."""
+        source = self.compiled.source
+        row = self.output if self.rows is None else self.rows[i]
+        try:
+            end = end_of(source, self.t_end if self.ends is None else _there(self.ends[i], "t_end"), p)
+        except InputError as error:
+            raise BadValueError(f"run {i}: {error}") from None
+        if told := _none(end, "t_end") or ("" if self.rows is None else _none_of(row)):
+            self.bad[i] = BadValueError(told)
+            return None
+        alike = self.rows is None and not source.simulate_written and isinstance(end, (int, float, str))
+        key = (type(end), end) if alike else None
+        if key in same:
+            return same[key]
+        try:
+            t = output_times(source, p, t0, end, row)
+        except InputError as error:
+            if end is None and self.rows is None:  # what the file says of its runs, with these numbers
+                self.bad[i] = BadValueError(str(error))
+                return None
+            raise BadValueError(f"run {i}: {error}") from None
+        return same.setdefault(key, t) if key else t
+
+    def lengths_of_steps(self, method: str, p: Array, times: Times, left_out: dict[int, Any]) -> Array:
+        """The step (s) of each run, (n,), infinite where the method chooses it; any of what is left out."""
+        steps = np.full(len(p), 1.0 if method == "rk4" or self.step is not None else math.inf)
+        for i in range(len(p)):
+            if i in left_out or i in self.bad:
+                continue
+            step, t = self.step if self.steps is None else self.steps[i], times.of(i)
+            if told := "" if self.steps is None else _none(step, "step"):
+                self.bad[i] = BadValueError(told)
+                continue
+            steps[i] = self._step_of(i, step, method, p[i], float(t[-1] - t[0]))
+        if self.bad and len(self.bad | left_out) == len(p) and self.steps is not None:
+            raise next(iter(self.bad.values()))
+        return steps
+
+    def _step_of(self, i: int, step: Any, method: str, p: Array, duration: float) -> float:
+        try:
+            h = step_of(self.compiled, step if self.steps is None else _there(step, "step"), method, p, duration)
+            if duration / h > MAX_STEPS:
+                raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
+        except InputError as error:
+            if step is None and self.compiled.source.simulate_written:
+                self.bad[i] = BadValueError(str(error))
+                return 1.0
+            if self.steps is None and self.ends is None and self.rows is None:
+                raise
+            raise BadValueError(f"run {i}: {error}") from None
+        return h
+
+
+def _there(value: Any, name: str) -> Any:
+    if value is None:
+        raise BadValueError(f"{name} is None: expected a time (s)")
+    return value
+
+
+def _none(value: Any, name: str) -> str:
+    """What is said of a number that is none."""
+    number = isinstance(value, (float, np.floating))
+    return f"{name}: {value} is not a finite number" if number and not math.isfinite(value) else ""
+
+
+def _none_of(row: Any) -> str:
+    """The same of times; what is no array of numbers is refused where it is read."""
+    try:
+        t = np.asarray(row if np.size(row) <= MOST_OUTPUT else (), dtype=float)
+    except (TypeError, ValueError):
+        return ""
+    odd = np.flatnonzero(~np.isfinite(t)).tolist() if t.ndim == 1 else []
+    return f"output[{odd[0]}] is {t[odd[0]]}: expected finite numbers" if odd else ""
