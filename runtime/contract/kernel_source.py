@@ -192,6 +192,7 @@ class KernelSource:
         parts = [self.sha256, *(f"{name} {digest}" for name, digest in self.tables)]
         return sha256("\n".join(parts).encode()).hexdigest() if self.tables else self.sha256
 
+    peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
 
     @property

@@ -79,7 +79,7 @@ def describe(
         chain=chain.names if chain else (), chain_rows=tuple(row.name for row in chain.rows) if chain else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         lines=_lines(mechanism), massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
-        tables=tuple(mechanism.tables.items()),
+        tables=tuple(mechanism.tables.items()), peaks=tuple(map(str, model.scene.peaks)),
         written=tuple(_written(model)), states=_states(model), story=story, lanes=lanes,
     )  # fmt: skip
 

@@ -1,0 +1,108 @@
+"""States of a scene by the block, every series there, and the states between two that are neighbours."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from gudgeon.contract.methods import KINEMATIC
+from gudgeon.errors import SolverError
+from gudgeon.integrators.projection import project
+from gudgeon.integrators.steps import Steps
+from gudgeon.integrators.trajectory import IMPACT_DTYPE
+from gudgeon.model.compiled import Array, CompiledModel, Evaluation
+from gudgeon.results.diagnostics import Diagnostics
+from gudgeon.results.results import Result
+from gudgeon.results.series import catalogue
+
+ROUNDED = 1e-7  # of the speed: in parts of steps so short differences of positions say no more of it
+NONE = Diagnostics(
+    method="", step=math.nan, steps=0, right_hand_sides=0, onsets=0, grazes=0, phi_max=math.nan, phi_dot_max=math.nan,
+    energy_residual=math.nan, energy_turned_over=math.nan, ratio_min=math.nan, ratio_max=math.nan, ratio_outside=0,
+    peaks=(), seconds=math.nan, seconds_per_simulated_second=math.nan,
+)  # fmt: skip
+
+
+class Path:
+    """The present block of a run: its states, of which the first two ended the block before."""
+
+    def __init__(self, compiled: CompiledModel, numbers: tuple[Array, Array, Array]) -> None:
+        self.compiled, self.source = compiled, compiled.source
+        self.p, self.given, self.is_given = numbers  # as in a Result
+        self.catalogue = catalogue(self.source)
+        self.exact = self.source.methods == (KINEMATIC,)
+        self.first: Steps | None = None  # of the run: energies count from it
+        self.lost = 0  # states without accelerations
+        self.steps: Steps
+        self.run: Result
+        self.inner: Array  # (K − 1,) whether states k and k + 1 are the ends of a part of a step, with something between
+
+    def take(self, steps: Steps) -> None:
+        """The next block."""
+        self.first = steps[:1] if self.first is None else self.first
+        self.steps = self.steps[-2:].then(steps) if hasattr(self, "steps") else steps
+        self.run, lost = self._result(self.steps)
+        self.lost += lost
+        x = self.steps
+        q, v = np.abs(x.q).max(initial=0.0), np.abs(x.v).max(initial=0.0)
+        least = 40.0 * np.finfo(float).eps * q / max(ROUNDED * v, 1e-300)
+        self.inner = ~x.jumped[1:] & (np.diff(x.t) > (0.0 if self.exact else least))
+
+    def values(self, name: str) -> Array:
+        """A series at the states, (K,); NaN where it is not known."""
+        return self.run[name][1:]
+
+    def between(self, k: int, t: Array, name: str) -> Array:
+        """A series at times t (T,) between states k and k + 1."""
+        return self._result(self._states(k, t))[0][name][1:]
+
+    def _result(self, steps: Steps) -> tuple[Result, int]:
+        """The run's first state, then these; how many of them have no accelerations."""
+        assert self.first is not None
+        x = self.first.then(steps)
+        evaluation, lost = self._evaluation(x)
+        run = Result(
+            compiled=self.compiled, source=self.source, p=self.p, given=self.given, is_given=self.is_given,
+            t=x.t, q=x.q, v=x.v, accelerations=evaluation.a, state=x.state, memory=x.memory, work=x.work,
+            impacts=np.zeros(0, IMPACT_DTYPE), diagnostics=NONE,
+        )  # fmt: skip
+        run.__dict__.update(evaluation=evaluation, _catalogue=self.catalogue)
+        return run, lost
+
+    def _evaluation(self, x: Steps) -> tuple[Evaluation, int]:
+        """NaN at states where the equations cannot be solved, and how many they are."""
+        good = np.isfinite(x.q).all(axis=1) & np.isfinite(x.v).all(axis=1)
+        while True:
+            try:
+                found = self.compiled.evaluate(x.t[good], x.q[good], x.v[good], x.memory[good], self.p)
+                break
+            except SolverError as error:
+                left = good & (x.t != error.time)
+                good = left if (left != good).any() else np.zeros_like(good)
+        if good.all():
+            return found, 0
+        whole = Evaluation(*(np.full((len(x), *part.shape[1:]), np.nan) for part in vars(found).values()))
+        for part, known in zip(vars(whole).values(), vars(found).values(), strict=True):
+            part[good] = known
+        return whole, int((~good).sum())
+
+    def _states(self, k: int, t: Array) -> Steps:
+        """At times t between states k and k + 1: a quintic for positions, cubics for works, contacts as before."""
+        x, a, power = self.steps, self.run.a[1:], self.run.evaluation.power[1:]
+        h = x.t[k + 1] - x.t[k]
+        s = ((t - x.t[k]) / h)[:, None]
+        (q0, q1), (v0, v1), (a0, a1) = x.q[k : k + 2], h * x.v[k : k + 2], h**2 * a[k : k + 2]
+        way, gain, bend = q1 - q0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0
+        c3, c4, c5 = 10 * way - 4 * gain + 0.5 * bend, -15 * way + 7 * gain - bend, 6 * way - 3 * gain + 0.5 * bend
+        q = q0 + s * (v0 + s * (0.5 * a0 + s * (c3 + s * (c4 + s * c5))))
+        v = (v0 + s * (a0 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / h
+        if self.exact:
+            pairs = [project(self.compiled, *at, self.p) for at in zip(t.tolist(), q, v, strict=True)]
+            q, v = (np.array(part) for part in zip(*pairs, strict=True))
+        (w0, w1), (r0, r1) = x.work[k : k + 2], h * power[k : k + 2]
+        work = w0 + s * (r0 + s * (3 * (w1 - w0) - 2 * r0 - r1 + s * (r0 + r1 - 2 * (w1 - w0))))
+        memory = np.repeat(x.memory[k : k + 1], len(t), axis=0)
+        states = slice(memory.shape[1] - len(self.source.states), None)
+        memory[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
+        return Steps(t, q, v, work, memory, np.repeat(x.state[k : k + 1], len(t), axis=0), np.zeros(len(t), dtype=bool))
