@@ -20,7 +20,7 @@ from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.steps import Course, Look, Steps
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
-from gudgeon.model.compiled import Array
+from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.written import rate_reason, reason, reason_between
 from gudgeon.waiting.asking import Asker
 
@@ -203,6 +203,22 @@ def run(problem: Problem) -> Trajectory:
     except SolverError as error:
         stopped = error
     return way.trajectory(interrupted, stopped)
+
+
+def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tuple[Array, Array]:
+    """q and q̇ (T, n) at times t (T,), the first of which has the state q, v (n,); NaN where they cannot be found."""
+    T, pointer, done = len(t), compiled.pointer, np.zeros(2, dtype=np.int_)
+    course, maxima, a = np.zeros(compiled.lib.gudgeon_course_size(), dtype=np.uint8), np.zeros(2), np.zeros((T, len(q)))
+    every_q, every_v = np.full((T, len(q)), np.nan), np.full((T, len(q)), np.nan)
+    every_q[0], every_v[0] = q, v
+    where, null = pointer(course, "void *", True), compiled.ffi.NULL
+    size = mechanism_size(compiled, p)
+    compiled.lib.gudgeon_course_begin(where, REACH, size, float(t[-1]), null, null, 1.0)
+    compiled.lib.gudgeon_kinematic(
+        where, T - 1, pointer(t), pointer(p), *(pointer(x, written=True) for x in (every_q, every_v, a)),
+        pointer(maxima), pointer(maxima[1:]), pointer(done, "long *"), pointer(done[1:], "long *"),
+    )  # fmt: skip
+    return every_q, every_v
 
 
 def _failure(problem: Problem, status: int, t: float) -> SolverError:

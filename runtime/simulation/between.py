@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.polynomial.legendre import legfit, leggauss, legint, legval
 
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import SolverError
-from gudgeon.integrators.projection import project
+from gudgeon.integrators.kinematic import along
 from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
@@ -16,6 +17,7 @@ from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
 from gudgeon.results.series import catalogue
 
+NODES = 0.5 * (leggauss(6)[0] + 1.0)  # shares of a part of a step at which powers are taken
 ROUNDED = 1e-7  # of the speed: in parts of steps so short differences of positions say no more of it
 NONE = Diagnostics(
     method="", step=math.nan, steps=0, right_hand_sides=0, onsets=0, grazes=0, phi_max=math.nan, phi_dot_max=math.nan,
@@ -34,6 +36,7 @@ class Path:
         self.exact = self.source.methods == (KINEMATIC,)
         self.first: Steps | None = None  # of the run: energies count from it
         self.lost = 0  # states without accelerations
+        self.powers: tuple[int, Array] = (-1, np.zeros(0))  # k, integrals of the powers between states k and k + 1
         self.steps: Steps
         self.run: Result
         self.inner: Array  # (K − 1,) whether states k and k + 1 are the ends of a part of a step, with something between
@@ -43,6 +46,7 @@ class Path:
         self.first = steps[:1] if self.first is None else self.first
         self.steps = self.steps[-2:].then(steps) if hasattr(self, "steps") else steps
         self.run, lost = self._result(self.steps)
+        self.powers = (-1, np.zeros(0))
         self.lost += lost
         x = self.steps
         q, v = np.abs(x.q).max(initial=0.0), np.abs(x.v).max(initial=0.0)
@@ -88,21 +92,39 @@ class Path:
         return whole, int((~good).sum())
 
     def _states(self, k: int, t: Array) -> Steps:
-        """At times t between states k and k + 1: a quintic for positions, cubics for works, contacts as before."""
-        x, a, power = self.steps, self.run.a[1:], self.run.evaluation.power[1:]
+        """At times t (T,) between states k and k + 1, with the contacts of the first of them."""
+        x = self.steps
+        s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]
+        q, v = self._motion(k, t, s)
+        memory = np.repeat(x.memory[k : k + 1], len(t), axis=0)
+        states = slice(memory.shape[1] - len(self.source.states), None)
+        memory[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
+        codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
+        return Steps(t, q, v, self._works(k, s), memory, codes, np.zeros(len(t), dtype=bool))
+
+    def _motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
+        """q and q̇ (T, n) at shares s (T, 1): a quintic, or what the drives say."""
+        x, a = self.steps, self.run.a[1:]
+        if self.exact:
+            q, v = along(self.compiled, self.p, np.concatenate([x.t[k : k + 1], t]), x.q[k], x.v[k])
+            return q[1:], v[1:]
         h = x.t[k + 1] - x.t[k]
-        s = ((t - x.t[k]) / h)[:, None]
         (q0, q1), (v0, v1), (a0, a1) = x.q[k : k + 2], h * x.v[k : k + 2], h**2 * a[k : k + 2]
         way, gain, bend = q1 - q0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0
         c3, c4, c5 = 10 * way - 4 * gain + 0.5 * bend, -15 * way + 7 * gain - bend, 6 * way - 3 * gain + 0.5 * bend
         q = q0 + s * (v0 + s * (0.5 * a0 + s * (c3 + s * (c4 + s * c5))))
-        v = (v0 + s * (a0 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / h
-        if self.exact:
-            pairs = [project(self.compiled, *at, self.p) for at in zip(t.tolist(), q, v, strict=True)]
-            q, v = (np.array(part) for part in zip(*pairs, strict=True))
-        (w0, w1), (r0, r1) = x.work[k : k + 2], h * power[k : k + 2]
-        work = w0 + s * (r0 + s * (3 * (w1 - w0) - 2 * r0 - r1 + s * (r0 + r1 - 2 * (w1 - w0))))
-        memory = np.repeat(x.memory[k : k + 1], len(t), axis=0)
-        states = slice(memory.shape[1] - len(self.source.states), None)
-        memory[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
-        return Steps(t, q, v, work, memory, np.repeat(x.state[k : k + 1], len(t), axis=0), np.zeros(len(t), dtype=bool))
+        return q, (v0 + s * (a0 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / h
+
+    def _works(self, k: int, s: Array) -> Array:
+        """Works (T, 3) at shares s (T, 1): the integral of the polynomial through the powers on the way."""
+        x = self.steps
+        if self.powers[0] != k:
+            h = x.t[k + 1] - x.t[k]
+            t = x.t[k] + h * NODES
+            q, v = self._motion(k, t, NODES[:, None])
+            power = self.compiled.evaluate(t, q, v, np.repeat(x.memory[k : k + 1], len(t), axis=0), self.p).power
+            self.powers = k, legint(legfit(2.0 * NODES - 1.0, 0.5 * h * power, len(NODES) - 1), lbnd=-1.0)
+        work = legval(2.0 * s[:, 0] - 1.0, self.powers[1]).T
+        left = x.work[k + 1] - x.work[k] - legval(1.0, self.powers[1])
+        out: Array = x.work[k] + work + s * left
+        return out

@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 NODES = np.linspace(0.0, 1.0, 9)  # places at which a part of a step is looked at
-ROUNDS, AT_AN_END = 16, 4  # of looking closer, each four or eight times as close; fewer where the top is at an end
-MOST = 40  # parts of steps of a block that are looked at, the most promising ones first
-FLAT = 1e-13  # of the largest value: what is left between the places is rounding
+ROUNDS, AT_AN_END = 16, 3  # of looking closer, each four or eight times as close; fewer where the top is at an end
+MOST = 16  # parts of steps of a block that are looked at, the most promising ones first
+CLOSE = 1e-12  # of the largest value of a block: what is left between the places is rounding
 
 
 def wanted_peaks(source: KernelSource, peaks: Iterable[str] | None) -> tuple[str, ...]:
@@ -113,37 +113,59 @@ class Search:
     def _improve(self, name: str, error: bool, paths: list[Path]) -> None:
         """What the present states, and what lies between them, say of one series."""
         values = _less([path.values(name) for path in paths])
-        t, first = self.ours.steps.t, self.ours.inner
+        t, inner = self.ours.steps.t, self.ours.inner
+        scale = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
         for sign in (1, -1):
             key = (name, error, sign)
             if np.isfinite(sign * values).any():
                 k = int(np.nanargmax(np.where(np.isfinite(values), sign * values, -np.inf)))
                 self._note(key, float(sign * values[k]), float(t[k]))
-            rises = _may_rise(t, sign * values, first)
+            rises = _may_rise(t, sign * values, inner)
             for k in np.argsort(-rises, kind="stable")[:MOST].tolist():
                 if not rises[k] > self.best.get(key, (-math.inf, 0.0))[0]:
                     break
-                self._look_closer(key, k, paths)
+                self._look_closer(key, k, paths, scale)
 
-    def _look_closer(self, key: tuple[str, bool, int], k: int, paths: list[Path]) -> None:
-        """The top between states k and k + 1."""
+    def _look_closer(self, key: tuple[str, bool, int], k: int, paths: list[Path], scale: float) -> None:
+        """The top between states k and k + 1, to a share of `scale`; by parabolas once they tell it."""
         low, high = self.ours.steps.t[k : k + 2].tolist()
         for turn in range(ROUNDS):
             times = low + NODES * (high - low)
-            values = key[2] * _less([path.between(k, times, key[0]) for path in paths])
-            known = np.where(np.isfinite(values), values, -np.inf)
+            known = self._between(key, k, times, paths)
             best = int(known.argmax())
             self._note(key, float(known[best]), float(times[best]))
-            spread = known[best] - known.min()
-            if not spread > FLAT * abs(known[best]) or not times[1] > times[0]:
+            if not known[best] - known.min() > CLOSE * scale or not times[1] > times[0]:
                 break
-            if best in (0, len(NODES) - 1) and turn >= AT_AN_END:
-                break
+            if best in (0, len(NODES) - 1):
+                if turn >= AT_AN_END:
+                    break
+            else:
+                t, told = _vertex(times[best - 1 : best + 2], known[best - 1 : best + 2])
+                found = float(self._between(key, k, np.array([t]), paths)[0])
+                self._note(key, found, t)
+                if abs(found - told) <= CLOSE * scale:
+                    break
             low, high = float(times[max(best - 1, 0)]), float(times[min(best + 1, len(NODES) - 1)])
+
+    def _between(self, key: tuple[str, bool, int], k: int, t: Array, paths: list[Path]) -> Array:
+        """The series at times between states k and k + 1, up where it is sought; −∞ where it is no number."""
+        values = key[2] * _less([path.between(k, t, key[0]) for path in paths])
+        return np.where(np.isfinite(values), values, -np.inf)
 
     def _note(self, key: tuple[str, bool, int], value: float, t: float) -> None:
         if value > self.best.get(key, (-math.inf, 0.0))[0]:
             self.best[key] = value, t
+
+
+def _vertex(t: Array, values: Array) -> tuple[float, float]:
+    """Time and height of the top of the parabola through three points, of which the middle one is the highest."""
+    x, z, left, right = t[1] - t[0], t[2] - t[1], values[0] - values[1], values[2] - values[1]
+    bend = right * x + left * z  # negative
+    if not (bend < 0.0 and math.isfinite(bend)):
+        return float(t[1]), float(values[1])
+    slope = (right * x * x - left * z * z) / (x * z * (x + z))
+    curve = bend / (x * z * (x + z))
+    return float(t[1] - 0.5 * slope / curve), float(values[1] - 0.25 * slope**2 / curve)
 
 
 def _less(values: list[Array]) -> Array:
@@ -152,19 +174,19 @@ def _less(values: list[Array]) -> Array:
 
 
 def _may_rise(t: Array, values: Array, inner: Array) -> Array:
-    """How high a series may be between states k and k + 1, (K − 1,); −∞ where nothing is sought.
+    """How high a series may be between states k and k + 1, (K − 1,); −∞ where it is no higher than there.
 
-    A parabola rises above the higher one of two ends by h²/8 of its second rate at most; twice what differences say of
-    that is allowed for. `inner` (K − 1,): parts of one step.
+    A parabola through both, whose second rate is twice as large as differences of neighbours say. `inner` (K − 1,):
+    parts of one step.
     """
     out = np.full(max(len(t) - 1, 0), -np.inf)
     if len(t) < 3:
         return out
-    with np.errstate(invalid="ignore", divide="ignore"):
-        h = np.diff(t)
-        slopes = np.diff(values) / h
-        bend = np.abs(np.diff(slopes)) / (t[2:] - t[:-2]) * 2.0  # at states 1 to K − 2
-    bend = np.where(inner[1:] & inner[:-1] & np.isfinite(bend), bend, 0.0)
-    most = np.maximum(np.append(bend, 0.0), np.insert(bend, 0, 0.0))
-    top = np.maximum(values[1:], values[:-1]) + 2.0 * most * h**2 / 8.0
-    return np.where(inner & (most > 0.0) & np.isfinite(top), top, out)
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        h, way = np.diff(t), np.diff(values)
+        bend = np.abs(np.diff(way / h)) / (t[2:] - t[:-2]) * 2.0  # at states 1 to K − 2
+        bend = np.where(inner[1:] & inner[:-1] & np.isfinite(bend), bend, 0.0)
+        most = 2.0 * np.maximum(np.append(bend, 0.0), np.insert(bend, 0, 0.0)) * h**2
+        top = 0.5 + way / most  # share of the part at which the parabola is highest
+        height = values[:-1] + way * top + 0.5 * most * top * (1.0 - top)
+    return np.where(inner & (top > 0.0) & (top < 1.0) & np.isfinite(height), height, out)
