@@ -7,7 +7,7 @@ enum {
     TAPE_PARTS = 4,             /* of a step of a method that chooses it */
     TAPE_SPARE = 4 * MAX_PARTS  /* rows that a step needs at most */
 };
-#define BESIDE 1e-7 /* of a step, that a place right beside a jump is away from it */
+#define BESIDE 1e-9 /* of a step, that a place right beside a jump is away from it */
 
 /* Whether the next step may find no room for its rows. */
 static int tape_full(const Run *run) { return run->tape.rows && run->tape.n > run->tape.capacity - TAPE_SPARE; }

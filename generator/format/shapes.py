@@ -92,7 +92,7 @@ def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
     elif field.kind == POINTS:
         yield from _in_points(node, path)
     elif field.kind == RESULTS:
-        if not isinstance(node, Text) and not (isinstance(node, Items) and all(isinstance(item, Text) for item in node)):
+        if not all(isinstance(item, Text) for item in (node if isinstance(node, Items) else [node])):
             yield _Finding(path, "a list of names of results: [S9.ay, A.F]")
     elif field.kind == PLACE:
         if not isinstance(node, Text):

@@ -63,8 +63,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, parameters)
     forces = read_forces(reader, root, places, namespace, motion)
     start = read_start(reader, root, places)
-    bearings = read_bearings(reader, root, read_materials(reader, root))
-    contacts = read_contacts(reader, root)
+    bearings, contacts = read_bearings(reader, root, read_materials(reader, root)), read_contacts(reader, root)
     events = read_events(reader, root.part("events"), "events", motion)
     scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion))
     named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}

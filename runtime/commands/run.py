@@ -161,6 +161,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                     until, output=request.output, method=method, step=step,
                     rtol=request.rtol, horizon=request.horizon,
                     parameters=_own(settings, simulation), progress=bar(name),
+                    against=simulations[IDEAL] if simulation.source.clearances else None,
                 )  # fmt: skip
             except (AssemblyError, SolverError) as error:  # the other scenes are worth having
                 session.failures[name] = error

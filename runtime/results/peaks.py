@@ -1,8 +1,13 @@
-"""Peaks of series over all steps of a run, as they were asked for: `run.peak("S9.ay")`, and as columns of a file."""
+"""Peaks of series: over all steps of a run, where they were asked for, `run.peak("S9.ay")`; over its samples.
+
+As columns of a file and as rows of a table.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +24,26 @@ COLUMNS = {
     "max": ("", "largest value over all steps, SI"), "t_max": ("s", "its time"),
     "min": ("", "smallest value over all steps, SI"), "t_min": ("s", "its time"),
 }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A series over the samples of a run: its least and largest value, and the value of largest magnitude, its time."""
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    peak: float
+    t: float
+
+
+def of_samples(name: str, unit: str, t: Array, values: Array) -> Extreme:
+    """NaN where nothing is known."""
+    if not np.isfinite(values).any():
+        return Extreme(name, unit, math.nan, math.nan, math.nan, math.nan)
+    at = int(np.nanargmax(np.abs(values)))
+    return Extreme(name, unit, float(np.nanmin(values)), float(np.nanmax(values)), float(values[at]), float(t[at]))
 
 
 def over_all_steps(run: Result, name: str, error: bool) -> Extremes:
@@ -40,7 +65,28 @@ def over_all_steps(run: Result, name: str, error: bool) -> Extremes:
 
 def columns(extremes: Sequence[Extremes]) -> dict[str, Array]:
     """Name -> (k,) values, in the order of COLUMNS."""
+    texts = ("name", "against", "unit")
     return {
-        name: np.array([getattr(one, name) for one in extremes], object if name in ("name", "against", "unit") else float)
-        for name in COLUMNS
+        name: np.array([getattr(one, name) for one in extremes], object if name in texts else float) for name in COLUMNS
     }
+
+
+def table_rows(
+    scenes: Sequence[Sequence[Extremes]], cells: Sequence[Callable[[float, str, float], str]], errors: bool
+) -> list[tuple[str, list[str]]]:
+    """(name, a cell a scene), as its function writes value, unit and time: of errors the largest magnitude, else the
+    largest value and the smallest one."""
+    found = [{one.name: one for one in extremes if bool(one.against) == errors} for extremes in scenes]
+    rows = []
+    for name in dict.fromkeys(name for one in found for name in one):
+        for end in ("",) if errors else ("max", "min"):
+            ends = [_end(one[name], end) if name in one else None for one in found]
+            told = [cell(*at) if at else "–" for cell, at in zip(cells, ends, strict=True)]
+            rows.append((f"{name} {end}".strip(), told))
+    return rows
+
+
+def _end(one: Extremes, end: str) -> tuple[float, str, float]:
+    """Value, unit and time; "": of the largest magnitude."""
+    end = end or ("min" if -one.min > one.max else "max")
+    return (one.max, one.unit, one.t_max) if end == "max" else (one.min, one.unit, one.t_min)

@@ -158,8 +158,8 @@ class Result:
     def peak(self, name: str) -> Extremes:
         """Largest and smallest value of a series over all steps of this run, with their times (s); SI.
 
-        Of a series that was asked for, `simulate(peaks=["S9.ay"])` or `peaks:` of the scene: the samples alone do not
-        know it. Of a run that goes on from another one it tells of its own part. Raises UnknownNameError, BadValueError.
+        Of a series that was asked for, `simulate(peaks=["S9.ay"])` or `peaks:` of the scene: samples do not know it.
+        A run that goes on from another one tells of its own part. Raises UnknownNameError, BadValueError.
         """
         from gudgeon.results.peaks import over_all_steps
 

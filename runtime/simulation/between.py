@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.polynomial.legendre import legfit, leggauss, legint, legval
+from numpy.typing import NDArray
 
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import SolverError
@@ -36,10 +38,10 @@ class Path:
         self.exact = self.source.methods == (KINEMATIC,)
         self.first: Steps | None = None  # of the run: energies count from it
         self.lost = 0  # states without accelerations
-        self.powers: tuple[int, Array] = (-1, np.zeros(0))  # k, integrals of the powers between states k and k + 1
+        self.powers: tuple[int, Any] = (-1, np.zeros(0))  # k, integrals of the powers between states k and k + 1
         self.steps: Steps
         self.run: Result
-        self.inner: Array  # (K − 1,) whether states k and k + 1 are the ends of a part of a step, with something between
+        self.inner: NDArray[np.bool_]  # (K − 1,) whether states k and k + 1 are the ends of a part of a step, with something between
 
     def take(self, steps: Steps) -> None:
         """The next block."""

@@ -16,6 +16,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.integrators.adaptive import RTOL
@@ -105,7 +106,7 @@ class Search:
         """What the run should say of it."""
         told = []
         if self.ours.lost:
-            told.append(f"peaks: {self.ours.lost} states of steps have no accelerations (dead centres) and are left out")
+            told.append(f"peaks: {self.ours.lost} states of steps have no accelerations and are left out")
         if self.beside and self.beside.lost:
             told.append(f"errors over all steps are not known: scene {self.beside.scene}: {self.beside.lost}")
         return tuple(told)
@@ -173,7 +174,7 @@ def _less(values: list[Array]) -> Array:
     return values[0] if len(values) == 1 else values[0] - values[1]
 
 
-def _may_rise(t: Array, values: Array, inner: Array) -> Array:
+def _may_rise(t: Array, values: Array, inner: NDArray[np.bool_]) -> Array:
     """How high a series may be between states k and k + 1, (K − 1,); −∞ where it is no higher than there.
 
     A parabola through both, whose second rate is twice as large as differences of neighbours say. `inner` (K − 1,):

@@ -174,9 +174,9 @@ class Simulation:
         they are over its own parameters, which hold unless replaced; a number that differs is told in the run's
         notes. A state of another mechanism, scene, file or overrides is refused. Ctrl-C ends the run and keeps
         what was computed. `stop` False: events that would end the run are recorded only.
-        `peaks`: names of series whose largest and smallest values over all steps, not over samples, are wanted:
-        `run.peak("S9.ay")`; None: those of `peaks:` of the scene. `against`: another loaded scene, `run.peak_error("S9.y")`
-        is of the series less that of this scene, run from t = 0 with the same numbers, at the same times.
+        `peaks`: names of series whose largest and smallest values over all steps, not over samples, are wanted, as
+        `run.peak("S9.ay")`; None: those that the scene of the file names. `against`: another scene, with which
+        `run.peak_error("S9.y")` tells of the series less that scene's, from t = 0, with the same numbers.
 
         Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
         SolverError when the equations cannot be solved; its `partial` is the result up to there.
@@ -247,7 +247,7 @@ class Simulation:
     def _ran(
         self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array, search: Search | None
     ) -> Result:
-        """What the time loop made of it, and `search` found. Raises SolverError with its `partial`; `jump`: that at the problem's end."""
+        """What the time loop made of it, and `search` found. Raises SolverError with its `partial`; `jump`: at the end."""
         with CtrlC() as ctrl_c:
             problem = replace(problem, take=ctrl_c.take, look=search)
             before = time.perf_counter()
