@@ -22,6 +22,7 @@ from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.failure import INTERRUPTED, NOT_FINITE, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, no_states, told_apart
+from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.waiting.ctrl_c import CtrlC
@@ -64,6 +65,7 @@ class Runs:
         self.events = [[no_states(compiled)] for _ in range(n)]
         self.failures: dict[int, GudgeonError] = {}
         self.interrupted = False
+        self.looks: Sequence[Look | None] = ()  # a run each, where somebody looks at all steps
         self.lanes = Lanes(compiled) if side_by_side and lanes.wanted(compiled, method, step) else None
 
     def _struct(self, fixed: bool, stop: bool) -> Any:
@@ -80,7 +82,7 @@ class Runs:
 
     def __getstate__(self) -> dict[str, Any]:
         """What is over: arrays and lists, without what C worked on."""
-        return self.__dict__ | {"struct": None, "lanes": None}
+        return self.__dict__ | {"struct": None, "lanes": None, "looks": ()}
 
     @property
     def stopping(self) -> bool:
@@ -178,22 +180,25 @@ class Runs:
         """One thread: portions of runs until none is left."""
         size, count = self.compiled.lib.gudgeon_run_size(), self.lanes.count if self.lanes else 1
         memories = np.zeros((count, size), dtype=np.uint8)
+        tape = Tape(self.compiled) if self.looks else None
+        if tape:
+            tape.lay(self.compiled.pointer(memories[0], "void *"))
         while portions and not self.stopping:
             try:
                 portion = portions.popleft()
             except IndexError:  # another thread was quicker
                 return
             if self.lanes is None and isinstance(portion, range):
-                self._alone(portion.start, portion.stop, memories[0])
+                self._alone(portion.start, portion.stop, memories[0], tape)
                 continue
             new = [i for i in portion if self.arrays["phase"][i] == NEW]
             for group in self.lanes.groups(new, self.arrays["step"]) if self.lanes else [[i] for i in new]:
                 if self.lanes and len(group) >= lanes.LEAST and not self.stopping:
                     self.lanes.together(self, group, memories)
                 for k, i in enumerate(group):
-                    self._alone(i, i + 1, memories[k])
+                    self._alone(i, i + 1, memories[k], tape)
 
-    def _alone(self, first: int, end: int, memory: NDArray[np.uint8]) -> None:
+    def _alone(self, first: int, end: int, memory: NDArray[np.uint8], tape: Tape | None) -> None:
         """Runs one after the other, from where they are to their ends."""
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
         run = compiled.pointer(memory, "void *")
@@ -203,6 +208,9 @@ class Runs:
                 break
             if status in (LISTS, RUN_OVER):
                 self.fetch(int(current[0]), run, status == RUN_OVER)
+                if tape:
+                    tape.look = self.looks[int(current[0])]
+                    tape.fetch(run)
             current[0] += status == RUN_OVER
 
     def fetch(self, i: int, run: Any, last: bool) -> None:

@@ -47,7 +47,7 @@ Look: TypeAlias = Callable[[Steps], None]
 class Tape:
     """Rows that a run in C fills, for `look`."""
 
-    def __init__(self, compiled: CompiledModel, look: Look) -> None:
+    def __init__(self, compiled: CompiledModel, look: Look | None = None) -> None:
         self.compiled, self.look = compiled, look
         self.widths = (2, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(len(compiled.source.clearances), 1))
         self.rows = np.zeros((ROWS, sum(self.widths)))
@@ -59,7 +59,7 @@ class Tape:
     def fetch(self, run: Any) -> None:
         """Hands on what the run has written since the last time."""
         count = int(self.compiled.lib.gudgeon_run_taped(run))
-        if count:
+        if count and self.look:
             self.look(self._steps(self.rows[:count].copy()))
 
     def _steps(self, rows: Array) -> Steps:

@@ -119,7 +119,7 @@ def _of_objects(given: NDArray[Any], name: str) -> NDArray[Any]:
 def _refuse_masked(values: Any, name: str) -> None:
     """A masked entry has no value; a mask that hides nothing is fine."""
     ma = sys.modules.get("numpy.ma")  # NumPy imports it when somebody asks for it: nobody has a mask before
-    if ma is None:
+    if ma is None or not hasattr(ma, "MaskedArray"):  # nor while another thread imports it
         return
     if isinstance(values, ma.MaskedArray):
         hidden = np.argwhere(ma.getmaskarray(values) if values.dtype.names is None else _any_field(ma, values))

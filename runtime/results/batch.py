@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.language.wanted import listed, refuse, text, told
+from gudgeon.results.diagnostics import Extremes
+from gudgeon.results.peaks import BatchPeaks, of_runs, run_columns
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, rates
 
@@ -65,6 +67,7 @@ class Batch:
     threads: int
     interrupted: bool
     result: Callable[[int], Result] = field(repr=False)
+    extremes: tuple[tuple[Extremes, ...], ...] = ()  # of each run, over all steps, where `peaks` asked for them
 
     def __len__(self) -> int:
         return len(self.q)
@@ -106,6 +109,14 @@ class Batch:
         runs = map(self.partial, range(len(self)))
         return tuple(None if run is None else run.at_events(name) for run in runs)
 
+    def peak(self, name: str) -> BatchPeaks:
+        """Largest and smallest value of a series over all steps, (n,) each: see Result.peak."""
+        return of_runs(self.source, self.extremes, name, False)
+
+    def peak_error(self, name: str) -> BatchPeaks:
+        """The same of the series less that of another scene: see Result.peak_error."""
+        return of_runs(self.source, self.extremes, name, True)
+
     def _series(self, name: str) -> Array:
         out = np.full((len(self), len(self.t)), np.nan)
         for i in range(len(self)):
@@ -117,7 +128,8 @@ class Batch:
     def to_xarray(self, names: Iterable[str] = (), part: str = "series") -> xarray.Dataset:
         """A Dataset over `run` and `time`, every series by its name in a Result, those of `names` too.
 
-        Over `run` alone: samples, ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks.
+        Over `run` alone: samples, ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks; those over all
+        steps as "S9.ay.peak.max", "S9.ay.error.max".
         `.to_dataframe()` has a row for each run and time. part: "impacts", "events" and what else a Result has as a
         table of its own: a row each, with its `run`.
         """
@@ -137,6 +149,7 @@ class Batch:
         found |= {name: ("run", values) for name, values in self.diagnostics.items()}
         for k, joint in enumerate(self.source.clearances):
             found |= {f"{joint.name}.peak.{name}": ("run", self.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
+        found |= {name: ("run", values, {"units": unit}) for name, unit, values in run_columns(self.extremes)}
         for k, name in enumerate(self.source.coordinates):
             for order, (column, values) in enumerate(((name, self.q), (rates(name)[0], self.v))):
                 found[column] = ("run", "time"), values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}

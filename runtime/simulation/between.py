@@ -41,7 +41,7 @@ class Path:
         self.powers: tuple[int, Any] = (-1, np.zeros(0))  # k, integrals of the powers between states k and k + 1
         self.steps: Steps
         self.run: Result
-        self.inner: NDArray[np.bool_]  # (K − 1,) whether states k and k + 1 are the ends of a part of a step, with something between
+        self.inner: NDArray[np.bool_]  # (K − 1,) whether k and k + 1 are the ends of a part of a step
 
     def take(self, steps: Steps) -> None:
         """The next block."""

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.integrators.adaptive import RTOL
 from gudgeon.integrators.steps import Steps
-from gudgeon.integrators.trajectory import Problem
 from gudgeon.language.wanted import listed
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.results.diagnostics import Extremes
@@ -36,6 +35,7 @@ if TYPE_CHECKING:
 NODES = np.linspace(0.0, 1.0, 9)  # places at which a part of a step is looked at
 ROUNDS, AT_AN_END = 16, 3  # of looking closer, each four or eight times as close; fewer where the top is at an end
 MOST = 16  # parts of steps of a block that are looked at, the most promising ones first
+SAME = 1e-14  # of a value: so little more is rounding, and the earlier time is told
 CLOSE = 1e-12  # of the largest value of a block: what is left between the places is rounding
 
 
@@ -65,14 +65,14 @@ class Search:
 
     @staticmethod
     def of(
-        problem: Problem, given: Array, is_given: Array, names: tuple[str, ...], against: Simulation | None
-    ) -> Search | None:
-        """For a run; None where nothing is wanted."""
+        compiled: CompiledModel, numbers: tuple[Array, Array, Array], rtol: float, names: tuple[str, ...],
+        against: Simulation | None,
+    ) -> Search | None:  # fmt: skip
+        """For a run with these numbers, p, given and is_given; None where nothing is wanted."""
         if not names:
             return None
-        source, numbers = problem.compiled.source, (problem.p, given, is_given)
-        beside = Beside(against, source, problem.p, problem.rtol or RTOL) if against else None
-        return Search(problem.compiled, names, numbers, beside)
+        beside = Beside(against, compiled.source, numbers[0], rtol or RTOL) if against else None
+        return Search(compiled, names, numbers, beside)
 
     def __call__(self, steps: Steps) -> None:
         """The next states of the run."""
@@ -154,7 +154,8 @@ class Search:
         return np.where(np.isfinite(values), values, -np.inf)
 
     def _note(self, key: tuple[str, bool, int], value: float, t: float) -> None:
-        if value > self.best.get(key, (-math.inf, 0.0))[0]:
+        known = self.best.get(key, (-math.inf, 0.0))[0]
+        if value > known and not value - known <= SAME * abs(known):
             self.best[key] = value, t
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
@@ -24,8 +24,10 @@ from gudgeon.model.parameter_sets import ParameterSets, each_of, prepare_sets, r
 from gudgeon.results.batch import Batch, as_failures, given_values, peaks_of
 from gudgeon.results.results import Result, State
 from gudgeon.simulation.arguments import MAX_STEPS, end_of, method_of, output_times, step_of
+from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude
 from gudgeon.simulation.hidden_jumps import any_in_batch
+from gudgeon.simulation.peaks import Search, wanted_peaks
 from gudgeon.simulation.restart import check_fits, numbers, own_each
 from gudgeon.simulation.single_runs import run_singly
 
@@ -44,8 +46,10 @@ def simulate_many(
     simulation: Simulation, parameters: ParameterSets, t_end: float | str | None, output: int | ArrayLike | None,
     method: str, rtol: float | str | None, step: float | str | None, threads: int | None, progress: Progress | None,
     stop: bool, side_by_side: bool = True, start: State | Sequence[State] | None = None,
+    peaks: Iterable[str] | None = None, against: Simulation | None = None,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
+    names, against = wanted_peaks(simulation.source, peaks), check_beside(simulation.source, against)
     starts = _Starts(simulation, parameters, start)
     given, is_given, t0 = starts.given, starts.is_given, starts.t
     method, progress = text(method, "method"), function(progress, "progress")
@@ -70,14 +74,18 @@ def simulate_many(
         steps = np.array([step_of(simulation.compiled, step, chosen, row, float(times[-1] - t0)) for row in p])
         if ((times[-1] - t0) / steps).max() > MAX_STEPS:
             raise BadValueError(f"step {steps.min():.3g} s means more than {MAX_STEPS:.0e} steps")
+        side_by_side = side_by_side and not names
         runs = many.Runs(simulation.compiled, p, motion, times, chosen, steps, tolerance, stop, side_by_side)
         runs.begin(starts.states)
         runs.leave_out(bad)
+        searches = starts.searches(p, bad, tolerance, names, against)
+        runs.looks = searches
         before = time.perf_counter()
         runs.run(workers, progress)
-        batch = _of_runs(_Results(simulation, runs, starts, tolerance, stop, chosen))
+        batch = _of_runs(_Results(simulation, runs, starts, tolerance, stop, chosen, searches))
         return replace(batch, seconds=time.perf_counter() - before, threads=workers)
-    options = {"t_end": t_end, "output": output, "method": method, "rtol": rtol, "step": step, "stop": stop}
+    options: dict[str, Any] = {"t_end": t_end, "output": output, "method": method, "rtol": rtol, "step": step}
+    options |= {"stop": stop, "peaks": names, "against": against}
     return run_singly(simulation, given, is_given, times, options, workers, progress, starts.states, starts.bad)
 
 
@@ -111,6 +119,15 @@ class _Starts:
         return found
 
 
+    def searches(
+        self, p: Array, bad: Mapping[int, Any], rtol: float, names: tuple[str, ...], against: Simulation | None
+    ) -> list[Search | None]:
+        """Who looks at the steps of each run; empty where nobody does."""
+        every = range(len(p) if names else 0)
+        numbers = [(p[i], self.given[i], self.is_given[i]) for i in every]
+        return [None if i in bad else Search.of(self.compiled, numbers[i], rtol, names, against) for i in every]
+
+
 @dataclass
 class _Results:
     """The Result of run i from what C has stored."""
@@ -121,6 +138,7 @@ class _Results:
     rtol: float
     stop: bool
     method: str
+    searches: Sequence[Search | None]
 
     def __call__(self, i: int) -> Result:
         """Raises the error of a run that failed, with what it reached."""
@@ -136,6 +154,9 @@ class _Results:
         trajectory, seconds = runs.trajectory(i), float(x["seconds"][i])
         given = (self.starts.given[i], self.starts.is_given[i], seconds)
         made = conclude(compiled, self.method, problem, trajectory, *given, soon=False)
+        search = self.searches[i] if self.searches else None
+        if search:
+            search.tell(made)
         if isinstance(error, SolverError):
             error.partial = made
         if error is not None:
@@ -157,4 +178,5 @@ def _of_runs(results: _Results) -> Batch:
         events=tuple(runs.events_of(i) for i in range(runs.n)),
         peaks=peaks_of(x["peaks"][:, :joints], impacts), diagnostics=numbers, failures=as_failures(runs.failures),
         seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results,
+        extremes=tuple(search.found() if search else () for search in results.searches),
     )  # fmt: skip

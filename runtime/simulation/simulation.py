@@ -211,7 +211,7 @@ class Simulation:
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,
         )  # fmt: skip
         problem, jump = up_to_a_jump(problem)
-        search = Search.of(problem, given, is_given, names, beside)
+        search = Search.of(self.compiled, (p, given, is_given), tolerance, names, beside)
         result = self._ran(problem, jump, given, is_given, search)
         if horizon and not result.diagnostics.interrupted:
             from gudgeon.simulation.horizon import with_horizon
@@ -223,7 +223,8 @@ class Simulation:
         self, parameters: ParameterSets, t_end: float | str | None = None, *, output: int | ArrayLike | None = None,
         method: str = "auto", rtol: float | str | None = None, step: float | str | None = None,
         threads: int | None = None, progress: Progress | None = None, stop: bool = True, side_by_side: bool = True,
-        start: State | Sequence[State] | None = None,
+        start: State | Sequence[State] | None = None, peaks: Iterable[str] | None = None,
+        against: Simulation | None = None,
     ) -> Batch:  # fmt: skip
         """Run the scene with each of many parameter sets, in threads; arguments as in `simulate`.
 
@@ -235,19 +236,21 @@ class Simulation:
         `start`: a state for all runs or one a run (the `final` of others), at one time; numbers as in `simulate`.
         `side_by_side`: whether runs of rk4 that have the same step may share vector registers, several in each
         thread; the numbers are the same without, and what that takes is compiled on its first use.
+        `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`. Such runs do not go side by side.
 
         Raises InputError for arguments.
         """
         from gudgeon.simulation.simulate_many import simulate_many
 
         return simulate_many(
-            self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start
-        )
+            self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start,
+            peaks, against,
+        )  # fmt: skip
 
     def _ran(
         self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array, search: Search | None
     ) -> Result:
-        """What the time loop made of it, and `search` found. Raises SolverError with its `partial`; `jump`: at the end."""
+        """What the time loop made of it and `search` found. Raises SolverError with `partial`; `jump`: at the end."""
         with CtrlC() as ctrl_c:
             problem = replace(problem, take=ctrl_c.take, look=search)
             before = time.perf_counter()

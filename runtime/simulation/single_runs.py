@@ -130,4 +130,5 @@ def run_singly(
         events=tuple(no_events() if run is None else run.events for run in found), peaks=peaks_of(peaks, impacts),
         diagnostics=runs.counts(), failures=as_failures(runs.errors), seconds=time.perf_counter() - before,
         threads=threads, interrupted=runs.interrupted, result=runs.result,
+        extremes=tuple(() if run is None else run.diagnostics.extremes for run in found),
     )  # fmt: skip
