@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.polynomial.legendre import legfit, leggauss, legint, legval
+from numpy.polynomial.legendre import legder, legfit, leggauss, legint, legval, legvander
 from numpy.typing import NDArray
 
 from gudgeon.contract.methods import KINEMATIC
@@ -38,7 +38,8 @@ class Path:
         self.exact = self.source.methods == (KINEMATIC,)
         self.first: Steps | None = None  # of the run: energies count from it
         self.lost = 0  # states without accelerations
-        self.powers: tuple[int, Any] = (-1, np.zeros(0))  # k, integrals of the powers between states k and k + 1
+        self.nearest: tuple[int, Any] = (-1, None)  # k, rates between states k and k + 1
+        self.powers: tuple[int, Any] = (-1, None)  # k, integrals of the powers between states k and k + 1
         self.steps: Steps
         self.run: Result
         self.inner: NDArray[np.bool_]  # (K − 1,) whether k and k + 1 are the ends of a part of a step
@@ -48,7 +49,7 @@ class Path:
         self.first = steps[:1] if self.first is None else self.first
         self.steps = self.steps[-2:].then(steps) if hasattr(self, "steps") else steps
         self.run, lost = self._result(self.steps)
-        self.powers = (-1, np.zeros(0))
+        self.nearest, self.powers = (-1, None), (-1, None)
         self.lost += lost
         x = self.steps
         q, v = np.abs(x.q).max(initial=0.0), np.abs(x.v).max(initial=0.0)
@@ -105,17 +106,41 @@ class Path:
         return Steps(t, q, v, self._works(k, s), memory, codes, np.zeros(len(t), dtype=bool))
 
     def _motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
-        """q and q̇ (T, n) at shares s (T, 1): a quintic, or what the drives say."""
-        x, a = self.steps, self.run.a[1:]
+        """q and q̇ (T, n) at times t and shares s (T, 1): polynomials, or what the drives say."""
+        x = self.steps
         if self.exact:
             q, v = along(self.compiled, self.p, np.concatenate([x.t[k : k + 1], t]), x.q[k], x.v[k])
             return q[1:], v[1:]
-        h = x.t[k + 1] - x.t[k]
-        (q0, q1), (v0, v1), (a0, a1) = x.q[k : k + 2], h * x.v[k : k + 2], h**2 * a[k : k + 2]
-        way, gain, bend = q1 - q0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0
-        c3, c4, c5 = 10 * way - 4 * gain + 0.5 * bend, -15 * way + 7 * gain - bend, 6 * way - 3 * gain + 0.5 * bend
-        q = q0 + s * (v0 + s * (0.5 * a0 + s * (c3 + s * (c4 + s * c5))))
-        return q, (v0 + s * (a0 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / h
+        mid, half, rates = self._rates(k)
+        places = (np.concatenate([x.t[k : k + 2], t]) - mid) / half
+        way = half * legval(places, legint(rates)).T
+        left = x.q[k + 1] - x.q[k] - (way[1] - way[0])  # what rates do not know of positions
+        return x.q[k] + (way[2:] - way[0]) + s * left, legval(places[2:], rates).T
+
+    def _rates(self, k: int) -> tuple[float, float, Any]:
+        """Legendre coefficients of q̇ about a time, for so many seconds on both sides: through states k and k + 1 and
+        their neighbours where these help, which they do not beyond a kink of a force."""
+        if self.nearest[0] != k:
+            h, a = np.diff(self.steps.t), self.run.a[1:]
+            near = [
+                0 <= j < len(h) and bool(self.inner[j]) and 0.125 < h[j] / h[k] < 8.0 and bool(np.isfinite(a[at]).all())
+                for j, at in ((k - 1, k - 1), (k + 1, min(k + 2, len(h))))
+            ]
+            parts = {(k - (near[0] and i), k + 2 + (near[1] and j)) for i in (1, 0) for j in (1, 0)}
+            self.nearest = k, min((self._hermite(slice(*rows)) for rows in sorted(parts)), key=lambda one: one[0])[1:]
+        found: tuple[float, float, Any] = self.nearest[1]
+        return found
+
+    def _hermite(self, rows: slice) -> tuple[float, float, float, Any]:
+        """The polynomial of q̇ through states and their accelerations, as _rates has it, behind its likely error."""
+        x, a = self.steps, self.run.a[1:]
+        t, n = x.t[rows], 2 * len(x.t[rows])
+        mid, half = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
+        places = (t - mid) / half
+        matrix = np.concatenate([legvander(places, n - 1), legval(places, legder(np.eye(n))).T])
+        found = np.linalg.solve(matrix, np.concatenate([x.v[rows], half * a[rows]]))
+        last, before = np.abs(found[-1]).max(), np.abs(found[-2]).max()
+        return float(last * min(1.0, last / max(before, 1e-300))), mid, half, found
 
     def _works(self, k: int, s: Array) -> Array:
         """Works (T, 3) at shares s (T, 1): the integral of the polynomial through the powers on the way."""

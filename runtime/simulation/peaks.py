@@ -2,10 +2,10 @@
 
 The time loop shows the states of its steps (integrators/steps.py), ends and places between. Series are evaluated there
 as at samples, in bulk, and a block of states is dropped when the next one comes. Between two neighbouring states motion
-is the quintic through their positions, velocities and accelerations (C. Hermite, J. reine angew. Math. 84, 1878); its
-error is of the order of the method's own, and without a freedom such states are closed on the constraints, which makes
-them exact. Where a series may rise above what is known, by its second differences, it is looked at there, closer and
-closer, until rounding is left. Nothing is sought across a jump, for both its sides are among the states.
+is a polynomial through them and their neighbours with all rates (C. Hermite, J. reine angew. Math. 84, 1878), whose
+error is of the order of the method's own; without a freedom it is followed there as anywhere. Where a series may rise
+above what is known, by its second differences, it is looked at, closer and closer, until rounding is left. Nothing is
+sought across a jump, for both its sides are among the states.
 """
 
 from __future__ import annotations
@@ -154,8 +154,7 @@ class Search:
         return np.where(np.isfinite(values), values, -np.inf)
 
     def _note(self, key: tuple[str, bool, int], value: float, t: float) -> None:
-        known = self.best.get(key, (-math.inf, 0.0))[0]
-        if value > known and not value - known <= SAME * abs(known):
+        if math.isfinite(value) and (key not in self.best or value - self.best[key][0] > SAME * abs(value)):
             self.best[key] = value, t
 
 
