@@ -217,7 +217,7 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
     for other in (session.runs.get(IDEAL), *session.references.values()):
         if other and np.array_equal(other.t, run.t) and all(other.parameters[a] == v for a, v in values.items()):
             return other
-    return ideal.simulate(output=run.t, parameters=values, stop=False)
+    return ideal.simulate(output=run.t, parameters=values, stop=False, peaks=())
 
 
 def _save(request: Request, runs: Mapping[str, Result], session: Session) -> None:

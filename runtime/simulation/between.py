@@ -52,7 +52,7 @@ class Path:
         self.nearest, self.powers = (-1, None), (-1, None)
         self.lost += lost
         x = self.steps
-        q, v = np.abs(x.q).max(initial=0.0), np.abs(x.v).max(initial=0.0)
+        q, v = (np.abs(part[np.isfinite(part)]).max(initial=0.0) for part in (x.q, x.v))
         least = 40.0 * np.finfo(float).eps * q / max(ROUNDED * v, 1e-300)
         self.inner = ~x.jumped[1:] & (np.diff(x.t) > (0.0 if self.exact else least))
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -45,6 +45,19 @@ def wanted_peaks(source: KernelSource, peaks: Iterable[str] | None) -> tuple[str
         return check_series(source, source.peaks)
     names = [peaks] if isinstance(peaks, str) else listed(peaks, "peaks", str, "a list of names of series")
     return check_series(source, names)
+
+
+@dataclass(frozen=True)
+class Told:
+    """Of one run: peaks and errors, and what its notes say of them."""
+
+    extremes: tuple[Extremes, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def to(self, run: Result) -> None:
+        """They become a part of what a run says of itself."""
+        notes = (*run.diagnostics.notes, *self.notes)
+        run.diagnostics = replace(run.diagnostics, extremes=self.extremes, notes=notes)
 
 
 class Search:
@@ -85,10 +98,9 @@ class Search:
             if not error or len(paths) == 2:
                 self._improve(name, error, paths if error else paths[:1])
 
-    def tell(self, run: Result) -> None:
-        """What was found becomes a part of what the run says of itself."""
-        notes = (*run.diagnostics.notes, *self.notes())
-        run.diagnostics = replace(run.diagnostics, extremes=self.found(), notes=notes)
+    def told(self) -> Told:
+        """What was found, as a result has it."""
+        return Told(self.found(), self.notes())
 
     def found(self) -> tuple[Extremes, ...]:
         """Peaks, then errors, of what was shown."""

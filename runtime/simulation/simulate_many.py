@@ -27,7 +27,7 @@ from gudgeon.simulation.arguments import MAX_STEPS, end_of, method_of, output_ti
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude
 from gudgeon.simulation.hidden_jumps import any_in_batch
-from gudgeon.simulation.peaks import Search, wanted_peaks
+from gudgeon.simulation.peaks import Search, Told, wanted_peaks
 from gudgeon.simulation.restart import check_fits, numbers, own_each
 from gudgeon.simulation.single_runs import run_singly
 
@@ -82,7 +82,8 @@ def simulate_many(
         runs.looks = searches
         before = time.perf_counter()
         runs.run(workers, progress)
-        batch = _of_runs(_Results(simulation, runs, starts, tolerance, stop, chosen, searches))
+        found = [search.told() if search else Told() for search in searches]
+        batch = _of_runs(_Results(simulation, runs, starts, tolerance, stop, chosen, found))
         return replace(batch, seconds=time.perf_counter() - before, threads=workers)
     options: dict[str, Any] = {"t_end": t_end, "output": output, "method": method, "rtol": rtol, "step": step}
     options |= {"stop": stop, "peaks": names, "against": against}
@@ -138,7 +139,7 @@ class _Results:
     rtol: float
     stop: bool
     method: str
-    searches: Sequence[Search | None]
+    told: Sequence[Told]  # by run; empty where nobody looked
 
     def __call__(self, i: int) -> Result:
         """Raises the error of a run that failed, with what it reached."""
@@ -154,9 +155,8 @@ class _Results:
         trajectory, seconds = runs.trajectory(i), float(x["seconds"][i])
         given = (self.starts.given[i], self.starts.is_given[i], seconds)
         made = conclude(compiled, self.method, problem, trajectory, *given, soon=False)
-        search = self.searches[i] if self.searches else None
-        if search:
-            search.tell(made)
+        if self.told:
+            self.told[i].to(made)
         if isinstance(error, SolverError):
             error.partial = made
         if error is not None:
@@ -178,5 +178,5 @@ def _of_runs(results: _Results) -> Batch:
         events=tuple(runs.events_of(i) for i in range(runs.n)),
         peaks=peaks_of(x["peaks"][:, :joints], impacts), diagnostics=numbers, failures=as_failures(runs.failures),
         seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results,
-        extremes=tuple(search.found() if search else () for search in results.searches),
+        extremes=tuple(told.extremes for told in results.told),
     )  # fmt: skip

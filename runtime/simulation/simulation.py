@@ -258,7 +258,7 @@ class Simulation:
             spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
             result = conclude(self.compiled, problem.method, problem, trajectory, given, is_given, spent)
             if search:
-                search.tell(result)
+                search.told().to(result)
             result, contradicts = contradicted(problem, trajectory, result)
             ended = trajectory.interrupted or trajectory.t[-1] < problem.t[-1]  # before the jump
             stopped = trajectory.stopped or contradicts or (None if ended else jump)

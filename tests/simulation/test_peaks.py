@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import math
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -129,7 +130,8 @@ def test_both_sides_of_a_jump(cart: dict[str, Simulation], method: str) -> None:
 def test_friction_that_tears_loose() -> None:
     """Right before a block of 1 kg tears loose it is held by Fs, right behind by Fk; then it swings about Fk/k."""
     block = gudgeon.load("belt_block")
-    for chosen in ({}, {"step": 1e-3}):
+    every: list[dict[str, Any]] = [{}, {"step": 1e-3}]
+    for chosen in every:
         run = block.simulate(0.8, output=7, peaks=["block.ax", "rub.F"], **chosen)
         assert run.peak("rub.F").max == pytest.approx(5.886, rel=1e-9)
         assert run.peak("block.ax").min == pytest.approx(-math.hypot(5.886 - 3.924, 0.1 * 10.0), rel=1e-9)
@@ -190,6 +192,7 @@ def test_batches(pump: dict[str, Simulation], tmp_path: Path) -> None:
         assert batch.peak("piston.ax").abs[:2].tolist() == [run.peak("piston.ax").abs for run in alone]
         assert batch.peak_error("piston.ax").t_min[:2].tolist() == [run.peak_error("piston.ax").t_min for run in alone]
         assert np.isnan(batch.peak("B.F").max[2]) and [f.run for f in batch.failures] == [2]
+    assert pickle.loads(pickle.dumps(batch))[1].peak("B.F") == alone[1].peak("B.F")
     pytest.importorskip("h5py")
     pytest.importorskip("xarray")
     batch.save(tmp_path / "batch.nc")
