@@ -20,6 +20,7 @@ from gudgeon.results.results import Result
 from gudgeon.results.series import catalogue
 
 NODES = 0.5 * (leggauss(6)[0] + 1.0)  # shares of a part of a step at which powers are taken
+KEPT = 256  # places that were looked at, whose series are at hand for the next name
 ROUNDED = 1e-7  # of the speed: in parts of steps so short differences of positions say no more of it
 NONE = Diagnostics(
     method="", step=math.nan, steps=0, right_hand_sides=0, onsets=0, grazes=0, phi_max=math.nan, phi_dot_max=math.nan,
@@ -38,6 +39,7 @@ class Path:
         self.exact = self.source.methods == (KINEMATIC,)
         self.first: Steps | None = None  # of the run: energies count from it
         self.lost = 0  # states without accelerations
+        self.seen: dict[tuple[int, float, float], Result] = {}  # places that were looked at
         self.nearest: tuple[int, Any] = (-1, None)  # k, rates between states k and k + 1
         self.powers: tuple[int, Any] = (-1, None)  # k, integrals of the powers between states k and k + 1
         self.steps: Steps
@@ -49,7 +51,7 @@ class Path:
         self.first = steps[:1] if self.first is None else self.first
         self.steps = self.steps[-2:].then(steps) if hasattr(self, "steps") else steps
         self.run, lost = self._result(self.steps)
-        self.nearest, self.powers = (-1, None), (-1, None)
+        self.nearest, self.powers, self.seen = (-1, None), (-1, None), {}
         self.lost += lost
         x = self.steps
         q, v = (np.abs(part[np.isfinite(part)]).max(initial=0.0) for part in (x.q, x.v))
@@ -62,7 +64,12 @@ class Path:
 
     def between(self, k: int, t: Array, name: str) -> Array:
         """A series at times t (T,) between states k and k + 1."""
-        return self._result(self._states(k, t))[0][name][1:]
+        place = (k, float(t[0]), float(t[-1]))
+        if place not in self.seen:
+            if len(self.seen) >= KEPT:
+                self.seen.clear()
+            self.seen[place] = self._result(self._states(k, t))[0]
+        return self.seen[place][name][1:]
 
     def _result(self, steps: Steps) -> tuple[Result, int]:
         """The run's first state, then these; how many of them have no accelerations."""

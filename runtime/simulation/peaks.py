@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebval, chebvander
 from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
@@ -32,11 +33,13 @@ from gudgeon.simulation.between import Path
 if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
-NODES = np.linspace(0.0, 1.0, 9)  # places at which a part of a step is looked at
-ROUNDS, AT_AN_END = 16, 3  # of looking closer, each four or eight times as close; fewer where the top is at an end
+NODES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # places (of Chebyshev) at which a part of a step is looked at
+COEFFICIENTS = np.linalg.inv(chebvander(2.0 * NODES - 1.0, len(NODES) - 1))  # times values there: of the polynomial
+FINE = chebvander(np.linspace(-1.0, 1.0, 129), len(NODES) - 1)  # times coefficients: its values
+ROUNDS, AT_AN_END = 12, 3  # of looking closer, each several times as close; fewer where the top is at an end
 MOST = 16  # parts of steps of a block that are looked at, the most promising ones first
 SAME = 1e-14  # of a value: so little more is rounding, and the earlier time is told
-CLOSE = 1e-12  # of the largest value of a block: what is left between the places is rounding
+CLOSE = 1e-11  # of the largest value of a block, that the last coefficients of a polynomial may be
 
 
 def wanted_peaks(source: KernelSource, peaks: Iterable[str] | None) -> tuple[str, ...]:
@@ -140,45 +143,38 @@ class Search:
                 self._look_closer(key, k, paths, scale)
 
     def _look_closer(self, key: tuple[str, bool, int], k: int, paths: list[Path], scale: float) -> None:
-        """The top between states k and k + 1, to a share of `scale`; by parabolas once they tell it."""
+        """The top between states k and k + 1: of the polynomial through so many places, once that tells all of it."""
         low, high = self.ours.steps.t[k : k + 2].tolist()
         for turn in range(ROUNDS):
             times = low + NODES * (high - low)
-            known = self._between(key, k, times, paths)
+            values = key[2] * _less([path.between(k, times, key[0]) for path in paths])
+            known = np.where(np.isfinite(values), values, -np.inf)
             best = int(known.argmax())
             self._note(key, float(known[best]), float(times[best]))
-            if not known[best] - known.min() > CLOSE * scale or not times[1] > times[0]:
+            if np.isfinite(values).all():
+                parts = COEFFICIENTS @ values
+                if np.abs(parts[-2:]).max() <= CLOSE * scale:
+                    top, share = _top(parts)
+                    self._note(key, top, low + share * (high - low))
+                    break
+            if not times[1] > times[0] or (best in (0, len(NODES) - 1) and turn >= AT_AN_END):
                 break
-            if best in (0, len(NODES) - 1):
-                if turn >= AT_AN_END:
-                    break
-            else:
-                t, told = _vertex(times[best - 1 : best + 2], known[best - 1 : best + 2])
-                found = float(self._between(key, k, np.array([t]), paths)[0])
-                self._note(key, found, t)
-                if abs(found - told) <= CLOSE * scale:
-                    break
             low, high = float(times[max(best - 1, 0)]), float(times[min(best + 1, len(NODES) - 1)])
-
-    def _between(self, key: tuple[str, bool, int], k: int, t: Array, paths: list[Path]) -> Array:
-        """The series at times between states k and k + 1, up where it is sought; −∞ where it is no number."""
-        values = key[2] * _less([path.between(k, t, key[0]) for path in paths])
-        return np.where(np.isfinite(values), values, -np.inf)
 
     def _note(self, key: tuple[str, bool, int], value: float, t: float) -> None:
         if math.isfinite(value) and (key not in self.best or value - self.best[key][0] > SAME * abs(value)):
             self.best[key] = value, t
 
 
-def _vertex(t: Array, values: Array) -> tuple[float, float]:
-    """Time and height of the top of the parabola through three points, of which the middle one is the highest."""
-    x, z, left, right = t[1] - t[0], t[2] - t[1], values[0] - values[1], values[2] - values[1]
-    bend = right * x + left * z  # negative
-    if not (bend < 0.0 and math.isfinite(bend)):
-        return float(t[1]), float(values[1])
-    slope = (right * x * x - left * z * z) / (x * z * (x + z))
-    curve = bend / (x * z * (x + z))
-    return float(t[1] - 0.5 * slope / curve), float(values[1] - 0.25 * slope**2 / curve)
+def _top(parts: Array) -> tuple[float, float]:
+    """Height and place in [0, 1] of the top of a polynomial by its coefficients of Chebyshev."""
+    fine = FINE @ parts
+    k = int(fine.argmax())
+    share = k / (len(fine) - 1)
+    if 0 < k < len(fine) - 1:
+        bend = fine[k - 1] - 2.0 * fine[k] + fine[k + 1]
+        share += 0.5 * (fine[k - 1] - fine[k + 1]) / bend / (len(fine) - 1) if bend < 0.0 else 0.0
+    return float(max(fine[k], chebval(2.0 * share - 1.0, parts))), share
 
 
 def _less(values: list[Array]) -> Array:
