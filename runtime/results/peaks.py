@@ -54,7 +54,7 @@ def over_all_steps(run: Result, name: str, error: bool) -> Extremes:
 
     Raises UnknownNameError for what the run does not have, BadValueError for what was not asked for.
     """
-    if name not in run.names:
+    if not isinstance(name, str) or name not in run.names:
         raise run.unknown(name)
     for one in run.diagnostics.extremes:
         if one.name == name and bool(one.against) == error:

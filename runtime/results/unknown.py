@@ -38,11 +38,10 @@ def unknown_series(
 
 def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
     """Names of series of a scene, each once. Raises UnknownNameError."""
-    known = catalogue(source)
+    known, wanted = catalogue(source), list(names)
     addresses = {slot.address for slot in source.slots}
-    found = tuple(dict.fromkeys(names))
-    for name in found:
+    for name in wanted:
         if not isinstance(name, str) or name not in known:
             parameters = addresses | {address.removeprefix("parameters.") for address in addresses}
             raise unknown_series(source, known, name, parameters)
-    return found
+    return tuple(dict.fromkeys(wanted))

@@ -50,9 +50,9 @@ class Path:
         """The next block."""
         self.first = steps[:1] if self.first is None else self.first
         self.steps = self.steps[-2:].then(steps) if hasattr(self, "steps") else steps
-        self.run, lost = self._result(self.steps)
+        self.run, good = self._result(self.steps)
         self.nearest, self.powers, self.seen = (-1, None), (-1, None), {}
-        self.lost += lost
+        self.lost += int((~good[len(good) - len(steps) :]).sum())
         x = self.steps
         q, v = (np.abs(part[np.isfinite(part)]).max(initial=0.0) for part in (x.q, x.v))
         least = 40.0 * np.finfo(float).eps * q / max(ROUNDED * v, 1e-300)
@@ -71,22 +71,22 @@ class Path:
             self.seen[place] = self._result(self._states(k, t))[0]
         return self.seen[place][name][1:]
 
-    def _result(self, steps: Steps) -> tuple[Result, int]:
-        """The run's first state, then these; how many of them have no accelerations."""
+    def _result(self, steps: Steps) -> tuple[Result, NDArray[np.bool_]]:
+        """The run's first state, then these, and which of all have accelerations."""
         assert self.first is not None
         x = self.first.then(steps)
-        evaluation, lost = self._evaluation(x)
+        evaluation, good = self._evaluation(x)
         run = Result(
             compiled=self.compiled, source=self.source, p=self.p, given=self.given, is_given=self.is_given,
             t=x.t, q=x.q, v=x.v, accelerations=evaluation.a, state=x.state, memory=x.memory, work=x.work,
             impacts=np.zeros(0, IMPACT_DTYPE), diagnostics=NONE,
         )  # fmt: skip
         run.__dict__.update(evaluation=evaluation, _catalogue=self.catalogue)
-        return run, lost
+        return run, good
 
-    def _evaluation(self, x: Steps) -> tuple[Evaluation, int]:
-        """NaN at states where the equations cannot be solved, and how many they are."""
-        good = np.isfinite(x.q).all(axis=1) & np.isfinite(x.v).all(axis=1)
+    def _evaluation(self, x: Steps) -> tuple[Evaluation, NDArray[np.bool_]]:
+        """NaN at states where the equations cannot be solved, and where they can."""
+        good = np.asarray(np.isfinite(x.q).all(axis=1) & np.isfinite(x.v).all(axis=1))
         while True:
             try:
                 found = self.compiled.evaluate(x.t[good], x.q[good], x.v[good], x.memory[good], self.p)
@@ -95,11 +95,11 @@ class Path:
                 left = good & (x.t != error.time)
                 good = left if (left != good).any() else np.zeros_like(good)
         if good.all():
-            return found, 0
+            return found, good
         whole = Evaluation(*(np.full((len(x), *part.shape[1:]), np.nan) for part in vars(found).values()))
         for part, known in zip(vars(whole).values(), vars(found).values(), strict=True):
             part[good] = known
-        return whole, int((~good).sum())
+        return whole, good
 
     def _states(self, k: int, t: Array) -> Steps:
         """At times t (T,) between states k and k + 1, with the contacts of the first of them."""

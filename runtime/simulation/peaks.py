@@ -114,7 +114,7 @@ class Search:
                 continue
             high, low = (self.best.get((name, error, sign), unknown) for sign in (1, -1))
             against = self.beside.scene if error and self.beside else ""
-            told.append(Extremes(name, self.ours.catalogue[name].unit, *high, -low[0], low[1], against))
+            told.append(Extremes(name, self.ours.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
         return tuple(told)
 
     def notes(self) -> tuple[str, ...]:

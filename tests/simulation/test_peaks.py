@@ -127,6 +127,17 @@ def test_both_sides_of_a_jump(cart: dict[str, Simulation], method: str) -> None:
     assert largest.abs == pytest.approx(100.0 * math.hypot(apart, rate / w), rel=2e-8)
 
 
+def test_a_jump_where_no_freedom_is_left(tmp_path: Path) -> None:
+    """Nothing ends a step there: the place is closed in upon."""
+    lines = [line for line in CART.splitlines() if not any(word in line for word in ("load", "both", "spring"))]
+    (tmp_path / "cart.yaml").write_text("\n".join(lines).replace("forces:", "") + "\n")
+    run = gudgeon.load(tmp_path / "cart.yaml").simulate(1.0, output=2)
+    assert run.diagnostics.method == "kinematic"
+    assert run.peak("cart.ax").max == pytest.approx(3.6, rel=1e-8)
+    assert run.peak("cart.ax").t_max == pytest.approx(0.3, rel=1e-8)
+    assert run.peak("motor.force").max == pytest.approx(7.2, rel=1e-8)
+
+
 def test_friction_that_tears_loose() -> None:
     """Right before a block of 1 kg tears loose it is held by Fs, right behind by Fk; then it swings about Fk/k."""
     block = gudgeon.load("belt_block")
