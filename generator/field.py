@@ -19,6 +19,7 @@ PLACE = "place"  # a number, or two, as its key says: a coordinate, or a point
 WORD = "word"  # one of `values`
 FLAG = "flag"  # true or false
 TEXT = "text"
+RESULTS = "results"  # names of results: a list, or a text with commas between
 POINTS = "points"  # a list of pairs of numbers
 NAME = "name"  # of an entry of the section `names`
 BODY = "body"  # a body or the ground

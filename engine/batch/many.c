@@ -17,7 +17,9 @@ static int start_run(const Batch *b, long i, Run *run)
         return asked.stop ? STOPPED : NOT_CLOSED;
     for (int k = 0; k < 2 * N_Q; k++)
         y[k] = start[k];
+    const Tape tape = run->tape; /* of the thread, not of one run */
     gudgeon_run_start(run, b->p_motion + i * b->numbers, t0, y, b->remembered + i * AT_LEAST_ONE(N_MEMORY));
+    gudgeon_run_tape(run, tape.rows, tape.capacity);
     gudgeon_run_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
     gudgeon_run_stop(run, b->stop);
     gudgeon_run_asks(run, is_ending, (void *)b, GLANCE);
@@ -72,7 +74,7 @@ static void end_run(const Batch *b, long i, int status, Run *run)
 
 static int has_lists(const Run *run)
 {
-    int some = run->n_impacts > 0 || run->n_events > 0;
+    int some = run->n_impacts > 0 || run->n_events > 0 || run->tape.n > 0;
     for (int k = 0; k < N_CLEARANCES; k++)
         some = some || run->memory.latch[k].closed;
     return some;

@@ -29,6 +29,8 @@ typedef struct {
     Pace pace;
     Place motion, work;
     int motion_begun, work_begun;
+    double *tape; /* rows of t, q, v at the ends of steps, which Python fetches; nobody wants any: NULL */
+    long taped, capacity;
 } Course;
 
 size_t gudgeon_course_size(void) { return sizeof(Course); }
@@ -54,6 +56,36 @@ void gudgeon_course_pace(const void *memory, double *t, double *gained, long *st
     *gained = course->pace.gain;
     steps[0] = PACE_STEPS;
     steps[1] = course->pace.crawls;
+}
+
+/* Room for so many rows of the tape; NULL: none is wanted any more. */
+void gudgeon_course_tape(void *memory, double *rows, long capacity)
+{
+    Course *course = memory;
+    course->tape = rows;
+    course->capacity = capacity;
+    course->taped = 0;
+}
+
+/* Rows since the last call; the next one is written to the first place. */
+long gudgeon_course_taped(void *memory)
+{
+    Course *course = memory;
+    const long n = course->taped;
+    course->taped = 0;
+    return n;
+}
+
+static void tape_place(Course *course, const Place *here)
+{
+    if (!course->tape)
+        return;
+    double *row = course->tape + (1 + 2 * N_Q) * course->taped++;
+    *row++ = here->t;
+    for (int k = 0; k < N_Q; k++) {
+        row[k] = here->q[k];
+        row[N_Q + k] = here->v[k];
+    }
 }
 
 /* The larger one; NaN stays. */
@@ -137,10 +169,13 @@ static int advance(Course *course, double t1, const Parameters *p, Place *here, 
 {
     Stride stride = {course->reach, course->extent, t1 - here->t, 0};
     while (here->t < t1) {
+        if (course->tape && course->taped == course->capacity)
+            return EVENTS_FULL;
         const int status = step_on(&stride, t1, p, here);
         if (status)
             return status;
         ++*steps;
+        tape_place(course, here);
         if (creeps(&course->pace, here->t, course->t_end))
             return STALLED;
     }

@@ -145,6 +145,40 @@ static int sample_step(Run *run, Step *step, double t_new, long n, const double 
     return 0;
 }
 
+/*
+ * Rows of the tape inside a step, up to a share of it, before it is taken: the ends of parts, and right beside its own
+ * ends where something changes there (`jumps`: at the last one).
+ */
+static int tape_step(Run *run, Step *step, double share, int jumps, const Parameters *p)
+{
+    const long evaluations = run->evaluations;
+    const double located = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->tick) / step->h;
+    const double beside = max_of(BESIDE * share, located);
+    if (!run->tape.rows)
+        return 0;
+    int status = make_dense(run, p, step);
+    for (int k = !run->tape.jumped; k < TAPE_PARTS + jumps && !status; k++) {
+        const double s = k == 0 ? beside : k == TAPE_PARTS ? share - beside : share * k / TAPE_PARTS;
+        const double t = step->t + s * step->h;
+        double now[N_Y];
+        if (!(s > 0.0 && s < share && t > step->t))
+            continue; /* so short a step is all beside the jump */
+        interpolate(run, step, s, now);
+        project_state(run, t, now, p);
+        tape_row(run, t, now, p);
+    }
+    run->evaluations = evaluations; /* as of samples */
+    return status;
+}
+
+/* The end of a step that is taken; where something changed there, it follows with the next step if there is one. */
+static void tape_end(Run *run, int jumped, int is_last, const Parameters *p)
+{
+    run->tape.jumped |= jumped;
+    if (!jumped || is_last)
+        tape_row(run, run->t, run->y, p);
+}
+
 /* Whether the run no longer advances; what ends its steps is counted anew with each look at its pace. */
 static int stalls(Run *run, double t_end)
 {
@@ -165,7 +199,11 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
     Run *run = memory;
     const Parameters *p = (const Parameters *)parameters;
     const double t_end = t[n - 1];
-    int status = run->memory.held ? 0 : begin_adaptive(run, t_end - run->t, p);
+    const int begins = !run->memory.held;
+    int status = begins ? begin_adaptive(run, t_end - run->t, p) : 0;
+    if (!status && begins)
+        tape_jump(run, p);
+    run->tape.jumped |= begins;
     for (long i = 0; !status; i++) {
         while (*done < n && t[*done] <= run->t) {
             store_sample(run, run->t, run->y, p, *done, y, latched, state);
@@ -193,6 +231,9 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         /* what is so near is at the event */
         const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->tick);
         status = sample_step(run, step, t_new - close, n, t, p, y, latched, state, done);
+        const int jumps = (event >= 0 && event < N_MARGINS - N_USER_EVENTS) || (N_CORNERS > 0 && t_new == t_end);
+        if (!status)
+            status = tape_step(run, step, share, jumps, p);
         run->asked.hold = 1;
 #if N_CORNERS
         const double drift = run->phi_dot_max;
@@ -210,6 +251,8 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
         if (!status && run->t == t_end)
             status = end_on_zeros(run, run->tick, p);
 #endif
+        if (!status || status == ENDED)
+            tape_end(run, jumps, status == ENDED || run->t == t_end, p);
         run->asked.hold = 0;
     }
     return status;

@@ -100,10 +100,14 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
     run->asked.hold = 1;
     for (int i = 0; i < N_CLEARANCES; i++)
         watch_turn(run, i, h, &before.clearance[i], &run->aside.clearance[i]);
-    if (update_latches(run, t, h, before.clearance, run->aside.clearance, trial->touched, p))
+    if (update_latches(run, t, h, before.clearance, run->aside.clearance, trial->touched, p)) {
+        run->tape.jumped = 1;
         status = rates(run, t_new, run->y, p, run->dy, &run->aside);
+    }
     if (!status)
         status = watch(run, p);
+    if (!status)
+        tape_row(run, t_new, run->y, p);
     if (!status && sampled)
         sample_inside(run, &run->from, p, out);
     run->asked.hold = 0;
@@ -236,6 +240,8 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
         run->asked.hold = 1;
         if (!failed)
             failed = switch_friction(run, p);
+        if (!failed)
+            tape_jump(run, p);
         run->asked.hold = 0;
         if (failed)
             return failed;
@@ -261,6 +267,7 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
     Run *run = memory;
     const Parameters *p = (const Parameters *)parameters;
     const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
+    const int begins = !run->ready;
     double h;
 #if N_CORNERS
     int status = run->ready ? 0 : begin_run(run, p); /* at t[0], not the grid's number: a jump may lie between */
@@ -269,6 +276,8 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
         run->t = step_end(t[0], t[n - 1], step, 0.0, &h);
     int status = run->ready ? 0 : begin(run, p);
 #endif
+    if (!status && begins)
+        tape_row(run, run->t, run->y, p);
     for (long i = 0; !status; i++) {
         sample_here(run, step, p, &out);
         if (*done == n || i == limit)

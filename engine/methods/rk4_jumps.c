@@ -35,6 +35,8 @@ static int pass_jump(Run *run, double t, double apart, const Parameters *p)
         status = switch_friction(run, p); /* what sticks may be torn off, what slips turned round */
     if (!status)
         status = note_leaps(run, t, p);
+    if (!status)
+        tape_jump(run, p);
     run->asked.hold = 0;
     return status;
 }

@@ -77,6 +77,7 @@ static void store_sample(const Run *run, double t, const double *now, const Para
         latched[i * MEMORY + N_MEMORY - N_STATES + k] = now[FIRST_STATE + k];
 }
 
+#include "tape.c"
 #include "user_events.c"
 #if N_FRICTIONS
 #include "friction.c"
@@ -88,7 +89,7 @@ static void store_sample(const Run *run, double t, const double *now, const Para
 static int lists_full(const Run *run)
 {
     return run->n_impacts > N_IMPACTS - AT_LEAST_ONE(N_CLEARANCES)
-        || run->n_events > N_IMPACTS - AT_LEAST_ONE(3 * N_USER_EVENTS);
+        || run->n_events > N_IMPACTS - AT_LEAST_ONE(3 * N_USER_EVENTS) || tape_full(run);
 }
 
 /* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */

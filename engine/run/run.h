@@ -58,6 +58,13 @@ typedef struct {
     double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
 } Step;
 
+/* States that Python fetches (tape.c); nobody wants any: NULL. */
+typedef struct {
+    double *rows;
+    long n, capacity;
+    int jumped; /* something changed since the last row */
+} Tape;
+
 /* What a step began with. */
 typedef struct {
     double t, y[N_Y], dy[N_Y];
@@ -81,6 +88,7 @@ typedef struct {
     int n_impacts, ready;
     TraceRow *trace; /* nobody wants one: NULL; the row that is being filled, of `trace_rows`, and steps in it */
     long trace_row, trace_rows, trace_steps, trace_stride;
+    Tape tape;
     Beginning from; /* of rk4's step, where samples lie within it */
     long steps, evaluations, onsets, grazes, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;

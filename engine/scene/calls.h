@@ -43,6 +43,8 @@ size_t gudgeon_run_size(void);
 void gudgeon_run_start(void *memory, const double *p, double t, const double *y, const double *latched);
 void gudgeon_run_trace(void *memory, double *trace, long rows);
 long gudgeon_run_traced(const void *memory);
+void gudgeon_run_tape(void *memory, double *rows, long capacity);
+long gudgeon_run_taped(void *memory);
 void gudgeon_run_codes(void *memory, const signed char *state);
 int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
@@ -94,6 +96,8 @@ const void *gudgeon_single(void);
 size_t gudgeon_course_size(void);
 void gudgeon_course_begin(void *memory, double reach, double extent, double t_end, int (*ask)(void *), void *whom,
     double every);
+void gudgeon_course_tape(void *memory, double *rows, long capacity);
+long gudgeon_course_taped(void *memory);
 void gudgeon_course_again(void *memory);
 void gudgeon_course_pace(const void *memory, double *t, double *gained, long *steps);
 int gudgeon_kinematic(void *memory, long n, const double *t, const double *p, double *q, double *v, double *a,

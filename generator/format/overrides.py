@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, Location
-from gudgeon.generator.field import MAPPING, POINTS, SCALARS, VECTOR, Field
+from gudgeon.generator.field import MAPPING, POINTS, RESULTS, SCALARS, VECTOR, Field
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.format.shapes import OVERRIDE
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
@@ -70,7 +70,7 @@ class _Address:
 def _put(node: Any, parts: list[str], text: Text, address: _Address, field: Field | None, depth: int) -> Any:
     """A copy of `node`, which `field` declares, with `text` at `parts`; what is not on the way is shared."""
     if not parts:
-        if isinstance(node, (Map, Items)):
+        if isinstance(node, (Map, Items)) and not (field is not None and field.kind == RESULTS):
             raise BadValueError(f"{address.text} is {kind_of(node)}", None, _inside(address.text, node))
         return text
     head, rest = parts[0], parts[1:]

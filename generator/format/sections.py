@@ -15,6 +15,7 @@ from gudgeon.generator.field import (
     OF_RESULTS,
     PLACE,
     POINTS,
+    RESULTS,
     TEXT,
     WORD,
     Bound,
@@ -225,6 +226,7 @@ SCENE = record(
     mapping("play", "joints with play", PLAY),
     mapping("parameters", "parameters that have another value here", number("value", "the value here", None)),
     mapping("events", "events of this scene, besides the file's", EVENT),
+    Field("peaks", RESULTS, "series whose largest and smallest values over all steps a run tells", otherwise="none"),
     SIMULATE,
 )  # fmt: skip
 

@@ -202,6 +202,7 @@ class SceneSpec:
     simulate: Mapping[str, Quantity]  # t_end, output, step
     where: Location
     events: Mapping[str, EventSpec] = field(default_factory=dict)  # the file's, with the scene's own put in
+    peaks: tuple[str, ...] = ()  # series whose peaks are wanted, with their places (yaml.tree.Text) while it is read
 
 
 @dataclass(frozen=True)

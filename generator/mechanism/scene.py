@@ -23,6 +23,7 @@ class Scene:
     parameters: Mapping[str, Quantity]
     simulate: Mapping[str, Quantity]  # t_end, output, step
     events: Mapping[str, EventSpec]
+    peaks: tuple[str, ...] = ()
 
 
 def make_scene(mechanism: Mechanism, name: str) -> Scene:
@@ -36,4 +37,4 @@ def make_scene(mechanism: Mechanism, name: str) -> Scene:
         else own
         for key, own in mechanism.parameters.items()
     }
-    return Scene(mechanism, name, spec.play, parameters, spec.simulate, spec.events)
+    return Scene(mechanism, name, spec.play, parameters, spec.simulate, spec.events, spec.peaks)

@@ -22,7 +22,7 @@ from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
 from gudgeon.generator.reader.parameters import read_parameters, settle
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.reader.result_names import MotionNames, ResultNames
-from gudgeon.generator.reader.scenes import Parts, read_events, read_scenes
+from gudgeon.generator.reader.scenes import Parts, check_peaks, read_events, read_scenes
 from gudgeon.generator.yaml.tree import Map, kind_of, parse_yaml
 from gudgeon.language.names import Namespace, check_name
 from gudgeon.language.tree import Number
@@ -63,14 +63,14 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, parameters)
     forces = read_forces(reader, root, places, namespace, motion)
     start = read_start(reader, root, places)
-    bearings = read_bearings(reader, root, read_materials(reader, root))
-    contacts = read_contacts(reader, root)
+    bearings, contacts = read_bearings(reader, root, read_materials(reader, root)), read_contacts(reader, root)
     events = read_events(reader, root.part("events"), "events", motion)
     scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion))
     named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}
     unread = named - {*joints, *drives, *forces} | namespace.twice
     known = ResultNames(places, joints, drives, forces, parameters, unread)
     outputs = _read_outputs(reader, root, namespace, known)
+    check_peaks(reader, scenes, known, root.part("outputs"))
     check_values(reader, parameters, scenes)
     return Mechanism(
         name=str(root["name"]),

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 
-from gudgeon.errors import ExpressionError, Location
+from gudgeon.errors import BadValueError, ExpressionError, Location
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.mechanism.mechanism import GROUND, Drive, ForceElement
 from gudgeon.generator.reader.places import Places
+from gudgeon.generator.yaml.tree import Text
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Name
 from gudgeon.language.units import (
@@ -31,10 +32,13 @@ _PLAY: Mapping[str, Dimension] = {
     "Fn": FORCE, "Ft": FORCE, "e": LENGTH, "ex": LENGTH, "ey": LENGTH, "delta": LENGTH, "eps": DIMENSIONLESS,
     "deltadot": VELOCITY, "vt": VELOCITY, "state": DIMENSIONLESS, "deltadot_minus": VELOCITY,
 }  # fmt: skip
+_ALWAYS = ("Fx", "Fy", "F")  # of a joint, with play or without
+_RESULTS_OF_PLAY = f"expected one of: {', '.join((*_ALWAYS, *_PLAY))}"
 _TOTALS: Mapping[str, Mapping[str, Dimension]] = {
     "energy": {"kinetic": TORQUE, "potential": TORQUE, "residual": TORQUE},
     "work": {"drives": TORQUE, "forces": TORQUE, "clearances": TORQUE},
 }
+LATER = ("lambda", "Phi", "Phi_dot")  # multipliers and drift: which there are the equations say
 _ACCELERATIONS = ("ax", "ay", "alpha")
 
 
@@ -53,7 +57,7 @@ class ResultNames:
         parameters: Iterable[str],
         unread: Iterable[str] = (),
     ) -> None:
-        self._unread = frozenset(unread)
+        self._unread, self._joints = frozenset(unread), frozenset(joints)
         self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTALS)
         self.owners |= dict.fromkeys(places.bodies, _BODY)
         self.owners |= {name: _of_drive(drive) for name, drive in drives.items()}
@@ -78,6 +82,17 @@ class ResultNames:
             place = Location(where.file, where.line, where.column + len(owner) + 1)
             raise unknown_name(f"result of {owner}", last, self.owners[owner], place)
         return self.owners[owner][last]
+
+    def check_play(self, name: Text, scene: str, play: Container[str]) -> None:
+        """BadValueError for what a joint has in other scenes alone: with play, or without."""
+        owner, _, last = name.rpartition(".")
+        if owner not in self._joints or last in _ALWAYS:
+            return
+        if owner in play and last in _JOINT:
+            raise BadValueError(f"{name}: joint {owner} has play in scene {scene}", name.where, _RESULTS_OF_PLAY)
+        if owner not in play and last in _PLAY:
+            hint = f"expected one of: {', '.join(_JOINT)}; or give it play there"
+            raise BadValueError(f"{name}: joint {owner} has no play in scene {scene}", name.where, hint)
 
     def paths(self) -> Iterator[str]:
         """Every name."""

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
+from itertools import accumulate
+from typing import Any
 
 from gudgeon.errors import BadValueError, CycleError, InputError, Location
 from gudgeon.generator.field import WORD
 from gudgeon.generator.format.sections import EVENT, IDEAL, SIMULATE
 from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.laws.law import called
 from gudgeon.generator.mechanism.mechanism import GROUND, Bearing, Contact, EventSpec, Joint, Play, Quantity, SceneSpec
 from gudgeon.generator.reader.collector import Reader, ResultDimension
 from gudgeon.generator.reader.extends import parents_first
 from gudgeon.generator.reader.fields import Around, read_fields
 from gudgeon.generator.reader.parameters import dependency_order
+from gudgeon.generator.reader.result_names import LATER, ResultNames
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.names import check_label
+from gudgeon.language.parser import at
 from gudgeon.language.suggestions import unknown_name
-from gudgeon.language.tree import Expr, names
+from gudgeon.language.tree import Expr, Name, names
 
 
 @dataclass(frozen=True)
@@ -41,6 +46,7 @@ class _Draft:
     parameters: Map
     simulate: Map
     events: dict[str, EventSpec]  # read where they are written
+    peaks: tuple[Text, ...] = ()
 
 
 def read_scenes(reader: Reader, parts: Parts) -> dict[str, SceneSpec]:
@@ -69,8 +75,18 @@ def _draft(parent: _Draft, scene: Map, events: Mapping[str, EventSpec]) -> _Draf
 
     return _Draft(
         merged(parent.play, "play"), merged(parent.parameters, "parameters"), merged(parent.simulate, "simulate"),
-        {**parent.events, **events},
+        {**parent.events, **events}, (*parent.peaks, *_listed(scene.get("peaks", ()))),
     )  # fmt: skip
+
+
+def _listed(node: Any) -> tuple[Text, ...]:
+    """Names of a list, or of a text with commas between."""
+    if not isinstance(node, Text):
+        return tuple(node)
+    places = accumulate((len(part) + 1 for part in node.split(",")), initial=0)
+    parts = zip(node.split(","), places, strict=False)
+    found = ((part.strip(), begin + len(part) - len(part.lstrip())) for part, begin in parts)
+    return tuple(Text.make(name, at(node.where, offset)) for name, offset in found if not node.is_nothing)
 
 
 def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec:
@@ -89,7 +105,7 @@ def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec
     with reader.collect():
         _check_cycles(name, parameters, parts)
     simulate = read_fields(reader, draft.simulate, SIMULATE.fields, Around(f"scenes.{name}.simulate")).quantities
-    return SceneSpec(str(name), play, parameters, simulate, name.where, draft.events)
+    return SceneSpec(str(name), play, parameters, simulate, name.where, draft.events, draft.peaks)
 
 
 def _play(joint: Text, use: Map, parts: Parts) -> Play | None:
@@ -111,6 +127,24 @@ def _play(joint: Text, use: Map, parts: Parts) -> Play | None:
         hint = f"expected one of: {', '.join(able)}" if able else "there are no joints here that can"
         raise BadValueError(f"joint {joint} is a {kind.title}: it cannot have play", joint.where, hint)
     return Play(parts.bearings[bearing], parts.contacts[contact], joint.where)
+
+
+def check_peaks(reader: Reader, scenes: Mapping[str, SceneSpec], known: ResultNames, outputs: Container[str]) -> None:
+    """Every name in `peaks:` is one of a result of its scene, as far as the file says; the rest is told at the run."""
+    for scene in scenes.values():
+        for text in scene.peaks:
+            is_later = text.partition(".")[0] in LATER or text in _inner_states(scene)
+            if isinstance(text, Text) and text not in outputs and not is_later:
+                with reader.collect():
+                    known(Name(str(text)), text.where)
+                    known.check_play(text, scene.name, scene.play)
+
+
+def _inner_states(scene: SceneSpec) -> set[str]:
+    """Results that laws of friction of a scene bring with them: A.z."""
+    used = {joint: play.contact.friction for joint, play in scene.play.items()}
+    laws = called("friction")
+    return {f"{joint}.{state.name}" for joint, use in used.items() if use for state in laws[use.law].states}
 
 
 def _check_cycles(name: Text, own: Mapping[str, Quantity], parts: Parts) -> None:

@@ -16,6 +16,7 @@ from gudgeon.generator.field import (
     PLACE,
     POINTS,
     RECORD,
+    RESULTS,
     VECTOR,
     WORD,
     Field,
@@ -84,6 +85,8 @@ def _holds(field: Field) -> str:
         return " or ".join(f"`{_word(value)}`" for value in field.values)
     if field.kind == POINTS:
         return "[[x, y], …], numbers"
+    if field.kind == RESULTS:
+        return "[NAME, …], names of results"
     if field.kind == NAME:
         return f"name in `{field.names}`" if field.names else "name"
     if field.kind == MAPPING:

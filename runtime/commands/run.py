@@ -160,6 +160,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                     until, output=request.output, method=method, step=step,
                     rtol=request.rtol, horizon=request.horizon,
                     parameters=_own(settings, simulation), progress=bar(name),
+                    against=simulations[IDEAL] if simulation.source.clearances else None,
                 )  # fmt: skip
             except (AssemblyError, SolverError) as error:  # the other scenes are worth having
                 session.failures[name] = error
@@ -215,7 +216,7 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
     for other in (session.runs.get(IDEAL), *session.references.values()):
         if other and np.array_equal(other.t, run.t) and all(other.parameters[a] == v for a, v in values.items()):
             return other
-    return ideal.simulate(output=run.t, parameters=values, stop=False)
+    return ideal.simulate(output=run.t, parameters=values, stop=False, peaks=())
 
 
 def _save(request: Request, runs: Mapping[str, Result], session: Session) -> None:

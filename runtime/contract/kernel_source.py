@@ -197,6 +197,7 @@ class KernelSource:
         parts = [self.sha256, *(f"{name} {digest}" for name, digest in (*self.tables, *self.laws))]
         return sha256("\n".join(parts).encode()).hexdigest() if len(parts) > 1 else self.sha256
 
+    peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
 
     @property

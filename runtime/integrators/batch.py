@@ -23,6 +23,7 @@ from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.failure import INTERRUPTED, NOT_FINITE, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, no_states, told_apart
+from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
@@ -78,6 +79,7 @@ class Runs:
         self.events = [[no_states(compiled)] for _ in range(n)]
         self.failures: dict[int, GudgeonError] = {}
         self.interrupted = False
+        self.looks: Sequence[Look | None] = ()  # a run each, where somebody looks at all steps
 
     def _struct(self, fixed: bool, stop: bool) -> Any:
         struct = self.compiled.ffi.new("Batch *")
@@ -93,7 +95,7 @@ class Runs:
 
     def __getstate__(self) -> dict[str, Any]:
         """What is over: arrays and lists, without what C worked on."""
-        return self.__dict__ | {"struct": None, "lanes": None, "over": None}
+        return self.__dict__ | {"struct": None, "lanes": None, "over": None, "looks": ()}
 
     def let_go(self) -> None:
         """Samples that `over` has taken what it wanted of."""
@@ -196,33 +198,36 @@ class Runs:
     def _work(self, portions: deque[range | list[int]], worker: int) -> None:
         """One thread: portions of runs until none is left."""
         memories = np.zeros((self.abreast, self.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
+        tape = Tape(self.compiled) if self.looks else None
+        if tape:
+            tape.lay(self.compiled.pointer(memories[0], "void *"))
         while portions and not self.stopping:
             try:
                 portion = portions.popleft()
             except IndexError:  # another thread was quicker
                 return
             if self.lanes is None and self.over is None and isinstance(portion, range):
-                self._alone(portion.start, portion.stop, memories[0])
+                self._alone(portion.start, portion.stop, memories[0], tape)
                 continue
             new = [i for i in portion if self.arrays["phase"][i] == NEW]
             steps = self.arrays["step"]
             for group in self.lanes.groups(new, steps, self.times) if self.lanes else [[i] for i in new]:
-                self._group(group, memories, worker * self.abreast)
+                self._group(group, memories, worker * self.abreast, tape)
 
-    def _group(self, group: list[int], memories: NDArray[np.uint8], place: int) -> None:
+    def _group(self, group: list[int], memories: NDArray[np.uint8], place: int, tape: Tape | None) -> None:
         """Runs that go side by side as far as they do, and then each to its end."""
         if self.over:
             self.arrays["place"][group] = place + np.arange(len(group))
         if self.lanes and len(group) >= lanes.LEAST and not self.stopping:
             self.lanes.together(self, group, memories)
         for k, i in enumerate(group):
-            self._alone(i, i + 1, memories[k])
+            self._alone(i, i + 1, memories[k], tape)
             if self.over and self.arrays["phase"][i] == OVER and self.arrays["status"][i] != NOT_CLOSED:
                 if self.method != "rk4":
                     self._take_back(i)
                 self.over(self, i)
 
-    def _alone(self, first: int, end: int, memory: NDArray[np.uint8]) -> None:
+    def _alone(self, first: int, end: int, memory: NDArray[np.uint8], tape: Tape | None) -> None:
         """Runs one after the other, from where they are to their ends."""
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
         run = compiled.pointer(memory, "void *")
@@ -232,6 +237,9 @@ class Runs:
                 break
             if status in (LISTS, RUN_OVER):
                 self.fetch(int(current[0]), run, status == RUN_OVER)
+                if tape:
+                    tape.look = self.looks[int(current[0])]
+                    tape.fetch(run)
             current[0] += status == RUN_OVER
 
     def fetch(self, i: int, run: Any, last: bool) -> None:

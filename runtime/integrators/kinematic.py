@@ -18,14 +18,15 @@ from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, drives_at, outgrown, too_far
 from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
+from gudgeon.integrators.steps import Course, Look, Steps
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, no_events
-from gudgeon.model.compiled import Array
+from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.written import rate_reason, reason, reason_between
 from gudgeon.waiting.asking import Asker
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
-NO_NUMBER_THERE = -2  # status
+NO_NUMBER_THERE, ROWS_FULL = -2, -3  # statuses
 REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
 CHUNK, TURN = 10_000, 0.02  # samples whose motion, works and events are computed together, at most; s they may take
 
@@ -42,11 +43,26 @@ class _Way:
         self.reached, self.seconds = 0, 0.0
         self.events = Events(problem) if self.compiled.source.events else None
         self.asker = Asker(self.compiled, self.look)
-        self.course = np.zeros(self.compiled.lib.gudgeon_course_size(), dtype=np.uint8)
-        size = mechanism_size(self.compiled, problem.p)
+        self.course = self._course()
+        self.steps = self._steps(problem.look) if problem.look else None
+        if self.steps:
+            self.steps.lay(self.pointer(self.course, "void *"))
+
+    def _course(self) -> NDArray[Any]:
+        """A struct of C that follows the motion, or its works."""
+        course = np.zeros(self.compiled.lib.gudgeon_course_size(), dtype=np.uint8)
+        size = mechanism_size(self.compiled, self.problem.p)
         self.compiled.lib.gudgeon_course_begin(
-            self.pointer(self.course, "void *"), REACH, size, float(self.t[-1]), *self.asker.arguments
+            self.pointer(course, "void *"), REACH, size, float(self.t[-1]), *self.asker.arguments
         )
+        return course
+
+    def _steps(self, look: Look) -> Course:
+        none = np.zeros((1, 0))
+        begin = Steps(
+            self.t[:1], self.q[:1], self.v[:1], self.work[:1], none, none.astype(np.int8), np.ones(1, dtype=bool)
+        )  # fmt: skip
+        return Course(self.compiled, look, self._course, begin)
 
     def pointer(self, array: NDArray[Any], kind: str = "double *") -> Any:
         return self.compiled.pointer(array, kind)
@@ -69,6 +85,8 @@ class _Way:
             if stops:
                 end = last = self._cut(first, end)
             self.reached = self._works(first, end)
+            if self.steps:
+                self.steps.hand_on(self.problem.p, (self.t[end], self.q[end], self.v[end]) if stops else None)
             if failed and not stops:
                 raise self._failure(failed)
             first = end
@@ -82,16 +100,20 @@ class _Way:
 
     def _motion(self, first: int, last: int) -> tuple[int, int]:
         """Rows up to `last`, the last one that could be reached, and why no further (0: there was no need)."""
-        rows, longs = slice(first, None), self.pointer(self.longs, "long *")
-        before = perf_counter()
-        status = self.compiled.lib.gudgeon_kinematic(
-            self.pointer(self.course, "void *"), last - first, self.pointer(self.t[rows]),
-            self.pointer(self.problem.p), *(self.pointer(x[rows]) for x in (self.q, self.v, self.a)),
-            self.pointer(self.maxima), self.pointer(self.maxima[1:]), longs, longs + 1,
-        )  # fmt: skip
-        self.seconds += perf_counter() - before
-        self.asker.check(status == STOPPED)
-        return first + int(self.longs[1]), int(status)
+        longs, course, status = self.pointer(self.longs, "long *"), self.pointer(self.course, "void *"), ROWS_FULL
+        while status == ROWS_FULL:
+            rows, before = slice(first, None), perf_counter()
+            status = self.compiled.lib.gudgeon_kinematic(
+                course, last - first, self.pointer(self.t[rows]),
+                self.pointer(self.problem.p), *(self.pointer(x[rows]) for x in (self.q, self.v, self.a)),
+                self.pointer(self.maxima), self.pointer(self.maxima[1:]), longs, longs + 1,
+            )  # fmt: skip
+            self.seconds += perf_counter() - before
+            first += int(self.longs[1])
+            if self.steps:
+                self.steps.fetch(course)
+            self.asker.check(status == STOPPED)
+        return first, int(status)
 
     def _works(self, first: int, last: int) -> int:
         """Works of rows up to `last`; raises SolverError where they cannot be computed all the way."""
@@ -115,6 +137,8 @@ class _Way:
         t_end = float(self.events.in_order()[0]["t"][-1])
         last = first + int(np.searchsorted(self.t[first : end + 1], t_end - resolution(self.problem.t)))
         self.t = np.append(self.t[:last], t_end)
+        if self.steps:
+            self.steps.lay(self.pointer(self.course, "void *"), 0)
         if last > first:
             self.compiled.lib.gudgeon_course_again(self.pointer(self.course, "void *"))
             _, failed = self._motion(last - 1, last)
@@ -179,6 +203,22 @@ def run(problem: Problem) -> Trajectory:
     except SolverError as error:
         stopped = error
     return way.trajectory(interrupted, stopped)
+
+
+def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tuple[Array, Array]:
+    """q and q̇ (T, n) at times t (T,), the first of which has the state q, v (n,); NaN where they cannot be found."""
+    T, pointer, done = len(t), compiled.pointer, np.zeros(2, dtype=np.int_)
+    course, maxima, a = np.zeros(compiled.lib.gudgeon_course_size(), dtype=np.uint8), np.zeros(2), np.zeros((T, len(q)))
+    every_q, every_v = np.full((T, len(q)), np.nan), np.full((T, len(q)), np.nan)
+    every_q[0], every_v[0] = q, v
+    where, null = pointer(course, "void *", True), compiled.ffi.NULL
+    size = mechanism_size(compiled, p)
+    compiled.lib.gudgeon_course_begin(where, REACH, size, float(t[-1]), null, null, 1.0)
+    compiled.lib.gudgeon_kinematic(
+        where, T - 1, pointer(t), pointer(p), *(pointer(x, written=True) for x in (every_q, every_v, a)),
+        pointer(maxima), pointer(maxima[1:]), pointer(done, "long *"), pointer(done[1:], "long *"),
+    )  # fmt: skip
+    return every_q, every_v
 
 
 def _failure(problem: Problem, status: int, t: float) -> SolverError:

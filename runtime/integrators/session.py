@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gudgeon.errors import SolverError
 from gudgeon.integrators import trace
 from gudgeon.integrators.failure import FELT, STALLED, Pace, drives_at, failure, film, stalled
+from gudgeon.integrators.steps import Tape
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, event_dtype, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.waiting.asking import Asker
@@ -112,6 +113,9 @@ class Session:
         self.trace = np.empty((trace.ROWS if nc else 0, trace.width(nc)))
         if nc:
             self.lib.gudgeon_run_trace(self.run, self.pointer(self.trace, written=True), len(self.trace))
+        self.tape = Tape(self.compiled, problem.look) if problem.look else None
+        if self.tape:
+            self.tape.lay(self.run)
         self.asker = Asker(self.compiled, self.look)
         self.lib.gudgeon_run_asks(self.run, *self.asker.arguments)
         if problem.state is not None and nc:
@@ -153,6 +157,7 @@ class Session:
         if status == EVENTS_FULL:
             self.fetch_impacts(last=False)
             self.fetch_events()
+            self.fetch_steps()
         elif status == ENDED:
             self.close(resolution(self.problem.t))
             raise RunEnded
@@ -189,6 +194,11 @@ class Session:
         """Take over the list of contacts from C; with `last` those that still go on too."""
         self.impacts.append(fetch_impacts(self.compiled, self.run, last))
 
+    def fetch_steps(self) -> None:
+        """Hand on the states of steps, where somebody looks at them."""
+        if self.tape:
+            self.tape.fetch(self.run)
+
     def report(self) -> tuple[float, NDArray[Any], Array, Array]:
         """The present time, counts, (max |Φ|, max |Φ̇|, least and largest ratio), peaks by joint."""
         t, counts = np.zeros(1), np.zeros(N_COUNTS, dtype=np.int_)
@@ -205,6 +215,7 @@ class Session:
         t_last = math.inf if stopped else float(self.t[self.done - 1]) + resolution(self.problem.t)
         self.fetch_impacts(last=True)
         self.fetch_events()
+        self.fetch_steps()
         events, no_number = told_apart(self.compiled, np.concatenate(self.events))
         events, no_number = events[events["t"] <= t_last], no_number[no_number["t"] <= t_last]
         _, counts, numbers, peaks = self.report()

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.errors import SolverError
+from gudgeon.integrators.steps import Look
 from gudgeon.integrators.trace import Trace
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 
@@ -59,6 +60,7 @@ class Problem:
     p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
     stop: bool = True  # whether events may end the run; else they are recorded only
     remarks: tuple[str, ...] = ()  # on the start, which the run's notes say first
+    look: Look | None = None  # is shown the states of all steps
     take: Callable[[], object] = lambda: None  # raises KeyboardInterrupt where Ctrl-C waits (asking.py)
 
 

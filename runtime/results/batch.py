@@ -14,6 +14,8 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.language.wanted import refuse, text, told
 from gudgeon.results.batch_series import kept_text, series, wanted_names
+from gudgeon.results.diagnostics import Extremes
+from gudgeon.results.peaks import BatchPeaks, of_runs, run_columns
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, rates
 
@@ -90,6 +92,7 @@ class Batch:
     interrupted: bool
     result: ResultOf = field(repr=False)
     kept: Mapping[str, Array] = field(default_factory=dict)  # series (n, N) instead of states, and "t"
+    extremes: tuple[tuple[Extremes, ...], ...] = ()  # of each run, over all steps, where `peaks` asked for them
 
     def __len__(self) -> int:
         return len(self.samples)
@@ -165,11 +168,20 @@ class Batch:
         runs = map(self.partial, range(len(self)))
         return tuple(None if run is None else run.at_events(name) for run in runs)
 
+    def peak(self, name: str) -> BatchPeaks:
+        """Largest and smallest value of a series over all steps, (n,) each: see Result.peak."""
+        return of_runs(self.source, self.extremes, name, False)
+
+    def peak_error(self, name: str) -> BatchPeaks:
+        """The same of the series less that of another scene: see Result.peak_error."""
+        return of_runs(self.source, self.extremes, name, True)
+
     def to_xarray(self, names: Iterable[str] = (), part: str = "series") -> xarray.Dataset:
         """A Dataset over `run` and `time`, every series by its name in a Result, those of `names` too.
 
         Runs with times of their own have them as `t` over both; `time` then only counts. Over `run` alone: samples,
-        ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks.
+        ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks; those over all steps as "S9.ay.peak.max",
+        "S9.ay.error.max".
         `.to_dataframe()` has a row for each run and time. part: "impacts", "events" and what else a Result has as a
         table of its own: a row each, with its `run`.
         """
@@ -189,6 +201,7 @@ class Batch:
         found |= {name: ("run", values) for name, values in self.diagnostics.items()}
         for k, joint in enumerate(self.source.clearances):
             found |= {f"{joint.name}.peak.{name}": ("run", self.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
+        found |= {name: ("run", values, {"units": unit}) for name, unit, values in run_columns(self.extremes)}
         found |= self._samples(names)
         coordinates: dict[str, Any] = {"time": ("time", self.t, {"units": "s"})} if self.t.ndim == 1 else {}
         coordinates |= {name: ("run", values) for name, values in self.parameters.items()}

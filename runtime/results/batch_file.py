@@ -232,6 +232,7 @@ def _batch(opened_file: Any, size: int) -> Batch:
         peaks=_peaks(file, source, count), diagnostics=numbers, failures=as_failures(failed),
         seconds=float(about["seconds"]), threads=int(about["threads"]), interrupted=bool(about["interrupted"]),
         result=_Stored(runs, failed),
+        extremes=tuple(runs[i].diagnostics.extremes if i in runs else () for i in range(count)),
     )  # fmt: skip
 
 

@@ -21,6 +21,33 @@ class Peak:
 
 
 @dataclass(frozen=True)
+class Extremes:
+    """The largest and the smallest value of a series over all steps of a run; NaN where it never was a number."""
+
+    name: str
+    unit: str
+    max: float
+    t_max: float  # s
+    min: float
+    t_min: float  # s
+    against: str = ""  # the scene whose series was subtracted; "": none
+
+    @property
+    def abs(self) -> float:
+        """The largest magnitude."""
+        return abs(self._furthest[0])
+
+    @property
+    def t_abs(self) -> float:
+        """Its time, s."""
+        return self._furthest[1]
+
+    @property
+    def _furthest(self) -> tuple[float, float]:
+        return (self.min, self.t_min) if -self.min > self.max else (self.max, self.t_max)
+
+
+@dataclass(frozen=True)
 class Diagnostics:
     """Of one run; NaN stands for what the method does not have (the step of a kinematic scene)."""
 
@@ -48,6 +75,7 @@ class Diagnostics:
     jacobians: int = 0
     last_step: float = float("nan")  # s, of a fixed step, where the last one up to t_end is shorter; NaN: it is not
     horizon: float = float("nan")  # s, to which the trace can be trusted; inf: to the end, NaN: not asked
+    extremes: tuple[Extremes, ...] = ()  # over all steps, of the series that `peaks` asked for
 
     def peak(self, joint: str) -> Peak:
         """The peak at a joint with play; KeyError for any other."""
@@ -61,19 +89,29 @@ class Diagnostics:
 
         A float is written with as many digits as reading it back exactly needs.
         """
-        return json.dumps(_words(asdict(self)), ensure_ascii=False, allow_nan=False)
+        data = asdict(self)
+        if not self.extremes:
+            del data["extremes"]
+        return json.dumps(_words(data), ensure_ascii=False, allow_nan=False)
 
     @staticmethod
     def from_json(text: str) -> Diagnostics:
         """The diagnostics that `to_json` wrote, bit for bit."""
         data = json.loads(text)
         data["peaks"] = tuple(Peak(**_numbers(peak, Peak)) for peak in data["peaks"])
+        data["extremes"] = tuple(Extremes(**_numbers(one, Extremes)) for one in data.get("extremes", ()))
         data["notes"] = tuple(data["notes"])
         return Diagnostics(**_numbers(data, Diagnostics))
 
     def __str__(self) -> str:
-        rows = [f"{name:>30}  {value}" for name, value in asdict(self).items() if name not in ("peaks", "notes")]
+        lists = ("peaks", "notes", "extremes")
+        rows = [f"{name:>30}  {value}" for name, value in asdict(self).items() if name not in lists]
         rows += [f"{'peak at ' + p.joint:>30}  {p.F:.6g} N at {p.t:.6g} s, e ≤ {p.e_max:.6g} m" for p in self.peaks]
+        rows += [
+            f"{'peaks of ' + x.name + ' against ' * bool(x.against) + x.against:>30}  {x.min:.6g} {x.unit} at"
+            f" {x.t_min:.6g} s, {x.max:.6g} {x.unit} at {x.t_max:.6g} s"
+            for x in self.extremes
+        ]
         return "\n".join([*rows, *(f"{'note':>30}  {note}" for note in self.notes)])
 
 

@@ -1,9 +1,10 @@
 """Results as NetCDF 4 files, and as xarray's Datasets.
 
 A file holds every series under its own name over `time`, so that any NetCDF tool can read it, and in groups what has
-other rows: `impacts`, `events`, the series `at_events`, `parameters` and `trace` (trace.py), for people; `compiled`,
-the kernel source and what was derived from the parameters, so that gudgeon reads all of it back bit for bit without a
-compiled library. What has no row is not there. A file holds no date: the same run gives the same bytes.
+other rows: `impacts`, `events`, the series `at_events`, `parameters`, `trace` (trace.py) and `peaks` over all steps
+(peaks.py), for people; `compiled`, the kernel source and what was derived from the parameters, so that gudgeon reads
+all of it back bit for bit without a compiled library. What has no row is not there. A file holds no date: the same run
+gives the same bytes.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import written
 from gudgeon.language.wanted import path as named
 from gudgeon.language.wanted import text
-from gudgeon.results import trace
+from gudgeon.results import peaks, trace
 from gudgeon.results.hdf5_image import Table, Variable, pieces
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import DRIFT
@@ -30,8 +31,8 @@ if TYPE_CHECKING:
     import xarray
 
 FORMAT = "gudgeon-result/2"
-SERIES, TRACE, STATES, COMPILED = "series", "trace", "at_events", "compiled"
-PARTS = ("impacts", "events", STATES, "parameters", TRACE)
+SERIES, TRACE, STATES, COMPILED, PEAKS = "series", "trace", "at_events", "compiled", "peaks"
+PARTS = ("impacts", "events", STATES, "parameters", TRACE, PEAKS)
 IMPACTS = {
     "joint": ("", "joint with play"),
     "t_on": ("s", "onset of the contact"),
@@ -54,6 +55,8 @@ def tables(run: Result) -> Iterator[Table]:
     yield Table("parameters", "address", tuple(_parameters(run)), {})
     traced = (Variable(name, *of) for name, of in trace.variables(run).items())
     yield Table(TRACE, "t", tuple(traced), {})
+    extremes = peaks.columns(run.diagnostics.extremes)
+    yield Table(PEAKS, "row", tuple(Variable(name, x, *peaks.COLUMNS[name]) for name, x in extremes.items()), {})
     derived = Variable("value", run.p[len(run.given) :], "", "what was derived from the parameters, SI")
     yield Table(COMPILED, "derived", (derived,), {"source": run.source.to_json()})
 

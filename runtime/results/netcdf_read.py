@@ -179,6 +179,9 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
     if file.has(STATES):
         run.__dict__["states_at_events"] = _at_events(file, run)
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
+    for one in diagnostics.extremes:
+        if one.name not in run or not UNIT.fullmatch(one.unit) or one.against and not NAME.fullmatch(one.against):
+            raise ValueError(f"peaks of {one.name[:64]!r} are of no series")
     return run
 
 
@@ -202,6 +205,7 @@ def _is_there(file: File, name: str) -> bool:
 
 def _series(file: File, name: str, length: int) -> Array:
     stored = f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else variable(name)
+    stored = stored if file.has(stored) else name  # an output that is called like a group that older files have not
     values = file.numbers(stored, length, "i1" if name.endswith(".state") else "f8")
     values.flags.writeable = False
     return values

@@ -8,11 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gudgeon.results.diagnostics import Diagnostics
+from gudgeon.results.peaks import Extreme, of_samples, table_rows
 from gudgeon.results.plot_units import quantity, scale
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, drive_series, rates
@@ -25,18 +27,6 @@ COLUMNS = 4  # scenes beside each other in one table
 NEED_A_LEGEND = ("grazes", "δ̇/δ̇⁻ while latched", "steps with it outside ±1")
 # of a joint with play: name -> (unit that a table can scale, what follows the name); the rest is in --json
 CONSTANTS = {"c": ("m", ""), "K": ("", " [N/mⁿ]"), "S": ("N*s", "")}
-
-
-@dataclass(frozen=True)
-class Extreme:
-    """A series over a run: its least and largest value, and the value of largest magnitude with its time."""
-
-    name: str
-    unit: str
-    low: float
-    high: float
-    peak: float
-    t: float
 
 
 @dataclass(frozen=True)
@@ -71,17 +61,17 @@ def default_watch(reference: Result) -> tuple[str, ...]:
 def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> SceneReport:
     """The figures of one run; `reference` is the ideal run at the same times, None for the ideal run itself."""
     series = [name for watched in watch for name in (watched, *rates(watched)) if name and name in run]
-    motion = tuple(_extreme(name, run.unit(name), run.t, run[name]) for name in series)
+    motion = tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in series)
     errors: tuple[Extreme, ...] = ()
     if reference is not None:
         compared = [name for name in series if name in reference]
-        errors = tuple(_extreme(name, run.unit(name), run.t, run[name] - reference[name]) for name in compared)
+        errors = tuple(of_samples(name, run.unit(name), run.t, run[name] - reference[name]) for name in compared)
     forces = {peak.joint: (peak.F, peak.t) for peak in run.diagnostics.peaks}
     for joint in run.source.joints if not (run.source.clearances or run.source.massless) else ():
-        reaction = _extreme("", "N", run.t, run[f"{joint.name}.F"])
+        reaction = of_samples("", "N", run.t, run[f"{joint.name}.F"])
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
-    drives = tuple(_extreme(name, run.unit(name), run.t, run[name]) for name in drive_series(run.source))
+    drives = tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in drive_series(run.source))
     found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives
     return SceneReport(*found, _scales(run, forces, drives))
 
@@ -101,13 +91,6 @@ def _scales(run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequ
     return found
 
 
-def _extreme(name: str, unit: str, t: Any, values: Any) -> Extreme:
-    if not np.isfinite(values).any():
-        return Extreme(name, unit, math.nan, math.nan, math.nan, math.nan)
-    at = int(np.nanargmax(np.abs(values)))
-    return Extreme(name, unit, float(np.nanmin(values)), float(np.nanmax(values)), float(values[at]), float(t[at]))
-
-
 def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
     """Plain values for `--json`; what JSON has no number for (NaN, infinity) is null."""
     scenes = {}
@@ -117,6 +100,8 @@ def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
             "errors": {e.name: asdict(e) for e in report.errors},
             "peak_forces": {joint: {"F": force, "t": t} for joint, (force, t) in report.forces.items()},
             "drives": {e.name: asdict(e) for e in report.drives},
+            "peaks": {x.name: asdict(x) for x in report.diagnostics.extremes if not x.against},
+            "peak_errors": {x.name: asdict(x) for x in report.diagnostics.extremes if x.against},
             "constants": dict(report.constants),
             "events": {name: list(times) for name, times in report.events.items()},
             "diagnostics": asdict(report.diagnostics),
@@ -178,6 +163,8 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     rows: list[tuple[str, list[str]]] = []
     for heading, part in (
         ("Peak error against ideal", _error_rows(reports)),
+        ("Peak error against ideal, all steps", _extreme_rows(reports, True)),
+        ("Peaks, all steps", _extreme_rows(reports, False)),
         ("Motion", _motion_rows(reports)),
         ("Peak force", _force_rows(reports)),
         ("Peak of drives", _drive_rows(reports)),
@@ -212,6 +199,12 @@ def _motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     found = [{e.name: _range(e, report.scales) for e in report.motion} for report in reports]
     names = dict.fromkeys(e.name for report in reports for e in report.motion)
     return [(name, [cells.get(name, "–") for cells in found]) for name in names]
+
+
+def _extreme_rows(reports: Sequence[SceneReport], errors: bool) -> list[tuple[str, list[str]]]:
+    """Of the series that `peaks:` of a scene names."""
+    cells = [partial(_at, scales=report.scales) for report in reports]
+    return table_rows([report.diagnostics.extremes for report in reports], cells, errors)
 
 
 def _range(extreme: Extreme, scales: Mapping[str, float]) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators.trajectory import no_events
-from gudgeon.language.wanted import text, told
-from gudgeon.results.diagnostics import Diagnostics
+from gudgeon.language.wanted import text
+from gudgeon.results.diagnostics import Diagnostics, Extremes
 
 if TYPE_CHECKING:
     import pandas
@@ -155,6 +155,22 @@ class Result:
 
         return at_events(self, name)
 
+    def peak(self, name: str) -> Extremes:
+        """Largest and smallest value of a series over all steps of this run, with their times (s); SI.
+
+        Of a series that was asked for, `simulate(peaks=["S9.ay"])` or `peaks:` of the scene: samples do not know it.
+        A run that goes on from another one tells of its own part. Raises UnknownNameError, BadValueError.
+        """
+        from gudgeon.results.peaks import over_all_steps
+
+        return over_all_steps(self, name, False)
+
+    def peak_error(self, name: str) -> Extremes:
+        """The same of the series less that of another scene at the same times: `simulate(peaks=…, against=ideal)`."""
+        from gudgeon.results.peaks import over_all_steps
+
+        return over_all_steps(self, name, True)
+
     @cached_property
     def states_at_events(self) -> Result:
         """A result whose samples are the start and then all events, by time."""
@@ -269,25 +285,9 @@ class Result:
 
     def unknown(self, name: str) -> UnknownNameError:
         """The error for a name that this result does not have; it names the nearest."""
-        import difflib
+        from gudgeon.results.unknown import unknown_series
 
-        from gudgeon.results.series import MASSLESS_HINT, catalogue, missing, without_masses
-
-        if not isinstance(name, str):
-            return UnknownNameError(f"nothing is named {told(name)}", hint="a name is a text: run.names lists all")
-        if name in self.parameters:
-            return UnknownNameError(f"{name!r} is a parameter, no series", hint=f'see run.parameters["{name}"]')
-        if name in self.source.outputs:
-            lacking = ", ".join(missing(self.source, self.source.outputs[name], self._catalogue))
-            hint = "a joint's play, contact and reaction have results only in the scenes that have them"
-            hint = MASSLESS_HINT if self.source.massless else hint
-            scene = self.source.scene
-            return UnknownNameError(f"output {name!r} needs {lacking}, which scene {scene!r} lacks", hint=hint)
-        if (why := without_masses(self.source)) and name in catalogue(replace(self.source, massless=())):
-            return UnknownNameError(f"{name!r} is not known: {why}", hint=MASSLESS_HINT)
-        nearest = difflib.get_close_matches(str(name), self._catalogue, n=3, cutoff=0.5)
-        hint = f"nearest: {', '.join(nearest)}" if nearest else "run.names lists all names"
-        return UnknownNameError(f"the scene {self.source.scene!r} has nothing named {name!r}", hint=hint)
+        return unknown_series(self.source, self._catalogue, name, self.parameters)
 
 
 def read(path: str | os.PathLike[str]) -> Result:

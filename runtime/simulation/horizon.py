@@ -98,7 +98,7 @@ def _repeated(
 ) -> Result | None:
     """A run through `times`, as far as it goes, None: not even from the start; events do not end it."""
     try:
-        return simulation.simulate(output=times, start=start, progress=progress, stop=False, **settings)
+        return simulation.simulate(output=times, start=start, progress=progress, stop=False, peaks=(), **settings)
     except SolverError as error:
         return cast("Result | None", error.partial)
 

@@ -26,9 +26,11 @@ from gudgeon.results.batch import Batch, States, as_failures, given_values, peak
 from gudgeon.results.batch_series import STATES, parts_of, wanted_names
 from gudgeon.results.results import Result, State
 from gudgeon.simulation.arguments import method_of
+from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude
 from gudgeon.simulation.each_run import EachRun
 from gudgeon.simulation.hidden_jumps import any_in_batch
+from gudgeon.simulation.peaks import Search, Told, wanted_peaks
 from gudgeon.simulation.restart import check_fits, numbers, own_each
 from gudgeon.simulation.single_runs import Asked, run_singly
 
@@ -43,9 +45,11 @@ def simulate_many(
     simulation: Simulation, parameters: ParameterSets, t_end: Any, output: Any, method: str, rtol: float | str | None,
     step: Any, threads: int | None, progress: Progress | None, stop: bool, side_by_side: bool = True,
     start: State | Sequence[State] | None = None, keep: str | Iterable[str] = STATES,
+    peaks: Iterable[str] | None = None, against: Simulation | None = None,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
     compiled, source = simulation.compiled, simulation.source
+    names, against = wanted_peaks(source, peaks), check_beside(source, against)
     each = EachRun(compiled, t_end, output, step)
     starts = _Starts(simulation, parameters, start, each)
     method, progress = text(method, "method"), function(progress, "progress")
@@ -57,7 +61,7 @@ def simulate_many(
     series = _kept(source, keep)
     chosen = method_of(source, method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)
-    asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side, series)
+    asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side and not names, series, names, against)
     p, motion, bad = prepare_sets(compiled, starts.given, starts.is_given, chosen != "rk4")
     bad |= starts.bad | starts.unfit(p, bad)
     times = each.times(p, starts.t, bad)
@@ -68,7 +72,7 @@ def simulate_many(
         ends = np.array([times.of(i)[-1] for i in good.tolist()])
         if not any_in_batch(source, p[good], starts.t, ends):  # else each run looks for its own
             return _in_c(simulation, starts, (p, motion, steps), times, bad, asked)
-    options = {"method": method, "rtol": rtol, "stop": stop}
+    options: dict[str, Any] = {"method": method, "rtol": rtol, "stop": stop, "peaks": names, "against": against}
     given = [step] * len(p) if each.steps is None else each.steps
     own = [options | {"output": times.of(i), "step": given[i]} for i in range(len(p))]
     return run_singly(simulation, (starts.given, starts.is_given, p), times, own, starts.states, bad, asked)
@@ -96,9 +100,11 @@ def _in_c(
     )  # fmt: skip
     runs.begin(starts.states)
     runs.leave_out(bad)
+    runs.looks = searches = starts.searches(p, bad, asked)
     before = time.perf_counter()
     runs.run(asked.progress)
-    batch = _of_runs(_Results(simulation, runs, starts, asked.rtol, asked.stop, asked.method), kept)
+    told = [search.told() if search else Told() for search in searches]
+    batch = _of_runs(_Results(simulation, runs, starts, asked.rtol, asked.stop, asked.method, told), kept)
     return replace(batch, seconds=time.perf_counter() - before, threads=asked.threads)
 
 
@@ -153,6 +159,13 @@ class _Starts:
                     found[i] = error
         return found
 
+    def searches(self, p: Array, bad: Mapping[int, Any], asked: Asked) -> list[Search | None]:
+        """Who looks at the steps of each run; empty where nobody does."""
+        every = range(len(p) if asked.peaks else 0)
+        numbers = [(p[i], self.given[i], self.is_given[i]) for i in every]
+        wanted = (asked.rtol, asked.peaks, asked.against)
+        return [None if i in bad else Search.of(self.compiled, numbers[i], *wanted) for i in every]
+
 
 @dataclass
 class _Results:
@@ -164,6 +177,7 @@ class _Results:
     rtol: float
     stop: bool
     method: str
+    told: Sequence[Told]  # by run; empty where nobody looked
 
     def __call__(self, i: int) -> Result:
         """Raises the error of a run that failed, with what it reached."""
@@ -180,6 +194,8 @@ class _Results:
         trajectory, seconds = runs.trajectory(i), float(x["seconds"][i])
         given = (self.starts.given[i], self.starts.is_given[i], seconds)
         made = conclude(compiled, self.method, problem, trajectory, *given, soon=False)
+        if self.told:
+            self.told[i].to(made)
         if isinstance(error, SolverError):
             error.partial = made
         if error is not None:
@@ -217,4 +233,5 @@ def _of_runs(results: _Results, kept: _Kept | None) -> Batch:
         events=tuple(runs.events_of(i) for i in range(runs.n)),
         peaks=peaks_of(x["peaks"][:, :joints], impacts), diagnostics=numbers, failures=as_failures(runs.failures),
         seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results, kept=kept.arrays if kept else {},
+        extremes=tuple(told.extremes for told in results.told),
     )  # fmt: skip

@@ -26,8 +26,10 @@ from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.simulation.arguments import MAX_STEPS, METHODS, end_of, method_of, output_times, step_of
+from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.hidden_jumps import up_to_a_jump
+from gudgeon.simulation.peaks import Search, wanted_peaks
 from gudgeon.simulation.restart import check_fits, numbers, own
 from gudgeon.waiting.ctrl_c import CtrlC
 from gudgeon.waiting.imports import GENERATOR, whole
@@ -163,6 +165,7 @@ class Simulation:
         rtol: float | str | None = None, step: float | str | None = None,
         parameters: Mapping[str, float | str] | None = None, start: State | None = None,
         progress: Progress | None = None, horizon: bool = False, stop: bool = True,
+        peaks: Iterable[str] | None = None, against: Simulation | None = None,
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
@@ -181,6 +184,9 @@ class Simulation:
         they are over its own parameters, which hold unless replaced; a number that differs is told in the run's
         notes. A state of another mechanism, scene, file or overrides is refused. Ctrl-C ends the run and keeps
         what was computed. `stop` False: events that would end the run are recorded only.
+        `peaks`: names of series whose largest and smallest values over all steps, not over samples, are wanted, as
+        `run.peak("S9.ay")`; None: those that the scene of the file names. `against`: another scene, with which
+        `run.peak_error("S9.y")` tells of the series less that scene's, from t = 0, with the same numbers.
 
         Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
         SolverError when the equations cannot be solved; its `partial` is the result up to there.
@@ -192,8 +198,9 @@ class Simulation:
                 progress(0.0, "deriving the full formulation")
             return self.full.simulate(
                 t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
-                progress=progress, horizon=horizon, stop=stop,
+                progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against,
             )  # fmt: skip
+        names, beside = wanted_peaks(self.source, peaks), check_beside(self.source, against)
         begin = None if start is None else own(self.source, start)
         given, is_given, remarks = numbers(self.compiled, begin, parameters)
         p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
@@ -214,7 +221,8 @@ class Simulation:
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,
         )  # fmt: skip
         problem, jump = up_to_a_jump(problem)
-        result = self._ran(problem, jump, given, is_given)
+        search = Search.of(self.compiled, (p, given, is_given), tolerance, names, beside)
+        result = self._ran(problem, jump, given, is_given, search)
         if horizon and not result.diagnostics.interrupted:
             from gudgeon.simulation.horizon import with_horizon
 
@@ -227,6 +235,7 @@ class Simulation:
         rtol: float | str | None = None, step: float | str | Sequence[float | str] | ArrayLike | None = None,
         threads: int | None = None, progress: Progress | None = None, stop: bool = True, side_by_side: bool = True,
         start: State | Sequence[State] | None = None, keep: str | Iterable[str] = "states",
+        peaks: Iterable[str] | None = None, against: Simulation | None = None,
     ) -> Batch:  # fmt: skip
         """Run the scene with each of many parameter sets, in threads; arguments as in `simulate`.
 
@@ -243,23 +252,29 @@ class Simulation:
         go, and memory is that of the series alone. A run of which one cannot be evaluated has failed.
         `side_by_side`: whether runs of rk4 that have the same step and times may share vector registers, several in
         each thread; the numbers are the same without, and what that takes is compiled on its first use.
+        `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`. Such runs do not go side by side.
 
         Raises InputError for arguments.
         """
         from gudgeon.simulation.simulate_many import simulate_many
 
         return simulate_many(
-            self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start, keep
-        )
+            self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start, keep,
+            peaks, against,
+        )  # fmt: skip
 
-    def _ran(self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array) -> Result:
-        """What the time loop made of it. Raises SolverError with its `partial`; `jump`: that at the problem's end."""
+    def _ran(
+        self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array, search: Search | None
+    ) -> Result:
+        """What the time loop made of it and `search` found. Raises SolverError with `partial`; `jump`: at the end."""
         with CtrlC() as ctrl_c:
-            problem = replace(problem, take=ctrl_c.take)
+            problem = replace(problem, take=ctrl_c.take, look=search)
             before = time.perf_counter()
             trajectory = METHODS[problem.method](problem)
             spent = time.perf_counter() - before if trajectory.seconds is None else trajectory.seconds
             result = conclude(self.compiled, problem.method, problem, trajectory, given, is_given, spent)
+            if search:
+                search.told().to(result)
             result, contradicts = contradicted(problem, trajectory, result)
             ended = trajectory.interrupted or trajectory.t[-1] < problem.t[-1]  # before the jump
             stopped = trajectory.stopped or contradicts or (None if ended else jump)

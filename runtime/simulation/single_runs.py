@@ -40,6 +40,8 @@ class Asked:
     stop: bool
     side_by_side: bool
     keep: tuple[str, ...] | None  # series; None: states
+    peaks: tuple[str, ...] = ()  # series whose peaks over all steps are wanted
+    against: Simulation | None = None  # of those less this scene's
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,4 +178,5 @@ def run_singly(
         events=tuple(no_events() if run is None else run.events for run in found), peaks=peaks_of(peaks, impacts),
         diagnostics=runs.counts(), failures=as_failures(runs.errors), seconds=time.perf_counter() - before,
         threads=asked.threads, interrupted=runs.interrupted, result=runs, kept=runs.kept,
+        extremes=tuple(() if run is None else run.diagnostics.extremes for run in found),
     )  # fmt: skip

@@ -59,10 +59,10 @@ def _touching(simulation: Simulation, longest: float) -> Result | None:
     step = natural_step(simulation)
     try:
         work = window(simulation, longest, Setting("rk4", step))
-        impacts = simulation.simulate(work.t_end, output=1, method="rk4", step=step, stop=False).impacts
+        impacts = simulation.simulate(work.t_end, output=1, method="rk4", step=step, stop=False, peaks=()).impacts
         if not len(impacts):
             return None
-        run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, method="rk4", step=step, stop=False)
+        run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, method="rk4", step=step, stop=False, peaks=())
     except SolverError:
         return None
     return run if run.state[-1].any() else None

@@ -150,7 +150,8 @@ def attempt(
         chosen = {} if setting.method == "kinematic" else {"step": setting.value}
     try:
         run = simulation.simulate(
-            output=times, method=setting.method, parameters=parameters, progress=watch, stop=False, **chosen
+            output=times, method=setting.method, parameters=parameters, progress=watch, stop=False, peaks=(),
+            **chosen,
         )
     except _TooSlowError:
         told, at = f"more than {limit:.3g} s of processor time", float(times[0] + reached * (times[-1] - times[0]))

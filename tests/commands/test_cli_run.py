@@ -46,6 +46,23 @@ def test_json_holds_the_errors_against_the_ideal_scene(call: Gudgeon, pump: str)
 
 
 @needs_compiler
+def test_peaks_of_a_scene_and_their_errors_are_of_all_steps(call: Gudgeon, tmp_path: Path) -> None:
+    """In the table, in JSON and in the file, whatever the output."""
+    (tmp_path / "peaks.yaml").write_text(TEXT.replace("  worn: {play", "  worn: {peaks: [piston.ax, B.F], play"))
+    options = ("run", "peaks.yaml", "--t-end", "5 ms", "--output", "3")
+    done, as_json = call(*options), call(*options, "--json")
+    assert done.exit_code == as_json.exit_code == 0, done.output
+    for text in ("Peak error against ideal, all steps", "Peaks, all steps", "piston.ax max", "piston.ax min"):
+        assert text in done.stdout
+    worn, ideal = (gudgeon.load("peaks.yaml", scene) for scene in ("worn", "ideal"))
+    run = worn.simulate(0.005, output=3, against=ideal)
+    found = json.loads(as_json.stdout)["scenes"]["worn"]
+    assert found["peaks"]["piston.ax"]["min"] == run.peak("piston.ax").min
+    assert found["peak_errors"]["piston.ax"]["t_max"] == run.peak_error("piston.ax").t_max
+    assert gudgeon.Result.load(tmp_path / "out/pump_worn.nc").peak("B.F") == run.peak("B.F")
+
+
+@needs_compiler
 def test_the_reference_has_the_parameters_of_the_scene(call: Gudgeon, tmp_path: Path) -> None:
     """A scene that turns faster is compared with an ideal linkage that turns faster too."""
     fast = TEXT + (

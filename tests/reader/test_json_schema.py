@@ -63,7 +63,8 @@ def test_as_an_editor_reads_it(validator: Any) -> None:
 SHAPES = (
     "axis_missing drive_without_value event_unknown_action event_unknown_key event_unknown_word event_without_zero "
     "format_missing format_of_the_future law_in_wrong_role law_number_missing "
-    "list_for_number name_no_identifier no_bodies number_for_mapping point_without_body start_unknown_coordinate "
+    "list_for_number name_no_identifier no_bodies number_for_mapping peaks_without_names point_without_body "
+    "start_unknown_coordinate "
     "three_points two_joint_types unknown_joint_type unknown_key unknown_law unknown_option unknown_section "
     "value_missing vector_of_three yaml_null"
 )

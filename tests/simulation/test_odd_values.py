@@ -79,7 +79,8 @@ def refused_or_used(call: Callable[[Any], object], documented: tuple[type[Except
 
 RUN: dict[str, Any] = {"t_end": 0.01, "output": 2}
 ARGUMENTS = (
-    "t_end", "output", "method", "rtol", "step", "parameters", "start", "progress", "horizon", "stop",
+    "t_end", "output", "method", "rtol", "step", "parameters", "start", "progress", "horizon", "stop", "peaks",
+    "against",
 )  # fmt: skip
 
 
@@ -165,6 +166,7 @@ def test_an_override() -> None:
 RESULT: dict[str, Callable[[Result, Any], object]] = {
     "[]": lambda run, value: run[value], "in": lambda run, value: value in run,
     "unit": lambda run, value: run.unit(value), "meaning": lambda run, value: run.meaning(value),
+    "peak": lambda run, value: run.peak(value), "peak_error": lambda run, value: run.peak_error(value),
     "events_of": lambda run, value: run.events_of(value), "value_of": lambda run, value: run.value_of(value),
     "to_xarray": lambda run, value: run.to_xarray(value), "save": lambda run, value: run.save(value),
     "load": lambda run, value: Result.load(value),
@@ -186,6 +188,7 @@ def test_a_batch_by_number_and_name(batch: Any) -> None:
     refused_or_used(lambda value: batch[value], (IndexError,))
     refused_or_used(batch.partial, (IndexError,))
     refused_or_used(lambda value: batch.to_xarray(value))
+    refused_or_used(lambda value: batch.peak(value))
 
 
 BENCH = ("steps", "tolerances", "t_end", "parameters", "quick", "methods", "progress")

@@ -80,8 +80,8 @@ def describe(
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         lines=_lines(mechanism), massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
         tables=tuple(mechanism.tables.items()), laws=tuple(sorted(mechanism.laws.items())),
-        written=tuple(_written(model)), simulate_written=tuple(_simulate_written(model)),
-        states=_states(model), story=story, lanes=lanes,
+        peaks=tuple(map(str, model.scene.peaks)), written=tuple(_written(model)),
+        simulate_written=tuple(_simulate_written(model)), states=_states(model), story=story, lanes=lanes,
     )  # fmt: skip
 
 

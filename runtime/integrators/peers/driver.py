@@ -24,6 +24,7 @@ from gudgeon.integrators.adaptive import tolerances
 from gudgeon.integrators.peers.contacts import Contacts, Piece
 from gudgeon.integrators.peers.stepper import SCIPY, Equations, Stepper
 from gudgeon.integrators.projection import residuals
+from gudgeon.integrators.steps import Shown
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import N_WORK, Array
 
@@ -93,6 +94,8 @@ class _Driver:
         self.t, self.y = float(problem.t[0]), np.concatenate([problem.q, problem.v, np.zeros(N_WORK)])
         self.speed, self.controlled = np.zeros(2), np.zeros(2)
         self.steps = self.stuck = 0
+        self.shown = Shown(problem.compiled, problem.look)
+        self.began_anew = True  # or something changed at the end of the last step
         self.worst = np.zeros(2)  # |Φ|, |Φ̇|
         self.times: list[float] = []
         self.samples: list[tuple[NDArray[Any], ...]] = []  # y, a, memory, codes
@@ -147,6 +150,7 @@ class _Driver:
         event = self._look(piece)
         t_new = t1 if event is None else event[0]
         self._sample_before(piece, t_new)
+        self._show(piece, t_new)
         y = piece.projected(t_new)
         self.stuck = self.stuck + 1 if t_new - self.t < 1e-9 * (t1 - self.t) else 0
         self.t, self.y = t_new, y
@@ -156,11 +160,22 @@ class _Driver:
             if self.stuck > MAX_STUCK:
                 raise SolverError(f"contacts change without end near t = {t_new:.9g} s", t_new)
             self.contacts.change(t_new, y, event[1])
+            self.began_anew = True
         self._go_on(event is not None, end)
         self._sample_present()
         if self.problem.progress:
             t = self.problem.t
             self.problem.progress((t_new - t[0]) / max(t[-1] - t[0], 1e-300), "integrating")
+
+    def _show(self, piece: Piece, t_new: float) -> None:
+        """To whom looks at all steps: the nodes of this one, with the contacts that it began with."""
+        if self.problem.look:
+            nodes = piece.nodes()
+            nodes = nodes if self.began_anew else nodes[1:]
+            times = np.append(nodes[nodes < t_new], t_new)
+            states = [piece.projected(t) for t in times.tolist()]
+            self.shown.add(times, np.array(states), self.contacts.memory, self.contacts.codes, self.began_anew)
+        self.began_anew = False
 
     def _look(self, piece: Piece) -> tuple[float, int] | None:
         """The event that ends the step, and peaks before it."""
@@ -217,6 +232,7 @@ class _Driver:
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         contacts, equations, n = self.contacts, self.equations, self.n
+        self.shown.hand_on()
         if not self.samples:  # the start at least
             self.times.append(self.t)
             self.samples.append((self.y, np.full(n, np.nan), contacts.memory.copy(), contacts.codes))

@@ -1,0 +1,144 @@
+"""States along a run, for whoever looks at every step: the ends of steps and places between them, block by block.
+
+The time loops in C write them into rows (engine/run/tape.c) and come back where these are full; whoever looks has them
+before the loop goes on, and nothing is kept. A run at which nobody looks has no rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+
+ROWS = 4096
+
+
+@dataclass(frozen=True)
+class Steps:
+    """k states in the order of time; SI. Where something jumps both its sides are there, right beside it."""
+
+    t: Array  # (k,)
+    q: Array  # (k, n)
+    v: Array
+    work: Array  # (k, 3)
+    memory: Array  # (k, n_memory)
+    state: NDArray[Any]  # (k, n_clearances) int8
+    jumped: NDArray[np.bool_]  # (k,) whether something jumped, or began, since the row before
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __getitem__(self, rows: slice | NDArray[Any]) -> Steps:
+        return Steps(*(getattr(self, each.name)[rows] for each in fields(self)))
+
+    def then(self, later: Steps) -> Steps:
+        """These, and the later ones behind them."""
+        return Steps(*(np.concatenate([getattr(self, x.name), getattr(later, x.name)]) for x in fields(self)))
+
+
+Look: TypeAlias = Callable[[Steps], None]
+
+
+class Tape:
+    """Rows that a run in C fills, for `look`."""
+
+    def __init__(self, compiled: CompiledModel, look: Look | None = None) -> None:
+        self.compiled, self.look = compiled, look
+        self.widths = (2, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(len(compiled.source.clearances), 1))
+        self.rows = np.zeros((ROWS, sum(self.widths)))
+
+    def lay(self, run: Any) -> None:
+        """A run that is about to begin writes here."""
+        self.compiled.lib.gudgeon_run_tape(run, self.compiled.pointer(self.rows, written=True), len(self.rows))
+
+    def fetch(self, run: Any) -> None:
+        """Hands on what the run has written since the last time."""
+        count = int(self.compiled.lib.gudgeon_run_taped(run))
+        if count and self.look:
+            self.look(self._steps(self.rows[:count].copy()))
+
+    def _steps(self, rows: Array) -> Steps:
+        (head, y, memory, state), n = np.split(rows, np.cumsum(self.widths)[:-1], axis=1), self.compiled.n
+        joints = len(self.compiled.source.clearances)
+        return Steps(
+            head[:, 1], y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory[:, : self.compiled.n_memory],
+            state[:, :joints].astype(np.int8), head[:, 0] > 0.0,
+        )  # fmt: skip
+
+
+class Shown:
+    """The same of a run that Python drives; nobody may `look`."""
+
+    def __init__(self, compiled: CompiledModel, look: Look | None) -> None:
+        self.n, self.look = compiled.n, look
+        self.waiting: list[Steps] = []
+
+    def add(self, t: Array, y: Array, memory: Array, state: NDArray[Any], jumped: bool) -> None:
+        """States (k, 2n + 3) at times t (k,), all with these contacts; `jumped`: something did before the first."""
+        k, n = len(t), self.n
+        first = np.arange(k) < int(jumped)
+        repeated = np.tile(memory, (k, 1)), np.tile(state, (k, 1))
+        self.waiting.append(Steps(t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], *repeated, first))
+        if sum(map(len, self.waiting)) >= ROWS:
+            self.hand_on()
+
+    def hand_on(self) -> None:
+        """What waits."""
+        waiting, self.waiting = self.waiting, []
+        if self.look and waiting:
+            columns = zip(*(vars(steps).values() for steps in waiting), strict=True)
+            self.look(Steps(*(np.concatenate(column) for column in columns)))
+
+
+class Course:
+    """The same of a motion without a freedom (engine/kinematic): rows of t, q, q̇, with their works."""
+
+    def __init__(self, compiled: CompiledModel, look: Look, begin: Callable[[], NDArray[Any]], first: Steps) -> None:
+        self.compiled, self.look, self.last = compiled, look, first
+        self.rows = np.zeros((ROWS, 1 + 2 * compiled.n))
+        self.waiting: list[Array] = []  # of a part of the way that an event may yet cut off
+        self.works = begin()  # a struct of its own, for the works on the way
+        look(first)
+
+    def lay(self, course: Any, rows: int = ROWS) -> None:
+        """The motion writes here from now on; 0 rows: no longer."""
+        lib, where = self.compiled.lib, self.compiled.pointer(self.rows, written=True)
+        lib.gudgeon_course_tape(course, where if rows else self.compiled.ffi.NULL, rows)
+
+    def fetch(self, course: Any) -> None:
+        """Takes what was written since the last time."""
+        count = int(self.compiled.lib.gudgeon_course_taped(course))
+        if count:
+            self.waiting.append(self.rows[:count].copy())
+
+    def hand_on(self, p: Array, end: tuple[float, Array, Array] | None = None) -> None:
+        """What waits, up to a last state (t, q, q̇) where the way ends there."""
+        rows = np.concatenate(self.waiting) if self.waiting else self.rows[:0]
+        self.waiting = []
+        if end is not None:
+            rows = np.concatenate([rows[rows[:, 0] < end[0]], np.hstack(end)[None]])
+        rows = rows[rows[:, 0] > self.last.t[0]]
+        for first in range(0, len(rows), ROWS):
+            self._hand_on(rows[first : first + ROWS], p)
+
+    def _hand_on(self, rows: Array, p: Array) -> None:
+        n, count, pointer = self.compiled.n, len(rows), self.compiled.pointer
+        t, q, v = rows[:, 0].copy(), rows[:, 1 : 1 + n].copy(), rows[:, 1 + n :].copy()
+        work, done = np.full((count + 1, N_WORK), np.nan), np.zeros(1, dtype=np.int_)
+        work[0] = self.last.work[0]
+        way = tuple(np.concatenate([old, new]) for old, new in ((self.last.t, t), (self.last.q, q), (self.last.v, v)))
+        status = self.compiled.lib.gudgeon_kinematic_works(
+            pointer(self.works, "void *"), count, pointer(way[0]), pointer(p), pointer(way[1]), pointer(way[2]),
+            pointer(work, written=True), pointer(done, "long *", True),
+        )  # fmt: skip
+        if status:  # told by the samples' own
+            work[int(done[0]) + 1 :] = np.nan
+        none = np.zeros((count, 0))
+        steps = Steps(t, q, v, work[1:], none, none.astype(np.int8), np.zeros(count, dtype=bool))
+        self.last = steps[-1:]
+        self.look(steps)

@@ -1,0 +1,142 @@
+"""Peaks of series: over all steps of a run, where they were asked for, `run.peak("S9.ay")`; over its samples.
+
+As columns of a file and as rows of a table.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import BadValueError
+from gudgeon.results.diagnostics import Extremes
+from gudgeon.results.unknown import check_series
+
+if TYPE_CHECKING:
+    from gudgeon.model.compiled import Array
+    from gudgeon.results.results import Result
+
+COLUMNS = {
+    "name": ("", "series"), "against": ("", "scene whose series was subtracted"), "unit": ("", "unit of the values"),
+    "max": ("", "largest value over all steps, SI"), "t_max": ("s", "its time"),
+    "min": ("", "smallest value over all steps, SI"), "t_min": ("s", "its time"),
+}  # fmt: skip
+ENDS = ("max", "t_max", "min", "t_min")
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A series over the samples of a run: its least and largest value, and the value of largest magnitude, its time."""
+
+    name: str
+    unit: str
+    low: float
+    high: float
+    peak: float
+    t: float
+
+
+def of_samples(name: str, unit: str, t: Array, values: Array) -> Extreme:
+    """NaN where nothing is known."""
+    if not np.isfinite(values).any():
+        return Extreme(name, unit, math.nan, math.nan, math.nan, math.nan)
+    at = int(np.nanargmax(np.abs(values)))
+    return Extreme(name, unit, float(np.nanmin(values)), float(np.nanmax(values)), float(values[at]), float(t[at]))
+
+
+def over_all_steps(run: Result, name: str, error: bool) -> Extremes:
+    """The extremes of a series of a run, or of its error against another scene.
+
+    Raises UnknownNameError for what the run does not have, BadValueError for what was not asked for.
+    """
+    if not isinstance(name, str) or name not in run.names:
+        raise run.unknown(name)
+    for one in run.diagnostics.extremes:
+        if one.name == name and bool(one.against) == error:
+            return one
+    raise _not_asked(name, error)
+
+
+def _not_asked(name: str, error: bool) -> BadValueError:
+    if error:
+        told = f"the error of {name} over all steps is not known"
+        return BadValueError(told, hint=f'simulate(…, peaks=["{name}"], against=ideal), where ideal is a loaded scene')
+    told = f"the peak of {name} over all steps was not asked for, and samples do not know it"
+    return BadValueError(told, hint=f'simulate(…, peaks=["{name}"]), or peaks: [{name}] in the scene of the file')
+
+
+def columns(extremes: Sequence[Extremes]) -> dict[str, Array]:
+    """Name -> (k,) values, in the order of COLUMNS."""
+    texts = ("name", "against", "unit")
+    return {
+        name: np.array([getattr(one, name) for one in extremes], object if name in texts else float) for name in COLUMNS
+    }
+
+
+def table_rows(
+    scenes: Sequence[Sequence[Extremes]], cells: Sequence[Callable[[float, str, float], str]], errors: bool
+) -> list[tuple[str, list[str]]]:
+    """(name, a cell a scene), as its function writes value, unit and time: of errors the largest magnitude, else the
+    largest value and the smallest one."""
+    found = [{one.name: one for one in extremes if bool(one.against) == errors} for extremes in scenes]
+    rows = []
+    for name in dict.fromkeys(name for one in found for name in one):
+        for end in ("",) if errors else ("max", "min"):
+            ends = [_end(one[name], end) if name in one else None for one in found]
+            told = [cell(*at) if at else "–" for cell, at in zip(cells, ends, strict=True)]
+            rows.append((f"{name} {end}".strip(), told))
+    return rows
+
+
+def _end(one: Extremes, end: str) -> tuple[float, str, float]:
+    """Value, unit and time; "": of the largest magnitude."""
+    end = end or ("min" if -one.min > one.max else "max")
+    return (one.max, one.unit, one.t_max) if end == "max" else (one.min, one.unit, one.t_min)
+
+
+@dataclass(frozen=True, eq=False)
+class BatchPeaks:
+    """Extremes of a series of n runs, (n,) each; NaN for a run that did not begin."""
+
+    name: str
+    unit: str
+    max: Array
+    t_max: Array  # s
+    min: Array
+    t_min: Array  # s
+    against: str = ""  # the scene whose series was subtracted; "": none
+
+    @property
+    def abs(self) -> Array:
+        """The largest magnitude."""
+        return np.maximum(self.max, -self.min)
+
+    @property
+    def t_abs(self) -> Array:
+        """Its time, s."""
+        return np.where(-self.min > self.max, self.t_min, self.t_max)
+
+
+def of_runs(source: KernelSource, runs: Sequence[Sequence[Extremes]], name: str, error: bool) -> BatchPeaks:
+    """The extremes of a series of all runs. Raises UnknownNameError, BadValueError."""
+    check_series(source, [name])
+    found = [next((x for x in own if x.name == name and bool(x.against) == error), None) for own in runs]
+    known = next(filter(None, found), None)
+    if known is None:
+        raise _not_asked(name, error)
+    values = {key: np.array([getattr(x, key) if x else np.nan for x in found]) for key in ENDS}
+    return BatchPeaks(name, known.unit, **values, against=known.against)
+
+
+def run_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, Array]]:
+    """Name, unit and values (n,): "S9.ay.peak.max", "S9.ay.error.max" and so on."""
+    for one in dict.fromkeys((x.name, x.unit, x.against) for own in runs for x in own):
+        found = [next((x for x in own if (x.name, x.unit, x.against) == one), None) for own in runs]
+        for key in ENDS:
+            values = np.array([getattr(x, key) if x else np.nan for x in found])
+            yield f"{one[0]}.{'error' if one[2] else 'peak'}.{key}", "s" if key.startswith("t_") else one[1], values

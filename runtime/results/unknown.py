@@ -1,0 +1,47 @@
+"""Names that a scene's results do not have: why, and the nearest that there are."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import UnknownNameError
+from gudgeon.language.wanted import told
+from gudgeon.results.series import MASSLESS_HINT, catalogue, missing, without_masses
+
+if TYPE_CHECKING:
+    from gudgeon.results.series import Series
+
+
+def unknown_series(
+    source: KernelSource, known: Mapping[str, Series], name: Any, parameters: Iterable[str]
+) -> UnknownNameError:
+    """The error for a name that `known`, the results of a scene, does not have; it names the nearest."""
+    if not isinstance(name, str):
+        return UnknownNameError(f"nothing is named {told(name)}", hint="a name is a text: run.names lists all")
+    if name in parameters:
+        return UnknownNameError(f"{name!r} is a parameter, no series", hint=f'see run.parameters["{name}"]')
+    if name in source.outputs:
+        lacking = ", ".join(missing(source, source.outputs[name], known))
+        hint = "a joint's play, contact and reaction have results only in the scenes that have them"
+        hint = MASSLESS_HINT if source.massless else hint
+        return UnknownNameError(f"output {name!r} needs {lacking}, which scene {source.scene!r} lacks", hint=hint)
+    if (why := without_masses(source)) and name in catalogue(replace(source, massless=())):
+        return UnknownNameError(f"{name!r} is not known: {why}", hint=MASSLESS_HINT)
+    nearest = difflib.get_close_matches(str(name), known, n=3, cutoff=0.5)
+    hint = f"nearest: {', '.join(nearest)}" if nearest else "run.names lists all names"
+    return UnknownNameError(f"the scene {source.scene!r} has nothing named {name!r}", hint=hint)
+
+
+def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
+    """Names of series of a scene, each once. Raises UnknownNameError."""
+    known, wanted = catalogue(source), list(names)
+    addresses = {slot.address for slot in source.slots}
+    for name in wanted:
+        if not isinstance(name, str) or name not in known:
+            parameters = addresses | {address.removeprefix("parameters.") for address in addresses}
+            raise unknown_series(source, known, name, parameters)
+    return tuple(dict.fromkeys(wanted))

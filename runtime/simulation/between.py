@@ -1,0 +1,164 @@
+"""States of a scene by the block, every series there, and the states between two that are neighbours."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.polynomial.legendre import legder, legfit, leggauss, legint, legval, legvander
+from numpy.typing import NDArray
+
+from gudgeon.contract.methods import KINEMATIC
+from gudgeon.errors import SolverError
+from gudgeon.integrators.kinematic import along
+from gudgeon.integrators.steps import Steps
+from gudgeon.integrators.trajectory import IMPACT_DTYPE
+from gudgeon.model.compiled import Array, CompiledModel, Evaluation
+from gudgeon.results.diagnostics import Diagnostics
+from gudgeon.results.results import Result
+from gudgeon.results.series import catalogue
+
+NODES = 0.5 * (leggauss(6)[0] + 1.0)  # shares of a part of a step at which powers are taken
+KEPT = 256  # places that were looked at, whose series are at hand for the next name
+ROUNDED = 1e-7  # of the speed: in parts of steps so short differences of positions say no more of it
+NONE = Diagnostics(
+    method="", step=math.nan, steps=0, right_hand_sides=0, onsets=0, grazes=0, phi_max=math.nan, phi_dot_max=math.nan,
+    energy_residual=math.nan, energy_turned_over=math.nan, ratio_min=math.nan, ratio_max=math.nan, ratio_outside=0,
+    peaks=(), seconds=math.nan, seconds_per_simulated_second=math.nan,
+)  # fmt: skip
+
+
+class Path:
+    """The present block of a run: its states, of which the first two ended the block before."""
+
+    def __init__(self, compiled: CompiledModel, numbers: tuple[Array, Array, Array]) -> None:
+        self.compiled, self.source = compiled, compiled.source
+        self.p, self.given, self.is_given = numbers  # as in a Result
+        self.catalogue = catalogue(self.source)
+        self.exact = self.source.methods == (KINEMATIC,)
+        self.first: Steps | None = None  # of the run: energies count from it
+        self.lost = 0  # states without accelerations
+        self.seen: dict[tuple[int, float, float], Result] = {}  # places that were looked at
+        self.nearest: tuple[int, Any] = (-1, None)  # k, rates between states k and k + 1
+        self.powers: tuple[int, Any] = (-1, None)  # k, integrals of the powers between states k and k + 1
+        self.steps: Steps
+        self.run: Result
+        self.inner: NDArray[np.bool_]  # (K − 1,) whether k and k + 1 are the ends of a part of a step
+
+    def take(self, steps: Steps) -> None:
+        """The next block."""
+        self.first = steps[:1] if self.first is None else self.first
+        self.steps = self.steps[-2:].then(steps) if hasattr(self, "steps") else steps
+        self.run, good = self._result(self.steps)
+        self.nearest, self.powers, self.seen = (-1, None), (-1, None), {}
+        self.lost += int((~good[len(good) - len(steps) :]).sum())
+        x = self.steps
+        q, v = (np.abs(part[np.isfinite(part)]).max(initial=0.0) for part in (x.q, x.v))
+        least = 40.0 * np.finfo(float).eps * q / max(ROUNDED * v, 1e-300)
+        self.inner = ~x.jumped[1:] & (np.diff(x.t) > (0.0 if self.exact else least))
+
+    def values(self, name: str) -> Array:
+        """A series at the states, (K,); NaN where it is not known."""
+        return self.run[name][1:]
+
+    def between(self, k: int, t: Array, name: str) -> Array:
+        """A series at times t (T,) between states k and k + 1."""
+        place = (k, float(t[0]), float(t[-1]))
+        if place not in self.seen:
+            if len(self.seen) >= KEPT:
+                self.seen.clear()
+            self.seen[place] = self._result(self._states(k, t))[0]
+        return self.seen[place][name][1:]
+
+    def _result(self, steps: Steps) -> tuple[Result, NDArray[np.bool_]]:
+        """The run's first state, then these, and which of all have accelerations."""
+        assert self.first is not None
+        x = self.first.then(steps)
+        evaluation, good = self._evaluation(x)
+        run = Result(
+            compiled=self.compiled, source=self.source, p=self.p, given=self.given, is_given=self.is_given,
+            t=x.t, q=x.q, v=x.v, accelerations=evaluation.a, state=x.state, memory=x.memory, work=x.work,
+            impacts=np.zeros(0, IMPACT_DTYPE), diagnostics=NONE,
+        )  # fmt: skip
+        run.__dict__.update(evaluation=evaluation, _catalogue=self.catalogue)
+        return run, good
+
+    def _evaluation(self, x: Steps) -> tuple[Evaluation, NDArray[np.bool_]]:
+        """NaN at states where the equations cannot be solved, and where they can."""
+        good = np.asarray(np.isfinite(x.q).all(axis=1) & np.isfinite(x.v).all(axis=1))
+        while True:
+            try:
+                found = self.compiled.evaluate(x.t[good], x.q[good], x.v[good], x.memory[good], self.p)
+                break
+            except SolverError as error:
+                left = good & (x.t != error.time)
+                good = left if (left != good).any() else np.zeros_like(good)
+        if good.all():
+            return found, good
+        whole = Evaluation(*(np.full((len(x), *part.shape[1:]), np.nan) for part in vars(found).values()))
+        for part, known in zip(vars(whole).values(), vars(found).values(), strict=True):
+            part[good] = known
+        return whole, good
+
+    def _states(self, k: int, t: Array) -> Steps:
+        """At times t (T,) between states k and k + 1, with the contacts of the first of them."""
+        x = self.steps
+        s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]
+        q, v = self._motion(k, t, s)
+        memory = np.repeat(x.memory[k : k + 1], len(t), axis=0)
+        states = slice(memory.shape[1] - len(self.source.states), None)
+        memory[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
+        codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
+        return Steps(t, q, v, self._works(k, s), memory, codes, np.zeros(len(t), dtype=bool))
+
+    def _motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
+        """q and q̇ (T, n) at times t and shares s (T, 1): polynomials, or what the drives say."""
+        x = self.steps
+        if self.exact:
+            q, v = along(self.compiled, self.p, np.concatenate([x.t[k : k + 1], t]), x.q[k], x.v[k])
+            return q[1:], v[1:]
+        mid, half, rates = self._rates(k)
+        places = (np.concatenate([x.t[k : k + 2], t]) - mid) / half
+        way = half * legval(places, legint(rates)).T
+        left = x.q[k + 1] - x.q[k] - (way[1] - way[0])  # what rates do not know of positions
+        return x.q[k] + (way[2:] - way[0]) + s * left, legval(places[2:], rates).T
+
+    def _rates(self, k: int) -> tuple[float, float, Any]:
+        """Legendre coefficients of q̇ about a time, for so many seconds on both sides: through states k and k + 1 and
+        their neighbours where these help, which they do not beyond a kink of a force."""
+        if self.nearest[0] != k:
+            h, a = np.diff(self.steps.t), self.run.a[1:]
+            near = [
+                0 <= j < len(h) and bool(self.inner[j]) and 0.125 < h[j] / h[k] < 8.0 and bool(np.isfinite(a[at]).all())
+                for j, at in ((k - 1, k - 1), (k + 1, min(k + 2, len(h))))
+            ]
+            parts = {(k - (near[0] and i), k + 2 + (near[1] and j)) for i in (1, 0) for j in (1, 0)}
+            self.nearest = k, min((self._hermite(slice(*rows)) for rows in sorted(parts)), key=lambda one: one[0])[1:]
+        found: tuple[float, float, Any] = self.nearest[1]
+        return found
+
+    def _hermite(self, rows: slice) -> tuple[float, float, float, Any]:
+        """The polynomial of q̇ through states and their accelerations, as _rates has it, behind its likely error."""
+        x, a = self.steps, self.run.a[1:]
+        t, n = x.t[rows], 2 * len(x.t[rows])
+        mid, half = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
+        places = (t - mid) / half
+        matrix = np.concatenate([legvander(places, n - 1), legval(places, legder(np.eye(n))).T])
+        found = np.linalg.solve(matrix, np.concatenate([x.v[rows], half * a[rows]]))
+        last, before = np.abs(found[-1]).max(), np.abs(found[-2]).max()
+        return float(last * min(1.0, last / max(before, 1e-300))), mid, half, found
+
+    def _works(self, k: int, s: Array) -> Array:
+        """Works (T, 3) at shares s (T, 1): the integral of the polynomial through the powers on the way."""
+        x = self.steps
+        if self.powers[0] != k:
+            h = x.t[k + 1] - x.t[k]
+            t = x.t[k] + h * NODES
+            q, v = self._motion(k, t, NODES[:, None])
+            power = self.compiled.evaluate(t, q, v, np.repeat(x.memory[k : k + 1], len(t), axis=0), self.p).power
+            self.powers = k, legint(legfit(2.0 * NODES - 1.0, 0.5 * h * power, len(NODES) - 1), lbnd=-1.0)
+        work = legval(2.0 * s[:, 0] - 1.0, self.powers[1]).T
+        left = x.work[k + 1] - x.work[k] - legval(1.0, self.powers[1])
+        out: Array = x.work[k] + work + s * left
+        return out

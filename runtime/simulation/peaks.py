@@ -1,0 +1,201 @@
+"""Peaks of any series over all steps of a run: `simulate(peaks=["S9.ay"])`.
+
+The time loop shows the states of its steps (integrators/steps.py), ends and places between. Series are evaluated there
+as at samples, in bulk, and a block of states is dropped when the next one comes. Between two neighbouring states motion
+is a polynomial through them and their neighbours with all rates (C. Hermite, J. reine angew. Math. 84, 1878), whose
+error is of the order of the method's own; without a freedom it is followed there as anywhere. Where a series may rise
+above what is known, by its second differences, it is looked at, closer and closer, until rounding is left. Nothing is
+sought across a jump, for both its sides are among the states.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.polynomial.chebyshev import chebval, chebvander
+from numpy.typing import NDArray
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.integrators.adaptive import RTOL
+from gudgeon.integrators.steps import Steps
+from gudgeon.language.wanted import listed
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.results.diagnostics import Extremes
+from gudgeon.results.results import Result
+from gudgeon.results.unknown import check_series
+from gudgeon.simulation.beside import Beside
+from gudgeon.simulation.between import Path
+
+if TYPE_CHECKING:
+    from gudgeon.simulation.simulation import Simulation
+
+NODES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # places (of Chebyshev) at which a part of a step is looked at
+COEFFICIENTS = np.linalg.inv(chebvander(2.0 * NODES - 1.0, len(NODES) - 1))  # times values there: of the polynomial
+FINE = chebvander(np.linspace(-1.0, 1.0, 129), len(NODES) - 1)  # times coefficients: its values
+ROUNDS, AT_AN_END = 12, 3  # of looking closer, each several times as close; fewer where the top is at an end
+MOST = 16  # parts of steps of a block that are looked at, the most promising ones first
+SAME = 1e-14  # of a value: so little more is rounding, and the earlier time is told
+CLOSE = 1e-11  # of the largest value of a block, that the last coefficients of a polynomial may be
+
+
+def wanted_peaks(source: KernelSource, peaks: Iterable[str] | None) -> tuple[str, ...]:
+    """Names of series whose peaks are wanted: those given, else the scene's. Raises UnknownNameError, BadValueError."""
+    if peaks is None:
+        return check_series(source, source.peaks)
+    names = [peaks] if isinstance(peaks, str) else listed(peaks, "peaks", str, "a list of names of series")
+    return check_series(source, names)
+
+
+@dataclass(frozen=True)
+class Told:
+    """Of one run: peaks and errors, and what its notes say of them."""
+
+    extremes: tuple[Extremes, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def to(self, run: Result) -> None:
+        """They become a part of what a run says of itself."""
+        notes = (*run.diagnostics.notes, *self.notes)
+        run.diagnostics = replace(run.diagnostics, extremes=self.extremes, notes=notes)
+
+
+class Search:
+    """Whoever looks at all steps of one run; `found` says what came of it."""
+
+    def __init__(
+        self, compiled: CompiledModel, names: Iterable[str], numbers: tuple[Array, Array, Array],
+        beside: Beside | None = None,
+    ) -> None:  # fmt: skip
+        self.names = tuple(names)
+        self.ours = Path(compiled, numbers)
+        self.beside = beside  # the scene against which errors are wanted
+        self.theirs = Path(beside.compiled, beside.numbers) if beside else None
+        self.kinds = [(name, False) for name in self.names]
+        if beside:
+            self.kinds += [(name, True) for name in self.names if name in beside.names]
+        self.best: dict[tuple[str, bool, int], tuple[float, float]] = {}  # (name, error, sign) -> value, time
+
+    @staticmethod
+    def of(
+        compiled: CompiledModel, numbers: tuple[Array, Array, Array], rtol: float, names: tuple[str, ...],
+        against: Simulation | None,
+    ) -> Search | None:  # fmt: skip
+        """For a run with these numbers, p, given and is_given; None where nothing is wanted."""
+        if not names:
+            return None
+        beside = Beside(against, compiled.source, numbers[0], rtol or RTOL) if against else None
+        return Search(compiled, names, numbers, beside)
+
+    def __call__(self, steps: Steps) -> None:
+        """The next states of the run."""
+        self.ours.take(steps)
+        paths = [self.ours]
+        if self.theirs and self.beside and (followed := self.beside.follow(steps.t)) is not None:
+            self.theirs.take(followed)
+            paths.append(self.theirs)
+        for name, error in self.kinds:
+            if not error or len(paths) == 2:
+                self._improve(name, error, paths if error else paths[:1])
+
+    def told(self) -> Told:
+        """What was found, as a result has it."""
+        return Told(self.found(), self.notes())
+
+    def found(self) -> tuple[Extremes, ...]:
+        """Peaks, then errors, of what was shown."""
+        unknown = (math.nan, math.nan)
+        told = []
+        for name, error in self.kinds:
+            if error and self.beside and self.beside.lost:
+                continue
+            high, low = (self.best.get((name, error, sign), unknown) for sign in (1, -1))
+            against = self.beside.scene if error and self.beside else ""
+            told.append(Extremes(name, self.ours.catalogue[name].unit, *high, 0.0 - low[0], low[1], against))
+        return tuple(told)
+
+    def notes(self) -> tuple[str, ...]:
+        """What the run should say of it."""
+        told = []
+        if self.ours.lost:
+            told.append(f"peaks: {self.ours.lost} states of steps have no accelerations and are left out")
+        if self.beside and self.beside.lost:
+            told.append(f"errors over all steps are not known: scene {self.beside.scene}: {self.beside.lost}")
+        return tuple(told)
+
+    def _improve(self, name: str, error: bool, paths: list[Path]) -> None:
+        """What the present states, and what lies between them, say of one series."""
+        values = _less([path.values(name) for path in paths])
+        t, inner = self.ours.steps.t, self.ours.inner
+        scale = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+        for sign in (1, -1):
+            key = (name, error, sign)
+            if np.isfinite(sign * values).any():
+                k = int(np.nanargmax(np.where(np.isfinite(values), sign * values, -np.inf)))
+                self._note(key, float(sign * values[k]), float(t[k]))
+            rises = _may_rise(t, sign * values, inner)
+            for k in np.argsort(-rises, kind="stable")[:MOST].tolist():
+                if not rises[k] > self.best.get(key, (-math.inf, 0.0))[0]:
+                    break
+                self._look_closer(key, k, paths, scale)
+
+    def _look_closer(self, key: tuple[str, bool, int], k: int, paths: list[Path], scale: float) -> None:
+        """The top between states k and k + 1: of the polynomial through so many places, once that tells all of it."""
+        low, high = self.ours.steps.t[k : k + 2].tolist()
+        for turn in range(ROUNDS):
+            times = low + NODES * (high - low)
+            values = key[2] * _less([path.between(k, times, key[0]) for path in paths])
+            known = np.where(np.isfinite(values), values, -np.inf)
+            best = int(known.argmax())
+            self._note(key, float(known[best]), float(times[best]))
+            if np.isfinite(values).all():
+                parts = COEFFICIENTS @ values
+                if np.abs(parts[-2:]).max() <= CLOSE * scale:
+                    top, share = _top(parts)
+                    self._note(key, top, low + share * (high - low))
+                    break
+            if not times[1] > times[0] or (best in (0, len(NODES) - 1) and turn >= AT_AN_END):
+                break
+            low, high = float(times[max(best - 1, 0)]), float(times[min(best + 1, len(NODES) - 1)])
+
+    def _note(self, key: tuple[str, bool, int], value: float, t: float) -> None:
+        if math.isfinite(value) and (key not in self.best or value - self.best[key][0] > SAME * abs(value)):
+            self.best[key] = value, t
+
+
+def _top(parts: Array) -> tuple[float, float]:
+    """Height and place in [0, 1] of the top of a polynomial by its coefficients of Chebyshev."""
+    fine = FINE @ parts
+    k = int(fine.argmax())
+    share = k / (len(fine) - 1)
+    if 0 < k < len(fine) - 1:
+        bend = fine[k - 1] - 2.0 * fine[k] + fine[k + 1]
+        share += 0.5 * (fine[k - 1] - fine[k + 1]) / bend / (len(fine) - 1) if bend < 0.0 else 0.0
+    return float(max(fine[k], chebval(2.0 * share - 1.0, parts))), share
+
+
+def _less(values: list[Array]) -> Array:
+    """A series, or less that of another scene."""
+    return values[0] if len(values) == 1 else values[0] - values[1]
+
+
+def _may_rise(t: Array, values: Array, inner: NDArray[np.bool_]) -> Array:
+    """How high a series may be between states k and k + 1, (K − 1,); −∞ where it is no higher than there.
+
+    A parabola through both, whose second rate is twice as large as differences of neighbours say. `inner` (K − 1,):
+    parts of one step.
+    """
+    out = np.full(max(len(t) - 1, 0), -np.inf)
+    if len(t) < 3:
+        return out
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        h, way = np.diff(t), np.diff(values)
+        bend = np.abs(np.diff(way / h)) / (t[2:] - t[:-2]) * 2.0  # at states 1 to K − 2
+        bend = np.where(inner[1:] & inner[:-1] & np.isfinite(bend), bend, 0.0)
+        most = 2.0 * np.maximum(np.append(bend, 0.0), np.insert(bend, 0, 0.0)) * h**2
+        top = 0.5 + way / most  # share of the part at which the parabola is highest
+        height = values[:-1] + way * top + 0.5 * most * top * (1.0 - top)
+    return np.where(inner & (top > 0.0) & (top < 1.0) & np.isfinite(height), height, out)
