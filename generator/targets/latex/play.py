@@ -24,7 +24,8 @@ from gudgeon.language.units import si_unit
 # What the laws call their abbreviations and constants, in the paper's letters.
 _LAW_LETTERS = {
     "root": letter("s"), "factor": letter("f"), "hysteresis": letter("a"), "film_clearance": letter("c", "film"),
-    "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"), "spring": letter("K"), "damper": letter("D"),
+    "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"),
+    "spring": letter("K"), "damper": letter("D"),
 }  # fmt: skip
 _PAIR = (
     ("radius", "R_i", "bearing radius"),
