@@ -73,6 +73,10 @@ def default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:
             # Hertz: δ_max = (5 m v²/(4K))^(2/5), contact time 2.943 δ_max/v
             deepest = (1.25 * IMPACT_SPEED**2 / (inverse * numbers["K"])) ** 0.4
             bounds.append(CONTACT * 2.943 * deepest / IMPACT_SPEED)
+        if joint.dry and "spring" in numbers:
+            bounds.append(CONTACT * math.pi / math.sqrt(inverse * numbers["spring"]))
+        if joint.dry and "damper" in numbers:
+            bounds.append(FILM / (inverse * numbers["damper"]))
     return min(bounds)
 
 

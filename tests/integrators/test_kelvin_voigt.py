@@ -119,6 +119,13 @@ def test_rk4(discs: Discs, scene: str) -> None:
     assert restitution(near) == pytest.approx(restitution(through), rel=1e-3)
 
 
+def test_the_default_step_of_rk4_resolves_the_contact(discs: Discs) -> None:
+    """A fiftieth of its half period, or one over the damper's rate."""
+    short = impact(discs["clipped"], 0.3, t_end=1.0, method="rk4").diagnostics
+    assert short.step <= 1.0001 * math.pi / OMEGA / 50
+    assert impact(discs["clipped"], 20.0, t_end=1.0, method="rk4").diagnostics.step < 1.0001 / (40.0 * OMEGA)
+
+
 def test_side_by_side(discs: Discs) -> None:
     """Bit for bit what each run is alone."""
     sets = [{"contacts.clipped.normal.damping": x} for x in (20.0, 300.0, 700.0, 900.0)]

@@ -214,6 +214,24 @@ def test_numbers_that_are_called_as_its_abbreviations(disc: Path) -> None:
     assert law.steps["speed"] == 2 * law.variables[2]
 
 
+def test_two_laws_of_one_contact_keep_their_abbreviations_apart(disc: Path) -> None:
+    """Their slopes are one function of C."""
+    both = SP + """    a1 = sp.Symbol("a1", real=True)
+    return {"a1": D * s.variables["deltadot"], "F_n": K * s.variables["delta"] + a1}
+"""
+    gudgeon.register(law_file(disc.parent, BUILD, both))
+    rubs = law_file(disc.parent, BUILD, SP + """    a1 = sp.Symbol("a1", real=True)
+    return {"a1": K * s.variables["v_t"], "F_t": -a1 * D}
+""").read_text(encoding="utf-8")
+    (disc.parent / "rubs.py").write_text(
+        rubs.replace('"normal"', '"friction"').replace('"dashpot"', '"rubs"'), encoding="utf-8"
+    )
+    gudgeon.register(disc.parent / "rubs.py")
+    text = TEXT.replace("N*s/m}}", "N*s/m}, friction: {law: rubs, stiffness: 1 N/m, damping: 1 N*s/m}}")
+    with pytest.raises(LawError, match="law dashpot: 'a1' names something in the contact's other law, rubs, too"):
+        derive(text.encode(), "disc.yaml", "wall")
+
+
 @needs_compiler
 def test_from_the_command_line(disc: Path, call: Gudgeon) -> None:
     law_file(disc.parent)

@@ -23,7 +23,8 @@ def build(s: LawInputs) -> dict[str, Any]:
     """F_n (N), compressive, for δ > 0."""
     import sympy as sp
 
-    K, D = s.parameters["stiffness"], s.parameters["damping"]
+    K = s.derive("spring", s.parameters["stiffness"], "stiffness")
+    D = s.derive("damper", s.parameters["damping"], "damping")
     return {"F_n": sp.Max(K * s.variables["delta"] + D * s.variables["deltadot"], 0)}
 
 

@@ -25,6 +25,7 @@ from gudgeon.language.units import si_unit
 _LAW_LETTERS = {
     "root": letter("s"), "factor": letter("f"), "hysteresis": letter("a"), "film_clearance": letter("c", "film"),
     "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"),
+    "spring": letter("K"), "damper": letter("D"),
 }  # fmt: skip
 _PAIR = (
     ("radius", "R_i", "bearing radius"),
