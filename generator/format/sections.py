@@ -228,6 +228,11 @@ SCENE = record(
     SIMULATE,
 )  # fmt: skip
 
+APART = record(
+    "apart", "where the journal of a joint begins in its bearing, in scenes that give the joint play; in ground axes",
+    vector("e", "eccentricity: from the bearing's centre to the journal's", LENGTH, otherwise="none"),
+    vector("rate", "the rate of the eccentricity", VELOCITY, otherwise="none"),
+)
 START = record(
     "start", "how the motion begins: coordinates and velocities of centres of mass, in ground axes",
     mapping(
@@ -236,6 +241,7 @@ START = record(
     ),
     mapping("set", "coordinates that are held exactly", number("value", "where", None), keys=COORDINATES),
     mapping("rates", "velocities that drives leave free", number("value", "how fast", None), keys=RATES),
+    mapping("play", "joints with play whose journals begin out of the middle, or move there", APART),
 )  # fmt: skip
 
 OUTPUT = number("value", "what it is at each time", None, varies=OF_RESULTS)

@@ -26,11 +26,12 @@ class Quantity:
     dimension: Dimension
     where: Location
     of: tuple[Quantity, ...] = ()  # numbers that `value` names by their addresses: it follows them
+    kept: bool = False  # a number of the run even where it is written as 0
 
     @property
     def is_zero(self) -> bool:
-        """True for a literal zero only: a parameter is never assumed zero."""
-        return isinstance(self.value, Number) and self.value.value == 0.0
+        """True for a literal zero only, unless it is kept: a parameter is never assumed zero."""
+        return not self.kept and isinstance(self.value, Number) and self.value.value == 0.0
 
 
 Vector = tuple[Quantity, Quantity]
@@ -121,16 +122,25 @@ class ForceElement:
 
 
 @dataclass(frozen=True)
+class JournalStart:
+    """Where a journal begins: eccentricity and its rate in ground axes, "start.play.A.e.x"; all four are kept."""
+
+    e: Vector
+    rate: Vector
+
+
+@dataclass(frozen=True)
 class Start:
     """`guess` picks the branch, `set` is held exactly, `rates` are velocities that drives leave free.
 
     Keys are coordinates "L7.theta", "S9.x", "L1.omega"; values have addresses "start.guess.L7.theta".
-    A guessed point is two: "L7.P.x", "L7.P.y".
+    A guessed point is two: "L7.P.x", "L7.P.y". `play` is by joint, for scenes that give it play.
     """
 
     guess: Mapping[str, Quantity] = field(default_factory=dict)
     set: Mapping[str, Quantity] = field(default_factory=dict)
     rates: Mapping[str, Quantity] = field(default_factory=dict)
+    play: Mapping[str, JournalStart] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

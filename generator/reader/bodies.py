@@ -1,19 +1,23 @@
-"""Bodies, their points, the ground's points and gravity."""
+"""Bodies, their points, the ground's points and gravity; the start."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+
 from gudgeon.errors import BadNameError, BadValueError
 from gudgeon.generator.field import PLACE, Field
-from gudgeon.generator.format.sections import BODY, POINT, POINT_OF_GROUND, SECTIONS, START
-from gudgeon.generator.mechanism.mechanism import GROUND, Body, Quantity, Start, Vector
+from gudgeon.generator.format.sections import APART, BODY, POINT, POINT_OF_GROUND, SECTIONS, START
+from gudgeon.generator.mechanism.mechanism import GROUND, Body, JournalStart, Quantity, Start, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields, read_vector
 from gudgeon.generator.reader.places import IMPLIED_POINTS, Places, coordinate_of
 from gudgeon.generator.reader.shapes import Weighed, read_sides
 from gudgeon.generator.yaml.tree import Items, Map, Text
 from gudgeon.language.names import Namespace, check_name
+from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Number
-from gudgeon.language.units import LENGTH
+from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
 # `L1.x` is a coordinate of the body: a point of that name could not be told from it
 _COORDINATES = ("x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
@@ -87,12 +91,38 @@ def read_ground(reader: Reader, root: Map) -> dict[str, Vector]:
 def read_start(reader: Reader, root: Map, places: Places) -> Start:
     """Guesses, exact values and rates of coordinates."""
     node = root.part("start")
-    guess, fixed, rates = (_coordinates(reader, node.part(field.name), field, places) for field in START.fields)
+    parts = [field for field in START.fields if field.keys is not None]
+    guess, fixed, rates = (_coordinates(reader, node.part(field.name), field, places) for field in parts)
     for key, _ in node.part("set").pairs():
         if key in guess:
             hint = f"it is guessed at {guess[key].where}; expected one of the two"
             reader.errors.append(BadValueError(f"{str(key)} is set and guessed", key.where, hint))
     return Start(guess, fixed, rates)
+
+
+def read_journals(reader: Reader, root: Map) -> dict[str, JournalStart]:
+    """Where journals begin, of joints that some scene gives play. Every component is a number of the run."""
+    found: dict[str, JournalStart] = {}
+    able = dict.fromkeys(name for scene in root.part("scenes").values() for name in scene.part("play"))
+    for joint, node in root.part("start").part("play").pairs():
+        with reader.collect():
+            if joint not in root.part("joints"):
+                raise unknown_name("joint", joint, root.part("joints"), joint.where)
+            if joint not in able:
+                hint = f"expected one of: {', '.join(able)}" if able else "expected scenes with play: no joint has any"
+                raise BadValueError(f"start.play.{joint}: no scene gives {joint} play", joint.where, hint)
+            address = f"start.play.{joint}"
+            own = read_fields(reader, node, APART.fields, Around(address)).vectors
+            e, rate = (_kept(reader, own, field, f"{address}.{field.name}", joint) for field in APART.fields)
+            found[str(joint)] = JournalStart(e, rate)
+    return found
+
+
+def _kept(reader: Reader, own: Mapping[str, Vector], field: Field, address: str, key: Text) -> Vector:
+    """Two numbers of the run; 0 where the file has none."""
+    zero = Quantity("", Number(0.0, "0"), field.dimension or DIMENSIONLESS, key.where)
+    x, y = own.get(field.name, (replace(zero, address=f"{address}.x"), replace(zero, address=f"{address}.y")))
+    return reader.keep(replace(x, kept=True)), reader.keep(replace(y, kept=True))
 
 
 def _is_point(key: Text, places: Places) -> bool:

@@ -6,12 +6,13 @@ import hashlib
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.format.overrides import apply_overrides
 from gudgeon.generator.format.sections import OUTPUT, SECTIONS
 from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
-from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
+from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_journals, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
 from gudgeon.generator.reader.contacts import read_bearings, read_contacts, read_materials
@@ -67,6 +68,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     contacts = read_contacts(reader, root)
     events = read_events(reader, root.part("events"), "events", motion)
     scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion))
+    start = replace(start, play=read_journals(reader, root))
     named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}
     unread = named - {*joints, *drives, *forces} | namespace.twice
     known = ResultNames(places, joints, drives, forces, parameters, unread)

@@ -192,6 +192,7 @@ class KernelSource:
         parts = [self.sha256, *(f"{name} {digest}" for name, digest in self.tables)]
         return sha256("\n".join(parts).encode()).hexdigest() if self.tables else self.sha256
 
+    start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
 
     @property

@@ -133,11 +133,12 @@ class CompiledModel:
         return self._rows("gudgeon_gamma", t, p, q, v)
 
     def start_values(self, p: ArrayLike) -> tuple[Array, Array, Array]:
-        """Numbers of the file's start: guess, set, rates."""
-        s = self.source
-        out = tuple(np.zeros(max(len(names), 1)) for names in (s.start_guess, s.start_set, s.start_rates))
-        self.lib.gudgeon_start_values(self._numbers(p), *(self._out(array) for array in out))
-        return out[0][: len(s.start_guess)], out[1][: len(s.start_set)], out[2][: len(s.start_rates)]
+        """Numbers of the file's start: guess, set, rates; behind the last two e and ė of start_apart."""
+        s, apart = self.source, len(self.source.start_apart)
+        sizes = len(s.start_guess), len(s.start_set) + apart, len(s.start_rates) + apart
+        guess, fixed, rates = (np.zeros(max(size, 1)) for size in sizes)
+        self.lib.gudgeon_start_values(self._numbers(p), *(self._out(array) for array in (guess, fixed, rates)))
+        return guess[: sizes[0]], fixed[: sizes[1]], rates[: sizes[2]]
 
     def close(self, t: float, p: ArrayLike, size: float) -> tuple[Array, Array, float] | None:
         """The start's q and q̇ (n,), with max |Φ|, by plain Newton in C; None where that is not enough.

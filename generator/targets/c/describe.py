@@ -27,6 +27,7 @@ from gudgeon.contract.stored import base_units
 from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes
+from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism
 from gudgeon.generator.reduction.driven_chains import Chain
@@ -80,6 +81,7 @@ def describe(
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         lines=_lines(mechanism), massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
         tables=tuple(mechanism.tables.items()),
+        start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
         written=tuple(_written(model)), states=_states(model), story=story, lanes=lanes,
     )  # fmt: skip
 
