@@ -107,10 +107,11 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
 def _pair(name: str, bearing: Bearing, slots: Slots) -> PairSymbols:
     R_i, c = slots.use(bearing.radius), slots.use(bearing.clearance)
     R_j = slots.derive(f"R_j_{bearing.name}", R_i - c, "journal radius")
-    i, j = bearing.bearing_material, bearing.journal_material
+    i, j = bearing.bearing_material.numbers, bearing.journal_material.numbers
     return PairSymbols(
-        R_i, R_j, c, slots.use(bearing.length), slots.use(i.E), slots.use(i.nu), slots.use(j.E), slots.use(j.nu)
-    )
+        R_i, R_j, c, slots.use(bearing.length),
+        slots.use(i["E"]), slots.use(i["nu"]), slots.use(j["E"]), slots.use(j["nu"]),
+    )  # fmt: skip
 
 
 def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEquations:

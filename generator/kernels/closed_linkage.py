@@ -20,7 +20,8 @@ def prepare_kernel(model: Model) -> Kernel:
     slots: list[Statement] = []
     info = model.symbols.info
     for i, entry in enumerate(model.slots.entries.values()):
-        slots.append(Statement(entry.symbol.name, Given(i, entry.value), True, entry.address))
+        told = f"{entry.address}, from 0: {', '.join(entry.words)}" if entry.words else entry.address
+        slots.append(Statement(entry.symbol.name, Given(i, entry.value), True, told))
         slots.append(Statement(info[entry.symbol].home, entry.symbol, False))
     derived: list[Statement] = []
     for symbol, value in model.slots.derived.items():

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from gudgeon.errors import Location
 from gudgeon.language.curves import Curve
-from gudgeon.language.tree import Expr, Number
+from gudgeon.language.tree import Expr, Name, Number
 from gudgeon.language.units import Dimension
 
 GROUND = "ground"
@@ -35,6 +35,11 @@ class Quantity:
 
 
 Vector = tuple[Quantity, Quantity]
+
+
+def following(address: str, of: Quantity, where: Location) -> Quantity:
+    """The number at an address that is another one, unless it is given itself."""
+    return Quantity(address, Name(of.address), of.dimension, where, (of,))
 
 
 @dataclass(frozen=True)
@@ -145,9 +150,19 @@ class Start:
 
 @dataclass(frozen=True)
 class Material:
+    """What the file says of it: E, nu, density."""
+
     name: str
-    E: Quantity
-    nu: Quantity
+    numbers: Mapping[str, Quantity]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A material that a scene or a run may replace by another; `numbers` are those at its address, by their names."""
+
+    address: str  # "bearings.pin.journal_material"
+    material: str
+    numbers: Mapping[str, Quantity]  # "E" at "bearings.pin.journal_material.E"
 
 
 @dataclass(frozen=True)
@@ -158,7 +173,7 @@ class Bearing:
     radius: Quantity
     clearance: Quantity
     length: Quantity
-    bearing_material: Material
+    bearing_material: Material  # of its numbers E and nu
     journal_material: Material
 
 
@@ -212,6 +227,7 @@ class SceneSpec:
     simulate: Mapping[str, Quantity]  # t_end, output, step
     where: Location
     events: Mapping[str, EventSpec] = field(default_factory=dict)  # the file's, with the scene's own put in
+    materials: Mapping[str, str] = field(default_factory=dict)  # address of a choice -> another material
 
 
 @dataclass(frozen=True)
@@ -243,6 +259,8 @@ class Mechanism:
     forces: Mapping[str, ForceElement] = field(default_factory=dict)
     freedoms: Quantity | None = None  # what the file says of the closed linkage
     curves: Mapping[str, Curve] = field(default_factory=dict)
+    materials: Mapping[str, Material] = field(default_factory=dict)
+    choices: Mapping[str, Choice] = field(default_factory=dict)  # by address
     tables: Mapping[str, str] = field(default_factory=dict)  # files beside this one -> sha256 of what was read
 
 

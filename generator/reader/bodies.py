@@ -11,6 +11,7 @@ from gudgeon.generator.format.sections import APART, BODY, POINT, POINT_OF_GROUN
 from gudgeon.generator.mechanism.mechanism import GROUND, Body, JournalStart, Quantity, Start, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields, read_vector
+from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.places import IMPLIED_POINTS, Places, coordinate_of
 from gudgeon.generator.reader.shapes import Weighed, read_sides
 from gudgeon.generator.yaml.tree import Items, Map, Text
@@ -30,7 +31,7 @@ def read_gravity(reader: Reader, root: Map) -> Vector | None:
     return read_vector(reader, root["gravity"], root.key("gravity"), SECTIONS["gravity"], "gravity")
 
 
-def read_bodies(reader: Reader, root: Map, namespace: Namespace) -> dict[str, Body]:
+def read_bodies(reader: Reader, root: Map, namespace: Namespace, materials: Materials) -> dict[str, Body]:
     """All bodies, in the order of the file: it is the order of the coordinates."""
     if not root["bodies"] and not reader.left_out:
         reader.errors.append(BadValueError("bodies is empty", root.where, "expected one body at least"))
@@ -38,11 +39,11 @@ def read_bodies(reader: Reader, root: Map, namespace: Namespace) -> dict[str, Bo
     for name, body in root["bodies"].pairs():
         with reader.collect():
             namespace.add(name, "body", name.where)
-        bodies[str(name)] = _body(reader, name, body)
+        bodies[str(name)] = _body(reader, name, body, materials)
     return bodies
 
 
-def _body(reader: Reader, name: Text, node: Map) -> Body:
+def _body(reader: Reader, name: Text, node: Map, materials: Materials) -> Body:
     address = f"bodies.{name}"
     auto = node.get("inertia") == "auto"
     own = read_fields(reader, node, [f for f in BODY.fields if not (auto and f.name == "inertia")], Around(address))
@@ -57,7 +58,7 @@ def _body(reader: Reader, name: Text, node: Map) -> Body:
                 what = "it is one of sides"
                 raise BadNameError(f"{str(point)!r} cannot name a point: {what}", point.where, "expected another name")
         points[str(point)] = read_vector(reader, pair, point, POINT, f"{address}.points.{point}")
-    weighed = Weighed(reader, address, own)
+    weighed = Weighed(reader, address, own, materials)
     with reader.collect():
         if auto:
             weighed.slender(node["inertia"].where)

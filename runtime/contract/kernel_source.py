@@ -26,6 +26,7 @@ class Slot:
     default: float  # its value when nothing is overridden
     follows: bool  # an expression of other parameters: it follows them unless overridden itself
     dimension: tuple[float, float, float]  # exponents of m, kg, s: whole, or halves
+    words: tuple[str, ...] = ()  # of a choice: what its number, 0, 1, …, stands for
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import SingularError
 from gudgeon.language.wanted import number_of, time
 from gudgeon.model.arrays import FLAG, pointer, taken
+from gudgeon.model.choices import choices, filled_in
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -55,7 +56,9 @@ class CompiledModel:
         self.n_memory = source.n_memory
         self._free = np.full(max(self.n_memory, 1), np.nan)
         self._free.flags.writeable = False
-        self._kept = np.array([_index(source, row.name) for row in source.rows], dtype=int)
+        self._choices = choices(source)
+        closed = [row.name for row in source.start_rows]
+        self._kept = np.array([closed.index(row.name) for row in source.rows], dtype=int)
 
     @cached_property
     def lib(self) -> Any:
@@ -87,9 +90,10 @@ class CompiledModel:
         """Every number of a run, (n_slots + n_derived,), from overridden slots (n_slots,) and a mask."""
         shape = (len(self.source.slots),)
         values, mask = taken(given, "given", shape), taken(is_given, "is_given", shape, dtype=FLAG)
-        p = np.empty(self.n_p)
-        pointers = self.pointer(values), self.pointer(mask, "unsigned char *"), self._out(p)
-        self.lib.gudgeon_prepare(*pointers)
+        p, chosen = np.empty(self.n_p), [k for k in self._choices if mask[k]]
+        for last in (False, True) if chosen else (True,):  # what is chosen has numbers of this run
+            self.lib.gudgeon_prepare(self.pointer(values), self.pointer(mask, "unsigned char *"), self._out(p))
+            values, mask = (values, mask) if last else filled_in(self.source, chosen, values, mask, p)
         return p
 
     def mass(self, p: ArrayLike) -> Array:
@@ -294,7 +298,3 @@ def _table(values: ArrayLike, name: str, rows: int, columns: int | None) -> Arra
         return taken(values, name, (rows, columns))
     taken(values[:0] if values.ndim else values, name, (0, columns))
     return values if len(values) == rows else taken(values, name, (rows, columns))
-
-
-def _index(source: KernelSource, row: str) -> int:
-    return next(k for k, info in enumerate(source.start_rows) if info.name == row)

@@ -96,6 +96,9 @@ def _slots(source: KernelSource, name: str) -> list[int]:
         found = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.slots)))
     elif name in GROUPS:
         found = [k for k, slot in enumerate(source.slots) if GROUPS[name](slot.address)]
+    elif any(slot.address == name and slot.words for slot in source.slots):
+        hint = "set it for a map or a box as a whole, or give simulate_many a column of names"
+        raise BadValueError(f"axis {name}: its values are names, and an axis has numbers", hint=hint)
     else:
         return [int(np.flatnonzero(given_slots(source, {name: 1.0})[1])[0])]
     if not found:

@@ -68,7 +68,9 @@ def describe(
         start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
         slots=tuple(
-            Slot(e.address, base_units(_exponents(e.dimension)), e.default, e.follows, _exponents(e.dimension))
+            Slot(
+                e.address, base_units(_exponents(e.dimension)), e.default, e.follows, _exponents(e.dimension), e.words,
+            )
             for e in model.slots.entries.values()
         ),
         derived=tuple(symbol.name for symbol in model.slots.derived),

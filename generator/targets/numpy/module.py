@@ -69,6 +69,9 @@ class ClosedLinkage:
             if address not in entries:
                 known = (*(a.removeprefix("parameters.") for a in entries), *entries)
                 raise unknown(f"no number of this scene has the address {name!r}", name, tuple(dict.fromkeys(known)))
+            if entries[address].words:
+                hint = f"give its numbers themselves: {address}.E or the like"
+                raise BadValueError(f"{address} is chosen by its name where runs are made, not here", hint=hint)
             if address in found:
                 raise BadValueError(f"{address} is given twice, once as {name!r}", hint="give it once")
             of = entries[address].dimension
