@@ -39,7 +39,7 @@ def said(slot: Slot, value: float) -> float | str:
     return slot.words[int(value)]
 
 
-def column(slot: Slot, values: Array) -> Any:
+def of_runs(slot: Slot, values: Array) -> Any:
     """Values of many runs, (n,): numbers, or texts."""
     return np.array([said(slot, x) for x in values.tolist()], dtype=object) if slot.words else values.copy()
 

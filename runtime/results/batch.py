@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.language.wanted import listed, refuse, text, told
-from gudgeon.model.choices import column
+from gudgeon.model.choices import of_runs
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, rates
 
@@ -182,7 +182,7 @@ class Batch:
 def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:
     """{address: (n,)} of what was given to any run, from the parameters (n, n_slots + n_derived) of all."""
     some = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
-    return {slot.address: column(slot, values) for slot, values in some}
+    return {slot.address: of_runs(slot, values) for slot, values in some}
 
 
 def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:

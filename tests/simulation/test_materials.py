@@ -1,4 +1,4 @@
-"""Materials by name: for a role of a bearing or a shape, of a file, a scene or a run; against Hertz and masses by hand."""
+"""Materials by name, for roles of bearings and shapes, of a file, a scene or a run: Hertz and masses by hand."""
 
 from __future__ import annotations
 

@@ -115,12 +115,13 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
 def _of_start(program: Program) -> Sizes:
     start, guess = _start(program.model), program.model.scene.mechanism.start.guess
     apart = apart_rows(program.model)
-    return {
+    sizes: Sizes = {
         "N_GUESS": (len(start["guess_place"]), "coordinates that the start guesses"),
         "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are those of points"),
         "N_SET": (len(start["set_place"]), "those that it sets"),
         "N_RATES": (len(start["rate_place"]), "velocities that it sets"),
-    } | ({"N_APART": (len(apart), "rows that it holds apart: eccentricities of journals")} if apart else {})  # fmt: skip
+    }  # fmt: skip
+    return sizes | {"N_APART": (len(apart), "rows that it holds apart: eccentricities of journals")} if apart else sizes
 
 
 def known_bounds(program: Program) -> Kernel | None:
