@@ -13,6 +13,7 @@ from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols, State, laws
 from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
 from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.wholes import Whole
 from gudgeon.language.units import VELOCITY
 
 Derive: TypeAlias = Callable[[str, sp.Expr, str], sp.Expr]  # name, value, meaning: the symbol of a number
@@ -124,7 +125,7 @@ def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEqu
         derived[name] = derive(name, expression, meaning)
         return derived[name]
 
-    steps = law.build(LawInputs(parameters, use.options, pair, variables, told))
+    steps = law.build(LawInputs(parameters, use.options, pair, variables, told, Whole))
     missing = set(law.results) - set(steps)
     if missing:
         raise TypeError(f"law {law.name} returns no {', '.join(sorted(missing))}")

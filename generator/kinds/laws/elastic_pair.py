@@ -21,14 +21,12 @@ def pair_stiffness(s: LawInputs) -> Any:
     """K (N/m^1.5), by the law's option `geometry`."""
     import sympy as sp
 
-    from gudgeon.generator.symbols.wholes import Whole
-
     pair = s.pair
     other = pair.R_j if s.options["geometry"] == "external" else -pair.R_j
     radius = sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + other))
     if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
         K = sp.Rational(2, 3) * pair.E_i * radius / (1 - pair.nu_i**2)
     else:  # σ_i + σ_j times E_i, in wholes: two that hold the numbers of one material give its bits
-        soft_i, soft_j = (Whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
-        K = sp.Rational(4, 3) * pair.E_i * radius / (soft_i + soft_j * Whole(pair.E_i / pair.E_j))
+        soft_i, soft_j = (s.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
+        K = sp.Rational(4, 3) * pair.E_i * radius / (soft_i + soft_j * s.whole(pair.E_i / pair.E_j))
     return s.derive("K", K, "contact stiffness")
