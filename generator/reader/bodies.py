@@ -90,7 +90,7 @@ def read_ground(reader: Reader, root: Map) -> dict[str, Vector]:
 
 
 def read_start(reader: Reader, root: Map, places: Places) -> Start:
-    """Guesses, exact values and rates of coordinates."""
+    """Guesses, exact values and rates of coordinates, and where journals begin."""
     node = root.part("start")
     parts = [field for field in START.fields if field.keys is not None]
     guess, fixed, rates = (_coordinates(reader, node.part(field.name), field, places) for field in parts)
@@ -98,10 +98,10 @@ def read_start(reader: Reader, root: Map, places: Places) -> Start:
         if key in guess:
             hint = f"it is guessed at {guess[key].where}; expected one of the two"
             reader.errors.append(BadValueError(f"{str(key)} is set and guessed", key.where, hint))
-    return Start(guess, fixed, rates)
+    return Start(guess, fixed, rates, _journals(reader, root))
 
 
-def read_journals(reader: Reader, root: Map) -> dict[str, JournalStart]:
+def _journals(reader: Reader, root: Map) -> dict[str, JournalStart]:
     """Where journals begin, of joints that some scene gives play. Every component is a number of the run."""
     found: dict[str, JournalStart] = {}
     able = dict.fromkeys(name for scene in root.part("scenes").values() for name in scene.part("play"))

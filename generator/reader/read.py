@@ -6,13 +6,12 @@ import hashlib
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import replace
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.format.overrides import apply_overrides
 from gudgeon.generator.format.sections import OUTPUT, SECTIONS
 from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
-from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_journals, read_start
+from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
 from gudgeon.generator.reader.contacts import read_bearings, read_contacts
@@ -57,8 +56,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     namespace = Namespace()
     title, curves = _read_title(reader, root), read_curves(reader, root)
     parameters = read_parameters(reader, root.part("parameters"))
-    gravity = read_gravity(reader, root)
-    materials = Materials(reader, root.part("materials"))
+    gravity, materials = read_gravity(reader, root), Materials(reader, root.part("materials"))
     bodies, ground = read_bodies(reader, root, namespace, materials), read_ground(reader, root)
     places = Places(bodies, ground)
     joints = read_joints(reader, root, places, namespace)
@@ -66,11 +64,9 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, parameters)
     forces = read_forces(reader, root, places, namespace, motion)
     start = read_start(reader, root, places)
-    bearings = read_bearings(reader, root, materials)
-    contacts = read_contacts(reader, root)
+    bearings, contacts = read_bearings(reader, root, materials), read_contacts(reader, root)
     events = read_events(reader, root.part("events"), "events", motion)
     scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion, materials))
-    start = replace(start, play=read_journals(reader, root))
     named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}
     unread = named - {*joints, *drives, *forces} | namespace.twice
     known = ResultNames(places, joints, drives, forces, parameters, unread)
@@ -94,8 +90,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
         forces=forces,
         freedoms=_read_freedoms(reader, root),
         curves=curves,
-        materials=materials.known,
-        choices=materials.choices,
+        materials=materials.known, choices=materials.choices,
         tables=reader.tables,
     )
 

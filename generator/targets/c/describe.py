@@ -67,12 +67,7 @@ def describe(
         frictions=tuple(friction.name for friction in model.frictions), pivots=pivots,
         start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
-        slots=tuple(
-            Slot(
-                e.address, base_units(_exponents(e.dimension)), e.default, e.follows, _exponents(e.dimension), e.words,
-            )
-            for e in model.slots.entries.values()
-        ),
+        slots=tuple(_slots(model)),
         derived=tuple(symbol.name for symbol in model.slots.derived),
         conditions=_conditions(model),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
@@ -86,6 +81,12 @@ def describe(
         start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
         written=tuple(_written(model)), states=_states(model), story=story, lanes=lanes,
     )  # fmt: skip
+
+
+def _slots(model: Model) -> Iterator[Slot]:
+    for e in model.slots.entries.values():
+        exponents = _exponents(e.dimension)
+        yield Slot(e.address, base_units(exponents), e.default, e.follows, exponents, e.words)
 
 
 def _lines(mechanism: Mechanism) -> tuple[tuple[str, int], ...]:
