@@ -182,6 +182,15 @@ def test_what_is_no_choice_is_told(scenes: Scenes) -> None:
         axis(scenes.dry, JOURNAL, [0.0, 1.0])
 
 
+def test_a_stiffness_axis_moves_what_the_run_has(scenes: Scenes) -> None:
+    """The first of them by its value, others by their ratio; not what nothing is of."""
+    assert axis(scenes.dry, "stiffness", [1e9]).ratios == (("materials.steel.E", 1.0),)
+    moved = dict(axis(scenes.dry, "stiffness", [1e9], {JOURNAL: "bronze"}).ratios)
+    assert moved == {"materials.steel.E": 1.0, "materials.bronze.E": BRONZE[0] / STEEL[0]}
+    only = axis(scenes.dry, "stiffness", [1e9], {JOURNAL: "bronze", HOLE: "bronze"}).ratios
+    assert only == (("materials.bronze.E", 1.0),)
+
+
 def test_on_the_command_line(scenes: Scenes, tmp_path: Path) -> None:
     """The ideal run has the choice of the body too, and nothing of the bearing."""
     told = ["run", str(scenes.file), "--scene", "dry", "--out", str(tmp_path / "out"), "--t-end", "2ms"]
