@@ -86,6 +86,7 @@ class Field:
     fields: tuple[Field, ...] = ()
     entry: Field | None = None
     keys: Mapping[str, Dimension] | None = None  # of a mapping with keys BODY.key: which, and what dimension they have
+    addresses: tuple[str, ...] = ()  # of a mapping whose keys are addresses: bearings.NAME.journal_material
     given: tuple[str, ...] = ()  # names of a mapping that exist without being written
     kinds: Callable[[], Mapping[str, Kind]] | None = None
 

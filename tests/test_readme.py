@@ -41,7 +41,7 @@ def call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Gudgeon:
 
 
 def test_every_block_is_of_a_kind_that_is_tested() -> None:
-    assert len(blocks("c")) == len(blocks("diff")) == 1 and len(blocks("yaml")) == len(blocks("python")) == 2
+    assert len(blocks("c")) == len(blocks("diff")) == 1 and len(blocks("python")) == 2 and len(blocks("yaml")) == 4
     assert README.count("```") == 2 * sum(len(blocks(kind)) for kind in ("yaml", "sh", "python", "text", "c", "diff"))
     assert {shlex.split(line)[1] for line in COMMANDS} == {"check", "run", "emit", "equations", "bench", "map"}
 
@@ -74,6 +74,23 @@ drives:
     where |= {"block.top": (0.3, 0.015), "block": (0.3, -0.01), "block.origin": (0.3, -0.01)}
     for name, (x, y) in where.items():
         assert (run[f"{name}.x"][0], run[f"{name}.y"][0]) == pytest.approx((x, y), abs=1e-12)
+
+
+@needs_compiler
+def test_materials_and_journals_as_it_shows_them(tmp_path: Path) -> None:
+    """Both examples in one file: the disc of the scene soft is of bronze, and its journal begins where it is said."""
+    text = f"""format: gudgeon/1
+name: told
+ground: {{O: [0, 0]}}
+joints: {{A: {{revolute: [ground.O, disc.origin]}}}}
+contacts: {{dry: {{normal: {{law: hertz}}}}}}
+{blocks("yaml")[3]}{blocks("yaml")[2]}  dry: {{play: {{A: {{bearing: pin, contact: dry}}}}}}
+"""
+    (tmp_path / "told.yaml").write_text(text, encoding="utf-8")
+    run = gudgeon.load(tmp_path / "told.yaml", "soft").simulate(1e-6, output=1)
+    assert (run["A.ex"][0], run["A.ey"][0]) == pytest.approx((1e-4, -2e-4), abs=1e-15)
+    assert run.parameters["bodies.disc.shape.material"] == "bronze"
+    assert run.parameters["bodies.disc.mass"] == pytest.approx(8800 * 3.141592653589793 * 0.04**2 * 0.01, rel=1e-12)
 
 
 @needs_compiler

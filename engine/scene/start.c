@@ -7,6 +7,11 @@
 #include "calls.h"
 #include "start.h"
 
+#ifndef N_APART /* few starts say where journals are: Phi of these joints is -e, behind set, its rate behind rates */
+#define N_APART 0
+static const int apart_row[] = {0};
+#endif
+
 enum {
     N_START_ROWS = N_ALL_ROWS + (N_SET > N_RATES ? N_SET : N_RATES),
     N_NORMAL = N_START_ROWS > N_Q ? N_START_ROWS : N_Q, MAX_CLOSING = 60
@@ -16,7 +21,7 @@ enum {
 /* Rows of the linearized system with what each must still give, columns over their weights; a normal matrix. */
 typedef struct {
     double size, reach, weight[N_Q], step[N_Q], placed[N_Q];
-    double guess[N_GUESS + 1], set[N_SET + 1], rates[N_RATES + 1];
+    double guess[N_GUESS + 1], set[N_SET + N_APART + 1], rates[N_RATES + N_APART + 1];
     double row[N_START_ROWS + 1][N_Q], rest[N_START_ROWS + 1];
     double normal[N_NORMAL + 1][N_NORMAL + 1], right[N_NORMAL + 1];
     Asked *asked;
@@ -104,6 +109,8 @@ static double open_rows(Closing *w, double t, const double *q, const Parameters 
 {
     double sum = 0.0;
     constraints(t, q, p, w->rest);
+    for (int k = 0; k < N_APART; k++)
+        w->rest[apart_row[k]] += w->set[N_SET + k];
     for (int r = 0; r < N_ALL_ROWS; r++)
         w->rest[r] /= row_is_length[r] ? -w->size : -1.0;
     for (int i = 0; i < N_SET; i++)
@@ -221,6 +228,8 @@ static int first_velocities(Closing *w, double t, const Parameters *p, const dou
     for (int pass = 0; pass <= 3; pass++) {
         gudgeon_phi_q(t, q, (const double *)p, &w->row[0][0]);
         velocity_rhs(beyond_jump(t), q, p, w->rest);
+        for (int k = 0; k < N_APART; k++)
+            w->rest[apart_row[k]] -= w->rates[N_RATES + k];
         for (int i = 0; i < N_RATES; i++) {
             w->rest[N_ALL_ROWS + i] = w->rates[i];
             for (int k = 0; k < N_Q; k++)

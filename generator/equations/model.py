@@ -179,10 +179,24 @@ def make_model(scene: Scene) -> Model:
     events = tuple(make_event(event, geometry, constraints.t) for event in scene.events.values())
     for event in events:
         refuse_constant(scene.events[event.name], event, geometry, constraints.t)
+    offer_materials(scene, slots)
     return Model(
         scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), elements, frictions,
         Redundancy(), gravity, baumgarte, events,
     )  # fmt: skip
+
+
+def offer_materials(scene: Scene, slots: Slots) -> None:
+    """The numbers of all materials that a run may choose for what this scene has, and which one it has chosen."""
+    for choice in scene.mechanism.choices.values():
+        if any(number.address in slots.entries for number in choice.numbers.values()):
+            of = scene.mechanism.materials.values()
+            fitting = [material for material in of if choice.numbers.keys() <= material.numbers.keys()]
+            for material in fitting:
+                for what in choice.numbers:
+                    slots.use(material.numbers[what])
+            words = tuple(material.name for material in fitting)
+            slots.choice(choice.address, words, scene.materials[choice.address])
 
 
 def stick_gain(model: Model) -> sp.Expr:

@@ -15,6 +15,7 @@ from gudgeon.generator.kinds.laws.built import build
 from gudgeon.generator.kinds.laws.law import FURTHER, OWN, Law, LawInputs, PairSymbols, State, laws
 from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
 from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.wholes import Whole
 from gudgeon.language.units import VELOCITY
 
 Derive: TypeAlias = Callable[[str, sp.Expr, str], sp.Expr]  # name, value, meaning: the symbol of a number
@@ -116,10 +117,11 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
 def _pair(name: str, bearing: Bearing, slots: Slots) -> PairSymbols:
     R_i, c = slots.use(bearing.radius), slots.use(bearing.clearance)
     R_j = slots.derive(f"R_j_{bearing.name}", R_i - c, "journal radius")
-    i, j = bearing.bearing_material, bearing.journal_material
+    i, j = bearing.bearing_material.numbers, bearing.journal_material.numbers
     return PairSymbols(
-        R_i, R_j, c, slots.use(bearing.length), slots.use(i.E), slots.use(i.nu), slots.use(j.E), slots.use(j.nu)
-    )
+        R_i, R_j, c, slots.use(bearing.length),
+        slots.use(i["E"]), slots.use(i["nu"]), slots.use(j["E"]), slots.use(j["nu"]),
+    )  # fmt: skip
 
 
 def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEquations:
@@ -132,7 +134,7 @@ def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEqu
         derived[name] = derive(name, expression, meaning)
         return derived[name]
 
-    steps = build(law, LawInputs(parameters, use.options, pair, variables, told))
+    steps = build(law, LawInputs(parameters, use.options, pair, variables, told, Whole))
     read = {symbol.name for step in steps.values() for symbol in step.free_symbols}
     unread = {name for name in FURTHER.get(law.role, ()) if name not in read}
     own = tuple(symbol for name, symbol in variables.items() if name not in unread)

@@ -35,6 +35,8 @@ def _parts(root: Map, address: str) -> list[str]:
     field: Field | None = FILE
     parts = address.split(".")
     for i, part in enumerate(parts):
+        if field is not None and field.addresses:
+            return [*parts[:i], ".".join(parts[i:])]
         if field is not None and field.keys is not None:  # the rest is the name of a coordinate: L7.theta
             axis = parts[-1:] if len(parts) - i > 2 and parts[-1] in _AXES else []  # of a point: upper.P.x
             return [*parts[:i], ".".join(parts[i : len(parts) - len(axis)]), *axis]

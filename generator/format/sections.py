@@ -79,12 +79,20 @@ def _law(role: str, meaning: str) -> Field:
     return Field(role, LAW, meaning, kinds=kinds)
 
 
+_ELASTIC = "no bearing is of it"
 MATERIAL = record(
-    "material", "an elastic material",
-    number("E", "Young's modulus", PRESSURE, required=True, bounds=(Bound(">", 0.0, "Young's modulus is positive"),)),
+    "material", "what bearings and shapes of bodies may be of",
     number(
-        "nu", "Poisson's ratio", DIMENSIONLESS, required=True,
+        "E", "Young's modulus", PRESSURE, otherwise=_ELASTIC,
+        bounds=(Bound(">", 0.0, "Young's modulus is positive"),),
+    ),
+    number(
+        "nu", "Poisson's ratio", DIMENSIONLESS, otherwise=_ELASTIC,
         bounds=(Bound(">", -1.0, "Poisson's ratio is above -1"), Bound("<", 0.5, "Poisson's ratio is below 0.5")),
+    ),
+    number(
+        "density", "density", DENSITY, otherwise="no shape is of it",
+        bounds=(Bound(">", 0.0, "a density is positive"),),
     ),
 )  # fmt: skip
 
@@ -110,7 +118,8 @@ SHAPE = record(
         "density", "density, where the body has no mass of its own", DENSITY,
         bounds=(Bound(">", 0.0, "a density is positive"),),
     ),
-    number("thickness", "goes with density", LENGTH, bounds=(Bound(">", 0.0, "a thickness is positive"),)),
+    name_in("materials", "material", "whose density it has, in place of that key", required=False),
+    number("thickness", "goes with density or material", LENGTH, bounds=(Bound(">", 0.0, "a thickness is positive"),)),
 )  # fmt: skip
 
 _SIDE = (Bound(">", 0.0, "a side is positive"),)
@@ -220,6 +229,7 @@ PLAY = record(
     name_in("contacts", "contact", "its laws"),
 )  # fmt: skip
 
+_OF_MATERIAL = ("bearings.NAME.bearing_material", "bearings.NAME.journal_material", "bodies.NAME.shape.material")
 SCENE = record(
     "scene", "which joints have play, and what goes with that",
     name_in("scenes", "extends", "scene whose entries it has besides its own", required=False),
@@ -227,9 +237,18 @@ SCENE = record(
     mapping("parameters", "parameters that have another value here", number("value", "the value here", None)),
     mapping("events", "events of this scene, besides the file's", EVENT),
     Field("peaks", RESULTS, "series whose largest and smallest values over all steps a run tells", otherwise="none"),
+    mapping(
+        "materials", "materials that are others here: bearings.NAME.journal_material, bodies.NAME.shape.material",
+        name_in("materials", "value", "the material here"), addresses=_OF_MATERIAL,
+    ),
     SIMULATE,
 )  # fmt: skip
 
+APART = record(
+    "apart", "where the journal of a joint begins in its bearing, in scenes that give the joint play; in ground axes",
+    vector("e", "eccentricity: from the bearing's centre to the journal's", LENGTH, otherwise="none"),
+    vector("rate", "the rate of the eccentricity", VELOCITY, otherwise="none"),
+)
 START = record(
     "start", "how the motion begins: coordinates and velocities of centres of mass, in ground axes",
     mapping(
@@ -238,6 +257,7 @@ START = record(
     ),
     mapping("set", "coordinates that are held exactly", number("value", "where", None), keys=COORDINATES),
     mapping("rates", "velocities that drives leave free", number("value", "how fast", None), keys=RATES),
+    mapping("play", "joints with play whose journals begin out of the middle, or move there", APART),
 )  # fmt: skip
 
 OUTPUT = number("value", "what it is at each time", None, varies=OF_RESULTS)

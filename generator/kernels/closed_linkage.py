@@ -12,6 +12,7 @@ from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Sectio
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Given
+from gudgeon.generator.mechanism.mechanism import Quantity
 
 
 def prepare_kernel(model: Model) -> Kernel:
@@ -19,7 +20,8 @@ def prepare_kernel(model: Model) -> Kernel:
     slots: list[Statement] = []
     info = model.symbols.info
     for i, entry in enumerate(model.slots.entries.values()):
-        slots.append(Statement(entry.symbol.name, Given(i, entry.value), True, entry.address))
+        told = f"{entry.address}, from 0: {', '.join(entry.words)}" if entry.words else entry.address
+        slots.append(Statement(entry.symbol.name, Given(i, entry.value), True, told))
         slots.append(Statement(info[entry.symbol].home, entry.symbol, False))
     derived: list[Statement] = []
     for symbol, value in model.slots.derived.items():
@@ -73,13 +75,30 @@ def _jacobian_kernel(model: Model) -> Kernel:
     return build.build((*STATE[:2], PARAMETERS, Argument("double *", "phi_q")))
 
 
+def apart_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
+    """Rows of Φ that the start holds apart: where they are, and the eccentricity e and its rate there.
+
+    Φ of such a joint is r_i − r_j = −e (physics.md, section 3), so that Φ + e = 0 and Φ_q v = ν − ė.
+    """
+    given, found = model.scene.mechanism.start.play, []
+    for name in model.scene.play:
+        rows = [k for k, row in enumerate(model.all_rows) if row.owner == name and name in given]
+        found += [(k, given[name].e[axis], given[name].rate[axis]) for axis, k in enumerate(rows)]
+    return found
+
+
 def start_kernel(model: Model) -> Kernel:
-    """The numbers of the file's `start`."""
-    start = model.scene.mechanism.start
+    """The numbers of the file's `start`; behind those that are set, and their rates, those of journals."""
+    start, apart = model.scene.mechanism.start, apart_rows(model)
+    groups = {
+        "guess": start.guess.values(),
+        "set": (*start.set.values(), *(e for _, e, _ in apart)),
+        "rates": (*start.rates.values(), *(rate for _, _, rate in apart)),
+    }
     build = KernelBuilder(model.symbols, "start_values", ["Values of the start's guess, set and rates."])
     build.section("start")
-    for key, group in (("guess", start.guess), ("set", start.set), ("rates", start.rates)):
-        for k, quantity in enumerate(group.values()):
+    for key, group in groups.items():
+        for k, quantity in enumerate(group):
             build.out(f"{key}[{k}]", model.slots.use(quantity), quantity.address)
     arguments = (PARAMETERS, *(Argument("double *", key) for key in ("guess", "set", "rates")))
     return build.build(arguments)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from gudgeon.errors import Location
 from gudgeon.language.curves import Curve
-from gudgeon.language.tree import Expr, Number
+from gudgeon.language.tree import Expr, Name, Number
 from gudgeon.language.units import Dimension
 
 GROUND = "ground"
@@ -26,14 +26,20 @@ class Quantity:
     dimension: Dimension
     where: Location
     of: tuple[Quantity, ...] = ()  # numbers that `value` names by their addresses: it follows them
+    kept: bool = False  # a number of the run even where it is written as 0
 
     @property
     def is_zero(self) -> bool:
-        """True for a literal zero only: a parameter is never assumed zero."""
-        return isinstance(self.value, Number) and self.value.value == 0.0
+        """True for a literal zero only, unless it is kept: a parameter is never assumed zero."""
+        return not self.kept and isinstance(self.value, Number) and self.value.value == 0.0
 
 
 Vector = tuple[Quantity, Quantity]
+
+
+def following(address: str, of: Quantity, where: Location) -> Quantity:
+    """The number at an address that is another one, unless it is given itself."""
+    return Quantity(address, Name(of.address), of.dimension, where, (of,))
 
 
 @dataclass(frozen=True)
@@ -121,23 +127,42 @@ class ForceElement:
 
 
 @dataclass(frozen=True)
+class JournalStart:
+    """Where a journal begins: eccentricity and its rate in ground axes, "start.play.A.e.x"; all four are kept."""
+
+    e: Vector
+    rate: Vector
+
+
+@dataclass(frozen=True)
 class Start:
     """`guess` picks the branch, `set` is held exactly, `rates` are velocities that drives leave free.
 
     Keys are coordinates "L7.theta", "S9.x", "L1.omega"; values have addresses "start.guess.L7.theta".
-    A guessed point is two: "L7.P.x", "L7.P.y".
+    A guessed point is two: "L7.P.x", "L7.P.y". `play` is by joint, for scenes that give it play.
     """
 
     guess: Mapping[str, Quantity] = field(default_factory=dict)
     set: Mapping[str, Quantity] = field(default_factory=dict)
     rates: Mapping[str, Quantity] = field(default_factory=dict)
+    play: Mapping[str, JournalStart] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Material:
+    """What the file says of it: E, nu, density."""
+
     name: str
-    E: Quantity
-    nu: Quantity
+    numbers: Mapping[str, Quantity]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A material that a scene or a run may replace by another; `numbers` are those at its address, by their names."""
+
+    address: str  # "bearings.pin.journal_material"
+    material: str
+    numbers: Mapping[str, Quantity]  # "E" at "bearings.pin.journal_material.E"
 
 
 @dataclass(frozen=True)
@@ -148,7 +173,7 @@ class Bearing:
     radius: Quantity
     clearance: Quantity
     length: Quantity
-    bearing_material: Material
+    bearing_material: Material  # of its numbers E and nu
     journal_material: Material
 
 
@@ -203,6 +228,7 @@ class SceneSpec:
     where: Location
     events: Mapping[str, EventSpec] = field(default_factory=dict)  # the file's, with the scene's own put in
     peaks: tuple[str, ...] = ()  # series whose peaks are wanted, with their places (yaml.tree.Text) while it is read
+    materials: Mapping[str, str] = field(default_factory=dict)  # address of a choice -> another material
 
 
 @dataclass(frozen=True)
@@ -234,6 +260,8 @@ class Mechanism:
     forces: Mapping[str, ForceElement] = field(default_factory=dict)
     freedoms: Quantity | None = None  # what the file says of the closed linkage
     curves: Mapping[str, Curve] = field(default_factory=dict)
+    materials: Mapping[str, Material] = field(default_factory=dict)
+    choices: Mapping[str, Choice] = field(default_factory=dict)  # by address
     tables: Mapping[str, str] = field(default_factory=dict)  # files beside this one -> sha256 of what was read
     laws: Mapping[str, str] = field(default_factory=dict)  # the user's own that it uses -> what they say, as a key
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from gudgeon.generator.mechanism.mechanism import EventSpec, Mechanism, Play, Quantity
+from gudgeon.generator.mechanism.mechanism import EventSpec, Mechanism, Play, Quantity, following
 from gudgeon.language.suggestions import unknown_name
 
 
@@ -23,7 +23,9 @@ class Scene:
     parameters: Mapping[str, Quantity]
     simulate: Mapping[str, Quantity]  # t_end, output, step
     events: Mapping[str, EventSpec]
-    peaks: tuple[str, ...] = ()
+    peaks: tuple[str, ...]
+    materials: Mapping[str, str]  # address of each choice -> what is chosen here
+    instead: Mapping[str, Quantity]  # by address: numbers that follow another material than the file's
 
 
 def make_scene(mechanism: Mechanism, name: str) -> Scene:
@@ -37,4 +39,10 @@ def make_scene(mechanism: Mechanism, name: str) -> Scene:
         else own
         for key, own in mechanism.parameters.items()
     }
-    return Scene(mechanism, name, spec.play, parameters, spec.simulate, spec.events, spec.peaks)
+    chosen = {address: spec.materials.get(address, choice.material) for address, choice in mechanism.choices.items()}
+    instead = {
+        own.address: following(own.address, mechanism.materials[chosen[address]].numbers[what], own.where)
+        for address, choice in mechanism.choices.items()
+        for what, own in choice.numbers.items()
+    }
+    return Scene(mechanism, name, spec.play, parameters, spec.simulate, spec.events, spec.peaks, chosen, instead)

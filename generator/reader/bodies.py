@@ -1,19 +1,24 @@
-"""Bodies, their points, the ground's points and gravity."""
+"""Bodies, their points, the ground's points and gravity; the start."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+
 from gudgeon.errors import BadNameError, BadValueError
 from gudgeon.generator.field import PLACE, Field
-from gudgeon.generator.format.sections import BODY, POINT, POINT_OF_GROUND, SECTIONS, START
-from gudgeon.generator.mechanism.mechanism import GROUND, Body, Quantity, Start, Vector
+from gudgeon.generator.format.sections import APART, BODY, POINT, POINT_OF_GROUND, SECTIONS, START
+from gudgeon.generator.mechanism.mechanism import GROUND, Body, JournalStart, Quantity, Start, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields, read_vector
+from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.places import IMPLIED_POINTS, Places, coordinate_of
 from gudgeon.generator.reader.shapes import Weighed, read_sides
 from gudgeon.generator.yaml.tree import Items, Map, Text
 from gudgeon.language.names import Namespace, check_name
+from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Number
-from gudgeon.language.units import LENGTH
+from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
 # `L1.x` is a coordinate of the body: a point of that name could not be told from it
 _COORDINATES = ("x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
@@ -26,7 +31,7 @@ def read_gravity(reader: Reader, root: Map) -> Vector | None:
     return read_vector(reader, root["gravity"], root.key("gravity"), SECTIONS["gravity"], "gravity")
 
 
-def read_bodies(reader: Reader, root: Map, namespace: Namespace) -> dict[str, Body]:
+def read_bodies(reader: Reader, root: Map, namespace: Namespace, materials: Materials) -> dict[str, Body]:
     """All bodies, in the order of the file: it is the order of the coordinates."""
     if not root["bodies"] and not reader.left_out:
         reader.errors.append(BadValueError("bodies is empty", root.where, "expected one body at least"))
@@ -34,11 +39,11 @@ def read_bodies(reader: Reader, root: Map, namespace: Namespace) -> dict[str, Bo
     for name, body in root["bodies"].pairs():
         with reader.collect():
             namespace.add(name, "body", name.where)
-        bodies[str(name)] = _body(reader, name, body)
+        bodies[str(name)] = _body(reader, name, body, materials)
     return bodies
 
 
-def _body(reader: Reader, name: Text, node: Map) -> Body:
+def _body(reader: Reader, name: Text, node: Map, materials: Materials) -> Body:
     address = f"bodies.{name}"
     auto = node.get("inertia") == "auto"
     own = read_fields(reader, node, [f for f in BODY.fields if not (auto and f.name == "inertia")], Around(address))
@@ -53,7 +58,7 @@ def _body(reader: Reader, name: Text, node: Map) -> Body:
                 what = "it is one of sides"
                 raise BadNameError(f"{str(point)!r} cannot name a point: {what}", point.where, "expected another name")
         points[str(point)] = read_vector(reader, pair, point, POINT, f"{address}.points.{point}")
-    weighed = Weighed(reader, address, own)
+    weighed = Weighed(reader, address, own, materials)
     with reader.collect():
         if auto:
             weighed.slender(node["inertia"].where)
@@ -85,14 +90,40 @@ def read_ground(reader: Reader, root: Map) -> dict[str, Vector]:
 
 
 def read_start(reader: Reader, root: Map, places: Places) -> Start:
-    """Guesses, exact values and rates of coordinates."""
+    """Guesses, exact values and rates of coordinates, and where journals begin."""
     node = root.part("start")
-    guess, fixed, rates = (_coordinates(reader, node.part(field.name), field, places) for field in START.fields)
+    parts = [field for field in START.fields if field.keys is not None]
+    guess, fixed, rates = (_coordinates(reader, node.part(field.name), field, places) for field in parts)
     for key, _ in node.part("set").pairs():
         if key in guess:
             hint = f"it is guessed at {guess[key].where}; expected one of the two"
             reader.errors.append(BadValueError(f"{str(key)} is set and guessed", key.where, hint))
-    return Start(guess, fixed, rates)
+    return Start(guess, fixed, rates, _journals(reader, root))
+
+
+def _journals(reader: Reader, root: Map) -> dict[str, JournalStart]:
+    """Where journals begin, of joints that some scene gives play. Every component is a number of the run."""
+    found: dict[str, JournalStart] = {}
+    able = dict.fromkeys(name for scene in root.part("scenes").values() for name in scene.part("play"))
+    for joint, node in root.part("start").part("play").pairs():
+        with reader.collect():
+            if joint not in root.part("joints"):
+                raise unknown_name("joint", joint, root.part("joints"), joint.where)
+            if joint not in able:
+                hint = f"expected one of: {', '.join(able)}" if able else "expected scenes with play: no joint has any"
+                raise BadValueError(f"start.play.{joint}: no scene gives {joint} play", joint.where, hint)
+            address = f"start.play.{joint}"
+            own = read_fields(reader, node, APART.fields, Around(address)).vectors
+            e, rate = (_kept(reader, own, field, f"{address}.{field.name}", joint) for field in APART.fields)
+            found[str(joint)] = JournalStart(e, rate)
+    return found
+
+
+def _kept(reader: Reader, own: Mapping[str, Vector], field: Field, address: str, key: Text) -> Vector:
+    """Two numbers of the run; 0 where the file has none."""
+    zero = Quantity("", Number(0.0, "0"), field.dimension or DIMENSIONLESS, key.where)
+    x, y = own.get(field.name, (replace(zero, address=f"{address}.x"), replace(zero, address=f"{address}.y")))
+    return reader.keep(replace(x, kept=True)), reader.keep(replace(y, kept=True))
 
 
 def _is_point(key: Text, places: Places) -> bool:

@@ -1,4 +1,4 @@
-"""Materials, bearings and contacts. What a law's own keys hold is said by its file in generator/kinds/laws."""
+"""Bearings and contacts. What a law's own keys hold is said by its file in generator/kinds/laws."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from gudgeon.errors import BadValueError, MissingKeyError, UnknownNameError
 from gudgeon.generator.field import LAW
-from gudgeon.generator.format.sections import BEARING, CONTACT, MATERIAL
+from gudgeon.generator.format.sections import BEARING, CONTACT
 from gudgeon.generator.format.shapes import missing_key
 from gudgeon.generator.kinds.laws.law import OWN, called
 from gudgeon.generator.kinds.laws.registered import key_of
@@ -14,6 +14,7 @@ from gudgeon.generator.mechanism.mechanism import Bearing, Contact, LawUse, Mate
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.extends import parents_first
 from gudgeon.generator.reader.fields import Around, check_keys, field_names, read_fields
+from gudgeon.generator.reader.materials import ELASTIC, Materials
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.names import check_label
 from gudgeon.language.suggestions import known_hint, unknown_name
@@ -21,38 +22,20 @@ from gudgeon.language.suggestions import known_hint, unknown_name
 _ROLES = tuple(field.name for field in CONTACT.fields if field.kind == LAW)
 
 
-def read_materials(reader: Reader, root: Map) -> dict[str, Material]:
-    """Young's modulus and Poisson's ratio of each material."""
-    found = {}
-    for name, node in root.part("materials").pairs():
-        with reader.collect():
-            check_label(name, "material", name.where)
-        own = read_fields(reader, node, MATERIAL.fields, Around(f"materials.{name}")).quantities
-        found[str(name)] = Material(str(name), own["E"], own["nu"])
-    return found
-
-
-def read_bearings(reader: Reader, root: Map, materials: Mapping[str, Material]) -> dict[str, Bearing]:
+def read_bearings(reader: Reader, root: Map, materials: Materials) -> dict[str, Bearing]:
     """All bearings whose materials are known."""
     found = {}
     for name, node in root.part("bearings").pairs():
         with reader.collect():
             check_label(name, "bearing", name.where)
-        with reader.collect():
-            found[str(name)] = _bearing(reader, name, node, materials)
+        own = read_fields(reader, node, BEARING.fields, Around(f"bearings.{name}")).quantities
+        pair = []
+        for role in ("bearing_material", "journal_material"):
+            with reader.collect():
+                pair.append(Material(str(node[role]), materials.take(f"bearings.{name}.{role}", node[role], ELASTIC)))
+        if len(pair) == 2:
+            found[str(name)] = Bearing(str(name), own["radius"], own["clearance"], own["length"], pair[0], pair[1])
     return found
-
-
-def _bearing(reader: Reader, name: Text, node: Map, materials: Mapping[str, Material]) -> Bearing:
-    own = read_fields(reader, node, BEARING.fields, Around(f"bearings.{name}")).quantities
-    pair = []
-    for text in (node["bearing_material"], node["journal_material"]):
-        if text not in materials:
-            reader.errors.append(unknown_name("material", text, materials, text.where))
-        pair.append(materials.get(text))
-    if pair[0] is None or pair[1] is None:
-        raise reader.errors.pop()
-    return Bearing(str(name), own["radius"], own["clearance"], own["length"], pair[0], pair[1])
 
 
 def read_contacts(reader: Reader, root: Map) -> dict[str, Contact]:

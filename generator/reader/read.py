@@ -14,11 +14,12 @@ from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
 from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
-from gudgeon.generator.reader.contacts import read_bearings, read_contacts, read_materials
+from gudgeon.generator.reader.contacts import read_bearings, read_contacts
 from gudgeon.generator.reader.curves import read_curves
 from gudgeon.generator.reader.drives import read_drives
 from gudgeon.generator.reader.fields import read_number, text_of
 from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
+from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import read_parameters, settle
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.reader.result_names import MotionNames, ResultNames
@@ -55,17 +56,17 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     namespace = Namespace()
     title, curves = _read_title(reader, root), read_curves(reader, root)
     parameters = read_parameters(reader, root.part("parameters"))
-    gravity = read_gravity(reader, root)
-    bodies, ground = read_bodies(reader, root, namespace), read_ground(reader, root)
+    gravity, materials = read_gravity(reader, root), Materials(reader, root.part("materials"))
+    bodies, ground = read_bodies(reader, root, namespace, materials), read_ground(reader, root)
     places = Places(bodies, ground)
     joints = read_joints(reader, root, places, namespace)
     drives = read_drives(reader, root, places, namespace)
     motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, parameters)
     forces = read_forces(reader, root, places, namespace, motion)
     start = read_start(reader, root, places)
-    bearings, contacts = read_bearings(reader, root, read_materials(reader, root)), read_contacts(reader, root)
+    bearings, contacts = read_bearings(reader, root, materials), read_contacts(reader, root)
     events = read_events(reader, root.part("events"), "events", motion)
-    scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion))
+    scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion, materials))
     named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}
     unread = named - {*joints, *drives, *forces} | namespace.twice
     known = ResultNames(places, joints, drives, forces, parameters, unread)
@@ -90,6 +91,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
         forces=forces,
         freedoms=_read_freedoms(reader, root),
         curves=curves,
+        materials=materials.known, choices=materials.choices,
         tables=reader.tables, laws=reader.laws,
     )
 

@@ -16,6 +16,7 @@ from gudgeon.generator.mechanism.mechanism import GROUND, Bearing, Contact, Even
 from gudgeon.generator.reader.collector import Reader, ResultDimension
 from gudgeon.generator.reader.extends import parents_first
 from gudgeon.generator.reader.fields import Around, read_fields
+from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import dependency_order
 from gudgeon.generator.reader.result_names import LATER, ResultNames
 from gudgeon.generator.yaml.tree import Map, Text
@@ -36,6 +37,7 @@ class Parts:
     events: Mapping[str, EventSpec]
     root: Map
     motion: ResultDimension  # of the names that an event's expression may use
+    materials: Materials
 
 
 @dataclass
@@ -45,6 +47,7 @@ class _Draft:
     play: Map
     parameters: Map
     simulate: Map
+    materials: Map
     events: dict[str, EventSpec]  # read where they are written
     peaks: tuple[Text, ...] = ()
 
@@ -53,15 +56,16 @@ def read_scenes(reader: Reader, parts: Parts) -> dict[str, SceneSpec]:
     """All scenes in the order of the file; `ideal` is the first and always there."""
     section = parts.root.part("scenes")
     nothing = Map.make((), section.where)
-    plain = _Draft(nothing, nothing, nothing, dict(parts.events))
+    plain = _Draft(nothing, nothing, nothing, nothing, dict(parts.events))
     drafts: dict[str, _Draft] = {IDEAL: plain}
     found: dict[str, SceneSpec] = {IDEAL: SceneSpec(IDEAL, {}, {}, {}, Location(reader.file, 1, 1), plain.events)}
     for name, scene in parents_first(reader, "scene", section, (IDEAL,)):
         with reader.collect():
             check_label(name, "scene", name.where)
-            if name == IDEAL and any(scene.get(key) for key in ("play", "parameters", "extends")):
+            if name == IDEAL and any(scene.get(key) for key in ("play", "parameters", "materials", "extends")):
                 hint = "expected simulate: and events: only"
-                raise BadValueError("the scene ideal has no play, and the file's parameters", name.where, hint)
+                told = "the scene ideal has no play, and the file's parameters and materials"
+                raise BadValueError(told, name.where, hint)
         own = read_events(reader, scene.part("events"), f"scenes.{name}.events", parts.motion)
         draft = _draft(drafts[scene["extends"]] if scene.get("extends") else plain, scene, own)
         drafts[str(name)] = draft
@@ -75,7 +79,8 @@ def _draft(parent: _Draft, scene: Map, events: Mapping[str, EventSpec]) -> _Draf
 
     return _Draft(
         merged(parent.play, "play"), merged(parent.parameters, "parameters"), merged(parent.simulate, "simulate"),
-        {**parent.events, **events}, (*parent.peaks, *_listed(scene.get("peaks", ()))),
+        merged(parent.materials, "materials"), {**parent.events, **events},
+        (*parent.peaks, *_listed(scene.get("peaks", ()))),
     )  # fmt: skip
 
 
@@ -105,7 +110,11 @@ def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec
     with reader.collect():
         _check_cycles(name, parameters, parts)
     simulate = read_fields(reader, draft.simulate, SIMULATE.fields, Around(f"scenes.{name}.simulate")).quantities
-    return SceneSpec(str(name), play, parameters, simulate, name.where, draft.events, draft.peaks)
+    materials = {}
+    for address, text in draft.materials.pairs():
+        with reader.collect():
+            materials[str(address)] = parts.materials.chosen(address, text)
+    return SceneSpec(str(name), play, parameters, simulate, name.where, draft.events, draft.peaks, materials)
 
 
 def _play(joint: Text, use: Map, parts: Parts) -> Play | None:

@@ -14,6 +14,7 @@ from gudgeon.generator.format.shapes import missing_key
 from gudgeon.generator.mechanism.mechanism import Quantity, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, Values, kind_key, read_fields
+from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.parser import parse
 from gudgeon.language.suggestions import unknown_name
@@ -72,8 +73,8 @@ def read_sides(reader: Reader, node: Map, address: str) -> dict[str, Vector]:
 class Weighed:
     """Mass, inertia and centre of mass of one body, of what its file gives, and which of them are missing."""
 
-    def __init__(self, reader: Reader, address: str, own: Values) -> None:
-        self._reader, self._address = reader, address
+    def __init__(self, reader: Reader, address: str, own: Values, materials: Materials) -> None:
+        self._reader, self._address, self._materials = reader, address, materials
         self.mass, self.inertia = own.quantities.get("mass"), own.quantities.get("inertia")
         self.length, self.com = own.quantities.get("length"), own.vectors.get("com")
         self.follows_mass = False  # the inertia
@@ -105,16 +106,26 @@ class Weighed:
             area, spread, of = self._triangle(node, kind, points)
         else:
             area, spread, of = self._about_com(kind, own)
-        self._weigh(own, area, of, key)
+        self._weigh(node, own, area, of, key)
         self._set_inertia(f"m * {spread}", of, key.where)
 
-    def _weigh(self, own: Values, area: str, of: Mapping[str, Quantity], key: Text) -> None:
+    def _density(self, node: Map, own: Values) -> Quantity | None:
+        """The shape's own, or that of its material. Raises BadValueError for both, and what the material is told."""
+        if "material" not in node:
+            return own.quantities.get("density")
+        address, text = f"{self._address}.shape", node["material"]
+        if "density" in node:
+            raise BadValueError(f"{address} has density and material", text.where, "expected one of the two")
+        return self._materials.take(f"{address}.material", text, ("density",))["density"]
+
+    def _weigh(self, node: Map, own: Values, area: str, of: Mapping[str, Quantity], key: Text) -> None:
         """The mass, from density and thickness unless the body gives it."""
-        plate = {letter: own.quantities.get(name) for letter, name in (("d", "density"), ("h", "thickness"))}
+        plate = {"d": self._density(node, own), "h": own.quantities.get("thickness")}
         given = {letter: quantity for letter, quantity in plate.items() if quantity is not None}
         if given and self.mass is not None:
-            hint = "expected the mass, or density and thickness"
-            raise BadValueError(f"{self._address} has mass and a shape with density or thickness", key.where, hint)
+            hint = "expected the mass, or density or material, and thickness"
+            what = "material" if "material" in node else "density"
+            raise BadValueError(f"{self._address} has mass and a shape with {what} or thickness", key.where, hint)
         if len(given) == 1:
             raise missing_key("thickness" if "d" in given else "density", key.where, f"{self._address}.shape")
         if given:

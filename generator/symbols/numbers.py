@@ -7,7 +7,7 @@ zero is structural and stays a zero. Derived numbers (inverse masses, K, S, …)
 from __future__ import annotations
 
 import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
@@ -28,6 +28,7 @@ class SlotEntry:
     value: sp.Expr
     default: float
     dimension: Dimension
+    words: tuple[str, ...] = ()  # what its number, 0, 1, …, stands for
 
     @property
     def follows(self) -> bool:
@@ -53,7 +54,7 @@ class Slots:
         self.of_owner: dict[sp.Symbol, Owned] = {}  # of derived numbers those that one joint or element has
         self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
-        self._parameters = scene.parameters
+        self._parameters, self._instead = scene.parameters, scene.instead
         for name in scene.parameters:
             self._parameter(name)
 
@@ -101,7 +102,8 @@ class Slots:
         return symbol
 
     def use(self, quantity: Quantity) -> sp.Expr:
-        """The slot of a quantity; 0 for a literal zero."""
+        """The slot of a quantity, or of what the scene has instead; 0 for a literal zero."""
+        quantity = self._instead.get(quantity.address, quantity)
         if quantity.is_zero:
             return sp.Integer(0)
         if quantity.address not in self.entries:
@@ -117,6 +119,11 @@ class Slots:
             self.entries[address] = SlotEntry(symbol, address, sp.Float(default, 17), default, dimension)
         self.symbols.adopt(self.entries[address].symbol)
         return self.entries[address].symbol
+
+    def choice(self, address: str, words: tuple[str, ...], default: str) -> None:
+        """A slot for which of some words the run has chosen: the equations know their numbers only."""
+        self.constant(address, address.partition(".")[2], float(words.index(default)))
+        self.entries[address] = replace(self.entries[address], words=words)
 
     def derive(
         self, wanted: str, expression: sp.Expr, meaning: str = "", shown: str = "", of: Owned | None = None

@@ -94,6 +94,8 @@ def _holds(field: Field) -> str:
         if field.keys:
             points = "; `BODY.POINT`, [x, y], m" if field.entry and field.entry.kind == PLACE else ""
             return "numbers: " + ", ".join(f"`BODY.{key}`, {_unit(of)}" for key, of in field.keys.items()) + points
+        if field.addresses and field.entry:
+            return f"{', '.join(f'`{address}`' for address in field.addresses)}: {_holds(field.entry)}"
         return f"names: {_holds(field.entry) if field.entry and entry in (NUMBER, VECTOR) else 'mappings'}"
     if field.kind == CORNERS:
         return "[POINT, POINT, POINT]"

@@ -139,6 +139,9 @@ def _record(field: Field) -> Json:
 def _mapping(field: Field) -> Json:
     assert field.entry is not None
     keys = _reference("name") if field.keys is None else _of_bodies("", field.keys)
+    if field.addresses:
+        known = "|".join(address.replace(".", "\\.").replace("NAME", _NAME) for address in field.addresses)
+        keys = {"pattern": f"^({known})$"}
     if field.entry.kind == PLACE and field.keys:  # a coordinate has a number, any other name of a body a point
         points = {f"^{_NAME}\\.(?!({'|'.join(field.keys)})$){_NAME}$": _reference("vector")}
         numbers = {str(keys["pattern"]): _reference("number")}

@@ -34,11 +34,14 @@ class Closure:
         source = linkage.source
         self.linkage, self.p, self.t = linkage, p, t
         self.place = {name: k for k, name in enumerate(source.coordinates)}
-        guess, fixed, self.rates = linkage.start_values(p)
+        guess, fixed, rates = linkage.start_values(p)
+        fixed, self.apart = fixed[: len(source.start_set)], fixed[len(source.start_set) :]
+        self.rates, self.parting = rates[: len(source.start_rates)], rates[len(source.start_rates) :]
         self.set = np.array([*fixed, *hold.values()])
         held = [*source.start_set, *hold]
         self.set_index = [self.place[name] for name in held]
         self.names = [row.name for row in source.start_rows] + [f"set {name}" for name in held]
+        self.apart_index = [self.names.index(name) for name in source.start_apart]
         self.owners = [row.owner for row in source.start_rows] + ["start"] * len(held)
         self.is_angle = angles(source)
         self.size = self.reach = mechanism_size(linkage, p)
@@ -58,6 +61,7 @@ class Closure:
     def residual(self, q: Array, p: Array | None = None) -> Array:
         """Of each row, m or rad; with other numbers p where they are given."""
         phi = self.linkage.closed_phi(self.t, q, self.p if p is None else p)
+        phi[self.apart_index] += self.apart  # Φ of these joints is −e
         return np.concatenate([phi, q[self.set_index] - self.set])
 
     def jacobian(self, q: Array, p: Array | None = None) -> Array:

@@ -27,7 +27,8 @@ def stuck(closure: Closure, matrix: Array, left: Array) -> AssemblyError:
         return AssemblyError(
             f"start.rates {', '.join(rates)} cannot be met: a start closes the joints with play"
             f" ({', '.join(closed)}), and then the linkage moves as its drives say\n"
-            "  leave the rate out, or begin from a State of your own: simulate(start=...)"
+            f"  leave the rate out, say how journals move (start: {{play: {{{next(iter(closed))}: {{rate: [..]}}}}}}),"
+            " or begin from a State of your own: simulate(start=...)"
         )
     if len(movers) > 1:
         owners = dict(zip(rows, [row.owner for row in source.start_rows], strict=False))

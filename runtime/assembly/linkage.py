@@ -32,7 +32,7 @@ class Linkage(Protocol):
         """The diagonal of M, (n,)."""
 
     def start_values(self, p: Array) -> tuple[Array, Array, Array]:
-        """What the file's start guesses, sets, and gives as rates."""
+        """What the file's start guesses, sets, and gives as rates; behind the last two e and ė of `start_apart`."""
 
 
 def mechanism_size(linkage: Linkage, p: Array) -> float:

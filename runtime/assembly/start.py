@@ -1,8 +1,9 @@
 """The exact start on the branch nearest the guess: positions by Newton, then velocities.
 
-A scene with play starts from its closed linkage (e = 0, ideal velocities). Angles weigh most: a step
-moves guessed angles least, then the other angles, and positions follow. The ordinary case is one call of C
-(engine/scene/start.c); what it cannot close, or not near the guess, is looked for here.
+A scene with play starts from its closed linkage (e = 0, ideal velocities), but where the file's `start.play` says e
+and ė of a journal: rows of its joint are held apart by so much. Angles weigh most: a step moves guessed angles least,
+then the other angles, and positions follow. The ordinary case is one call of C (engine/scene/start.c); what it cannot
+close, or not near the guess, is looked for here.
 """
 
 from __future__ import annotations
@@ -60,7 +61,9 @@ def velocities(closure: Closure, q: Array) -> Array:
     extra = np.zeros((len(index), len(q)))
     extra[np.arange(len(index)), index] = 1.0
     matrix = np.concatenate([closure.linkage.closed_phi_q(closure.t, q, closure.p), extra])
-    target = np.concatenate([closure.linkage.closed_nu(_ahead(closure), q, closure.p), closure.rates])
+    nu = closure.linkage.closed_nu(_ahead(closure), q, closure.p)
+    nu[closure.apart_index] -= closure.parting
+    target = np.concatenate([nu, closure.rates])
     if not (np.isfinite(target).all() and np.isfinite(matrix).all()):
         source = closure.linkage.source
         rows = [row.name for row, x in zip(source.start_rows, target, strict=False) if not np.isfinite(x)]

@@ -26,6 +26,7 @@ class Slot:
     default: float  # its value when nothing is overridden
     follows: bool  # an expression of other parameters: it follows them unless overridden itself
     dimension: tuple[float, float, float]  # exponents of m, kg, s: whole, or halves
+    words: tuple[str, ...] = ()  # of a choice: what its number, 0, 1, …, stands for
 
 
 @dataclass(frozen=True)
@@ -198,6 +199,7 @@ class KernelSource:
         return sha256("\n".join(parts).encode()).hexdigest() if len(parts) > 1 else self.sha256
 
     peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for
+    start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
 
     @property

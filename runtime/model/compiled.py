@@ -20,6 +20,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import SingularError
 from gudgeon.language.wanted import number_of, time
 from gudgeon.model.arrays import FLAG, pointer, taken
+from gudgeon.model.choices import choices, filled_in
 from gudgeon.model.evaluation import PARTS, Evaluation, evaluate
 
 Array: TypeAlias = NDArray[np.float64]
@@ -37,7 +38,9 @@ class CompiledModel:
         self.n_memory = source.n_memory
         self._free = np.full(max(self.n_memory, 1), np.nan)
         self._free.flags.writeable = False
-        self._kept = np.array([_index(source, row.name) for row in source.rows], dtype=int)
+        self._choices = choices(source)
+        closed = [row.name for row in source.start_rows]
+        self._kept = np.array([closed.index(row.name) for row in source.rows], dtype=int)
 
     @cached_property
     def lib(self) -> Any:
@@ -69,9 +72,10 @@ class CompiledModel:
         """Every number of a run, (n_slots + n_derived,), from overridden slots (n_slots,) and a mask."""
         shape = (len(self.source.slots),)
         values, mask = taken(given, "given", shape), taken(is_given, "is_given", shape, dtype=FLAG)
-        p = np.empty(self.n_p)
-        pointers = self.pointer(values), self.pointer(mask, "unsigned char *"), self._out(p)
-        self.lib.gudgeon_prepare(*pointers)
+        p, chosen = np.empty(self.n_p), [k for k in self._choices if mask[k]]
+        for last in (False, True) if chosen else (True,):  # what is chosen has numbers of this run
+            self.lib.gudgeon_prepare(self.pointer(values), self.pointer(mask, "unsigned char *"), self._out(p))
+            values, mask = (values, mask) if last else filled_in(self.source, chosen, values, mask, p)
         return p
 
     def mass(self, p: ArrayLike) -> Array:
@@ -115,11 +119,12 @@ class CompiledModel:
         return self._rows("gudgeon_gamma", t, p, q, v)
 
     def start_values(self, p: ArrayLike) -> tuple[Array, Array, Array]:
-        """Numbers of the file's start: guess, set, rates."""
-        s = self.source
-        out = tuple(np.zeros(max(len(names), 1)) for names in (s.start_guess, s.start_set, s.start_rates))
-        self.lib.gudgeon_start_values(self._numbers(p), *(self._out(array) for array in out))
-        return out[0][: len(s.start_guess)], out[1][: len(s.start_set)], out[2][: len(s.start_rates)]
+        """Numbers of the file's start: guess, set, rates; behind the last two e and ė of start_apart."""
+        s, apart = self.source, len(self.source.start_apart)
+        sizes = len(s.start_guess), len(s.start_set) + apart, len(s.start_rates) + apart
+        guess, fixed, rates = (np.zeros(max(size, 1)) for size in sizes)
+        self.lib.gudgeon_start_values(self._numbers(p), *(self._out(array) for array in (guess, fixed, rates)))
+        return guess[: sizes[0]], fixed[: sizes[1]], rates[: sizes[2]]
 
     def close(self, t: float, p: ArrayLike, size: float) -> tuple[Array, Array, float] | None:
         """The start's q and q̇ (n,), with max |Φ|, by plain Newton in C; None where that is not enough.

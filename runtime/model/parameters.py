@@ -13,6 +13,7 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.wanted import mapping, number_of
+from gudgeon.model.choices import place_of_word
 from gudgeon.model.compiled import Array, CompiledModel
 
 # a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
@@ -72,7 +73,9 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
 
 
 def number(value: float | str, slot: Slot) -> float:
-    """A float, or a text as in the YAML file, with a unit or without: '0.5 mm', '1e-9'; SI."""
+    """A float, or a text as in the YAML file, with a unit or without: '0.5 mm', '1e-9'; SI. Of a choice its name."""
+    if slot.words:
+        return place_of_word(value, slot)
     if isinstance(value, str):
         found = plain_number(value)
         if found is not None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.language.wanted import refuse, text, told
+from gudgeon.model.choices import of_runs as chosen_of_runs
 from gudgeon.results.batch_series import kept_text, series, wanted_names
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.peaks import BatchPeaks, of_runs, run_columns
@@ -81,7 +82,7 @@ class Batch:
     states: States | None  # None: only some series were kept
     samples: Array  # (n,) output times that were reached; where an event or Ctrl-C ended a run, the last is its end's
     t_last: Array  # (n,) s, where each run ended
-    parameters: Mapping[str, Array]  # address -> (n,) values, of what was given to any run
+    parameters: Mapping[str, Array]  # address -> (n,) values, or names, of what was given to any run
     impacts: tuple[Array, ...]  # IMPACT_DTYPE, one an onset, of each run
     events: tuple[Array, ...]  # EVENT_DTYPE of each run
     peaks: Array  # (n, n_clearances) PEAK_DTYPE: N, s, m; the first contact and its peak force, NaN: none
@@ -254,7 +255,8 @@ class Batch:
 
 def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:
     """{address: (n,)} of what was given to any run, from the parameters (n, n_slots + n_derived) of all."""
-    return {source.slots[k].address: p[:, k].copy() for k in np.flatnonzero(is_given.any(axis=0)).tolist()}
+    some = [(source.slots[k], p[:, k]) for k in np.flatnonzero(is_given.any(axis=0)).tolist()]
+    return {slot.address: chosen_of_runs(slot, values) for slot, values in some}
 
 
 def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:

@@ -250,8 +250,12 @@ def _padded(runs: Mapping[int, Result], name: str, count: int, samples: int, sou
 def _given(file: File, source: KernelSource, count: int) -> dict[str, Array]:
     if not file.has(GIVEN):
         return {}
-    found = (slot.address for slot in source.slots if file.has(f"{GIVEN}/{slot.address}"))
-    return {address: file.numbers(f"{GIVEN}/{address}", count) for address in found}
+    found = {slot.address: slot for slot in source.slots if file.has(f"{GIVEN}/{slot.address}")}
+    return {
+        address: np.array(file.texts(f"{GIVEN}/{address}", count), dtype=object) if slot.words
+        else file.numbers(f"{GIVEN}/{address}", count)
+        for address, slot in found.items()
+    }  # fmt: skip
 
 
 def _peaks(file: File, source: KernelSource, count: int) -> Array:

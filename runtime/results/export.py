@@ -112,9 +112,15 @@ def _write_csv(path: str | os.PathLike[str], parts: Iterator[Columns]) -> None:
             if k == 0:
                 file.write((",".join(part) + "\n").encode())
             columns = list(part.values())
+            digits = _cell if any(column.dtype.kind in "OU" for column in columns) else repr
             for first in range(0, len(columns[0]), ROWS):
                 block = zip(*(column[first : first + ROWS].tolist() for column in columns), strict=True)
-                file.write("".join(",".join(map(repr, row)) + "\n" for row in block).encode())
+                file.write("".join(",".join(map(digits, row)) + "\n" for row in block).encode())
+
+
+def _cell(value: object) -> str:
+    """A number's digits, or the name of what was chosen, in which no comma can be."""
+    return value if isinstance(value, str) else repr(value)
 
 
 def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str]) -> None:

@@ -21,6 +21,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import written
 from gudgeon.language.wanted import path as named
 from gudgeon.language.wanted import text
+from gudgeon.model.choices import said
 from gudgeon.results import peaks, trace
 from gudgeon.results.hdf5_image import Table, Variable, pieces
 from gudgeon.results.results import Array, Result
@@ -102,6 +103,9 @@ def _parameters(run: Result) -> Iterator[Variable]:
     yield Variable("unit", _texts([slot.unit for slot in slots]), "", "of the value")
     yield Variable("given", run.given, "", "overridden value, SI")
     yield Variable("is_given", run.is_given.astype(np.int8), "", "1 where it was overridden")
+    if any(slot.words for slot in slots):
+        told = [str(said(slot, float(x))) if slot.words else "" for slot, x in zip(slots, run.p, strict=False)]
+        yield Variable("name", _texts(told), "", "of what was chosen where the value is its place")
 
 
 def _texts(values: list[str]) -> Array:

@@ -189,9 +189,10 @@ def _check_names(source: KernelSource) -> None:
     """They will stand in tables, figures and paths: identifiers with dots, as the reader of mechanisms has them."""
     named: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
     named += source.points
+    words = [word for slot in source.slots for word in slot.words]
     units = [slot.unit for slot in source.slots] + [series.unit for series in source.series]
     names = [thing.name for thing in named] + [slot.address for slot in source.slots] + [*source.outputs]
-    for name in (source.mechanism, source.scene, *names, *(series.name for series in source.series)):
+    for name in (source.mechanism, source.scene, *names, *words, *(series.name for series in source.series)):
         if not NAME.fullmatch(name):
             raise ValueError(f"{name[:64]!r} is no name")
     if wrong := [unit for unit in units if not UNIT.fullmatch(unit)]:

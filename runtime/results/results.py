@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators.trajectory import no_events
-from gudgeon.language.wanted import text
+from gudgeon.language.wanted import text, told
+from gudgeon.model.choices import said
 from gudgeon.results.diagnostics import Diagnostics, Extremes
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ class State:
     v: Array  # (n,)
     state: Array  # (n_clearances,) 0 free, 1 impact, 2 contact
     memory: Array  # (n_clearances,) δ̇⁻ in m/s, NaN while free
-    parameters: Mapping[str, float]  # address -> value, of what was overridden: a further run's, unless given others
+    parameters: Mapping[str, float | str]  # address -> what was overridden: a further run's, unless given others
     sha256: str = ""  # of the mechanism's file; "": made by hand
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # (address, value) with which the file was loaded
     formulation: str = ""  # what was integrated; either goes on from the other's
@@ -122,9 +123,9 @@ class Result:
         return "time" if text(name, "the name of a series") == "t" else self._series(name).meaning
 
     @cached_property
-    def parameters(self) -> Mapping[str, float]:
-        """Values of all run-time numbers by address ("bodies.L2.mass"); parameters also by their short name."""
-        values = {slot.address: float(value) for slot, value in zip(self.source.slots, self.p, strict=False)}
+    def parameters(self) -> Mapping[str, Any]:
+        """Values of all run-time numbers, and names that are chosen, by address; parameters by their short name too."""
+        values = {slot.address: said(slot, float(x)) for slot, x in zip(self.source.slots, self.p, strict=False)}
         short = {key.removeprefix("parameters."): v for key, v in values.items() if key.startswith("parameters.")}
         return MappingProxyType(values | short)
 
@@ -182,7 +183,7 @@ class Result:
     def final(self) -> State:
         """The last sample as a state to restart from."""
         slots = zip(self.source.slots, self.given, self.is_given, strict=True)
-        overridden = {slot.address: float(value) for slot, value, is_given in slots if is_given}
+        overridden = {slot.address: said(slot, float(value)) for slot, value, is_given in slots if is_given}
         q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
         source, parameters = self.source, MappingProxyType(overridden)
         return State(

@@ -15,10 +15,11 @@ from typing import Any
 import numpy as np
 
 from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.language.wanted import mapping, number_of, refuse, text
 from gudgeon.model.arrays import CODE, taken
+from gudgeon.model.choices import said, told_choices
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import given_slots
 from gudgeon.results.results import State
@@ -124,17 +125,18 @@ def numbers(
     else:
         before, was_given = given_slots(compiled.source, start.parameters, "start.parameters")
     both, mask = np.where(is_given, given, before), np.logical_or(is_given, was_given)
+    chosen = told_choices(compiled.source, both, mask)
     if start is None or not is_given.any():
-        return both, mask, ()
+        return both, mask, chosen
     had, has = compiled.prepare(before, was_given), compiled.prepare(both, mask)
     changed = [k for k in np.flatnonzero(is_given).tolist() if had[k] != has[k]]
     if not changed:
-        return both, mask, ()
+        return both, mask, chosen
     slots = compiled.source.slots
-    told = [f"{slots[k].address} {_quantity(has[k], slots[k].unit)} (before {_quantity(had[k], slots[k].unit)})"
+    told = [f"{slots[k].address} {_quantity(has[k], slots[k])} (before {_quantity(had[k], slots[k])})"
             for k in changed[:MOST_TOLD]]  # fmt: skip
     more = f" and {len(changed) - MOST_TOLD} more" if len(changed) > MOST_TOLD else ""
-    return both, mask, (f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(told)}{more}",)
+    return both, mask, (*chosen, f"goes on from t = {start.t:.9g} s with other numbers: {', '.join(told)}{more}",)
 
 
 def check_fits(compiled: CompiledModel, start: State, p: Array) -> None:
@@ -154,5 +156,5 @@ def check_fits(compiled: CompiledModel, start: State, p: Array) -> None:
         )
 
 
-def _quantity(value: float, unit: str) -> str:
-    return f"{value:.6g} {unit}".strip()
+def _quantity(value: float, slot: Slot) -> str:
+    return str(said(slot, float(value))) if slot.words else f"{value:.6g} {slot.unit}".strip()

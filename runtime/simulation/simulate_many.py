@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon.assembly.journals import parting
 from gudgeon.assembly.redundant_rows import left_out
 from gudgeon.contract.methods import ADAPTIVE, INTEGRATORS
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
@@ -186,10 +187,11 @@ class _Results:
         error = runs.failures.get(i)
         if error is not None and not x["done"][i]:
             raise error
+        begin = x["start"][i, :n], x["start"][i, n:], x["remembered"][i, : compiled.n_memory]
+        remarks = self.starts.remarks[i] + parting(compiled, x["p"][i], self.starts.t, *begin)
         problem = Problem(
-            compiled, x["p"][i], times, x["start"][i, :n], x["start"][i, n:],
-            x["remembered"][i, : compiled.n_memory], float(x["step"][i]), method=self.method, rtol=self.rtol,
-            p_free=None if self.method == "rk4" else x["p_motion"][i], stop=self.stop, remarks=self.starts.remarks[i],
+            compiled, x["p"][i], times, *begin, float(x["step"][i]), method=self.method, rtol=self.rtol,
+            p_free=None if self.method == "rk4" else x["p_motion"][i], stop=self.stop, remarks=remarks,
         )  # fmt: skip
         trajectory, seconds = runs.trajectory(i), float(x["seconds"][i])
         given = (self.starts.given[i], self.starts.is_given[i], seconds)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.assembly.branches import off_text, unfollowed
+from gudgeon.assembly.journals import parting
 from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
 from gudgeon.errors import BadValueError, InputError, SolverError
@@ -216,6 +217,7 @@ class Simulation:
             check_fits(self.compiled, begin, p)
         q, v, memory = self._closed(p) if begin is None else (begin.q, begin.v, begin.memory)
         check_start(self.compiled, p, t0, q)
+        remarks += parting(self.compiled, p, t0, q, v, memory)
         problem = Problem(
             self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state,
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,

@@ -18,6 +18,7 @@ from gudgeon.integrators.batch import GLANCE
 from gudgeon.integrators.failure import INTERRUPTED
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, no_events
+from gudgeon.model.choices import said
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import Mask
 from gudgeon.results.batch import Batch, States, as_failures, given_values, peaks_of
@@ -71,7 +72,8 @@ class _Runs:
 
     def _one(self, i: int) -> None:
         slots = self.simulation.source.slots
-        parameters = {slots[k].address: float(self.given[i, k]) for k in np.flatnonzero(self.is_given[i]).tolist()}
+        given = [(slots[k], float(self.given[i, k])) for k in np.flatnonzero(self.is_given[i]).tolist()]
+        parameters = {slot.address: said(slot, value) for slot, value in given}
         try:
             begin = self.starts[i] if self.starts else None
             run = self.simulation.simulate(parameters=parameters, start=begin, progress=self._tick, **self.options[i])

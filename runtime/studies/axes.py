@@ -12,6 +12,8 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError
 from gudgeon.language.wanted import numbers, text
+from gudgeon.model.choices import said
+from gudgeon.model.compiled import Array
 from gudgeon.model.parameters import GAINS, given_slots, number, prepare
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import Parameters
@@ -55,7 +57,7 @@ def axis(simulation: Simulation, name: str, values: Sequence[float], parameters:
     if name in SETTINGS:
         return Axis(name, tuple(sorted(values)), SETTINGS[name])
     source, p = simulation.source, prepare(simulation.compiled, parameters)[0]
-    slots = _slots(source, name)
+    slots = _in_use(source, p, _slots(source, name))
     first = float(p[slots[0]])
     if len(slots) > 1 and first == 0.0:
         raise BadValueError(f"axis {name}: {source.slots[slots[0]].address} is zero, there is no ratio to it")
@@ -96,11 +98,23 @@ def _slots(source: KernelSource, name: str) -> list[int]:
         found = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.slots)))
     elif name in GROUPS:
         found = [k for k, slot in enumerate(source.slots) if GROUPS[name](slot.address)]
+    elif any(slot.address == name and slot.words for slot in source.slots):
+        hint = "set it for a map or a box as a whole, or give simulate_many a column of names"
+        raise BadValueError(f"axis {name}: its values are names, and an axis has numbers", hint=hint)
     else:
         return [int(np.flatnonzero(given_slots(source, {name: 1.0})[1])[0])]
     if not found:
         raise BadValueError(f"axis {name}: scene {source.scene!r} has no such number")
     return found
+
+
+def _in_use(source: KernelSource, p: Array, slots: list[int]) -> list[int]:
+    """Without the stiffness of materials that a run with p might choose and does not."""
+    of = [(slot, said(slot, float(x))) for slot, x in zip(source.slots, p, strict=False) if slot.words]
+    of = [(slot, name) for slot, name in of if slot.address.startswith("bearings.")]
+    offered = {f"materials.{word}.E" for slot, _ in of for word in slot.words}
+    chosen = {f"materials.{name}.E" for _, name in of}
+    return slots if len(slots) < 2 else [k for k in slots if source.slots[k].address not in offered - chosen]
 
 
 def _slot(source: KernelSource, name: str) -> Slot:

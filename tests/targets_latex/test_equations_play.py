@@ -166,7 +166,8 @@ def test_every_number_of_a_law_is_in_its_table() -> None:
         for parameter in laws()[use.law].parameters:
             letter, meaning, *_ = shown.pop(use.quantities[parameter.name].address)
             assert letter == parameter.symbol.replace(r"\mu", "μ") and meaning == parameter.meaning
-    for address in ("bearings.pin.radius", "materials.aluminium.E", "materials.steel_45.nu", "contacts.oil.transition"):
+    roles = ("bearing_material.E", "journal_material.nu", "radius")
+    for address in (*(f"bearings.pin.{role}" for role in roles), "contacts.oil.transition"):
         assert shown.pop(address)
 
 

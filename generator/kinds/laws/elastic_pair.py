@@ -22,7 +22,11 @@ def pair_stiffness(s: LawInputs) -> Any:
     import sympy as sp
 
     pair = s.pair
-    sigma_i, sigma_j = (1 - pair.nu_i**2) / pair.E_i, (1 - pair.nu_j**2) / pair.E_j
     other = pair.R_j if s.options["geometry"] == "external" else -pair.R_j
     radius = sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + other))
-    return s.derive("K", sp.Rational(4, 3) / (sigma_i + sigma_j) * radius, "contact stiffness")
+    if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
+        K = sp.Rational(2, 3) * pair.E_i * radius / (1 - pair.nu_i**2)
+    else:  # σ_i + σ_j times E_i, in wholes: two that hold the numbers of one material give its bits
+        soft_i, soft_j = (s.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
+        K = sp.Rational(4, 3) * pair.E_i * radius / (soft_i + soft_j * s.whole(pair.E_i / pair.E_j))
+    return s.derive("K", K, "contact stiffness")

@@ -33,7 +33,8 @@ class PairSymbols:
 class LawInputs:
     """What a law's `build` may use: its own parameters, the pair, and the state variables of its role.
 
-    `derive(name, expression, meaning)` gives the symbol of a constant that is computed once a run.
+    `derive(name, expression, meaning)` gives the symbol of a constant that is computed once a run; `whole(x)` is x
+    that SymPy does not take apart (symbols/wholes.py).
     """
 
     parameters: Mapping[str, Any]
@@ -41,6 +42,7 @@ class LawInputs:
     pair: PairSymbols
     variables: Mapping[str, Any]
     derive: Callable[[str, Any, str], Any]
+    whole: Callable[[Any], Any] = lambda x: x
 
 
 # The state variables that a role's law is written in, and what it returns.

@@ -27,6 +27,7 @@ from gudgeon.contract.stored import base_units
 from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes
+from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism, Quantity
 from gudgeon.generator.reduction.driven_chains import Chain
@@ -66,10 +67,7 @@ def describe(
         frictions=tuple(friction.name for friction in model.frictions), pivots=pivots,
         start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
-        slots=tuple(
-            Slot(e.address, base_units(_exponents(e.dimension)), e.default, e.follows, _exponents(e.dimension))
-            for e in model.slots.entries.values()
-        ),
+        slots=tuple(_slots(model)),
         derived=tuple(symbol.name for symbol in model.slots.derived),
         conditions=_conditions(model),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
@@ -80,9 +78,16 @@ def describe(
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         lines=_lines(mechanism), massless=tuple(body.name for body in mechanism.bodies.values() if body.lacks),
         tables=tuple(mechanism.tables.items()), laws=tuple(sorted(mechanism.laws.items())),
+        start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)), written=tuple(_written(model)),
         simulate_written=tuple(_simulate_written(model)), states=_states(model), story=story, lanes=lanes,
     )  # fmt: skip
+
+
+def _slots(model: Model) -> Iterator[Slot]:
+    for e in model.slots.entries.values():
+        exponents = _exponents(e.dimension)
+        yield Slot(e.address, base_units(exponents), e.default, e.follows, exponents, e.words)
 
 
 def _lines(mechanism: Mechanism) -> tuple[tuple[str, int], ...]:

@@ -13,6 +13,7 @@ from gudgeon.generator.equations.notes import has_jumps
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import outputs
+from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.time_terms import count_terms
@@ -113,12 +114,14 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
 
 def _of_start(program: Program) -> Sizes:
     start, guess = _start(program.model), program.model.scene.mechanism.start.guess
-    return {
+    apart = apart_rows(program.model)
+    sizes: Sizes = {
         "N_GUESS": (len(start["guess_place"]), "coordinates that the start guesses"),
         "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are those of points"),
         "N_SET": (len(start["set_place"]), "those that it sets"),
         "N_RATES": (len(start["rate_place"]), "velocities that it sets"),
     }  # fmt: skip
+    return sizes | {"N_APART": (len(apart), "rows that it holds apart: eccentricities of journals")} if apart else sizes
 
 
 def known_bounds(program: Program) -> Kernel | None:
@@ -165,6 +168,8 @@ def _tables(program: Program, of_scene: Sizes) -> list[str]:
         ("int", "kept_row"): [place[row.name] for row in model.rows],
         ("unsigned char", "is_angle"): program.integrated.angles,
     }  # fmt: skip
+    if apart := apart_rows(model):
+        tables |= {("int", "apart_row"): [k for k, _, _ in apart]}
     if program.integrates:
         tables |= _watched(program, of_scene) | {("int", "friction_of_pivot"): _friction_pivots(program.integrated.kkt)}
     return [_table(kind, name, values) for (kind, name), values in tables.items()]

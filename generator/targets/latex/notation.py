@@ -144,6 +144,10 @@ def of_address(address: str) -> Name:
             return letter(constant, material)
         case ["bearings", bearing, "length"]:
             return letter("L", bearing)
+        case ["bearings", bearing, "bearing_material" | "journal_material" as role, constant]:
+            return letter(constant, "j" if role == "journal_material" else "i", bearing)
+        case ["bodies", body, "shape", "material", constant]:
+            return letter(_letter_of(constant), body)
         case ["contacts", contact, *rest]:
             return letter(rest[-1], contact)
         case ["start", _, body, coordinate]:

@@ -83,8 +83,9 @@ class JointWithPlay:
         i, j = bearing.bearing_material, bearing.journal_material
         pieces = [(i, "", "both")] if i == j else [(i, "_i", "bearing"), (j, "_j", "journal")]
         for material, index, what in pieces if self.clearance.normal is not None else []:
-            yield material.E, f"E{index}", f"modulus of elasticity of {material.name} ({what})"
-            yield material.nu, rf"\nu{index}", f"Poisson's ratio of {material.name} ({what})"
+            name = self.model.scene.materials.get(f"bearings.{bearing.name}.{what}_material", material.name)
+            yield material.numbers["E"], f"E{index}", f"modulus of elasticity of {name} ({what})"
+            yield material.numbers["nu"], rf"\nu{index}", f"Poisson's ratio of {name} ({what})"
         for equations, use in self.laws():
             for parameter in equations.law.parameters:
                 yield use.quantities[parameter.name], _sign(parameter), parameter.meaning

@@ -45,5 +45,5 @@ class NumPyLinkage:
         return self.closed.mass(self.numbers(p))
 
     def start_values(self, p: Array) -> tuple[Array, Array, Array]:
-        """Guesses, exact values, rates of the file's start."""
+        """Guesses, exact values, rates of the file's start; behind the last two those of journals."""
         return self.closed.start_values(self.numbers(p))

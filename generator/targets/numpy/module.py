@@ -16,6 +16,7 @@ from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.kernels import closed_linkage
+from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.numpy.curves import with_curves
 from gudgeon.generator.targets.numpy.layout import WIDTH, docstring, remark
@@ -68,6 +69,9 @@ class ClosedLinkage:
             if address not in entries:
                 known = (*(a.removeprefix("parameters.") for a in entries), *entries)
                 raise unknown(f"no number of this scene has the address {name!r}", name, tuple(dict.fromkeys(known)))
+            if entries[address].words:
+                hint = f"give its numbers themselves: {address}.E or the like"
+                raise BadValueError(f"{address} is chosen by its name where runs are made, not here", hint=hint)
             if address in found:
                 raise BadValueError(f"{address} is given twice, once as {name!r}", hint="give it once")
             of = entries[address].dimension
@@ -103,9 +107,10 @@ class ClosedLinkage:
         return self._filled("acceleration_rhs", self.m, t, _list(q), _list(v), p)
 
     def start_values(self, p: SimpleNamespace) -> tuple[Array, Array, Array]:
-        """What the file's start guesses, sets, and gives as rates."""
-        start = self.model.scene.mechanism.start
-        guess, fixed, rates = (np.zeros(len(group)) for group in (start.guess, start.set, start.rates))
+        """What the file's start guesses, sets, and gives as rates; behind the last two what it says of journals."""
+        start, apart = self.model.scene.mechanism.start, len(apart_rows(self.model))
+        sizes = (len(start.guess), len(start.set) + apart, len(start.rates) + apart)
+        guess, fixed, rates = (np.zeros(size) for size in sizes)
         with np.errstate(all="ignore"):
             self.functions["start_values"](p, guess, fixed, rates)
         return guess, fixed, rates

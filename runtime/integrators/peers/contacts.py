@@ -88,7 +88,7 @@ class Contacts:
         now = self.view(np.array([t]), y[None])
         self.open = [(t, 0.0, t)] * self.count
         for k in np.flatnonzero(~self.closed & (now.delta[0] >= 0.0)):
-            self._close(int(k), t, float(now.deltadot[0, k]))
+            self._close(int(k), t, abs(float(now.deltadot[0, k])))  # as run/latches.c has it
 
     def change(self, t: float, y: Array, event: int) -> None:
         """Joint `event` changes between free and contact, and with it every other one that is over its edge."""

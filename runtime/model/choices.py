@@ -1,0 +1,71 @@
+"""Choices of a run by name, materials of bearings and of bodies' shapes: slots whose numbers are places of words.
+
+What a choice is called, "bearings.pin.journal_material", begins the addresses of the numbers that follow it: those of
+the chosen material, as the run has them ("materials.bronze.E"), unless they are given themselves. They are filled in
+before C sees them, so that nothing is derived or compiled anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.errors import BadValueError
+from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.wanted import told
+
+Array: TypeAlias = NDArray[Any]
+
+
+def place_of_word(value: Any, slot: Slot) -> float:
+    """The number of a slot that has words. Raises UnknownNameError with the nearest, BadValueError for no name."""
+    if not isinstance(value, str):
+        raise BadValueError(f"{slot.address} is {told(value)}: expected one of: {', '.join(slot.words)}")
+    if value.strip() not in slot.words:
+        raise unknown_name(f"choice of {slot.address}", value.strip(), slot.words, None)
+    return float(slot.words.index(value.strip()))
+
+
+def said(slot: Slot, value: float) -> float | str:
+    """What a slot's number is to be called: the word that it stands for, or itself. ValueError for no word's place."""
+    if not slot.words:
+        return float(value)
+    if value not in range(len(slot.words)):
+        raise ValueError(f"{slot.address} is {value!r}, the place of no word")
+    return slot.words[int(value)]
+
+
+def of_runs(slot: Slot, values: Array) -> Any:
+    """Values of many runs, (n,): numbers, or texts."""
+    return np.array([said(slot, x) for x in values.tolist()], dtype=object) if slot.words else values.copy()
+
+
+def choices(source: KernelSource) -> tuple[int, ...]:
+    """Which slots are choices."""
+    return tuple(k for k, slot in enumerate(source.slots) if slot.words)
+
+
+def filled_in(source: KernelSource, chosen: Iterable[int], given: Array, is_given: Array, p: Array) -> tuple[Any, Any]:
+    """Values and mask, (n_slots,) each, with the numbers of what is chosen, as they are in p."""
+    place = {slot.address: k for k, slot in enumerate(source.slots)}
+    values, mask = given.copy(), is_given.copy()
+    for k in chosen:
+        name, start = said(source.slots[k], float(given[k])), f"{source.slots[k].address}."
+        for address, own in place.items():
+            if address.startswith(start) and not is_given[own]:
+                values[own], mask[own] = p[place[f"materials.{name}.{address.removeprefix(start)}"]], True
+    return values, mask
+
+
+def told_choices(source: KernelSource, given: Array, is_given: Array) -> tuple[str, ...]:
+    """A remark on what a run was told to choose."""
+    return tuple(
+        f"{slot.address} is {said(slot, float(given[k]))}"
+        + (f" (the scene's is {said(slot, slot.default)})" if given[k] != slot.default else "")
+        for k, slot in enumerate(source.slots)
+        if slot.words and is_given[k]
+    )

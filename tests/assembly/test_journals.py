@@ -1,0 +1,196 @@
+"""Starts whose journals are out of the middle and move: against the quadratic of a free flight, and by hand."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.assembly.start import search
+from gudgeon.errors import AssemblyError, UnknownNameError
+from gudgeon.model.parameters import prepare
+from gudgeon.simulation.simulation import Simulation
+
+C, R, M = 3e-4, 1e-2, 0.1
+FREE = f"""
+format: gudgeon/1
+name: free_journal
+parameters: {{ex: 0.1 mm, ey: -0.05 mm, vx: 3 mm/s, vy: 8 mm/s}}
+materials: {{steel: {{E: 206 GPa, nu: 0.3}}}}
+bodies: {{ball: {{mass: {M} kg, inertia: 1e-5 kg*m^2}}}}
+ground: {{o: [2 mm, -1 mm]}}
+joints: {{A: {{revolute: [ground.o, ball.origin]}}}}
+start: {{play: {{A: {{e: [ex, ey], rate: [vx, vy]}}}}}}
+bearings:
+  pin: {{radius: {R} m, clearance: {C} m, length: 10 mm, bearing_material: steel, journal_material: steel}}
+contacts: {{dry: {{normal: {{law: lankarani_nikravesh, restitution: 0.9}}}}}}
+scenes: {{dry: {{play: {{A: {{bearing: pin, contact: dry}}}}, simulate: {{t_end: 0.1 s, output: 10}}}}}}
+"""
+CRANK = """
+format: gudgeon/1
+name: driven
+gravity: [0, -9.81 m/s^2]
+parameters: {out: 0.02 mm}
+materials: {steel: {E: 206 GPa, nu: 0.3}}
+bodies:
+  crank: {length: 50 mm, mass: 0.3 kg, inertia: 1e-4 kg*m^2}
+  rod: {length: 120 mm, mass: 0.21 kg, inertia: 2.5e-4 kg*m^2}
+  piston: {mass: 0.14 kg, inertia: 1e-4 kg*m^2}
+ground: {O: [0, 0]}
+joints:
+  shaft: {revolute: [ground.O, crank.tail]}
+  A: {revolute: [crank.head, rod.tail]}
+  B: {revolute: [rod.head, piston.origin]}
+  guide: {translational: [ground.O, piston.origin], axis: [1, 0]}
+drives: {motor: {angle: crank, value: 50 deg + 20 rad/s * t}}
+start:
+  guess: {piston.x: 150 mm}
+  play: {A: {e: [out, 0.04 mm], rate: [3 mm/s, 0]}, B: {rate: [0, -2 mm/s]}}
+bearings:
+  pin: {radius: 10 mm, clearance: 0.1 mm, length: 10 mm, bearing_material: steel, journal_material: steel}
+contacts: {dry: {normal: {law: lankarani_nikravesh, restitution: 0.9}}}
+scenes:
+  dry:
+    play: {A: {bearing: pin, contact: dry}, B: {bearing: pin, contact: dry}}
+    simulate: {t_end: 2 ms, output: 20}
+"""
+
+
+@dataclass
+class Scenes:
+    """Loaded once for all tests here."""
+
+    free: Simulation
+    full: Simulation
+    driven: Simulation
+    folder: Path
+
+    def file(self, name: str, text: str) -> Path:
+        path = self.folder / f"{name}.yaml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+
+@pytest.fixture(scope="module")
+def scenes(tmp_path_factory: pytest.TempPathFactory) -> Scenes:
+    folder = tmp_path_factory.mktemp("journals")
+    (folder / "free.yaml").write_text(FREE)
+    (folder / "driven.yaml").write_text(CRANK)
+    free = gudgeon.load(folder / "free.yaml", "dry")
+    return Scenes(free, free.full, gudgeon.load(folder / "driven.yaml", "dry"), folder)
+
+
+def touching(e: Any, v: Any) -> float:
+    """When |e + v t| = c first."""
+    a, b = float(np.dot(v, v)), float(np.dot(e, v))
+    return (-b + math.sqrt(b * b - a * (float(np.dot(e, e)) - C * C))) / a
+
+
+def numbers(e: Any, v: Any) -> dict[str, float]:
+    return dict(zip((f"start.play.A.{name}" for name in ("e.x", "e.y", "rate.x", "rate.y")), (*e, *v), strict=True))
+
+
+@pytest.mark.parametrize("method", [{"method": "dop853"}, {"method": "rodas5p"}, {"method": "rk4", "step": 1e-5}])
+@pytest.mark.parametrize("formulation", ["free", "full"])
+def test_free_flight_ends_where_the_quadratic_says(scenes: Scenes, formulation: str, method: dict[str, Any]) -> None:
+    scene, rng = getattr(scenes, formulation), np.random.default_rng(4)
+    for _ in range(4):
+        e, v = rng.uniform(-1.4e-4, 1.4e-4, 2), rng.uniform(5e-3, 2e-2) * np.array([1.0, rng.uniform(-1, 1)])
+        run = scene.simulate(parameters=numbers(e, v), **method)
+        t, onset = touching(e, v), run.impacts[0]
+        near = 1e-4 if "step" in method else 1e-9  # the step of rk4 ends in contact, and feels it
+        np.testing.assert_allclose([run["A.ex"][0], run["A.ey"][0]], e, atol=1e-16)
+        assert onset["t_on"] == pytest.approx(t, rel=near)
+        assert onset["deltadot"] == pytest.approx(float((e + v * t) @ v) / C, rel=near)
+
+
+def relative(q: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, ...]:
+    """e and ė of A and B of the crank drive, with its lengths written out."""
+
+    def end(body: int, length: float) -> tuple[np.ndarray, np.ndarray]:
+        x, y, theta = q[3 * body : 3 * body + 3]
+        vx, vy, omega = v[3 * body : 3 * body + 3]
+        c, s = length * math.cos(theta), length * math.sin(theta)
+        return np.array([x + c, y + s]), np.array([vx - omega * s, vy + omega * c])
+
+    (head, head_v), (tail, tail_v), (end_r, end_v) = end(0, 0.025), end(1, -0.06), end(1, 0.06)
+    return tail - head, tail_v - head_v, q[6:8] - end_r, v[6:8] - end_v
+
+
+def test_a_linkage_closes_around_its_journals(scenes: Scenes) -> None:
+    """Both as the file says, the crank as its motor, the piston on its line; the search in Python agrees with C."""
+    p = prepare(scenes.driven.compiled, {"start.play.B.e.y": "-0.03 mm"})[0]
+    start = scenes.driven.start({"start.play.B.e.y": "-0.03 mm"})
+    wanted = ([2e-5, 4e-5], [3e-3, 0.0], [0.0, -3e-5], [0.0, -2e-3])
+    for got, expected in zip(relative(start.q, start.v), wanted, strict=True):
+        np.testing.assert_allclose(got, expected, atol=1e-13)
+    np.testing.assert_allclose([start.q[2], start.q[7], start.v[2]], [math.radians(50), 0.0, 20.0], atol=1e-12)
+    found = search(scenes.driven.compiled, p)
+    np.testing.assert_allclose(found.q, start.q, atol=1e-12)
+    np.testing.assert_allclose(found.v, start.v, atol=1e-10)
+    assert start.residual < 1e-12 > found.residual
+
+
+@pytest.mark.parametrize("options", [{"method": "rk4", "step": 5e-6}, {"method": "dop853"}])
+def test_columns_are_single_runs(scenes: Scenes, options: dict[str, Any]) -> None:
+    """Side by side too: e of one joint, ė of the other, some of them in contact from the start."""
+    rng = np.random.default_rng(2)
+    columns = {"out": rng.uniform(-1.5e-4, 1.5e-4, 9), "start.play.B.rate.x": rng.uniform(-0.02, 0.02, 9)}
+    batch = scenes.driven.simulate_many(columns, **options)
+    assert not batch.failures
+    for i in range(9):
+        alone = scenes.driven.simulate(parameters={name: x[i] for name, x in columns.items()}, **options)
+        np.testing.assert_array_equal(batch.q[i], alone.q)
+        np.testing.assert_array_equal(batch.v[i], alone.v)
+        assert batch.impacts[i].tobytes() == alone.impacts.tobytes()
+        assert batch[i].diagnostics.notes == alone.diagnostics.notes
+
+
+DEEP = 2e-6
+
+
+@pytest.mark.parametrize("method", ["dop853", "rk4", "scipy:DOP853"])
+@pytest.mark.parametrize(("speed", "told"), [(0.02, ""), (-0.02, "part at 0.02 m/s"), (0.0, "are at rest")])
+def test_a_run_that_begins_in_contact(scenes: Scenes, method: str, speed: float, told: str) -> None:
+    """δ̇⁻ = |δ̇|, at least the floor; the first force by hand; the run says where that is a convention."""
+    n = np.array([0.6, 0.8])
+    given = numbers((C + DEEP) * n, speed * n)
+    run = scenes.free.simulate(1e-5, output=4, method=method, parameters=given, step=1e-7 if method == "rk4" else None)
+    assert run.memory[0, 0] == pytest.approx(max(abs(speed), 1e-6), rel=1e-9)
+    assert run.state[0, 0] == (1 if speed > 0.0 else 2)
+    K = 2.0 / 3.0 * 206e9 / (1 - 0.09) * math.sqrt(R * (R - C) / (2 * R - C))
+    force = K * DEEP**1.5 * (1 + 0.75 * (1 - 0.81) * np.sign(speed))
+    assert run["A.Fn"][0] == pytest.approx(force, rel=1e-6)
+    notes = [note for note in run.diagnostics.notes if "begins in contact" in note]
+    assert [told in note for note in notes] == [True] * bool(told)
+
+
+def test_what_contradicts_it_is_named(scenes: Scenes) -> None:
+    play = "play: {A: {e: [ex, ey], rate: [vx, vy]}}"
+    file = scenes.file("held", FREE.replace(play, f"{play}, set: {{ball.x: 1 mm}}"))
+    with pytest.raises(AssemblyError, match=r"A\.x.*set ball\.x|set ball\.x.*A\.x"):
+        gudgeon.load(file, "dry").start()
+    file = scenes.file("pushed", FREE.replace(play, f"{play}, rates: {{ball.vx: 1 mm/s}}"))
+    with pytest.raises(AssemblyError, match=r"start\.rates ball\.vx cannot be met.*A") as caught:
+        gudgeon.load(file, "dry").start()
+    assert "play: {A:" in str(caught.value)
+
+
+def test_scenes_without_that_play_do_not_know_it(scenes: Scenes) -> None:
+    ideal = gudgeon.load(scenes.folder / "free.yaml", "ideal")
+    np.testing.assert_allclose(ideal.start().q[:2], [2e-3, -1e-3], atol=1e-15)
+    with pytest.raises(UnknownNameError, match=r"start\.play\.A\.e\.x"):
+        ideal.start({"start.play.A.e.x": 1e-4})
+
+
+def test_an_override_brings_it_into_any_file(scenes: Scenes) -> None:
+    """One component alone; the other three are 0, and numbers of the run all the same."""
+    file = scenes.file("plain", FREE.replace("start: {play: {A: {e: [ex, ey], rate: [vx, vy]}}}\n", ""))
+    scene = gudgeon.load(file, "dry", overrides={"start.play.A.e.x": "0.1 mm"})
+    run = scene.simulate(1e-3, output=2, parameters={"start.play.A.rate.y": "1 mm/s"})
+    np.testing.assert_allclose([run["A.ex"][-1], run["A.ey"][-1]], [1e-4, 1e-6], rtol=1e-9)
