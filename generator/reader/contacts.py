@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from gudgeon.errors import BadValueError, MissingKeyError, UnknownNameError
 from gudgeon.generator.field import LAW
 from gudgeon.generator.format.sections import BEARING, CONTACT
@@ -17,7 +15,7 @@ from gudgeon.generator.reader.fields import Around, check_keys, field_names, rea
 from gudgeon.generator.reader.materials import ELASTIC, Materials
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.names import check_label
-from gudgeon.language.suggestions import known_hint, unknown_name
+from gudgeon.language.suggestions import known_hint
 
 _ROLES = tuple(field.name for field in CONTACT.fields if field.kind == LAW)
 

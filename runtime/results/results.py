@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators.trajectory import no_events
-from gudgeon.language.wanted import text, told
+from gudgeon.language.wanted import text
 from gudgeon.model.choices import said
 from gudgeon.results.diagnostics import Diagnostics, Extremes
 

@@ -44,7 +44,11 @@ typedef struct {
     Lanes pin_clearance;
     Lanes pin_length;
     Lanes aluminium_E;
+    Lanes pin_bearing_material_E;
     Lanes aluminium_nu;
+    Lanes pin_bearing_material_nu;
+    Lanes pin_journal_material_E;
+    Lanes pin_journal_material_nu;
     Lanes dry_normal_restitution;
     Lanes dry_normal_exponent;
     Lanes dry_friction_mu;
@@ -52,6 +56,10 @@ typedef struct {
     Lanes dry_friction_v1;
     Lanes velocity_floor;
     Lanes gravity_y;
+    Lanes steel_45_E;
+    Lanes steel_45_nu;
+    Lanes pin_bearing_material;
+    Lanes pin_journal_material;
     Lanes guess_L2_theta;
     Lanes guess_L3_theta;
     Lanes guess_L6_theta;

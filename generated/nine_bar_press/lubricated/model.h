@@ -89,7 +89,11 @@ typedef struct {
     double pin_clearance;  /* bearings.pin.clearance, m */
     double pin_length;  /* bearings.pin.length, m */
     double aluminium_E;  /* materials.aluminium.E, Pa */
+    double pin_bearing_material_E;  /* bearings.pin.bearing_material.E, Pa */
     double aluminium_nu;  /* materials.aluminium.nu, 1 */
+    double pin_bearing_material_nu;  /* bearings.pin.bearing_material.nu, 1 */
+    double pin_journal_material_E;  /* bearings.pin.journal_material.E, Pa */
+    double pin_journal_material_nu;  /* bearings.pin.journal_material.nu, 1 */
     double oil_normal_restitution;  /* contacts.oil.normal.restitution, 1 */
     double oil_normal_exponent;  /* contacts.oil.normal.exponent, 1 */
     double oil_friction_mu;  /* contacts.oil.friction.mu, 1 */
@@ -99,6 +103,10 @@ typedef struct {
     double velocity_floor;  /* contacts.oil.velocity_floor, m/s */
     double oil_transition;  /* contacts.oil.transition, m */
     double gravity_y;  /* gravity.y, m/s^2 */
+    double steel_45_E;  /* materials.steel_45.E, Pa */
+    double steel_45_nu;  /* materials.steel_45.nu, 1 */
+    double pin_bearing_material;  /* bearings.pin.bearing_material, 1 */
+    double pin_journal_material;  /* bearings.pin.journal_material, 1 */
     double guess_L2_theta;  /* start.guess.L2.theta, rad */
     double guess_L3_theta;  /* start.guess.L3.theta, rad */
     double guess_L6_theta;  /* start.guess.L6.theta, rad */

@@ -40,21 +40,31 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->pin_clearance = is_given[33] ? given[33] : p->c;  /* bearings.pin.clearance */
     p->pin_length = is_given[34] ? given[34] : 0.04;  /* bearings.pin.length */
     p->aluminium_E = is_given[35] ? given[35] : 70000000000.0;  /* materials.aluminium.E */
-    p->aluminium_nu = is_given[36] ? given[36] : 0.3;  /* materials.aluminium.nu */
-    p->oil_normal_restitution = is_given[37] ? given[37] : 0.9;  /* contacts.oil.normal.restitution */
-    p->oil_normal_exponent = is_given[38] ? given[38] : 1.5;  /* contacts.oil.normal.exponent */
-    p->oil_friction_mu = is_given[39] ? given[39] : 0.15;  /* contacts.oil.friction.mu */
-    p->oil_friction_v0 = is_given[40] ? given[40] : 0.0001;  /* contacts.oil.friction.v0 */
-    p->oil_friction_v1 = is_given[41] ? given[41] : 0.001;  /* contacts.oil.friction.v1 */
-    p->oil_film_viscosity = is_given[42] ? given[42] : 0.1;  /* contacts.oil.film.viscosity */
-    p->velocity_floor = is_given[43] ? given[43] : 1e-06;  /* contacts.oil.velocity_floor */
-    p->oil_transition = is_given[44] ? given[44] : 5e-06;  /* contacts.oil.transition */
-    p->gravity_y = is_given[45] ? given[45] : -9.81;  /* gravity.y */
-    p->guess_L2_theta = is_given[46] ? given[46] : -79.0*PI/360.0;  /* start.guess.L2.theta */
-    p->guess_L3_theta = is_given[47] ? given[47] : 39.0*PI/360.0;  /* start.guess.L3.theta */
-    p->guess_L6_theta = is_given[48] ? given[48] : -PI/2.0;  /* start.guess.L6.theta */
-    p->guess_L7_theta = is_given[49] ? given[49] : 7.0*PI/180.0;  /* start.guess.L7.theta */
-    p->guess_L8_theta = is_given[50] ? given[50] : -PI/2.0;  /* start.guess.L8.theta */
+    p->pin_bearing_material_E = is_given[36] ? given[36] : p->aluminium_E;  /* bearings.pin.bearing_material.E */
+    p->aluminium_nu = is_given[37] ? given[37] : 0.3;  /* materials.aluminium.nu */
+    p->pin_bearing_material_nu = is_given[38] ? given[38] : p->aluminium_nu;  /* bearings.pin.bearing_material.nu */
+    p->pin_journal_material_E = is_given[39] ? given[39] : p->aluminium_E;  /* bearings.pin.journal_material.E */
+    p->pin_journal_material_nu = is_given[40] ? given[40] : p->aluminium_nu;  /* bearings.pin.journal_material.nu */
+    p->oil_normal_restitution = is_given[41] ? given[41] : 0.9;  /* contacts.oil.normal.restitution */
+    p->oil_normal_exponent = is_given[42] ? given[42] : 1.5;  /* contacts.oil.normal.exponent */
+    p->oil_friction_mu = is_given[43] ? given[43] : 0.15;  /* contacts.oil.friction.mu */
+    p->oil_friction_v0 = is_given[44] ? given[44] : 0.0001;  /* contacts.oil.friction.v0 */
+    p->oil_friction_v1 = is_given[45] ? given[45] : 0.001;  /* contacts.oil.friction.v1 */
+    p->oil_film_viscosity = is_given[46] ? given[46] : 0.1;  /* contacts.oil.film.viscosity */
+    p->velocity_floor = is_given[47] ? given[47] : 1e-06;  /* contacts.oil.velocity_floor */
+    p->oil_transition = is_given[48] ? given[48] : 5e-06;  /* contacts.oil.transition */
+    p->gravity_y = is_given[49] ? given[49] : -9.81;  /* gravity.y */
+    p->steel_45_E = is_given[50] ? given[50] : 206000000000.0;  /* materials.steel_45.E */
+    p->steel_45_nu = is_given[51] ? given[51] : 0.3;  /* materials.steel_45.nu */
+    /* bearings.pin.bearing_material, from 0: aluminium, steel_45 */
+    p->pin_bearing_material = is_given[52] ? given[52] : 0.0;
+    /* bearings.pin.journal_material, from 0: aluminium, steel_45 */
+    p->pin_journal_material = is_given[53] ? given[53] : 0.0;
+    p->guess_L2_theta = is_given[54] ? given[54] : -79.0*PI/360.0;  /* start.guess.L2.theta */
+    p->guess_L3_theta = is_given[55] ? given[55] : 39.0*PI/360.0;  /* start.guess.L3.theta */
+    p->guess_L6_theta = is_given[56] ? given[56] : -PI/2.0;  /* start.guess.L6.theta */
+    p->guess_L7_theta = is_given[57] ? given[57] : 7.0*PI/180.0;  /* start.guess.L7.theta */
+    p->guess_L8_theta = is_given[58] ? given[58] : -PI/2.0;  /* start.guess.L8.theta */
 
     /* derived */
     p->L1_head_s_x = 0.5*p->L1_length;  /* point from the centre of mass */
@@ -66,8 +76,10 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->L8_head_s_x = 0.5*p->L8_length;  /* point from the centre of mass */
     p->R_j_pin = -p->pin_clearance + p->pin_radius;  /* journal radius */
     /* contact stiffness */
-    p->oil_pin_K = (2.0/3.0)*p->aluminium_E*sqrt(p->R_j_pin*p->pin_radius/(p->R_j_pin + p->pin_radius))/(1.0
-        - (p->aluminium_nu * p->aluminium_nu));
+    p->oil_pin_K = (4.0/3.0)*p->pin_bearing_material_E*sqrt(p->R_j_pin*p->pin_radius/(p->R_j_pin
+        + p->pin_radius))/((p->pin_bearing_material_E/p->pin_journal_material_E)*(1.0
+        - (p->pin_journal_material_nu * p->pin_journal_material_nu))
+        + (1.0 - (p->pin_bearing_material_nu * p->pin_bearing_material_nu)));
     /* hysteresis damping factor a */
     p->oil_pin_hysteresis = 0.75 - 0.75*(p->oil_normal_restitution * p->oil_normal_restitution);
     p->oil_pin_friction_slope = 1.0/(-p->oil_friction_v0 + p->oil_friction_v1);  /* 1/(v1 - v0) */

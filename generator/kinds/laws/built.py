@@ -148,7 +148,8 @@ def _check(law: Law, what: str, value: Any, known: set[Any], may: str) -> None:
             why = "is not real" if part == sp.I else "is not finite"
             raise _error(law, f"{what} {why}: {sp.sstr(value)[:80]}", "expected a real number for every δ > 0")
         plain = part.is_Number or part.is_NumberSymbol or part.is_Symbol or part.is_Add or part.is_Mul or part.is_Pow
-        if not plain and not isinstance(part, functions):
+        together = type(part).__name__ == "Whole"  # what `whole` makes, in a room above
+        if not plain and not together and not isinstance(part, functions):
             hint = f"expected + - * / **, sqrt, {', '.join(FUNCTIONS)}"
             raise _error(law, f"{what} uses {type(part).__name__}, which C is not given", hint)
 
