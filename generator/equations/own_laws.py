@@ -88,13 +88,17 @@ def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str
     numbers = {symbol: np.float64(_number(slots, symbol)) for symbol in _constants(steps, slots)}
     known, functions = [*numbers, *variables], {}
     for name, step in steps.items():
-        functions[name] = sp.lambdify(known, step, "numpy")
+        functions[name] = sp.lambdify(known, step, "numpy")  # symbols of known names alone: build has looked
         known.append(sp.Symbol(name, real=True))
     for state in itertools.product(*(_LOOKS.get(symbol.name, _STATE) for symbol in variables)):
         values = [*numbers.values(), *map(np.float64, state)]
         for name, function in functions.items():
             with np.errstate(all="ignore"):
-                values.append(np.float64(function(*values)))
+                try:
+                    values.append(np.float64(function(*values)))
+                except (ArithmeticError, TypeError, ValueError) as error:
+                    told = f"{_whose(law)}{name} cannot be computed: {type(error).__name__}: {error}"
+                    raise LawError(told, hint="expected a finite real number for every δ > 0") from error
             if not math.isfinite(values[-1]):
                 at = ", ".join(f"{s.name} = {x:g} {_UNITS.get(s.name, '')}".strip()
                                for s, x in zip(variables, state, strict=True))  # fmt: skip

@@ -52,6 +52,14 @@ class CompiledModel:
         """cffi's view of the library."""
         return self._module.ffi
 
+    @cached_property
+    def beyond(self) -> bool:
+        """Whether a drive has periods, at whose ends rounding decides on which side of a corner a time is."""
+        from gudgeon.language.tree import functions
+        from gudgeon.model.written import trees
+
+        return any("mod" in functions(tree) for _, tree in trees(self.source, ("drives",)))
+
     @property
     def _module(self) -> Any:
         from gudgeon.loading.build import compile_kernels

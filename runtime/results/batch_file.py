@@ -34,15 +34,18 @@ from gudgeon.results.batch_columns import (
     read_times,
     times,
 )
+from gudgeon.results.diagnostics import Extremes, extremes_from_json, extremes_to_json
 from gudgeon.results.hdf5_image import Table, Variable
-from gudgeon.results.netcdf_read import File, events_of, impacts_of, opened, result_of, source_of
+from gudgeon.results.netcdf_read import File, check_extremes, events_of, impacts_of, opened, result_of, source_of
 from gudgeon.results.results import Array, Result
+from gudgeon.results.series import catalogue
+from gudgeon.results.typed import check_typed
 
 if TYPE_CHECKING:
     import xarray
 
 FORMATS = ("gudgeon-batch/2", "gudgeon-batch/1")  # what is written, and what was before runs had their own times
-RUNS, GIVEN = "runs", "given"
+RUNS, GIVEN, EXTREMES = "runs", "given", "extremes"
 COUNTS = (*(field.name for field in fields(Counts)), "seconds")
 
 
@@ -97,6 +100,9 @@ def _runs(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
     if batch.states:
         told = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
         yield Variable("diagnostics", np.array(told, dtype=object), "", "what the run says of itself, JSON")
+    elif batch.extremes:
+        told = [extremes_to_json(own) for own in batch.extremes]
+        yield Variable(EXTREMES, np.array(told, dtype=object), "", "peaks over all steps, JSON")
     told = [_told(failed[i]) if i in failed else "" for i in range(len(batch))]
     yield Variable("failure", np.array(told, dtype=object), "", "why it did not come to its end, JSON")
     yield Variable("samples", batch.samples.astype(np.int64), "", "output times that were reached")
@@ -207,8 +213,6 @@ class _Stored:
 
 
 def _batch(opened_file: Any, size: int) -> Batch:
-    from gudgeon.results.series import catalogue
-
     file = File(opened_file, size, FORMATS)
     source, count = source_of(file), len(file.numbers(OWNER, None, "i8"))
     about = json.loads(file.text("batch"))
@@ -232,8 +236,19 @@ def _batch(opened_file: Any, size: int) -> Batch:
         peaks=_peaks(file, source, count), diagnostics=numbers, failures=as_failures(failed),
         seconds=float(about["seconds"]), threads=int(about["threads"]), interrupted=bool(about["interrupted"]),
         result=_Stored(runs, failed),
-        extremes=tuple(runs[i].diagnostics.extremes if i in runs else () for i in range(count)),
+        extremes=_extremes(file, source, count, runs if kept is None else None),
     )  # fmt: skip
+
+
+def _extremes(file: File, source: KernelSource, count: int, runs: Mapping[int, Result] | None) -> Any:
+    """Peaks over all steps, of each run: in its diagnostics, or beside the series that are kept."""
+    if runs is not None:
+        return tuple(runs[i].diagnostics.extremes if i in runs else () for i in range(count))
+    if not file.has(f"{RUNS}/{EXTREMES}"):
+        return ()
+    found = tuple(map(extremes_from_json, file.texts(f"{RUNS}/{EXTREMES}", count)))
+    check_typed(found, tuple[tuple[Extremes, ...], ...], EXTREMES)
+    return tuple(check_extremes(own, catalogue(source)) for own in found)
 
 
 def _padded(runs: Mapping[int, Result], name: str, count: int, samples: int, source: KernelSource) -> Array:

@@ -115,6 +115,16 @@ class Diagnostics:
         return "\n".join([*rows, *(f"{'note':>30}  {note}" for note in self.notes)])
 
 
+def extremes_to_json(extremes: tuple[Extremes, ...]) -> str:
+    """Those of one run alone, as `Diagnostics.to_json` has them."""
+    return json.dumps(_words([asdict(one) for one in extremes]), ensure_ascii=False, allow_nan=False)
+
+
+def extremes_from_json(text: str) -> tuple[Extremes, ...]:
+    """What `extremes_to_json` wrote, bit for bit."""
+    return tuple(Extremes(**_numbers(one, Extremes)) for one in json.loads(text))
+
+
 def _words(value: Any) -> Any:
     """Numbers that JSON lacks as words, at any depth."""
     if isinstance(value, float) and not math.isfinite(value):

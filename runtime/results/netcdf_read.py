@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -21,7 +21,7 @@ from gudgeon.errors import GudgeonError, InputError
 from gudgeon.integrators.trace import COLUMNS, Trace
 from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
 from gudgeon.language.wanted import path as named
-from gudgeon.results.diagnostics import Diagnostics
+from gudgeon.results.diagnostics import Diagnostics, Extremes
 from gudgeon.results.hdf5_image import is_damaged
 from gudgeon.results.netcdf import COMPILED, FORMAT, STATES, TRACE, at_event, variable
 from gudgeon.results.netcdf_samples import samples_of
@@ -179,10 +179,16 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
     if file.has(STATES):
         run.__dict__["states_at_events"] = _at_events(file, run)
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
-    for one in diagnostics.extremes:
-        if one.name not in run or not UNIT.fullmatch(one.unit) or one.against and not NAME.fullmatch(one.against):
-            raise ValueError(f"peaks of {one.name[:64]!r} are of no series")
+    check_extremes(diagnostics.extremes, run.names)
     return run
+
+
+def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tuple[Extremes, ...]:
+    """Raise unless they are of series that there are."""
+    for one in extremes:
+        if one.name not in names or not UNIT.fullmatch(one.unit) or one.against and not NAME.fullmatch(one.against):
+            raise ValueError(f"peaks of {one.name[:64]!r} are of no series")
+    return extremes
 
 
 def _check_names(source: KernelSource) -> None:

@@ -286,9 +286,9 @@ class Result:
 
     def unknown(self, name: str) -> UnknownNameError:
         """The error for a name that this result does not have; it names the nearest."""
-        from gudgeon.results.unknown import unknown_series
+        from gudgeon.results.unknown import parameter_names, unknown_series
 
-        return unknown_series(self.source, self._catalogue, name, self.parameters)
+        return unknown_series(self.source, self._catalogue, name, parameter_names(self.source))
 
 
 def read(path: str | os.PathLike[str]) -> Result:

@@ -39,9 +39,13 @@ def unknown_series(
 def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
     """Names of series of a scene, each once. Raises UnknownNameError."""
     known, wanted = catalogue(source), list(names)
-    addresses = {slot.address for slot in source.slots}
     for name in wanted:
         if not isinstance(name, str) or name not in known:
-            parameters = addresses | {address.removeprefix("parameters.") for address in addresses}
-            raise unknown_series(source, known, name, parameters)
+            raise unknown_series(source, known, name, parameter_names(source))
     return tuple(dict.fromkeys(wanted))
+
+
+def parameter_names(source: KernelSource) -> set[str]:
+    """Addresses of a scene's numbers, of parameters their short names too."""
+    addresses = {slot.address for slot in source.slots}
+    return addresses | {address.removeprefix("parameters.") for address in addresses}

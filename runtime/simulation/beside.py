@@ -13,6 +13,7 @@ from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import Problem
 from gudgeon.language.wanted import refuse
+from gudgeon.model.choices import said
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameters import prepare, without_baumgarte
 from gudgeon.results.series import catalogue
@@ -30,7 +31,7 @@ class Beside:
         self.compiled = simulation.compiled
         self.scene, self.names = simulation.source.scene, frozenset(catalogue(simulation.source))
         own = {slot.address for slot in self.compiled.source.slots}
-        values = {slot.address: float(p[k]) for k, slot in enumerate(source.slots) if slot.address in own}
+        values = {slot.address: said(slot, float(p[k])) for k, slot in enumerate(source.slots) if slot.address in own}
         self.numbers = prepare(self.compiled, values)
         self.lost = ""  # why it is followed no further
         self.problem: Problem | None = None  # from where it goes on

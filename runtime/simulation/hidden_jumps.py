@@ -11,6 +11,7 @@ Where nothing is free there is no impulse to be left out, but near such a place 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -25,7 +26,8 @@ from gudgeon.model.written import of_time, trees
 VISIBLE = frozenset({"abs", "min", "max", "ramp", "sign", "where", "mod"})
 BREAKING = frozenset({"where", "mod"})  # of VISIBLE: the value itself may jump
 _HIDING = frozenset({"sqrt", "hypot", "asin", "acos", "atan", "atan2", "tan", "log"})
-GRID, MOST = 4096, 16  # intervals, candidates
+GRID, MOST, MOST_CORNERS = 4096, 16, 512  # intervals, candidates; those that are looked at one after the other
+AT_THE_END = 1e-12  # share of a run's time that is looked at behind its end
 POINTS, LEVELS = 16, 11  # intervals of a closer look; each is a quarter as wide as the one before
 EVERYWHERE = 6  # of them that stand out like the one that does most: it is no place
 
@@ -47,8 +49,7 @@ def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[J
     for drive, tree in _that_may_hide(source) if t1 > t0 else ():
         found += _jumps(source, p, tree, drive, t0, t1)
     for drive, tree in _that_may_break(source) if t1 > t0 else ():
-        jumps = _jumps(source, p, tree, drive, t0, t1)
-        found += [replace(jump, breaks=True) for jump in jumps if jump.kind == "value"]
+        found += _first_break(source, p, tree, drive, t0, t1)
     return sorted(found, key=lambda jump: jump.t)
 
 
@@ -68,6 +69,7 @@ def any_in_batch(source: KernelSource, p: Array, t0: float, ends: Array) -> bool
     """Whether a run of a batch meets one until its end, p (runs, numbers); the same drives are looked at once."""
     seen, breaking = set(), _that_may_break(source)
     for drive, tree in (*_that_may_hide(source), *breaking) if _integrates(source) else ():
+        look = _first_break if (drive, tree) in breaking else _jumps
         used = {f"parameters.{name.path}" for name in names(tree)}
         columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
         for row, t1 in zip(p, ends.tolist(), strict=True):
@@ -75,8 +77,7 @@ def any_in_batch(source: KernelSource, p: Array, t0: float, ends: Array) -> bool
             if key in seen or not t1 > t0:
                 continue
             seen.add(key)
-            jumps = [jump for jump in _jumps(source, row, tree, drive, t0, t1) if jump.t > t0]
-            if any(jump.kind == "value" or (drive, tree) not in breaking for jump in jumps):
+            if any(jump.t > t0 for jump in look(source, row, tree, drive, t0, t1)):
                 return True
     return False
 
@@ -149,11 +150,32 @@ def _that_may_break(source: KernelSource) -> list[tuple[str, Expr]]:
 
 
 @np.errstate(all="ignore")
-def _jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
+def _first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
+    """The first time at which a drive jumps, its end among them, where the last sample is on either side; or none."""
+    behind = AT_THE_END * (t1 - t0)
+    t1 += behind
+    share, h = _share(source, p, tree, t0, t1, "reflect"), (t1 - t0) / GRID  # the last place may stand out too
+    for k in np.flatnonzero(share > 3.0)[:MOST_CORNERS].tolist():
+        at = t0 + (k + 1) * h
+        jump = _follow(source, p, tree, drive, max(at - h, t0), min(at + h, t1))
+        if jump and jump.kind == "value":
+            near = of_time(source, p, tree, np.array([at - h, at, at + h]))
+            if jump.size > 10.0 * behind * np.abs(np.diff(near)).max() / h:  # else the corner of a rate, so near an end
+                return [replace(jump, breaks=True)]
+    return []
+
+
+def _share(source: KernelSource, p: Array, tree: Expr, t0: float, t1: float, beyond: Any = "edge") -> Array:
+    """How far second differences on the grid stand out of those around them, (GRID - 1,)."""
     f = of_time(source, p, tree, np.linspace(t0, t1, GRID + 1))
     bent = np.abs(np.diff(f, 2))
-    around = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(bent, 8, mode="edge"), 17), axis=1)
-    share = bent / (around + 1e-14 * np.abs(f).max(initial=0.0) + 1e-300)
+    around = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(bent, 8, mode=beyond), 17), axis=1)
+    return np.asarray(bent / (around + 1e-14 * np.abs(f).max(initial=0.0) + 1e-300))
+
+
+@np.errstate(all="ignore")
+def _jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
+    share = _share(source, p, tree, t0, t1)
     outstanding = [k for k in np.argsort(-share, kind="stable")[: 4 * MOST].tolist() if share[k] > 3.0]
     found: list[Jump] = []
     h = (t1 - t0) / GRID

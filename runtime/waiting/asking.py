@@ -9,6 +9,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from types import TracebackType
+
     from gudgeon.model.compiled import CompiledModel
 
 EVERY = 0.05  # s between two questions
@@ -52,6 +54,13 @@ def _function(compiled: CompiledModel) -> Any:
     """The function of a library that leads back to Python; an exception on the way there stops the run too."""
     lib, ffi = compiled.lib, compiled.ffi
     if id(lib) not in _registered:
-        ffi.def_extern(name=NAME, error=1, onerror=lambda *_: None)(lambda whom: ffi.from_handle(whom).answer())
+
+        def keep(kind: object, error: BaseException | None, trace: TracebackType | None) -> None:
+            """What a signal's handler raised just before or behind `answer` is of the one who was asked."""
+            whom = trace.tb_frame.f_locals.get("whom") if trace else None
+            if whom is not None and error is not None:
+                ffi.from_handle(whom).raised = error
+
+        ffi.def_extern(name=NAME, error=1, onerror=keep)(lambda whom: ffi.from_handle(whom).answer())
         _registered[id(lib)] = lib
     return getattr(lib, NAME)

@@ -190,3 +190,26 @@ def test_what_else_to_guess_of_jansens_leg(tmp_path: Path) -> None:
     assert document["assembled"]["ideal"]["degrees of freedom"] == 0
     assert len(document["assemblies"]) == 8
     assert "alike" not in CliRunner().invoke(app, ["check", str(JANSEN)]).output
+
+
+def test_the_link_that_is_told_has_its_own_length(tmp_path: Path) -> None:
+    """A rod that does not reach down to the piston's line: it is told before anything is compiled."""
+    file = tmp_path / "engine.yaml"
+    file.write_text("""
+format: gudgeon/1
+name: engine
+bodies:
+  crank: {length: 50 mm}
+  rod: {length: 20 mm}
+  piston: {}
+ground: {O: [0, 0]}
+joints:
+  shaft: {revolute: [ground.O, crank.tail]}
+  crankpin: {revolute: [crank.head, rod.tail]}
+  wristpin: {revolute: [rod.head, piston.origin]}
+  cylinder: {translational: [ground.O, piston.origin], axis: [1, 0]}
+drives: {motor: {angle: crank, value: 30 deg + t * 1 rad/s}}
+start: {guess: {piston.x: 60 mm}}
+""")
+    with pytest.raises(AssemblyError, match=r"rod \(20 mm\) longer by 5 mm, or crank \(50 mm\) shorter by 10 mm"):
+        gudgeon.load(file).start()

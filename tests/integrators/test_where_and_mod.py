@@ -157,3 +157,30 @@ def test_what_is_refused(value: str, message: str, hint: str, tmp_path: Path) ->
     with pytest.raises(InputError) as caught:
         gudgeon.load(path)
     assert message in str(caught.value) and hint in str(caught.value) and "slug.yaml:8:" in str(caught.value)
+
+
+def test_a_jump_at_the_very_end_and_the_first_of_many(tmp_path: Path) -> None:
+    """One turn by mod ends where it jumps; of 300 jumps the first one is told; a rate's corner there is none."""
+    load = loader(tmp_path)
+    for value, t_end, at in (("mod(20*pi * t / (1 s), 2*pi)", 0.1, 0.1), ("where(t < 0.1 s, t * 1 rad/s, 0)", 0.1, 0.1),
+                             ("mod(t * 1 rad/s, 0.003)", 0.9, 0.003)):  # fmt: skip
+        with pytest.raises(SolverError, match=f"it jumps by .* at t = {at} s"):
+            load(LINKAGE % value).simulate(t_end)
+    corner = "where(mod(t, 0.2 s) < 0.1 s, mod(t, 0.2 s), 0.2 s - mod(t, 0.2 s)) * 1 rad/s"
+    for t_end in (0.1, 0.2, 0.4):
+        assert load(LINKAGE % corner).simulate(t_end).t[-1] == t_end
+
+
+@pytest.mark.parametrize("sign", ["", "-"])
+def test_samples_at_corners_of_periods(sign: str, tmp_path: Path) -> None:
+    """A zigzag has no acceleration on either side, at its corners too, whichever side rounding puts them on."""
+    cart = """
+parameters: {T: 0.3 s}
+bodies: {cart: {mass: 1 kg, inertia: 1e-3 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {rail: {translational: [ground.O, cart.com], axis: [1, 0]}}
+drives: {motor: {coordinate: cart.x, value: "0.05 m * where(PHASE < T/2, PHASE/T, 1 - PHASE/T)"}}
+""".replace("PHASE", f"mod({sign}t, T)")
+    run = loader(tmp_path)(cart).simulate(0.6, output=8, peaks=["cart.ax"])
+    assert np.abs(run["cart.ax"]).max() < 1e-11 and run.peak("cart.ax").abs < 1e-11
+    np.testing.assert_allclose(np.abs(run["cart.vx"]), 0.05 / 0.3, rtol=1e-12)

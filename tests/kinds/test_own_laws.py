@@ -90,6 +90,9 @@ def test_a_number_without_a_symbol_is_called_by_its_name(disc: Path) -> None:
 
 
 WRONG = [
+    ("return {", 'raise SystemExit(0)\n    return {', r"law dashpot: build raised SystemExit: 0"),
+    ("LAW = Law(", "class Odd(BaseException): pass\nraise Odd\nLAW = Law(", r"the law cannot be read: Odd"),
+    ("build=build,", "build=build, also=None,", r"law dashpot: its declaration is none: TypeError"),
     ('"F_n": K', '"F_n": J', r"dashpot.py:8:1: law dashpot: build raised NameError: name 'J' is not defined"),
     ('s.parameters["damping"]', 's.parameters["dumping"]', r"(?s)build raised KeyError: 'dumping'.*stiffness, damping"),
     ("build=build,", "build=build, role_='x',", r"dashpot.py:11:1: the law cannot be read: TypeError: .*role_"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,10 @@ from gudgeon.generator.reduction.reduction import TreeSystem, reduce
 from gudgeon.model.compiled import Array, CompiledModel
 
 # steps by name: SymPy would write each as a case distinction, simplified at great length
-MODULES = [{"Heaviside": lambda x, at_zero=1.0: 1.0 if x >= 0.0 else at_zero * 0.0}, "math"]
+BY_NAME: dict[str, Callable[..., float]] = {
+    "Heaviside": lambda x, at_zero=1.0: 1.0 if x >= 0.0 else at_zero * 0.0, "Whole": lambda x: x,
+}  # fmt: skip
+MODULES = [BY_NAME, "math"]
 
 
 @dataclass(frozen=True)

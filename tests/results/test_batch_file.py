@@ -172,3 +172,14 @@ def test_a_file_of_series_that_lacks_one_is_refused(what: str, tmp_path: Path) -
         del file[what]
     with pytest.raises(InputError):
         Batch.load(path)
+
+
+def test_peaks_beside_kept_series_come_back(tmp_path: Path) -> None:
+    """They are no part of states: a file of kept series has them bit for bit, and none where none were asked for."""
+    valves = worn(tmp_path)
+    name = f"{valves.source.clearances[0].name}.F"
+    for peaks in ([name], []):
+        batch = valves.simulate_many([{}, {}], 2e-3, output=4, keep=[name], peaks=peaks)
+        batch.save(tmp_path / "kept.nc")
+        assert Batch.load(tmp_path / "kept.nc").extremes == batch.extremes
+    assert len(valves.simulate_many([{}, {}], 2e-3, output=4, keep=[name], peaks=[name]).extremes[1]) == 1

@@ -200,3 +200,15 @@ def test_on_the_command_line(scenes: Scenes, tmp_path: Path) -> None:
     assert f"{SHAPE} is foam" in ran.output
     ran = CliRunner().invoke(app, [*told, "--set", f"{JOURNAL}=bronse"])
     assert ran.exit_code == 2
+
+
+def test_errors_against_another_scene_take_what_is_chosen(scenes: Scenes) -> None:
+    """The scene beside has the run's materials: against itself the error is none, whatever was chosen."""
+    dry = gudgeon.load("nine_bar_press", scene="dry")
+    chosen = {"bearings.pin.bearing_material": "aluminium", "bearings.pin.journal_material": "steel_45"}
+    run = dry.simulate(2e-4, parameters=chosen, output=2, peaks=["S9.y"], against=gudgeon.load("nine_bar_press"))
+    assert 0.0 < run.peak_error("S9.y").abs < 1e-6
+    beside = dry.simulate(2e-4, parameters=chosen, output=2, peaks=["S9.y"], against=dry)
+    assert beside.peak_error("S9.y").abs < 1e-12
+    with pytest.raises(UnknownNameError, match="nothing named 'typo'"):
+        _ = dry.simulate_many([chosen], 1e-4, output=2)["typo"]

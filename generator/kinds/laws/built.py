@@ -47,9 +47,9 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
 
     try:
         steps = law.build(replace(inputs, derive=derive))
-    except LawError:
+    except (LawError, KeyboardInterrupt):
         raise
-    except Exception as error:
+    except BaseException as error:
         place = place_in(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
         hint = f"it is given {_offered(law)}" if isinstance(error, KeyError) else ""
         raise _error(law, f"build raised {told(error)}", hint, place) from error

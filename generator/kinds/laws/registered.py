@@ -54,6 +54,10 @@ def register(law: str | os.PathLike[str] | Law) -> Law:
         _check(own, origin)
     except LawError as error:
         raise LawError(f"{prefix(own.name, origin)}{error.message}", hint=error.hint) from None
+    except Exception as error:  # a field of a type that nobody thought of
+        hint = f"what each of its fields may be: {WHOLE}"
+        name = getattr(own, "name", None)
+        raise LawError(f"{prefix(name, origin)}its declaration is none: {told(error)}", hint=hint) from error
     OWN[own.name], ORIGINS[own.name] = own, origin
     return own
 
@@ -98,8 +102,10 @@ def _of_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
     sys.modules[module.__name__] = module  # a dataclass looks for its own module
     try:
         exec(compile(data, shown, "exec"), module.__dict__)
-    except (Exception, SystemExit) as error:
-        del sys.modules[module.__name__]
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        sys.modules.pop(module.__name__, None)
         place = place_in(error, shown) or Location(shown, 1, 1)
         raise LawError(f"the law cannot be read: {told(error)}", place) from error
     law = getattr(module, "LAW", None)
@@ -113,7 +119,10 @@ def _of_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
 
 def told(error: BaseException) -> str:
     """An error of Python's as one line."""
-    text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
+    try:
+        text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
+    except Exception:  # its own words fail
+        text = ""
     return f"{type(error).__name__}{': ' if text else ''}{text}"
 
 

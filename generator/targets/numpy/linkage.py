@@ -17,8 +17,9 @@ class NumPyLinkage:
     def __init__(self, model: Model, source: KernelSource) -> None:
         self.source, self.n, self.closed = source, len(model.q), ClosedLinkage(model)
         self.defaults = self.closed.prepare()
-        slots = model.slots
-        symbols = [*(entry.symbol for entry in slots.entries.values()), *list(slots.derived)[: len(source.derived)]]
+        slots, count = model.slots, len(source.slots)
+        entries = [entry.symbol for entry in slots.entries.values()]  # the source's, then those that came behind it
+        symbols = [*entries[:count], *list(slots.derived)[: len(source.derived)], *entries[count:]]
         self.names = [slots.field(symbol) for symbol in symbols]
         self.p = np.array([getattr(self.defaults, name, np.nan) for name in self.names])
 
