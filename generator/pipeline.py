@@ -1,6 +1,7 @@
 """The table of contents: YAML → Mechanism → Scene → Model → Program → KernelSource, a call each.
 
-Where `seconds` is given, each stage notes there how long it took; `begun` is told model.h before the rest is written.
+Where `seconds` is given, each stage notes there how long it took; `begun` is told what may be
+compiled already.
 """
 
 from __future__ import annotations
@@ -20,13 +21,12 @@ from gudgeon.generator.mechanism.scene import make_scene
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.redundancy import find_redundancy
 from gudgeon.generator.targets.c.describe import describe
-from gudgeon.generator.targets.c.emit import emit
+from gudgeon.generator.targets.c.emit import Begun, emit
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
 from gudgeon.generator.targets.numpy.module import NumPyModel
 
 Overrides = Mapping[str, str | float | bool]
 Seconds = dict[str, float]
-Begun = Callable[[str], None]
 
 
 def derive(

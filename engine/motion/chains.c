@@ -163,7 +163,7 @@ static inline int tree_state(double t, const double *y, Memory *memory, const Pa
 }
 
 /* The chains at t from a first guess (N_CHAIN) of their coordinates, as those from where they are followed. */
-static void seat_chains(double t, const double *guess, Memory *memory, const Parameters *p)
+void seat_chains(double t, const double *guess, Memory *memory, const Parameters *p)
 {
     TreeState at = {0};
     double moved;

@@ -45,6 +45,8 @@ void chain_corners(double t, const double *q, const Memory *memory, const Parame
 /* What a step of coordinate k is multiplied by to be a number; directions in q turned by a step of the coordinates. */
 double chain_share(const Parameters *p, int k);
 void turn_directions(double *q, const double *step, const Parameters *p);
+/* Positions of the chains from which they are looked for: `guess`, N_CHAIN. */
+void seat_chains(double t, const double *guess, Memory *memory, const Parameters *p);
 #endif
 
 #if INTEGRATES

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import ClassVar
 
 import sympy as sp
@@ -27,7 +28,7 @@ class Line:
         """What else is read."""
         return NONE
 
-    @property
+    @cached_property
     def reads(self) -> Names:
         """All names that are read."""
         return self.names.union(*map(names_in, self.expressions))

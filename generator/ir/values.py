@@ -7,6 +7,7 @@ argument in front.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar, TypeAlias
 
 import sympy as sp
@@ -17,6 +18,7 @@ Names = frozenset[str]
 NONE: Names = frozenset()
 
 
+@lru_cache(maxsize=4096)  # a scene has some hundred names, and each is asked for tens of times
 def base_of(text: str) -> str:
     """The name in front of a place: `aside` of `aside->lambda[3]`, `F_t_out` of `*F_t_out`."""
     text = text.lstrip("*-")

@@ -43,9 +43,9 @@ def _places(line: str) -> Iterator[tuple[float, int]]:
     for k, c in enumerate(line):
         if c in ")]}":
             depth -= 1
-        if line.startswith(_BEFORE, k):
+        if c == " " and line.startswith(_BEFORE, k):
             yield depth + (line[k + 1] in "*/") / 2, k + 1  # a sum sooner than a product in it
-        elif any(line.endswith(mark, 0, k) for mark in _AFTER) and line[k : k + 8].strip(" ,;"):  # not at its end
+        elif k and line[k - 1] in " {" and line.endswith(_AFTER, 0, k) and line[k : k + 8].strip(" ,;"):  # inside it
             yield depth, k
         elif c == _TIGHT and k and (line[k - 1].isalnum() or line[k - 1] in "_)]"):
             yield depth + 100, k

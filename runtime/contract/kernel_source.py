@@ -16,6 +16,9 @@ from gudgeon.contract.ledger import Story
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES
 from gudgeon.contract.stored import as_text, complete, shorten
 
+MAIN = "scene.c"  # what is compiled of a scene's files, beside the engine
+ENGINE_PART = 0  # what is compiled side by side: the engine, and MAIN in parts
+
 
 @dataclass(frozen=True)
 class Slot:
@@ -185,6 +188,7 @@ class KernelSource:
     written: tuple[WrittenInfo, ...] = ()
     lines: tuple[tuple[str, int], ...] = ()  # of the file, where joints and drives are
     states: tuple[str, ...] = ()  # inner states of laws, "A.z", as many a joint with play; "": none
+    parts: tuple[int, ...] = ()  # in which `main` is compiled, side by side, as PART in C counts them; none: whole
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
@@ -258,7 +262,7 @@ def _defaults() -> dict[str, Any]:
         "frictions", "pivots", "start_pivots", "rate_jumps", "indeterminate", "derived", "conditions", "notes",
     )  # fmt: skip
     nothing: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in ("files", "outputs", "simulate")}
-    return {"main": "scene.c", **nothing, **plain, "story": {}}
+    return {"main": MAIN, **nothing, **plain, "story": {}}
 
 
 def _tuples(item: dict[str, Any]) -> dict[str, Any]:

@@ -34,6 +34,7 @@ FLAGS = (
     "-fPIC",
     "-ffp-contract=off",
     "-fno-math-errno",
+    "-Werror=implicit-function-declaration",  # else a name that a part does not know is a function of whole numbers
 )
 
 

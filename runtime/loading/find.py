@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import stat
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
@@ -24,7 +24,7 @@ from gudgeon.waiting.imports import GENERATOR, whole
 from gudgeon.waiting.working import working
 
 if TYPE_CHECKING:
-    pass
+    from gudgeon.generator.targets.c.emit import Begun
 
 Overrides = Mapping[str, str | float | bool]
 DEFAULT_SCENE = "ideal"  # it exists in every file
@@ -99,11 +99,11 @@ def kernel_source(
     formulation: str = "reduced",
     regenerate: bool = False,
     cache: Cache | None = None,
-    begun: Callable[[str], None] | None = None,
+    begun: Begun | None = None,
 ) -> tuple[KernelSource, str]:
     """The C of a scene and where it came from: the cache, the committed files, or a derivation just made.
 
-    begun: told its model.h as soon as a derivation knows it.
+    begun: told what of it can be compiled while a derivation goes on.
     """
     if formulation not in FORMULATIONS:
         raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
@@ -152,7 +152,7 @@ def laws_now(source: KernelSource) -> tuple[tuple[str, str], ...]:
 
 def derived(
     data: bytes, file: Path, scene: str, overrides: Overrides | None = None, formulation: str = "reduced",
-    seconds: dict[str, float] | None = None, begun: Callable[[str], None] | None = None,
+    seconds: dict[str, float] | None = None, begun: Begun | None = None,
 ) -> KernelSource:  # fmt: skip
     """The C of a scene, derived now; each stage notes its seconds where somebody wants them."""
     with working(f"deriving {file.stem}, scene {scene}"):

@@ -1,17 +1,18 @@
-"""The engine is compiled while the scene's own C is still being written; nothing of it is left, whatever happens."""
+"""Engine and parts of a scene are compiled while the rest is being written; nothing is left, whatever happens."""
 
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
 import gudgeon
+from gudgeon.contract.kernel_source import ENGINE_PART, KernelSource
 from gudgeon.errors import BuildError, InputError
 from gudgeon.loading import ahead, compiler
-from gudgeon.loading.ahead import OBJECT, Ahead, unit_line
-from gudgeon.loading.engine import UNIT
+from gudgeon.loading.ahead import Ahead, unit_line, units
 
 ROD = """\
 format: gudgeon/1
@@ -33,51 +34,61 @@ def own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def line() -> list[str]:
-    return unit_line(compiler.find_compiler(), False, str(UNIT), OBJECT)
+ENGINE = "engine.o"
 
 
-def header() -> str:
-    return gudgeon.load("pendulum").source.files["model.h"]
+def pendulum() -> KernelSource:
+    return gudgeon.load("pendulum").source
+
+
+def lines(source: KernelSource) -> dict[str, list[str]]:
+    command = compiler.find_compiler()
+    return {name: unit_line(command, False, unit, name) for name, unit in units(source).items()}
 
 
 def test_a_derivation_begins_it_and_the_library_takes_it(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    taken: list[bool] = []
+    taken: list[str] = []
     take = Ahead.take
 
-    def noted(early: Ahead, text: str, command: list[str], made: Path) -> bool:
-        taken.append(take(early, text, command, made))
-        return taken[-1]
+    def noted(early: Ahead, made: Path, line: list[str], texts: Mapping[str, str]) -> bool:
+        found = take(early, made, line, texts)
+        taken.extend([made.name] if found else [])
+        return found
 
     monkeypatch.setattr(Ahead, "take", noted)
     (own_folders / "rod.yaml").write_text(ROD)
     run = gudgeon.load(own_folders / "rod.yaml").simulate(t_end=0.5, output=3)
-    assert taken == [True] and list((own_folders / "tmp").iterdir()) == []
+    assert sorted(taken) == [ENGINE, "scene_1.o", "scene_2.o", "scene_3.o"]
+    assert list((own_folders / "tmp").iterdir()) == []
     monkeypatch.setattr(Ahead, "begin", lambda *given: None)
     again = gudgeon.load(own_folders / "rod.yaml", regenerate=True).simulate(t_end=0.5, output=3)
-    assert taken == [True] and (run["rod.theta"] == again["rod.theta"]).all()
+    assert len(taken) == 4 and (run["rod.theta"] == again["rod.theta"]).all()
 
 
 def test_only_what_is_asked_for_is_taken(own_folders: Path) -> None:
     """Another scene's, or another compiler's line, is not."""
-    text, made = header(), own_folders / "engine.o"
+    source, made = pendulum(), own_folders / ENGINE
+    texts, line = source.files, lines(source)[ENGINE]
     with Ahead(False) as early:
-        assert not early.is_under_way(text, line())
-        early.begin(text)
-        assert not early.take(text + "\n", line(), made) and not early.take(text, [*line(), "-g"], made)
-        assert not made.exists()
-        assert early.take(text, line(), made) and made.stat().st_size > 1000
+        assert not early.is_under_way(ENGINE, line, texts)
+        early.begin(ENGINE_PART, {"model.h": texts["model.h"]})
+        assert not early.take(made, line, {**texts, "model.h": texts["model.h"] + "\n"})
+        assert not early.take(made, [*line, "-g"], texts) and not made.exists()
+        early.begin(1, texts)
+        assert not early.take(made, line, {**texts, "dynamics.c": ""})
+        assert early.take(made, line, texts) and made.stat().st_size > 1000
+        assert early.take(own_folders / "scene_1.o", lines(source)["scene_1.o"], texts)
     assert list((own_folders / "tmp").iterdir()) == []
 
 
 def test_what_cannot_be_compiled_is_told_by_the_library(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with Ahead(False) as early:
-        early.begin("#error of a scene\n")
-        assert not early.take("#error of a scene\n", line(), own_folders / "engine.o")
+        broken = {"model.h": "#error of a scene\n"}
+        early.begin(ENGINE_PART, broken)
+        assert not early.take(own_folders / ENGINE, lines(pendulum())[ENGINE], broken)
     (own_folders / "broken.c").write_text("#error of the engine\n")
     (own_folders / "rod.yaml").write_text(ROD.replace("mass: 1", "mass: 2"))  # this process has the other one
     monkeypatch.setattr(ahead, "UNIT", own_folders / "broken.c")
-    monkeypatch.setattr("gudgeon.loading.build.UNIT", own_folders / "broken.c")
     with pytest.raises(BuildError, match="of the engine"):
         gudgeon.load(own_folders / "rod.yaml")
     monkeypatch.setenv("CC", "no-such-compiler")
@@ -90,23 +101,24 @@ def test_nothing_is_left_where_a_derivation_fails(own_folders: Path, monkeypatch
     begun: list[Ahead] = []
     begin = Ahead.begin
 
-    def and_fail(early: Ahead, text: str) -> None:
+    def and_fail(early: Ahead, part: int, texts: Mapping[str, str]) -> None:
         begun.append(early)
-        begin(early, text)
+        begin(early, part, texts)
         raise InputError("a derivation that fails behind it")
 
     monkeypatch.setattr(Ahead, "begin", and_fail)
     (own_folders / "rod.yaml").write_text(ROD)
     with pytest.raises(InputError, match="behind it"):
         gudgeon.load(own_folders / "rod.yaml")
-    assert begun[0]._begun is not None and begun[0]._begun[2].returncode is not None
+    assert begun[0]._begun[ENGINE][1].returncode is not None
     assert list((own_folders / "tmp").iterdir()) == []
 
 
 def test_what_was_taken_is_not_there_twice(own_folders: Path) -> None:
     """A cache that fills up meanwhile is left for another folder: there the engine is compiled anew."""
-    text = header()
+    source, made = pendulum(), own_folders / ENGINE
+    line = lines(source)[ENGINE]
     with Ahead(False) as early:
-        early.begin(text)
-        assert early.take(text, line(), own_folders / "first.o")
-        assert not early.is_under_way(text, line()) and not early.take(text, line(), own_folders / "second.o")
+        early.begin(ENGINE_PART, {"model.h": source.files["model.h"]})
+        assert early.take(made, line, source.files)
+        assert not early.is_under_way(ENGINE, line, source.files) and not early.take(made, line, source.files)

@@ -39,6 +39,7 @@ UNTOLD = Story()
 
 def describe(
     model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "",
+    parts: tuple[int, ...] = (),
     pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
     operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
     motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = UNTOLD, lanes: str = "",
@@ -53,7 +54,7 @@ def describe(
     start = mechanism.start
     return KernelSource(
         mechanism=mechanism.name, scene=scene.name, title=mechanism.title, sha256=mechanism.sha256,
-        files=files, main=main,
+        files=files, main=main, parts=parts,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
         points=_points(model, place, body_of),
@@ -210,5 +211,3 @@ def _exponents(dimension: Dimension) -> tuple[float, float, float]:
         return 0, 0, 0
     length, mass, time = (int(x) if x.denominator == 1 else float(x) for x in vars(dimension).values())
     return length, mass, time
-
-

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from importlib import resources
 from typing import Any
 
 import jinja2
 
-from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import ENGINE_PART, MAIN, KernelSource
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.ledger import tell
@@ -25,23 +25,37 @@ from gudgeon.generator.targets.c.newton import newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearances_code
 from gudgeon.generator.targets.c.reduced import reduced_code
 
-MAIN = "scene.c"
+HEADER, CLEARANCES = "model.h", "clearance.c"
+ABSOLUTE, REDUCED, METHODS = 1, 2, 3  # the parts of MAIN, as PART in C counts them
+Begun = Callable[[int, Mapping[str, str]], None]
+Texts = dict[str, Callable[[], str]]  # by file, printed when they are asked for
 
 
-def emit(program: Program, begun: Callable[[str], None] | None = None) -> KernelSource:
-    """The whole scene as C text with its description; `begun` is told model.h as soon as it is known."""
+def emit(program: Program, begun: Begun | None = None) -> KernelSource:
+    """The whole scene as C text with its description.
+
+    `begun` is told the engine, then each part of MAIN, with the files so far, as soon as these are all that it reads.
+    """
     model, tree, integrated = program.model, program.tree, program.integrated
     prepare = closed_linkage.prepare_kernel(model)
     bounds = known_bounds(program)
-    header = within(render("model.h.jinja", **header_values(program, bounds)))
+    files = {HEADER: within(render("model.h.jinja", **header_values(program, bounds)))}
     if begun:
-        begun(header)
-    lanes = lanes_code.lanes_code(program, render) if program.has_lanes else {}
-    files = {name: within(text) for name, text in (_files(program, prepare, header, bounds) | lanes).items()}
+        begun(ENGINE_PART, files)
+    parts, shared = _parts(program, prepare, bounds), _shared(program)
+    files |= {MAIN: _main(parts, shared), **_printed(shared)}
+    for number, texts in parts.items():
+        files |= _printed(texts)
+        if begun and not model.scene.mechanism.curves:
+            begun(number, files)
+    if tables := curves_code(model.scene.mechanism.curves, files.values()):
+        files |= {MAIN: _main(parts, [CURVES, *shared]), CURVES: tables}
+    if program.has_lanes:
+        files |= {name: within(text) for name, text in lanes_code.lanes_code(program, render).items()}
     files[readme.NAME] = readme.readme(program, files)
     course = program.course
     return describe(
-        model, files=files, main=MAIN,
+        model, files=files, main=MAIN, parts=() if CURVES in files else tuple(parts),
         pivots=program.kkt.pivots, start_pivots=course.pivots if course else (), motion_pivots=integrated.pivots,
         operations=_operations(program, prepare),
         tree=tree.system.unknowns if tree else (), chain=integrated.chain,
@@ -50,28 +64,57 @@ def emit(program: Program, begun: Callable[[str], None] | None = None) -> Kernel
             model, program.kkt, course.solved if course else integrated.kkt, integrated.system,
             course.groups if course else (),
         ),
-        lanes=lanes_code.MAIN if lanes else "",
+        lanes=lanes_code.MAIN if program.has_lanes else "",
     )  # fmt: skip
 
 
-def _files(program: Program, prepare: Kernel, header: str, bounds: Kernel | None) -> dict[str, str]:
-    """The texts, in the order in which they are read; MAIN includes the others and what the engine adds."""
-    files = {
-        "parameters.c": _kernels(prepare),
-        "constraints.c": _kernels(*program.closed),
-        "clearance.c": clearances_code(program, render),
-        "dynamics.c": _kernels(*program.right_hand_side),
-        "reduced.c": reduced_code(program.model, program.tree, render, _kernels) if program.tree else "",
-        "newton.c": _linearized(program),
-        "positions.c": _kernels(*program.course.kernels) if program.course else "",
-        "watched.c": _bounds(program, bounds),
+def _shared(program: Program) -> Texts:
+    """What every part but that of the methods reads."""
+    return {CLEARANCES: lambda: clearances_code(program, render)} if program.pins else {}
+
+
+def _parts(program: Program, prepare: Kernel, bounds: Kernel | None) -> dict[int, Texts]:
+    """What is in each part of MAIN, in the order in which it is read."""
+    tree, course = program.tree, program.course
+    parts: dict[int, Texts] = {
+        ABSOLUTE: {
+            "parameters.c": lambda: _kernels(prepare),
+            "constraints.c": lambda: _kernels(*program.closed),
+            "dynamics.c": lambda: _kernels(*program.right_hand_side),
+        }
     }
-    files = {name: text for name, text in files.items() if text}
-    if tables := curves_code(program.model.scene.mechanism.curves, files.values()):
-        files = {CURVES: tables, **files}
-    includes = ("model.h", "engine/scene/kernels.h", "engine/scene/trigonometry.h", *files, "engine/scene/scene.c")
-    main = "".join(f'#include "{name}"\n' for name in includes)
-    return {MAIN: main, "model.h": header, **files}
+    if tree:
+        parts[REDUCED] = {"reduced.c": lambda: reduced_code(program.model, tree, render, _kernels)}
+    if course:
+        parts[METHODS] = {"positions.c": lambda: _kernels(*course.kernels)}
+    elif program.methods:
+        parts[METHODS] = {"newton.c": lambda: _linearized(program)}
+    if _bounded(program, bounds):
+        parts[METHODS]["watched.c"] = lambda: _watched(program, bounds)
+    return parts
+
+
+def _printed(texts: Texts) -> dict[str, str]:
+    return {name: within(text()) for name, text in texts.items()}
+
+
+def _main(parts: Mapping[int, Iterable[str]], shared: Iterable[str]) -> str:
+    """It includes all others, whole or a part of them, and what the engine adds."""
+    first = (HEADER, "engine/scene/kernels.h", "engine/scene/trigonometry.h")
+    lines = ["/* All files together, or with -DPART=1, 2, 3 those of a part: these are compiled side by side. */"]
+    lines += [*map(_include, first), *_only(f"PART != {METHODS}", shared)]
+    for number, names in parts.items():
+        lines += _only(f"!PART || PART == {number}", names)
+    return "\n".join([*lines, _include("engine/scene/scene.c"), ""])
+
+
+def _only(condition: str, names: Iterable[str]) -> list[str]:
+    lines = [_include(name) for name in names]
+    return [f"#if {condition}", *lines, "#endif"] if lines else []
+
+
+def _include(name: str) -> str:
+    return f'#include "{name}"'
 
 
 def _linearized(program: Program) -> str:
@@ -83,7 +126,12 @@ def _linearized(program: Program) -> str:
     return slopes + newton_code(methods.newton, render) + functions.kernel(methods.closing)
 
 
-def _bounds(program: Program, watched: Kernel | None) -> str:
+def _bounded(program: Program, watched: Kernel | None) -> bool:
+    """Whether any bounds are known."""
+    return bool(program.terms or watched or (program.integrates and program.integrated.jumps))
+
+
+def _watched(program: Program, watched: Kernel | None) -> str:
     """Bounds over ranges of time and state: of terms of time, corners of drives, what is watched."""
     jumps = program.integrated.jumps if program.integrates else None
     kernels = [program.terms, watched, jumps.ranges if jumps else None]
