@@ -23,6 +23,7 @@ from pathlib import Path
 
 from gudgeon.errors import BadValueError, CacheError
 from gudgeon.files.trust import Untrusted, check_folder, check_way, read
+from gudgeon.waiting.ctrl_c import CtrlC
 
 LIST = "checksums"
 END = "whole"  # begins the last line of the list: without it the list itself was cut short
@@ -102,18 +103,22 @@ class Cache:
         with FileLock(self._lock(entry.name), timeout=LOCK_SECONDS):
             if not renew and _usable(entry):  # another process made it while this one waited
                 return entry
-            self._sweep(aside, entry.name)
-            work = Path(tempfile.mkdtemp(prefix=f"{entry.name}.", dir=aside))
-            old = work.with_name(work.name + ".old")
+            left: list[Path] = []
             try:
+                with CtrlC() as ctrl_c:  # not between a folder and the note of it, nor where a lock's end swallows it
+                    self._sweep(aside, entry.name)
+                    work = Path(tempfile.mkdtemp(prefix=f"{entry.name}.", dir=aside))
+                    old = work.with_name(work.name + ".old")
+                    left += [work, old]
+                ctrl_c.take()
                 make(work)
                 _seal(work, entry)
                 if os.path.lexists(entry):  # a damaged one: a rename cannot replace a folder that has files
                     os.replace(entry, old)
                 os.replace(work, entry)
             finally:
-                _remove(work)
-                _remove(old)
+                for folder in left:
+                    _remove(folder)
         return entry
 
     def _lock(self, key: str) -> Path:
