@@ -8,6 +8,10 @@
 /* Parameters from what is given (SI; where is_given is 0 the default); masses and moments of inertia, N_Q. */
 void prepare(const double *given, const unsigned char *is_given, Parameters *p);
 void mass_matrix(const Parameters *p, double *m);
+/* Of joint i with play: its radial clearance, the penetration beyond which laws mean nothing, an impact's velocity. */
+double radial_clearance(const Parameters *p, int i);
+double deepest(const Parameters *p, int i);
+double slowest_impact(const Parameters *p, int i);
 /* Of the closed linkage: Phi, Phi_q (N_ALL_ROWS x N_Q, by rows; zeros stay), nu, gamma; what a start sets. */
 void constraints(double t, const double *q, const Parameters *p, double *phi);
 void jacobian(double t, const double *q, const Parameters *p, double *phi_q);

@@ -48,7 +48,7 @@ def search(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
 
 
 def _ahead(closure: Closure) -> float:
-    """s, when the drives' rates are looked at: a rate that jumps at the start is what follows (model.h.jinja)."""
+    """s, when the drives' rates are looked at: a rate that jumps at the start is what follows (numbers.h)."""
     more = max(32 * np.finfo(float).eps * abs(closure.t), 1e-100)
     return closure.t + more if closure.linkage.source.rate_jumps else closure.t
 

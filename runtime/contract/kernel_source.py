@@ -16,6 +16,8 @@ from gudgeon.contract.ledger import Story
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES
 from gudgeon.contract.stored import as_text, complete, shorten
 
+HEADER = "model.h"
+ENGINE_ENDS = "/* The engine reads no further: scenes that have all this in common share its code. */"
 MAIN = "scene.c"  # what is compiled of a scene's files, beside the engine
 ENGINE_PART = 0  # what is compiled side by side: the engine, and MAIN in parts
 

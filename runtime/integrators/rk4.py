@@ -47,7 +47,7 @@ def _chunk(session: Session) -> None:
 
 
 def last_step(duration: float, step: float) -> float:
-    """Length (s) of the last of the steps over `duration`: `step`, or what is left (step_end in model.h)."""
+    """Length (s) of the last of the steps over `duration`: `step`, or what is left (step_end in numbers.h)."""
     total = max(1, math.ceil(duration / step * (1.0 - 1e-12)))
     rest = duration - (total - 1) * step
     return step if abs(rest - step) < SAME * step else rest

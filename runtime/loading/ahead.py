@@ -9,79 +9,92 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gudgeon.contract.kernel_source import ENGINE_PART, MAIN, KernelSource
+from gudgeon.contract.kernel_source import ENGINE_PART, HEADER, MAIN, KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.loading import compiler
-from gudgeon.loading.engine import UNIT, include_flags
+from gudgeon.loading.cache import Cache, default_cache
+from gudgeon.loading.compiling import unit_line
+from gudgeon.loading.engine import declarations, declared_for
+from gudgeon.loading.shared import Shared, engine_object, wrapper_object
 from gudgeon.waiting.programs import Programs
 
 if TYPE_CHECKING:
     import subprocess
 
 
-def units(source: KernelSource) -> dict[str, list[str]]:
-    """What is compiled side by side: the compiler's arguments by the name of the object."""
-    whole = {"scene.o": [source.main]}
-    if source.cdef:
-        return whole
-    parts = {_object(part): _unit(part, source.main) for part in source.parts}
-    return {_object(ENGINE_PART): _unit(ENGINE_PART, source.main), **(parts or whole)}
+def own_lines(source: KernelSource, portable: bool) -> dict[str, tuple[str, ...]]:
+    """The compiler's lines for what is a scene's own, by the names of the objects."""
+    if source.cdef or not source.parts:
+        return {"scene.o": unit_line(portable, [source.main], "scene.o")}
+    return dict(_part(part, portable) for part in source.parts)
 
 
-def unit_line(command: tuple[str, ...], portable: bool, unit: list[str], made: str) -> list[str]:
-    """The compiler's line for one unit of a library: what it shares with others stays inside."""
-    return [*command, *compiler.flags(portable), "-fvisibility=hidden", *include_flags(), "-c", *unit, "-o", made]
+def shared_objects(source: KernelSource, portable: bool) -> list[Shared]:
+    """What it has in common with others: no engine where C is compiled alone."""
+    wrapper = wrapper_object(declarations(source), portable)
+    return [wrapper] if source.cdef else [engine_object(source.files[HEADER], portable), wrapper]
 
 
-def _object(part: int) -> str:
-    return f"scene_{part}.o" if part else "engine.o"
-
-
-def _unit(part: int, main: str) -> list[str]:
-    return [f"-DPART={part}", main] if part else [str(UNIT)]
+def _part(part: int, portable: bool) -> tuple[str, tuple[str, ...]]:
+    name = f"scene_{part}.o"
+    return name, unit_line(portable, [f"-DPART={part}", MAIN], name)
 
 
 class Ahead:
     """A context that nothing survives. What cannot be begun here is told where the library is made."""
 
-    def __init__(self, portable: bool) -> None:
-        self._portable, self._programs = portable, Programs()
+    def __init__(self, portable: bool, cache: Cache | None = None) -> None:
+        self._portable, self._cache, self._programs = portable, cache, Programs()
         self._folder: Path | None = None
-        self._texts: dict[str, str] = {}
-        self._begun: dict[str, tuple[list[str], subprocess.Popen[str]]] = {}
+        self._begun: dict[str, tuple[tuple[str, ...], dict[str, str], subprocess.Popen[str]]] = {}
 
     def __enter__(self) -> Ahead:
         return self
 
     def begin(self, part: int, texts: Mapping[str, str]) -> None:
-        """A part of the scene of which these texts are there by now."""
-        made = _object(part)
+        """A part of the scene of which these texts are there by now; with the engine, the wrapper."""
         try:
-            line = unit_line(compiler.find_compiler(), self._portable, _unit(part, MAIN), made)
-            self._folder = self._folder or Path(tempfile.mkdtemp(prefix="gudgeon-"))
-            for name in texts.keys() - self._texts.keys():
-                (self._folder / name).write_text(texts[name], encoding="utf-8")
-            self._texts |= texts
-            environment = {**compiler.plain(), "TMPDIR": str(self._folder)}
-            self._begun[made] = line, self._programs.begin(line, self._folder, environment)
+            if part == ENGINE_PART:
+                self.begin_shared(engine_object(texts[HEADER], self._portable))
+                self.begin_shared(wrapper_object(declared_for(texts[HEADER]), self._portable))
+            else:
+                self._begin(*_part(part, self._portable), texts)
         except (GudgeonError, OSError):
-            self._begun.pop(made, None)
+            return
 
-    def take(self, made: Path, line: list[str], texts: Mapping[str, str]) -> bool:
+    def begin_shared(self, shared: Shared) -> None:
+        """What the cache does not have yet. GudgeonError or OSError where it cannot be."""
+        if shared.name not in self._begun and not shared.is_there(self._portable, self._cache or default_cache()):
+            self._begin(shared.name, shared.line, shared.texts())
+
+    def _begin(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> None:
+        self._folder = self._folder or Path(tempfile.mkdtemp(prefix="gudgeon-"))
+        folder = self._folder / name.partition("_")[0]  # a scene's parts read the same texts, the engine its own
+        folder.mkdir(exist_ok=True)
+        for file, text in texts.items():
+            if not (folder / file).exists():
+                (folder / file).write_text(text, encoding="utf-8")
+        environment = {**compiler.plain(), "TMPDIR": str(folder)}
+        self._begun[name] = line, dict(texts), self._programs.begin([*line], folder, environment)
+
+    def take(self, made: Path, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
         """Waits for the object of this line and these texts and moves it to its place, once; False: there is none."""
         if self._folder is None or not self.is_under_way(made.name, line, texts):
             return False
-        _, process = self._begun.pop(made.name)
+        _, _, process = self._begun.pop(made.name)
         self._programs.wait(process)
-        if process.returncode or not (self._folder / made.name).exists():
+        found = self._folder / made.name.partition("_")[0] / made.name
+        if process.returncode or not found.exists():
             return False
-        shutil.move(self._folder / made.name, made)
+        shutil.move(found, made)
         return True
 
-    def is_under_way(self, name: str, line: list[str], texts: Mapping[str, str]) -> bool:
+    def is_under_way(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
         """Whether `take` may have it."""
-        same = all(texts.get(file) == text for file, text in self._texts.items())
-        return same and name in self._begun and self._begun[name][0] == line
+        if name not in self._begun:
+            return False
+        known, read, _ = self._begun[name]
+        return known == line and all(texts.get(file) == text for file, text in read.items())
 
     def __exit__(self, *wrong: object) -> None:
         self._programs.__exit__(*wrong)

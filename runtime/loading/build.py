@@ -15,11 +15,11 @@ from types import ModuleType
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
-from gudgeon.loading.ahead import Ahead, unit_line, units
+from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
 from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.loading.compiling import begin, finish
-from gudgeon.loading.engine import declarations, engine_digest
-from gudgeon.loading.wrapper import ASKS, MODULE, wrapper
+from gudgeon.loading.engine import engine_digest
+from gudgeon.loading.shared import ASKS, MODULE
 from gudgeon.waiting.programs import Programs
 from gudgeon.waiting.working import working
 
@@ -47,8 +47,8 @@ def compile_kernels(
             return _modules[key]
 
     def build(folder: Path) -> None:
-        with working(f"compiling {source.mechanism}, scene {source.scene}"):
-            _build(source, folder, portable, ahead, cache)
+        with working(f"compiling {source.mechanism}, scene {source.scene}"), Ahead(portable, cache) as none:
+            _build(source, folder, portable, ahead or none, cache)
 
     entry = cache.fetch("libraries", key, build, renew=rebuild)
     try:
@@ -111,26 +111,26 @@ def _copy(entry: Path, folder: Path) -> None:
     (folder / LIBRARY).write_bytes((entry / LIBRARY).read_bytes())
 
 
-def _build(
-    source: KernelSource, folder: Path, portable: bool, ahead: Ahead | None, cache: Cache
-) -> None:  # fmt: skip
-    """Write the C files into the folder, compile them there, each on its own, and link them with the wrapper.
+def _build(source: KernelSource, folder: Path, portable: bool, ahead: Ahead, cache: Cache) -> None:
+    """Write the C files into the folder, compile there what is the scene's own, and link it with what scenes share.
 
-    All are under way while the wrapper is looked for. What `ahead` has begun is taken.
+    All are under way at once; what `ahead` has begun is taken.
     """
-    command = compiler.find_compiler()
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
-    lines = {name: unit_line(command, portable, unit, name) for name, unit in units(source).items()}
-    early = {name for name, line in lines.items() if ahead and ahead.is_under_way(name, line, source.files)}
+    lines = own_lines(source, portable)
+    early = {name for name, line in lines.items() if ahead.is_under_way(name, line, source.files)}
     with Programs() as programs:
         made = [(begin(programs, line, folder), name) for name, line in lines.items() if name not in early]
-        wrapped = wrapper(declarations(source), portable, cache)
+        shared = shared_objects(source, portable)
+        for part in shared:
+            ahead.begin_shared(part)
+        objects = [str(part.fetch(portable, cache, ahead)) for part in shared]
         for name in early:
-            if ahead and not ahead.take(folder / name, lines[name], source.files):
+            if not ahead.take(folder / name, lines[name], source.files):
                 made.append((begin(programs, lines[name], folder), name))  # here it says what is wrong
         failed = [finished for process, name in made if (finished := finish(programs, process, folder / name))]
-        link = [*command, *compiler.link_flags(), *lines, str(wrapped), "-o", LIBRARY, "-lm"]
+        link = [*compiler.find_compiler(), *compiler.link_flags(), *lines, *objects, "-o", LIBRARY, "-lm"]
         if not failed and (finished := finish(programs, begin(programs, link, folder), folder / LIBRARY)):
             failed = [finished]
         if failed:

@@ -68,6 +68,14 @@ class Cache:
             self._tell(error)
         return private_cache().fetch(kind, key, make, renew=renew)
 
+    def has(self, kind: str, key: str) -> bool:
+        """Whether an entry is there, whole."""
+        try:
+            self._check(kind)
+            return is_whole(self.root / kind / key)
+        except (OSError, Untrusted):
+            return False
+
     def _check(self, *folders: str) -> None:
         """Untrusted if what is in the cache or these folders of it may be another user's; they need not be there.
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import errno
 import signal
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
+from gudgeon.loading.engine import include_flags
 from gudgeon.waiting.programs import Programs
 
 if TYPE_CHECKING:
@@ -20,11 +22,17 @@ FULL = {
 }  # fmt: skip
 
 
-def begin(programs: Programs, line: list[str], folder: Path) -> subprocess.Popen[str]:
+def unit_line(portable: bool, unit: Sequence[str], made: str) -> tuple[str, ...]:
+    """The line for one unit of a library: what it shares with others stays inside."""
+    command = (*compiler.find_compiler(), *compiler.flags(portable), "-fvisibility=hidden", *include_flags())
+    return (*command, "-c", *unit, "-o", made)
+
+
+def begin(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.Popen[str]:
     """A compiler under way in the folder."""
     environment = {**compiler.plain(), "TMPDIR": str(folder)}  # what it writes in between belongs to the entry too
     try:
-        return programs.begin(line, folder, environment)
+        return programs.begin([*line], folder, environment)
     except OSError as error:
         raise BuildError(f"the compiler {line[0]} cannot be run: {error}\n  {compiler.INSTALL_COMPILER}") from error
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import HEADER, KernelSource
 from gudgeon.loading.cache import digest
 from gudgeon.loading.shipped import PACKAGE
 
@@ -43,7 +43,12 @@ def include_flags() -> tuple[str, ...]:
 
 def declarations(source: KernelSource) -> str:
     """What of the library is called from outside, as cffi reads it."""
-    return source.cdef or _with_sizes(CALLS.read_text(encoding="utf-8"), sizes(source))
+    return source.cdef or declared_for(source.files[HEADER])
+
+
+def declared_for(header: str) -> str:
+    """The same for a scene with the engine and this model.h."""
+    return _with_sizes(CALLS.read_text(encoding="utf-8"), _sizes(header))
 
 
 def lane_declarations() -> str:
@@ -53,7 +58,11 @@ def lane_declarations() -> str:
 
 def sizes(source: KernelSource) -> dict[str, int]:
     """The whole numbers of model.h by name."""
-    return {name: int(value) for name, value in _SIZE.findall(source.files["model.h"])}
+    return _sizes(source.files[HEADER])
+
+
+def _sizes(header: str) -> dict[str, int]:
+    return {name: int(value) for name, value in _SIZE.findall(header)}
 
 
 def _with_sizes(text: str, values: dict[str, int]) -> str:

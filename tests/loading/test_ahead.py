@@ -11,8 +11,8 @@ import pytest
 import gudgeon
 from gudgeon.contract.kernel_source import ENGINE_PART, KernelSource
 from gudgeon.errors import BuildError, InputError
-from gudgeon.loading import ahead, compiler
-from gudgeon.loading.ahead import Ahead, unit_line, units
+from gudgeon.loading import build, shared
+from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
 
 ROD = """\
 format: gudgeon/1
@@ -27,7 +27,8 @@ start: {set: {rod.theta: 0.3}}
 
 @pytest.fixture(autouse=True)
 def own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Where temporary folders and the cache are: `tmp` is empty at the end of each test."""
+    """Where temporary folders and the cache are: `tmp` is empty at the end of each test. Nothing is loaded yet."""
+    monkeypatch.setattr(build, "_modules", {})
     (tmp_path / "tmp").mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "tmp"))
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "cache"))
@@ -35,22 +36,22 @@ def own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 ENGINE = "engine.o"
+Line = tuple[str, ...]
 
 
 def pendulum() -> KernelSource:
     return gudgeon.load("pendulum").source
 
 
-def lines(source: KernelSource) -> dict[str, list[str]]:
-    command = compiler.find_compiler()
-    return {name: unit_line(command, False, unit, name) for name, unit in units(source).items()}
+def part_1(source: KernelSource) -> Line:
+    return own_lines(source, False)["scene_1.o"]
 
 
 def test_a_derivation_begins_it_and_the_library_takes_it(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     taken: list[str] = []
     take = Ahead.take
 
-    def noted(early: Ahead, made: Path, line: list[str], texts: Mapping[str, str]) -> bool:
+    def noted(early: Ahead, made: Path, line: Line, texts: Mapping[str, str]) -> bool:
         found = take(early, made, line, texts)
         taken.extend([made.name] if found else [])
         return found
@@ -58,37 +59,57 @@ def test_a_derivation_begins_it_and_the_library_takes_it(own_folders: Path, monk
     monkeypatch.setattr(Ahead, "take", noted)
     (own_folders / "rod.yaml").write_text(ROD)
     run = gudgeon.load(own_folders / "rod.yaml").simulate(t_end=0.5, output=3)
-    assert sorted(taken) == [ENGINE, "scene_1.o", "scene_2.o", "scene_3.o"]
+    assert sorted(taken) == [ENGINE, "scene_1.o", "scene_2.o", "scene_3.o", "wrapper.o"]
     assert list((own_folders / "tmp").iterdir()) == []
     monkeypatch.setattr(Ahead, "begin", lambda *given: None)
     again = gudgeon.load(own_folders / "rod.yaml", regenerate=True).simulate(t_end=0.5, output=3)
-    assert len(taken) == 4 and (run["rod.theta"] == again["rod.theta"]).all()
+    assert len(taken) == 5 and (run["rod.theta"] == again["rod.theta"]).all()
+
+
+def test_what_scenes_share_is_compiled_once(own_folders: Path) -> None:
+    """Another length and another name leave sizes and tables as they are; a second rod does not."""
+    engines = own_folders / "cache" / "engines"
+    other = ROD.replace("0.3, mass", "0.7, mass").replace("rod", "bar")
+    for number, text in ((1, ROD), (1, other), (2, ROD.replace("bodies: {", "bodies: {free: {mass: 1, inertia: 1}, "))):
+        (own_folders / "rod.yaml").write_text(text)
+        run = gudgeon.load(own_folders / "rod.yaml").simulate(t_end=0.1, output=3)
+        assert run.diagnostics.energy_residual < 1e-9
+        assert len(list(engines.iterdir())) == number and len(list((own_folders / "cache/wrappers").iterdir())) == 1
 
 
 def test_only_what_is_asked_for_is_taken(own_folders: Path) -> None:
     """Another scene's, or another compiler's line, is not."""
-    source, made = pendulum(), own_folders / ENGINE
-    texts, line = source.files, lines(source)[ENGINE]
+    source, made = pendulum(), own_folders / "scene_1.o"
+    texts, line = source.files, part_1(source)
     with Ahead(False) as early:
-        assert not early.is_under_way(ENGINE, line, texts)
-        early.begin(ENGINE_PART, {"model.h": texts["model.h"]})
-        assert not early.take(made, line, {**texts, "model.h": texts["model.h"] + "\n"})
-        assert not early.take(made, [*line, "-g"], texts) and not made.exists()
+        assert not early.is_under_way("scene_1.o", line, texts)
         early.begin(1, texts)
-        assert not early.take(made, line, {**texts, "dynamics.c": ""})
+        assert not early.take(made, line, {**texts, "model.h": texts["model.h"] + "\n"})
+        assert not early.take(made, (*line, "-g"), texts) and not made.exists()
         assert early.take(made, line, texts) and made.stat().st_size > 1000
-        assert early.take(own_folders / "scene_1.o", lines(source)["scene_1.o"], texts)
+        assert not early.is_under_way("scene_1.o", line, texts) and not early.take(made, line, texts)
+    assert list((own_folders / "tmp").iterdir()) == []
+
+
+def test_what_is_compiled_already_is_not_begun(own_folders: Path) -> None:
+    source = pendulum()
+    with Ahead(False) as early:
+        early.begin(ENGINE_PART, source.files)
+        assert not early._begun and len(shared_objects(source, False)) == 2
+        early.begin(ENGINE_PART, {"model.h": source.files["model.h"].replace("#define N_Q 3 ", "#define N_Q 4 ")})
+        assert list(early._begun) == [ENGINE]
     assert list((own_folders / "tmp").iterdir()) == []
 
 
 def test_what_cannot_be_compiled_is_told_by_the_library(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    source = pendulum()
     with Ahead(False) as early:
-        broken = {"model.h": "#error of a scene\n"}
-        early.begin(ENGINE_PART, broken)
-        assert not early.take(own_folders / ENGINE, lines(pendulum())[ENGINE], broken)
+        broken = {**source.files, "dynamics.c": "#error of a scene\n"}
+        early.begin(1, broken)
+        assert not early.take(own_folders / "scene_1.o", part_1(source), broken)
     (own_folders / "broken.c").write_text("#error of the engine\n")
     (own_folders / "rod.yaml").write_text(ROD.replace("mass: 1", "mass: 2"))  # this process has the other one
-    monkeypatch.setattr(ahead, "UNIT", own_folders / "broken.c")
+    monkeypatch.setattr(shared, "UNIT", own_folders / "broken.c")
     with pytest.raises(BuildError, match="of the engine"):
         gudgeon.load(own_folders / "rod.yaml")
     monkeypatch.setenv("CC", "no-such-compiler")
@@ -110,15 +131,5 @@ def test_nothing_is_left_where_a_derivation_fails(own_folders: Path, monkeypatch
     (own_folders / "rod.yaml").write_text(ROD)
     with pytest.raises(InputError, match="behind it"):
         gudgeon.load(own_folders / "rod.yaml")
-    assert begun[0]._begun[ENGINE][1].returncode is not None
+    assert begun[0]._begun[ENGINE][2].returncode is not None
     assert list((own_folders / "tmp").iterdir()) == []
-
-
-def test_what_was_taken_is_not_there_twice(own_folders: Path) -> None:
-    """A cache that fills up meanwhile is left for another folder: there the engine is compiled anew."""
-    source, made = pendulum(), own_folders / ENGINE
-    line = lines(source)[ENGINE]
-    with Ahead(False) as early:
-        early.begin(ENGINE_PART, {"model.h": source.files["model.h"]})
-        assert early.take(made, line, source.files)
-        assert not early.is_under_way(ENGINE, line, source.files) and not early.take(made, line, source.files)

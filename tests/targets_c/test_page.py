@@ -80,7 +80,7 @@ def test_no_blemish(name: str, scene: str) -> None:
 @every_scene
 def test_each_number_has_a_line_that_says_what_it_is(name: str, scene: str) -> None:
     source = emitted(name, scene)
-    struct = re.search(r"typedef struct \{\n([^}]*)\} Parameters;", source.files["model.h"])
+    struct = re.search(r"struct Parameters \{\n([^}]*)\};", source.files["model.h"])
     assert struct
     fields = re.sub(r"^( *)/\* (.*) \*/\n( *double \w+;)$", r"\3  /* \2 */", struct[1], flags=re.M)
     lines = [re.fullmatch(r"    double \w+;  /\* (.+) \*/", line) for line in fields.splitlines()]

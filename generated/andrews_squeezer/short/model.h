@@ -3,7 +3,7 @@
  * mechanism andrews_squeezer, scene short, from the YAML with sha256
  * c401d3e0296ea92ea25feec92cf461ce23463941d1d2d9411dd61deec9e35cd8
  *
- * What the engine must know of this scene: sizes, parameters, small tables.
+ * What the engine must know of this scene, sizes and small tables, and every number of it.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
@@ -51,8 +51,28 @@
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
-/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {
+typedef struct Parameters Parameters; /* every number of a run */
+
+#include "engine/scene/types.h"
+#include "engine/scene/numbers.h"
+
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+static const int guess_place[] = {5, 8, 11, 14, 17, 20};
+static const int set_place[] = {2};
+static const int rate_place[] = {0};
+static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
+static const unsigned char is_angle[] = {1, 1, 1, 1, 1, 1, 1};
+static const short watched[] = {0};
+static const short watched_as[] = {0};
+static const unsigned char meets[] = {0};
+static const int friction_of_pivot[] = {0};
+
+/* The engine reads no further: scenes that have all this in common share its code. */
+
+/* In SI: first the slots that a user may set, then what prepare() derives. */
+struct Parameters {
     double OF_mass;  /* bodies.OF.mass, kg */
     double OF_inertia;  /* bodies.OF.inertia, kg*m^2 */
     double FE_mass;  /* bodies.FE.mass, kg */
@@ -168,53 +188,7 @@ typedef struct {
     double inverse_mass_AH_AH;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_HE_HE;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_EG_EG;  /* 1/M, 1/(kg*m^2) */
-} Parameters;
-
-#include "engine/scene/types.h"
-#include "engine/scene/numbers.h"
-
-static const signed char event_direction[] = {0};
-static const unsigned char event_stops[] = {0};
-static const int guess_place[] = {5, 8, 11, 14, 17, 20};
-static const int set_place[] = {2};
-static const int rate_place[] = {0};
-static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
-static const unsigned char is_angle[] = {1, 1, 1, 1, 1, 1, 1};
-static const short watched[] = {0};
-static const short watched_as[] = {0};
-static const unsigned char meets[] = {0};
-static const int friction_of_pivot[] = {0};
-
-/* Radial clearance of joint i with play, m. */
-static inline double radial_clearance(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
-static inline double deepest(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The least velocity that counts as that of an impact, m/s. */
-static inline double slowest_impact(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
+};
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */
 static inline double baumgarte_two_alpha(const Parameters *p) { (void)p; return 0.0; }

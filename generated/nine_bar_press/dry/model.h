@@ -3,7 +3,7 @@
  * mechanism nine_bar_press, scene dry, from the YAML with sha256
  * febebffbc57d813ee64233a43860a86e87c2f0ecff80a72653d127fbfd0f9a36
  *
- * What the engine must know of this scene: sizes, parameters, small tables.
+ * What the engine must know of this scene, sizes and small tables, and every number of it.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
@@ -51,8 +51,28 @@
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
-/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {
+typedef struct Parameters Parameters; /* every number of a run */
+
+#include "engine/scene/types.h"
+#include "engine/scene/numbers.h"
+
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+static const int guess_place[] = {5, 8, 14, 17, 20};
+static const int set_place[] = {0};
+static const int rate_place[] = {0};
+static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0};
+static const int kept_row[] = {0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
+static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
+static const short watched[] = {0};
+static const short watched_as[] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+static const unsigned char meets[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+static const int friction_of_pivot[] = {0};
+
+/* The engine reads no further: scenes that have all this in common share its code. */
+
+/* In SI: first the slots that a user may set, then what prepare() derives. */
+struct Parameters {
     double omega;  /* parameters.omega, 1/s */
     double omega4;  /* parameters.omega4, 1/s */
     double l5;  /* parameters.l5, m */
@@ -186,65 +206,7 @@ typedef struct {
     double weight_L8__across;  /* weight, N*m */
     double inverse_mass_L8_L8;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_L2_L2;  /* 1/M, 1/(kg*m^2) */
-} Parameters;
-
-#include "engine/scene/types.h"
-#include "engine/scene/numbers.h"
-
-static const signed char event_direction[] = {0};
-static const unsigned char event_stops[] = {0};
-static const int guess_place[] = {5, 8, 14, 17, 20};
-static const int set_place[] = {0};
-static const int rate_place[] = {0};
-static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0};
-static const int kept_row[] = {0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
-static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
-static const short watched[] = {0};
-static const short watched_as[] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
-static const unsigned char meets[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-static const int friction_of_pivot[] = {0};
-
-/* Radial clearance of joint i with play, m. */
-static inline double radial_clearance(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    case 0:
-        return p->pin_clearance;
-    case 1:
-        return p->pin_clearance;
-    default:
-        return 0.0;
-    }
-}
-
-/* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
-static inline double deepest(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    case 0:
-        return (1.0/10.0)*p->pin_radius;
-    case 1:
-        return (1.0/10.0)*p->pin_radius;
-    default:
-        return 0.0;
-    }
-}
-
-/* The least velocity that counts as that of an impact, m/s. */
-static inline double slowest_impact(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    case 0:
-        return p->velocity_floor;
-    case 1:
-        return p->velocity_floor;
-    default:
-        return 0.0;
-    }
-}
+};
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */
 static inline double baumgarte_two_alpha(const Parameters *p) { (void)p; return 0.0; }

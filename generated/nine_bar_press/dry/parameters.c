@@ -164,3 +164,46 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->inverse_mass_L8_L8 = 1.0/p->mass_L8_L8;  /* 1/M */
     p->inverse_mass_L2_L2 = 1.0/p->mass_L2_L2;  /* 1/M */
 }
+
+/* Radial clearance of joint i with play, m. */
+double radial_clearance(const Parameters *p, int i)
+{
+    (void)p;
+    switch (i) {
+    case 0:
+        return p->pin_clearance;
+    case 1:
+        return p->pin_clearance;
+    default:
+        return 0.0;
+    }
+}
+
+/* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
+double deepest(const Parameters *p, int i)
+{
+    (void)p;
+    switch (i) {
+    case 0:
+        return (1.0/10.0)*p->pin_radius;
+    case 1:
+        return (1.0/10.0)*p->pin_radius;
+    default:
+        return 0.0;
+    }
+}
+
+/* The least velocity that counts as that of an impact, m/s. */
+double slowest_impact(const Parameters *p, int i)
+{
+    (void)p;
+    switch (i) {
+    case 0:
+        return p->velocity_floor;
+    case 1:
+        return p->velocity_floor;
+    default:
+        return 0.0;
+    }
+}
+

@@ -3,7 +3,7 @@
  * mechanism nine_bar_press, scene ideal, from the YAML with sha256
  * febebffbc57d813ee64233a43860a86e87c2f0ecff80a72653d127fbfd0f9a36
  *
- * What the engine must know of this scene: sizes, parameters, small tables.
+ * What the engine must know of this scene, sizes and small tables, and every number of it.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
@@ -51,8 +51,24 @@
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
-/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {
+typedef struct Parameters Parameters; /* every number of a run */
+
+#include "engine/scene/types.h"
+#include "engine/scene/numbers.h"
+
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+static const int guess_place[] = {5, 8, 14, 17, 20};
+static const int set_place[] = {0};
+static const int rate_place[] = {0};
+static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0};
+static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
+static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
+
+/* The engine reads no further: scenes that have all this in common share its code. */
+
+/* In SI: first the slots that a user may set, then what prepare() derives. */
+struct Parameters {
     double omega;  /* parameters.omega, 1/s */
     double omega4;  /* parameters.omega4, 1/s */
     double l5;  /* parameters.l5, m */
@@ -161,48 +177,6 @@ typedef struct {
     double inverse_mass_L8_L8;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_L7_L7;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_L2_L2;  /* 1/M, 1/(kg*m^2) */
-} Parameters;
-
-#include "engine/scene/types.h"
-#include "engine/scene/numbers.h"
-
-static const signed char event_direction[] = {0};
-static const unsigned char event_stops[] = {0};
-static const int guess_place[] = {5, 8, 14, 17, 20};
-static const int set_place[] = {0};
-static const int rate_place[] = {0};
-static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0};
-static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
-static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
-
-/* Radial clearance of joint i with play, m. */
-static inline double radial_clearance(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
-static inline double deepest(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The least velocity that counts as that of an impact, m/s. */
-static inline double slowest_impact(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
+};
 
 #endif

@@ -3,7 +3,7 @@
  * mechanism pendulum, scene ideal, from the YAML with sha256
  * d09c146d2f0ceb546a548752eb1ee149e813b0f702dbe45fcda93bffb2b3e75d
  *
- * What the engine must know of this scene: sizes, parameters, small tables.
+ * What the engine must know of this scene, sizes and small tables, and every number of it.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
@@ -51,24 +51,7 @@
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
-/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {
-    double par_g;  /* parameters.g, m/s^2 */
-    double length;  /* parameters.length, m */
-    double bob_mass;  /* bodies.bob.mass, kg */
-    double bob_inertia;  /* bodies.bob.inertia, kg*m^2 */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double rod_length;  /* joints.rod.length, m */
-    double gravity_y;  /* gravity.y, m/s^2 */
-    double set_bob_x;  /* start.set.bob.x, m */
-    double rod_half_inverse_length;  /* of joint rod, 1/m */
-    double weight_bob_y;  /* weight, N */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_bob_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_bob_mass;  /* 1/M, 1/kg */
-} Parameters;
+typedef struct Parameters Parameters; /* every number of a run */
 
 #include "engine/scene/types.h"
 #include "engine/scene/numbers.h"
@@ -86,35 +69,26 @@ static const short watched_as[] = {0};
 static const unsigned char meets[] = {0};
 static const int friction_of_pivot[] = {0};
 
-/* Radial clearance of joint i with play, m. */
-static inline double radial_clearance(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
+/* The engine reads no further: scenes that have all this in common share its code. */
 
-/* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
-static inline double deepest(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The least velocity that counts as that of an impact, m/s. */
-static inline double slowest_impact(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
+/* In SI: first the slots that a user may set, then what prepare() derives. */
+struct Parameters {
+    double par_g;  /* parameters.g, m/s^2 */
+    double length;  /* parameters.length, m */
+    double bob_mass;  /* bodies.bob.mass, kg */
+    double bob_inertia;  /* bodies.bob.inertia, kg*m^2 */
+    double alpha;  /* baumgarte.alpha, 1/s */
+    double beta;  /* baumgarte.beta, 1/s */
+    double rod_length;  /* joints.rod.length, m */
+    double gravity_y;  /* gravity.y, m/s^2 */
+    double set_bob_x;  /* start.set.bob.x, m */
+    double rod_half_inverse_length;  /* of joint rod, 1/m */
+    double weight_bob_y;  /* weight, N */
+    double two_alpha;  /* 2 alpha, 1/s */
+    double beta_squared;  /* beta^2, 1/s^2 */
+    double inverse_bob_inertia;  /* 1/M, 1/(kg*m^2) */
+    double inverse_bob_mass;  /* 1/M, 1/kg */
+};
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */
 static inline double baumgarte_two_alpha(const Parameters *p) { (void)p; return 0.0; }

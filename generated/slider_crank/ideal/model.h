@@ -3,7 +3,7 @@
  * mechanism slider_crank, scene ideal, from the YAML with sha256
  * 7d0ee75732fc8db361d73dbcc9252363a5631ed216b7197196ca1cd59efe75c0
  *
- * What the engine must know of this scene: sizes, parameters, small tables.
+ * What the engine must know of this scene, sizes and small tables, and every number of it.
  */
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
@@ -51,8 +51,24 @@
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
-/* Every number of a run, in SI: first the slots that a user may set, then what prepare() derives. */
-typedef struct {
+typedef struct Parameters Parameters; /* every number of a run */
+
+#include "engine/scene/types.h"
+#include "engine/scene/numbers.h"
+
+static const signed char event_direction[] = {0};
+static const unsigned char event_stops[] = {0};
+static const int guess_place[] = {5, 6};
+static const int set_place[] = {0};
+static const int rate_place[] = {0};
+static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 0, 0};
+static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+static const unsigned char is_angle[] = {1};
+
+/* The engine reads no further: scenes that have all this in common share its code. */
+
+/* In SI: first the slots that a user may set, then what prepare() derives. */
+struct Parameters {
     double omega;  /* parameters.omega, 1/s */
     double c;  /* parameters.c, m */
     double crank_mass;  /* bodies.crank.mass, kg */
@@ -85,48 +101,6 @@ typedef struct {
     double mass_motor_motor;  /* constant of M, kg*m^2 */
     double mass_rod_rod;  /* constant of M, kg*m^2 */
     double inverse_mass_rod_rod;  /* 1/M, 1/(kg*m^2) */
-} Parameters;
-
-#include "engine/scene/types.h"
-#include "engine/scene/numbers.h"
-
-static const signed char event_direction[] = {0};
-static const unsigned char event_stops[] = {0};
-static const int guess_place[] = {5, 6};
-static const int set_place[] = {0};
-static const int rate_place[] = {0};
-static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 0, 0};
-static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
-static const unsigned char is_angle[] = {1};
-
-/* Radial clearance of joint i with play, m. */
-static inline double radial_clearance(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
-static inline double deepest(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The least velocity that counts as that of an impact, m/s. */
-static inline double slowest_impact(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
+};
 
 #endif

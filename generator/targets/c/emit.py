@@ -9,7 +9,7 @@ from typing import Any
 
 import jinja2
 
-from gudgeon.contract.kernel_source import ENGINE_PART, MAIN, KernelSource
+from gudgeon.contract.kernel_source import ENGINE_PART, HEADER, MAIN, KernelSource
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.ledger import tell
@@ -20,12 +20,12 @@ from gudgeon.generator.targets.c.curves import NAME as CURVES
 from gudgeon.generator.targets.c.curves import curves_code
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.layout import within
-from gudgeon.generator.targets.c.model_header import header_values, known_bounds
+from gudgeon.generator.targets.c.model_header import header_values, known_bounds, of_joints
 from gudgeon.generator.targets.c.newton import newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearances_code
 from gudgeon.generator.targets.c.reduced import reduced_code
 
-HEADER, CLEARANCES = "model.h", "clearance.c"
+CLEARANCES = "clearance.c"
 ABSOLUTE, REDUCED, METHODS = 1, 2, 3  # the parts of MAIN, as PART in C counts them
 Begun = Callable[[int, Mapping[str, str]], None]
 Texts = dict[str, Callable[[], str]]  # by file, printed when they are asked for
@@ -78,7 +78,7 @@ def _parts(program: Program, prepare: Kernel, bounds: Kernel | None) -> dict[int
     tree, course = program.tree, program.course
     parts: dict[int, Texts] = {
         ABSOLUTE: {
-            "parameters.c": lambda: _kernels(prepare),
+            "parameters.c": lambda: _parameters(program, prepare),
             "constraints.c": lambda: _kernels(*program.closed),
             "dynamics.c": lambda: _kernels(*program.right_hand_side),
         }
@@ -115,6 +115,12 @@ def _only(condition: str, names: Iterable[str]) -> list[str]:
 
 def _include(name: str) -> str:
     return f'#include "{name}"'
+
+
+def _parameters(program: Program, prepare: Kernel) -> str:
+    """All numbers, then those of joints with play by their place."""
+    told = render("of_joints.c.jinja", of_joints=of_joints(program.model)) if program.pins else ""
+    return _kernels(prepare) + told
 
 
 def _linearized(program: Program) -> str:

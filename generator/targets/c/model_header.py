@@ -7,6 +7,7 @@ from typing import Any
 
 import sympy as sp
 
+from gudgeon.contract.kernel_source import ENGINE_ENDS
 from gudgeon.generator.equations.events import SIGNS
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import has_jumps
@@ -52,7 +53,7 @@ def header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
         "title": printer.comment_text(mechanism.title or mechanism.name), "mechanism": mechanism.name,
         "scene": model.scene.name, "sha256": mechanism.sha256, "parameters": parameter_fields(model.slots),
         "sizes": _defines(of_scene), "thresholds": _defines(_THRESHOLDS), "tables": _tables(program, of_scene),
-        "of_joints": _of_joints(model), "gains": _gains(program),
+        "engine_ends": ENGINE_ENDS, "gains": _gains(program),
     }  # fmt: skip
 
 
@@ -218,8 +219,8 @@ def _start(model: Model) -> dict[str, list[int]]:
     }  # fmt: skip
 
 
-def _of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
-    """Numbers of joints with play."""
+def of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
+    """Numbers of joints with play: what they mean, the functions that tell them, a value a joint."""
     values = {
         "radial_clearance": [c.pair.c for c in model.clearances],
         "deepest": [deepest(c) for c in model.clearances],
