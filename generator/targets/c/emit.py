@@ -119,8 +119,7 @@ def _include(name: str) -> str:
 
 def _parameters(program: Program, prepare: Kernel) -> str:
     """All numbers, then those of joints with play by their place."""
-    told = render("of_joints.c.jinja", of_joints=of_joints(program.model)) if program.pins else ""
-    return _kernels(prepare) + told
+    return _kernels(prepare) + render("of_joints.c.jinja", of_joints=of_joints(program.model))
 
 
 def _linearized(program: Program) -> str:
