@@ -9,9 +9,15 @@
 void prepare(const double *given, const unsigned char *is_given, Parameters *p);
 void mass_matrix(const Parameters *p, double *m);
 /* Of joint i with play: its radial clearance, the penetration beyond which laws mean nothing, an impact's velocity. */
+#if N_CLEARANCES
 double radial_clearance(const Parameters *p, int i);
 double deepest(const Parameters *p, int i);
 double slowest_impact(const Parameters *p, int i);
+#else
+static inline double radial_clearance(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
+static inline double deepest(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
+static inline double slowest_impact(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
+#endif
 /* Of the closed linkage: Phi, Phi_q (N_ALL_ROWS x N_Q, by rows; zeros stay), nu, gamma; what a start sets. */
 void constraints(double t, const double *q, const Parameters *p, double *phi);
 void jacobian(double t, const double *q, const Parameters *p, double *phi_q);

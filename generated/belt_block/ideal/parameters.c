@@ -28,34 +28,3 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->inverse_block_mass = 1.0/p->block_mass;  /* 1/M */
     p->inverse_block_inertia = 1.0/p->block_inertia;  /* 1/M */
 }
-
-/* Radial clearance of joint i with play, m. */
-double radial_clearance(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
-double deepest(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The least velocity that counts as that of an impact, m/s. */
-double slowest_impact(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-

@@ -41,34 +41,3 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->mass_bump_bump = p->inertia_road_road + p->road_inertia;  /* constant of M */
     p->weight_road__across = p->gravity_y*p->road_head_s_x*p->road_mass;  /* weight */
 }
-
-/* Radial clearance of joint i with play, m. */
-double radial_clearance(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
-double deepest(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-
-/* The least velocity that counts as that of an impact, m/s. */
-double slowest_impact(const Parameters *p, int i)
-{
-    (void)p;
-    switch (i) {
-    default:
-        return 0.0;
-    }
-}
-

@@ -119,7 +119,8 @@ def _include(name: str) -> str:
 
 def _parameters(program: Program, prepare: Kernel) -> str:
     """All numbers, then those of joints with play by their place."""
-    return _kernels(prepare) + render("of_joints.c.jinja", of_joints=of_joints(program.model))
+    told = render("of_joints.c.jinja", of_joints=of_joints(program.model)) if program.pins else ""
+    return _kernels(prepare) + told
 
 
 def _linearized(program: Program) -> str:
