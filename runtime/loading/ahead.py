@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
 def own_lines(source: KernelSource, portable: bool) -> dict[str, tuple[str, ...]]:
     """The compiler's lines for what is a scene's own, by the names of the objects."""
-    if source.cdef or not source.parts:
+    if source.cdef or not source.units:
         return {"scene.o": unit_line(portable, [source.main], "scene.o")}
-    return dict(_part(part, portable) for part in source.parts)
+    return dict(_part(part, portable) for part in source.units)
 
 
 def shared_objects(source: KernelSource, portable: bool) -> list[Shared]:

@@ -107,7 +107,7 @@ def compile_c(compiler: str, file: Path, flags: Sequence[str], libraries: Sequen
 def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> None:
     source = gudgeon.load(name, scene).source
     main = write(source, tmp_path)
-    for part in ("0", *map(str, source.parts)):
+    for part in ("0", *map(str, source.units)):
         compile_c(compiler, main, [*FLAGS, f"-DPART={part}", "-c", "-o", "scene.o"])
     engine = ["-Wshadow", "-Wconversion", "-Wmissing-prototypes"]
     (tmp_path / "loops.c").write_text('#include "engine/engine.c"\n', encoding="utf-8")

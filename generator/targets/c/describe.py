@@ -39,7 +39,7 @@ UNTOLD = Story()
 
 def describe(
     model: Model, *, files: Mapping[str, str] = MappingProxyType({}), main: str = "",
-    parts: tuple[int, ...] = (),
+    units: tuple[int, ...] = (),
     pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
     operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
     motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = UNTOLD, lanes: str = "",
@@ -54,7 +54,7 @@ def describe(
     start = mechanism.start
     return KernelSource(
         mechanism=mechanism.name, scene=scene.name, title=mechanism.title, sha256=mechanism.sha256,
-        files=files, main=main, parts=parts,
+        files=files, main=main, units=units,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
         points=_points(model, place, body_of),

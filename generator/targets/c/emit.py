@@ -55,7 +55,7 @@ def emit(program: Program, begun: Begun | None = None) -> KernelSource:
     files[readme.NAME] = readme.readme(program, files)
     course = program.course
     return describe(
-        model, files=files, main=MAIN, parts=() if CURVES in files else tuple(parts),
+        model, files=files, main=MAIN, units=() if CURVES in files else tuple(parts),
         pivots=program.kkt.pivots, start_pivots=course.pivots if course else (), motion_pivots=integrated.pivots,
         operations=_operations(program, prepare),
         tree=tree.system.unknowns if tree else (), chain=integrated.chain,
