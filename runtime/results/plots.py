@@ -19,7 +19,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.shown import in_figure
 from gudgeon.results import trace
-from gudgeon.results.plot_units import drawn, label, scale
+from gudgeon.language.plot_units import drawn, label, scale
 from gudgeon.results.series import rates
 
 try:

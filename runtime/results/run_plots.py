@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.wanted import told
 from gudgeon.results import trace
-from gudgeon.results.plot_units import drawn, label
+from gudgeon.language.plot_units import drawn, label
 from gudgeon.results.plots import (
     COLOURS,
     IDEAL,

@@ -1,0 +1,79 @@
+"""A whole drawing: bodies, joints, what moves them, insets of joints with play, gravity, a scale, all names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from gudgeon.drawing.bodies import bodies, names_of_bodies
+from gudgeon.drawing.insets import insets
+from gudgeon.drawing.joints import joints, names_of_joints
+from gudgeon.drawing.movers import HEAD, arrow, gravity_of, movers, names_of_movers
+from gudgeon.drawing.plan import Plan, make_plan
+from gudgeon.drawing.posture import Posture
+from gudgeon.drawing.shapes import Label, Line, Shape, Sketch, box_of
+from gudgeon.language.plot_units import scale
+from gudgeon.model.compiled import Array
+
+MARGIN = 2.6  # units around all
+
+
+def make_sketch(
+    posture: Posture, plan: Plan | None = None, *, more: Sequence[Shape] = (), labels: Sequence[Label] = (),
+    notes: Sequence[str] = (), loose: frozenset[str] = frozenset(), touching: frozenset[str] = frozenset(),
+    box: tuple[Array, Array] | None = None, named: bool = True,
+) -> Sketch:  # fmt: skip
+    """The drawing of a posture. `more` shapes with their `labels` and `notes` come on top; without `named` there are
+    no names, with a `box` of `room_of` it keeps its place among others of a motion."""
+    plan = plan or make_plan([posture])
+    shapes = [*bodies(posture, plan, loose), *joints(posture, plan), *movers(posture, plan), *more]
+    low, high = box or room_of(shapes, plan)
+    told = [*names_of_bodies(posture, plan), *names_of_joints(posture, plan), *names_of_movers(posture, plan)]
+    told = [*labels, *(told if named else ())]
+    words, corner, bottom = list(notes), high.copy(), float(low[1])
+    for own, label, note in insets(posture, plan.unit, low, high, touching):
+        shapes += own
+        told, words = [*told, label], [*words, note]
+        corner = np.maximum(corner, box_of(own)[1] + 1.5 * plan.unit)
+        bottom = min(bottom, float(box_of(own)[0][1]) - 3.0 * plan.unit)
+    for own_shapes, label in _beside(posture, plan, low, high):
+        shapes += own_shapes
+        told.append(label)
+    low = np.minimum([low[0], bottom], box_of(shapes)[0] - 0.8 * plan.unit)
+    return Sketch(tuple(shapes), tuple(told), low, corner, plan.unit, tuple(words))
+
+
+def room_of(shapes: Sequence[Shape], plan: Plan) -> tuple[Array, Array]:
+    """The box of shapes with a margin for names."""
+    low, high = box_of(shapes)
+    return low - MARGIN * plan.unit, high + MARGIN * plan.unit
+
+
+def room_of_all(postures: Sequence[Posture], plan: Plan) -> tuple[Array, Array]:
+    """The box of all positions of a motion."""
+    boxes = [room_of([*bodies(x, plan), *joints(x, plan), *movers(x, plan)], plan) for x in postures]
+    return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
+
+
+def _beside(posture: Posture, plan: Plan, low: Array, high: Array) -> Iterator[tuple[list[Shape], Label]]:
+    """Gravity in the upper left corner, a length below."""
+    u = plan.unit
+    if (down := gravity_of(posture)) is not None:
+        middle = np.array([low[0] + 1.5 * u, high[1] - 2.5 * u])
+        shapes = list(arrow("gravity", "gravity", middle - 2.0 * u * down, middle + 2.0 * u * down, HEAD * u))
+        yield shapes, Label("gravity", "gravity", "g", middle, 0.6 * u)
+    length = _round_length(0.22 * float((high - low).max()))
+    begin = np.array([low[0] + 0.5 * u, low[1] - 1.0 * u])
+    end = begin + [length, 0.0]
+    tick = np.array([0.0, 0.5 * u])
+    bar = np.array([begin + tick, begin - tick, begin, end, end + tick, end - tick])
+    factor, text = scale(length, "m")
+    text = f"{1e3 * length:g} mm" if length < 1.0 else f"{length * factor:g} {text}"
+    yield [Line("scale", "scale", bar)], Label("scale", "scale", text, end, 0.6 * u)
+
+
+def _round_length(most: float) -> float:
+    """The largest of 1, 2 or 5 times a power of ten that is not above it."""
+    power = 10.0 ** np.floor(np.log10(most))
+    return float(max(x for x in (1.0, 2.0, 5.0) if x * power <= most * (1.0 + 1e-12)) * power)
