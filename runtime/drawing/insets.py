@@ -55,5 +55,5 @@ def insets(
         ]
         factor, text = scale(c, "m")
         told = f"{joint} ×{times:g}, e/c = {float(np.hypot(*e)) / c:.2f}"
-        label = Label(part, "inset", told, centre - [0.0, 1.2 * hole], 0.0)
+        label = Label(part, "inset", told, centre - [0.0, 1.2 * hole], 0.0, 270.0)
         yield shapes, label, f"{joint}: clearance {c * factor:.4g} {text}, drawn ×{times:g}"

@@ -16,11 +16,11 @@ from matplotlib.text import Text
 
 from gudgeon.drawing.roles import EDGES, NAMES, colour_of
 from gudgeon.drawing.shapes import Disc, Label, Shape, Sketch, arc
-from gudgeon.language.shown import in_figure
+from gudgeon.language.shown import one_line
 from gudgeon.model.compiled import Array
 
 RINGS = (2.0, 6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0, 84.0, 110.0, 145.0, 190.0)  # points from what is named
-AROUND = 16  # places on a ring
+ORDER = (45.0, 0.0, 90.0, 180.0, 270.0, 135.0, 315.0, 225.0, *(22.5 + 45.0 * k for k in range(8)))  # on a ring, degrees
 LED = 15.0  # points; further off than that a thin line leads back
 GAP = 1.2  # points between names
 
@@ -31,6 +31,7 @@ class Names(Artist):  # type: ignore[misc]
     def __init__(self, sketch: Sketch, size: float) -> None:
         super().__init__()
         self.set_zorder(6.0)
+        self.set_in_layout(False)
         self.sketch, self.boxes = sketch, dict[str, tuple[float, float, float, float]]()
         self.order = {shape.part: shape.tint for shape in sketch.shapes if shape.part.startswith("body ")}
         self.texts = [self._text(label, size) for label in sketch.labels]
@@ -39,7 +40,7 @@ class Names(Artist):  # type: ignore[misc]
         word, weight = NAMES[label.role]
         colour = colour_of(word, self.order.get(label.part, 0)) if word in ("edge",) else word
         text = Text(
-            0.0, 0.0, in_figure(label.text, 40), size=size, color=colour, weight=weight, ha="center", va="center",
+            0.0, 0.0, one_line(label.text), size=size, color=colour, weight=weight, ha="center", va="center",
             transform=None, parse_math=False,
             style="italic" if label.role == "joint" else "normal",
         )  # fmt: skip
@@ -73,7 +74,7 @@ class Names(Artist):  # type: ignore[misc]
             extent = text.get_window_extent(renderer)
             half = 0.5 * np.array([extent.width, extent.height])
             at = to_pixels(label.place)
-            middle, ring = best_place(at, half, label.clear * metre, point, lines, taken, room)
+            middle, ring = best_place(at, half, label.way, label.clear * metre, point, lines, taken, room)
             text.set_position(middle)
             box = np.array([*(middle - half), *(middle + half)])
             taken = np.vstack([taken, box])
@@ -108,11 +109,11 @@ def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
 
 
 def best_place(
-    at: Array, half: Array, clear: float, point: float, lines: Array, taken: Array, room: Array
+    at: Array, half: Array, way: float, clear: float, point: float, lines: Array, taken: Array, room: Array
 ) -> tuple[Array, float]:
     """The middle of a name, and how far its box is from what it names: the nearest place on no line and no other name;
     where every place has a line, the one with the fewest. Pixels; `half` its size, `room` the picture's box."""
-    angles = np.radians([45, 0, 90, 180, 270, 135, 315, 225, *np.arange(22.5, 360.0, 45.0)][:AROUND])
+    angles = np.radians([way, *ORDER])
     ways = np.column_stack([np.cos(angles), np.sin(angles)])
     fallback, fewest = at, np.inf
     for ring in RINGS:

@@ -88,7 +88,7 @@ def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -
             place = ((column * width + 0.12) / across, (top - height - 0.02) / down)
             picture.text(*place, note, fontsize=7.5, va="top", color="#444444", parse_math=False)
         width = int(PER_INCH * across)
-        picture.suptitle(textwrap.fill(in_figure(caption, 3 * width), width), x=0.1 / across, y=1.0 - 0.1 / down, ha="left", va="top", fontsize=10.5)
+        picture.suptitle(in_figure(caption, width), x=0.1 / across, y=1.0 - 0.1 / down, ha="left", va="top", fontsize=10.5)
     return picture
 
 

@@ -68,10 +68,16 @@ class Posture:
         """The one of that name: joints, drives and forces share one set of names."""
         return (part for part in self.source.parts if part.name == name)
 
+    @cached_property
+    def _places(self) -> dict[str, Array]:
+        return {}
+
     def place(self, point: str) -> Array:
         """Where a point is in ground axes, (2,), m; the origin for the ground itself."""
-        info = self.points.get(point)
-        return place_of(self.source, self.p, self.q, info) if info is not None else np.zeros(2)
+        if point not in self._places:
+            info = self.points.get(point)
+            self._places[point] = place_of(self.source, self.p, self.q, info) if info is not None else np.zeros(2)
+        return self._places[point]
 
     def centre(self, body: str) -> Array:
         """Its centre of mass, (2,), m."""

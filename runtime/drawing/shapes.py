@@ -35,13 +35,14 @@ class Disc:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """Text beside a place, (2,), from which it keeps `clear` metres."""
+    """Text beside a place, (2,), from which it keeps `clear` metres; to the side `way` (degrees) if that is free."""
 
     part: str
     role: str
     text: str
     place: Array
     clear: float = 0.0
+    way: float = 45.0
 
 
 Shape: TypeAlias = Line | Disc

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from gudgeon.drawing.arrows import Arrows, round_number
 from gudgeon.drawing.bodies import bodies, names_of_bodies
 from gudgeon.drawing.insets import insets
 from gudgeon.drawing.joints import joints, names_of_joints
@@ -13,7 +14,6 @@ from gudgeon.drawing.movers import HEAD, arrow, gravity_of, movers, names_of_mov
 from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture
 from gudgeon.drawing.shapes import Label, Line, Shape, Sketch, box_of
-from gudgeon.language.plot_units import scale
 from gudgeon.model.compiled import Array
 
 MARGIN = 2.6  # units around all
@@ -21,23 +21,26 @@ MARGIN = 2.6  # units around all
 
 def make_sketch(
     posture: Posture, plan: Plan | None = None, *, more: Sequence[Shape] = (), labels: Sequence[Label] = (),
-    notes: Sequence[str] = (), loose: frozenset[str] = frozenset(), touching: frozenset[str] = frozenset(),
-    box: tuple[Array, Array] | None = None, named: bool = True,
+    arrows: Sequence[Arrows] = (), loose: frozenset[str] = frozenset(), touching: frozenset[str] = frozenset(),
+    box: tuple[Array, Array] | None = None, inset: bool = True,
 ) -> Sketch:  # fmt: skip
-    """The drawing of a posture. `more` shapes with their `labels` and `notes` come on top; without `named` there are
-    no names, with a `box` of `room_of` it keeps its place among others of a motion."""
+    """The drawing of a posture. `more` shapes with their `labels`, and `arrows` with their scales come on top.
+
+    With a `box` of `room_of_all` it keeps its place among others of a motion. `touching`: joints with play whose
+    surfaces are in contact; their insets are left out without `inset`. `loose` bodies are those that nothing holds.
+    """
     plan = plan or make_plan([posture])
+    more = [*more, *(shape for kind in arrows for shape in kind.shapes)]
     shapes = [*bodies(posture, plan, loose), *joints(posture, plan), *movers(posture, plan), *more]
     low, high = box or room_of(shapes, plan)
     told = [*names_of_bodies(posture, plan), *names_of_joints(posture, plan), *names_of_movers(posture, plan)]
-    told = [*labels, *(told if named else ())]
-    words, corner, bottom = list(notes), high.copy(), float(low[1])
-    for own, label, note in insets(posture, plan.unit, low, high, touching):
+    told, words, corner, bottom = [*labels, *told], list[str](), high.copy(), float(low[1])
+    for own, label, note in insets(posture, plan.unit, low, high, touching) if inset else ():
         shapes += own
         told, words = [*told, label], [*words, note]
         corner = np.maximum(corner, box_of(own)[1] + 1.5 * plan.unit)
         bottom = min(bottom, float(box_of(own)[0][1]) - 3.0 * plan.unit)
-    for own_shapes, label in _beside(posture, plan, low, high):
+    for own_shapes, label in _beside(posture, plan, low, high, arrows):
         shapes += own_shapes
         told.append(label)
     low = np.minimum([low[0], bottom], box_of(shapes)[0] - 0.8 * plan.unit)
@@ -56,24 +59,29 @@ def room_of_all(postures: Sequence[Posture], plan: Plan) -> tuple[Array, Array]:
     return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
 
 
-def _beside(posture: Posture, plan: Plan, low: Array, high: Array) -> Iterator[tuple[list[Shape], Label]]:
-    """Gravity in the upper left corner, a length below."""
+def _beside(
+    posture: Posture, plan: Plan, low: Array, high: Array, arrows: Sequence[Arrows]
+) -> Iterator[tuple[list[Shape], Label]]:
+    """Gravity in the upper left corner, a length below, and an arrow for each scale."""
     u = plan.unit
     if (down := gravity_of(posture)) is not None:
         middle = np.array([low[0] + 1.5 * u, high[1] - 2.5 * u])
         shapes = list(arrow("gravity", "gravity", middle - 2.0 * u * down, middle + 2.0 * u * down, HEAD * u))
-        yield shapes, Label("gravity", "gravity", "g", middle, 0.6 * u)
-    length = _round_length(0.22 * float((high - low).max()))
+        yield shapes, Label("gravity", "gravity", "g", middle, 0.6 * u, 0.0)
+    length = round_number(0.22 * float((high - low).max()))
     begin = np.array([low[0] + 0.5 * u, low[1] - 1.0 * u])
     end = begin + [length, 0.0]
     tick = np.array([0.0, 0.5 * u])
     bar = np.array([begin + tick, begin - tick, begin, end, end + tick, end - tick])
-    factor, text = scale(length, "m")
-    text = f"{1e3 * length:g} mm" if length < 1.0 else f"{length * factor:g} {text}"
-    yield [Line("scale", "scale", bar)], Label("scale", "scale", text, end, 0.6 * u)
+    yield [Line("scale", "scale", bar)], Label("scale", "scale", length_text(length), end, 0.6 * u, 0.0)
+    for k, kind in enumerate(kind for kind in arrows if kind.shapes):
+        tail = begin - [0.0, 2.6 * u * (k + 1)]
+        tip = tail + [kind.length, 0.0]
+        yield list(arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD * u)), Label(
+            f"scale {kind.role}", "scale", f"{kind.role}: {kind.text}", tip, 0.6 * u, 0.0
+        )
 
 
-def _round_length(most: float) -> float:
-    """The largest of 1, 2 or 5 times a power of ten that is not above it."""
-    power = 10.0 ** np.floor(np.log10(most))
-    return float(max(x for x in (1.0, 2.0, 5.0) if x * power <= most * (1.0 + 1e-12)) * power)
+def length_text(length: float) -> str:
+    """A round length in mm or m."""
+    return f"{1e3 * length:g} mm" if length < 1.0 else f"{length:g} m"
