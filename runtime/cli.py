@@ -189,6 +189,36 @@ def equations(
 
 @app.command()
 @_told
+def draw(
+    file: File,
+    scene: Annotated[str, typer.Option("--scene", "-s", help="Which scene.")] = "ideal",
+    at: Annotated[
+        str | None, typer.Option("--at", metavar="TIME", help="Simulate to there: 0.2s. [default: the start]")
+    ] = None,
+    target: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", parser=path, metavar="PATH",
+                     help="x.svg, x.png or x.pdf. [default: out/NAME_SCENE.svg]"),
+    ] = None,
+    set_: Set = None,
+    branches: Annotated[
+        bool, typer.Option("--branches", help="All assemblies side by side, with the guess that picks each.")
+    ] = False,
+    laws: Laws = None,
+) -> int:  # fmt: skip
+    """Draw a mechanism: bodies, joints, drives, forces, joints with play magnified.
+
+    A start that does not close is drawn with what does not reach, in red, and then told as `check` tells it.
+
+    Example: gudgeon draw engine.yaml --scene worn --at 20ms -o engine.png
+    """
+    from gudgeon.commands.draw import Request, draw_file
+
+    return draw_file(Request(file, scene, at, target, tuple(set_ or ()), branches))
+
+
+@app.command()
+@_told
 def schema(laws: Laws = None) -> int:
     """Print the JSON Schema of mechanism files, for editors that complete and check YAML.
 

@@ -42,7 +42,7 @@ def gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Label]]:
             if line is not None:
                 shapes.append(Line(f"gap {owner}", "gap", line))
             place = line.mean(axis=0) if line is not None else pivot(posture, part)
-            labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(told)}", place, 0.3))
+            labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(told)}", place, way=90.0))
     return shapes, labels
 
 

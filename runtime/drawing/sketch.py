@@ -53,9 +53,10 @@ def room_of(shapes: Sequence[Shape], plan: Plan) -> tuple[Array, Array]:
     return low - MARGIN * plan.unit, high + MARGIN * plan.unit
 
 
-def room_of_all(postures: Sequence[Posture], plan: Plan) -> tuple[Array, Array]:
-    """The box of all positions of a motion."""
-    boxes = [room_of([*bodies(x, plan), *joints(x, plan), *movers(x, plan)], plan) for x in postures]
+def room_of_all(postures: Sequence[Posture], plans: Sequence[Plan]) -> tuple[Array, Array]:
+    """The box of all positions of a motion, or of several assemblies; a plan for all, or one each."""
+    each = zip(postures, plans if len(plans) > 1 else [plans[0]] * len(postures), strict=True)
+    boxes = [room_of([*bodies(x, plan), *joints(x, plan), *movers(x, plan)], plan) for x, plan in each]
     return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
 
 

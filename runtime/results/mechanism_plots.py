@@ -70,7 +70,7 @@ def path_sketch(run: Result) -> Sketch:
     """Where the run starts, in a box that holds all of it, without names."""
     motion = postures_of(run)
     plan = make_plan(motion)
-    sketch = make_sketch(motion[0], plan, box=room_of_all(motion, plan), inset=False)
+    sketch = make_sketch(motion[0], plan, box=room_of_all(motion, [plan]), inset=False)
     return replace(sketch, labels=tuple(label for label in sketch.labels if label.role == "scale"))
 
 
