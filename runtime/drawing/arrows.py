@@ -35,7 +35,9 @@ def arrows(role: str, vectors: Mapping[str, tuple[Array, Array]], unit: str, pen
     for name, (place, vector) in vectors.items():
         length = metres * float(np.hypot(*vector))
         if length > 1e-3 * pen:
-            shapes += arrow(f"{role} {name}", role, place, place + metres * vector, min(0.85 * HEAD * pen, 0.6 * length))
+            shapes += arrow(
+                f"{role} {name}", role, place, place + metres * vector, min(0.85 * HEAD * pen, 0.6 * length)
+            )
     told = round_number(largest)
     factor, text = scale(told, unit)
     return Arrows(role, tuple(shapes), metres * told, f"{told * factor:g} {text}")

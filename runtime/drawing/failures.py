@@ -68,7 +68,9 @@ def _gap(posture: Posture, part: PartInfo, lengths: list[float]) -> Array | None
     return np.array([a + wanted * unit_vector(b - a), b])
 
 
-def freedoms(closure: Closure, posture: Posture, unit: float, loose: tuple[str, ...]) -> tuple[list[Shape], list[Label]]:
+def freedoms(
+    closure: Closure, posture: Posture, unit: float, loose: tuple[str, ...]
+) -> tuple[list[Shape], list[Label]]:
     """Arrows along which bodies may move that nothing drives, from the free motions of the closed linkage; a word at
     those that are `loose`."""
     motions = free_motions(closure.linkage, closure.p, posture.q, closure.t)

@@ -10,7 +10,7 @@ from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.bodies import BLOCK, SLOT, guide_and_slider, guide_ends
 from gudgeon.drawing.plan import Plan, axis_of, is_wide
 from gudgeon.drawing.posture import GROUND, Posture, body_of
-from gudgeon.drawing.shapes import Disc, Label, Line, Shape, arc, hatching, rectangle, rounded, turned, unit_vector
+from gudgeon.drawing.shapes import Disc, Label, Line, Shape, hatching, rectangle, rounded, turned, unit_vector
 from gudgeon.model.compiled import Array
 
 PIN, WORN = 0.46, 0.86  # radii in units: of a pin, of the hole around one that has play
@@ -21,7 +21,7 @@ ROLLER = 0.95
 def joints(posture: Posture, plan: Plan) -> Iterator[Shape]:
     """Those of a scene, by kind."""
     for part in posture.parts("joints"):
-        yield from _SYMBOLS[part.kind](posture, plan, part)
+        yield from _SYMBOLS.get(part.kind, _other)(posture, plan, part)
 
 
 def names_of_joints(posture: Posture, plan: Plan) -> Iterator[Label]:
@@ -158,6 +158,13 @@ def _distance(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
             yield from _stand(name, place, plan.ways[part.name], plan.unit)
     yield Line(name, "rod", np.array(ends))
     yield from (Disc(name, "pin", place, 0.8 * PIN * plan.unit) for place in ends)
+
+
+def _other(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    """A joint that has no symbol of its own yet: a small square at either end."""
+    for end in part.ends:
+        square = rectangle(posture.place(end), np.array([1.0, 0.0]), 0.5 * plan.unit, 0.5 * plan.unit)
+        yield Line(f"joint {part.name}", "block", square, True)
 
 
 _SYMBOLS = {

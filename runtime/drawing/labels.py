@@ -13,8 +13,9 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
+from numpy.typing import NDArray
 
-from gudgeon.drawing.roles import EDGES, NAMES, colour_of
+from gudgeon.drawing.roles import NAMES, colour_of
 from gudgeon.drawing.shapes import Disc, Label, Shape, Sketch, arc
 from gudgeon.language.shown import one_line
 from gudgeon.model.compiled import Array
@@ -25,7 +26,7 @@ LED = 15.0  # points; further off than that a thin line leads back
 GAP = 1.2  # points between names
 
 
-class Names(Artist):  # type: ignore[misc]
+class Names(Artist):
     """All names of a sketch; `boxes` are where they are after drawing, (left, low, right, high) in pixels by part."""
 
     def __init__(self, sketch: Sketch, size: float) -> None:
@@ -62,20 +63,21 @@ class Names(Artist):  # type: ignore[misc]
 
     def place(self, renderer: Any) -> None:
         """Find a place for each."""
-        figure, to_pixels = self.axes.get_figure(root=True), self.axes.transData.transform
+        axes: Any = self.axes
+        figure, to_pixels = axes.get_figure(root=True), axes.transData.transform
         point = figure.dpi / 72.0
         lines = obstacles(self.sketch.shapes, to_pixels)
-        room = np.array(self.axes.get_window_extent(renderer).extents)
+        room = np.array(axes.get_window_extent(renderer).extents)
         metre = float(np.hypot(*(to_pixels((1.0, 0.0)) - to_pixels((0.0, 0.0)))))
         self.leads, taken = [], np.zeros((0, 4))
         for text, label in zip(self.texts, self.sketch.labels, strict=True):
-            text.figure = figure
+            text.set_figure(figure)
             text.set_position((0.0, 0.0))
             extent = text.get_window_extent(renderer)
             half = 0.5 * np.array([extent.width, extent.height])
             at = to_pixels(label.place)
             middle, ring = best_place(at, half, label.way, label.clear * metre, point, lines, taken, room)
-            text.set_position(middle)
+            text.set_position((float(middle[0]), float(middle[1])))
             box = np.array([*(middle - half), *(middle + half)])
             taken = np.vstack([taken, box])
             self.boxes[label.part] = tuple(box.tolist())
@@ -85,7 +87,7 @@ class Names(Artist):  # type: ignore[misc]
     def _lead(self, at: Array, middle: Array, half: Array, figure: Any) -> Line2D:
         edge = np.clip(at, middle - half, middle + half)
         line = Line2D(*np.array([at, edge]).T, color="#999999", lw=0.5, transform=None)
-        line.figure = figure
+        line.set_figure(figure)
         return line
 
 
@@ -133,16 +135,15 @@ def best_place(
     return (fallback, far) if np.isfinite(fewest) else (at, 0.0)
 
 
-def overlapping(boxes: Array, taken: Array) -> Array:
+def overlapping(boxes: Array, taken: Array) -> NDArray[np.bool_]:
     """Which boxes (B, 4) overlap which others (T, 4), (B, T)."""
     a, b = boxes[:, None], taken[None]
-    return np.asarray(
-        (a[..., 0] < b[..., 2]) & (b[..., 0] < a[..., 2]) & (a[..., 1] < b[..., 3]) & (b[..., 1] < a[..., 3])
-    )
+    across = (a[..., 0] < b[..., 2]) & (b[..., 0] < a[..., 2])
+    return np.asarray(across & (a[..., 1] < b[..., 3]) & (b[..., 1] < a[..., 3]), dtype=bool)
 
 
-def _inside(boxes: Array, room: Array) -> Array:
-    return np.asarray((boxes[:, :2] >= room[:2]).all(axis=1) & (boxes[:, 2:] <= room[2:]).all(axis=1))
+def _inside(boxes: Array, room: Array) -> NDArray[np.bool_]:
+    return np.asarray((boxes[:, :2] >= room[:2]).all(axis=1) & (boxes[:, 2:] <= room[2:]).all(axis=1), dtype=bool)
 
 
 def crossing(box: Array, lines: Array) -> float:

@@ -19,11 +19,11 @@ DRIVEN, LOADED, WOUND = 2.3, 3.1, 1.9  # radii of arrows around a pin: a drive's
 
 
 def movers(posture: Posture, plan: Plan) -> Iterator[Shape]:
-    """Drives, then force elements, then gravity's own arrow is left to the sketch."""
+    """Drives, then force elements."""
     for part in posture.parts("drives"):
         yield from _DRIVES[part.kind](posture, plan, part)
     for part in posture.parts("forces"):
-        yield from _FORCES[part.kind](posture, plan, part)
+        yield from _FORCES.get(part.kind, _other)(posture, plan, part)
 
 
 def names_of_movers(posture: Posture, plan: Plan) -> Iterator[Label]:
@@ -85,7 +85,9 @@ def _coordinate(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]
     k = posture.bodies[body_of(part.ends[0])].index + "xy".index(axis)
     along = np.eye(2)["xy".index(axis)] * (-1.0 if posture.v is not None and posture.v[k] < 0.0 else 1.0)
     at, u = posture.place(part.ends[0]) + 2.0 * plan.unit * turned(along), plan.unit
-    yield from arrow(f"drive {part.name}", "drive", at - 0.5 * ARROW * u * along, at + 0.5 * ARROW * u * along, HEAD * u)
+    yield from arrow(
+        f"drive {part.name}", "drive", at - 0.5 * ARROW * u * along, at + 0.5 * ARROW * u * along, HEAD * u
+    )
 
 
 def _cylinder(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
@@ -151,7 +153,9 @@ def _damper(name: str, a: Array, b: Array, u: float) -> Iterator[Shape]:
 def _spiral(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
     angle, centre = np.linspace(0.0, 4.5 * np.pi, 90), pivot(posture, part)
     radius = plan.unit * np.linspace(0.6, WOUND, len(angle))
-    yield Line(f"force {part.name}", "spring", centre + np.column_stack([np.cos(angle), np.sin(angle)]) * radius[:, None])
+    yield Line(
+        f"force {part.name}", "spring", centre + np.column_stack([np.cos(angle), np.sin(angle)]) * radius[:, None]
+    )
 
 
 def _torque(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
@@ -181,6 +185,13 @@ def _dry_friction(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shap
     if (speed := posture.number(f"forces.{part.name}.speed")) != 0.0:
         way, low = along * np.sign(speed), at + 2.3 * u * down
         yield from arrow(name, "force", low - 0.5 * ARROW * u * way, low + 0.5 * ARROW * u * way, HEAD * u)
+
+
+def _other(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    """An element that has no symbol of its own yet: a dot at each end, and a line."""
+    places = [posture.place(end) for end in part.ends]
+    yield Line(f"force {part.name}", "spring", np.array(places))
+    yield from (Disc(f"force {part.name}", "mark", place, 0.3 * plan.unit) for place in places)
 
 
 _DRIVES = {"angle": _angle, "coordinate": _coordinate, "distance": _cylinder}

@@ -6,7 +6,7 @@ import io
 import textwrap
 from collections import Counter
 from collections.abc import Sequence
-from pathlib import Path
+from typing import Any
 
 import matplotlib
 from matplotlib.axes import Axes
@@ -20,7 +20,6 @@ from gudgeon.language.shown import in_figure
 
 LARGEST, SMALLEST = 8.0, 3.2  # inches, of the longer and the shorter side
 PER_INCH = 12.0  # characters of a caption
-SUFFIXES = (".svg", ".png", ".pdf")
 FEW = 28  # names that fit in the larger type
 STYLE = {"font.size": 9, "text.usetex": False, "svg.hashsalt": "gudgeon", "path.sketch": None}
 
@@ -47,13 +46,13 @@ def draw_on(ax: Axes, sketch: Sketch, faint: bool = False) -> None:
 
 def _patch(shape: Shape, role: Role, pale: bool) -> Patch:
     edge, face = colour_of(role.edge, shape.tint), colour_of(role.face, shape.tint)
-    look = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
+    look: dict[str, Any] = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
     if role.dashes:
         look |= {"ls": (0.0, role.dashes)}
     if pale:
         look |= {"ec": "#bbbbbb" if edge != "none" else edge, "fc": "#f4f4f4" if face != "none" else face}
     if isinstance(shape, Disc):
-        return Circle(shape.centre, shape.radius, **look)
+        return Circle((float(shape.centre[0]), float(shape.centre[1])), shape.radius, **look)
     if not shape.closed:
         look["fc"] = "none"
     return Polygon(shape.points, closed=shape.closed, **look)
@@ -88,7 +87,9 @@ def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -
             place = ((column * width + 0.12) / across, (top - height - 0.02) / down)
             picture.text(*place, note, fontsize=7.5, va="top", color="#444444", parse_math=False)
         width = int(PER_INCH * across)
-        picture.suptitle(in_figure(caption, width), x=0.1 / across, y=1.0 - 0.1 / down, ha="left", va="top", fontsize=10.5)
+        picture.suptitle(
+            in_figure(caption, width), x=0.1 / across, y=1.0 - 0.1 / down, ha="left", va="top", fontsize=10.5
+        )
     return picture
 
 
@@ -101,10 +102,3 @@ def as_bytes(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
     with matplotlib.rc_context(STYLE):
         picture.savefig(out, format=kind, metadata=metadata, dpi=dpi)
     return out.getvalue()
-
-
-def is_picture(path: Path) -> bool:
-    """Whether a name says which of the three it is."""
-    return path.suffix in SUFFIXES
-
-

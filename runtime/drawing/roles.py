@@ -13,7 +13,7 @@ INK, GREY, DRIVEN, LOADED, WOUND, WRONG = "#222222", "#888888", "#b3261e", "#006
 
 @dataclass(frozen=True)
 class Role:
-    """Colours ("" none, "tint" and "edge" those of the body), width of the line in points, dashes, order of painting."""
+    """Colours ("": none; "tint", "edge": the body's), width of the line in points, order of painting, dashes."""
 
     edge: str
     face: str

@@ -78,8 +78,9 @@ def _beside(
     for k, kind in enumerate(kind for kind in arrows if kind.shapes):
         tail = begin - [0.0, 2.6 * u * (k + 1)]
         tip = tail + [kind.length, 0.0]
-        yield list(arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD * u)), Label(
-            f"scale {kind.role}", "scale", f"{kind.role}: {kind.text}", tip, 0.6 * u, 0.0
+        yield (
+            list(arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD * u)),
+            Label(f"scale {kind.role}", "scale", f"{kind.role}: {kind.text}", tip, 0.6 * u, 0.0),
         )
 
 

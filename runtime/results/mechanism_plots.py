@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
 Array = Any
+MANY = 60  # names for which a panel has no room
 
 
 def sketch_at(run: Result, t: Any, velocities: bool = False, forces: bool = False) -> Sketch:
@@ -64,6 +65,13 @@ def _forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, A
             vector = [float(np.interp(posture.t, run.t, run[f"{part.name}.F{axis}"])) for axis in "xy"]
             place = posture.place(part.ends[0 if part.kind == "point_on_line" else 1])
             yield part.name, (place, np.array(vector))
+
+
+def start_sketch(run: Result) -> Sketch:
+    """Where the run starts, without insets; of very many parts without names."""
+    motion = postures_of(run)
+    sketch = make_sketch(motion[0], make_plan(motion), inset=False)
+    return sketch if len(sketch.labels) <= MANY else replace(sketch, labels=())
 
 
 def path_sketch(run: Result) -> Sketch:

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import io
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.wanted import told
 from gudgeon.results import trace
-from gudgeon.language.plot_units import drawn, label
 from gudgeon.results.plots import (
     COLOURS,
     IDEAL,
@@ -51,7 +51,7 @@ class Plot:
         """A panel for each unit, the panels wrapped; without names what a reader wants to see (report.py)."""
         from gudgeon.results.report import default_watch
 
-        wanted = [name for of in names for name in (of if isinstance(of, (list, tuple)) else (of,))]
+        wanted = _flat(names)
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
         forces = {f"{joint}.F": trace.force(run, joint) for joint in joints}  # with the extremes of all steps
@@ -127,8 +127,7 @@ class Plot:
         """
         from gudgeon.results.mechanism_plots import draw_path, path_sketch, points_of
 
-        names = points_of(self.run, [name for of in points for name in (of if isinstance(of, (list, tuple)) else (of,))])
-        sketch = path_sketch(self.run)
+        names, sketch = points_of(self.run, _flat(points)), path_sketch(self.run)
         return self._drawn(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption_of(self.run))
 
     def _drawn(self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str) -> Axes:
@@ -140,6 +139,11 @@ class Plot:
             ax.set_title(caption)
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
         return ax
+
+
+def _flat(names: Iterable[str | Sequence[str]]) -> list[str]:
+    """Names as they come, or in lists."""
+    return [name for of in names for name in (of if isinstance(of, (list, tuple)) else (of,))]
 
 
 class ShownFigure(Figure):
