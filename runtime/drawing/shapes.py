@@ -135,8 +135,8 @@ def hatching(a: Array, b: Array, into: Array, length: float) -> list[Array]:
 def zigzag(a: Array, b: Array, height: float, teeth: int = 6, ends: float = 0.2) -> Array:
     """A spring; `ends` is the share of straight wire at either end."""
     across = turned(unit_vector(b - a)) * height
-    shares = np.linspace(ends, 1.0 - ends, 2 * teeth + 1)
-    sides = np.array([0.0, *([1.0, -1.0] * teeth)[: 2 * teeth - 1], 0.0])
+    shares = np.linspace(ends, 1.0 - ends, 2 * teeth + 2)
+    sides = np.array([0.0, *([1.0, -1.0] * teeth), 0.0])
     body = a + shares[:, None] * (b - a) + sides[:, None] * across
     return np.vstack([a, body, b])
 
