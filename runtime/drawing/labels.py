@@ -27,13 +27,18 @@ GAP = 1.2  # points between names
 
 
 class Names(Artist):
-    """All names of a sketch; `boxes` are where they are after drawing, (left, low, right, high) in pixels by part."""
+    """All names of a sketch; `boxes` are where they are after drawing, (left, low, right, high) in pixels by part.
+
+    `beside` is then how far the middle of each is from what it names; `held`, the same of an earlier picture of a
+    motion, keeps them there.
+    """
 
     def __init__(self, sketch: Sketch, size: float) -> None:
         super().__init__()
         self.set_zorder(6.0)
         self.set_in_layout(False)
         self.sketch, self.boxes = sketch, dict[str, tuple[float, float, float, float]]()
+        self.beside, self.held = dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
         self.order = {shape.part: shape.tint for shape in sketch.shapes if shape.part.startswith("body ")}
         self.texts = [self._text(label, size) for label in sketch.labels]
 
@@ -76,7 +81,10 @@ class Names(Artist):
             extent = text.get_window_extent(renderer)
             half = 0.5 * np.array([extent.width, extent.height])
             at = to_pixels(label.place)
-            middle, ring = best_place(at, half, label.way, label.clear * metre, point, lines, taken, room)
+            middle, ring = at + self.held.get(label.part, (0.0, 0.0)), 0.0
+            if label.part not in self.held:
+                middle, ring = best_place(at, half, label.way, label.clear * metre, point, lines, taken, room)
+            self.beside[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
             text.set_position((float(middle[0]), float(middle[1])))
             box = np.array([*(middle - half), *(middle + half)])
             taken = np.vstack([taken, box])

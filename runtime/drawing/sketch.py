@@ -34,17 +34,17 @@ def make_sketch(
     shapes = [*bodies(posture, plan, loose), *joints(posture, plan), *movers(posture, plan), *more]
     low, high = box or room_of(shapes, plan)
     told = [*names_of_bodies(posture, plan), *names_of_joints(posture, plan), *names_of_movers(posture, plan)]
-    told, words, corner, bottom = [*labels, *told], list[str](), high.copy(), float(low[1])
+    told, words, corner, beside = [*labels, *told], list[str](), high.copy(), list[Shape]()
     for own, label, note in insets(posture, plan.unit, low, high, touching) if inset else ():
-        shapes += own
+        beside += own
         told, words = [*told, label], [*words, note]
         corner = np.maximum(corner, box_of(own)[1] + 1.5 * plan.unit)
-        bottom = min(bottom, float(box_of(own)[0][1]) - 3.0 * plan.unit)
+        low = np.minimum(low, [low[0], float(box_of(own)[0][1]) - 3.0 * plan.unit])
     for own_shapes, label in _beside(posture, plan, low, high, arrows):
-        shapes += own_shapes
+        beside += own_shapes
         told.append(label)
-    low = np.minimum([low[0], bottom], box_of(shapes)[0] - 0.8 * plan.unit)
-    return Sketch(tuple(shapes), tuple(told), low, corner, plan.unit, tuple(words))
+    low = np.minimum(low, box_of(beside)[0] - 0.8 * plan.unit)
+    return Sketch((*shapes, *beside), tuple(told), low, corner, plan.unit, tuple(words))
 
 
 def room_of(shapes: Sequence[Shape], plan: Plan) -> tuple[Array, Array]:

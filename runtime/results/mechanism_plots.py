@@ -12,7 +12,7 @@ from gudgeon.drawing.arrows import Arrows, arrows, velocities_of
 from gudgeon.drawing.picture import draw_on
 from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture
-from gudgeon.drawing.shapes import Sketch
+from gudgeon.drawing.shapes import Line, Sketch
 from gudgeon.drawing.sketch import make_sketch, room_of_all
 from gudgeon.errors import BadValueError
 from gudgeon.language.suggestions import unknown
@@ -90,6 +90,11 @@ def draw_path(run: Result, sketch: Sketch, points: Sequence[str], ax: Axes) -> N
         ax.plot(x, y, color=colour, lw=1.4, label=name, gid=f"path-{name}", zorder=5)
         ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=colour, mew=1.0, zorder=5.1)
     ax.legend(loc="upper right", fontsize=8, framealpha=0.8)
+
+
+def path_lines(run: Result, points: Sequence[str]) -> list[Line]:
+    """The same curves as parts of a drawing."""
+    return [Line(f"path {name}", "path", np.column_stack([run[f"{name}.x"], run[f"{name}.y"]])) for name in points]
 
 
 def points_of(run: Result, names: Sequence[Any]) -> list[str]:
