@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
@@ -46,10 +47,9 @@ def page(
     told = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
     parts = {"TITLE": escape(title), "NOTE": note, "WIDTH": f"{width:.0f}", "HEIGHT": f"{height:.0f}", "PATHS": paths,
              "NAMES": texts, "DATA": told}  # fmt: skip
-    text = PAGE
-    for word, value in parts.items():
-        text = text.replace(f"@{word}@", value, 1)
-    return text
+    return re.sub(
+        f"@({'|'.join(parts)})@", lambda found: parts[found[1]], PAGE
+    )  # in one go: a title may hold such a word
 
 
 def _keys(sketch: Sketch) -> dict[str, Shape]:

@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -87,8 +88,18 @@ def test_a_page_needs_nothing_from_elsewhere(html: str) -> None:
     parser = Tags()
     parser.feed(html)
     assert parser.open == [] and "http" not in html and "@import" not in html and "url(" not in html
+    width, height = map(float, re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', html).groups())  # type: ignore[union-attr]
+    assert 300 < width < 1000 and 100 < height < 1000 and not re.search("@[A-Z]+@", html)
     ids = re.findall(r'id="([^"]+)"', html)
     assert len(set(ids)) == len(ids) and {"path-rod.head", "body-slider", "inset-wristpin"} <= set(ids)
+
+
+def test_a_title_is_text(crank: Result) -> None:
+    title = "</script><b>@DATA@ & $x$"
+    hostile = replace(crank, source=replace(crank.source, title=title), stored={})
+    shown = hostile.animate(seconds=0.2, rate=10)
+    assert shown is not None and "<b>" not in shown.html
+    assert shown.html.count("&lt;/script&gt;&lt;b&gt;@DATA@ &amp; $x$: dry") == 3
 
 
 def test_the_script_runs_to_the_last_picture(html: str, tmp_path: Path) -> None:
