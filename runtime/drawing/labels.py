@@ -63,6 +63,8 @@ class Names(Artist):
             line.draw(renderer)
         for text in self.texts:
             text.draw(renderer)
+        if left := sum(not text.get_visible() for text in self.texts):
+            self._told(left).draw(renderer)
         renderer.close_group("names")
         self.stale = False
 
@@ -74,7 +76,7 @@ class Names(Artist):
         lines = obstacles(self.sketch.shapes, to_pixels)
         room = np.array(axes.get_window_extent(renderer).extents)
         metre = float(np.hypot(*(to_pixels((1.0, 0.0)) - to_pixels((0.0, 0.0)))))
-        self.leads, taken = [], np.zeros((0, 4))
+        self.leads, self.boxes, taken = [], {}, np.zeros((0, 4))
         for text, label in zip(self.texts, self.sketch.labels, strict=True):
             text.set_figure(figure)
             text.set_position((0.0, 0.0))
@@ -83,7 +85,11 @@ class Names(Artist):
             at = to_pixels(label.place)
             middle, ring = at + self.held.get(label.part, (0.0, 0.0)), 0.0
             if label.part not in self.held:
-                middle, ring = best_place(at, half, label.way, label.clear * metre, point, lines, taken, room)
+                found = best_place(at, half, label.way, label.clear * metre, point, lines, taken, room)
+                text.set_visible(found is not None)
+                if found is None:
+                    continue
+                middle, ring = found
             self.beside[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
             text.set_position((float(middle[0]), float(middle[1])))
             box = np.array([*(middle - half), *(middle + half)])
@@ -91,6 +97,14 @@ class Names(Artist):
             self.boxes[label.part] = tuple(box.tolist())
             if ring > LED * point:
                 self.leads.append(self._lead(at, middle, half, figure))
+
+    def _told(self, left: int) -> Text:
+        """That names are missing, in the upper right corner."""
+        axes: Any = self.axes
+        told = f"{left} name{'' if left == 1 else 's'} left out: there is no room"
+        text = Text(1.0, 1.0, told, size=7.0, color="#888888", ha="right", va="bottom", transform=axes.transAxes)
+        text.set_figure(axes.get_figure(root=True))
+        return text
 
     def _lead(self, at: Array, middle: Array, half: Array, figure: Any) -> Line2D:
         edge = np.clip(at, middle - half, middle + half)
@@ -120,9 +134,10 @@ def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
 
 def best_place(
     at: Array, half: Array, way: float, clear: float, point: float, lines: Array, taken: Array, room: Array
-) -> tuple[Array, float]:
+) -> tuple[Array, float] | None:
     """The middle of a name, and how far its box is from what it names: the nearest place on no line and no other name;
-    where every place has a line, the one with the fewest. Pixels; `half` its size, `room` the picture's box."""
+    where every place has a line, the one with the fewest; None where there is no place. Pixels; `half` its size,
+    `room` the picture's box."""
     angles = np.radians([way, *ORDER])
     ways = np.column_stack([np.cos(angles), np.sin(angles)])
     fallback, fewest = at, np.inf
@@ -140,7 +155,7 @@ def best_place(
             return middles[k], reach - clear
         if costs[k] < fewest:
             fallback, fewest, far = middles[k], costs[k], reach - clear
-    return (fallback, far) if np.isfinite(fewest) else (at, 0.0)
+    return (fallback, far) if np.isfinite(fewest) else None
 
 
 def overlapping(boxes: Array, taken: Array) -> NDArray[np.bool_]:
@@ -157,7 +172,7 @@ def _inside(boxes: Array, room: Array) -> NDArray[np.bool_]:
 def crossing(box: Array, lines: Array) -> float:
     """How many segments (S, 4) meet a box (Liang and Barsky)."""
     start, span = lines[:, :2], lines[:, 2:] - lines[:, :2]
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(all="ignore"):
         one, other = (box[:2] - start) / span, (box[2:] - start) / span
     near, far = np.minimum(one, other), np.maximum(one, other)
     still = span == 0.0

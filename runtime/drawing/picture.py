@@ -19,6 +19,7 @@ from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.language.shown import in_figure
 
 LARGEST, SMALLEST = 8.0, 3.2  # inches, of the longer and the shorter side
+LEAST_UNIT, MOST = 0.042, 24.0  # inches: of half a bar's width at least, for which the longer side may grow so far
 PER_INCH = 12.0  # characters of a caption
 FEW = 28  # names that fit in the larger type
 STYLE = {"font.size": 9, "text.usetex": False, "svg.hashsalt": "gudgeon", "path.sketch": None}
@@ -61,7 +62,7 @@ def _patch(shape: Shape, role: Role, pale: bool) -> Patch:
 def size_of(sketch: Sketch, largest: float = LARGEST) -> tuple[float, float]:
     """Width and height in inches that fit a sketch."""
     width, height = (float(x) for x in sketch.high - sketch.low)
-    scale = largest / max(width, height)
+    scale = max(largest, min(MOST, LEAST_UNIT * max(width, height) / sketch.unit)) / max(width, height)
     return max(SMALLEST, width * scale), max(0.75 * SMALLEST, height * scale)
 
 

@@ -113,15 +113,15 @@ def _rail_side(posture: Posture, part: PartInfo, places: Array) -> Array:
 def _below(postures: Sequence[Posture], part: PartInfo) -> Array:
     """The direction in which a pin stands on the ground: down, unless links are there more than elsewhere."""
     end = next(end for end in part.ends if body_of(end) == GROUND)
-    angles = []
+    first, angles = postures[0], []
+    here = first.place(end)
+    bodies = {
+        body for other in first.parts("joints", "revolute", "rigid") for body in map(body_of, other.ends)
+        if body != GROUND and any(np.abs(first.place(e) - here).max() < 1e-9 for e in other.ends)
+    }  # fmt: skip
     for posture in postures:
-        here = posture.place(end)
-        for other in posture.parts("joints"):
-            held = [posture.place(e) for e in other.ends if e in posture.points]
-            if other.kind in ("revolute", "rigid") and any(float(np.hypot(*(x - here))) < 1e-9 for x in held):
-                bodies = [body_of(e) for e in other.ends if body_of(e) != GROUND]
-                spans = [place - here for body in bodies for place in anchors(posture, body).values()]
-                angles += [np.arctan2(y, x) for x, y in spans if np.hypot(x, y) > 1e-9]
+        spans = [place - here for body in sorted(bodies) for place in anchors(posture, body).values()]
+        angles += [np.arctan2(y, x) for x, y in spans if np.hypot(x, y) > 1e-9]
     ways = np.array([[0.0, -1.0], [-1.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     if not angles:
         return ways[0]

@@ -50,6 +50,16 @@ class Posture:
         return {body.name: body for body in self.source.bodies}
 
     @cached_property
+    def held(self) -> Mapping[str, tuple[str, ...]]:
+        """Of each body the points that are held or named, in this order."""
+        used = [end for part in self.source.parts if part.kind not in OF_BODIES for end in part.ends]
+        used += [name for name in self.points if name.partition(".")[2] not in ("origin", "com")]
+        found = dict[str, list[str]]()
+        for name in dict.fromkeys(used):
+            found.setdefault(body_of(name), []).append(name)
+        return {body: tuple(names) for body, names in found.items()}
+
+    @cached_property
     def _slots(self) -> Mapping[str, int]:
         return {slot.address: k for k, slot in enumerate(self.source.slots)}
 
@@ -116,12 +126,7 @@ def body_of(end: str) -> str:
 def anchors(posture: Posture, body: str) -> dict[str, Array]:
     """Points of a body that its outline goes through, by name: what joints, drives and forces hold, a bar's ends, what
     the file names; without two of these the centre of mass too."""
-    used = [
-        end for part in posture.source.parts if part.kind not in OF_BODIES for end in part.ends if body_of(end) == body
-    ]
-    own = [name for name in posture.points if body_of(name) == body]
-    used += [name for name in own if name.partition(".")[2] not in ("origin", "com")]
-    found = {name: posture.place(name) for name in dict.fromkeys(used)}
+    found = {name: posture.place(name) for name in posture.held.get(body, ())}
     if len(distinct(found.values())) < 2:
         found[f"{body}.com"] = posture.centre(body)
     return found

@@ -24,7 +24,7 @@ from gudgeon.drawing.labels import Names  # noqa: E402
 from gudgeon.drawing.picture import as_bytes, figure_of  # noqa: E402
 from gudgeon.drawing.plan import make_plan  # noqa: E402
 from gudgeon.drawing.posture import Posture  # noqa: E402
-from gudgeon.drawing.shapes import Disc, Line  # noqa: E402
+from gudgeon.drawing.shapes import Disc, Label, Line  # noqa: E402
 from gudgeon.drawing.sketch import make_sketch  # noqa: E402
 from gudgeon.errors import GudgeonError  # noqa: E402
 from gudgeon.generator.pipeline import closed_linkage  # noqa: E402
@@ -108,6 +108,18 @@ def test_pins_and_bodies_are_where_the_start_has_them(file: Path) -> None:
         one, other = (shape for shape in wheels if isinstance(shape, Disc))
         span, inside = float(np.hypot(*(other.centre - one.centre))), part.options["internal"] == "true"
         assert span == pytest.approx(other.radius - one.radius if inside else other.radius + one.radius, rel=1e-6)
+
+
+def test_names_without_room_are_left_out_and_counted() -> None:
+    """As many names as do not fit at one place: those that are there lie apart, the others are told."""
+    sketch = make_sketch(drawn(ROOT / "mechanisms/pendulum.yaml").posture)
+    crowd = tuple(Label(f"joint x{k}", "joint", f"a_long_name_{k}", np.zeros(2)) for k in range(400))
+    picture = figure_of([replace(sketch, labels=crowd)], [""], "x")
+    svg = as_bytes(picture, ".svg").decode()
+    placed = dict(boxes(picture))
+    assert 10 < len(placed) < 400 and f"{400 - len(placed)} names left out" in svg
+    for a, b in combinations(placed.values(), 2):
+        assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
 
 
 BAR = """format: gudgeon/1
