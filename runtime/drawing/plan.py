@@ -15,11 +15,8 @@ from gudgeon.model.compiled import Array
 
 SLIDING = ("translational", "point_on_line")
 WIDE = 3.0  # units: a clearance that needs no magnifying
-SHARE, LEAST, OF_LINK = (
-    0.017,
-    0.007,
-    0.16,
-)  # half a bar's width: of the whole, at least, and at most of the shortest link
+# half a bar's width as a share of the whole, the least, and as the most of the shortest link
+SHARE, LEAST, OF_LINK = 0.017, 0.005, 0.16
 
 
 @dataclass(frozen=True, eq=False)
