@@ -43,11 +43,16 @@ def derive(
     return model
 
 
-def closed_linkage(mechanism: Mechanism, scene: str) -> tuple[NumPyLinkage, list[int]]:
-    """The closed linkage of a scene in numbers, and which of its rows the scene keeps: joints with play are open."""
+def closed_linkage(
+    mechanism: Mechanism, scene: str, given: Mapping[str, float | str] | None = None
+) -> tuple[NumPyLinkage, list[int]]:
+    """The closed linkage of a scene in numbers, and which of its rows the scene keeps: joints with play are open.
+
+    given: numbers of the run by address, as `simulate` takes them.
+    """
     model = make_model(make_scene(mechanism, scene))
     kept = {row.name for row in model.rows}
-    return NumPyLinkage(model, describe(model)), [r for r, row in enumerate(model.all_rows) if row.name in kept]
+    return NumPyLinkage(model, describe(model), given), [r for r, row in enumerate(model.all_rows) if row.name in kept]
 
 
 # What `Model.written` offers: a name each, and what is made of the absolute formulation's functions.

@@ -15,7 +15,28 @@ from typing import Annotated, Any, TypeVar
 
 import typer
 
-from gudgeon.commands.options import Csv, End, File, Json, Laws, Mark, Out, Quick, Scenes, Set, path, whole
+from gudgeon.commands.options import (
+    At,
+    Axis,
+    Box,
+    Branches,
+    Csv,
+    End,
+    File,
+    Json,
+    Laws,
+    Mark,
+    OneScene,
+    Out,
+    Picture,
+    Quick,
+    Range,
+    Rest,
+    Scenes,
+    Set,
+    path,
+    whole,
+)
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 from gudgeon.errors import GudgeonError, MemoryShortage
 from gudgeon.language.shown import visible
@@ -89,10 +110,7 @@ def _root(
 def run(
     file: File,
     scene: Scenes = None,
-    set_: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a number: c=0.5mm, bodies.L2.mass='0.3 kg'."),
-    ] = None,
+    set_: Set = None,
     t_end: Annotated[
         str | None, typer.Option("--t-end", help="Until when, in s or with a unit. [default: the scene's, or 1 s]")
     ] = None,
@@ -139,8 +157,7 @@ def run(
 def check(
     file: File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
-    branches: Annotated[bool, typer.Option("--branches", help="Assemblies, and the guess that picks each.")] = False,
-    json: Json = False, laws: Laws = None,
+    branches: Branches = False, json: Json = False, laws: Laws = None,
 ) -> int:  # fmt: skip
     """Is a mechanism file valid, does it assemble, and what can move? Mistakes are told with line and column.
 
@@ -175,7 +192,7 @@ def emit(
 def equations(
     file: File,
     target: Annotated[Path, typer.Option("--out", "-o", parser=path, metavar="PATH", help="x.tex, x.txt or x.html.")],
-    scene: Annotated[str, typer.Option("--scene", "-s", help="Which scene.")] = "ideal",
+    scene: OneScene = "ideal",
     laws: Laws = None,
 ) -> int:
     """Write the equations of a scene as LaTeX, text or HTML.
@@ -185,6 +202,23 @@ def equations(
     from gudgeon.commands.equations import write_equations
 
     return write_equations(file, target, scene)
+
+
+@app.command()
+@_told
+def draw(
+    file: File, scene: OneScene = "ideal", at: At = None, target: Picture = None, set_: Set = None,
+    branches: Branches = False, laws: Laws = None,
+) -> int:  # fmt: skip
+    """Draw a mechanism: bodies, joints, drives, forces, joints with play magnified.
+
+    A start that does not close is drawn with what does not reach, in red, and then told as `check` tells it.
+
+    Example: gudgeon draw engine.yaml --scene worn --at 20ms -o engine.png
+    """
+    from gudgeon.commands.draw import Request, draw_file
+
+    return draw_file(Request(file, scene, at, target, tuple(set_ or ()), branches))
 
 
 @app.command()
@@ -230,22 +264,7 @@ def bench(
 def verdicts(
     file: File, scene: Scenes = None, set_: Set = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}.")] = "auto",
-    at: Annotated[
-        str | None, typer.Option("--at", help="Step or tolerance where no axis is one. [default: 1e-8, or the scene's]")
-    ] = None,
-    axis: Annotated[
-        list[str] | None,
-        typer.Option("--axis", metavar="NAME=LOW..HIGH:COUNT", help="One or two axes of the map: rtol, step,"
-                     " clearance, stiffness, viscosity, gains or any address; also NAME=A,B,C."),
-    ] = None,
-    box: Annotated[
-        int | None,
-        typer.Option("--box", parser=whole(0), metavar="COUNT",
-                     help="All corners of the box of --range and so many Sobol points."),
-    ] = None,
-    range_: Annotated[
-        list[str] | None, typer.Option("--range", metavar="NAME=LOW..HIGH", help="An edge of the box.")
-    ] = None,
+    at: Rest = None, axis: Axis = None, box: Box = None, range_: Range = None,
     t_end: End = None, out: Out = Path("out"), csv: Csv = None, quick: Quick = False, mark: Mark = None,
     json: Json = False, laws: Laws = None,
 ) -> int:  # fmt: skip

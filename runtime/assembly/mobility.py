@@ -62,6 +62,15 @@ def find_mobility(
     return Mobility(len(names), len(kept), free.shape[1], along, _loose(linkage, matrices[least]))
 
 
+def free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:
+    """An orthonormal basis of the velocities that all rows of the closed linkage let pass at q, (n, freedoms); angles
+    count as arcs at the mechanism's size."""
+    scale = np.where(angles(linkage.source), 1.0 / mechanism_size(linkage, p), 1.0)
+    with np.errstate(all="ignore"):
+        matrix = linkage.closed_phi_q(t, q, p) * scale
+    return _free_motions(matrix) * scale[:, None] if np.isfinite(matrix).all() else np.zeros((len(q), 0))
+
+
 def check_freedoms(wanted: float, where: Location, found: Mobility) -> None:
     """BadValueError where a file says that its closed linkage has another number of degrees of freedom."""
     if found.freedoms != wanted:

@@ -193,9 +193,14 @@ def branches(found: Findings) -> Iterator[str]:
     count = len(found.assemblies)
     yield f"{count} assembl{'y' if count == 1 else 'ies'} found at the start; what picks each, in start: {{guess: …}}"
     for number, one in enumerate(found.assemblies, 1):
-        guess = ", ".join(f"{name}: {_value(name, x)}" for name, x in one.guess.items()) or "none needed"
         here = "  as the file has it" if one.is_start else ""
-        yield f"  {number}  {{{guess}}}{here}" if one.guess else f"  {number}  {guess}{here}"
+        yield f"  {number}  {guess_text(one)}{here}"
+
+
+def guess_text(one: Assembly) -> str:
+    """What picks an assembly, as it may stand in the file."""
+    guess = ", ".join(f"{name}: {_value(name, x)}" for name, x in one.guess.items())
+    return f"{{{guess}}}" if guess else "none needed"
 
 
 def data(found: Findings) -> dict[str, Any]:

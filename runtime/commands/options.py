@@ -32,8 +32,15 @@ def path(text: str) -> Path:
 
 File = Annotated[str, typer.Argument(metavar="FILE", help="A YAML file, or the name of a shipped mechanism.")]
 Scenes = Annotated[list[str] | None, typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]")]
+OneScene = Annotated[str, typer.Option("--scene", "-s", help="Which scene.")]
+Branches = Annotated[bool, typer.Option("--branches", help="Assemblies, and the guess that picks each.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
 Out = Annotated[Path, typer.Option("--out", parser=path, metavar="PATH", help="Folder for what is written.")]
+At = Annotated[str | None, typer.Option("--at", metavar="TIME", help="Simulate to there: 0.2s. [default: the start]")]
+Picture = Annotated[
+    Path | None,
+    typer.Option("--out", "-o", parser=path, metavar="PATH", help="x.svg, .png or .pdf. [default: out/NAME_SCENE.svg]"),
+]
 Laws = Annotated[
     list[str] | None,
     typer.Option("--laws", metavar="FILE.py", help="A force law of your own: the file is run as Python; repeatable."),
@@ -43,9 +50,34 @@ Quick = Annotated[bool, typer.Option("--quick", help="Fewer runs and a shorter w
 Mark = Annotated[
     str | None, typer.Option("--mark-step", metavar="STEP", help="Show and tell what becomes of this step: 0.1ms.")
 ]
-Set = Annotated[list[str] | None, typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a number: c=0.5mm.")]
+Set = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a number: c=0.5mm, bodies.L2.mass='0.3 kg'."),
+]
 End = Annotated[str | None, typer.Option("--t-end", help="Length of the measured runs, in s or with a unit.")]
 Csv = Annotated[
     Path | None,
     typer.Option("--csv", parser=path, metavar="PATH", help="Where the table goes, the picture beside it."),
 ]
+Rest = Annotated[
+    str | None, typer.Option("--at", help="Step or tolerance where no axis is one. [default: 1e-8, or the scene's]")
+]
+Axis = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--axis",
+        metavar="NAME=LOW..HIGH:COUNT",
+        help="One or two axes of the map: rtol, step, clearance, stiffness, viscosity, gains or any address; also"
+        " NAME=A,B,C.",
+    ),
+]
+Box = Annotated[
+    int | None,
+    typer.Option(
+        "--box",
+        parser=whole(0),
+        metavar="COUNT",
+        help="All corners of the box of --range and so many Sobol points.",
+    ),
+]
+Range = Annotated[list[str] | None, typer.Option("--range", metavar="NAME=LOW..HIGH", help="An edge of the box.")]

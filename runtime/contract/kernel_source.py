@@ -145,6 +145,21 @@ class ClearanceInfo:
 
 
 @dataclass(frozen=True)
+class PartInfo:
+    """A joint, drive or force element as the file has it, for who draws it; its numbers are slots by their addresses.
+
+    `ends` are points, "L1.head", in the file's order. Of what joins bodies or moves one they are centres of mass,
+    "L1.com", and "ground." is the ground.
+    """
+
+    section: str  # "joints", "drives" or "forces"
+    name: str
+    kind: str  # "revolute", "angle", "spring_damper", …
+    ends: tuple[str, ...]
+    options: Mapping[str, str]  # words: {"carrier": "L3", "internal": "true"}, of a drive {"coordinate": "y"}
+
+
+@dataclass(frozen=True)
 class KernelSource:
     """A compiled-to-be scene. `files` are C texts by name; `main` is the one to compile."""
 
@@ -206,6 +221,7 @@ class KernelSource:
 
     peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for
     start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
+    parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements: what is drawn
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
 
     @property
@@ -245,7 +261,7 @@ class KernelSource:
             "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
             "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
-            "written": WrittenInfo, "simulate_written": WrittenInfo,
+            "written": WrittenInfo, "simulate_written": WrittenInfo, "parts": PartInfo,
         }  # fmt: skip
         for key, kind in kinds.items():
             data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))

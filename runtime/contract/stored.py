@@ -109,6 +109,7 @@ _OF_PARTS: dict[str, dict[str, Callable[[Data, Data], Any]]] = {
         "row": lambda data, drive: _row_of(data, drive["name"]),
         "unit": lambda data, drive: _unit(data, drive["name"]),
     },
+    "parts": {"options": lambda data, part: {}},
     "slots": {"unit": lambda data, slot: base_units(slot["dimension"]), "words": lambda data, slot: []},
 }  # fmt: skip
 _OF_STORY: dict[str, Callable[[Data], Any]] = {

@@ -17,9 +17,9 @@ import numpy as np
 
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import write_bytes
+from gudgeon.language.plot_units import drawn, label, scale
 from gudgeon.language.shown import in_figure
 from gudgeon.results import trace
-from gudgeon.results.plot_units import drawn, label, scale
 from gudgeon.results.series import rates
 
 try:
@@ -108,8 +108,8 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
     """The picture of `gudgeon run`: what the play in the joints does, scene by scene.
 
     Left: error of the first two watched names against the ideal scene, with their rates, and the forces
-    at the joints with play. Right: journal orbits. `reference` is the ideal run at the same times and
-    parameters, one for all scenes or one a scene. Scenes without play are shown as they are.
+    at the joints with play. Right: the mechanism where it starts, and journal orbits. `reference` is the ideal run at
+    the same times and parameters, one for all scenes or one a scene. Scenes without play are shown as they are.
     """
     played = {scene: run for scene, run in runs.items() if run.source.clearances}
     references = dict(reference) if isinstance(reference, Mapping) else dict.fromkeys(played, reference)
@@ -120,7 +120,8 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
     with matplotlib.rc_context(STYLE):
         picture = Figure(figsize=(12, 9), dpi=100)
         picture.set_layout_engine("constrained", w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)
-        left, right = _halves(picture, len(played) if joints else 0)
+        first = next(iter(runs.values()))
+        left, drawn, right = _parts(picture, len(played) if joints else 0, bool(first.source.parts))
         rows = 3 + len(joints)
         grid = left.add_gridspec(rows, max(1, len(watch)))
         for column, name in enumerate(watch):
@@ -128,18 +129,33 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
         forces = [left.add_subplot(grid[3 + k, :]) for k in range(len(joints))]
         _draw_forces(forces, joints, played, references, colours)
         left.align_ylabels()
+        if drawn is not None:
+            _draw_mechanism(drawn, first)
         if right is not None:
             _draw_orbits(right, joints, played, colours)
         _head(picture, shown, colours, bool(played))
     return picture
 
 
-def _halves(picture: Figure, orbits: int) -> tuple[Any, Any]:
-    """The left part for curves over time, the right one for orbits; None where there is no orbit."""
-    if not orbits:
-        return picture.subfigures(1, 1), None
-    parts: Any = picture.subfigures(1, 2, width_ratios=[1.0, 0.5 if orbits == 1 else 0.9])
-    return parts[0], parts[1]
+def _parts(picture: Figure, orbits: int, drawn: bool) -> tuple[Any, Any, Any]:
+    """The left part for curves over time, on the right one for the mechanism and one for orbits; None of what there is
+    nothing to show."""
+    if not (orbits or drawn):
+        return picture.subfigures(1, 1), None, None
+    parts: Any = picture.subfigures(1, 2, width_ratios=[1.0, 0.5 if orbits == 1 and not drawn else 0.9])
+    left, right = parts
+    if not (orbits and drawn):
+        return left, right if drawn else None, right if orbits else None
+    above, below = right.subfigures(2, 1, height_ratios=[0.8, 1.0])
+    return left, above, below
+
+
+def _draw_mechanism(part: Any, run: Result) -> None:
+    """Where the run starts; how its joints with play fare is told by the other panels."""
+    from gudgeon.drawing.picture import draw_on
+    from gudgeon.results.mechanism_plots import start_sketch
+
+    draw_on(part.add_subplot(), start_sketch(run))
 
 
 def _draw_motion(

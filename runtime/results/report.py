@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon.language.plot_units import quantity, scale
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.peaks import Extreme, of_samples, table_rows
-from gudgeon.results.plot_units import quantity, scale
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, drive_series, rates
 

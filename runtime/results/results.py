@@ -11,10 +11,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
@@ -22,6 +21,7 @@ from gudgeon.integrators.trajectory import no_events
 from gudgeon.language.wanted import text
 from gudgeon.model.choices import said
 from gudgeon.results.diagnostics import Diagnostics, Extremes
+from gudgeon.results.state import Array, State
 
 if TYPE_CHECKING:
     import pandas
@@ -29,34 +29,10 @@ if TYPE_CHECKING:
 
     from gudgeon.integrators.trace import Trace
     from gudgeon.model.compiled import CompiledModel, Evaluation
+    from gudgeon.results.animation import Animation
     from gudgeon.results.at_events import AtEvents
     from gudgeon.results.run_plots import Plot
     from gudgeon.results.series import Series
-
-Array: TypeAlias = NDArray[Any]
-
-
-@dataclass(frozen=True, eq=False)
-class State:
-    """Where a run ended: what a further run needs to go on from there."""
-
-    mechanism: str
-    scene: str
-    t: float
-    q: Array  # (n,)
-    v: Array  # (n,)
-    state: Array  # (n_clearances,) 0 free, 1 impact, 2 contact
-    memory: Array  # (n_clearances,) δ̇⁻ in m/s, NaN while free
-    parameters: Mapping[str, float | str]  # address -> what was overridden: a further run's, unless given others
-    sha256: str = ""  # of the mechanism's file; "": made by hand
-    overrides: tuple[tuple[str, str | float | bool], ...] = ()  # (address, value) with which the file was loaded
-    formulation: str = ""  # what was integrated; either goes on from the other's
-
-    def __getstate__(self) -> dict[str, Any]:
-        return self.__dict__ | {"parameters": dict(self.parameters)}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state | {"parameters": MappingProxyType(state["parameters"])})
 
 
 @dataclass(eq=False)
@@ -224,6 +200,21 @@ class Result:
         from gudgeon.results.run_plots import Plot
 
         return Plot(self)
+
+    def animate(
+        self, path: str | os.PathLike[str] | None = None, *, seconds: float | None = None, rate: float = 25.0,
+        points: Iterable[str] = (), velocities: bool = False, forces: bool = False,
+    ) -> Animation | None:  # fmt: skip
+        """The run as a moving picture: x.gif, x.mp4 (where ffmpeg is) or x.html, a page of its own that plays.
+
+        `seconds` it lasts (None: as long as the run, but 6 where that is under 2 or over 20), with `rate` pictures a
+        second; `points` whose paths are drawn, `velocities` and `forces` as in `plot.mechanism`. Joints with play are
+        magnified beside it, red in pictures before which their surfaces met. Of a page, or without a path, what a
+        notebook shows. Raises BadValueError, UnknownNameError; GudgeonError without ffmpeg; OutputError.
+        """
+        from gudgeon.results import animation
+
+        return animation.animate(self, path, animation.wanted_of(self, seconds, rate, points, velocities, forces))
 
     def value_of(self, name: str) -> Any:
         """What a name in an output's expression stands for: a series, t, or a parameter."""

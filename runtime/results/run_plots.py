@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import io
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.wanted import told
 from gudgeon.results import trace
-from gudgeon.results.plot_units import drawn, label
 from gudgeon.results.plots import (
     COLOURS,
     IDEAL,
@@ -33,6 +33,7 @@ from matplotlib.axes import Axes  # isort: skip
 from matplotlib.figure import Figure  # isort: skip
 
 if TYPE_CHECKING:
+    from gudgeon.drawing.shapes import Sketch
     from gudgeon.results.results import Result
 
 
@@ -50,7 +51,7 @@ class Plot:
         """A panel for each unit, the panels wrapped; without names what a reader wants to see (report.py)."""
         from gudgeon.results.report import default_watch
 
-        wanted = [name for of in names for name in (of if isinstance(of, (list, tuple)) else (of,))]
+        wanted = _flat(names)
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
         forces = {f"{joint}.F": trace.force(run, joint) for joint in joints}  # with the extremes of all steps
@@ -102,6 +103,47 @@ class Plot:
             ax = ax or _axes(4.2, 4.4)
             draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))
         return ax
+
+
+    def mechanism(
+        self, t: float | str = 0.0, *, velocities: bool = False, forces: bool = False, ax: Axes | None = None
+    ) -> Axes:
+        """The mechanism where it is at t (s, or '0.2 s'), joints with play magnified beside it.
+
+        `velocities`: arrows of m/s at its points, to one scale for the run; `forces`: of N at its joints, on the second
+        body. Between samples it lies on the cubic through both. BadValueError for a time outside the run.
+        """
+        from gudgeon.drawing.picture import draw_on
+        from gudgeon.results.mechanism_plots import sketch_at
+        from gudgeon.results.postures import time_of
+
+        sketch, caption = sketch_at(self.run, t, velocities, forces), f"t = {time_of(self.run, t):.6g} s"
+        return self._drawn(sketch, ax, lambda on: draw_on(on, sketch), f"{caption_of(self.run)}, {caption}")
+
+    def path(self, *points: str | Sequence[str], ax: Axes | None = None) -> Axes:
+        """Curves of points over the run ("coupler.tracer"; "S9" is its centre of mass), the mechanism faintly behind.
+
+        UnknownNameError names the nearest point.
+        """
+        from gudgeon.results.mechanism_plots import draw_path, path_sketch, points_of
+
+        names, sketch = points_of(self.run, _flat(points)), path_sketch(self.run)
+        return self._drawn(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption_of(self.run))
+
+    def _drawn(self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str) -> Axes:
+        from gudgeon.drawing.picture import size_of
+
+        with matplotlib.rc_context(STYLE):
+            ax = ax or _axes(*size_of(sketch, 7.0))
+            draw(ax)
+            ax.set_title(caption)
+            ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
+        return ax
+
+
+def _flat(names: Iterable[str | Sequence[str]]) -> list[str]:
+    """Names as they come, or in lists."""
+    return [name for of in names for name in (of if isinstance(of, (list, tuple)) else (of,))]
 
 
 class ShownFigure(Figure):

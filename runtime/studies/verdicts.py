@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gudgeon.results.plot_units import quantity
+from gudgeon.language.plot_units import quantity
 from gudgeon.results.results import Result
 from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, difference, size
 from gudgeon.studies.words import rough_share, seconds, share

@@ -137,6 +137,7 @@ def test_equations_wants_a_known_suffix(call: Gudgeon, pump: str, tmp_path: Path
     "line",
     [
         "equations PUMP -o FILE/x.tex", "equations PUMP -o LONG.tex", "equations PUMP -o LONG/x.html",
+        "draw PUMP -o LONG.svg", "draw PUMP -o FILE/x.svg", "draw PUMP -o x.gif", "draw pipe.yaml",
         "emit PUMP -o FILE", "emit PUMP -o FILE/x", "emit PUMP -o LONG", "run PUMP --out FILE", "run PUMP --out LONG",
         "run PUMP --out x/LONG/y", "run LONG.yaml", "check LONG.yaml", "bench PUMP --csv LONG.csv",
         "map PUMP --csv FILE/x.csv", "map PUMP --out LONG", "run /dev/zero", "check /dev", "check pipe.yaml",
@@ -168,7 +169,7 @@ def test_a_variable_that_cannot_be_is_told(
 
 def test_version_and_help(call: Gudgeon) -> None:
     assert call("--version").stdout == f"gudgeon {gudgeon.__version__}\n"
-    for command in ("run", "check", "emit", "equations", "bench", "map"):
+    for command in ("run", "check", "draw", "emit", "equations", "bench", "map"):
         assert "Example: gudgeon" in call(command, "--help").stdout
 
 

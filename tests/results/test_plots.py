@@ -18,8 +18,8 @@ from hypothesis import strategies as st
 pytest.importorskip("matplotlib")
 
 from gudgeon.errors import GudgeonError  # noqa: E402
+from gudgeon.language.plot_units import PREFIXES, pretty, quantity, scale  # noqa: E402
 from gudgeon.results import plots  # noqa: E402
-from gudgeon.results.plot_units import PREFIXES, pretty, quantity, scale  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
 

@@ -16,6 +16,7 @@ from gudgeon.contract.kernel_source import (
     EventInfo,
     JointInfo,
     KernelSource,
+    PartInfo,
     PointInfo,
     RowInfo,
     SeriesInfo,
@@ -29,7 +30,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes
 from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
-from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism, Quantity
+from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism, PointRef, Quantity
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.language.tree import names, to_json
 from gudgeon.language.units import Dimension
@@ -82,6 +83,7 @@ def describe(
         start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)), written=tuple(_written(model)),
         simulate_written=tuple(_simulate_written(model)), states=_states(model), story=story, lanes=lanes,
+        parts=tuple(_parts(mechanism)),
     )  # fmt: skip
 
 
@@ -95,6 +97,22 @@ def _lines(mechanism: Mechanism) -> tuple[tuple[str, int], ...]:
     """Where joints and drives stand in the file."""
     joints = [(name, joint.where.line) for name, joint in mechanism.joints.items()]
     return (*joints, *((name, drive.where.line) for name, drive in mechanism.drives.items()))
+
+
+def _parts(mechanism: Mechanism) -> Iterator[PartInfo]:
+    """What the file joins, drives and loads, and where."""
+    for joint in mechanism.joints.values():
+        yield PartInfo("joints", joint.name, joint.kind, _ends(joint.first, joint.second), dict(joint.options))
+    for drive in mechanism.drives.values():
+        ends = _ends(*drive.points) or tuple(f"{body}.com" for body in (drive.body, drive.reference) if body)
+        options = {"coordinate": drive.coordinate} if drive.kind == "coordinate" else {}
+        yield PartInfo("drives", drive.name, drive.kind, ends, options)
+    for force in mechanism.forces.values():
+        yield PartInfo("forces", force.name, force.kind, _ends(*force.targets), dict(force.options))
+
+
+def _ends(*points: PointRef) -> tuple[str, ...]:
+    return tuple(f"{point.body}.{point.point}" for point in points)
 
 
 def _states(model: Model) -> tuple[str, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,11 +13,16 @@ from gudgeon.generator.targets.numpy.module import Array, ClosedLinkage
 
 
 class NumPyLinkage:
-    """Functions of (t, q, p) with p (slots, then derived numbers) in the order of `source`; `p` has the defaults."""
+    """Functions of (t, q, p) with p (slots, then derived numbers) in the order of `source`.
 
-    def __init__(self, model: Model, source: KernelSource) -> None:
+    `p` has the defaults, or what is `given` as ClosedLinkage.prepare takes it.
+    """
+
+    def __init__(
+        self, model: Model, source: KernelSource, given: Mapping[str, float | str] | None = None
+    ) -> None:
         self.source, self.n, self.closed = source, len(model.q), ClosedLinkage(model)
-        self.defaults = self.closed.prepare()
+        self.defaults = self.closed.prepare(given)
         slots, count = model.slots, len(source.slots)
         entries = [entry.symbol for entry in slots.entries.values()]  # the source's, then those that came behind it
         symbols = [*entries[:count], *list(slots.derived)[: len(source.derived)], *entries[count:]]

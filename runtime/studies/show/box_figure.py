@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from gudgeon.language.plot_units import label, pretty, quantity
 from gudgeon.language.shown import in_figure
 from gudgeon.model.compiled import Array
-from gudgeon.results.plot_units import label, pretty, quantity
 from gudgeon.results.plots import IDEAL, STYLE
 from gudgeon.studies.box import Range
 from gudgeon.studies.map import VerdictBox

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from gudgeon.results.plot_units import quantity
+from gudgeon.language.plot_units import quantity
 from gudgeon.studies.axes import Axis
 from gudgeon.studies.map import VerdictMap
 from gudgeon.studies.runs import Setting

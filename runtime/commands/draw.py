@@ -1,0 +1,221 @@
+"""`gudgeon draw`: a mechanism at its start, at a time of its motion, or in all its assemblies, as a picture.
+
+The start needs no compiler: the linkage is closed as `check` closes it. What would stop `check` is drawn, and raised
+once the picture is written.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.commands.common import check_addresses, check_file, chosen_scenes, need_suffix, settings
+from gudgeon.commands.progress import progress_bar, status_line
+from gudgeon.errors import AssemblyError, BadValueError, GudgeonError
+from gudgeon.files.writing import write_bytes
+from gudgeon.language.quantities import number_of_text
+from gudgeon.loading.find import find_mechanism, read_bytes
+from gudgeon.model.parameters import check, spaced
+from gudgeon.waiting.working import working
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from gudgeon.assembly.closure import Closure
+    from gudgeon.drawing.posture import Posture
+    from gudgeon.drawing.shapes import Sketch
+    from gudgeon.generator.mechanism.mechanism import Mechanism
+    from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
+    from gudgeon.model.compiled import Array
+
+SUFFIXES = (".svg", ".png", ".pdf")
+
+
+@dataclass(frozen=True)
+class Request:
+    """The command line, as typed."""
+
+    file: str
+    scene: str
+    at: str | None
+    target: Path | None
+    settings: tuple[str, ...]
+    branches: bool
+
+
+def draw_file(request: Request) -> int:
+    """Draw and write; what `check` would complain of is raised afterwards."""
+    if request.at is not None and request.branches:
+        raise BadValueError("--branches with --at: assemblies are those of the start", hint="leave one of them out")
+    wanted = settings(request.settings)
+    chosen_scenes(request.file, (request.scene,))
+    file = find_mechanism(request.file)
+    target = request.target or Path("out") / f"{file.stem}_{request.scene}.svg"
+    need_suffix(target, SUFFIXES)
+    check_file("--out", target)
+    from gudgeon.results import plots  # noqa: F401  (says where matplotlib is missing)
+
+    if request.at is not None:
+        picture, failure = _moved(request, request.at, wanted), None
+    else:
+        with status_line(), working(f"deriving {file.stem}, scene {request.scene}"):
+            picture, failure = _start(request, file, wanted)
+    from gudgeon.drawing.picture import as_bytes
+
+    write_bytes(target, as_bytes(picture, target.suffix))
+    print(f"wrote {target}")
+    if failure is not None:
+        raise failure
+    return 0
+
+
+def _moved(request: Request, at: str, wanted: Mapping[str, float | str]) -> Figure:
+    """At a time of the motion."""
+    from gudgeon.drawing.picture import figure_of
+    from gudgeon.results.mechanism_plots import sketch_at
+    from gudgeon.simulation.from_file import load
+
+    t_end = number_of_text(spaced(at), "--at", (0, 0, 1))
+    with status_line():
+        simulation = load(request.file, request.scene)
+    check_addresses(wanted, request.file, [simulation.source])
+    with progress_bar() as bar:
+        run = simulation.simulate(t_end, parameters=wanted, progress=bar(request.scene), peaks=())
+    if run.diagnostics.interrupted:
+        raise KeyboardInterrupt
+    source, t = run.source, float(run.t[-1])
+    return figure_of([sketch_at(run, t)], [""], _caption(source.title or source.mechanism, request.scene, t))
+
+
+def _caption(title: str, scene: str, t: float) -> str:
+    return f"{title}: {scene}, t = {t:.6g} s"
+
+
+def _start(request: Request, file: Path, wanted: Mapping[str, float | str]) -> tuple[Figure, GudgeonError | None]:
+    """At the start, or as near to it as the linkage closes; with what is wrong with it."""
+    from gudgeon.assembly.closure import Closure
+    from gudgeon.drawing.picture import figure_of
+    from gudgeon.generator.pipeline import closed_linkage
+    from gudgeon.generator.reader.read import read_mechanism
+
+    mechanism = read_mechanism(read_bytes(file), str(file))
+    linkage, _ = closed_linkage(mechanism, request.scene)
+    if wanted:
+        check_addresses(wanted, request.file, [linkage.source])
+        linkage, _ = closed_linkage(mechanism, request.scene, wanted)
+    check(linkage.source, linkage.p[: len(linkage.source.slots) + len(linkage.source.derived)])
+    closure = Closure(linkage, linkage.p, 0.0)
+    with np.errstate(all="ignore"):
+        q, closed = closure.nearest()
+    caption = _caption(mechanism.title or mechanism.name, request.scene, 0.0)
+    if not closed:
+        return _open(mechanism, closure, q, caption)
+    v, failure = _velocities(closure, q)
+    if request.branches:
+        sketches, titles = _assemblies(mechanism, closure, q)
+        return figure_of(sketches, titles, caption), failure
+    return figure_of(_sketches(mechanism, closure, [_posture(linkage, q, v)]), [""], caption), failure
+
+
+def _velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError | None]:
+    from gudgeon.assembly.start import velocities
+
+    try:
+        return velocities(closure, q), None
+    except AssemblyError as error:
+        return None, error
+
+
+def _posture(linkage: NumPyLinkage, q: Array, v: Array | None) -> Posture:
+    from gudgeon.drawing.posture import Posture
+
+    loads = _loads(linkage, q, np.zeros_like(q) if v is None else v)
+    return Posture(linkage.source, linkage.p, q, 0.0, v, loads)
+
+
+def _sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Posture]) -> list[Sketch]:
+    """Closed linkages, with what may move without being meant to; all to one scale."""
+    from gudgeon.assembly.mobility import find_mobility
+    from gudgeon.drawing.failures import freedoms
+    from gudgeon.drawing.plan import make_plan
+    from gudgeon.drawing.sketch import make_sketch, room_of_all
+
+    with np.errstate(all="ignore"):
+        found = find_mobility(closure.linkage, closure.p, postures[0].q)
+    plans, sketches = [make_plan([posture]) for posture in postures], []
+    unit = min(plan.unit for plan in plans)
+    plans = [replace(plan, unit=unit) for plan in plans]
+    box = room_of_all(postures, plans)
+    marked = found.loose or (found.freedoms and mechanism.freedoms is None)
+    for posture, plan in zip(postures, plans, strict=True):
+        shapes, labels = freedoms(closure, posture, unit, found.loose) if marked else ([], [])
+        loose = frozenset(found.loose)
+        sketches.append(make_sketch(posture, plan, more=shapes, labels=labels, loose=loose, box=box))
+    return sketches
+
+
+def _open(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Figure, GudgeonError]:
+    """As near to closing as it comes, with what does not reach."""
+    from gudgeon.assembly.failures import not_closed
+    from gudgeon.drawing.failures import gaps
+    from gudgeon.drawing.picture import figure_of
+    from gudgeon.drawing.sketch import make_sketch
+
+    failure = not_closed(closure, q)
+    if not (np.isfinite(q).all() and np.isfinite(closure.residual(q)).all()):
+        raise failure
+    posture = _posture(closure.linkage, q, None)  # type: ignore[arg-type]
+    shapes, labels = gaps(closure, posture)
+    sketch = make_sketch(posture, more=shapes, labels=labels)
+    return figure_of([sketch], [""], f"{caption}: it does not close"), failure
+
+
+def _assemblies(mechanism: Mechanism, closure: Closure, q: Array) -> tuple[list[Sketch], list[str]]:
+    """Of each a sketch and what picks it, the start first."""
+    from gudgeon.assembly.branches import find_assemblies
+    from gudgeon.assembly.mobility import find_mobility
+    from gudgeon.commands.assembly_story import guess_text
+
+    linkage: Any = closure.linkage
+    with np.errstate(all="ignore"):
+        along = find_mobility(linkage, linkage.p, q).along
+    found = find_assemblies(linkage, linkage.p, q, along)
+    postures = [_posture(linkage, one.q, _velocities(closure, one.q)[0]) for one in found]
+    here = {True: " (as the file has it)", False: ""}
+    titles = [f"{k}  {guess_text(one)}{here[one.is_start]}" for k, one in enumerate(found, 1)]
+    return _sketches(mechanism, closure, postures), titles
+
+
+def _loads(linkage: NumPyLinkage, q: Array, v: Array) -> dict[str, tuple[float, float]]:
+    """Forces (N, ground axes) and torques (N·m, 0) of the file at the start, by its expressions."""
+    from gudgeon.results.bare import bare
+
+    source, none = linkage.source, np.zeros((1, 0))
+    state = np.zeros((1, len(source.clearances)), np.int8)
+    run = bare(source, None, linkage.p, np.zeros(1), q[None], v[None], none, none, state, frozenset())
+    written = {one.address: one.tree for one in source.written}
+    slots = {slot.address: float(x) for slot, x in zip(source.slots, linkage.p, strict=False)}
+
+    def number(address: str) -> float:
+        from gudgeon.language.tree import evaluate, from_json
+
+        if address not in written:
+            return slots.get(address, 0.0)
+        return float(np.ravel(evaluate(from_json(json.loads(written[address])), run.value_of))[0])
+
+    loads = {}
+    for part in source.parts:
+        if part.kind == "torque":
+            loads[part.name] = number(f"forces.{part.name}.value"), 0.0
+        elif part.kind == "force":
+            x, y = (number(f"forces.{part.name}.value.{axis}") for axis in "xy")
+            turn = part.options["axes"] == "body" and part.ends[0].partition(".")[0]
+            angle = float(run[f"{turn}.theta"][0]) if turn in {body.name for body in source.bodies} else 0.0
+            c, s = np.cos(angle), np.sin(angle)
+            loads[part.name] = float(c * x - s * y), float(s * x + c * y)
+    return loads

@@ -1,0 +1,102 @@
+"""Bodies: links between two pins, plates through more, blocks on their guides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import PartInfo
+from gudgeon.drawing.plan import Plan, axis_of
+from gudgeon.drawing.posture import GROUND, Posture, anchors, body_of, distinct
+from gudgeon.drawing.shapes import Disc, Label, Line, Shape, rectangle, rounded
+from gudgeon.model.compiled import Array
+
+BLOCK = (2.1, 1.25)  # half length and width of a slider, in units
+SLOT, STRIP = 1.0, 0.55  # half widths: of a slotted link, of a bar that guides
+
+
+def bodies(posture: Posture, plan: Plan, loose: frozenset[str] = frozenset()) -> Iterator[Shape]:
+    """Every body of a scene; `loose` ones in their own colour."""
+    for tint, body in enumerate(posture.bodies):
+        role = "loose" if body in loose else "body"
+        yield from (Line(f"body {body}", role, outline, True, tint) for outline in _outlines(posture, plan, body))
+        yield from _marks(posture, plan, body, tint)
+
+
+def _outlines(posture: Posture, plan: Plan, body: str) -> Iterator[Array]:
+    """The link or plate, what guides others, blocks; each closed."""
+    u, places = plan.unit, distinct(anchors(posture, body).values())
+    guided, blocks = [], []
+    for part in posture.parts("joints", "translational", "point_on_line"):
+        guide, slider = guide_and_slider(part)
+        if guide == body:
+            guided.append(part)
+        if slider == body and part.kind == "translational":
+            blocks.append(part)
+    if not ((blocks or guided) and _is_held_once(posture, body)):
+        yield rounded(places, u if len(places) > 1 else 1.6 * u)
+    for part in guided:
+        ends = guide_ends(posture, plan, part)
+        yield rounded(ends, (STRIP if part.kind == "translational" else SLOT + 0.55) * u)
+    for part in blocks:
+        _, along, place = axis_of(posture, part)
+        yield rectangle(place, along, BLOCK[0] * u, BLOCK[1] * u)
+
+
+def _is_held_once(posture: Posture, body: str) -> bool:
+    """Whether there is nothing but the centre of mass away from the one place where it is held."""
+    names = [name for name in anchors(posture, body) if not name.endswith(".com")]
+    return len(distinct(posture.place(name) for name in names)) < 2
+
+
+def guide_and_slider(part: PartInfo) -> tuple[str, str]:
+    """Bodies of a joint that slides: the one with the line, and the other one; a rail of the ground guides either."""
+    first, second = map(body_of, part.ends)
+    guides = part.kind == "translational" and second != GROUND
+    return (first, second) if guides else (second, first)
+
+
+def guide_ends(posture: Posture, plan: Plan, part: PartInfo) -> list[Array]:
+    """Both ends of a slot or of a bar that guides, as far as the slider goes; from the body's own point where that is
+    not within reach."""
+    on, along, _ = axis_of(posture, part)
+    low, high = plan.travel[part.name]
+    more = (BLOCK[0] + 0.6 if part.kind == "translational" else 1.6) * plan.unit
+    low, high = low - more, high + more
+    guide, _ = guide_and_slider(part)
+    if part.kind == "translational" or not _reaches(posture, guide, on + low * along, on + high * along):
+        low, high = min(low, 0.0), max(high, 0.0)
+    return [on + low * along, on + high * along]
+
+
+def _reaches(posture: Posture, body: str, *ends: Array) -> bool:
+    """Whether a slot lies on the link between two points of its body."""
+    places = distinct(anchors(posture, body).values())
+    for k, a in enumerate(places):
+        for b in places[:k]:
+            span = b - a
+            shares = [float((end - a) @ span / (span @ span)) for end in ends]
+            away = [float(np.hypot(*(end - a - s * span))) for end, s in zip(ends, shares, strict=True)]
+            if max(away) < 1e-3 * float(np.hypot(*span)) and min(shares) < 1.0 and max(shares) > 0.0:
+                return True
+    return False
+
+
+def _marks(posture: Posture, plan: Plan, body: str, tint: int) -> Iterator[Shape]:
+    """Points that are named and nothing is joined there: a small dot each."""
+    held = {end for part in posture.source.parts for end in part.ends}
+    for name in posture.points:
+        owner, _, point = name.partition(".")
+        if owner == body and name not in held and point not in ("head", "tail", "origin", "com"):
+            yield Disc(f"point {name}", "mark", posture.place(name), 0.22 * plan.unit, tint)
+
+
+def names_of_bodies(posture: Posture, plan: Plan) -> Iterator[Label]:
+    """At the middle of what each joins, points that are marked too."""
+    for body in posture.bodies:
+        places = distinct(anchors(posture, body).values())
+        middle = np.mean(places, axis=0)
+        yield Label(f"body {body}", "body", body, middle, 1.2 * plan.unit)
+    for shape in (shape for body in posture.bodies for shape in _marks(posture, plan, body, 0)):
+        yield Label(shape.part, "point", shape.part.rpartition(".")[2], shape.centre, 0.4 * plan.unit)  # type: ignore[union-attr]

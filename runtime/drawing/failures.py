@@ -1,0 +1,100 @@
+"""What `check` would say, drawn: joints that do not reach, bodies that nothing holds, motions that nothing stops."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from gudgeon.assembly.closure import Closure
+from gudgeon.assembly.failures import lengths_text
+from gudgeon.assembly.mobility import free_motions
+from gudgeon.contract.kernel_source import PartInfo
+from gudgeon.drawing.joints import wheels
+from gudgeon.drawing.movers import HEAD, arrow, pivot, round_arrow
+from gudgeon.drawing.plan import axis_of
+from gudgeon.drawing.posture import Posture
+from gudgeon.drawing.shapes import Label, Line, Shape, unit_vector
+from gudgeon.model.compiled import Array
+
+OPEN = 1e-3  # share of the worst row, from which on a row is told
+REACH = 4.0  # units, of an arrow to where a body may go
+MOVES = 1e-6  # share of the largest motion, below which there is none
+
+
+def gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Label]]:
+    """A red line across each gap of a linkage that is not closed, with its length; what is open in angle by words."""
+    residual = closure.residual(posture.q)
+    scaled = np.abs(residual / closure.row_scale)
+    worst = float(scaled.max(initial=0.0))
+    open_rows: dict[str, list[int]] = {}
+    for k, owner in enumerate(closure.owners):
+        if worst > 0.0 and scaled[k] > OPEN * worst:
+            open_rows.setdefault(owner, []).append(k)
+    shapes, labels = list[Shape](), list[Label]()
+    for owner, rows in open_rows.items():
+        for part in posture.parts_named(owner):
+            lengths = [residual[k] for k in rows if closure.units[k] == "m"]
+            angles = [residual[k] for k in rows if closure.units[k] == "rad"]
+            line = _gap(posture, part, lengths) if lengths else None
+            told = [lengths_text(float(np.hypot(*(line[1] - line[0]))))] if line is not None else []
+            told += [f"{np.degrees(angle):.3g}°" for angle in angles]
+            if line is not None:
+                shapes.append(Line(f"gap {owner}", "gap", line))
+            place = line.mean(axis=0) if line is not None else pivot(posture, part)
+            labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(told)}", place, way=90.0))
+    return shapes, labels
+
+
+def _gap(posture: Posture, part: PartInfo, lengths: list[float]) -> Array | None:
+    """From where a joint or driven length ends to where it should, (2, 2)."""
+    if part.section == "drives" and part.kind == "coordinate":
+        k = "xy".index(part.options["coordinate"])
+        place = posture.place(part.ends[0])
+        return np.array([place, place - lengths[0] * np.eye(2)[k]])
+    if part.kind == "gear":
+        (_, one, _), (_, other, _) = wheels(posture, part)
+        across = np.array([[0.0, -1.0], [1.0, 0.0]]) @ unit_vector(other - one)
+        return np.array([0.5 * (one + other), 0.5 * (one + other) + lengths[0] * across])
+    if part.kind in ("translational", "point_on_line"):
+        on, along, place = axis_of(posture, part)
+        return np.array([place, on + float((place - on) @ along) * along])
+    a, b = (posture.place(end) for end in part.ends)
+    if part.kind != "distance":
+        return np.array([a, b])
+    wanted = float(np.hypot(*(b - a))) - lengths[0]
+    if part.section == "joints":
+        wanted = posture.number(f"joints.{part.name}.length")
+    return np.array([a + wanted * unit_vector(b - a), b])
+
+
+def freedoms(
+    closure: Closure, posture: Posture, unit: float, loose: tuple[str, ...]
+) -> tuple[list[Shape], list[Label]]:
+    """Arrows along which bodies may move that nothing drives, from the free motions of the closed linkage; a word at
+    those that are `loose`."""
+    motions = free_motions(closure.linkage, closure.p, posture.q, closure.t)
+    size = float(np.abs(motions * np.where(closure.is_angle, closure.size, 1.0)[:, None]).max(initial=0.0))
+    shapes, labels = list[Shape](), list[Label]()
+    for body, info in posture.bodies.items():
+        own = motions[info.index : info.index + 3]
+        found = list(_ways(own, posture.centre(body), body, unit, MOVES * size, closure.size))
+        shapes += found
+        if body in loose:
+            labels.append(Label(f"free {body}", "free", f"nothing holds {body}", posture.centre(body), 1.5 * unit))
+    return shapes, labels
+
+
+def _ways(own: Array, centre: Array, body: str, unit: float, least: float, size: float) -> Iterator[Shape]:
+    """Arrows both ways along each direction that the centre may take; round it where the body turns alone."""
+    part, head = f"free {body}", HEAD * unit
+    directions, values, _ = np.linalg.svd(own[:2], full_matrices=False)
+    moving = [way for way, value in zip(directions.T, values, strict=True) if value > least]
+    if len(moving) > 1:
+        moving = [np.array([1.0, 0.0]), np.array([0.0, 1.0])]
+    for way in moving:
+        for sign in (1.0, -1.0):
+            yield from arrow(part, "free", centre + sign * unit * way, centre + sign * REACH * unit * way, head)
+    alone = not moving or len(moving) > 1
+    if alone and float(np.abs(own[2]).max(initial=0.0)) * size > least:
+        yield from round_arrow(part, "free", centre, 3.4 * unit, True, head)

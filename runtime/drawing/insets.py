@@ -1,0 +1,59 @@
+"""Joints with play, magnified beside the mechanism: the journal in its bearing, where the run has it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from gudgeon.drawing.plan import is_wide
+from gudgeon.drawing.posture import Posture
+from gudgeon.drawing.shapes import Disc, Label, Line, Shape
+from gudgeon.language.plot_units import scale
+from gudgeon.model.compiled import Array
+
+RADIUS, JOURNAL = 5.0, 0.4  # of an inset's hole in units, and of the journal as a share of that
+
+
+def eccentricity(posture: Posture, joint: str) -> Array:
+    """From the bearing's centre to the journal's, (2,), m, ground axes."""
+    first, second = next(posture.parts_named(joint)).ends
+    return posture.place(second) - posture.place(first)
+
+
+def magnification(posture: Posture, joint: str, unit: float) -> float:
+    """How many times larger than the drawing an inset is: two digits, so that the clearance circle fits."""
+    c = float(posture.p[posture.clearances[joint].clearance])
+    wanted = RADIUS * (1.0 - JOURNAL) * unit / c
+    step = 10.0 ** (np.floor(np.log10(wanted)) - 1.0)
+    return float(np.floor(wanted / step) * step)
+
+
+def insets(
+    posture: Posture, unit: float, low: Array, high: Array, touching: frozenset[str] = frozenset()
+) -> Iterator[tuple[list[Shape], Label, str]]:
+    """Of each joint with play its shapes, its name and its scale; below each other, to the right of the box.
+
+    To scale are the gap and the eccentricity, not the radii. `touching`: joints whose surfaces are in contact.
+    """
+    radius = RADIUS * unit
+    count = max(1, int((high[1] - low[1]) / (3.1 * radius)))
+    for k, joint in enumerate(name for name in posture.clearances if not is_wide(posture, name, unit)):
+        column, row = divmod(k, count)
+        centre = np.array([high[0] + (2.0 + 3.2 * column) * radius, high[1] - (1.25 + 3.1 * row) * radius])
+        c = float(posture.p[posture.clearances[joint].clearance])
+        times = magnification(posture, joint, unit)
+        e = eccentricity(posture, joint)
+        part, hole = f"inset {joint}", c * times + JOURNAL * radius
+        at = centre + times * e
+        shapes: list[Shape] = [
+            Disc(part, "bearing", centre, 1.16 * hole),
+            Disc(part, "hole", centre, hole),
+            Disc(part, "touching" if joint in touching else "journal", at, JOURNAL * radius),
+            Disc(part, "clearance", centre, c * times),
+            Line(part, "scale", np.array([centre, at])),
+        ]
+        factor, text = scale(c, "m")
+        told = f"{joint} ×{times:g}, e/c = {float(np.hypot(*e)) / c:.2f}"
+        label = Label(part, "inset", told, centre - [0.0, 1.2 * hole], 0.0, 270.0)
+        yield shapes, label, f"{joint}: clearance {c * factor:.4g} {text}, drawn ×{times:g}"

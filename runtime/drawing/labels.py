@@ -1,0 +1,183 @@
+"""Names beside what they belong to, so that none lies on another one and as few as can be on lines.
+
+Places are sought when the picture is drawn, in its own pixels: greedily, in the order of the names, on rings around
+each. The same picture gives the same places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
+from numpy.typing import NDArray
+
+from gudgeon.drawing.roles import NAMES, colour_of
+from gudgeon.drawing.shapes import Disc, Label, Shape, Sketch, arc
+from gudgeon.language.shown import one_line
+from gudgeon.model.compiled import Array
+
+RINGS = (2.0, 6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0, 84.0, 110.0, 145.0, 190.0)  # points from what is named
+ORDER = (45.0, 0.0, 90.0, 180.0, 270.0, 135.0, 315.0, 225.0, *(22.5 + 45.0 * k for k in range(8)))  # on a ring, degrees
+LED = 15.0  # points; further off than that a thin line leads back
+GAP = 1.2  # points between names
+
+
+class Names(Artist):
+    """All names of a sketch; `boxes` are where they are after drawing, (left, low, right, high) in pixels by part.
+
+    `beside` is then how far the middle of each is from what it names; `held`, the same of an earlier picture of a
+    motion, keeps them there.
+    """
+
+    def __init__(self, sketch: Sketch, size: float) -> None:
+        super().__init__()
+        self.set_zorder(6.0)
+        self.set_in_layout(False)
+        self.sketch, self.boxes = sketch, dict[str, tuple[float, float, float, float]]()
+        self.beside, self.held = dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
+        self.order = {shape.part: shape.tint for shape in sketch.shapes if shape.part.startswith("body ")}
+        self.texts = [self._text(label, size) for label in sketch.labels]
+
+    def _text(self, label: Label, size: float) -> Text:
+        word, weight = NAMES[label.role]
+        colour = colour_of(word, self.order.get(label.part, 0)) if word in ("edge",) else word
+        text = Text(
+            0.0, 0.0, one_line(label.text), size=size, color=colour, weight=weight, ha="center", va="center",
+            transform=None, parse_math=False,
+            style="italic" if label.role == "joint" else "normal",
+        )  # fmt: skip
+        text.set_gid(gid("name", label.part))
+        return text
+
+    def draw(self, renderer: Any) -> None:
+        """Place and paint."""
+        if not self.get_visible() or self.axes is None:
+            return
+        self.place(renderer)
+        renderer.open_group("names")
+        for line in self.leads:
+            line.draw(renderer)
+        for text in self.texts:
+            text.draw(renderer)
+        if left := sum(not text.get_visible() for text in self.texts):
+            self._told(left).draw(renderer)
+        renderer.close_group("names")
+        self.stale = False
+
+    def place(self, renderer: Any) -> None:
+        """Find a place for each."""
+        axes: Any = self.axes
+        figure, to_pixels = axes.get_figure(root=True), axes.transData.transform
+        point = figure.dpi / 72.0
+        lines = obstacles(self.sketch.shapes, to_pixels)
+        room = np.array(axes.get_window_extent(renderer).extents)
+        metre = float(np.hypot(*(to_pixels((1.0, 0.0)) - to_pixels((0.0, 0.0)))))
+        self.leads, self.boxes, taken = [], {}, np.zeros((0, 4))
+        for text, label in zip(self.texts, self.sketch.labels, strict=True):
+            text.set_figure(figure)
+            text.set_position((0.0, 0.0))
+            extent = text.get_window_extent(renderer)
+            half = 0.5 * np.array([extent.width, extent.height])
+            at = to_pixels(label.place)
+            middle, ring = at + self.held.get(label.part, (0.0, 0.0)), 0.0
+            if label.part not in self.held:
+                found = best_place(at, half, label.way, label.clear * metre, point, lines, taken, room)
+                text.set_visible(found is not None)
+                if found is None:
+                    continue
+                middle, ring = found
+            self.beside[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
+            text.set_position((float(middle[0]), float(middle[1])))
+            box = np.array([*(middle - half), *(middle + half)])
+            taken = np.vstack([taken, box])
+            self.boxes[label.part] = tuple(box.tolist())
+            if ring > LED * point:
+                self.leads.append(self._lead(at, middle, half, figure))
+
+    def _told(self, left: int) -> Text:
+        """That names are missing, in the upper right corner."""
+        axes: Any = self.axes
+        told = f"{left} name{'' if left == 1 else 's'} left out: there is no room"
+        text = Text(1.0, 1.0, told, size=7.0, color="#888888", ha="right", va="bottom", transform=axes.transAxes)
+        text.set_figure(axes.get_figure(root=True))
+        return text
+
+    def _lead(self, at: Array, middle: Array, half: Array, figure: Any) -> Line2D:
+        edge = np.clip(at, middle - half, middle + half)
+        line = Line2D(*np.array([at, edge]).T, color="#999999", lw=0.5, transform=None)
+        line.set_figure(figure)
+        return line
+
+
+def gid(kind: str, part: str) -> str:
+    """An identifier of a part in a picture: "joint A" is "joint-A", its name "name-joint-A"."""
+    return "-".join([*([kind] if kind else []), *part.split()])
+
+
+def obstacles(shapes: Sequence[Shape], to_pixels: Any) -> Array:
+    """All lines as segments in pixels, (S, 4)."""
+    found = [to_pixels(points) for points in _outlines(shapes)]
+    return np.vstack([np.hstack([points[:-1], points[1:]]) for points in found]) if found else np.zeros((0, 4))
+
+
+def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
+    for shape in shapes:
+        if isinstance(shape, Disc):
+            yield arc(shape.centre, shape.radius, 0.0, 2.0 * np.pi, 17)
+        else:
+            yield np.vstack([shape.points, shape.points[:1]]) if shape.closed else shape.points
+
+
+def best_place(
+    at: Array, half: Array, way: float, clear: float, point: float, lines: Array, taken: Array, room: Array
+) -> tuple[Array, float] | None:
+    """The middle of a name, and how far its box is from what it names: the nearest place on no line and no other name;
+    where every place has a line, the one with the fewest; None where there is no place. Pixels; `half` its size,
+    `room` the picture's box."""
+    angles = np.radians([way, *ORDER])
+    ways = np.column_stack([np.cos(angles), np.sin(angles)])
+    fallback, fewest = at, np.inf
+    for ring in RINGS:
+        reach = clear + ring * point
+        middles = at + ways * (reach + half)
+        if ring == RINGS[0] and clear * point > 0.0:
+            middles = np.vstack([at, middles])
+        boxes = np.hstack([middles - half - GAP * point, middles + half + GAP * point])
+        free = ~overlapping(boxes, taken).any(axis=1) & _inside(boxes, room)
+        hits = np.array([crossing(box, lines) if ok else np.inf for box, ok in zip(boxes, free, strict=True)])
+        costs = hits + 0.02 * ring
+        k = int(np.argmin(costs))
+        if hits[k] == 0.0:
+            return middles[k], reach - clear
+        if costs[k] < fewest:
+            fallback, fewest, far = middles[k], costs[k], reach - clear
+    return (fallback, far) if np.isfinite(fewest) else None
+
+
+def overlapping(boxes: Array, taken: Array) -> NDArray[np.bool_]:
+    """Which boxes (B, 4) overlap which others (T, 4), (B, T)."""
+    a, b = boxes[:, None], taken[None]
+    across = (a[..., 0] < b[..., 2]) & (b[..., 0] < a[..., 2])
+    return np.asarray(across & (a[..., 1] < b[..., 3]) & (b[..., 1] < a[..., 3]), dtype=bool)
+
+
+def _inside(boxes: Array, room: Array) -> NDArray[np.bool_]:
+    return np.asarray((boxes[:, :2] >= room[:2]).all(axis=1) & (boxes[:, 2:] <= room[2:]).all(axis=1), dtype=bool)
+
+
+def crossing(box: Array, lines: Array) -> float:
+    """How many segments (S, 4) meet a box (Liang and Barsky)."""
+    start, span = lines[:, :2], lines[:, 2:] - lines[:, :2]
+    with np.errstate(all="ignore"):
+        one, other = (box[:2] - start) / span, (box[2:] - start) / span
+    near, far = np.minimum(one, other), np.maximum(one, other)
+    still = span == 0.0
+    within = (start >= box[:2]) & (start <= box[2:])
+    near = np.where(still, np.where(within, -np.inf, np.inf), near)
+    far = np.where(still, np.where(within, np.inf, -np.inf), far)
+    enters, leaves = np.maximum(near.max(axis=1), 0.0), np.minimum(far.min(axis=1), 1.0)
+    return float((enters <= leaves).sum())

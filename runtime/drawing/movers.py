@@ -1,0 +1,207 @@
+"""Symbols of what moves and loads: drives, springs, dampers, forces, torques, friction, gravity."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import PartInfo
+from gudgeon.drawing.bodies import BLOCK
+from gudgeon.drawing.joints import PIN, ground_wall
+from gudgeon.drawing.plan import Plan
+from gudgeon.drawing.posture import GROUND, Posture, body_of
+from gudgeon.drawing.shapes import Disc, Label, Line, Shape, arc, arrow_head, rectangle, turned, unit_vector, zigzag
+from gudgeon.model.compiled import Array
+
+ARROW, HEAD = 5.2, 1.3  # lengths in units: of an arrow whose size means nothing, and of its head
+DRIVEN, LOADED, WOUND = 2.3, 3.1, 1.9  # radii of arrows around a pin: a drive's, a torque's; of a spiral spring
+
+
+def movers(posture: Posture, plan: Plan) -> Iterator[Shape]:
+    """Drives, then force elements."""
+    for part in posture.parts("drives"):
+        yield from _DRIVES[part.kind](posture, plan, part)
+    for part in posture.parts("forces"):
+        yield from _FORCES.get(part.kind, _other)(posture, plan, part)
+
+
+def names_of_movers(posture: Posture, plan: Plan) -> Iterator[Label]:
+    """Beside each symbol."""
+    for part in (*posture.parts("drives"), *posture.parts("forces")):
+        kind = part.section[:-1]
+        if part.kind in ("distance", "spring_damper"):
+            place, clear = 0.5 * (posture.place(part.ends[0]) + posture.place(part.ends[1])), 1.2
+        elif part.kind in ("coordinate", "force"):
+            place, clear = posture.place(part.ends[0]), 2.0
+        elif part.kind == "dry_friction":
+            place, clear = posture.place(part.ends[1]), 2.0
+        else:
+            place = pivot(posture, part)
+            clear = {"angle": DRIVEN, "torque": LOADED}.get(part.kind, WOUND)
+        yield Label(f"{kind} {part.name}", kind, part.name, place, clear * plan.unit)
+
+
+def arrow(part: str, role: str, tail: Array, tip: Array, head: float) -> Iterator[Shape]:
+    """A straight arrow; its line ends within its head."""
+    along = unit_vector(tip - tail)
+    yield Line(part, role, np.array([tail, tip - 0.8 * head * along]))
+    yield Line(part, f"{role} head", arrow_head(tip, along, head), True)
+
+
+def round_arrow(part: str, role: str, centre: Array, radius: float, left: bool, head: float) -> Iterator[Shape]:
+    """Around a place, counterclockwise if `left`."""
+    begin, end = np.radians([-25.0, 195.0]) if left else np.radians([205.0, -15.0])
+    bow = arc(centre, radius, float(begin), float(end), 33)
+    at = arc(centre, radius, float(end), float(end), 1)[0]
+    along = turned(unit_vector(at - centre)) * (1.0 if left else -1.0)
+    yield Line(part, role, bow)
+    yield Line(part, f"{role} head", arrow_head(at + 0.9 * head * along, along, head), True)
+
+
+def pivot(posture: Posture, part: PartInfo) -> Array:
+    """Where a body turns: at the pin that joins it to the other one, or to the ground; else at its centre of mass."""
+    bodies = [body_of(end) for end in part.ends]
+    turning = next((body for body in bodies if body != GROUND), bodies[0])
+    other = next((body for body in bodies if body != turning), GROUND)
+    for joint in posture.parts("joints", "revolute"):
+        held = [body_of(end) for end in joint.ends]
+        if turning in held and other in held:
+            return posture.place(joint.ends[held.index(turning)])
+    return posture.centre(turning) if turning in posture.bodies else np.zeros(2)
+
+
+def _angle(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    rate = posture.omega(body_of(part.ends[0]))
+    rate -= posture.omega(body_of(part.ends[1])) if len(part.ends) > 1 else 0.0
+    centre, u = pivot(posture, part), plan.unit
+    yield from round_arrow(f"drive {part.name}", "drive", centre, DRIVEN * u, rate >= 0.0, HEAD * u)
+
+
+def _coordinate(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    if (axis := part.options["coordinate"]) == "theta":
+        yield from _angle(posture, plan, part)
+        return
+    k = posture.bodies[body_of(part.ends[0])].index + "xy".index(axis)
+    along = np.eye(2)["xy".index(axis)] * (-1.0 if posture.v is not None and posture.v[k] < 0.0 else 1.0)
+    at, u = posture.place(part.ends[0]) + 2.0 * plan.unit * turned(along), plan.unit
+    yield from arrow(
+        f"drive {part.name}", "drive", at - 0.5 * ARROW * u * along, at + 0.5 * ARROW * u * along, HEAD * u
+    )
+
+
+def _cylinder(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    """Barrel and piston rod between two points."""
+    name, u = f"drive {part.name}", plan.unit
+    a, b = (posture.place(end) for end in part.ends)
+    along, span = unit_vector(b - a), float(np.hypot(*(b - a)))
+    yield from _feet(posture, part, name, plan)
+    yield Line(name, "piston", np.array([a + 0.5 * span * along, b]))
+    yield Line(name, "barrel", rectangle(a + 0.34 * span * along, along, 0.27 * span, 0.85 * u), True)
+    yield Line(name, "drive", np.array([a, a + 0.07 * span * along]))
+    head = a + 0.5 * span * along
+    yield Line(name, "piston", np.array([head - 0.85 * u * turned(along), head + 0.85 * u * turned(along)]))
+    yield from (Disc(name, "pin", place, 0.8 * PIN * u) for place in (a, b))
+
+
+def _feet(posture: Posture, part: PartInfo, name: str, plan: Plan) -> Iterator[Shape]:
+    """A wall where an end is fixed to the ground and no joint has drawn it."""
+    places = [posture.place(end) for end in part.ends]
+    joined = {end for joint in posture.parts("joints") for end in joint.ends}
+    for end, place, other in zip(part.ends, places, reversed(places), strict=True):
+        if body_of(end) == GROUND and end not in joined:
+            yield from ground_wall(name, place, unit_vector(place - other), plan.unit)
+
+
+def _spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    """Wire, piston, or one beside the other, between two points."""
+    name, u = f"force {part.name}", plan.unit
+    a, b = (posture.place(end) for end in part.ends)
+    yield from _feet(posture, part, name, plan)
+    yield from (Disc(name, "mark", place, 0.26 * u) for place in (a, b))
+    if float(np.hypot(*(b - a))) < 1e-6 * u:
+        return
+    springs, damps = (posture.number(f"forces.{part.name}.{what}") != 0.0 for what in ("stiffness", "damping"))
+    aside = 1.15 * u * turned(unit_vector(b - a)) if springs and damps else np.zeros(2)
+    if springs or not damps:
+        free = posture.number(f"forces.{part.name}.free_length") or float(np.hypot(*(b - a)))
+        teeth = int(np.clip(round(0.35 * free / u), 4, 14))
+        coil = zigzag(a + 0.12 * (b - a), a + 0.88 * (b - a), 0.9 * u, teeth, 0.12 if damps else 0.05)
+        coil = np.vstack([a, coil + aside, b]) if not damps else coil + aside
+        yield Line(name, "spring", coil)
+    if damps:
+        yield from _damper(name, a + 0.12 * (b - a) - aside, a + 0.88 * (b - a) - aside, u)
+    if springs and damps:
+        for end, share in ((a, 0.12), (b, 0.88)):
+            beam = a + share * (b - a)
+            yield Line(name, "spring", np.array([beam - aside, beam + aside]))
+            yield Line(name, "spring", np.array([end, beam]))
+
+
+def _damper(name: str, a: Array, b: Array, u: float) -> Iterator[Shape]:
+    """A piston in a pot that is open on one side."""
+    along, middle = unit_vector(b - a), 0.5 * (a + b)
+    across = 0.75 * u * turned(along)
+    deep = min(1.6 * u, 0.3 * float(np.hypot(*(b - a))))
+    bottom, top = middle - deep * along, middle + deep * along
+    yield Line(name, "spring", np.array([top + across, bottom + across, bottom - across, top - across]))
+    yield Line(name, "spring", np.array([a, bottom]))
+    yield Line(name, "spring", np.array([middle, b]))
+    yield Line(name, "piston", np.array([middle - 0.85 * across, middle + 0.85 * across]))
+
+
+def _spiral(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    angle, centre = np.linspace(0.0, 4.5 * np.pi, 90), pivot(posture, part)
+    radius = plan.unit * np.linspace(0.6, WOUND, len(angle))
+    yield Line(
+        f"force {part.name}", "spring", centre + np.column_stack([np.cos(angle), np.sin(angle)]) * radius[:, None]
+    )
+
+
+def _torque(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    left = posture.loads.get(part.name, (1.0, 0.0))[0] >= 0.0
+    centre, u = pivot(posture, part), plan.unit
+    yield from round_arrow(f"force {part.name}", "force", centre, LOADED * u, left, HEAD * u)
+
+
+def _force(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    """An arrow that ends beside its point; a ring where the force is zero now, or nobody knows it."""
+    name, u, place = f"force {part.name}", plan.unit, posture.place(part.ends[0])
+    load = np.array(posture.loads.get(part.name, (0.0, 0.0)))
+    if not (np.isfinite(load).all() and float(np.hypot(*load)) > 0.0):
+        yield Disc(name, "no force", place, 0.9 * u)
+        return
+    yield from arrow(name, "force", place, place + ARROW * u * unit_vector(load), HEAD * u)
+
+
+def _dry_friction(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    """A rough line under the second body's point; an arrow along the first's surface where that runs."""
+    name, u = f"force {part.name}", plan.unit
+    along = posture.direction(part, "direction", body_of(part.ends[0]))
+    down = -turned(along) if turned(along)[1] >= 0.0 else turned(along)
+    at = posture.place(part.ends[1]) + BLOCK[1] * u * down
+    rough = zigzag(at - 2.0 * u * along, at + 2.0 * u * along, 0.3 * u, 7, 0.0)
+    yield Line(name, "rough", rough - 0.1 * u * down)
+    if (speed := posture.number(f"forces.{part.name}.speed")) != 0.0:
+        way, low = along * np.sign(speed), at + 2.3 * u * down
+        yield from arrow(name, "force", low - 0.5 * ARROW * u * way, low + 0.5 * ARROW * u * way, HEAD * u)
+
+
+def _other(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
+    """An element that has no symbol of its own yet: a dot at each end, and a line."""
+    places = [posture.place(end) for end in part.ends]
+    yield Line(f"force {part.name}", "spring", np.array(places))
+    yield from (Disc(f"force {part.name}", "mark", place, 0.3 * plan.unit) for place in places)
+
+
+_DRIVES = {"angle": _angle, "coordinate": _coordinate, "distance": _cylinder}
+_FORCES = {
+    "spring_damper": _spring_damper, "rotational_spring_damper": _spiral, "torque": _torque, "force": _force,
+    "dry_friction": _dry_friction,
+}  # fmt: skip
+
+
+def gravity_of(posture: Posture) -> Array | None:
+    """Its direction, None where there is none."""
+    g = np.array([posture.number("gravity.x"), posture.number("gravity.y")])
+    return unit_vector(g) if float(np.hypot(*g)) > 0.0 else None

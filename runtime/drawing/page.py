@@ -1,0 +1,190 @@
+"""A motion as one page of HTML: drawings as SVG, a button and a slider in plain JavaScript, nothing from elsewhere."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping, Sequence
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from gudgeon.drawing.labels import gid
+from gudgeon.drawing.roles import EDGES, NAMES, ROLES, TINTS, colour_of
+from gudgeon.drawing.shapes import Disc, Shape, Sketch
+from gudgeon.model.compiled import Array
+
+PIXELS = 100.0  # an inch
+Styles = dict[tuple[str, int], int]
+
+
+def page(
+    title: str, sketches: Sequence[Sketch], times: Sequence[float], seconds: float, width: float,
+    beside: Mapping[str, tuple[float, float]],
+) -> str:  # fmt: skip
+    """The whole text. `sketches` in one box, at `times` (s) of the run, are shown within `seconds`; `width` in pixels,
+    `beside` how far the middle of each name is from what it names, pixels, y up."""
+    first = sketches[0]
+    scale = width / float(first.high[0] - first.low[0])
+    height = scale * float(first.high[1] - first.low[1])
+
+    def at(points: Array) -> Array:
+        return (points - first.low) * [scale, -scale] + [0.0, height]
+
+    styles: Styles = {}
+    kinds = _kinds(sketches)
+    frames = [_frame(sketch, kinds, at, scale, styles) for sketch in sketches]
+    names = [label for label in first.labels if label.part in beside]
+    places = [_name_places(sketch, [label.part for label in names], at, beside) for sketch in sketches]
+    data = {
+        "times": [round(t, 9) for t in times], "seconds": seconds, "styles": [_css(*key) for key in styles],
+        "frames": _changes(frames), "places": _changes(places),
+    }  # fmt: skip
+    texts = "".join(_name(label.text, label.role, label.part, first) for label in names)
+    paths = "".join(f'<path id="{name}"/>' for name in kinds)
+    note = "<br>".join(escape(note) for note in first.notes)
+    told = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    parts = {"TITLE": escape(title), "NOTE": note, "WIDTH": f"{width:.0f}", "HEIGHT": f"{height:.0f}", "PATHS": paths,
+             "NAMES": texts, "DATA": told}  # fmt: skip
+    return re.sub(
+        f"@({'|'.join(parts)})@", lambda found: parts[found[1]], PAGE
+    )  # in one go: a title may hold such a word
+
+
+def _keys(sketch: Sketch) -> dict[str, Shape]:
+    """Shapes by an identifier that they keep while all moves."""
+    counts, found = dict[str, int](), dict[str, Shape]()
+    for shape in sketch.shapes:
+        k = counts[shape.part] = counts.get(shape.part, 0) + 1
+        found[gid("", shape.part) + (f"-{k}" if k > 1 else "")] = shape
+    return found
+
+
+def _kinds(sketches: Sequence[Sketch]) -> list[str]:
+    """All identifiers in the order in which they are painted."""
+    order = {name: ROLES[shape.role].order for sketch in reversed(sketches) for name, shape in _keys(sketch).items()}
+    first = [name for name in _keys(sketches[0]) if name in order]
+    return sorted([*first, *(name for name in order if name not in first)], key=lambda name: order[name])
+
+
+def _frame(sketch: Sketch, kinds: Sequence[str], at: Any, scale: float, styles: Styles) -> list[Any]:
+    """Of each identifier [its line, its style]; "" where it is not there."""
+    shapes, found = _keys(sketch), list[Any]()
+    for name in kinds:
+        shape = shapes.get(name)
+        if shape is None:
+            found.append("")
+            continue
+        style = styles.setdefault((shape.role, shape.tint % len(TINTS)), len(styles))
+        found.append([_line(shape, at, scale), style])
+    return found
+
+
+def _line(shape: Shape, at: Any, scale: float) -> str:
+    """SVG's path data, to a tenth of a pixel."""
+    if isinstance(shape, Disc):
+        (x, y), r = at(shape.centre), shape.radius * scale
+        return f"M{x - r:.1f} {y:.1f}a{r:.1f} {r:.1f} 0 1 0 {2 * r:.1f} 0a{r:.1f} {r:.1f} 0 1 0 {-2 * r:.1f} 0z"
+    text = "L".join(f"{x:.1f} {y:.1f}" for x, y in at(shape.points))
+    return f"M{text}{'z' if shape.closed else ''}"
+
+
+def _css(role: str, tint: int) -> str:
+    look = ROLES[role]
+    dashes = f";stroke-dasharray:{' '.join(f'{x:g}' for x in look.dashes)}" if look.dashes else ""
+    width = look.width * PIXELS / 72.0
+    return f"stroke:{colour_of(look.edge, tint)};fill:{colour_of(look.face, tint)};stroke-width:{width:.2f}{dashes}"
+
+
+def _name_places(
+    sketch: Sketch, parts: Sequence[str], at: Any, beside: Mapping[str, tuple[float, float]]
+) -> list[list[Any]]:
+    """The middles of names in pixels, and texts that change."""
+    labels, found = {label.part: label for label in sketch.labels}, list[list[Any]]()
+    for part in parts:
+        x, y = np.round(at(labels[part].place) + np.array(beside[part]) * [1.0, -1.0], 1)
+        found.append([float(x), float(y), *([labels[part].text] if labels[part].role == "inset" else [])])
+    return found
+
+
+def _name(text: str, role: str, part: str, sketch: Sketch) -> str:
+    colour, weight = NAMES[role]
+    tint = next((shape.tint for shape in sketch.shapes if shape.part == part), 0)
+    colour = EDGES[tint % len(EDGES)] if colour == "edge" else colour
+    style = "italic" if role == "joint" else "normal"
+    return f'<text fill="{colour}" font-weight="{weight}" font-style="{style}">{escape(text)}</text>'
+
+
+def _changes(frames: Sequence[Sequence[Any]]) -> list[list[Any]]:
+    """Each frame as it differs from the one before: 0 where nothing changes."""
+    found = [list(frames[0])]
+    for before, now in zip(frames, frames[1:], strict=False):
+        found.append([0 if x == y else y for x, y in zip(before, now, strict=True)])
+    return found
+
+
+PAGE = """<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>@TITLE@</title>
+<style>
+body { font: 14px sans-serif; margin: 1em auto; max-width: @WIDTH@px; padding: 0 1em; color: #222; background: #fff }
+svg { width: 100%; height: auto; display: block }
+svg path { stroke-linejoin: round; stroke-linecap: round }
+svg text { font: 11px sans-serif; text-anchor: middle; dominant-baseline: central }
+.bar { display: flex; gap: .7em; align-items: center; flex-wrap: wrap }
+#when { flex: 1; min-width: 8em }
+output { font-variant-numeric: tabular-nums; min-width: 7em }
+p { color: #555; font-size: 12px }
+</style></head><body>
+<h1 style="font-size: 1.1em">@TITLE@</h1>
+<svg viewBox="0 0 @WIDTH@ @HEIGHT@" role="img" aria-label="@TITLE@"><g>@PATHS@</g><g id="names">@NAMES@</g></svg>
+<div class="bar"><button id="play">Play</button>
+<input id="when" type="range" min="0" value="0" step="1" aria-label="time"><output id="t"></output>
+<label>speed <select id="speed"><option>0.1</option><option>0.25</option><option>0.5</option>
+<option selected>1</option><option>2</option></select></label>
+<label><input id="named" type="checkbox" checked> names</label></div>
+<p>@NOTE@</p>
+<script type="application/json" id="data">@DATA@</script>
+<script>
+"use strict";
+const data = JSON.parse(document.getElementById("data").textContent);
+const by = name => document.getElementById(name);
+const paths = [...document.querySelectorAll("svg path")], texts = [...document.querySelectorAll("#names text")];
+for (const frames of [data.frames, data.places])          // a 0 stands for what the frame before has
+  for (let k = 1; k < frames.length; k++) frames[k] = frames[k].map((x, i) => x === 0 ? frames[k - 1][i] : x);
+const last = data.times.length - 1;
+by("when").max = last;
+let now = 0, playing = false, before = 0;
+function show(k) {
+  data.frames[k].forEach((shape, i) => {
+    const path = paths[i];
+    path.setAttribute("d", shape ? shape[0] : "");
+    if (shape) path.setAttribute("style", data.styles[shape[1]]);
+  });
+  data.places[k].forEach(([x, y, told], i) => {
+    texts[i].setAttribute("x", x);
+    texts[i].setAttribute("y", y);
+    if (told) texts[i].textContent = told;
+  });
+  by("when").value = k;
+  by("t").textContent = "t = " + data.times[k].toPrecision(5) + " s";
+}
+function step(ms) {
+  if (!playing) return;
+  now = (now + (ms - before) / 1000 / data.seconds * by("speed").value * last) % (last + 1);
+  before = ms;
+  show(Math.floor(now));
+  requestAnimationFrame(step);
+}
+by("play").onclick = () => {
+  playing = !playing;
+  by("play").textContent = playing ? "Pause" : "Play";
+  if (playing) requestAnimationFrame(ms => { before = ms; step(ms); });
+};
+by("when").oninput = () => { now = +by("when").value; show(now); };
+by("named").onchange = () => { by("names").style.display = by("named").checked ? "" : "none"; };
+show(0);
+if (!matchMedia("(prefers-reduced-motion: reduce)").matches) by("play").click();
+</script></body></html>
+"""

@@ -1,0 +1,105 @@
+"""A sketch as a picture: matplotlib's patches on axes, one scale both ways."""
+
+from __future__ import annotations
+
+import io
+import textwrap
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any
+
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Patch, Polygon
+
+from gudgeon.drawing.labels import Names, gid
+from gudgeon.drawing.roles import ROLES, Role, colour_of
+from gudgeon.drawing.shapes import Disc, Shape, Sketch
+from gudgeon.language.shown import in_figure
+
+LARGEST, SMALLEST = 8.0, 3.2  # inches, of the longer and the shorter side
+LEAST_UNIT, MOST = 0.042, 24.0  # inches: of half a bar's width at least, for which the longer side may grow so far
+PER_INCH = 12.0  # characters of a caption
+FEW = 28  # names that fit in the larger type
+STYLE = {"font.size": 9, "text.usetex": False, "svg.hashsalt": "gudgeon", "path.sketch": None}
+
+
+def draw_on(ax: Axes, sketch: Sketch, faint: bool = False) -> None:
+    """All of a sketch; `faint` in grey, as the background of something else. Sets the limits of the axes."""
+    seen = Counter[str]()
+    for shape in sorted(sketch.shapes, key=lambda shape: ROLES[shape.role].order):
+        role = ROLES[shape.role]
+        pale = faint and not shape.role.startswith("path")
+        patch = _patch(shape, role, pale)
+        patch.set_zorder(role.order - (2.0 if pale else 0.0))
+        seen[shape.part] += 1
+        told = gid("", shape.part)
+        patch.set_gid(told if seen[shape.part] == 1 else f"{told}-{seen[shape.part]}")
+        ax.add_patch(patch)
+    if sketch.labels:
+        names = Names(sketch, 8.0 if len(sketch.labels) <= FEW else 7.0)
+        ax.add_artist(names)
+        names.set_clip_on(False)
+    ax.set(xlim=(sketch.low[0], sketch.high[0]), ylim=(sketch.low[1], sketch.high[1]), aspect="equal")
+    ax.set_axis_off()
+
+
+def _patch(shape: Shape, role: Role, pale: bool) -> Patch:
+    edge, face = colour_of(role.edge, shape.tint), colour_of(role.face, shape.tint)
+    look: dict[str, Any] = {"ec": edge, "fc": face, "lw": role.width, "joinstyle": "round", "capstyle": "round"}
+    if role.dashes:
+        look |= {"ls": (0.0, role.dashes)}
+    if pale:
+        look |= {"ec": "#bbbbbb" if edge != "none" else edge, "fc": "#f4f4f4" if face != "none" else face}
+    if isinstance(shape, Disc):
+        return Circle((float(shape.centre[0]), float(shape.centre[1])), shape.radius, **look)
+    if not shape.closed:
+        look["fc"] = "none"
+    return Polygon(shape.points, closed=shape.closed, **look)
+
+
+def size_of(sketch: Sketch, largest: float = LARGEST) -> tuple[float, float]:
+    """Width and height in inches that fit a sketch."""
+    width, height = (float(x) for x in sketch.high - sketch.low)
+    scale = max(largest, min(MOST, LEAST_UNIT * max(width, height) / sketch.unit)) / max(width, height)
+    return max(SMALLEST, width * scale), max(0.75 * SMALLEST, height * scale)
+
+
+def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -> Figure:
+    """One sketch, or several side by side with a title each."""
+    columns = min(len(sketches), 3 if len(sketches) != 4 else 2)
+    rows = -(-len(sketches) // columns)
+    sizes = [size_of(sketch, LARGEST if columns == 1 else 5.0) for sketch in sketches]
+    width, height = max(w for w, _ in sizes), max(h for _, h in sizes)
+    lines = len(textwrap.wrap(caption, int(PER_INCH * columns * width)))
+    head, foot = 0.25 + 0.17 * lines, 0.17 * max(len(sketch.notes) for sketch in sketches) + 0.05
+    with matplotlib.rc_context(STYLE):
+        picture = Figure(figsize=(columns * width, rows * (height + head * (rows * columns > 1) + foot) + head))
+        across, down = picture.get_size_inches()
+        for k, (sketch, title) in enumerate(zip(sketches, titles, strict=True)):
+            row, column = divmod(k, columns)
+            top = down - head - row * (height + foot + head) - head * (rows * columns > 1)
+            ax = picture.add_axes((column * width / across, (top - height) / down, width / across, height / down))
+            draw_on(ax, sketch)
+            if title:
+                ax.set_title(title, fontsize=9)
+            note = "\n".join(sketch.notes)
+            place = ((column * width + 0.12) / across, (top - height - 0.02) / down)
+            picture.text(*place, note, fontsize=7.5, va="top", color="#444444", parse_math=False)
+        width = int(PER_INCH * across)
+        picture.suptitle(
+            in_figure(caption, width), x=0.1 / across, y=1.0 - 0.1 / down, ha="left", va="top", fontsize=10.5
+        )
+    return picture
+
+
+def as_bytes(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
+    """An SVG, PNG or PDF without date or version: the same picture gives the same bytes."""
+    out = io.BytesIO()
+    kind = suffix.removeprefix(".")
+    metadata = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None},
+                "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}[kind]  # fmt: skip
+    with matplotlib.rc_context(STYLE):
+        picture.savefig(out, format=kind, metadata=metadata, dpi=dpi)
+    return out.getvalue()

@@ -1,0 +1,131 @@
+"""What all drawings of one scene share, so that a motion does not make them jump: size of symbols, sides of the ground,
+how far each slider goes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import PartInfo
+from gudgeon.drawing.posture import GROUND, Posture, anchors, body_of, distinct
+from gudgeon.drawing.shapes import turned
+from gudgeon.model.compiled import Array
+
+SLIDING = ("translational", "point_on_line")
+WIDE = 3.0  # units: a clearance that needs no magnifying
+# half a bar's width as a share of the whole, the least, and as the most of the shortest link
+SHARE, LEAST, OF_LINK = 0.017, 0.005, 0.16
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """`unit`: half a bar's width (m). `ways`: of a joint on the ground where that lies, seen from it, (2,).
+
+    `travel`: of a joint that slides the least and largest place along its axis (m), over all postures.
+    """
+
+    unit: float
+    ways: Mapping[str, Array]
+    travel: Mapping[str, tuple[float, float]]
+
+
+def make_plan(postures: Sequence[Posture]) -> Plan:
+    """Of one position, or of several of a motion."""
+    first = postures[0]
+    places = np.array([place for posture in postures for place in _places(posture)])
+    ways, travel = dict[str, Array](), dict[str, tuple[float, float]]()
+    for part in first.parts("joints"):
+        if part.kind in SLIDING:
+            along = [_slide(posture, part) for posture in postures]
+            travel[part.name] = min(along), max(along)
+        if any(body_of(end) == GROUND for end in part.ends):
+            ways[part.name] = _rail_side(first, part, places) if part.kind in SLIDING else _below(postures, part)
+    return Plan(_unit(first, places), ways, travel)
+
+
+def _places(posture: Posture) -> list[Array]:
+    """All points that are drawn, rims of wheels, and how far journals may go."""
+    found = [place for body in posture.bodies for place in anchors(posture, body).values()]
+    found += [posture.place(end) for part in posture.source.parts for end in part.ends if end in posture.points]
+    for part in posture.parts("joints", "gear"):
+        for end, axis in zip(part.ends, "xy", strict=True):
+            radius = posture.number(f"joints.{part.name}.radii.{axis}")
+            found += [posture.place(end) + shift for shift in radius * np.array([[1, 1], [-1, -1]])]
+    for joint in posture.source.clearances:
+        reach = float(posture.p[joint.clearance]) * np.array([[1, 1], [-1, -1]])
+        found += [posture.place(next(posture.parts_named(joint.name)).ends[0]) + shift for shift in reach]
+    return found
+
+
+def _unit(posture: Posture, places: Array) -> float:
+    """By the size of the whole and the shortest link."""
+    size = float(np.ptp(places, axis=0).max())
+    if not size > 0.0:  # one point: as large as the file's largest length
+        lengths = (abs(posture.number(slot.address)) for slot in posture.source.slots if slot.unit == "m")
+        return SHARE * (max(lengths, default=0.0) or 1.0)
+    spans = []
+    for body in posture.bodies:
+        here = distinct(anchors(posture, body).values())
+        spans += [float(np.hypot(*(a - b))) for k, a in enumerate(here) for b in here[:k]]
+    shortest = min((span for span in spans if span > 1e-3 * size), default=size)
+    return max(LEAST * size, min(SHARE * size, OF_LINK * shortest))
+
+
+def is_wide(posture: Posture, joint: str, unit: float) -> bool:
+    """Whether a joint's play is large enough to be seen as it is."""
+    return float(posture.p[posture.clearances[joint].clearance]) > WIDE * unit
+
+
+def axis_of(posture: Posture, part: PartInfo) -> tuple[Array, Array, Array]:
+    """Of a joint that slides: a place on its line, the direction (unit vector), and the place that slides on it.
+
+    The ground guides where it is one of the two, whichever has the axis.
+    """
+    first, second = part.ends
+    if part.kind == "translational":
+        along = posture.direction(part, "axis", body_of(first))
+        guide, slider = (second, first) if body_of(second) == GROUND else (first, second)
+        return posture.place(guide), along, posture.place(slider)
+    return posture.place(second), posture.direction(part, "direction", body_of(second)), posture.place(first)
+
+
+def _slide(posture: Posture, part: PartInfo) -> float:
+    on, along, place = axis_of(posture, part)
+    return float((place - on) @ along)
+
+
+def _rail_side(posture: Posture, part: PartInfo, places: Array) -> Array:
+    """Across the axis, away from the mechanism; where that is on both sides, below or to the right."""
+    _, along, place = axis_of(posture, part)
+    across, size = turned(along), float(np.ptp(places, axis=0).max())
+    lies = float((places - place).mean(axis=0) @ across)
+    if abs(lies) > 0.03 * size:
+        return across if lies < 0.0 else -across
+    down = float(across @ np.array([0.3, -1.0]))
+    return across if down > 0.0 else -across
+
+
+def _below(postures: Sequence[Posture], part: PartInfo) -> Array:
+    """The direction in which a pin stands on the ground: down, unless links are there more than elsewhere."""
+    end = next(end for end in part.ends if body_of(end) == GROUND)
+    first, angles = postures[0], []
+    here = first.place(end)
+    bodies = {
+        body for other in first.parts("joints", "revolute", "rigid") for body in map(body_of, other.ends)
+        if body != GROUND and any(np.abs(first.place(e) - here).max() < 1e-9 for e in other.ends)
+    }  # fmt: skip
+    for posture in postures:
+        spans = [place - here for body in sorted(bodies) for place in anchors(posture, body).values()]
+        angles += [np.arctan2(y, x) for x, y in spans if np.hypot(x, y) > 1e-9]
+    ways = np.array([[0.0, -1.0], [-1.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    if not angles:
+        return ways[0]
+    free = [_nearest(np.array(angles), float(np.arctan2(y, x))) for x, y in ways]
+    share = [float((away < np.radians(50.0)).mean()) for away in free]
+    return ways[0] if share[0] == 0.0 else ways[int(np.argmin(share))]
+
+
+def _nearest(angles: Array, way: float) -> Array:
+    return np.asarray(np.abs((angles - way + np.pi) % (2.0 * np.pi) - np.pi))

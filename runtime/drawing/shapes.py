@@ -1,0 +1,160 @@
+"""What a drawing consists of, in metres and ground axes, and the plain geometry that symbols are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import numpy as np
+
+from gudgeon.model.compiled import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """Points (N, 2) that are joined; `part` is whose it is ("joint A"), `role` how it looks (roles.py)."""
+
+    part: str
+    role: str
+    points: Array
+    closed: bool = False
+    tint: int = 0  # of a body: which of the colours
+
+
+@dataclass(frozen=True, eq=False)
+class Disc:
+    """A circle."""
+
+    part: str
+    role: str
+    centre: Array
+    radius: float
+    tint: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Label:
+    """Text beside a place, (2,), from which it keeps `clear` metres; to the side `way` (degrees) if that is free."""
+
+    part: str
+    role: str
+    text: str
+    place: Array
+    clear: float = 0.0
+    way: float = 45.0
+
+
+Shape: TypeAlias = Line | Disc
+
+
+@dataclass(frozen=True, eq=False)
+class Sketch:
+    """A drawing: shapes in the order in which they are painted, names to be placed, and the box (m) that holds all."""
+
+    shapes: tuple[Shape, ...]
+    labels: tuple[Label, ...]
+    low: Array
+    high: Array
+    unit: float  # m: half the width of a bar, by which all symbols are measured
+    notes: tuple[str, ...] = field(default=())  # scales of arrows and insets
+
+    def of(self, part: str) -> list[Shape]:
+        """What belongs to one part."""
+        return [shape for shape in self.shapes if shape.part == part]
+
+
+def turned(vector: Array) -> Array:
+    """By a quarter turn to the left."""
+    return np.array([-vector[1], vector[0]])
+
+
+def unit_vector(vector: Array, otherwise: tuple[float, float] = (1.0, 0.0)) -> Array:
+    """Its direction; another one where it has none."""
+    size = float(np.hypot(*vector))
+    return vector / size if size > 0.0 else np.array(otherwise)
+
+
+def arc(centre: Array, radius: float, begin: float, end: float, count: int = 25) -> Array:
+    """Points of an arc, angles in rad."""
+    angle = np.linspace(begin, end, count)
+    return centre + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def hull(points: Sequence[Array]) -> Array:
+    """The corners of the convex hull, counterclockwise (Andrew's monotone chain)."""
+    ordered = sorted({(float(x), float(y)) for x, y in points})
+    if len(ordered) < 3:
+        return np.array(ordered)
+    size = max(abs(x) for pair in (ordered[0], ordered[-1]) for x in pair) + 1e-300
+
+    def half(these: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+        chain: list[tuple[float, float]] = []
+        for x, y in these:
+            while len(chain) > 1:
+                (ax, ay), (bx, by) = chain[-2:]
+                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 1e-12 * size * size:
+                    break
+                chain.pop()
+            chain.append((x, y))
+        return chain[:-1]
+
+    return np.array([*half(ordered), *half(reversed(ordered))])
+
+
+def rounded(points: Sequence[Array], radius: float) -> Array:
+    """The hull of discs about the points: of two a link, of more a plate with round corners."""
+    corners = hull(points)
+    if len(corners) == 1:
+        return arc(corners[0], radius, 0.0, 2.0 * np.pi, 37)[:-1]
+    edges = np.roll(corners, -1, axis=0) - corners
+    normals = np.arctan2(-edges[:, 0], edges[:, 1])  # outwards, of the edge that leaves each corner
+    outline = []
+    for k, corner in enumerate(corners):
+        begin = float(normals[k - 1])
+        turn = float((normals[k] - begin) % (2.0 * np.pi))
+        outline.append(arc(corner, radius, begin, begin + turn, 3 + round(turn * 6)))
+    return np.concatenate(outline)
+
+
+def rectangle(centre: Array, along: Array, length: float, width: float) -> Array:
+    """Corners; `along` is a unit vector, the sizes are halves."""
+    a, b = length * along, width * turned(along)
+    return np.array([centre - a - b, centre + a - b, centre + a + b, centre - a + b])
+
+
+def hatching(a: Array, b: Array, into: Array, length: float) -> list[Array]:
+    """Short strokes from a line, leaning, to the side `into`: the ground."""
+    span = b - a
+    along = unit_vector(span)
+    count = max(2, round(float(np.hypot(*span)) / (0.62 * length)))
+    lean = 0.75 * length * (into - along)
+    return [np.array([foot, foot + lean]) for foot in a + np.linspace(0.12, 1.0, count)[:, None] * span]
+
+
+def zigzag(a: Array, b: Array, height: float, teeth: int = 6, ends: float = 0.2) -> Array:
+    """A spring; `ends` is the share of straight wire at either end."""
+    across = turned(unit_vector(b - a)) * height
+    shares = np.linspace(ends, 1.0 - ends, 2 * teeth + 2)
+    sides = np.array([0.0, *([1.0, -1.0] * teeth), 0.0])
+    body = a + shares[:, None] * (b - a) + sides[:, None] * across
+    return np.vstack([a, body, b])
+
+
+def arrow_head(tip: Array, along: Array, size: float) -> Array:
+    """A slender triangle."""
+    side = 0.38 * size * turned(along)
+    return np.array([tip, tip - size * along + side, tip - size * along - side])
+
+
+def box_of(shapes: Iterable[Shape]) -> tuple[Array, Array]:
+    """Low and high corner of all."""
+    lows, highs = [], []
+    for shape in shapes:
+        if isinstance(shape, Disc):
+            lows.append(shape.centre - shape.radius)
+            highs.append(shape.centre + shape.radius)
+        else:
+            lows.append(shape.points.min(axis=0))
+            highs.append(shape.points.max(axis=0))
+    return np.min(lows, axis=0), np.max(highs, axis=0)

@@ -1,0 +1,89 @@
+"""A whole drawing: bodies, joints, what moves them, insets of joints with play, gravity, a scale, all names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from gudgeon.drawing.arrows import Arrows, round_number
+from gudgeon.drawing.bodies import bodies, names_of_bodies
+from gudgeon.drawing.insets import insets
+from gudgeon.drawing.joints import joints, names_of_joints
+from gudgeon.drawing.movers import HEAD, arrow, gravity_of, movers, names_of_movers
+from gudgeon.drawing.plan import Plan, make_plan
+from gudgeon.drawing.posture import Posture
+from gudgeon.drawing.shapes import Label, Line, Shape, Sketch, box_of
+from gudgeon.model.compiled import Array
+
+MARGIN = 2.6  # units around all
+
+
+def make_sketch(
+    posture: Posture, plan: Plan | None = None, *, more: Sequence[Shape] = (), labels: Sequence[Label] = (),
+    arrows: Sequence[Arrows] = (), loose: frozenset[str] = frozenset(), touching: frozenset[str] = frozenset(),
+    box: tuple[Array, Array] | None = None, inset: bool = True,
+) -> Sketch:  # fmt: skip
+    """The drawing of a posture. `more` shapes with their `labels`, and `arrows` with their scales come on top.
+
+    With a `box` of `room_of_all` it keeps its place among others of a motion. `touching`: joints with play whose
+    surfaces are in contact; their insets are left out without `inset`. `loose` bodies are those that nothing holds.
+    """
+    plan = plan or make_plan([posture])
+    more = [*more, *(shape for kind in arrows for shape in kind.shapes)]
+    shapes = [*bodies(posture, plan, loose), *joints(posture, plan), *movers(posture, plan), *more]
+    low, high = box or room_of(shapes, plan)
+    told = [*names_of_bodies(posture, plan), *names_of_joints(posture, plan), *names_of_movers(posture, plan)]
+    told, words, corner, beside = [*labels, *told], list[str](), high.copy(), list[Shape]()
+    for own, label, note in insets(posture, plan.unit, low, high, touching) if inset else ():
+        beside += own
+        told, words = [*told, label], [*words, note]
+        corner = np.maximum(corner, box_of(own)[1] + 1.5 * plan.unit)
+        low = np.minimum(low, [low[0], float(box_of(own)[0][1]) - 3.0 * plan.unit])
+    for own_shapes, label in _beside(posture, plan, low, high, arrows):
+        beside += own_shapes
+        told.append(label)
+    low = np.minimum(low, box_of(beside)[0] - 0.8 * plan.unit)
+    return Sketch((*shapes, *beside), tuple(told), low, corner, plan.unit, tuple(words))
+
+
+def room_of(shapes: Sequence[Shape], plan: Plan) -> tuple[Array, Array]:
+    """The box of shapes with a margin for names."""
+    low, high = box_of(shapes)
+    return low - MARGIN * plan.unit, high + MARGIN * plan.unit
+
+
+def room_of_all(postures: Sequence[Posture], plans: Sequence[Plan]) -> tuple[Array, Array]:
+    """The box of all positions of a motion, or of several assemblies; a plan for all, or one each."""
+    each = zip(postures, plans if len(plans) > 1 else [plans[0]] * len(postures), strict=True)
+    boxes = [room_of([*bodies(x, plan), *joints(x, plan), *movers(x, plan)], plan) for x, plan in each]
+    return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
+
+
+def _beside(
+    posture: Posture, plan: Plan, low: Array, high: Array, arrows: Sequence[Arrows]
+) -> Iterator[tuple[list[Shape], Label]]:
+    """Gravity in the upper left corner, a length below, and an arrow for each scale."""
+    u = plan.unit
+    if (down := gravity_of(posture)) is not None:
+        middle = np.array([low[0] + 1.5 * u, high[1] - 2.5 * u])
+        shapes = list(arrow("gravity", "gravity", middle - 2.0 * u * down, middle + 2.0 * u * down, HEAD * u))
+        yield shapes, Label("gravity", "gravity", "g", middle, 0.6 * u, 0.0)
+    length = round_number(0.22 * float((high - low).max()))
+    begin = np.array([low[0] + 0.5 * u, low[1] - 1.0 * u])
+    end = begin + [length, 0.0]
+    tick = np.array([0.0, 0.5 * u])
+    bar = np.array([begin + tick, begin - tick, begin, end, end + tick, end - tick])
+    yield [Line("scale", "scale", bar)], Label("scale", "scale", length_text(length), end, 0.6 * u, 0.0)
+    for k, kind in enumerate(kind for kind in arrows if kind.shapes):
+        tail = begin - [0.0, 2.6 * u * (k + 1)]
+        tip = tail + [kind.length, 0.0]
+        yield (
+            list(arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD * u)),
+            Label(f"scale {kind.role}", "scale", f"{kind.role}: {kind.text}", tip, 0.6 * u, 0.0),
+        )
+
+
+def length_text(length: float) -> str:
+    """A round length in mm or m."""
+    return f"{1e3 * length:g} mm" if length < 1.0 else f"{length:g} m"

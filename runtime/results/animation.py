@@ -1,0 +1,175 @@
+"""A run as a moving picture: a GIF, a film, or a page of HTML (drawing/page.py)."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+
+from gudgeon.drawing.labels import Names
+from gudgeon.drawing.page import PIXELS, page
+from gudgeon.drawing.picture import STYLE, draw_on, size_of
+from gudgeon.drawing.plan import make_plan
+from gudgeon.drawing.sketch import make_sketch, room_of_all
+from gudgeon.errors import BadValueError, GudgeonError
+from gudgeon.files.writing import check_target, write_bytes, write_text
+from gudgeon.language.shown import one_line
+from gudgeon.language.wanted import flag, number_of, path
+from gudgeon.results.mechanism_plots import force_arrows, path_lines, points_of, velocity_arrows
+from gudgeon.results.plots import caption_of
+from gudgeon.results.postures import posture_at, postures_of
+
+if TYPE_CHECKING:
+    from gudgeon.drawing.shapes import Sketch
+    from gudgeon.results.results import Result
+
+SUFFIXES = (".gif", ".mp4", ".html")
+RATE, LONGEST = 25.0, 1000  # pictures a second, and pictures in all
+SLOW, QUICK, SHOWN = 2.0, 20.0, 6.0  # s: shorter and longer runs are shown within the last
+
+
+@dataclass(frozen=True)
+class Animation:
+    """A page that plays; a notebook shows it where it ends a cell."""
+
+    html: str
+    width: float
+    height: float
+
+    def _repr_html_(self) -> str:
+        size = f'width="{self.width + 60:.0f}" height="{self.height + 170:.0f}"'
+        return f'<iframe {size} style="border: 0" srcdoc="{escape(self.html)}"></iframe>'
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is shown: times of the run (s) within so many seconds, paths of points, arrows."""
+
+    times: Any
+    seconds: float
+    points: Sequence[str]
+    velocities: bool
+    forces: bool
+
+
+def wanted_of(run: Result, seconds: Any, rate: Any, points: Any, velocities: Any, forces: Any) -> Wanted:
+    """Checked. Raises BadValueError, UnknownNameError."""
+    span = float(run.t[-1] - run.t[0])
+    seconds = (span if SLOW <= span <= QUICK else SHOWN) if seconds is None else number_of(seconds, "seconds")
+    rate = number_of(rate, "rate")
+    if not (seconds > 0.0 and rate > 0.0):
+        raise BadValueError(f"seconds {seconds:g}, rate {rate:g}: expected numbers above 0")
+    count = max(2, round(seconds * rate))
+    if count > LONGEST:
+        hint = "ask for fewer seconds, or a lower rate"
+        raise BadValueError(f"{count} pictures: expected at most {LONGEST}", hint=hint)
+    times = np.linspace(float(run.t[0]), float(run.t[-1]), count)
+    names = [points] if isinstance(points, str) else list(points)
+    arrows = flag(velocities, "velocities"), flag(forces, "forces")
+    return Wanted(times, seconds, points_of(run, names) if names else [], *arrows)
+
+
+def animate(run: Result, target: Any, wanted: Wanted) -> Animation | None:
+    """Write x.gif, x.mp4 or x.html; an Animation of the page where that or nothing is named."""
+    if target is None:
+        return _page(run, wanted)
+    file = Path(path(target, "the file of an animation"))
+    if file.suffix not in SUFFIXES:
+        raise BadValueError(f"{file}: expected a name that ends in .gif, .mp4 or .html")
+    if file.suffix == ".mp4" and shutil.which("ffmpeg") is None:
+        told = f"{file}: a film needs the program ffmpeg, which is not there"
+        raise GudgeonError(f"{told}\n  install it, or name a .gif or .html")
+    check_target(file)
+    if file.suffix == ".html":
+        shown = _page(run, wanted)
+        write_text(file, shown.html)
+        return shown
+    write_bytes(file, _film(run, wanted, file.suffix))
+    return None
+
+
+def sketches(run: Result, wanted: Wanted) -> Iterator[Sketch]:
+    """One for each picture, all in one box."""
+    motion = postures_of(run, 60)
+    plan = make_plan(motion)
+    box, lines = room_of_all(motion, [plan]), path_lines(run, wanted.points)
+    before = wanted.times[0]
+    for t in wanted.times:
+        posture = posture_at(run, float(t))
+        arrows = [velocity_arrows(posture, motion, plan)] if wanted.velocities else []
+        arrows += [force_arrows(run, posture, plan)] if wanted.forces else []
+        touching = touching_between(run, before, t)
+        yield make_sketch(posture, plan, more=lines, arrows=arrows, touching=touching, box=box)
+        before = t
+
+
+def touching_between(run: Result, begin: float, end: float) -> frozenset[str]:
+    """Joints with play whose surfaces met between two times: a blow is shorter than a picture."""
+    names = [joint.name for joint in run.source.clearances]
+    ends = np.where(np.isnan(run.impacts["t_off"]), np.inf, run.impacts["t_off"])
+    met = run.impacts["joint"][(run.impacts["t_on"] <= end) & (ends >= begin)]
+    inside = run.state[(run.t >= begin) & (run.t <= end)]
+    return frozenset(name for k, name in enumerate(names) if k in met or (inside[:, k] > 0).any())
+
+
+def _caption(run: Result, t: float, wanted: Wanted) -> str:
+    slow = wanted.seconds / float(run.t[-1] - run.t[0]) if run.t[-1] > run.t[0] else 1.0
+    told = f", {slow:.3g} times slower" if slow > 1.0 else f", {1 / slow:.3g} times faster"
+    return f"{caption_of(run)}, t = {t:.4f} s{told if abs(slow - 1.0) > 1e-9 else ''}"
+
+
+def _page(run: Result, wanted: Wanted) -> Animation:
+    """Names are placed once, by matplotlib, and then stay beside what they name."""
+    drawn = list(sketches(run, wanted))
+    picture, names = _canvas(drawn[0], _caption(run, wanted.times[0], wanted))
+    beside = _beside(picture, names)
+    width = float(picture.get_size_inches()[0]) * PIXELS
+    title = one_line(f"{run.source.title or run.source.mechanism}: {run.source.scene}")
+    text = page(title, drawn, [float(t) for t in wanted.times], wanted.seconds, width, beside)
+    return Animation(text, width, width * float(np.divide(*(drawn[0].high - drawn[0].low)[::-1])))
+
+
+def _canvas(sketch: Sketch, caption: str) -> tuple[Figure, Names | None]:
+    """A figure of the sketch at PIXELS to the inch, with its names."""
+    width, height = size_of(sketch, 7.0)
+    picture = Figure(figsize=(width, height + 0.3), dpi=PIXELS)
+    ax = picture.add_axes((0.0, 0.0, 1.0, height / (height + 0.3)))
+    draw_on(ax, sketch)
+    picture.text(0.01, 0.99, caption, va="top", fontsize=9, parse_math=False)
+    return picture, next((artist for artist in ax.get_children() if isinstance(artist, Names)), None)
+
+
+def _beside(picture: Figure, names: Names | None) -> dict[str, tuple[float, float]]:
+    picture.draw_without_rendering()
+    return names.beside if names is not None else {}
+
+
+def _film(run: Result, wanted: Wanted, suffix: str) -> bytes:
+    """By matplotlib's writers, into a folder of its own first."""
+    from matplotlib.animation import FFMpegWriter, PillowWriter
+
+    rate: Any = (len(wanted.times) - 1) / wanted.seconds
+    writer: Any = PillowWriter(fps=rate) if suffix == ".gif" else FFMpegWriter(fps=rate, codec="libx264")
+    beside: dict[str, tuple[float, float]] | None = None
+    with matplotlib.rc_context(STYLE), tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, f"film{suffix}")
+        for t, sketch in zip(wanted.times, sketches(run, wanted), strict=True):
+            picture, names = _canvas(sketch, _caption(run, float(t), wanted))
+            beside = _beside(picture, names) if beside is None else beside
+            if names is not None:
+                names.held = beside
+            if t == wanted.times[0]:
+                writer.setup(picture, file, PIXELS)
+            writer.fig = picture
+            writer.grab_frame()
+        writer.finish()
+        return Path(file).read_bytes()

@@ -1,0 +1,113 @@
+"""The mechanism itself in figures of a run: at a time, with arrows, and paths of its points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.drawing.arrows import Arrows, arrows, velocities_of
+from gudgeon.drawing.picture import draw_on
+from gudgeon.drawing.plan import Plan, make_plan
+from gudgeon.drawing.posture import Posture
+from gudgeon.drawing.shapes import Line, Sketch
+from gudgeon.drawing.sketch import make_sketch, room_of_all
+from gudgeon.errors import BadValueError
+from gudgeon.language.suggestions import unknown
+from gudgeon.language.wanted import flag, text
+from gudgeon.results.plots import cycle
+from gudgeon.results.postures import posture_at, postures_of, time_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from gudgeon.results.results import Result
+
+Array = Any
+MANY = 60  # names for which a panel has no room
+
+
+def sketch_at(run: Result, t: Any, velocities: bool = False, forces: bool = False) -> Sketch:
+    """The mechanism at a time of the run, with what was asked for. Raises BadValueError, UnknownNameError."""
+    velocities, forces = flag(velocities, "velocities"), flag(forces, "forces")
+    posture, motion = posture_at(run, time_of(run, t)), postures_of(run)
+    plan = make_plan(motion)
+    more = [velocity_arrows(posture, motion, plan)] if velocities else []
+    more += [force_arrows(run, posture, plan)] if forces else []
+    return make_sketch(posture, plan, arrows=more, touching=touching_at(run, posture.t))
+
+
+def touching_at(run: Result, t: float) -> frozenset[str]:
+    """Joints with play whose surfaces are in contact at the sample before t."""
+    k = max(int(np.searchsorted(run.t, t, side="right")) - 1, 0)
+    return frozenset(joint.name for c, joint in enumerate(run.source.clearances) if run.state[k, c] > 0)
+
+
+def velocity_arrows(posture: Posture, motion: Sequence[Posture], plan: Plan) -> Arrows:
+    """Of all points; their scale is that of the whole run."""
+    speeds = [float(np.hypot(*vector)) for at in (*motion, posture) for _, (_, vector) in velocities_of(at)]
+    return arrows("velocity", dict(velocities_of(posture)), "m/s", plan.unit, max(speeds, default=0.0))
+
+
+def force_arrows(run: Result, posture: Posture, plan: Plan) -> Arrows:
+    """On the second body of each joint, of one with play on the journal, from the samples beside; the longest is the
+    longest of this moment, for blows would leave nothing of the others. Raises UnknownNameError without masses."""
+    found = dict(_forces(run, posture))
+    largest = max((float(np.hypot(*vector)) for _, vector in found.values()), default=0.0)
+    return arrows("reaction", found, "N", plan.unit, largest)
+
+
+def _forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
+    for part in posture.parts("joints"):
+        if part.kind != "gear":
+            vector = [float(np.interp(posture.t, run.t, run[f"{part.name}.F{axis}"])) for axis in "xy"]
+            place = posture.place(part.ends[0 if part.kind == "point_on_line" else 1])
+            yield part.name, (place, np.array(vector))
+
+
+def start_sketch(run: Result) -> Sketch:
+    """Where the run starts, without insets; of very many parts without names."""
+    motion = postures_of(run)
+    sketch = make_sketch(motion[0], make_plan(motion), inset=False)
+    return sketch if len(sketch.labels) <= MANY else replace(sketch, labels=())
+
+
+def path_sketch(run: Result) -> Sketch:
+    """Where the run starts, in a box that holds all of it, without names."""
+    motion = postures_of(run)
+    plan = make_plan(motion)
+    sketch = make_sketch(motion[0], plan, box=room_of_all(motion, [plan]), inset=False)
+    return replace(sketch, labels=tuple(label for label in sketch.labels if label.role == "scale"))
+
+
+def draw_path(run: Result, sketch: Sketch, points: Sequence[str], ax: Axes) -> None:
+    """Curves of points over the run, the mechanism faintly behind them; a ring where each starts."""
+    draw_on(ax, sketch, faint=True)
+    for name, colour in zip(points, cycle(len(points)), strict=True):
+        x, y = run[f"{name}.x"], run[f"{name}.y"]
+        ax.plot(x, y, color=colour, lw=1.4, label=name, gid=f"path-{name}", zorder=5)
+        ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=colour, mew=1.0, zorder=5.1)
+    ax.legend(loc="upper right", fontsize=8, framealpha=0.8)
+
+
+def path_lines(run: Result, points: Sequence[str]) -> list[Line]:
+    """The same curves as parts of a drawing."""
+    return [Line(f"path {name}", "path", np.column_stack([run[f"{name}.x"], run[f"{name}.y"]])) for name in points]
+
+
+def points_of(run: Result, names: Sequence[Any]) -> list[str]:
+    """Points "coupler.tracer", or bodies "S9" for their centres of mass. UnknownNameError with the nearest."""
+    if not names:
+        raise BadValueError("plot.path: expected the name of a point at least", hint='for example "coupler.head"')
+    return [_point_of(run, name) for name in dict.fromkeys(names)]
+
+
+def _point_of(run: Result, name: Any) -> str:
+    name = text(name, "a point of plot.path", "the name of a point")
+    known = [point.name for point in run.source.points if point.body >= 0]
+    bodies = [body.name for body in run.source.bodies]
+    if name in known or name in bodies:
+        return name
+    raise unknown(f"the scene {run.source.scene!r} has no point {name!r} that moves", name, (*known, *bodies))

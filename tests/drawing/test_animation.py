@@ -1,0 +1,173 @@
+"""Runs as moving pictures: what each picture of a page holds against the series, and that its script runs."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+import gudgeon  # noqa: E402
+from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError  # noqa: E402
+from gudgeon.results.animation import touching_between  # noqa: E402
+from gudgeon.results.results import Result  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def crank() -> Result:
+    return gudgeon.load("slider_crank", "dry").simulate(0.02, output=40)
+
+
+@pytest.fixture(scope="module")
+def html(crank: Result) -> str:
+    shown = crank.animate(seconds=0.8, rate=10.0, points=["rod.head"], velocities=True)
+    assert shown is not None
+    return shown.html
+
+
+def frames(html: str) -> tuple[dict[str, Any], list[dict[str, Any]], list[list[Any]]]:
+    """The page's data, with of each picture its paths by identifier and where names are, as the script decodes them."""
+    data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', html)[1])  # type: ignore[index]
+    for track in (data["frames"], data["places"]):
+        for k in range(1, len(track)):
+            track[k] = [before if x == 0 else x for before, x in zip(track[k - 1], track[k], strict=True)]
+    names = re.findall(r'<path id="([^"]+)"/>', html)
+    return data, [dict(zip(names, frame, strict=True)) for frame in data["frames"]], data["places"]
+
+
+def disc(path: str) -> tuple[float, float, float]:
+    """Centre and radius of a circle's path."""
+    x, y, r = re.match(r"M([-\d.]+) ([-\d.]+)a([\d.]+)", path).groups()  # type: ignore[union-attr]
+    return float(x) + float(r), float(y), float(r)
+
+
+def test_each_picture_has_its_pins_where_the_run_has_them(crank: Result, html: str) -> None:
+    """The crank's pin on its circle, within the rounding to a tenth of a pixel: scale and origin are the start's."""
+    data, pictures, _ = frames(html)
+    assert len(pictures) == 8 and data["seconds"] == 0.8
+    assert data["times"] == pytest.approx(np.linspace(0.0, 0.02, 8), abs=1e-9)
+    pivot = disc(pin(pictures[0], "O"))
+    scale = (disc(pin(pictures[0], "crankpin"))[0] - pivot[0]) / 0.05
+    for t, picture in zip(data["times"], pictures, strict=True):
+        x, y, _ = disc(pin(picture, "crankpin"))
+        angle = 20.0 * np.pi * t
+        wanted = scale * 0.05 * np.cos(angle), scale * 0.05 * np.sin(angle)
+        assert (x - pivot[0], pivot[1] - y) == pytest.approx(wanted, abs=0.4)
+    assert scale > 1000.0
+
+
+def pin(picture: dict[str, Any], joint: str) -> str:
+    """The last circle of a joint: what is painted on top is its pin."""
+    found = [shape[0] for name, shape in picture.items() if re.fullmatch(rf"joint-{joint}(-\d+)?", name) and shape]
+    return [path for path in found if "a" in path][-1]
+
+
+def test_a_page_needs_nothing_from_elsewhere(html: str) -> None:
+    class Tags(HTMLParser):
+        open: list[str] = []
+
+        def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+            assert not {"src", "href"} & {name for name, _ in attributes}
+            self.open += [tag] if tag not in ("meta", "input", "br", "path") else []
+
+        def handle_endtag(self, tag: str) -> None:
+            assert self.open.pop() == tag
+
+        def handle_startendtag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+            pass
+
+    parser = Tags()
+    parser.feed(html)
+    assert parser.open == [] and "http" not in html and "@import" not in html and "url(" not in html
+    width, height = map(float, re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', html).groups())  # type: ignore[union-attr]
+    assert 300 < width < 1000 and 100 < height < 1000 and not re.search("@[A-Z]+@", html)
+    ids = re.findall(r'id="([^"]+)"', html)
+    assert len(set(ids)) == len(ids) and {"path-rod.head", "body-slider", "inset-wristpin"} <= set(ids)
+
+
+def test_a_title_is_text(crank: Result) -> None:
+    title = "</script><b>@DATA@ & $x$"
+    hostile = replace(crank, source=replace(crank.source, title=title), stored={})
+    shown = hostile.animate(seconds=0.2, rate=10)
+    assert shown is not None and "<b>" not in shown.html
+    assert shown.html.count("&lt;/script&gt;&lt;b&gt;@DATA@ &amp; $x$: dry") == 3
+
+
+def test_the_script_runs_to_the_last_picture(html: str, tmp_path: Path) -> None:
+    """In node, on a page of stubs: it decodes all, shows the first, goes where the slider is put."""
+    if shutil.which("node") is None:
+        pytest.skip("needs node")
+    data, pictures, places = frames(html)
+    script = re.findall(r"<script>(.*?)</script>", html, re.S)[0]
+    stub = """
+const made = {};
+const element = () => ({ at: {}, style: {}, setAttribute(k, v) { this.at[k] = v }, click() { this.onclick() } });
+const several = n => Array.from({ length: n }, element);
+const pages = { "svg path": several(PATHS), "#names text": several(TEXTS) };
+const document = { getElementById: n => made[n] ??= n === "data" ? { textContent: DATA } : element(),
+                   querySelectorAll: n => pages[n] };
+const matchMedia = () => ({ matches: true }), requestAnimationFrame = () => 0;
+"""
+    raw = re.search(r'id="data">(.*?)</script>', html)[1]  # type: ignore[index]
+    stub = stub.replace("PATHS", str(len(pictures[0]))).replace("TEXTS", str(len(places[0])))
+    ask = """
+made.when.value = 7; made.when.oninput();
+const [drawn, named] = [pages["svg path"].map(p => p.at.d), pages["#names text"].map(p => p.at.x)];
+console.log(JSON.stringify([drawn, made.t.textContent, named]));
+"""
+    (tmp_path / "x.js").write_text(stub.replace("DATA", json.dumps(raw)) + script + ask)
+    done = subprocess.run(["node", tmp_path / "x.js"], capture_output=True, text=True, check=True)
+    drawn, told, xs = json.loads(done.stdout)
+    assert drawn == [shape[0] if shape else "" for shape in pictures[7].values()]
+    assert told == "t = 0.020000 s" and xs == [place[0] for place in places[7]]
+
+
+def test_a_journals_number_moves_with_it(crank: Result, html: str) -> None:
+    _, _, places = frames(html)
+    told = [[place[2] for place in picture if len(place) > 2] for picture in places]
+    assert all(len(texts) == 1 and texts[0].startswith("wristpin ×") for texts in told)
+    last = crank["wristpin.eps"][-1]
+    assert "e/c = 0.00" in told[0][0] and f"e/c = {last:.2f}" in told[-1][0]
+
+
+def test_a_blow_between_two_pictures_is_seen(run: Result) -> None:
+    """Of the made-up run: A is in contact from 0.11 to 0.12 s, and from 0.46 s on."""
+    run.state[:] = 0
+    assert touching_between(run, 0.10, 0.109) == frozenset()
+    assert touching_between(run, 0.10, 0.111) == touching_between(run, 0.119, 0.2) == frozenset({"A"})
+    assert touching_between(run, 0.13, 0.4) == frozenset() and touching_between(run, 0.9, 1.0) == frozenset({"A"})
+
+
+def test_files(crank: Result, tmp_path: Path) -> None:
+    assert crank.animate(tmp_path / "x.gif", seconds=0.3, rate=10) is None
+    data = (tmp_path / "x.gif").read_bytes()
+    assert data.startswith(b"GIF89a") and data.count(b"\x21\xf9\x04") == 3  # a control block for each picture
+    shown = crank.animate(str(tmp_path / "x.html"), seconds=0.3, rate=10)
+    assert shown is not None and (tmp_path / "x.html").read_text() == shown.html
+    assert "<iframe" in shown._repr_html_() and "<script" not in shown._repr_html_()
+
+
+def test_what_cannot_be_is_told(crank: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    asked: Any = crank.animate
+    for arguments, kind, told in (
+        ({"path": tmp_path / "x.mp4"}, GudgeonError, "ffmpeg"),
+        ({"path": tmp_path / "x.avi"}, BadValueError, ".gif, .mp4 or .html"),
+        ({"path": tmp_path}, BadValueError, "expected a name"),
+        ({"seconds": 0.0}, BadValueError, "above 0"),
+        ({"seconds": 1e6}, BadValueError, "at most"),
+        ({"points": ["rod.hed"]}, UnknownNameError, "nearest: rod.head"),
+        ({"forces": "yes"}, BadValueError, "forces is"),
+    ):
+        with pytest.raises(kind, match=told):
+            asked(**arguments)
+    assert list(tmp_path.iterdir()) == []

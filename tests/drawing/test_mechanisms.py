@@ -1,0 +1,271 @@
+"""Every mechanism that comes with gudgeon, and those of the tests, drawn at their start: what is where."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+from gudgeon.assembly.branches import find_assemblies  # noqa: E402
+from gudgeon.assembly.closure import Closure  # noqa: E402
+from gudgeon.assembly.mobility import find_mobility, free_motions  # noqa: E402
+from gudgeon.drawing.failures import freedoms, gaps  # noqa: E402
+from gudgeon.drawing.insets import eccentricity, magnification  # noqa: E402
+from gudgeon.drawing.labels import Names  # noqa: E402
+from gudgeon.drawing.picture import as_bytes, figure_of  # noqa: E402
+from gudgeon.drawing.plan import make_plan  # noqa: E402
+from gudgeon.drawing.posture import Posture  # noqa: E402
+from gudgeon.drawing.shapes import Disc, Label, Line  # noqa: E402
+from gudgeon.drawing.sketch import make_sketch  # noqa: E402
+from gudgeon.errors import GudgeonError  # noqa: E402
+from gudgeon.generator.pipeline import closed_linkage  # noqa: E402
+from gudgeon.generator.reader.read import read_mechanism  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[2]
+FILES = [
+    *sorted((ROOT / "mechanisms").glob("*.yaml")),
+    *sorted((ROOT / "tests/mechanisms/described").glob("*.yaml")),
+    *(ROOT / f"tests/mechanisms/valid/{name}.yaml" for name in ("every_kind", "shapes")),
+    *(ROOT / f"tests/mechanisms/methods/{name}.yaml" for name in ("geared_chain", "trammel")),
+]
+
+
+@dataclass(frozen=True)
+class Drawn:
+    mechanism: Any
+    linkage: Any
+    closure: Closure
+    posture: Posture
+
+
+@cache
+def drawn(file: Path | str) -> Drawn:
+    """The last scene of a file (where it has play, one with it) at its start; of a text its own."""
+    text = file.encode() if isinstance(file, str) else file.read_bytes()
+    mechanism = read_mechanism(text, "drawn.yaml", None)
+    linkage, _ = closed_linkage(mechanism, list(mechanism.scenes)[-1])
+    closure = Closure(linkage, linkage.p, 0.0)
+    with np.errstate(all="ignore"):
+        q, _ = closure.nearest()
+    return Drawn(mechanism, linkage, closure, Posture(linkage.source, linkage.p, q))
+
+
+def boxes(picture: Any) -> Iterator[tuple[str, tuple[float, ...]]]:
+    for ax in picture.axes:
+        for artist in ax.get_children():
+            if isinstance(artist, Names):
+                yield from artist.boxes.items()
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_everything_is_drawn_once_and_no_name_lies_on_another(file: Path) -> None:
+    found = drawn(file)
+    sketch = make_sketch(found.posture)
+    picture = figure_of([sketch], [""], "x")
+    svg = as_bytes(picture, ".svg").decode()
+    ids = re.findall(r'<g id="([^"]+)"', svg)
+    mechanism = found.mechanism
+    wanted = [f"body-{name}" for name in mechanism.bodies] + [f"joint-{name}" for name in mechanism.joints]
+    wanted += [f"drive-{name}" for name in mechanism.drives] + [f"force-{name}" for name in mechanism.forces]
+    wanted += ["gravity"] if mechanism.gravity and not all(g.is_zero for g in mechanism.gravity) else []
+    assert set(wanted) <= set(ids)
+    assert {f"name-{name}" for name in wanted} <= set(ids)
+    assert len(set(ids)) == len(ids)
+    placed = dict(boxes(picture))
+    assert len(placed) == len(sketch.labels)
+    for (one, a), (other, b) in combinations(placed.items(), 2):
+        assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1], (one, other)
+    width, height = picture.get_size_inches() * picture.dpi
+    assert all(a[0] >= 0 and a[1] >= 0 and a[2] <= width * 1.01 and a[3] <= height for a in placed.values())
+    assert as_bytes(figure_of([make_sketch(found.posture)], [""], "x"), ".svg").decode() == svg
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_pins_and_bodies_are_where_the_start_has_them(file: Path) -> None:
+    """Pins at the points of both bodies, which a closed start joins; outlines around all points of a body."""
+    posture = drawn(file).posture
+    sketch = make_sketch(posture)
+    for part in posture.parts("joints", "revolute"):
+        (pin,) = [shape for shape in sketch.of(f"joint {part.name}") if shape.role == "pin"]
+        for end in part.ends:
+            assert isinstance(pin, Disc) and pin.centre == pytest.approx(posture.place(end), abs=1e-9)
+    for part in posture.parts("joints", "distance"):
+        (rod,) = [shape for shape in sketch.of(f"joint {part.name}") if shape.role == "rod"]
+        assert isinstance(rod, Line)
+        length = posture.number(f"joints.{part.name}.length")
+        assert float(np.hypot(*(rod.points[1] - rod.points[0]))) == pytest.approx(length, rel=1e-9)
+    for part in posture.parts("joints", "gear"):
+        wheels = [shape for shape in sketch.of(f"joint {part.name}") if shape.role in ("wheel", "ring")]
+        one, other = (shape for shape in wheels if isinstance(shape, Disc))
+        span, inside = float(np.hypot(*(other.centre - one.centre))), part.options["internal"] == "true"
+        assert span == pytest.approx(other.radius - one.radius if inside else other.radius + one.radius, rel=1e-6)
+
+
+def test_names_without_room_are_left_out_and_counted() -> None:
+    """As many names as do not fit at one place: those that are there lie apart, the others are told."""
+    sketch = make_sketch(drawn(ROOT / "mechanisms/pendulum.yaml").posture)
+    crowd = tuple(Label(f"joint x{k}", "joint", f"a_long_name_{k}", np.zeros(2)) for k in range(400))
+    picture = figure_of([replace(sketch, labels=crowd)], [""], "x")
+    svg = as_bytes(picture, ".svg").decode()
+    placed = dict(boxes(picture))
+    assert 10 < len(placed) < 400 and f"{400 - len(placed)} names left out" in svg
+    for a, b in combinations(placed.values(), 2):
+        assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
+
+
+BAR = """format: gudgeon/1
+name: bar
+bodies:
+  crank: {length: 40 mm, mass: 31 g, inertia: 5.2e-6 kg*m^2}
+  coupler: {length: 60 mm, mass: 94 g, inertia: 1.16e-4 kg*m^2}
+  rocker: {length: 50 mm, mass: 63 g, inertia: 3.5e-5 kg*m^2}
+ground: {A0: [0, 0], B0: [180 mm, 0]}
+joints:
+  A0: {revolute: [ground.A0, crank.tail]}
+  A: {revolute: [crank.head, coupler.tail]}
+  B: {revolute: [coupler.head, rocker.head]}
+  B0: {revolute: [ground.B0, rocker.tail]}
+drives: {motor: {angle: crank, value: 90 deg}}
+start: {guess: {coupler.theta: 20 deg, rocker.theta: 80 deg}}
+"""
+RODS = """format: gudgeon/1
+name: rods
+bodies:
+  slide: {mass: 1 kg, inertia: 1e-3 kg*m^2}
+  beam: {length: 100 mm, mass: 1 kg, inertia: 1e-3 kg*m^2}
+ground: {O: [0, 0], P: [300 mm, 0], Q: [0, 50 mm]}
+joints:
+  way: {translational: [ground.O, slide.origin], axis: [1, 0]}
+  rod: {distance: [ground.P, slide.origin], length: 80 mm}
+  foot: {revolute: [ground.Q, beam.tail]}
+  slot: {point_on_line: [beam.head, ground.P], direction: [1, 0]}
+drives: {push: {coordinate: slide.x, value: 100 mm}}
+start: {set: {beam.theta: 10 deg}}
+"""
+
+
+@pytest.mark.parametrize("text", [BAR, RODS])
+def test_a_gap_is_as_long_as_the_linkage_is_open(text: str) -> None:
+    """Of each joint or drive the length of its rows' residual, joined at one end; no other has a gap."""
+    found = drawn(text)
+    residual, closure = found.closure.residual(found.posture.q), found.closure
+    shapes, labels = gaps(closure, found.posture)
+    lengths = dict[str, list[float]]()
+    for owner, unit, left in zip(closure.owners, closure.units, residual, strict=True):
+        if unit == "m" and owner != "start":
+            lengths.setdefault(owner, []).append(left)
+    sizes = {f"gap {owner}": float(np.linalg.norm(left)) for owner, left in lengths.items()}
+    spans = {s.part: float(np.hypot(*(s.points[1] - s.points[0]))) for s in shapes if isinstance(s, Line)}
+    wanted = {part: size for part, size in sizes.items() if size > 2e-3 * max(sizes.values())}
+    assert len(wanted) > 1 and set(wanted) <= set(spans)
+    for part, size in wanted.items():
+        if part != "gap rod":  # whose row is quadratic in its length
+            assert spans[part] == pytest.approx(size, rel=1e-9), part
+    rod = next((s for s in shapes if s.part == "gap rod"), None)
+    if isinstance(rod, Line):
+        reach = float(np.hypot(*(found.posture.place("slide.origin") - [0.3, 0.0])))
+        assert spans["gap rod"] == pytest.approx(abs(reach - 0.08), rel=1e-12)
+    assert {label.part for label in labels} >= set(wanted)
+    svg = as_bytes(figure_of([make_sketch(found.posture, more=shapes, labels=labels)], [""], "x"), ".svg").decode()
+    assert all(f'id="{part.replace(" ", "-")}"' in svg for part in spans)
+
+
+LOOSE = """format: gudgeon/1
+name: loose
+bodies:
+  crank: {length: 40 mm, mass: 31 g, inertia: 5.2e-6 kg*m^2}
+  coupler: {length: 60 mm, mass: 94 g, inertia: 1.16e-4 kg*m^2}
+  stray: {length: 50 mm, mass: 63 g, inertia: 3.5e-5 kg*m^2}
+  block: {mass: 63 g, inertia: 3.5e-5 kg*m^2}
+ground: {A0: [0, 0]}
+joints:
+  A0: {revolute: [ground.A0, crank.tail]}
+  A: {revolute: [crank.head, coupler.tail]}
+  way: {translational: [ground.A0, block.origin], axis: [1, 0]}
+drives: {motor: {angle: crank, value: 90 deg}}
+start: {guess: {coupler.theta: 20 deg, stray.x: 80 mm, block.x: 70 mm}}
+"""
+
+
+def test_what_may_move_is_told_by_arrows_along_it() -> None:
+    found = drawn(LOOSE)
+    linkage, posture = found.linkage, found.posture
+    motions = free_motions(linkage, linkage.p, posture.q)
+    mobility = find_mobility(linkage, linkage.p, posture.q)
+    assert motions.shape[1] == mobility.freedoms == 5 and mobility.loose == ("stray",)
+    assert np.abs(linkage.closed_phi_q(0.0, posture.q, linkage.p) @ motions).max() < 1e-12
+    shapes, labels = freedoms(found.closure, posture, 1e-3, mobility.loose)
+    heads = {part: [s for s in shapes if s.part == part and s.role == "free head"] for part in {s.part for s in shapes}}
+    assert {part: len(found) for part, found in heads.items()} == {"free coupler": 2, "free stray": 5, "free block": 2}
+    assert [label.part for label in labels] == ["free stray"]
+    for part, along in (("free coupler", posture.theta("coupler") + np.pi / 2), ("free block", 0.0)):
+        tips = [head.points[0] for head in heads[part] if isinstance(head, Line)]
+        span = tips[0] - tips[1]
+        assert abs(span @ [-np.sin(along), np.cos(along)]) < 1e-12 * float(np.hypot(*span)) + 1e-15
+    sketch = make_sketch(posture, more=shapes, labels=labels, loose=frozenset(mobility.loose))
+    assert {s.role for s in sketch.of("body stray")} == {"loose"} and {s.role for s in sketch.of("body crank")} == {
+        "body"
+    }
+
+
+def test_a_journal_is_drawn_where_it_is_at_the_scale_that_is_told() -> None:
+    """Against the eccentricity that the start is given, and the clearance of the file."""
+    text = (ROOT / "mechanisms/slider_crank.yaml").read_text()
+    text = text.replace("start:\n", "start:\n  play: {wristpin: {e: [0.05 mm, -0.12 mm]}}\n")
+    posture = drawn(text).posture
+    e = eccentricity(posture, "wristpin")
+    assert e == pytest.approx([5e-5, -1.2e-4], abs=1e-12)
+    sketch = make_sketch(posture)
+    by_role = {s.role: s for s in sketch.of("inset wristpin") if isinstance(s, Disc)}
+    times = magnification(posture, "wristpin", sketch.unit)
+    assert by_role["journal"].centre - by_role["hole"].centre == pytest.approx(times * e)
+    assert by_role["clearance"].radius == pytest.approx(times * 2e-4)
+    assert by_role["hole"].radius - by_role["journal"].radius == pytest.approx(times * 2e-4)  # the gap is to scale
+    told = next(label.text for label in sketch.labels if label.part == "inset wristpin")
+    assert f"×{times:g}" in told and "e/c = 0.65" in told
+    assert any(f"×{times:g}" in note and "0.2 mm" in note for note in sketch.notes)
+
+
+def test_a_play_as_large_as_the_mechanism_needs_no_inset() -> None:
+    sketch = make_sketch(drawn(ROOT / "mechanisms/bouncing_ball.yaml").posture)
+    (circle,) = [s for s in sketch.of("joint fall") if s.role == "clearance"]
+    assert isinstance(circle, Disc) and circle.radius == 1.0 and not sketch.of("inset fall")
+
+
+def test_assemblies_share_a_scale_and_differ_in_what_is_drawn() -> None:
+    found = drawn(ROOT / "mechanisms/four_bar.yaml")
+    closed = find_assemblies(found.linkage, found.linkage.p, found.posture.q, ())
+    assert len(closed) == 2
+    places = [make_sketch(replace(found.posture, q=one.q)).of("joint B")[0] for one in closed]
+    one, other = (disc.centre for disc in places if isinstance(disc, Disc))
+    # mirror images in the line from the crank's head to the rocker's pivot
+    a, b = found.posture.place("crank.head"), np.array([0.1, 0.0])
+    along = (b - a) / np.hypot(*(b - a))
+    mirrored = a + 2 * ((one - a) @ along) * along - (one - a)
+    assert other == pytest.approx(mirrored, abs=1e-9)
+
+
+def test_the_plan_of_a_motion_holds_all_of_it() -> None:
+    """Rails reach as far as their sliders go."""
+    posture = drawn(ROOT / "mechanisms/slider_crank.yaml").posture
+    postures = [replace(posture, q=posture.q + [0, 0, 0, 0, 0, 0, shift, 0, 0]) for shift in (0.0, -0.03, 0.02)]
+    plan = make_plan(postures)
+    low, high = plan.travel["cylinder"]
+    assert (low, high) == pytest.approx((0.14, 0.19), abs=1e-9)
+    rail = next(s for s in make_sketch(posture, plan).of("joint cylinder") if s.role == "rail")
+    assert isinstance(rail, Line) and rail.points[0, 0] < 0.14 and rail.points[1, 0] > 0.19
+
+
+def test_what_an_earlier_version_wrote_is_told() -> None:
+    posture = drawn(ROOT / "mechanisms/four_bar.yaml").posture
+    with pytest.raises(GudgeonError, match="run the scene again"):
+        Posture(replace(posture.source, parts=()), posture.p, posture.q)

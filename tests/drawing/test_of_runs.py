@@ -1,0 +1,136 @@
+"""Drawings of runs: places, paths and arrows against the series of the run."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+import gudgeon  # noqa: E402
+from gudgeon.drawing.labels import Names  # noqa: E402
+from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
+from gudgeon.results import plots  # noqa: E402
+from gudgeon.results.postures import posture_at  # noqa: E402
+from gudgeon.results.results import Result  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def press() -> Result:
+    return gudgeon.load("nine_bar_press", "dry").simulate(0.05, output=100)
+
+
+@pytest.fixture(scope="module")
+def four_bar() -> Result:
+    return gudgeon.load("four_bar").simulate(1.0, output=200)
+
+
+def by_gid(ax: Any) -> dict[str, Any]:
+    return {artist.get_gid(): artist for artist in ax.get_children() if artist.get_gid()}
+
+
+@pytest.mark.parametrize("k", [0, 37, 100])
+def test_pins_lie_where_the_run_says(press: Result, k: int) -> None:
+    found = by_gid(press.plot.mechanism(float(press.t[k])))
+    pins = {"O4": "L4.tail", "P2": "L7.tail", "Q6": "L6.head", "slider": "S9.origin"}
+    for joint, point in pins.items():
+        own = [artist for name, artist in found.items() if re.fullmatch(rf"joint-{joint}(-\d+)?", name)]
+        circles = [artist for artist in own if hasattr(artist, "center")]
+        assert circles[-1].center == pytest.approx((press[f"{point}.x"][k], press[f"{point}.y"][k]), abs=1e-12)
+    inset = [a for gid, a in found.items() if gid.startswith("inset-A") and hasattr(a, "center")]
+    hole, journal = inset[1], inset[3] if inset[2].get_linestyle() == "--" else inset[2]
+    c, e = press.constants["A.c"], np.array([press["A.ex"][k], press["A.ey"][k]])
+    gap = hole.get_radius() - journal.get_radius()
+    assert (np.array(journal.center) - hole.center) / gap == pytest.approx(e / c, abs=1e-9)
+
+
+def test_between_samples_the_error_falls_with_the_fourth_power_of_their_distance() -> None:
+    """Against the linkage solved at that very time."""
+    simulation, errors = gudgeon.load("four_bar"), []
+    for count in (40, 80, 160):
+        run = simulation.simulate(1.0, output=count)
+        middles = (run.t[1:] + run.t[:-1]) / 2
+        exact = simulation.simulate(output=[0.0, *middles])["coupler.tracer.x"][1:]
+        drawn = [posture_at(run, float(t)).place("coupler.tracer")[0] for t in middles]
+        errors.append(np.abs(drawn - exact).max())
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    np.testing.assert_allclose(orders, 4.0, atol=0.2)
+
+
+def test_the_rate_between_samples_is_that_of_the_place(four_bar: Result) -> None:
+    t, h = 0.2525, 1e-6
+    before, at, after = (posture_at(four_bar, t + shift) for shift in (-h, 0.0, h))
+    assert at.v is not None
+    np.testing.assert_allclose(at.v, (after.q - before.q) / (2 * h), rtol=1e-6, atol=1e-7)
+
+
+def test_a_path_is_the_series(four_bar: Result) -> None:
+    ax = four_bar.plot.path("coupler.tracer", ["rocker"])
+    found = by_gid(ax)
+    for name in ("coupler.tracer", "rocker"):
+        x, y = found[f"path-{name}"].get_data()
+        assert (x == four_bar[f"{name}.x"]).all() and (y == four_bar[f"{name}.y"]).all()
+        low, high = ax.get_xlim(), ax.get_ylim()
+        assert low[0] < x.min() and x.max() < low[1] and high[0] < y.min() and y.max() < high[1]
+    assert {"body-crank", "joint-A0", "drive-motor"} <= set(found)
+
+
+def test_arrows_are_the_series_to_the_scale_that_is_drawn(press: Result) -> None:
+    k = 60
+    ax = press.plot.mechanism(float(press.t[k]), velocities=True, forces=True)
+    found = by_gid(ax)
+    (names,) = [artist for artist in ax.get_children() if isinstance(artist, Names)]
+    told = {label.part: label.text for label in names.sketch.labels}
+    for role, unit, letter, of_these in (
+        ("velocity", "m/s", "v", ("L1.head", "L7.com", "L8.head")), ("reaction", "N", "F", ("O1", "Q8", "slider", "B")),
+    ):  # fmt: skip
+        wanted = {name: [press[f"{name}.{letter}{axis}"][k] for axis in "xy"] for name in of_these}
+        stands, of = re.fullmatch(rf"{role}: ([\d.]+) (m?{unit})", told[f"scale {role}"]).groups()  # type: ignore[union-attr]
+        tail, tip = found[f"scale-{role}"].get_xy()[0], found[f"scale-{role}-2"].get_xy()[0]
+        metres = np.hypot(*(tip - tail)) / (float(stands) * (1e-3 if of.startswith("m") and of != "m/s" else 1.0))
+        for name, vector in wanted.items():
+            if f"{role}-{name}" in found:
+                span = found[f"{role}-{name}-2"].get_xy()[0] - found[f"{role}-{name}"].get_xy()[0]
+                assert span == pytest.approx(np.array(vector) * metres, rel=1e-9, abs=1e-12), name
+            else:
+                assert np.hypot(*vector) * metres < 1e-3
+
+
+def test_what_cannot_be_drawn_is_told(four_bar: Result) -> None:
+    for asked, kind, told in (
+        (lambda: four_bar.plot.mechanism(2.0), BadValueError, "from 0 s to 1 s"),
+        (lambda: four_bar.plot.mechanism("0.1 kg"), gudgeon.InputError, "time"),
+        (lambda: four_bar.plot.mechanism(float("nan")), BadValueError, "not a finite number"),
+        (lambda: four_bar.plot.mechanism(0.1, forces=1), BadValueError, "forces is 1"),  # type: ignore[arg-type]
+        (lambda: four_bar.plot.path(), BadValueError, "a point at least"),
+        (lambda: four_bar.plot.path("coupler.trace"), UnknownNameError, "nearest: coupler.tracer"),
+        (lambda: four_bar.plot.path("ground.A0"), UnknownNameError, "that moves"),
+        (lambda: four_bar.plot.path(3), BadValueError, "a point of plot.path is 3"),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(kind, match=told):
+            asked()
+    axes = four_bar.plot.mechanism("250 ms")
+    assert "t = 0.25 s" in axes.get_title() and four_bar.plot.mechanism(0.1, ax=axes) is axes
+
+
+def test_a_file_of_a_run_is_drawn_as_the_run_is(press: Result, tmp_path: Path) -> None:
+    press.save(tmp_path / "press.nc")
+    pictures = []
+    for run in (press, Result.load(tmp_path / "press.nc")):
+        axes: Any = run.plot.mechanism(0.02, forces=True)
+        plots.save_figure(axes.figure, tmp_path / "x.png")
+        pictures.append((tmp_path / "x.png").read_bytes())
+    assert pictures[0] == pictures[1]
+
+
+def test_the_figure_of_a_command_shows_the_mechanism(press: Result, tmp_path: Path) -> None:
+    picture: Any = plots.figure({"dry": press}, press, ["S9.y"])
+    drawn = [ax for ax in picture.get_axes() if "body-L7" in by_gid(ax)]
+    assert len(drawn) == 1
+    plots.save_figure(picture, tmp_path / "x.png")
+    (names,) = [artist for artist in drawn[0].get_children() if isinstance(artist, Names)]
+    assert {f"joint {name}" for name in ("A", "guide", "P2")} <= set(names.boxes)
