@@ -51,6 +51,7 @@ class State:
     sha256: str = ""  # of the mechanism's file; "": made by hand
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # (address, value) with which the file was loaded
     formulation: str = ""  # what was integrated; either goes on from the other's
+    beside: tuple[tuple[str, str], ...] = ()  # tables and laws of one's own with which it was, and their SHA-256
 
     def __getstate__(self) -> dict[str, Any]:
         return self.__dict__ | {"parameters": dict(self.parameters)}
@@ -188,7 +189,7 @@ class Result:
         source, parameters = self.source, MappingProxyType(overridden)
         return State(
             source.mechanism, source.scene, float(self.t[-1]), q, v, state, memory, parameters,
-            source.whole_sha256, source.overrides, source.formulation,
+            source.whole_sha256, source.overrides, source.formulation, source.beside,
         )  # fmt: skip
 
     def __getstate__(self) -> dict[str, Any]:

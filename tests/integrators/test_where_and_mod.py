@@ -184,3 +184,14 @@ drives: {motor: {coordinate: cart.x, value: "0.05 m * where(PHASE < T/2, PHASE/T
     run = loader(tmp_path)(cart).simulate(0.6, output=8, peaks=["cart.ax"])
     assert np.abs(run["cart.ax"]).max() < 1e-11 and run.peak("cart.ax").abs < 1e-11
     np.testing.assert_allclose(np.abs(run["cart.vx"]), 0.05 / 0.3, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("law", "method"), [("where(t < 0.3 s, 1, sin(U)/U)", "rk4"), ("where(t < 0.3 s, sin(U)/U, 1)", "dop853")]
+)
+def test_a_branch_that_is_no_number_at_its_own_corner_is_named(law: str, method: str, tmp_path: Path) -> None:
+    """It was a second rate that grows beyond all bounds, or no step was small enough."""
+    linkage = loader(tmp_path)(LINKAGE % law.replace("U", "(t/(1 s) - 0.3)"))
+    step = 1e-2 if method == "rk4" else None
+    with pytest.raises(SolverError, match=r"drives\.motor\.value \(line .* at t = 0\.3 s.*nan: 0 divided by 0"):
+        linkage.simulate(0.6, method=method, step=step)
