@@ -104,6 +104,15 @@ def test_degrees_of_freedom(joints: str, drives: str, freedoms: int, along: tupl
     assert scene.closed.redundant == 0
 
 
+def test_a_driven_crank_without_its_shaft_is_named() -> None:
+    def told(joints: str) -> list[str]:
+        mechanism = read_mechanism(four_bar(joints), "four.yaml")
+        return [text for whose, text in remarks(mechanism, assemble_scenes(mechanism, False)) if whose == "shaft"]
+
+    assert told(B + C + D) == ["no joint ties crank to the ground, against which drive motor turns it"]
+    assert told(A + B + C) == [] == told(A + B + C + D)
+
+
 def test_bodies_that_nothing_holds_and_rows_that_say_nothing_new() -> None:
     loose = found(four_bar(C + D, "")).scenes["ideal"].closed
     assert loose.loose == ("crank",) and loose.freedoms == 5
