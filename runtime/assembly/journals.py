@@ -1,4 +1,4 @@
-"""What is said of journals where a run begins: in contact, without the onset of it, or deeper than laws of contact go."""
+"""What is said of journals where a run begins: in contact whose onset is not known, deeper than laws of contact go."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ def check_places(linkage: Linkage, p: Array) -> None:
         e, c = float(np.linalg.norm(own)), float(p[joint.clearance])
         if e - c > (deepest := DEEPEST * float(p[joint.constants["R_i"]])):
             raise AssemblyError(
-                f"start.play.{joint.name}.e is {1e3 * e:.4g} mm long, and the clearance of {joint.name} is"
-                f" {1e3 * c:.4g} mm: no journal lies more than {1e3 * deepest:.4g} mm, a tenth of its radius, in metal\n"
-                f"  a bare number is in m: write e: [{1e3 * c / 2:.3g} mm, 0 mm], or a share of the parameter for c, 0.5*c"
+                f"start.play.{joint.name}.e is {1e3 * e:.4g} mm long, and the clearance of {joint.name} is {1e3 * c:.4g}"
+                f" mm: no journal lies more than {1e3 * deepest:.4g} mm, a tenth of its radius, in metal\n"
+                f"  a bare number is in m: write e: [{1e3 * c / 2:.3g} mm, 0 mm], or a share of a parameter, 0.5*c"
             )
 
 

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon.cli import app
-from gudgeon.commands.assembly_story import assemble_scenes
+from gudgeon.commands.assembly_story import assemble_scenes, remarks
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.generator.reader.read import read_mechanism
 

@@ -263,6 +263,9 @@ def test_from_the_command_line(disc: Path, call: Gudgeon) -> None:
         done = call(*command, "--laws", "dashpot.py")
         assert done.exit_code == 0, done.output
     assert "dashpot" in done.output or (disc.parent / "disc.txt").exists()
+    law_file(disc.parent, BUILD, f'    print("deriving")\n{BUILD}').open("a").write('print("read")\n')
+    done = CliRunner().invoke(app, ["run", "disc.yaml", "--json", "--laws", "dashpot.py"])
+    assert done.exit_code == 0 and json.loads(done.stdout)["scenes"] and "read" in done.stderr
     law_file(disc.parent, BUILD, '    return {"F_n": 1 / 0}\n')
     done = CliRunner().invoke(app, ["check", "disc.yaml", "--laws", "dashpot.py"])
     assert done.exit_code == 2 and "error: dashpot.py:8:1: law dashpot: build raised ZeroDivisionError" in done.stderr

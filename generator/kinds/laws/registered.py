@@ -13,6 +13,7 @@ import sys
 import sysconfig
 import traceback
 from collections.abc import Iterator, Mapping
+from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
@@ -103,7 +104,8 @@ def _of_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
     module.__file__ = os.path.abspath(typed)
     sys.modules[module.__name__] = module  # a dataclass looks for its own module
     try:
-        exec(compile(data, shown, "exec"), module.__dict__)
+        with redirect_stdout(sys.stderr):  # what it prints is no part of what a command prints
+            exec(compile(data, shown, "exec"), module.__dict__)
     except KeyboardInterrupt:
         raise
     except BaseException as error:
