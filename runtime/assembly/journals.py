@@ -22,10 +22,11 @@ def check_places(linkage: Linkage, p: Array) -> None:
     for joint in source.clearances:
         own = [x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.name]
         e, c = float(np.linalg.norm(own)), float(p[joint.clearance])
-        if e - c > (deepest := DEEPEST * float(p[joint.constants["R_i"]])):
+        deepest = DEEPEST * float(p[joint.constants["R_i"]])
+        if e - c > deepest:
             raise AssemblyError(
-                f"start.play.{joint.name}.e is {1e3 * e:.4g} mm long, and the clearance of {joint.name} is {1e3 * c:.4g}"
-                f" mm: no journal lies more than {1e3 * deepest:.4g} mm, a tenth of its radius, in metal\n"
+                f"start.play.{joint.name}.e is {1e3 * e:.4g} mm long, and the clearance of {joint.name} is"
+                f" {1e3 * c:.4g} mm: it lies {1e3 * deepest:.4g} mm, a tenth of its radius, in metal at most\n"
                 f"  a bare number is in m: write e: [{1e3 * c / 2:.3g} mm, 0 mm], or a share of a parameter, 0.5*c"
             )
 
