@@ -63,8 +63,8 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     """(message, hint) about an address that holds an expression of t or motion, and no number; "" for another one."""
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        told = _unplaced_journal(source, address)
-        return told if told[0] else _literal_zero(source, address)
+        journal = _unplaced_journal(source, address)
+        return journal if journal[0] else _literal_zero(source, address)
     key = address.rpartition(".")[2]
     told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
     return told, (

@@ -192,8 +192,8 @@ def swapped(values: Any) -> None:
 @pytest.mark.parametrize(
     ("what", "change", "told"),
     [
-        ("times/time", swapped, "times of samples do not ascend"),
-        ("series/time", swapped, "times of samples do not ascend"),
+        ("times/time", swapped, "the times of samples do not ascend"),
+        ("series/time", swapped, "the times of samples do not ascend"),
         ("given/parameters.w", lambda values: values.put(1, 8.0), "run 1: parameters.w is 7.0, and was given as 8.0"),
         ("parameters/given", lambda values: values.fill(3.25), "was given as 3.25"),
         ("given", lambda group: group.move("parameters.w", "parameters.v"), "'parameters.v' was given, and is no"),

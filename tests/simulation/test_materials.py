@@ -157,6 +157,7 @@ def test_a_column_of_names(scenes: Scenes, options: dict[str, Any], tmp_path: Pa
         alone = scenes.dry.simulate(parameters={JOURNAL: name, SHAPE: batch.parameters[SHAPE][i]}, **options)
         np.testing.assert_array_equal(batch.q[i], alone.q)
         assert batch[i].parameters == alone.parameters
+        assert any(JOURNAL in note for note in batch[i].diagnostics.notes) == (name != "steel")  # the scene's own
     assert batch.parameters[JOURNAL].tolist() == names.tolist()
     batch.to_csv(tmp_path / "batch.csv", ["A.e"])
     first, second = (tmp_path / "batch.csv").read_text().splitlines()[:2]

@@ -17,7 +17,7 @@ from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, TypeGuard
 
 from gudgeon.errors import BadNameError, LawError, Location, shortened
 from gudgeon.generator.field import FLAG, NUMBER, RELATIONS, WORD, Bound, Field
@@ -199,19 +199,22 @@ def _check_field(own: Field, kinds: Mapping[str, str]) -> None:
     some = isinstance(own.bounds, tuple) and all(isinstance(bound, Bound) for bound in own.bounds)
     _need(some, f"the bounds of {own.name} are none", 'expected bounds=POSITIVE, or (Bound(">=", 1.0), …)')
     default = own.default
-    real = default is None or isinstance(default, (int, float)) and not isinstance(default, bool)
-    finite = real and (default is None or math.isfinite(default))
-    _need(finite, f"the default of {own.name} is {default!r}", "expected a number in SI units, or none: required=True")
+    expected = "expected a number in SI units, or none: required=True"
+    _need(default is None or _is_number(default), f"the default of {own.name} is {default!r}", expected)
     for bound in own.bounds:
         limit = bound.limit
         if isinstance(limit, str):
             _need(limit in kinds, f"a bound of {own.name} names no key of the law")
-        known = isinstance(limit, (int, float, str)) and not isinstance(limit, bool)
-        _need(bound.relation in RELATIONS and known, f"a bound of {own.name} is none: {bound.relation!r} {limit!r}",
+        _need(bound.relation in RELATIONS and (isinstance(limit, str) or _is_number(limit)),
+              f"a bound of {own.name} is none: {bound.relation!r} {limit!r}",
               f'expected Bound(relation, limit), with {" ".join(RELATIONS)} and a number or a key')  # fmt: skip
-        if default is not None and not isinstance(limit, str):
+        if _is_number(default) and not isinstance(limit, str):
             met = RELATIONS[bound.relation](default, limit)
             _need(met, f"the default of {own.name} is {default!r}, its bound {bound.relation} {limit!r}")
+
+
+def _is_number(value: object) -> TypeGuard[float]:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def check_name(name: Any, what: str) -> None:
