@@ -26,7 +26,9 @@ NESTED = "one where has one comparison; a < b and c < d is where(a < b, where(c 
 _EITHER = "one where has one comparison; a < b or c < d is where(a < b, x, where(c < d, x, y))"
 _PICKED = "one of two values is where(a < b, then, otherwise)"
 _ADVICE = {
-    "^": "a power is written with **", "%": "a remainder is written mod(a, b)", "=": COMPARED, "!": COMPARED,
+    "^": "a power is written with **",
+    "%": "a share is written as a number, 90 % as 0.9; a remainder as mod(a, b)",
+    "=": COMPARED, "!": COMPARED,
     "[": "there are no subscripts", "]": "there are no subscripts", "'": "there are no strings",
     '"': "there are no strings", "\t": "write a space, not a tab", "\u2212": "write '-'", "\u00b7": "write '*'",
     "\u00d7": "write '*'", "\u00b0": "write deg after a space", "{": "there are no braces", ";": "one expression only",
