@@ -6,6 +6,7 @@ Sections are declared in generator/format/sections.py, the rest in the files of 
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -34,6 +35,11 @@ SCALARS = frozenset((NUMBER, WORD, FLAG, TEXT, NAME, BODY))
 OF_TIME = "t"
 OF_MOTION = "t, coordinates and velocities"
 OF_RESULTS = "t and anything that a result has"
+
+
+RELATIONS: Mapping[str, Callable[[float, float], bool]] = {
+    ">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le,
+}  # fmt: skip
 
 
 class Bound(NamedTuple):

@@ -124,6 +124,10 @@ def run(
         list[str] | None,
         typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
     ] = None,
+    peaks: Annotated[
+        list[str] | None,
+        typer.Option("--peaks", metavar="NAME", help="Largest and smallest value over all steps: S9.ay; repeatable."),
+    ] = None,
     formulation: Annotated[
         str, typer.Option(help="reduced (coordinates of a tree), or full: absolute ones, rk4 with Baumgarte's gains.")
     ] = "reduced",
@@ -147,7 +151,7 @@ def run(
 
     request = Request(
         file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, rtol, tuple(watch or ()), out,
-        horizon, regenerate, json, formulation, verbose,
+        horizon, regenerate, json, formulation, verbose, tuple(peaks or ()),
     )  # fmt: skip
     return run_scenes(request)
 

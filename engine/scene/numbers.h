@@ -46,7 +46,8 @@ static inline double beyond_jump(double t) { return RATE_JUMPS ? ahead_of(t) : t
 
 /*
  * mod(a, b), from 0 to b; on a side, in the periods of even (1) or odd (-1) number, each as it goes on half a period
- * beyond its ends. period_side: above zero in those of even number, below it in the others, parabolas from 0 to 0.
+ * beyond its ends. period_side: above zero in those of even number, below it in the others, parabolas from 0 to 0. The
+ * end at which mod begins anew belongs to the period that begins there, and what is rounded to its end to the one left.
  */
 static inline double mod_of(double a, double b)
 {
@@ -65,7 +66,7 @@ static inline double mod_on(double a, double b, double side)
 static inline double period_side(double a, double b)
 {
     const double x = mod_of(a, 2.0 * b) / b;
-    return x < 1.0 ? 4.0 * x * (1.0 - x) : 4.0 * (x - 1.0) * (x - 2.0);
+    return x < 1.0 ? 4.0 * x * (1.0 - x) : min_of(4.0 * (x - 1.0) * (x - 2.0), -DBL_MIN);
 }
 
 /* The side of corner k: as it is held, or where g is. */

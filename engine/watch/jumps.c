@@ -16,14 +16,15 @@ static int is_crossed(const double *from, const double *now)
 
 /*
  * Whether a corner that begins a part of the time, `width` s, on a side is on the other one at its end and not before
- * (1), nowhere (0), or that is not known so far (-1).
+ * (1), nowhere (0), or that is not known so far (-1). Bounds are rounded: what is computed at the end comes first.
  */
 static int corner_verdict(Range f, double at_a, double at_b, int below, double width, int small)
 {
-    if (is_empty(f) || (below ? f.hi < 0.0 : f.lo >= 0.0))
+    const int beyond = (at_b < 0.0) != below;
+    if (is_empty(f) || (!beyond && (below ? f.hi < 0.0 : f.lo >= 0.0)))
         return 0;
     if (small || (!f.partly && (f.down >= 0.0 || f.up <= 0.0)))
-        return (at_b < 0.0) != below;
+        return beyond;
     if (f.partly)
         return -1;
     /* the nearest to zero that a function of these slopes between these ends may come */

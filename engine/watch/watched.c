@@ -103,10 +103,13 @@ static void margins_over(const Run *run, const Course *course, double a, double 
     margins_of_ranges(run, t, y, p, out);
 }
 
-/* Whether a margin is below zero at the end of a part and not before (1), not at all (0), or not known so far (-1). */
+/*
+ * Whether a margin is below zero at the end of a part and not before (1), not at all (0), or not known so far (-1).
+ * Bounds are rounded: what is computed at the end comes first.
+ */
 static int verdict(Range f, double at_a, double at_b, double width, int small)
 {
-    if (is_empty(f) || f.lo >= 0.0)
+    if (is_empty(f) || (f.lo >= 0.0 && !(at_b < 0.0)))
         return 0;
     if (small)
         return at_b < 0.0;
@@ -156,7 +159,7 @@ static int is_clear(const Run *run, const Step *step, const Parameters *p)
     }
     margins_of_ranges(run, t, y, p, f);
     for (int i = 0; i < N_WATCHED; i++)
-        if (!(f[i].lo >= 0.0) || f[i].partly)
+        if (!(f[i].lo >= 0.0) || f[i].partly || margin(&run->memory, &step->aside, watched[i]) < 0.0)
             return 0;
     return 1;
 }

@@ -10,6 +10,7 @@ import numpy as np
 import sympy as sp
 
 from gudgeon.errors import LawError
+from gudgeon.generator.equations.law_units import check_units
 from gudgeon.generator.kinds.laws.built import PAIR, probe
 from gudgeon.generator.kinds.laws.law import FURTHER, OWN, RESULTS, VARIABLES, Law, laws
 from gudgeon.generator.kinds.laws.registered import ORIGINS, check_name, prefix
@@ -32,7 +33,8 @@ _UNITS = {"delta": "m", "deltadot": "m/s", "F_n": "N", "v_t": "m/s", "w_n": "1/s
 def own_letters(scene: Scene) -> frozenset[str]:
     """What the scene's laws that are the user's own call their variables, results and abbreviations.
 
-    In emitted code nothing else may be called so. Raises LawError for a name that something else has there.
+    In emitted code nothing else may be called so. Raises LawError for a name that something else has there, and for
+    units that do not fit.
     """
     found: set[str] = set()
     for play in scene.play.values():
@@ -40,8 +42,9 @@ def own_letters(scene: Scene) -> frozenset[str]:
         some = [(laws()[use.law], use) for use in uses if use is not None]
         if any(law.name in OWN for law, _ in some):
             names = {law.name: _Names(law, use) for law, use in some}
-            for law in (law for law, _ in some if law.name in OWN):
+            for law, use in (one for one in some if one[0].name in OWN):
                 names[law.name].check()
+                check_units(law, use)
                 found |= {*names[law.name].locals, *law.variables, *law.results}
             _check_together([names[law.name] for law, _ in some if law.role != "film"])
     return frozenset(found)

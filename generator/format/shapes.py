@@ -22,6 +22,11 @@ OVERRIDE = "override of "  # the "file" of a text that comes from an override
 ANY_NAME = "*"  # left out is a section whose names nobody knows
 
 Path = tuple[str | int, ...]
+_SECTIONS = {  # what others call a section
+    "links": "bodies", "parts": "bodies", "constraints": "joints", "connections": "joints", "motors": "drives",
+    "actuators": "drives", "springs": "forces", "loads": "forces", "initial": "start", "variables": "parameters",
+}  # fmt: skip
+_OPTIONS = ("method", "rtol", "formulation")  # of a run, no part of a file
 
 
 @dataclass(frozen=True)
@@ -168,15 +173,24 @@ def _error(finding: _Finding, document: Map) -> InputError:
     path, owner = finding.path, finding.path[:-1]
     if finding.unknown is not None:
         key = _walk(document, owner).key(str(path[-1]))
-        return unknown_key(key, finding.unknown, _title(owner))
+        return unknown_key(key, finding.unknown, _title(owner), _meant(owner, key.lower()))
     if finding.missing:
         return missing_key(str(path[-1]), _walk(document, owner).where, _title(owner))
     node = _walk(document, path)
     place = node.where
     if isinstance(node, Text) and node.is_nothing and path and isinstance(path[-1], str):
         place = _walk(document, owner).key(path[-1]).where  # nothing has no place of its own
-    what = f"has {len(node)} components" if finding.wanted == _TWO else f"is {kind_of(node)}"
+    what = f"has {len(node)} component{'s' * (len(node) != 1)}" if finding.wanted == _TWO else f"is {kind_of(node)}"
     return BadValueError(f"{_title(path)} {what}", place, f"expected {finding.wanted}")
+
+
+def _meant(owner: Path, key: str) -> str:
+    """A hint about a key that other programs have there; "" for what is mistyped."""
+    if not owner and key in _SECTIONS:
+        return f"{key!r} is called {_SECTIONS[key]} here"
+    if owner and owner[-1] == "simulate" and key in _OPTIONS:
+        return f"a file has no {key}: it is an option of gudgeon run, --{key}, and an argument of simulate"
+    return ""
 
 
 def unknown_key(key: Text, known: Iterable[str], owner: str, hint: str = "") -> InputError:

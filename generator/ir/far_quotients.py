@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from gudgeon.generator.ir.finite_slopes import Slope, as_written
+from gudgeon.generator.ir.finite_slopes import Slope, without_slopes
 from gudgeon.generator.symbols.wholes import Share
 
 _GROWING = (sp.exp, sp.sinh, sp.cosh)
@@ -47,7 +47,7 @@ def written(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
 
 def for_readers(expression: sp.Expr) -> sp.Expr:
     """The expression without what keeps its numbers finite."""
-    shown = as_written(expression)
+    shown = without_slopes(expression)
     return shown.replace(Share, lambda x: x) if shown.has(Share) else shown
 
 

@@ -113,14 +113,18 @@ def flat_at_zero(derivative: sp.Expr) -> Slope:
 
 
 def as_written(expression: sp.Expr) -> sp.Expr:
-    """The expression with its slopes as their derivatives are written: for readers, and ranges, in which 0 · ∞ is 0."""
-    if expression.has(Slope):
-        expression = expression.replace(Slope, lambda derivative, *_: derivative)
+    """The same, and branches by the step function: for ranges, in which 0 · ∞ is 0."""
+    expression = without_slopes(expression)
     return expression.replace(Pick, _stepped) if expression.has(Pick) else expression
 
 
+def without_slopes(expression: sp.Expr) -> sp.Expr:
+    """The expression with its slopes as their derivatives are written."""
+    return expression.replace(Slope, lambda derivative, *_: derivative) if expression.has(Slope) else expression
+
+
 def _stepped(side: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """A branch picked by a sign, by the step function that readers know; by a held side as it is."""
+    """A branch picked by a sign, by the step function; by a held side as it is."""
     if not side.has(sp.sign):
         return Pick(side, a, b)
     return b + sp.Heaviside(side.replace(sp.sign, lambda x: x)) * (a - b)

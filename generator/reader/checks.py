@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import math
-import operator
 import sys
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 
 from gudgeon.errors import BadValueError, InputError, Location
+from gudgeon.generator.field import RELATIONS
 from gudgeon.generator.mechanism.mechanism import Condition, Quantity, SceneSpec
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.parameters import parameter_values
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, evaluate, names
 from gudgeon.language.units import si_unit
-
-RELATIONS: Mapping[str, Callable[[float, float], bool]] = {
-    ">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le,
-}  # fmt: skip
 
 
 def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Mapping[str, SceneSpec]) -> None:

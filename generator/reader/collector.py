@@ -137,6 +137,8 @@ class Reader:
             elif "." in name.path:
                 hint = "expected parameters" + (" and t" if time else "") + ", which have no parts"
                 raise ExpressionError(f"{name.path!r} cannot stand here", place, hint)
+            elif name.path.lower() in ("time", "t"):
+                raise ExpressionError(f"{name.path!r} is no name here", place, "time is written t")
             else:
                 raise unknown_name("name", name.path, self.parameters, place)
         return found

@@ -74,6 +74,9 @@ def coordinate_of(
     body, _, coordinate = key.partition(".")
     if body not in places.bodies:
         raise unknown_name("body", body, places.bodies, where)
+    if not coordinate:
+        hint = f"expected one of: {', '.join(f'{body}.{name}' for name in known)}"
+        raise UnknownNameError(f"{body} is a body, no coordinate", where, hint)
     if coordinate not in known:
         place = Location(where.file, where.line, where.column + len(body) + 1)
         if coordinate in hints:

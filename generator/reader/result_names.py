@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping
 
-from gudgeon.errors import BadValueError, ExpressionError, Location
+from gudgeon.errors import BadValueError, ExpressionError, Location, UnknownNameError
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.mechanism.mechanism import GROUND, Drive, ForceElement
 from gudgeon.generator.reader.places import Places
@@ -82,6 +82,17 @@ class ResultNames:
             place = Location(where.file, where.line, where.column + len(owner) + 1)
             raise unknown_name(f"result of {owner}", last, self.owners[owner], place)
         return self.owners[owner][last]
+
+    def check_series(self, name: Text, outputs: Iterable[str]) -> None:
+        """UnknownNameError for a name without a dot, which no series has but outputs: it tells the nearest series."""
+        if "." in name:
+            return
+        if name in self.parameters:
+            alike = [path for path in self.paths() if path.rpartition(".")[2] == name]
+            hint = f"expected {', '.join(alike[:6])}" if alike else "expected a result: L1.omega, A.F, drive.torque"
+            raise UnknownNameError(f"{str(name)!r} is a parameter, no series", name.where, hint)
+        owned = [path for path in self.paths() if path.partition(".")[0] == name]
+        raise unknown_name("series", name, owned or [*outputs, *self.paths()], name.where)
 
     def check_play(self, name: Text, scene: str, play: Container[str]) -> None:
         """BadValueError for what a joint has in other scenes alone: with play, or without."""

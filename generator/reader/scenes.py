@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import accumulate
 from typing import Any
@@ -138,13 +138,14 @@ def _play(joint: Text, use: Map, parts: Parts) -> Play | None:
     return Play(parts.bearings[bearing], parts.contacts[contact], joint.where)
 
 
-def check_peaks(reader: Reader, scenes: Mapping[str, SceneSpec], known: ResultNames, outputs: Container[str]) -> None:
+def check_peaks(reader: Reader, scenes: Mapping[str, SceneSpec], known: ResultNames, outputs: Iterable[str]) -> None:
     """Every name in `peaks:` is one of a result of its scene, as far as the file says; the rest is told at the run."""
     for scene in scenes.values():
         for text in scene.peaks:
             is_later = text.partition(".")[0] in LATER or text in _inner_states(scene)
             if isinstance(text, Text) and text not in outputs and not is_later:
                 with reader.collect():
+                    known.check_series(text, outputs)
                     known(Name(str(text)), text.where)
                     known.check_play(text, scene.name, scene.play)
 

@@ -13,7 +13,8 @@ from typing import Any
 
 from ruamel.yaml.events import ScalarEvent
 
-MOST_PIECES = 64
+MOST_PIECES = 512  # more than the 1000 characters that an expression may have can be cut into
+MOST_OPEN = 60  # in a list, of which a long one is looked through from each of its texts
 
 
 class Events:
@@ -39,7 +40,7 @@ class Events:
             if not _is_plain(piece) or in_mapping and not _is_nothing(self._peek(taken + 1)):
                 break
             still_open, last, taken = still_open + _open(piece.value), piece, taken + 1 + in_mapping
-            if still_open <= 0:
+            if still_open <= 0 or still_open > MOST_OPEN and not in_mapping:
                 break
         if still_open > 0 and not in_mapping:  # these may be the components of a vector, one of them broken
             return event

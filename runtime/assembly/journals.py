@@ -1,4 +1,4 @@
-"""What is said of a joint with play whose run begins in contact, without the onset that its damping is a share of."""
+"""What is said of journals where a run begins: in contact whose onset is not known, deeper than laws of contact go."""
 
 from __future__ import annotations
 
@@ -6,7 +6,29 @@ import math
 
 import numpy as np
 
+from gudgeon.assembly.linkage import Linkage
+from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array, CompiledModel
+
+DEEPEST = 0.1  # of the radius, that a journal may lie in its bearing (`deepest` of model.h)
+
+
+def check_places(linkage: Linkage, p: Array) -> None:
+    """AssemblyError for a journal that the file's start lays deeper into its bearing than any law of contact holds."""
+    source = linkage.source
+    if not source.start_apart:
+        return
+    values = linkage.start_values(p)[1][len(source.start_set) :]
+    for joint in source.clearances:
+        own = [x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.name]
+        e, c = float(np.linalg.norm(own)), float(p[joint.clearance])
+        deepest = DEEPEST * float(p[joint.constants["R_i"]])
+        if e - c > deepest:
+            raise AssemblyError(
+                f"start.play.{joint.name}.e is {1e3 * e:.4g} mm long, and the clearance of {joint.name} is"
+                f" {1e3 * c:.4g} mm: it lies {1e3 * deepest:.4g} mm, a tenth of its radius, in metal at most\n"
+                f"  a bare number is in m: write e: [{1e3 * c / 2:.3g} mm, 0 mm], or a share of a parameter, 0.5*c"
+            )
 
 
 def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array) -> tuple[str, ...]:

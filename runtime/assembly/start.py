@@ -14,6 +14,7 @@ import numpy as np
 
 from gudgeon.assembly.closure import Closure, smallest
 from gudgeon.assembly.failures import not_closed, stuck
+from gudgeon.assembly.journals import check_places
 from gudgeon.assembly.large import LARGE
 from gudgeon.assembly.linkage import Linkage, mechanism_size
 from gudgeon.errors import AssemblyError
@@ -31,6 +32,7 @@ class Start:
 
 def assemble(compiled: CompiledModel, p: Array, t: float = 0.0) -> Start:
     """The start of a scene. Raises AssemblyError with rows, joints and residual."""
+    check_places(compiled, p)
     closed = compiled.close(t, p, mechanism_size(compiled, p)) if compiled.n < LARGE else None
     if closed is not None and np.isfinite(closed[1]).all():
         return Start(*closed)

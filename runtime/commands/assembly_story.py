@@ -12,6 +12,7 @@ import numpy as np
 from gudgeon.assembly.branches import Assembly, find_assemblies, off_text, unfollowed
 from gudgeon.assembly.closure import Closure
 from gudgeon.assembly.failures import not_closed
+from gudgeon.assembly.journals import check_places
 from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
 from gudgeon.assembly.start import velocities
 from gudgeon.errors import GudgeonError
@@ -90,6 +91,7 @@ def assemble_scenes(mechanism: Mechanism, branches: bool) -> Findings:
 def _assembled(linkage: NumPyLinkage, rows: Sequence[int]) -> Assembled:
     """Raises AssemblyError, AssemblyError of velocities too."""
     p = linkage.p
+    check_places(linkage, p)
     closure = Closure(linkage, p, 0.0)
     with np.errstate(all="ignore"):
         q, closed = closure.nearest()
@@ -134,6 +136,7 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         count = f"{closed.freedoms} degree{'' if closed.freedoms == 1 else 's'} of freedom"
         meant = f"if that is meant, freedoms: {closed.freedoms}"
         yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {meant}"
+        yield from _without_shaft(mechanism, closed)
     yield from _masses(mechanism, found)
     if closed.redundant:
         rows = f"{closed.redundant} row{'' if closed.redundant == 1 else 's'}"
@@ -144,6 +147,17 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         yield "guess", f"{name} is {off_text(name, off)} from your guess: no assembly nearer was found"
     if not closed.freedoms or mechanism.freedoms is not None:
         yield from _ambiguous(found)
+
+
+def _without_shaft(mechanism: Mechanism, closed: Mobility) -> Iterator[tuple[str, str]]:
+    """Bodies whose angle is driven, and that no joint ties to what they turn against, while they may move away."""
+    joined = {frozenset((joint.first.body, joint.second.body)) for joint in mechanism.joints.values()}
+    for drive in mechanism.drives.values():
+        other = drive.reference or "ground"
+        moves = any(name.rpartition(".")[0] == drive.body for name in closed.along)
+        if drive.kind == "angle" and moves and frozenset((drive.body, other)) not in joined:
+            whom = "the ground" if other == "ground" else other
+            yield "shaft", f"no joint ties {drive.body} to {whom}, against which drive {drive.name} turns it"
 
 
 def _too_large(mechanism: Mechanism, scene: Assembled) -> str | None:

@@ -52,6 +52,7 @@ class Request:
     json: bool
     formulation: str = "reduced"
     verbose: bool = False
+    peaks: tuple[str, ...] = ()  # beside those that scenes ask for
 
 
 @dataclass
@@ -129,13 +130,24 @@ def _check(request: Request, settings: Settings, simulations: Mapping[str, Simul
     check_addresses(settings, request.file, [simulation.source for simulation in simulations.values()])
     for simulation in simulations.values():
         prepare(simulation.compiled, _own(settings, simulation))
-    if request.watch:
+    if request.watch or request.peaks:
         from gudgeon.results.series import catalogue
 
         series = tuple(dict.fromkeys(name for s in simulations.values() for name in catalogue(s.source)))
-        for name in request.watch:
-            if name not in series:
-                raise unknown(f"--watch: no scene has a series {name!r}", name, series)
+        for option, names in (("--watch", request.watch), ("--peaks", request.peaks)):
+            for name in names:
+                if name not in series:
+                    raise unknown(f"{option}: no scene has a series {name!r}", name, series)
+
+
+def _peaks(request: Request, source: KernelSource) -> tuple[str, ...] | None:
+    """The scene's own, and those asked for that it has; None: its own."""
+    if not request.peaks:
+        return None
+    from gudgeon.results.series import catalogue
+
+    known = catalogue(source)
+    return tuple(dict.fromkeys([*source.peaks, *(name for name in request.peaks if name in known)]))
 
 
 def _own(settings: Settings, simulation: Simulation) -> dict[str, float | str]:
@@ -161,6 +173,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                     rtol=request.rtol, horizon=request.horizon,
                     parameters=_own(settings, simulation), progress=bar(name),
                     against=simulations[IDEAL] if simulation.source.clearances else None,
+                    peaks=_peaks(request, simulation.source),
                 )  # fmt: skip
             except (AssemblyError, SolverError) as error:  # the other scenes are worth having
                 session.failures[name] = error

@@ -214,9 +214,14 @@ class KernelSource:
     laws: tuple[tuple[str, str], ...] = ()  # of the user's own, and what they said (kinds/laws/registered.py)
 
     @property
+    def beside(self) -> tuple[tuple[str, str], ...]:
+        """What the file's text does not hold itself, tables and laws of the user's own, and their SHA-256."""
+        return (*self.tables, *self.laws)
+
+    @property
     def whole_sha256(self) -> str:
         """SHA-256 of all that the file says: its own, and with tables or laws of the user's one over theirs too."""
-        parts = [self.sha256, *(f"{name} {digest}" for name, digest in (*self.tables, *self.laws))]
+        parts = [self.sha256, *(f"{name} {digest}" for name, digest in self.beside)]
         return sha256("\n".join(parts).encode()).hexdigest() if len(parts) > 1 else self.sha256
 
     peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for

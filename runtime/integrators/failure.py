@@ -13,11 +13,11 @@ from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.steep import steep_force
-from gudgeon.model.written import of_time, rate_reason, reason, trees
+from gudgeon.model.written import of_time, rate_reason, reason, trees, undefined_here
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
 INTERRUPTED = "interrupted before its end"
-NO_NUMBER = "end the run before that, or write it so that it is a number at every time"
+NO_NUMBER = "end the run before that, or write it so that it is a number at every time, with its rates"
 NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
 BOUNDED = "end the run before that, or write the drive so that its second rate is bounded: with powers of 2 and more"
 GROWN = "a drive that grows beyond all bounds cannot be followed: end the run before it, or change the drive"
@@ -33,12 +33,14 @@ def failure(
 
     `ahead` (s): how far a step of fixed length looked beyond that state.
     """
+    q, v = np.ravel(last)[: compiled.n], np.ravel(last)[compiled.n : 2 * compiled.n]
+    if status in (UNBOUNDED, TOO_SMALL, NOT_FINITE) and (why := undefined_here(compiled.source, p, t, q, v, ahead)):
+        return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
     if status in (UNBOUNDED, TOO_SMALL) and (drive := unbounded_drive(compiled, p, t)):
         told = f"the second rate of drive {drive} grows beyond all bounds there"
         return SolverError(f"no step leads beyond t = {t:.9g} s: {told}\n  {BOUNDED}", t)
     status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
-        q, v = np.ravel(last)[: compiled.n], np.ravel(last)[compiled.n : 2 * compiled.n]
         why = reason(compiled.source, p, t, q, v, ahead)
         if why or (why := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]):
             return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)

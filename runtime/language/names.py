@@ -74,6 +74,8 @@ def check_label(name: str, what: str, where: Location | None) -> None:
     """
     if not IDENTIFIER.fullmatch(name):
         hint = "expected a letter, then letters, digits or '_'"
+        if IDENTIFIER.fullmatch(plain := name.replace("-", "_").replace(" ", "_")):
+            hint += f", such as {plain}"
         raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {what}: it is no identifier", where, hint)
     if len(name) > MAX_LENGTH:
         raise BadNameError(

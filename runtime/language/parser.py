@@ -20,7 +20,7 @@ from gudgeon.errors import ExpressionError, LimitError, Location
 from gudgeon.language.curves import Curve
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.suggestions import nearest
-from gudgeon.language.tokens import COMPARED, Token, Tokenizer, at
+from gudgeon.language.tokens import COMPARED, NESTED, Token, Tokenizer, at
 from gudgeon.language.tree import FUNCTIONS, Binary, Call, CurveCall, Expr, Name, Unary
 from gudgeon.language.units import DIMENSIONLESS, unit
 
@@ -194,6 +194,8 @@ class _Parser:
                 self.fail(f"expected a comparison, got {self.token}", self.token.offset, _WRITTEN["where"])
             self.advance()
             found.append(self.sum(level))
+            if self.token.text in _COMPARISONS:
+                self.fail(f"expected ',', got {self.token}", self.token.offset, NESTED)
         while self.token.text == ",":
             self.advance()
             found.append(self.sum(level))

@@ -23,7 +23,7 @@ def scale(size: float, unit: str) -> tuple[float, str]:
 
 
 def drawn(size: float, unit: str) -> tuple[float, str]:
-    """The same for pictures, where angles are in degrees: rad, rad/s, rad/s²."""
+    """The same for pictures and tables of runs, where angles are in degrees: rad, rad/s, rad/s²."""
     if unit == "rad" or unit.startswith("rad/"):
         return 180.0 / math.pi, "°" + pretty(unit.removeprefix("rad"))
     return scale(size, unit)

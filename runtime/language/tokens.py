@@ -22,12 +22,20 @@ _TOKEN = re.compile(
     r"|(?P<operator>\*\*|[<>]=?|[-+*/(),])"
 )
 COMPARED = "two values are compared in where(a < b, then, otherwise) alone, by <, <=, > or >="
+NESTED = "one where has one comparison; a < b and c < d is where(a < b, where(c < d, x, y), y)"
+_EITHER = "one where has one comparison; a < b or c < d is where(a < b, x, where(c < d, x, y))"
+_PICKED = "one of two values is where(a < b, then, otherwise)"
 _ADVICE = {
-    "^": "a power is written with **", "%": "a remainder is written mod(a, b)", "=": COMPARED, "!": COMPARED,
+    "^": "a power is written with **",
+    "%": "a share is written as a number, 90 % as 0.9; a remainder as mod(a, b)",
+    "=": COMPARED, "!": COMPARED,
     "[": "there are no subscripts", "]": "there are no subscripts", "'": "there are no strings",
     '"': "there are no strings", "\t": "write a space, not a tab", "\u2212": "write '-'", "\u00b7": "write '*'",
     "\u00d7": "write '*'", "\u00b0": "write deg after a space", "{": "there are no braces", ";": "one expression only",
     ":": "there is no ':' in an expression", ".": "a name continues with a letter after '.'",
+    "&": NESTED, "|": _EITHER, "and": NESTED, "or": _EITHER, "if": _PICKED, "else": _PICKED, "?": _PICKED,
+    "not": "the opposite of a < b is a >= b, or where with its two values exchanged",
+    "\u2264": "write '<='", "\u2265": "write '>='",
     "\u00b2": "a power is written with **: x**2", "\u00b3": "a power is written with **: x**3",
 }  # fmt: skip
 
@@ -78,7 +86,8 @@ class Tokenizer:
 
     def _check_name(self, name: str, start: int) -> None:
         if name in WORDS:
-            self.fail(f"{name!r} is no number", start, "expected a number, a name or an expression")
+            hint = _ADVICE.get(name, "expected a number, a name or an expression")
+            self.fail(f"{name!r} is no number", start, hint)
         offset = start
         for part in name.split("."):
             if part.startswith("_") or "__" in part:

@@ -139,19 +139,24 @@ def names(expr: Expr) -> Iterator[Name]:
                 yield from names(argument)
 
 
-def curve_calls(expr: Expr) -> Iterator[CurveCall]:
-    """Every curve that is called in `expr`."""
+def calls(expr: Expr, function: str = "") -> Iterator[Call]:
+    """Every call in `expr`, or those of one function."""
     match expr:
         case Unary(operand=operand):
-            yield from curve_calls(operand)
+            yield from calls(operand, function)
         case Binary(left=left, right=right):
-            yield from curve_calls(left)
-            yield from curve_calls(right)
+            yield from calls(left, function)
+            yield from calls(right, function)
         case Call(arguments=arguments):
-            if isinstance(expr, CurveCall):
+            if function in ("", expr.function):
                 yield expr
             for argument in arguments:
-                yield from curve_calls(argument)
+                yield from calls(argument, function)
+
+
+def curve_calls(expr: Expr) -> Iterator[CurveCall]:
+    """Every curve that is called in `expr`."""
+    return (call for call in calls(expr) if isinstance(call, CurveCall))
 
 
 def functions(expr: Expr) -> set[str]:

@@ -83,9 +83,9 @@ def whole(value: Any, name: str, least: int, most: int) -> int:
 
 
 def number_of(value: Any, name: str) -> float:
-    """A finite float, of any kind of real number but text. Raises BadValueError that names it."""
+    """A finite float, of any kind of real number but text and truth. Raises BadValueError that names it."""
     try:
-        if isinstance(value, (str, bytes)) or np.ndim(value) or np.iscomplexobj(value):
+        if isinstance(value, (str, bytes, bool, np.bool_)) or np.ndim(value) or np.iscomplexobj(value):
             raise TypeError
         result = float(value)
     except (TypeError, ValueError, OverflowError):

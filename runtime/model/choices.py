@@ -62,10 +62,9 @@ def filled_in(source: KernelSource, chosen: Iterable[int], given: Array, is_give
 
 
 def told_choices(source: KernelSource, given: Array, is_given: Array) -> tuple[str, ...]:
-    """A remark on what a run was told to choose."""
+    """A remark on what a run chooses otherwise than its scene does."""
     return tuple(
-        f"{slot.address} is {said(slot, float(given[k]))}"
-        + (f" (the scene's is {said(slot, slot.default)})" if given[k] != slot.default else "")
+        f"{slot.address} is {said(slot, float(given[k]))} (the scene's is {said(slot, slot.default)})"
         for k, slot in enumerate(source.slots)
-        if slot.words and is_given[k]
+        if slot.words and is_given[k] and given[k] != slot.default
     )

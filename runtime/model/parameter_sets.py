@@ -84,7 +84,7 @@ def column(name: str, values: Any) -> list[Any] | None:
     if len(shape) != 1:
         raise BadValueError(f"{name} has shape {shape}, expected one value for every run")
     if isinstance(values, np.ndarray):
-        return taken(values, name).tolist() if values.dtype.kind in "biuf" else values.tolist()
+        return taken(values, name).tolist() if values.dtype.kind in "iuf" else values.tolist()
     return list(values)
 
 

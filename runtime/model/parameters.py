@@ -63,13 +63,25 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     """(message, hint) about an address that holds an expression of t or motion, and no number; "" for another one."""
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        return _literal_zero(source, address)
+        journal = _unplaced_journal(source, address)
+        return journal if journal[0] else _literal_zero(source, address)
     key = address.rpartition(".")[2]
     told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
     return told, (
         f"a number in it can be, once it is a parameter: parameters: {{phase: -39.52 deg}}, {key}: phase + …,"
         " then set phase; overrides= of gudgeon.load compiles anew with another expression"
     )
+
+
+def _unplaced_journal(source: KernelSource, address: str) -> tuple[str, str]:
+    """The same of the eccentricity of a journal that the file's start does not name."""
+    start, play, joint, *part = [*address.split("."), "", "", ""][:4]
+    able = {clearance.name for clearance in source.clearances}
+    placed = any(slot.address.startswith(f"start.play.{joint}.") for slot in source.slots)
+    if (start, play) != ("start", "play") or joint not in able or placed:
+        return "", ""
+    wanted = f"start: {{play: {{{joint}: {{e: [0 mm, 0 mm]}}}}}}"
+    return f"{address}: the file's start does not say where {joint} begins", f"write {wanted}, then it can be set"
 
 
 def number(value: float | str, slot: Slot) -> float:

@@ -9,12 +9,13 @@ import json
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
-from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Number, Unary, evaluate, from_json, names
+from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Number, Unary, calls, evaluate, from_json, names
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 
 if TYPE_CHECKING:
@@ -77,6 +78,54 @@ def reason(source: KernelSource, p: Array, t: float, q: Array, v: Array, ahead: 
             told = _told(source, found, p, t + h, q + h * v, v)
         if told:
             return told
+    return ""
+
+
+def undefined_here(source: KernelSource, p: Array, t: float, q: Array, v: Array, ahead: float = 0.0) -> str:
+    """Which drive or force is no number at a state itself, or in a branch of a `where` that changes near it; or "".
+
+    The step that leads to such a corner, or begins there, computes with either branch, whichever is picked there.
+    """
+    found = trees(source, ("drives", "forces"))
+    for h in (0.0, float(np.spacing(t))):
+        if told := _told(source, found, p, t + h, q, v):
+            return told
+    reach = max(ahead, 1e-6 * max(1.0, abs(t)))
+    for info, tree in found:
+        for call in calls(tree, "where"):
+            left, right = call.arguments[:2]
+            gap = Binary("-", left, right)
+
+            def ahead_of_zero(h: float, gap: Expr = gap) -> bool:
+                return bool(evaluate(gap, values_at(source, p, t + h, q + h * v, v)) < 0.0)
+
+            for low, high in pairwise(np.linspace(-reach, reach, 33).tolist()):
+                if ahead_of_zero(low) != ahead_of_zero(high):
+                    ends = _neighbours(ahead_of_zero, low, high)
+                    words = (_of_branches(source, p, info, call, t + h, q + h * v, v) for h in ends)
+                    if told := next(filter(None, words), ""):
+                        return told
+    return ""
+
+
+def _neighbours(answer: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
+    """Two numbers, next to each other, between which an answer changes."""
+    first = answer(low)
+    while low < (middle := 0.5 * (low + high)) < high and high - low > 1e-18:
+        low, high = (middle, high) if answer(middle) == first else (low, middle)
+    return low, high
+
+
+def _of_branches(source: KernelSource, p: Array, info: WrittenInfo, call: Call, t: float, q: Array, v: Array) -> str:
+    """What is no number in the branch of a where that is picked, at its corner itself in both, in words; or ""."""
+    values = values_at(source, p, t, q, v)
+    left, right, then, otherwise = (evaluate(part, values) for part in call.arguments)
+    for k, (value, meant) in enumerate(((then, left <= right), (otherwise, left >= right))):
+        if meant and not math.isfinite(value):
+            place = f"line {info.line}, column {info.column}"
+            why = culprit(call.arguments[2 + k], values)
+            corner = f"at t = {t:.9g} s, where its where changes over"
+            return f"{info.address} ({place}): {corner}, a branch is {value}: {why}"
     return ""
 
 

@@ -101,7 +101,8 @@ class Batch:
     def __repr__(self) -> str:
         failed = f", {len(self.failures)} failed" if self.failures else ""
         samples = f"{len(self)} runs of {self.t.shape[-1]} samples"
-        return f"<Batch {self.source.mechanism}/{self.source.scene}: {samples}{failed}>"
+        kept = "" if self.states else f", {', '.join(name for name in self.kept if name != 't') or 'no series kept'}"
+        return f"<Batch {self.source.mechanism}/{self.source.scene}: {samples}{failed}{kept}>"
 
     @property
     def times(self) -> Array:

@@ -10,6 +10,7 @@ import numpy as np
 from gudgeon.results import netcdf
 from gudgeon.results.bare import blank
 from gudgeon.results.hdf5_image import Table, Variable
+from gudgeon.results.netcdf_read import check_times
 from gudgeon.results.results import Array
 
 if TYPE_CHECKING:
@@ -66,7 +67,10 @@ def read_times(whole: Whole, count: int, own: bool) -> Array:
     """(N,), or (n, N) where each run has its own."""
     t = whole.file.numbers(f"{TIMES}/time")
     if not own:
+        check_times(t)
         return t
+    for i in range(count):
+        check_times(t[whole.begins[TIMES][i] : whole.begins[TIMES][i + 1]])
     return _spread(whole, TIMES, t, count, max(whole.count(TIMES, i) for i in range(count)))
 
 

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     import xarray
 
 FORMATS = ("gudgeon-batch/2", "gudgeon-batch/1")  # what is written, and what was before runs had their own times
-RUNS, GIVEN, EXTREMES = "runs", "given", "extremes"
+RUNS, GIVEN, EXTREMES, NUMBER = "runs", "given", "extremes", "number"
 COUNTS = (*(field.name for field in fields(Counts)), "seconds")
 
 
@@ -70,10 +70,10 @@ def tables(batch: Batch) -> Iterator[Table]:
     if not batch.states:
         parts += kept_tables(batch)
         yield long_table(KEPT, [(i, table) for i, table in parts if table.group == KEPT], {})
-    yield Table(RUNS, "number", tuple(_runs(batch, runs)), {})
+    yield Table(RUNS, NUMBER, tuple(_runs(batch, runs)), {})
     units = {slot.address: slot.unit for slot in batch.source.slots}
     given = (Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items())
-    yield Table(GIVEN, "number", tuple(given), {})
+    yield Table(GIVEN, NUMBER, tuple(given), {})
     for group in ("", *netcdf.PARTS, netcdf.COMPILED):
         own = [(i, table) for i, table in parts if table.group == group and table.length]
         source = {"source": batch.source.to_json()} if group == netcdf.COMPILED else {}
@@ -231,7 +231,7 @@ def _batch(opened_file: Any, size: int) -> Batch:
     return Batch(
         source=source, t=t, states=States(*padded) if kept is None else None, samples=samples,
         kept={} if kept is None else read_kept(whole, kept, names, samples, t.shape[-1]),
-        t_last=file.numbers(f"{RUNS}/t_last", count), parameters=_given(file, source, count),
+        t_last=file.numbers(f"{RUNS}/t_last", count), parameters=_given(file, source, count, runs),
         impacts=tuple(impacts_of(run, source) for run in own), events=tuple(events_of(run, source) for run in own),
         peaks=_peaks(file, source, count), diagnostics=numbers, failures=as_failures(failed),
         seconds=float(about["seconds"]), threads=int(about["threads"]), interrupted=bool(about["interrupted"]),
@@ -262,15 +262,25 @@ def _padded(runs: Mapping[int, Result], name: str, count: int, samples: int, sou
     return out
 
 
-def _given(file: File, source: KernelSource, count: int) -> dict[str, Array]:
+def _given(file: File, source: KernelSource, count: int, runs: Mapping[int, Result]) -> dict[str, Array]:
     if not file.has(GIVEN):
         return {}
     found = {slot.address: slot for slot in source.slots if file.has(f"{GIVEN}/{slot.address}")}
-    return {
+    if strange := sorted({*file.names(GIVEN)} - {*found, NUMBER}):
+        raise ValueError(f"{strange[0][:64]!r} was given, and is no number of its scene")
+    given = {
         address: np.array(file.texts(f"{GIVEN}/{address}", count), dtype=object) if slot.words
         else file.numbers(f"{GIVEN}/{address}", count)
         for address, slot in found.items()
     }  # fmt: skip
+    for address, values in given.items():
+        for i, value in enumerate(values.tolist()):
+            if found[address].words and value not in found[address].words:
+                raise ValueError(f"run {i}: {address} is {value[:64]!r}, which is no choice")
+            if i in runs and value != runs[i].parameters[address]:
+                told = runs[i].parameters[address]
+                raise ValueError(f"run {i}: {address} is {told!r}, and was given as {value!r}")
+    return given
 
 
 def _peaks(file: File, source: KernelSource, count: int) -> Array:

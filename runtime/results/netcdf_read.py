@@ -80,6 +80,10 @@ class File:
     def has(self, group: str) -> bool:
         return group in self._file
 
+    def names(self, group: str) -> list[str]:
+        """What lies in a group."""
+        return list(self._group(group))
+
     def text(self, key: str, group: str = "") -> str:
         """An attribute of the file or of a group."""
         found = (self._group(group) if group else self._file).attrs[key]
@@ -169,6 +173,7 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
     t = file.numbers("time")
     if not len(t):
         raise ValueError("it has no sample")
+    check_times(t)
     stored = {name: _series(file, name, len(t)) for name in names if _is_there(file, name)}
     p, given, is_given = _numbers(file, source)
     run = Result(
@@ -181,6 +186,19 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
     check_extremes(diagnostics.extremes, run.names)
     return run
+
+
+def check_times(t: Array) -> None:
+    """Raise unless times of samples are numbers that ascend."""
+    if not (np.isfinite(t).all() and (np.diff(t) > 0.0).all()):
+        raise ValueError("the times of samples do not ascend")
+
+
+def _check_given(source: KernelSource, p: Array, given: Array, is_given: Array) -> None:
+    """Raise unless what a run was given is what it had."""
+    for slot, x, own, told in zip(source.slots, p.tolist(), given.tolist(), is_given.tolist(), strict=False):
+        if told not in (0, 1) or told and not own == x:
+            raise ValueError(f"{slot.address} is {x!r}, and was given as {own!r}")
 
 
 def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tuple[Extremes, ...]:
@@ -223,10 +241,13 @@ def _numbers(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
     slots, derived = len(source.slots), len(source.derived)
     if file.is_old:
         p, given = file.numbers("parameters.prepared", slots + derived), file.numbers("parameters.given", slots)
-        return p, given, file.numbers("parameters.is_given", slots, "i1").astype(bool)
+        is_given = file.numbers("parameters.is_given", slots, "i1")
+        _check_given(source, p, given, is_given)
+        return p, given, is_given.astype(bool)
     values, given = (file.numbers(f"parameters/{name}", slots) if slots else np.zeros(0) for name in ("value", "given"))
     is_given = file.numbers("parameters/is_given", slots, "i1") if slots else np.zeros(0)
     prepared = file.numbers(f"{COMPILED}/value", derived) if derived else np.zeros(0)
+    _check_given(source, values, given, is_given)
     return np.concatenate([values, prepared]), given, is_given.astype(bool)
 
 

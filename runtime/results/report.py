@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.language.plot_units import quantity, scale
+from gudgeon.language.plot_units import drawn, quantity
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.peaks import Extreme, of_samples, table_rows
 from gudgeon.results.results import Result
@@ -181,7 +181,8 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
 def _at(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
     if math.isfinite(t) and _is_noise(abs(value), unit, scales):
         return ZERO
-    return f"{quantity(value, unit)} at {t:.4f} s" if math.isfinite(t) else "–"
+    factor, text = drawn(value, unit)
+    return f"{value * factor:.4g} {text}".strip() + f" at {t:.4f} s" if math.isfinite(t) else "–"
 
 
 def _is_noise(size: float, unit: str, scales: Mapping[str, float]) -> bool:
@@ -210,7 +211,7 @@ def _extreme_rows(reports: Sequence[SceneReport], errors: bool) -> list[tuple[st
 def _range(extreme: Extreme, scales: Mapping[str, float]) -> str:
     if _is_noise(max(abs(extreme.low), abs(extreme.high)), extreme.unit, scales):
         return ZERO
-    factor, text = scale(max(abs(extreme.low), abs(extreme.high)), extreme.unit)
+    factor, text = drawn(max(abs(extreme.low), abs(extreme.high)), extreme.unit)
     return f"{extreme.low * factor:.5g} … {extreme.high * factor:.5g} {text}".strip()
 
 

@@ -164,7 +164,7 @@ class Result:
         source, parameters = self.source, MappingProxyType(overridden)
         return State(
             source.mechanism, source.scene, float(self.t[-1]), q, v, state, memory, parameters,
-            source.whole_sha256, source.overrides, source.formulation,
+            source.whole_sha256, source.overrides, source.formulation, source.beside,
         )  # fmt: skip
 
     def __getstate__(self) -> dict[str, Any]:

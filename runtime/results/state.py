@@ -27,6 +27,7 @@ class State:
     sha256: str = ""  # of the mechanism's file; "": made by hand
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # (address, value) with which the file was loaded
     formulation: str = ""  # what was integrated; either goes on from the other's
+    beside: tuple[tuple[str, str], ...] = ()  # tables and laws of one's own with which it was, and their SHA-256
 
     def __getstate__(self) -> dict[str, Any]:
         return self.__dict__ | {"parameters": dict(self.parameters)}

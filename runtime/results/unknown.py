@@ -23,7 +23,9 @@ def unknown_series(
     if not isinstance(name, str):
         return UnknownNameError(f"nothing is named {told(name)}", hint="a name is a text: run.names lists all")
     if name in parameters:
-        return UnknownNameError(f"{name!r} is a parameter, no series", hint=f'see run.parameters["{name}"]')
+        alike = ", ".join(path for path in known if path.rpartition(".")[2] == name)
+        hint = f'its value is run.parameters["{name}"]' + (f"; series: {alike}" if alike else "")
+        return UnknownNameError(f"{name!r} is a parameter, no series", hint=hint)
     if name in source.outputs:
         lacking = ", ".join(missing(source, source.outputs[name], known))
         hint = "a joint's play, contact and reaction have results only in the scenes that have them"

@@ -25,6 +25,7 @@ METHODS = {
 }  # fmt: skip
 MAX_STEPS = 10**12
 DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8
+MOST_TRUTHS = 10**4  # entries of a list that are looked at one by one
 NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18  # roundings between start and end; s, of a run
 
 
@@ -67,6 +68,10 @@ def output_times(
 
 def _given_times(t0: float, output: ArrayLike) -> Array:
     times = taken(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
+    if not isinstance(output, np.ndarray) or output.dtype.kind == "b":
+        for k, value in enumerate(np.asarray(output, object)[:MOST_TRUTHS]):
+            if isinstance(value, (bool, np.bool_)):
+                raise BadValueError(f"output[{k}] is {value}: expected a time (s)")
     if not len(times):
         raise BadValueError("output: expected at least one time (s), got none")
     back = np.flatnonzero(~(np.diff(times) > 0.0))

@@ -163,7 +163,7 @@ class Search:
 
     def _note(self, key: tuple[str, bool, int], value: float, t: float) -> None:
         if math.isfinite(value) and (key not in self.best or value - self.best[key][0] > SAME * abs(value)):
-            self.best[key] = value, t
+            self.best[key] = float(value), float(t)
 
 
 def _top(parts: Array) -> tuple[float, float]:

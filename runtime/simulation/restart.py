@@ -102,6 +102,11 @@ def _check_origin(source: KernelSource, start: State) -> None:
             f" this is {source.mechanism} / {source.scene}"
         )
     if start.sha256 not in ("", source.whole_sha256):
+        changed = _changed(source, start)
+        if changed:
+            told = f"start: this state was computed with another {' and another '.join(changed)}"
+            hint = "go on with what it was computed with, or run this one from its start"
+            raise BadValueError(told, hint=hint)
         raise BadValueError(
             f"start: this state belongs to another mechanism: the file of {source.mechanism} was another one"
             f" (SHA-256 {start.sha256[:12]}…, now {source.whole_sha256[:12]}…)",
@@ -113,6 +118,15 @@ def _check_origin(source: KernelSource, start: State) -> None:
             f" this simulation has {dict(source.overrides)}",
             hint="load the mechanism with the state's overrides",
         )
+
+
+def _changed(source: KernelSource, start: State) -> list[str]:
+    """Laws and tables that say something else now, where the file itself is the same."""
+    then, now = dict(start.beside), dict(source.beside)
+    if replace(source, tables=start.beside, laws=()).whole_sha256 != start.sha256:
+        return []
+    kinds = {name: "law" for name, _ in source.laws} | {name: "table" for name, _ in source.tables}
+    return [f"{kinds[name]} {name}" for name in kinds if then.get(name) != now[name]]
 
 
 def numbers(

@@ -251,7 +251,8 @@ class Simulation:
         of each run, as many as it likes; an expression, t_end "2*pi/omega", is that of each run's own numbers. The
         batch's `t` then has a row a run. A NaN among them fails its own run; what else is none is refused.
         `keep`: names of series, ["S9.y", "A.F"], which are then evaluated as soon as a run is over: its states are let
-        go, and memory is that of the series alone. A run of which one cannot be evaluated has failed.
+        go, and memory is that of the series alone; of an empty list none is kept, but impacts, events and
+        peaks are. A run of which one cannot be evaluated has failed.
         `side_by_side`: whether runs of rk4 that have the same step and times may share vector registers, several in
         each thread; the numbers are the same without, and what that takes is compiled on its first use.
         `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`. Such runs do not go side by side.

@@ -11,8 +11,8 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError
-from gudgeon.language.wanted import numbers, text
-from gudgeon.model.choices import said
+from gudgeon.language.wanted import listed, numbers, text
+from gudgeon.model.choices import place_of_word, said
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameters import GAINS, given_slots, number, prepare
 from gudgeon.simulation.simulation import Simulation
@@ -31,29 +31,42 @@ GROUPS: dict[str, Callable[[str], bool]] = {
 
 @dataclass(frozen=True)
 class Axis:
-    """A name, its values (SI, ascending), and the addresses that get them, each times its ratio."""
+    """A name, its values (SI, ascending), and the addresses that get them, each times its ratio.
+
+    `words`: of a choice, a material; its values are their places.
+    """
 
     name: str
     values: tuple[float, ...]
     unit: str
     ratios: tuple[tuple[str, float], ...] = ()
+    words: tuple[str, ...] = ()
 
     @property
     def of_method(self) -> bool:
         """Whether it is the step or the tolerance."""
         return self.name in SETTINGS
 
-    def parameters(self, value: float) -> dict[str, float]:
+    def parameters(self, value: float) -> dict[str, float | str]:
         """What `simulate` is given for a value; nothing for an axis of the method or of a scene without play."""
+        if self.words:
+            return {address: self.words[int(value)] for address, _ in self.ratios}
         return {address: value * ratio for address, ratio in self.ratios}
 
 
-def axis(simulation: Simulation, name: str, values: Sequence[float], parameters: Parameters | None = None) -> Axis:
-    """`name`: step, rtol, clearance, stiffness, viscosity, gains, or the address of any run-time number.
+def axis(
+    simulation: Simulation, name: str, values: Sequence[float | str], parameters: Parameters | None = None
+) -> Axis:
+    """`name`: step, rtol, clearance, stiffness, viscosity, gains, or the address of any run-time number or choice.
 
-    Raises UnknownNameError for a name that is none, BadValueError for one that the scene has no number for.
+    values: numbers (SI); of a choice, a material, names. Raises UnknownNameError for a name that is none,
+    BadValueError for one that the scene has no number for.
     """
-    name, values = text(name, "axis"), numbers(values, f"axis {name}")
+    if (slot := _choice(simulation.source, text(name, "axis"))) is not None:
+        names = listed(values, f"axis {name}", str, f"a list of names, of {', '.join(slot.words)}")
+        places = sorted({place_of_word(one, slot) for one in names})
+        return Axis(name, tuple(places), "", ((name, 1.0),), slot.words)
+    values = numbers(values, f"axis {name}")
     if name in SETTINGS:
         return Axis(name, tuple(sorted(values)), SETTINGS[name])
     source, p = simulation.source, prepare(simulation.compiled, parameters)[0]
@@ -70,6 +83,11 @@ def typed(simulation: Simulation, written: str, parameters: Parameters | None = 
     name, _, told = text(written, "axis").partition("=")
     if not told:
         raise BadValueError(f"axis {written!r}: expected name=low..high:count or name=a,b,c")
+    if (choice := _choice(simulation.source, name.strip())) is not None:
+        if ".." in told or ":" in told:
+            names = ",".join(choice.words)
+            raise BadValueError(f"axis {written!r}: its values are names, there is none between: {name}={names}")
+        return axis(simulation, name.strip(), told.split(","), parameters)
     ends, colon, count = told.partition(":")
     slot = _slot(simulation.source, name.strip())
     values = [number(_spaced(part), slot) for part in (ends.split("..") if ".." in ends else ends.split(","))]
@@ -92,15 +110,17 @@ def clearances(simulation: Simulation, values: Sequence[float], parameters: Para
     return axis(simulation, "clearance", values, parameters)
 
 
+def _choice(source: KernelSource, name: str) -> Slot | None:
+    """What a run chooses by name, under its address."""
+    return next((slot for slot in source.slots if slot.address == name and slot.words), None)
+
+
 def _slots(source: KernelSource, name: str) -> list[int]:
     """Which numbers an axis moves; the first gives it its values."""
     if name == "clearance":
         found = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.slots)))
     elif name in GROUPS:
         found = [k for k, slot in enumerate(source.slots) if GROUPS[name](slot.address)]
-    elif any(slot.address == name and slot.words for slot in source.slots):
-        hint = "set it for a map or a box as a whole, or give simulate_many a column of names"
-        raise BadValueError(f"axis {name}: its values are names, and an axis has numbers", hint=hint)
     else:
         return [int(np.flatnonzero(given_slots(source, {name: 1.0})[1])[0])]
     if not found:

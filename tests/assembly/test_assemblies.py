@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon.cli import app
-from gudgeon.commands.assembly_story import assemble_scenes
+from gudgeon.commands.assembly_story import assemble_scenes, remarks
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.generator.reader.read import read_mechanism
 
@@ -102,6 +102,15 @@ def test_degrees_of_freedom(joints: str, drives: str, freedoms: int, along: tupl
     scene = found(four_bar(joints, drives)).scenes["ideal"]
     assert (scene.closed.freedoms, scene.closed.along, scene.closed.loose) == (freedoms, along, ())
     assert scene.closed.redundant == 0
+
+
+def test_a_driven_crank_without_its_shaft_is_named() -> None:
+    def told(joints: str) -> list[str]:
+        mechanism = read_mechanism(four_bar(joints), "four.yaml")
+        return [text for whose, text in remarks(mechanism, assemble_scenes(mechanism, False)) if whose == "shaft"]
+
+    assert told(B + C + D) == ["no joint ties crank to the ground, against which drive motor turns it"]
+    assert told(A + B + C) == [] == told(A + B + C + D)
 
 
 def test_bodies_that_nothing_holds_and_rows_that_say_nothing_new() -> None:

@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon.assembly.start import search
+from gudgeon.cli import app
 from gudgeon.errors import AssemblyError, UnknownNameError
 from gudgeon.model.parameters import prepare
 from gudgeon.simulation.simulation import Simulation
@@ -194,3 +196,13 @@ def test_an_override_brings_it_into_any_file(scenes: Scenes) -> None:
     scene = gudgeon.load(file, "dry", overrides={"start.play.A.e.x": "0.1 mm"})
     run = scene.simulate(1e-3, output=2, parameters={"start.play.A.rate.y": "1 mm/s"})
     np.testing.assert_allclose([run["A.ex"][-1], run["A.ey"][-1]], [1e-4, 1e-6], rtol=1e-9)
+
+
+@pytest.mark.parametrize("e", ["[0.02, 0]", "[0.5, 0.5]"])
+def test_an_eccentricity_in_metres_by_mistake_is_told(e: str, scenes: Scenes) -> None:
+    """It was a start that does not close, or a journal that lies deep at once: bare numbers are m."""
+    file = scenes.file("metres", CRANK.replace("e: [out, 0.04 mm]", f"e: {e}"))
+    with pytest.raises(AssemblyError, match=r"(?s)start\.play\.A\.e is \d+.* mm long.*bare number is in m"):
+        gudgeon.load(file, "dry").simulate(1e-4)
+    done = CliRunner().invoke(app, ["check", str(file)])
+    assert done.exit_code != 0 and "start.play.A.e is" in done.output

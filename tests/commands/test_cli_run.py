@@ -87,6 +87,7 @@ def test_the_reference_has_the_parameters_of_the_scene(call: Gudgeon, tmp_path: 
         (("--set", "c=1 kg"), "c"),
         (("--set", "bodies.rod.mass=-1"), "mass"),
         (("--watch", "piston.xx"), "piston.x"),
+        (("--peaks", "piston.xx"), "--peaks: no scene has a series 'piston.xx'"),
         (("--t-end", "0"), "t_end"),
         (("--step", "-1us"), "step"),
         (("--method", "euler"), "rk4"),
@@ -254,6 +255,20 @@ def test_the_table_has_the_drives_and_no_rows_that_need_a_legend(call: Gudgeon, 
     found = json.loads(call("run", pump, "--json").stdout)["scenes"]["worn"]["drives"]["motor.torque"]
     torque = gudgeon.Result.load("out/pump_worn.nc")["motor.torque"]
     assert abs(found["peak"]) == abs(torque).max() and found["unit"] == "N*m"
+
+
+@needs_compiler
+def test_peaks_of_series_that_are_asked_for(call: Gudgeon, pump: str) -> None:
+    """Of scenes that have them, over all steps, beside the file's own; angles in degrees, in JSON SI."""
+    joint = gudgeon.load(pump, "worn").source.clearances[0].name
+    asked = ("--t-end", "5ms", "--peaks", "crank.theta", "--peaks", f"{joint}.e")
+    done = call("run", pump, *asked)
+    assert done.exit_code == 0, done.output
+    found = json.loads(call("run", pump, *asked, "--json").stdout)["scenes"]
+    largest = found["worn"]["peaks"]["crank.theta"]["max"]
+    row = next(line for line in done.stdout.splitlines() if line.split()[:2] == ["crank.theta", "max"])
+    assert row.count(f"{math.degrees(largest):.4g} °") == 2
+    assert f"{joint}.e" in found["worn"]["peaks"] and [*found["ideal"]["peaks"]] == ["crank.theta"]
 
 
 @needs_compiler

@@ -45,6 +45,15 @@ def test_a_number_that_is_written_as_zero_is_told(address: str, call: Gudgeon, p
     assert "write a parameter there" in done.stderr
 
 
+def test_where_a_journal_begins_is_said_by_the_file_first(call: Gudgeon, pump: str) -> None:
+    joint = gudgeon.load(pump, "worn").source.clearances[0].name
+    done = call("run", pump, "--scene", "worn", "--set", f"start.play.{joint}.e.x=1um")
+    assert done.exit_code == 2 and f"the file's start does not say where {joint} begins" in done.stderr
+    assert f"start: {{play: {{{joint}: {{e: [0 mm, 0 mm]}}}}}}" in done.stderr
+    with pytest.raises(UnknownNameError, match=f"does not say where {joint} begins"):
+        gudgeon.load(pump, "worn").simulate_many({f"start.play.{joint}.rate.y": [0.1]}, t_end=1e-3)
+
+
 def test_a_parameter_that_is_zero_can_be_set(pump: str) -> None:
     named = Path(pump).with_name("named.yaml")
     named.write_text(TEXT.replace("C: [0, 0]", "C: [0, shift]").replace("{omega", "{shift: 0 m, omega"))

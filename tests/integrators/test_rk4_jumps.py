@@ -136,3 +136,19 @@ def test_a_jump_right_behind_a_step_that_is_rounded_beyond_it(tmp_path: Path) ->
     reference = simulation.simulate(0.6, output=[0.0, 0.28, 0.6], rtol=1e-12)
     np.testing.assert_allclose(run.work[-1], reference.work[-1], rtol=0, atol=3e-3)
     assert run.diagnostics.energy_residual < 3e-3
+
+
+@pytest.mark.parametrize("law", ["where(PHASE < T/2, PHASE/T, 1 - PHASE/T)", "PHASE*(T - PHASE)/T**2"])
+@pytest.mark.parametrize("phase", ["mod(t, T)", "mod(-t, T)"])
+def test_periods_that_begin_on_the_grid(law: str, phase: str, tmp_path: Path) -> None:
+    """Bounds were rounded beyond the corner, or that belonged to the period before: 0.08 J of 0.3 J were wrong."""
+    value = f'"0.05 m * {law.replace("PHASE", phase)}"'
+    text = SLIDER.replace("late: 0.3 s", "T: 0.3 s") + ON_SLIDER.format(value)
+    simulation = scene(text, tmp_path, "full")
+    periods = np.array([0.3, 0.18, 0.097, 0.232, 0.12, 0.1, 0.11694381, 0.25])
+    batch = simulation.simulate_many({"T": periods}, 1.2, output=2, method="rk4", step=1e-3)
+    reference = simulation.simulate_many({"T": periods}, 1.2, output=2, method="dop853", rtol=1e-10)
+    for run, exact in ((batch[i], reference[i]) for i in range(len(periods))):
+        assert run.diagnostics.energy_residual < 1e-5 * run.diagnostics.energy_turned_over
+        np.testing.assert_allclose(run.work[-1], exact.work[-1], rtol=0, atol=1e-6)
+        np.testing.assert_allclose(run["slider.vx"], exact["slider.vx"], rtol=0, atol=1e-6)

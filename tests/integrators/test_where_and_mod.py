@@ -48,6 +48,21 @@ def test_a_push_that_ends(tmp_path: Path) -> None:
         np.testing.assert_allclose(run["slug.vx"], v, rtol=1e-11)
 
 
+@pytest.mark.parametrize(
+    ("push", "order"), [("where(t < T, F, 0 N)", 1), ("F * max(t - T, 0 s) / (1 s)", 2), ("F * max(t - T, 0 s)**2", 3)]
+)
+def test_rk4_at_a_jump_and_at_a_corner_of_a_force(push: str, order: int, tmp_path: Path) -> None:
+    """It ends no step there: order 1 where the force jumps, one more for each rate that does not (docs/methods.md)."""
+    slug = loader(tmp_path)(SLUG % (push + " / (1 s)**2" * (order == 3)))
+    T = np.linspace(0.3, 0.31, 33)[:-1] + 1e-5
+    momentum = {1: 20.0 * T, 2: 10.0 * (1.0 - T) ** 2, 3: 20.0 / 3.0 * (1.0 - T) ** 3}[order]
+    worst = []
+    for step in (1e-2, 1.25e-3):
+        batch = slug.simulate_many({"T": T}, 1.0, output=1, method="rk4", step=step)
+        worst.append(np.abs(batch["slug.vx"][:, -1] - 1.0 - momentum / 0.5).max())
+    assert abs(np.log2(worst[0] / worst[1]) / 3.0 - order) < 0.2, worst
+
+
 def test_a_sawtooth(tmp_path: Path) -> None:
     """F(t) = F mod(t, T)/T: each period adds F T/2."""
     slug = loader(tmp_path)(SLUG % "F * mod(t, T) / T")
@@ -145,6 +160,11 @@ def test_a_drive_must_not_jump(tmp_path: Path) -> None:
         ("where(t < 1 m, F, 0 N)", "cannot compare", "expected a time"),
         ("where(t < 1 s, F, 1 m)", "where of unlike quantities", "expected a force"),
         ("F * (t < 1 s)", "expected ')', got '<'", "in where(a < b, then, otherwise) alone"),
+        ("where(t < 1 s and t > 0 s, F, 0 N)", "'and' is no number", "where(a < b, where(c < d, x, y), y)"),
+        ("where(t < 1 s or t > 2 s, F, 0 N)", "'or' is no number", "where(a < b, x, where(c < d, x, y))"),
+        ("where(0 s < t < 1 s, F, 0 N)", "expected ',', got '<'", "where(a < b, where(c < d, x, y), y)"),
+        ("where(t < 1 s && t > 0 s, F, 0 N)", "unexpected character '&'", "where(a < b, where(c < d, x, y), y)"),
+        ("F if t < 1 s else 0 N", "'if' is no number", "where(a < b, then, otherwise)"),
         ("mod(t, 1 m) * 1 N/s", "mod of unlike quantities", "expected a time"),
         ("mod(t) * 1 N/s", "mod takes 2 arguments, got 1", "each second"),
         ("F % 2", "unexpected character '%'", "mod(a, b)"),
@@ -184,3 +204,14 @@ drives: {motor: {coordinate: cart.x, value: "0.05 m * where(PHASE < T/2, PHASE/T
     run = loader(tmp_path)(cart).simulate(0.6, output=8, peaks=["cart.ax"])
     assert np.abs(run["cart.ax"]).max() < 1e-11 and run.peak("cart.ax").abs < 1e-11
     np.testing.assert_allclose(np.abs(run["cart.vx"]), 0.05 / 0.3, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("law", "method"), [("where(t < 0.3 s, 1, sin(U)/U)", "rk4"), ("where(t < 0.3 s, sin(U)/U, 1)", "dop853")]
+)
+def test_a_branch_that_is_no_number_at_its_own_corner_is_named(law: str, method: str, tmp_path: Path) -> None:
+    """It was a second rate that grows beyond all bounds, or no step was small enough."""
+    linkage = loader(tmp_path)(LINKAGE % law.replace("U", "(t/(1 s) - 0.3)"))
+    step = 1e-2 if method == "rk4" else None
+    with pytest.raises(SolverError, match=r"drives\.motor\.value \(line .* at t = 0\.3 s.*nan: 0 divided by 0"):
+        linkage.simulate(0.6, method=method, step=step)

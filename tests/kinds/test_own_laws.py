@@ -120,8 +120,26 @@ WRONG = [
     ),
     (BUILD, SP + '    return {"F_n": K * sp.sqrt(-1)}\n', "F_n is not real"),
     (BUILD, SP + '    return {"F_n": K * sp.zoo}\n', "F_n is not finite"),
-    (BUILD, '    return {"F_n": K / s.variables["delta"]}\n', r"F_n is inf at delta = 0 m, ratio = 1, with the file's"),
-    (BUILD, '    return {"F_n": K * s.variables["deltadot"] ** 0.5}\n', r"F_n is nan at .*deltadot = -0.001 m/s"),
+    (
+        BUILD, '    return {"F_n": K * s.pair.c**2 / s.variables["delta"]}\n',
+        r"F_n is inf at delta = 0 m, ratio = 1, with the file's",
+    ),
+    (BUILD, '    return {"F_n": K * s.variables["ratio"] ** 0.5 * s.pair.c}\n', r"F_n is nan at .*ratio = -0.4"),
+    (BUILD, '    return {"F_n": K * s.variables["deltadot"]}\n', r"F_n is a quantity .*expected a force \(N\)"),
+    (BUILD, '    return {"F_n": 1e6 * s.variables["delta"]}\n', r"(?s)F_n is a length .*a number with a unit is one"),
+    (
+        BUILD, '    return {"F_n": K * s.variables["delta"] + D * s.variables["delta"]}\n',
+        r"F_n adds a .* and .*: D\*delta \+ K\*delta|F_n adds .*: damping\*delta \+ delta\*stiffness",
+    ),
+    (BUILD, SP + '    return {"F_n": K * s.pair.c * sp.exp(s.variables["delta"])}\n', "has an exponent of a length"),
+    (BUILD, SP + '    return {"F_n": K * s.pair.c * sp.sin(s.variables["delta"])}\n', "F_n has sin of a length"),
+    ("STIFFNESS, symbol", "'N/m', symbol", "(?s)the dimension of stiffness is 'N/m'.*expected one of"),
+    ("required=True", "default=0.0", "the default of stiffness is 0.0, its bound > 0.0"),
+    ("required=True", "default='1 N/m'", "(?s)the default of stiffness is '1 N/m'.*expected a number in SI units"),
+    ("required=True", "default=float('nan')", "the default of stiffness is nan"),
+    ("bounds=POSITIVE)", "bounds=3)", "the bounds of stiffness are none"),
+    ("bounds=POSITIVE)", "bounds=(Bound('>>', 0.0),))", "a bound of stiffness is none: '>>' 0.0"),
+    ("fields=(", "fields=(word('mode', 'how', ('a', 'b'), 'c'),", "(?s)the default of mode is 'c'.*: a, b"),
     (BUILD, DERIVED, r"derive\('h', …\) uses the symbol delta"),
     (BUILD, '    return {"memory": K, "F_n": K}\n', "the emitted C has 'memory' for something else"),
     (BUILD, '    return {"damping": K, "F_n": K}\n', "the emitted C has 'damping' for something else"),
@@ -132,7 +150,9 @@ WRONG = [
 @pytest.mark.parametrize(("old", "new", "told"), WRONG)
 def test_what_it_may_not_be_is_told(old: str, new: str, told: str, disc: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(disc.parent)
-    law_file(disc.parent, old, new)
+    file = law_file(disc.parent, old, new)
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("import POSITIVE, number", "import POSITIVE, Bound, number, word"), encoding="utf-8")
     with pytest.raises(LawError, match=told) as error:
         gudgeon.register("dashpot.py")
         derive(disc.read_bytes(), str(disc), "wall")
@@ -224,7 +244,7 @@ def test_two_laws_of_one_contact_keep_their_abbreviations_apart(disc: Path) -> N
 """
     gudgeon.register(law_file(disc.parent, BUILD, both))
     rubs = law_file(disc.parent, BUILD, SP + """    a1 = sp.Symbol("a1", real=True)
-    return {"a1": K * s.variables["v_t"], "F_t": -a1 * D}
+    return {"a1": D * s.variables["v_t"], "F_t": -a1 + 0 * K}
 """).read_text(encoding="utf-8")
     (disc.parent / "rubs.py").write_text(
         rubs.replace('"normal"', '"friction"').replace('"dashpot"', '"rubs"'), encoding="utf-8"
@@ -243,6 +263,9 @@ def test_from_the_command_line(disc: Path, call: Gudgeon) -> None:
         done = call(*command, "--laws", "dashpot.py")
         assert done.exit_code == 0, done.output
     assert "dashpot" in done.output or (disc.parent / "disc.txt").exists()
+    law_file(disc.parent, BUILD, f'    print("deriving")\n{BUILD}').open("a").write('print("read")\n')
+    done = CliRunner().invoke(app, ["run", "disc.yaml", "--json", "--laws", "dashpot.py"])
+    assert done.exit_code == 0 and json.loads(done.stdout)["scenes"] and "read" in done.stderr
     law_file(disc.parent, BUILD, '    return {"F_n": 1 / 0}\n')
     done = CliRunner().invoke(app, ["check", "disc.yaml", "--laws", "dashpot.py"])
     assert done.exit_code == 2 and "error: dashpot.py:8:1: law dashpot: build raised ZeroDivisionError" in done.stderr
@@ -308,5 +331,5 @@ def test_edited_it_is_another_one_and_other_processes_need_it_for_equations_alon
         simulation.full  # noqa: B018
     edited = gudgeon.load(disc, "wall")
     assert edited.source.files != simulation.source.files
-    with pytest.raises(InputError, match="this state belongs to another mechanism"):
+    with pytest.raises(InputError, match="this state was computed with another law dashpot"):
         edited.simulate(2e-3, start=run.final)

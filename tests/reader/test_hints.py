@@ -4,7 +4,16 @@ from __future__ import annotations
 
 import pytest
 
-from gudgeon.errors import BadValueError, InputError, InputErrors, MissingKeyError, UnknownKeyError, UnknownNameError
+from gudgeon.errors import (
+    BadNameError,
+    BadValueError,
+    ExpressionError,
+    InputError,
+    InputErrors,
+    MissingKeyError,
+    UnknownKeyError,
+    UnknownNameError,
+)
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.mechanism.mechanism import Mechanism
 from gudgeon.generator.reader.read import read_mechanism
@@ -183,3 +192,19 @@ def test_units_of_a_stiffness(unit: str) -> None:
 def test_none_is_no_law() -> None:
     with pytest.raises((InputError, InputErrors), match="unknown normal law 'none'"):
         read(HERTZ, "{law: none, restitution: 0.8}")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "kind", "told"),
+    [
+        ("name: plain", "name: ‸plain-one", BadNameError, "such as plain_one"),
+        ("forces:\n", "‸springs:\n", UnknownKeyError, "'springs' is called forces here"),
+        ("{guess: {piston.x: 160 mm}}", "{guess: {‸piston: 160 mm}}", UnknownNameError, "piston.x, piston.y"),
+        ("5 rad/s * t}", "5 rad/s * ‸time}", ExpressionError, "time is written t"),
+        ("restitution: 0.8", "restitution: 80 ‸%", ExpressionError, "90 % as 0.9"),
+        ("contact: dry}}}", "contact: dry}}, simulate: {‸method: rk4}}", UnknownKeyError, "gudgeon run, --method"),
+    ],
+)  # fmt: skip
+def test_words_and_signs_of_elsewhere(old: str, new: str, kind: type[InputError], told: str) -> None:
+    error = refused(old, new)
+    assert type(error) is kind and told in error.hint

@@ -55,6 +55,12 @@ def test_commas_in_parentheses(text: str, value: object) -> None:
         assert parse_yaml(f"k: {text}\n".encode(), "f")["k"] == value
 
 
+def test_as_many_commas_as_a_long_expression_may_have() -> None:
+    """Behind the 64th one the rest were keys that are unknown, or a missing parenthesis."""
+    long = "max(" + "max(t,0)+" * 100 + "t,0)"
+    assert parse_yaml(f"k: {{a: {long}, b: [{long}, 1]}}\n".encode(), "f")["k"] == {"a": long, "b": [long, "1"]}
+
+
 def test_commas_keep_their_place_in_the_source() -> None:
     tree = parse_yaml("k: {\u00fc: 1, a: f(t,  0 , 1 s), b: x}\n".encode(), "f")
     assert (tree["k"]["a"], tree["k"]["a"].where) == ("f(t,  0 , 1 s)", Location("f", 1, 14))

@@ -183,3 +183,32 @@ def test_peaks_beside_kept_series_come_back(tmp_path: Path) -> None:
         batch.save(tmp_path / "kept.nc")
         assert Batch.load(tmp_path / "kept.nc").extremes == batch.extremes
     assert len(valves.simulate_many([{}, {}], 2e-3, output=4, keep=[name], peaks=[name]).extremes[1]) == 1
+
+
+def swapped(values: Any) -> None:
+    values[1], values[2] = values[2], values[1]
+
+
+@pytest.mark.parametrize(
+    ("what", "change", "told"),
+    [
+        ("times/time", swapped, "the times of samples do not ascend"),
+        ("series/time", swapped, "the times of samples do not ascend"),
+        ("given/parameters.w", lambda values: values.put(1, 8.0), "run 1: parameters.w is 7.0, and was given as 8.0"),
+        ("parameters/given", lambda values: values.fill(3.25), "was given as 3.25"),
+        ("given", lambda group: group.move("parameters.w", "parameters.v"), "'parameters.v' was given, and is no"),
+    ],
+)
+def test_what_another_program_changed_is_told(what: str, change: Any, told: str, tmp_path: Path) -> None:
+    """They were loaded as they stood."""
+    path = tmp_path / "batch.nc"
+    valve(tmp_path).simulate_many({"w": [5.0, 7.0]}, 0.2, output=7).save(path)
+    with h5py.File(path, "r+") as file:
+        if what == "given":
+            change(file[what])
+        else:
+            values = file[what][...]
+            change(values)
+            file[what][...] = values
+    with pytest.raises(InputError, match=told):
+        Batch.load(path)

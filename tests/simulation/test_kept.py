@@ -98,6 +98,7 @@ def test_what_was_not_kept_is_told(some: Batch) -> None:
             call()
     with pytest.raises(UnknownNameError, match=r"S9\.y"):
         some["S9.yy"]
+    assert "no series kept" in repr(press().simulate_many(C, 1e-4, output=1, keep=[])) and "S9.y, A.F" in repr(some)
     with pytest.raises(IndexError):
         some[7]
 

@@ -17,7 +17,8 @@ from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.model.parameters import prepare
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.axes import axis
+from gudgeon.studies.axes import axis, typed
+from gudgeon.studies.show.map_words import value
 
 STEEL, BRONZE = (206e9, 0.3, 7850.0), (110e9, 0.34, 8800.0)
 R, C, DISC, THICK = 10e-3, 0.3e-3, 12e-3, 15e-3
@@ -156,6 +157,7 @@ def test_a_column_of_names(scenes: Scenes, options: dict[str, Any], tmp_path: Pa
         alone = scenes.dry.simulate(parameters={JOURNAL: name, SHAPE: batch.parameters[SHAPE][i]}, **options)
         np.testing.assert_array_equal(batch.q[i], alone.q)
         assert batch[i].parameters == alone.parameters
+        assert any(JOURNAL in note for note in batch[i].diagnostics.notes) == (name != "steel")  # the scene's own
     assert batch.parameters[JOURNAL].tolist() == names.tolist()
     batch.to_csv(tmp_path / "batch.csv", ["A.e"])
     first, second = (tmp_path / "batch.csv").read_text().splitlines()[:2]
@@ -178,8 +180,40 @@ def test_what_is_no_choice_is_told(scenes: Scenes) -> None:
         scenes.dry.simulate(parameters={JOURNAL: 1})
     with pytest.raises(BadValueError, match="Young's modulus is positive"):
         scenes.dry.simulate(parameters={f"{JOURNAL}.E": -1.0})
-    with pytest.raises(BadValueError, match="its values are names"):
+    with pytest.raises(BadValueError, match="expected a list of names, of steel, bronze, glue"):
         axis(scenes.dry, JOURNAL, [0.0, 1.0])
+    with pytest.raises(BadValueError, match="its values are names, there is none between"):
+        typed(scenes.dry, f"{JOURNAL}=steel..glue")
+    with pytest.raises(UnknownNameError, match="bronse"):
+        typed(scenes.dry, f"{JOURNAL}=steel,bronse")
+
+
+def test_an_axis_of_names(scenes: Scenes, tmp_path: Path) -> None:
+    """As columns of a map: each cell is run with its material, which is what is told of it."""
+    one = typed(scenes.dry, f"{JOURNAL}=glue, steel")
+    assert [one.parameters(x) for x in one.values] == [{JOURNAL: "steel"}, {JOURNAL: "glue"}]
+    assert [value(one, x) for x in one.values] == ["steel", "glue"]
+    told = ["map", str(scenes.file), "--scene", "dry", "--quick", "--t-end", "0.2 ms", "--out", str(tmp_path)]
+    ran = CliRunner().invoke(app, [*told, "--axis", f"{JOURNAL}=glue,steel", "--axis", "rtol=1e-6"])
+    assert ran.exit_code == 0, ran.output
+    assert "steel" in ran.output and f"{JOURNAL}=glue" in (tmp_path / "drop_map.csv").read_text()
+
+
+@pytest.mark.parametrize("scene", ["dry", "soft"])
+@pytest.mark.parametrize("parameters", [
+    {}, {JOURNAL: "bronze"}, {HOLE: "glue", SHAPE: "foam"}, {JOURNAL: "bronze", "soft": 60e9, f"{JOURNAL}.nu": 0.2},
+])  # fmt: skip
+def test_equations_in_numpy_take_names(scenes: Scenes, scene: str, parameters: dict[str, Any]) -> None:
+    simulation = getattr(scenes, scene)
+    model = simulation.model.numpy()
+    given, here = prepare(simulation.compiled, parameters)[0], model.prepare(parameters)
+    slots = model.model.slots
+    for k, slot in enumerate(simulation.source.slots):
+        if not slot.words:
+            assert getattr(here, slots.field(slots.entries[slot.address].symbol)) == given[k], slot.address
+    np.testing.assert_array_equal(model.mass(here), simulation.compiled.mass(given))
+    with pytest.raises(UnknownNameError, match="bronse"):
+        model.prepare({JOURNAL: "bronse"})
 
 
 def test_a_stiffness_axis_moves_what_the_run_has(scenes: Scenes) -> None:

@@ -275,3 +275,16 @@ def test_a_long_run_in_blocks(pendulum: Simulation) -> None:
     short, long = (run.peak("bob.vx") for run in runs)
     assert (short.max, short.min) == pytest.approx((long.max, long.min), rel=1e-10)
     assert long.abs == pytest.approx(math.sqrt(2.0 * 9.81), rel=1e-10)
+
+
+def test_a_parameter_is_no_series_and_a_time_is_a_float(cart: dict[str, Simulation], tmp_path: Path) -> None:
+    """Suggestions were parameters, the name itself among them; t_min a number of NumPy's."""
+    path = tmp_path / "cart.yaml"
+    wrong = {"k": "'k' is a parameter, no series", "puhs": "unknown series 'puhs'\n  did you mean 'push'"}
+    for name, told in wrong.items():
+        path.write_text(CART.replace("[cart.ax, motor.force]", f"[{name}]"), encoding="utf-8")
+        with pytest.raises(UnknownNameError) as error:
+            gudgeon.load(path, "ideal")
+        assert told in str(error.value)
+    found = cart["ideal"].simulate(0.1).diagnostics.extremes[0]
+    assert {type(x) for x in (found.max, found.t_max, found.min, found.t_min)} == {float}

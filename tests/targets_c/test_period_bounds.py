@@ -51,8 +51,11 @@ def test_values(library: ctypes.CDLL) -> None:
         assert abs(library.value(a, b, -own) - beyond) < 1e-13
         assert np.sign(library.value(a, b, PERIODS)) == own
     for k in range(-4, 5):
-        assert library.value(0.3 * k, 0.3, PERIODS) == 0.0 or k % 2 or abs(library.value(0.3 * k, 0.3, PERIODS)) < 1e-14
-        assert library.value(2.0 * k, 2.0, 0.0) == 0.0 == library.value(2.0 * k, 2.0, PERIODS)
+        assert abs(library.value(0.3 * k, 0.3, PERIODS)) < 1e-14
+        at_end = library.value(2.0 * k, 2.0, PERIODS)  # of the period that begins there
+        assert library.value(2.0 * k, 2.0, 0.0) == 0.0 and (at_end < 0.0) == (k % 2 == 1) and abs(at_end) < 1e-300
+    for b in (2.0, -2.0):  # so little behind an end that mod is rounded to it
+        assert library.value(-1e-20 * b, b, 0.0) == b and library.value(-1e-20 * b, b, PERIODS) < 0.0
 
 
 @pytest.mark.parametrize("side", [0.0, 1.0, -1.0, PERIODS])

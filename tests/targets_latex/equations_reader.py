@@ -16,6 +16,7 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
     "cos": math.cos, "sin": math.sin, "tan": math.tan, "sqrt": math.sqrt, "atan2": math.atan2, "exp": math.exp,
     "log": math.log, "abs": abs, "max": max, "min": min, "sgn": lambda x: (x > 0) - (x < 0),
     "H": lambda x: float(x > 0), "mod": lambda a, b: a % b,
+    "where": lambda holds, then, otherwise: then if holds else otherwise,
 }  # fmt: skip
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import hashlib
 import itertools
 import os
+import sys
 import uuid
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -46,7 +48,8 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
         return made
 
     try:
-        steps = law.build(replace(inputs, derive=derive))
+        with redirect_stdout(sys.stderr):
+            steps = law.build(replace(inputs, derive=derive))
     except (LawError, KeyboardInterrupt):
         raise
     except BaseException as error:

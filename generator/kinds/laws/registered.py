@@ -7,21 +7,24 @@ uses a law is kept in the cache under the law's key: edited, it is derived anew.
 from __future__ import annotations
 
 import hashlib
+import math
 import os
 import sys
 import sysconfig
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, TypeGuard
 
 from gudgeon.errors import BadNameError, LawError, Location, shortened
-from gudgeon.generator.field import FLAG, NUMBER, WORD, Field
+from gudgeon.generator.field import FLAG, NUMBER, RELATIONS, WORD, Bound, Field
 from gudgeon.generator.kinds.laws.law import OWN, RESULTS, Law, State, house
 from gudgeon.language.names import check_label
 from gudgeon.language.suggestions import known_hint
+from gudgeon.language.units import Dimension
 from gudgeon.language.wanted import path
 
 WHOLE = "docs/describing.md has one whole"
@@ -101,7 +104,8 @@ def _of_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
     module.__file__ = os.path.abspath(typed)
     sys.modules[module.__name__] = module  # a dataclass looks for its own module
     try:
-        exec(compile(data, shown, "exec"), module.__dict__)
+        with redirect_stdout(sys.stderr):  # what it prints is no part of what a command prints
+            exec(compile(data, shown, "exec"), module.__dict__)
     except KeyboardInterrupt:
         raise
     except BaseException as error:
@@ -170,13 +174,47 @@ def _check_keys(law: Law) -> None:
     for own in law.fields:
         usable = own.kind in (NUMBER, WORD, FLAG) and not own.varies
         _need(usable, f"{own.name} is no key of a law", "expected number(…) without `varies`, word(…) or flag(…)")
-        limits = [bound.limit for bound in own.bounds if isinstance(bound.limit, str)]
-        _need(all(limit in kinds for limit in limits), f"a bound of {own.name} names no key of the law")
+        _check_field(own, kinds)
     _need(all(isinstance(state, State) for state in law.states), "a state is none", "expected State(name, meaning)")
     _need(law.role == "friction" or not law.states, "it has inner states", "only laws of friction have them so far")
     known = {own.name for own in law.options}
     _need({key for choices in law.also.values() for key in choices} <= known, "`also` chooses what is no option")
     _need({*law.instead} <= known and {*law.instead.values()} <= {*kinds}, "`instead` names no key of the law")
+
+
+def _check_field(own: Field, kinds: Mapping[str, str]) -> None:
+    """What one key declares, and its default by that; a default that is a key's own is looked at with the file."""
+    for what in ("meaning", "symbol", "otherwise"):
+        _need(isinstance(getattr(own, what), str), f"the {what} of {own.name} is no text")
+    if own.kind != NUMBER:
+        words = own.values
+        _need(isinstance(words, tuple) and len(words) > 0 and all(isinstance(x, (str, bool)) for x in words),
+              f"the words of {own.name} are none", "expected word(name, meaning, (words, …), default)")  # fmt: skip
+        fits = own.default in words and isinstance(own.default, (str, bool))
+        _need(fits, f"the default of {own.name} is {own.default!r}", known_hint(str(own.default), map(str, words)))
+        return
+    message = f"the dimension of {own.name} is {own.dimension!r}"
+    hint = "expected one of gudgeon.language.units: FORCE, STIFFNESS, …, dimension(mass=1, time=-2); None is any"
+    _need(own.dimension is None or isinstance(own.dimension, Dimension), message, hint)
+    some = isinstance(own.bounds, tuple) and all(isinstance(bound, Bound) for bound in own.bounds)
+    _need(some, f"the bounds of {own.name} are none", 'expected bounds=POSITIVE, or (Bound(">=", 1.0), …)')
+    default = own.default
+    expected = "expected a number in SI units, or none: required=True"
+    _need(default is None or _is_number(default), f"the default of {own.name} is {default!r}", expected)
+    for bound in own.bounds:
+        limit = bound.limit
+        if isinstance(limit, str):
+            _need(limit in kinds, f"a bound of {own.name} names no key of the law")
+        _need(bound.relation in RELATIONS and (isinstance(limit, str) or _is_number(limit)),
+              f"a bound of {own.name} is none: {bound.relation!r} {limit!r}",
+              f'expected Bound(relation, limit), with {" ".join(RELATIONS)} and a number or a key')  # fmt: skip
+        if _is_number(default) and not isinstance(limit, str):
+            met = RELATIONS[bound.relation](default, limit)
+            _need(met, f"the default of {own.name} is {default!r}, its bound {bound.relation} {limit!r}")
+
+
+def _is_number(value: object) -> TypeGuard[float]:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def check_name(name: Any, what: str) -> None:

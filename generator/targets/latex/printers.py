@@ -90,6 +90,11 @@ class TextPrinter(_InOrder, StrPrinter):
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         return f"H({self._print(expr.args[0])})"
 
+    def _print_Pick(self, expr: sp.Expr) -> str:
+        """As the file has it."""
+        left, right, below, otherwise = map(self._print, compared(expr))
+        return f"where({left} < {right}, {below}, {otherwise})"
+
     def _print_Max(self, expr: sp.Expr) -> str:
         return f"max({self.stringify(sorted(expr.args, key=_number_last), ', ')})"
 
@@ -157,6 +162,12 @@ class TexPrinter(_InOrder, LatexPrinter):
     def _print_Heaviside(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function("H", expr, exp)
 
+    def _print_Pick(self, expr: sp.Expr, exp: str | None = None) -> str:
+        left, right, below, otherwise = map(self._print, compared(expr))
+        cases = rf"{below} & {left} < {right} \\ {otherwise} & \text{{else}}"
+        text = rf"\begin{{cases}} {cases} \end{{cases}}"
+        return rf"\left({text}\right)^{{{exp}}}" if exp else text
+
     def _print_atan2(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function(r"\mathrm{atan2}", expr, exp)
 
@@ -185,6 +196,17 @@ def number_text(value: float) -> str:
     if "e" not in text and abs(value) >= 1e6:
         text = f"{Decimal(text).normalize():e}".replace("e+", "e")
     return text
+
+
+def compared(pick: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+    """Two values, what is picked where the first is less than the second, and what else: a where, as it was written."""
+    side, otherwise, below = pick.args
+    gap = side.args[0] if isinstance(side, sp.sign) else side
+    terms = sp.Add.make_args(gap)
+    right = [-term for term in terms if term.could_extract_minus_sign()]
+    if len(right) == len(terms):
+        return sp.Integer(0), sp.Add(*right), below, otherwise
+    return sp.Add(*(term for term in terms if -term not in right)), sp.Add(*right), below, otherwise
 
 
 def _number_last(argument: sp.Expr) -> tuple[bool, str]:

@@ -23,7 +23,7 @@ from gudgeon.generator.targets.numpy.layout import WIDTH, docstring, remark
 from gudgeon.generator.targets.numpy.play import pin
 from gudgeon.generator.targets.numpy.printer import function
 from gudgeon.language.quantities import number_of_text
-from gudgeon.language.suggestions import unknown
+from gudgeon.language.suggestions import unknown, unknown_name
 from gudgeon.language.wanted import mapping, number_of
 
 Array = NDArray[np.float64]
@@ -52,14 +52,30 @@ class ClosedLinkage:
     def prepare(self, given: Mapping[str, float | str] | None = None) -> SimpleNamespace:
         """Every number of a run by its name: those that are given, the others by default, what follows.
 
-        given: {address or parameter name: a float in SI, or "0.5 mm"}, as `simulate` takes them. Raises
-        UnknownNameError with the nearest; BadValueError for what is no number, or given by two spellings.
+        given: {address or parameter name: a float in SI, or "0.5 mm", of a choice a name}, as `simulate` takes them.
+        Raises UnknownNameError with the nearest; BadValueError for what is no number, or given by two spellings.
         """
         found = self._given(mapping(given, "given", "{address or parameter name: a float in SI, or '0.5 mm'}"))
+        p = self._prepared(found)
+        follow = self._chosen(found, p)
+        return self._prepared(follow | found) if follow else p
+
+    def _prepared(self, found: Mapping[str, float]) -> SimpleNamespace:
         addresses, p = self.model.slots.entries, SimpleNamespace()
         values = [found.get(address, 0.0) for address in addresses]
         self.functions["prepare"](values, [address in found for address in addresses], p)
         return p
+
+    def _chosen(self, found: Mapping[str, float], p: SimpleNamespace) -> dict[str, float]:
+        """Numbers of what is chosen by name, a material, as p has them."""
+        slots, follow = self.model.slots, dict[str, float]()
+        for choice in (address for address in found if slots.entries[address].words):
+            name = slots.entries[choice].words[int(found[choice])]
+            for address in slots.entries:
+                if address.startswith(f"{choice}."):
+                    own = slots.entries[f"materials.{name}.{address.removeprefix(f'{choice}.')}"]
+                    follow[address] = getattr(p, slots.field(own.symbol))
+        return follow
 
     def _given(self, given: Mapping[str, float | str]) -> dict[str, float]:
         """By full addresses, in SI."""
@@ -69,11 +85,13 @@ class ClosedLinkage:
             if address not in entries:
                 known = (*(a.removeprefix("parameters.") for a in entries), *entries)
                 raise unknown(f"no number of this scene has the address {name!r}", name, tuple(dict.fromkeys(known)))
-            if entries[address].words:
-                hint = f"give its numbers themselves: {address}.E or the like"
-                raise BadValueError(f"{address} is chosen by its name where runs are made, not here", hint=hint)
             if address in found:
                 raise BadValueError(f"{address} is given twice, once as {name!r}", hint="give it once")
+            if words := entries[address].words:
+                if not isinstance(value, str) or value.strip() not in words:
+                    raise unknown_name(f"choice of {address}", str(value).strip(), words, None)
+                found[address] = float(words.index(value.strip()))
+                continue
             of = entries[address].dimension
             exponents = (int(of.length), int(of.mass), int(of.time)) if of.is_whole else (0, 0, 0)
             number = number_of_text(value, address, exponents) if isinstance(value, str) else value

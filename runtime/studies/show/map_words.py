@@ -23,6 +23,8 @@ LABELS = {
 
 def value(axis: Axis, x: float) -> str:
     """A value on an axis as people say it."""
+    if axis.words:
+        return axis.words[int(x)]
     if axis.name == "clearance":
         return clearance(x)
     if axis.name == "rtol":
