@@ -14,13 +14,13 @@ Load = Callable[..., Simulation]
 _HEAD = "format: gudgeon/1\nname: attacked\n"
 
 
-def loader(folder: Path) -> Load:
+def loader(folder: Path, formulation: str = "reduced") -> Load:
     """`load(text, scene)`: the text without its head, as a file in `folder`."""
     numbers = itertools.count()
 
     def load(text: str, scene: str | None = None) -> Simulation:
         file = folder / f"attacked_{next(numbers)}.yaml"
         file.write_text(_HEAD + textwrap.dedent(text), encoding="utf-8")
-        return gudgeon.load(file, scene)
+        return gudgeon.load(file, scene, formulation=formulation)
 
     return load

@@ -2,6 +2,8 @@
  * Methods that choose their step (step_length.c): what a step that is accepted changes, events on its way, samples from
  * its interpolant.
  */
+enum { MAX_AGAIN = 8 }; /* times that a step is taken again to end close behind an event */
+
 /* Takes a step, or its part up to an event, as the new state. */
 static int commit(Run *run, Step *step, double share, double t_new, int event, const Parameters *p)
 {
@@ -189,6 +191,30 @@ static int stalls(Run *run, double t_end)
 }
 
 /*
+ * The first event of a step that was accepted, as its share; 1 and -1 where there is none. A period of mod is held half
+ * a period beyond its end: a step that reaches further ends on rows of another one, which its interpolant then leads
+ * to. Taken again from before, it ends close behind the event, wherever that is.
+ */
+static int event_of_step(Run *run, double t_end, const Parameters *p, Step *step, double *share, int *event)
+{
+    int status = 0;
+    *share = first_event(run, step, p, event);
+#if PERIODS
+    for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && 1.1 * *share < 1.0 && run->fixed <= 0.0; k++) {
+        const double next = run->h;
+        run->h = 1.1 * *share * step->h;
+        status = accepted_step(run, t_end, p, step);
+        run->h = next;
+        if (!status)
+            *share = first_event(run, step, p, event);
+    }
+#else
+    (void)t_end;
+#endif
+    return status;
+}
+
+/*
  * Towards the last of n output times, at most `limit` steps: samples go to row `done` and on. Returns 0 (at the end,
  * or to be called again), EVENTS_FULL, STOPPED, or what went wrong. Whatever it returns, the run is at the end of a
  * whole step, with what changes there.
@@ -223,7 +249,10 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
             break;
         choose(run);
         int event;
-        const double share = first_event(run, step, p, &event);
+        double share;
+        status = event_of_step(run, t_end, p, step, &share, &event);
+        if (status)
+            break;
         if (run->asked.stop)
             return STOPPED; /* what was found meanwhile means nothing */
         const double t_whole = step->h == t_end - run->t ? t_end : run->t + step->h;

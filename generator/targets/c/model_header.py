@@ -20,6 +20,7 @@ from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.time_terms import count_terms
 from gudgeon.generator.solvers.kkt import EARLY, KKT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
+from gudgeon.generator.symbols.periods import PeriodsOf
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.fields import parameter_fields
 from gudgeon.generator.targets.c.layout import broken
@@ -103,7 +104,7 @@ def _of_motion(program: Program) -> Sizes:
 
 def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
     model, jumps = program.model, program.integrated.jumps
-    return {
+    sizes: Sizes = {
         "N_CORNERS": (jumps.count if jumps else 0, "corners of drives, whose rate jumps there"),
         "RATE_JUMPS": (int(has_jumps(model)), "the rate of some drive may jump"),
         "N_WATCHED": (len(watched_corners(program)) + len(model.events), "corners of expressions, and events"),
@@ -111,6 +112,9 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
         "WATCHES_STATE": (int(bounds is not None and reads_state(bounds)), "they hang on more than time"),
         "N_TERMS": (count_terms(program.terms), "terms of time alone, which may hide within a step"),
     }  # fmt: skip
+    systems = (model, program.integrated.system.model)
+    periods = any(switch.g.has(PeriodsOf) for some in systems for switch in some.symbols.switches.found.values())
+    return sizes | {"PERIODS": (1, "mod begins anew within the motion")} if periods else sizes
 
 
 def _of_start(program: Program) -> Sizes:
