@@ -28,6 +28,7 @@ from gudgeon.commands.options import (
     Mark,
     OneScene,
     Out,
+    Peaks,
     Picture,
     Quick,
     Range,
@@ -124,10 +125,7 @@ def run(
         list[str] | None,
         typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
     ] = None,
-    peaks: Annotated[
-        list[str] | None,
-        typer.Option("--peaks", metavar="NAME", help="Largest and smallest value over all steps: S9.ay; repeatable."),
-    ] = None,
+    peaks: Peaks = None,
     formulation: Annotated[
         str, typer.Option(help="reduced (coordinates of a tree), or full: absolute ones, rk4 with Baumgarte's gains.")
     ] = "reduced",

@@ -46,6 +46,10 @@ Laws = Annotated[
     typer.Option("--laws", metavar="FILE.py", help="A force law of your own: the file is run as Python; repeatable."),
 ]
 # of studies
+Peaks = Annotated[
+    list[str] | None,
+    typer.Option("--peaks", metavar="NAME", help="Largest and smallest value over all steps: S9.ay; repeatable."),
+]
 Quick = Annotated[bool, typer.Option("--quick", help="Fewer runs and a shorter window: seconds, not minutes.")]
 Mark = Annotated[
     str | None, typer.Option("--mark-step", metavar="STEP", help="Show and tell what becomes of this step: 0.1ms.")
