@@ -57,6 +57,16 @@ def test_commands(line: str, call: Gudgeon, tmp_path: Path) -> None:
 
 
 @needs_compiler
+def test_the_mechanism_is_drawn_as_it_is(call: Gudgeon, tmp_path: Path) -> None:
+    """docs/engine.svg is what its caption's command writes: the same parts in the same order, on as large a page."""
+    (line,) = re.findall(r"!\[[^\]`]*`([^`]+)`[^\]]*\]\(docs/engine\.svg\)", README)
+    assert call(f"{line} -o now.svg").exit_code == 0
+    now, shown = ((path / name).read_text("utf-8") for path, name in ((tmp_path, "now.svg"), (ROOT, "docs/engine.svg")))
+    parts = r'viewBox="[^"]*"|id="(?:body|joint|drive|inset|force)-[^"]*"'
+    assert re.findall(parts, shown) == re.findall(parts, now) and 'id="body-piston"' in shown
+
+
+@needs_compiler
 def test_points_are_measured_as_it_says(tmp_path: Path) -> None:
     """The example of frames in a whole file, the bar held at a right angle."""
     text = f"""format: gudgeon/1
