@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         SolverError,
     )
     from gudgeon.generator.kinds.laws.registered import register
+    from gudgeon.results.batch import Batch
     from gudgeon.results.join import join
     from gudgeon.results.results import Result
     from gudgeon.simulation.from_file import load
@@ -38,6 +39,7 @@ _HOME = {
     "register": "generator.kinds.laws.registered",
     "Simulation": "simulation.simulation",
     "Result": "results.results",
+    "Batch": "results.batch",
     "GudgeonError": "errors",
     "InputError": "errors",
     "AssemblyError": "errors",
@@ -51,6 +53,7 @@ _HOME = {
 
 __all__ = [
     "AssemblyError",
+    "Batch",
     "BuildError",
     "CacheError",
     "GudgeonError",

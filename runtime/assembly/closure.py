@@ -17,7 +17,7 @@ from gudgeon.model.compiled import Array
 
 MAX_STEPS = 60
 FAR = 0.5  # rad: where a guessed angle turns further, a nearer configuration is sought
-TRIES, MANY = 24, 60  # from as many other angles; fewer with more coordinates than these
+TRIES, MANY, MORE = 24, 60, 5  # from as many other angles; fewer with more coordinates than these; so many times again
 AWAY = 1e3  # of how far drives and the start ask for: a body so far from the origin is lost
 CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly,
 ROUNDING = 1e-14  # with this share of how far from the origin it is
@@ -113,8 +113,12 @@ class Closure:
             found += [self.newton(other) for other in self._others(guess, spread)]
             near = [q for q in found if self.is_near(q)]
             closed = [self.unwound(q, guess) for q in near if self.is_closed(q)]
-            if closed:
-                return min(closed, key=lambda q: self.distance(q, guess)), True
+            if closed and self._turned(best := min(closed, key=lambda q: self.distance(q, guess)), guess) < FAR:
+                return best, True
+        if closed:  # none so near as one may be: looked for longer
+            found = [self.newton(other) for seed in range(1, MORE) for other in self._others(guess, 1.0, seed)]
+            more = (self.unwound(q, guess) for q in found if self.is_near(q) and self.is_closed(q))
+            return min([best, *more], key=lambda q: self.distance(q, guess)), True
         return min(near, key=self.norm, default=guess), False
 
     def distance(self, q: Array, guess: Array) -> float:
@@ -188,13 +192,13 @@ class Closure:
         held = self.is_angle & (self.weight == GUESSED)
         return float(np.abs(q - guess)[held].max(initial=0.0))
 
-    def _others(self, guess: Array, of_guessed: float) -> Iterator[Array]:
+    def _others(self, guess: Array, of_guessed: float, seed: int = 0) -> Iterator[Array]:
         """Coordinates around the guess, the same in every run; driven and set ones fall back into place.
 
         of_guessed: rad, how far guessed angles are turned, for a guess may lie where every way ends in a fold (the
         residual is least there and not zero).
         """
-        rng = np.random.default_rng(0)
+        rng = np.random.default_rng(seed)
         spread = np.where(self.is_angle, np.pi, self.size)
         spread[self.guessed] *= of_guessed / np.pi
         for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):

@@ -84,7 +84,7 @@ def _frame(sketch: Sketch, kinds: Sequence[str], at: Any, scale: float, styles: 
 def _line(shape: Shape, at: Any, scale: float) -> str:
     """SVG's path data, to a tenth of a pixel."""
     if isinstance(shape, Disc):
-        (x, y), r = at(shape.centre), shape.radius * scale
+        (x, y), r = at(shape.centre), round(shape.radius * scale, 1)  # rounded once: both arcs are half a circle
         return f"M{x - r:.1f} {y:.1f}a{r:.1f} {r:.1f} 0 1 0 {2 * r:.1f} 0a{r:.1f} {r:.1f} 0 1 0 {-2 * r:.1f} 0z"
     text = "L".join(f"{x:.1f} {y:.1f}" for x, y in at(shape.points))
     return f"M{text}{'z' if shape.closed else ''}"

@@ -48,7 +48,7 @@ def evaluate(
     """See CompiledModel.evaluate."""
     time = taken(t, "t", (None,))
     if compiled.beyond:  # velocities are those behind a corner, and rounding hides on which side of it t is
-        time = np.asarray(time + np.maximum(32.0 * np.finfo(float).eps * np.abs(time), 1e-100))
+        time = np.asarray(time + around(time))
     N = len(time)
     latched = _table(memory, "memory", N, None)
     if compiled.n_memory or latched.shape[1] > 1:  # in a scene that remembers nothing one number stands for none
@@ -70,6 +70,11 @@ def evaluate(
         take()
     _mark_indeterminate(compiled, out)
     return out
+
+
+def around(t: Array) -> Array:
+    """s, so near to a time t that rounding may hide on which side of a corner it is."""
+    return np.asarray(np.maximum(32.0 * np.finfo(float).eps * np.abs(t), 1e-100))
 
 
 def _room(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:

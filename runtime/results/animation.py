@@ -45,6 +45,9 @@ class Animation:
     width: float
     height: float
 
+    def __repr__(self) -> str:
+        return f"<Animation: a page of {len(self.html) / 1e3:.0f} kB; a notebook shows it>"
+
     def _repr_html_(self) -> str:
         size = f'width="{self.width + 60:.0f}" height="{self.height + 170:.0f}"'
         return f'<iframe {size} style="border: 0" srcdoc="{escape(self.html)}"></iframe>'

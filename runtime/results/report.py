@@ -71,7 +71,8 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
         reaction = of_samples("", "N", run.t, run[f"{joint.name}.F"])
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
-    drives = tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in drive_series(run.source))
+    driven = () if run.source.massless else drive_series(run.source)
+    drives = tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in driven)
     found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives
     return SceneReport(*found, _scales(run, forces, drives))
 

@@ -228,6 +228,9 @@ drives: {motor: {coordinate: cart.x, value: "0.05 m * where(PHASE < T/2, PHASE/T
         run = linkage.simulate(0.6, output=2, method=method, rtol=rtol)
         assert run.diagnostics.energy_residual < 1e-6
         assert run["bob.theta"][-1] == pytest.approx(exact, abs=1e-7)
+    for step in (1e-3, 1e-4):  # a rate jumps, no acceleration is there on either side
+        run = linkage.simulate(0.2, output=2, method="rk4", step=step, peaks=["cart.ax"], parameters={"T": 0.05})
+        assert run.peak("cart.ax").abs < 1e-8
 
 
 @pytest.mark.parametrize(
