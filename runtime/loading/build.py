@@ -48,7 +48,7 @@ def compile_kernels(
 
     def build(folder: Path) -> None:
         with working(f"compiling {source.mechanism}, scene {source.scene}"), Ahead(portable, cache) as none:
-            _build(source, folder, portable, ahead or none, cache)
+            _build(source, folder, portable, ahead or none, cache, rebuild)
 
     entry = cache.fetch("libraries", key, build, renew=rebuild)
     try:
@@ -111,7 +111,9 @@ def _copy(entry: Path, folder: Path) -> None:
     (folder / LIBRARY).write_bytes((entry / LIBRARY).read_bytes())
 
 
-def _build(source: KernelSource, folder: Path, portable: bool, ahead: Ahead, cache: Cache) -> None:
+def _build(
+    source: KernelSource, folder: Path, portable: bool, ahead: Ahead, cache: Cache, renew: bool
+) -> None:  # fmt: skip
     """Write the C files into the folder, compile there what is the scene's own, and link it with what scenes share.
 
     All are under way at once; what `ahead` has begun is taken.
@@ -125,7 +127,7 @@ def _build(source: KernelSource, folder: Path, portable: bool, ahead: Ahead, cac
         shared = shared_objects(source, portable)
         for part in shared:
             ahead.begin_shared(part)
-        objects = [str(part.fetch(portable, cache, ahead)) for part in shared]
+        objects = [str(part.fetch(portable, cache, ahead, renew)) for part in shared]
         for name in early:
             if not ahead.take(folder / name, lines[name], source.files):
                 made.append((begin(programs, lines[name], folder), name))  # here it says what is wrong

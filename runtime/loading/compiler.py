@@ -37,6 +37,11 @@ FLAGS = (
     "-Werror=implicit-function-declaration",  # else a name that a part does not know is a function of whole numbers
 )
 
+INEXACT = frozenset((
+    "-ffast-math", "-Ofast", "-funsafe-math-optimizations", "-ffinite-math-only", "-fassociative-math",
+    "-freciprocal-math", "-fno-signed-zeros",
+))  # fmt: skip
+
 
 def flags(portable: bool) -> tuple[str, ...]:
     """Compiler flags; `portable` leaves out what binds the library to this CPU."""
@@ -62,9 +67,12 @@ def find_compiler() -> tuple[str, ...]:
         named = shlex.split(os.environ.get("CC", ""))
     except ValueError as error:
         raise BadValueError(f"$CC is {os.environ['CC']!r}: {error}", hint="name a compiler, or unset it") from error
+    if wrong := sorted(INEXACT.intersection(named)):
+        hint = "leave it out: numbers that are none would not be seen, and sums be made in another order"
+        raise BadValueError(f"$CC has {', '.join(wrong)}", hint=hint)
     for command in [named] if named else [["cc"], ["gcc"], ["clang"]]:
         if found := shutil.which(command[0]):
-            return (found, *command[1:])
+            return (os.path.abspath(found), *command[1:])  # it is run in other folders
     wanted = f"the compiler in $CC, {named[0]!r}, was not found" if named else "no C compiler found (cc, gcc, clang)"
     raise BuildError(f"{wanted}\n  {INSTALL_COMPILER}")
 

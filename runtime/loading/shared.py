@@ -41,8 +41,8 @@ class Shared:
         """Whether the cache has it."""
         return cache.has(self.kind, self.key(portable, cache))
 
-    def fetch(self, portable: bool, cache: Cache, ahead: Ahead) -> Path:
-        """The object, compiled if the cache has none. BuildError if it does not compile."""
+    def fetch(self, portable: bool, cache: Cache, ahead: Ahead, renew: bool = False) -> Path:
+        """The object, compiled if the cache has none or `renew` is asked for. BuildError if it does not compile."""
 
         def make(folder: Path) -> None:
             texts = self.texts()
@@ -56,7 +56,7 @@ class Shared:
             for name in texts:
                 (folder / name).unlink()
 
-        return cache.fetch(self.kind, self.key(portable, cache), make) / self.name
+        return cache.fetch(self.kind, self.key(portable, cache), make, renew=renew) / self.name
 
 
 def engine_object(header: str, portable: bool) -> Shared:

@@ -13,6 +13,7 @@ from gudgeon.contract.kernel_source import ENGINE_PART, KernelSource
 from gudgeon.errors import BuildError, InputError
 from gudgeon.loading import build, shared
 from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
+from gudgeon.loading.cache import LIST, _seal
 
 ROD = """\
 format: gudgeon/1
@@ -75,6 +76,21 @@ def test_what_scenes_share_is_compiled_once(own_folders: Path) -> None:
         run = gudgeon.load(own_folders / "rod.yaml").simulate(t_end=0.1, output=3)
         assert run.diagnostics.energy_residual < 1e-9
         assert len(list(engines.iterdir())) == number and len(list((own_folders / "cache/wrappers").iterdir())) == 1
+
+
+def test_what_does_not_link_is_compiled_again_where_that_is_asked_for(own_folders: Path) -> None:
+    """An object that is whole by its checksums, and no object."""
+    (own_folders / "rod.yaml").write_text(ROD)
+    gudgeon.load(own_folders / "rod.yaml")
+    (entry,) = (own_folders / "cache" / "engines").iterdir()
+    (entry / ENGINE).write_bytes(b"no object")
+    (entry / LIST).unlink()
+    _seal(entry, entry)
+    build._modules.clear()
+    (own_folders / "rod.yaml").write_text(ROD.replace("0.3, mass", "0.4, mass"))
+    with pytest.raises(BuildError, match=ENGINE):
+        gudgeon.load(own_folders / "rod.yaml")
+    assert gudgeon.load(own_folders / "rod.yaml", regenerate=True).simulate(0.1, output=2)
 
 
 def test_only_what_is_asked_for_is_taken(own_folders: Path) -> None:

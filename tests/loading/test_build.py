@@ -239,6 +239,14 @@ def test_no_compiler_names_what_to_install(cache: Cache, monkeypatch: pytest.Mon
         compile_kernels(tiny())
 
 
+@pytest.mark.parametrize("option", ["-ffast-math", "-Ofast"])
+def test_a_compiler_that_may_not_round_is_refused(cache: Cache, monkeypatch: pytest.MonkeyPatch, option: str) -> None:
+    """Without isnan a journal far outside its bearing was told of a machine that runs well."""
+    monkeypatch.setenv("CC", f"cc {option}")
+    with pytest.raises(BadValueError, match=rf"\$CC has {option}"):
+        compile_kernels(tiny(3))
+
+
 def test_no_headers_names_what_to_install(cache: Cache, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(sysconfig, "get_paths", lambda: {"include": str(tmp_path), "platinclude": str(tmp_path)})
     with pytest.raises(BuildError, match="(?s)Python.h.*python3-dev"):
