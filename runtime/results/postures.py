@@ -1,4 +1,4 @@
-"""Positions of a run for its drawings: at a sample as it was stored, between two on the cubic through both."""
+"""Positions of a run for its drawings: at a sample as it was stored, between two on the cubic through both, closed."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ import numpy as np
 
 from gudgeon.drawing.posture import Posture
 from gudgeon.errors import BadValueError
+from gudgeon.integrators.projection import project
 from gudgeon.language.wanted import number_of
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
+CLOSING = 4  # times that a position between samples is led to Φ = 0
 OF_MOTION = 24  # positions that stand for a motion where a drawing makes room for it
 
 
@@ -38,6 +40,9 @@ def posture_at(run: Result, t: float) -> Posture:
         q, v = run.q[at[0]], run.v[at[0]]
     else:
         q, v = _hermite(run, k, t)
+        if run.compiled is not None:  # between coarse samples the cubic takes joints apart
+            for _ in range(CLOSING):
+                q, v = project(run.compiled, t, q, v, run.p)
     return Posture(run.source, run.p, q, t, v, loads)
 
 
