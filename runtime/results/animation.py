@@ -73,9 +73,8 @@ def wanted_of(run: Result, seconds: Any, rate: Any, points: Any, velocities: Any
         hint = "ask for fewer seconds, or a lower rate"
         raise BadValueError(f"{count} pictures: expected at most {LONGEST}", hint=hint)
     times = np.linspace(float(run.t[0]), float(run.t[-1]), count)
-    names = [points] if isinstance(points, str) else list(points)
     arrows = flag(velocities, "velocities"), flag(forces, "forces")
-    return Wanted(times, seconds, points_of(run, names) if names else [], *arrows)
+    return Wanted(times, seconds, points_of(run, [points]), *arrows)
 
 
 def animate(run: Result, target: Any, wanted: Wanted) -> Animation | None:

@@ -178,10 +178,15 @@ def test_a_result(run: Result, name: str) -> None:
     refused_or_used(lambda value: RESULT[name](run, value))
 
 
-@pytest.mark.parametrize("name", ["series", "orbit"])
+@pytest.mark.parametrize("name", ["series", "orbit", "path", "mechanism"])
 def test_a_plot(run: Result, name: str) -> None:
     pytest.importorskip("matplotlib")
     refused_or_used(lambda value: getattr(Plot(run), name)(value))
+
+
+def test_points_of_an_animation(run: Result) -> None:
+    pytest.importorskip("matplotlib")
+    refused_or_used(lambda value: run.animate(points=value, seconds=0.1, rate=20))
 
 
 def test_a_batch_by_number_and_name(batch: Any) -> None:
