@@ -14,7 +14,6 @@ from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture
 from gudgeon.drawing.shapes import Line, Sketch
 from gudgeon.drawing.sketch import make_sketch, room_of_all
-from gudgeon.errors import BadValueError
 from gudgeon.language.suggestions import unknown
 from gudgeon.language.wanted import flag, names
 from gudgeon.results.plots import cycle
