@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.wanted import names as listed_names
-from gudgeon.language.wanted import told
+from gudgeon.language.wanted import refuse, told
 from gudgeon.results import trace
 from gudgeon.results.plots import (
     COLOURS,
@@ -81,7 +81,7 @@ class Plot:
         if not names:
             raise BadValueError("plot.series: expected the name of a series at least")
         with matplotlib.rc_context(STYLE):
-            ax = ax or _axes(8.0, 3.6)
+            ax = _axes(8.0, 3.6) if ax is None else plain(ax)
             factor, text = drawn(max(peak_of(values) for _, values in curves.values()), run.unit(names[0]))
             for (name, (t, values)), colour in zip(curves.items(), cycle(len(names)), strict=True):
                 ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
@@ -104,7 +104,7 @@ class Plot:
             hint = f"its joints with play: {', '.join(joints) or 'none'}"
             raise UnknownNameError(f"no orbit of {told(joint)}: expected a joint with play", hint=hint)
         with matplotlib.rc_context(STYLE):
-            ax = ax or _axes(4.2, 4.4)
+            ax = _axes(4.2, 4.4) if ax is None else plain(ax)
             draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))
         return ax
 
@@ -139,7 +139,7 @@ class Plot:
         from gudgeon.drawing.picture import size_of
 
         with matplotlib.rc_context(STYLE):
-            ax = ax or _axes(*size_of(sketch, 7.0))
+            ax = _axes(*size_of(sketch, 7.0)) if ax is None else plain(ax)
             draw(ax)
             ax.set_title(caption)
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
@@ -175,3 +175,10 @@ def _figure(width: float, height: float) -> Figure:
 
 def _axes(width: float, height: float) -> Axes:
     return _figure(width, height).add_subplot(axes_class=ShownAxes)
+
+
+def plain(ax: Any) -> Axes:
+    """Axes of matplotlib with x and y, for lengths and times: polar ones, maps and those of space are refused."""
+    if not isinstance(ax, Axes) or ax.name != "rectilinear" or ax.figure is None:
+        refuse("ax", ax, "Axes of matplotlib with plain x and y, of a figure, or None")
+    return ax

@@ -184,6 +184,16 @@ def test_a_plot(run: Result, name: str) -> None:
     refused_or_used(lambda value: getattr(Plot(run), name)(value))
 
 
+@pytest.mark.parametrize("name", ["series", "forces", "mechanism", "path"])
+def test_axes_of_a_plot(run: Result, name: str) -> None:
+    figure = pytest.importorskip("matplotlib.figure").Figure()
+    given: Any = {"series": ["bob.x"], "path": ["bob"]}.get(name, ())
+    refused_or_used(lambda value: getattr(Plot(run), name)(*given, ax=value))
+    for axes in (figure, figure.subplots(1, 2), figure.add_subplot(projection="3d"), figure.add_subplot(polar=True)):
+        with pytest.raises(BadValueError, match="ax is"):
+            getattr(Plot(run), name)(*given, ax=axes)
+
+
 def test_points_of_an_animation(run: Result) -> None:
     pytest.importorskip("matplotlib")
     refused_or_used(lambda value: run.animate(points=value, seconds=0.1, rate=20))
