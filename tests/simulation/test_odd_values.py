@@ -189,9 +189,9 @@ def test_axes_of_a_plot(run: Result, name: str) -> None:
     figure = pytest.importorskip("matplotlib.figure").Figure()
     given: Any = {"series": ["bob.x"], "path": ["bob"]}.get(name, ())
     refused_or_used(lambda value: getattr(Plot(run), name)(*given, ax=value))
-    for axes in (figure, figure.subplots(1, 2), figure.add_subplot(projection="3d"), figure.add_subplot(polar=True)):
+    for wrong in (figure, figure.subplots(1, 2), figure.add_subplot(projection="3d"), figure.add_subplot(polar=True)):
         with pytest.raises(BadValueError, match="ax is"):
-            getattr(Plot(run), name)(*given, ax=axes)
+            getattr(Plot(run), name)(*given, ax=wrong)
 
 
 def test_points_of_an_animation(run: Result) -> None:
