@@ -112,6 +112,7 @@ def test_arrows_are_the_series_to_the_scale_that_is_drawn(press: Result) -> None
 
 def test_what_cannot_be_drawn_is_told(four_bar: Result) -> None:
     for asked, kind, told in (
+        (lambda: four_bar.plot.mechanism(None), BadValueError, "t is None: expected a time"),  # type: ignore[arg-type]
         (lambda: four_bar.plot.mechanism(2.0), BadValueError, "from 0 s to 1 s"),
         (lambda: four_bar.plot.mechanism("0.1 kg"), gudgeon.InputError, "time"),
         (lambda: four_bar.plot.mechanism(float("nan")), BadValueError, "not a finite number"),

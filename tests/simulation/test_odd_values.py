@@ -199,6 +199,15 @@ def test_points_of_an_animation(run: Result) -> None:
     refused_or_used(lambda value: run.animate(points=value, seconds=0.1, rate=20))
 
 
+def test_one_name_is_a_list_of_one(pendulum: Simulation) -> None:
+    """Names of NumPy's come back as plain texts."""
+    assert set(pendulum.simulate_many([{}], 0.01, output=2, keep="bob.x").kept) == {"t", "bob.x"}
+    (one,) = pendulum.simulate(0.01, output=2, peaks=np.array(["bob.x"])).diagnostics.extremes
+    assert one.name == "bob.x" and type(one.name) is str
+    with pytest.raises(BadValueError, match="t has no peaks"):
+        pendulum.simulate(0.01, output=2, peaks=["t"])
+
+
 def test_a_batch_by_number_and_name(batch: Any) -> None:
     refused_or_used(lambda value: batch[value], (IndexError,))
     refused_or_used(batch.partial, (IndexError,))
