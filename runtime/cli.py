@@ -35,6 +35,7 @@ from gudgeon.commands.options import (
     Rest,
     Scenes,
     Set,
+    a_file,
     path,
     whole,
 )
@@ -193,7 +194,7 @@ def emit(
 @_told
 def equations(
     file: File,
-    target: Annotated[Path, typer.Option("--out", "-o", parser=path, metavar="PATH", help="x.tex, x.txt or x.html.")],
+    target: Annotated[Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.tex, x.txt or x.html.")],
     scene: OneScene = "ideal",
     laws: Laws = None,
 ) -> int:

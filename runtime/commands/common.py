@@ -111,5 +111,5 @@ def check_name(option: str, path: Path) -> None:
 
 def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
     """InputError for a file whose name does not say what is to be written."""
-    if path.suffix not in suffixes:
+    if path.suffix.lower() not in suffixes:
         raise InputError(f"{path}: expected a name that ends in {', '.join(suffixes[:-1])} or {suffixes[-1]}")

@@ -7,7 +7,8 @@ once the picture is written.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,7 @@ import numpy as np
 
 from gudgeon.commands.common import check_addresses, check_file, chosen_scenes, need_suffix, settings
 from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.errors import AssemblyError, BadValueError, GudgeonError
+from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.quantities import number_of_text
 from gudgeon.loading.find import find_mechanism, read_bytes
@@ -60,32 +61,58 @@ def draw_file(request: Request) -> int:
     check_file("--out", target)
     from gudgeon.results import plots  # noqa: F401  (says where matplotlib is missing)
 
-    if request.at is not None:
-        picture, failure = _moved(request, request.at, wanted), None
-    else:
-        with status_line(), working(f"deriving {file.stem}, scene {request.scene}"):
-            picture, failure = _start(request, file, wanted)
-    from gudgeon.drawing.picture import as_bytes
+    at = 0.0 if request.at is None else number_of_text(spaced(request.at), "--at", (0, 0, 1))
+    if at < 0.0:
+        raise BadValueError(f"--at is {at:g} s: the motion starts at 0 s", hint="take a time of the motion")
+    with _drawable(target):
+        if at > 0.0:
+            picture, failure = _moved(request, at, wanted), None
+        else:
+            with status_line(), working(f"deriving {file.stem}, scene {request.scene}"):
+                picture, failure = _start(request, file, wanted)
+        from gudgeon.drawing.picture import as_bytes
 
-    write_bytes(target, as_bytes(picture, target.suffix))
+        data = as_bytes(picture, target.suffix.lower())
+    write_bytes(target, data)
     print(f"wrote {target}")
     if failure is not None:
         raise failure
     return 0
 
 
-def _moved(request: Request, at: str, wanted: Mapping[str, float | str]) -> Figure:
+@contextmanager
+def _drawable(target: Path) -> Iterator[None]:
+    """Numbers near the largest one end in an error, and in no warnings of NumPy's."""
+    try:
+        with np.errstate(all="ignore"):
+            yield
+    except (ValueError, ArithmeticError) as error:
+        if isinstance(error, GudgeonError):
+            raise
+        told = f"no picture {target}: its numbers cannot be drawn ({error})"
+        raise GudgeonError(f"{told}\n  look for a length or a start that is far too large") from error
+
+
+def _moved(request: Request, at: float, wanted: Mapping[str, float | str]) -> Figure:
     """At a time of the motion."""
     from gudgeon.drawing.picture import figure_of
     from gudgeon.results.mechanism_plots import sketch_at
     from gudgeon.simulation.from_file import load
 
-    t_end = number_of_text(spaced(at), "--at", (0, 0, 1))
     with status_line():
         simulation = load(request.file, request.scene)
     check_addresses(wanted, request.file, [simulation.source])
     with progress_bar() as bar:
-        run = simulation.simulate(t_end, parameters=wanted, progress=bar(request.scene), peaks=())
+        try:
+            run = simulation.simulate(at, parameters=wanted, progress=bar(request.scene), peaks=())
+        except SolverError as error:  # its advice is for who keeps a run
+            why, _, _ = str(error).partition("\n")
+            hint = "draw an earlier time, or let gudgeon run show the motion until then"
+            raise SolverError(f"{why}\n  {hint}", error.time, error.pivot) from error
+        except BadValueError as error:
+            if not error.message.startswith("t_end is"):
+                raise
+            raise BadValueError(error.message.replace("t_end", "--at", 1), hint=error.hint) from error
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
     source, t = run.source, float(run.t[-1])

@@ -24,7 +24,7 @@ def write_equations(mechanism: str, target: Path, scene: str) -> int:
         from gudgeon.generator.targets import latex
 
         write = {".tex": latex.equations_tex, ".txt": latex.equations_text, ".html": latex.equations_html}
-        text = write[target.suffix](derive(data, str(file), scene))
+        text = write[target.suffix.lower()](derive(data, str(file), scene))
     write_text(target, text)
     print(f"wrote {target}")
     return 0

@@ -30,6 +30,13 @@ def path(text: str) -> Path:
     return Path(text)
 
 
+def a_file(text: str) -> Path:
+    """A name of a file: Path forgets the stroke at the end, which says that a folder is meant."""
+    if str(text).endswith("/"):
+        raise typer.BadParameter(f"{visible(str(text))!r}: this is a folder, expected a file")
+    return path(text)
+
+
 File = Annotated[str, typer.Argument(metavar="FILE", help="A YAML file, or the name of a shipped mechanism.")]
 Scenes = Annotated[list[str] | None, typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]")]
 OneScene = Annotated[str, typer.Option("--scene", "-s", help="Which scene.")]
@@ -39,7 +46,9 @@ Out = Annotated[Path, typer.Option("--out", parser=path, metavar="PATH", help="F
 At = Annotated[str | None, typer.Option("--at", metavar="TIME", help="Simulate to there: 0.2s. [default: the start]")]
 Picture = Annotated[
     Path | None,
-    typer.Option("--out", "-o", parser=path, metavar="PATH", help="x.svg, .png or .pdf. [default: out/NAME_SCENE.svg]"),
+    typer.Option(
+        "--out", "-o", parser=a_file, metavar="PATH", help="x.svg, .png or .pdf. [default: out/NAME_SCENE.svg]"
+    ),
 ]
 Laws = Annotated[
     list[str] | None,
@@ -61,7 +70,7 @@ Set = Annotated[
 End = Annotated[str | None, typer.Option("--t-end", help="Length of the measured runs, in s or with a unit.")]
 Csv = Annotated[
     Path | None,
-    typer.Option("--csv", parser=path, metavar="PATH", help="Where the table goes, the picture beside it."),
+    typer.Option("--csv", parser=a_file, metavar="PATH", help="Where the table goes, the picture beside it."),
 ]
 Rest = Annotated[
     str | None, typer.Option("--at", help="Step or tolerance where no axis is one. [default: 1e-8, or the scene's]")

@@ -129,6 +129,12 @@ def listed(value: Any, name: str, kind: type[One], expected: str) -> list[One]:
     refuse(name, value, expected)
 
 
+def names(value: Any, name: str, expected: str) -> list[str]:
+    """One name, or names in any sequence or set, as plain texts."""
+    every = [value] if isinstance(value, str) else listed(value, name, str, expected)
+    return [str.__str__(text(one, name, expected)) for one in every]
+
+
 def instance(value: Any, name: str, kind: type[One]) -> One:
     """An object of a class."""
     if not isinstance(value, kind):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -20,10 +21,10 @@ from gudgeon.drawing.page import PIXELS, page
 from gudgeon.drawing.picture import STYLE, draw_on, size_of
 from gudgeon.drawing.plan import make_plan
 from gudgeon.drawing.sketch import make_sketch, room_of_all
-from gudgeon.errors import BadValueError, GudgeonError
-from gudgeon.files.writing import check_target, write_bytes, write_text
+from gudgeon.errors import BadValueError, GudgeonError, OutputError
+from gudgeon.files.writing import check_target, telling, write_bytes, write_text
 from gudgeon.language.shown import one_line
-from gudgeon.language.wanted import flag, number_of, path
+from gudgeon.language.wanted import flag, number_of, path, refuse
 from gudgeon.results.mechanism_plots import force_arrows, path_lines, points_of, velocity_arrows
 from gudgeon.results.plots import caption_of
 from gudgeon.results.postures import posture_at, postures_of
@@ -76,9 +77,8 @@ def wanted_of(run: Result, seconds: Any, rate: Any, points: Any, velocities: Any
         hint = "ask for fewer seconds, or a lower rate"
         raise BadValueError(f"{count} pictures: expected at most {LONGEST}", hint=hint)
     times = np.linspace(float(run.t[0]), float(run.t[-1]), count)
-    names = [points] if isinstance(points, str) else list(points)
     arrows = flag(velocities, "velocities"), flag(forces, "forces")
-    return Wanted(times, seconds, points_of(run, names) if names else [], *arrows)
+    return Wanted(times, seconds, points_of(run, [points]), *arrows)
 
 
 def animate(run: Result, target: Any, wanted: Wanted) -> Animation | None:
@@ -86,17 +86,23 @@ def animate(run: Result, target: Any, wanted: Wanted) -> Animation | None:
     if target is None:
         return _page(run, wanted)
     file = Path(path(target, "the file of an animation"))
-    if file.suffix not in SUFFIXES:
-        raise BadValueError(f"{file}: expected a name that ends in .gif, .mp4 or .html")
-    if file.suffix == ".mp4" and shutil.which("ffmpeg") is None:
+    kind = file.suffix.lower()
+    if kind not in SUFFIXES or os.fspath(target).endswith(os.sep):
+        refuse("the file of an animation", os.fspath(target), "a name that ends in .gif, .mp4 or .html")
+    if kind == ".mp4" and shutil.which("ffmpeg") is None:
         told = f"{file}: a film needs the program ffmpeg, which is not there"
         raise GudgeonError(f"{told}\n  install it, or name a .gif or .html")
     check_target(file)
-    if file.suffix == ".html":
+    if kind == ".html":
         shown = _page(run, wanted)
         write_text(file, shown.html)
         return shown
-    write_bytes(file, _film(run, wanted, file.suffix))
+    try:
+        with telling(file):  # a folder of its own, and what is written there first
+            film = _film(run, wanted, kind)
+    except subprocess.CalledProcessError as error:
+        raise OutputError(file, f"ffmpeg ended with {error.returncode}") from error
+    write_bytes(file, film)
     return None
 
 

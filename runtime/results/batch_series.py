@@ -12,7 +12,7 @@ import numpy as np
 
 from gudgeon.errors import GudgeonError
 from gudgeon.integrators.batch import available_threads
-from gudgeon.language.wanted import listed
+from gudgeon.language.wanted import names as plain_names
 from gudgeon.results.bare import blank
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import catalogue
@@ -26,9 +26,9 @@ BLOCK, AHEAD = 8, 4  # runs that a thread takes at once; blocks a thread that wa
 Row: TypeAlias = tuple[int, Array, dict[str, Array]]
 
 
-def wanted_names(source: KernelSource, names: Iterable[str], what: str = "names") -> list[str]:
+def wanted_names(source: KernelSource, names: str | Iterable[str], what: str = "names") -> list[str]:
     """These names of series, each once; UnknownNameError names the nearest."""
-    found, known = list(dict.fromkeys(listed(names, what, str, "a list of names of series"))), blank(source)
+    found, known = list(dict.fromkeys(plain_names(names, what, "a list of names of series"))), blank(source)
     for name in found:
         known.unit(name)
     return found

@@ -15,7 +15,7 @@ import numpy as np
 
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import written
-from gudgeon.language.wanted import listed
+from gudgeon.language.wanted import names as plain_names
 from gudgeon.language.wanted import path as named
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ KEYWORDS = frozenset({
 
 def wanted_series(run: Result, names: Iterable[str]) -> list[str]:
     """These, each once, or every series for none; UnknownNameError for one that there is not."""
-    found = list(dict.fromkeys(listed(names, "names", str, "a list of names of series")))
+    found = list(dict.fromkeys(plain_names(names, "names", "a list of names of series")))
     for name in found:
         run.unit(name)
     return [name for name in found if name != "t"] or list(run.names)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -14,9 +14,8 @@ from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture
 from gudgeon.drawing.shapes import Line, Sketch
 from gudgeon.drawing.sketch import make_sketch, room_of_all
-from gudgeon.errors import BadValueError
 from gudgeon.language.suggestions import unknown
-from gudgeon.language.wanted import flag, text
+from gudgeon.language.wanted import flag, names
 from gudgeon.results.plots import cycle
 from gudgeon.results.postures import posture_at, postures_of, time_of
 
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
 Array = Any
+POINTS = "the name of a point that moves, or a list of such names"
 MANY = 60  # names for which a panel has no room
 
 
@@ -97,15 +97,16 @@ def path_lines(run: Result, points: Sequence[str]) -> list[Line]:
     return [Line(f"path {name}", "path", np.column_stack([run[f"{name}.x"], run[f"{name}.y"]])) for name in points]
 
 
-def points_of(run: Result, names: Sequence[Any]) -> list[str]:
-    """Points "coupler.tracer", or bodies "S9" for their centres of mass. UnknownNameError with the nearest."""
-    if not names:
-        raise BadValueError("plot.path: expected the name of a point at least", hint='for example "coupler.head"')
-    return [_point_of(run, name) for name in dict.fromkeys(names)]
+def points_of(run: Result, points: Iterable[Any]) -> list[str]:
+    """Points "coupler.tracer", or bodies "S9" for their centres of mass, each once, of names and lists of names.
+
+    Raises BadValueError, UnknownNameError with the nearest.
+    """
+    every = dict.fromkeys(name for some in points for name in names(some, "points", POINTS))
+    return [_point_of(run, name) for name in every]
 
 
-def _point_of(run: Result, name: Any) -> str:
-    name = text(name, "a point of plot.path", "the name of a point")
+def _point_of(run: Result, name: str) -> str:
     known = [point.name for point in run.source.points if point.body >= 0]
     bodies = [body.name for body in run.source.bodies]
     if name in known or name in bodies:

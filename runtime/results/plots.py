@@ -268,7 +268,7 @@ def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str
 def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
     """Write a picture aside and move it into place; it holds neither date nor version."""
     path, drawn = Path(path), io.BytesIO()
-    suffix = path.suffix.removeprefix(".") or None
+    suffix = path.suffix.lower().removeprefix(".") or None
     try:
         picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
     except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest one

@@ -10,7 +10,7 @@ import numpy as np
 from gudgeon.drawing.posture import Posture
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.projection import project
-from gudgeon.language.wanted import number_of
+from gudgeon.language.wanted import number_of, refuse
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
@@ -21,6 +21,8 @@ OF_MOTION = 24  # positions that stand for a motion where a drawing makes room f
 
 def time_of(run: Result, t: Any) -> float:
     """A time of the run (s), a number or '0.2 s'. Raises BadValueError."""
+    if t is None:
+        refuse("t", t, "a time")
     if isinstance(t, str):
         from gudgeon.language.quantities import number_of_text
         from gudgeon.model.parameters import spaced

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import io
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.plot_units import drawn, label
-from gudgeon.language.wanted import told
+from gudgeon.language.wanted import names as listed_names
+from gudgeon.language.wanted import refuse, told
 from gudgeon.results import trace
 from gudgeon.results.plots import (
     COLOURS,
@@ -36,6 +37,8 @@ if TYPE_CHECKING:
     from gudgeon.drawing.shapes import Sketch
     from gudgeon.results.results import Result
 
+SERIES = "the name of a series, or a list of such names"
+
 
 class Plot:
     """Figures of one run; every method returns its Axes, `axes.figure.savefig(...)` stores them.
@@ -51,7 +54,7 @@ class Plot:
         """A panel for each unit, the panels wrapped; without names what a reader wants to see (report.py)."""
         from gudgeon.results.report import default_watch
 
-        wanted = _flat(names)
+        wanted = [name for some in names for name in listed_names(some, "names", SERIES)]
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
         forces = {f"{joint}.F": trace.force(run, joint) for joint in joints}  # with the extremes of all steps
@@ -67,9 +70,10 @@ class Plot:
             figure.suptitle(caption_of(run), fontsize=10)
         return figure
 
-    def series(self, *names: str, ax: Axes | None = None) -> Axes:
+    def series(self, *names: str | Sequence[str], ax: Axes | None = None) -> Axes:
         """Series of one unit over time."""
-        return self._curves({name: (self.run.t, self.run[name]) for name in names}, ax)
+        every = [name for some in names for name in listed_names(some, "names", SERIES)]
+        return self._curves({name: (self.run.t, self.run[name]) for name in every}, ax)
 
     def _curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None) -> Axes:
         """Times and values by the name of a series; all have one unit."""
@@ -77,7 +81,7 @@ class Plot:
         if not names:
             raise BadValueError("plot.series: expected the name of a series at least")
         with matplotlib.rc_context(STYLE):
-            ax = ax or _axes(8.0, 3.6)
+            ax = _axes(8.0, 3.6) if ax is None else plain(ax)
             factor, text = drawn(max(peak_of(values) for _, values in curves.values()), run.unit(names[0]))
             for (name, (t, values)), colour in zip(curves.items(), cycle(len(names)), strict=True):
                 ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
@@ -100,10 +104,9 @@ class Plot:
             hint = f"its joints with play: {', '.join(joints) or 'none'}"
             raise UnknownNameError(f"no orbit of {told(joint)}: expected a joint with play", hint=hint)
         with matplotlib.rc_context(STYLE):
-            ax = ax or _axes(4.2, 4.4)
+            ax = _axes(4.2, 4.4) if ax is None else plain(ax)
             draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))
         return ax
-
 
     def mechanism(
         self, t: float | str = 0.0, *, velocities: bool = False, forces: bool = False, ax: Axes | None = None
@@ -127,23 +130,20 @@ class Plot:
         """
         from gudgeon.results.mechanism_plots import draw_path, path_sketch, points_of
 
-        names, sketch = points_of(self.run, _flat(points)), path_sketch(self.run)
+        if not (names := points_of(self.run, points)):
+            raise BadValueError("plot.path: expected the name of a point at least", hint='for example "coupler.head"')
+        sketch = path_sketch(self.run)
         return self._drawn(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption_of(self.run))
 
     def _drawn(self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str) -> Axes:
         from gudgeon.drawing.picture import size_of
 
         with matplotlib.rc_context(STYLE):
-            ax = ax or _axes(*size_of(sketch, 7.0))
+            ax = _axes(*size_of(sketch, 7.0)) if ax is None else plain(ax)
             draw(ax)
             ax.set_title(caption)
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
         return ax
-
-
-def _flat(names: Iterable[str | Sequence[str]]) -> list[str]:
-    """Names as they come, or in lists."""
-    return [name for of in names for name in (of if isinstance(of, (list, tuple)) else (of,))]
 
 
 class ShownFigure(Figure):
@@ -175,3 +175,10 @@ def _figure(width: float, height: float) -> Figure:
 
 def _axes(width: float, height: float) -> Axes:
     return _figure(width, height).add_subplot(axes_class=ShownAxes)
+
+
+def plain(ax: Any) -> Axes:
+    """Axes of matplotlib with x and y, for lengths and times: polar ones, maps and those of space are refused."""
+    if not isinstance(ax, Axes) or ax.name != "rectilinear" or ax.figure is None:
+        refuse("ax", ax, "Axes of matplotlib with plain x and y, of a figure, or None")
+    return ax

@@ -20,9 +20,10 @@ from numpy.polynomial.chebyshev import chebval, chebvander
 from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import BadValueError
 from gudgeon.integrators.adaptive import RTOL
 from gudgeon.integrators.steps import Steps
-from gudgeon.language.wanted import listed
+from gudgeon.language.wanted import names
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.results import Result
@@ -46,8 +47,10 @@ def wanted_peaks(source: KernelSource, peaks: Iterable[str] | None) -> tuple[str
     """Names of series whose peaks are wanted: those given, else the scene's. Raises UnknownNameError, BadValueError."""
     if peaks is None:
         return check_series(source, source.peaks)
-    names = [peaks] if isinstance(peaks, str) else listed(peaks, "peaks", str, "a list of names of series")
-    return check_series(source, names)
+    wanted = names(peaks, "peaks", "a list of names of series")
+    if "t" in wanted:
+        raise BadValueError("peaks: t has no peaks", hint="leave it out: a peak comes with its time")
+    return check_series(source, wanted)
 
 
 @dataclass(frozen=True)

@@ -81,10 +81,8 @@ def simulate_many(
 
 def _kept(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
     """Names of the series to be kept; None: states."""
-    if isinstance(keep, str):
-        if keep == STATES:
-            return None
-        raise BadValueError(f"keep is {told(keep)}: expected {STATES!r} or a list of names of series")
+    if isinstance(keep, str) and keep == STATES:
+        return None
     return tuple(name for name in wanted_names(source, keep, "keep") if name != "t")
 
 

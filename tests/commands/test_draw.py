@@ -43,6 +43,21 @@ def test_at_a_time_of_the_motion(suffix: str, magic: bytes, call: Gudgeon, tmp_p
     assert (tmp_path / f"x.{suffix}").read_bytes().startswith(magic)
 
 
+def test_at_its_first_time_it_is_the_start(call: Gudgeon, tmp_path: Path) -> None:
+    """Suffixes in capitals are the same."""
+    assert (
+        call("draw", "four_bar", "-o", "x.svg").exit_code
+        == call("draw", "four_bar", "--at", "0", "-o", "X.SVG").exit_code
+    )
+    assert (tmp_path / "X.SVG").read_bytes() == (tmp_path / "x.svg").read_bytes()
+
+
+@pytest.mark.parametrize("address", ["pendulum --set joints.rod.length", "slider_crank --set bodies.rod.length"])
+def test_lengths_that_cannot_be_drawn(address: str, call: Gudgeon) -> None:
+    done = call("draw", *f"{address}=1e300m".split(), "-o", "x.svg")
+    assert done.exit_code == 1 and "overflow" not in done.output and done.stderr.startswith("error: "), done.output
+
+
 def test_branches_are_those_that_check_lists(call: Gudgeon, tmp_path: Path) -> None:
     assert call("draw", "four_bar", "--branches", "-o", "x.svg").exit_code == 0
     listed = re.findall(r"^  \d  (\{.*?\})", call("check", "four_bar", "--branches").stdout, re.M)
@@ -73,7 +88,10 @@ def test_masses_are_not_asked_for(call: Gudgeon, tmp_path: Path) -> None:
         ("four_bar --set bodies.crank.len=3mm", "nearest: bodies.crank.length"),
         ("four_bar --set bodies.crank.mass=-1kg", "a mass is positive"),
         ("four_bar --at 1kg", "expected a time"),
+        ("four_bar --at=-1s", "--at is -1 s: the motion starts at 0 s"),
+        ("four_bar --at 1e30s", "--at is 1e+30 s: expected 1e+18 s at most"),
         ("four_bar --at 1s --branches", "leave one of them out"),
+        ("four_bar -o x.svg/", "this is a folder"),
         ("four_bar -o x.gif", ".svg, .png or .pdf"),
         ("four_baar", "four_bar"),
     ],

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import re
+import resource
 import shutil
 import subprocess
+import tempfile
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -17,7 +19,7 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
-from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError  # noqa: E402
+from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError  # noqa: E402
 from gudgeon.results.animation import touching_between  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
@@ -151,8 +153,8 @@ def test_files(crank: Result, tmp_path: Path) -> None:
     assert crank.animate(tmp_path / "x.gif", seconds=0.3, rate=10) is None
     data = (tmp_path / "x.gif").read_bytes()
     assert data.startswith(b"GIF89a") and data.count(b"\x21\xf9\x04") == 3  # a control block for each picture
-    shown = crank.animate(str(tmp_path / "x.html"), seconds=0.3, rate=10)
-    assert shown is not None and (tmp_path / "x.html").read_text() == shown.html
+    shown = crank.animate(str(tmp_path / "x.HTML"), seconds=0.3, rate=10)
+    assert shown is not None and (tmp_path / "x.HTML").read_text() == shown.html
     assert "<iframe" in shown._repr_html_() and "<script" not in shown._repr_html_()
 
 
@@ -163,6 +165,8 @@ def test_what_cannot_be_is_told(crank: Result, tmp_path: Path, monkeypatch: pyte
         ({"path": tmp_path / "x.mp4"}, GudgeonError, "ffmpeg"),
         ({"path": tmp_path / "x.avi"}, BadValueError, ".gif, .mp4 or .html"),
         ({"path": tmp_path}, BadValueError, "expected a name"),
+        ({"path": ""}, BadValueError, "is '': expected a name"),
+        ({"path": "x.gif/"}, BadValueError, "x.gif/': expected a name"),
         ({"seconds": 0.0}, BadValueError, "above 0"),
         ({"seconds": 1e6}, BadValueError, "at most"),
         ({"points": ["rod.hed"]}, UnknownNameError, "nearest: rod.head"),
@@ -170,4 +174,19 @@ def test_what_cannot_be_is_told(crank: Result, tmp_path: Path, monkeypatch: pyte
     ):
         with pytest.raises(kind, match=told):
             asked(**arguments)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_room_for_a_picture(crank: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A limit on the size of files, which takes effect as a full disk does; then no temporary folder."""
+    old = resource.getrlimit(resource.RLIMIT_FSIZE)
+    try:  # Python ignores SIGXFSZ: the write fails
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, old[1]))
+        with pytest.raises(OutputError, match=r"x\.gif"):
+            crank.animate(tmp_path / "x.gif", seconds=0.2, rate=10)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, old)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
+    with pytest.raises(OutputError, match=r"x\.gif"):
+        crank.animate(tmp_path / "x.gif", seconds=0.2, rate=10)
     assert list(tmp_path.iterdir()) == []

@@ -88,6 +88,16 @@ def test_a_path_is_the_series(four_bar: Result) -> None:
     assert {"body-crank", "joint-A0", "drive-motor"} <= set(found)
 
 
+@pytest.mark.parametrize(
+    "points",
+    [np.array(["coupler.tracer", "", "rocker"])[::2], np.array(["coupler.tracer", "rocker"], object),
+     {"coupler.tracer": 1, "rocker": 2}.keys(), ("coupler.tracer", "rocker")],
+)  # fmt: skip
+def test_points_are_named_by_any_sequence(points: Any, four_bar: Result) -> None:
+    found = by_gid(four_bar.plot.path(points))
+    assert {"path-coupler.tracer", "path-rocker"} == {name for name in found if name.startswith("path-")}
+
+
 def test_arrows_are_the_series_to_the_scale_that_is_drawn(press: Result) -> None:
     k = 60
     ax = press.plot.mechanism(float(press.t[k]), velocities=True, forces=True)
@@ -111,6 +121,7 @@ def test_arrows_are_the_series_to_the_scale_that_is_drawn(press: Result) -> None
 
 def test_what_cannot_be_drawn_is_told(four_bar: Result) -> None:
     for asked, kind, told in (
+        (lambda: four_bar.plot.mechanism(None), BadValueError, "t is None: expected a time"),  # type: ignore[arg-type]
         (lambda: four_bar.plot.mechanism(2.0), BadValueError, "from 0 s to 1 s"),
         (lambda: four_bar.plot.mechanism("0.1 kg"), gudgeon.InputError, "time"),
         (lambda: four_bar.plot.mechanism(float("nan")), BadValueError, "not a finite number"),
@@ -118,7 +129,8 @@ def test_what_cannot_be_drawn_is_told(four_bar: Result) -> None:
         (lambda: four_bar.plot.path(), BadValueError, "a point at least"),
         (lambda: four_bar.plot.path("coupler.trace"), UnknownNameError, "nearest: coupler.tracer"),
         (lambda: four_bar.plot.path("ground.A0"), UnknownNameError, "that moves"),
-        (lambda: four_bar.plot.path(3), BadValueError, "a point of plot.path is 3"),  # type: ignore[arg-type]
+        (lambda: four_bar.plot.path(3), BadValueError, "points is 3: expected the name of a point"),  # type: ignore[arg-type]
+        (lambda: four_bar.plot.path([["rocker"]]), BadValueError, "points is list"),  # type: ignore[list-item]
     ):
         with pytest.raises(kind, match=told):
             asked()

@@ -178,10 +178,34 @@ def test_a_result(run: Result, name: str) -> None:
     refused_or_used(lambda value: RESULT[name](run, value))
 
 
-@pytest.mark.parametrize("name", ["series", "orbit"])
+@pytest.mark.parametrize("name", ["series", "orbit", "path", "mechanism"])
 def test_a_plot(run: Result, name: str) -> None:
     pytest.importorskip("matplotlib")
     refused_or_used(lambda value: getattr(Plot(run), name)(value))
+
+
+@pytest.mark.parametrize("name", ["series", "forces", "mechanism", "path"])
+def test_axes_of_a_plot(run: Result, name: str) -> None:
+    figure = pytest.importorskip("matplotlib.figure").Figure()
+    given: Any = {"series": ["bob.x"], "path": ["bob"]}.get(name, ())
+    refused_or_used(lambda value: getattr(Plot(run), name)(*given, ax=value))
+    for wrong in (figure, figure.subplots(1, 2), figure.add_subplot(projection="3d"), figure.add_subplot(polar=True)):
+        with pytest.raises(BadValueError, match="ax is"):
+            getattr(Plot(run), name)(*given, ax=wrong)
+
+
+def test_points_of_an_animation(run: Result) -> None:
+    pytest.importorskip("matplotlib")
+    refused_or_used(lambda value: run.animate(points=value, seconds=0.1, rate=20))
+
+
+def test_one_name_is_a_list_of_one(pendulum: Simulation) -> None:
+    """Names of NumPy's come back as plain texts."""
+    assert set(pendulum.simulate_many([{}], 0.01, output=2, keep="bob.x").kept) == {"t", "bob.x"}
+    (one,) = pendulum.simulate(0.01, output=2, peaks=np.array(["bob.x"])).diagnostics.extremes
+    assert one.name == "bob.x" and type(one.name) is str
+    with pytest.raises(BadValueError, match="t has no peaks"):
+        pendulum.simulate(0.01, output=2, peaks=["t"])
 
 
 def test_a_batch_by_number_and_name(batch: Any) -> None:
