@@ -95,7 +95,7 @@ def number(value: float | str, slot: Slot) -> float:
         from gudgeon.language.quantities import number_of_text
 
         value = number_of_text(spaced(value), slot.address, slot.dimension)
-    return number_of(value, slot.address)
+    return number_of(int(value) if isinstance(value, (bool, np.bool_)) else value, slot.address)  # a switch: 1 or 0
 
 
 def plain_number(text: str) -> float | None:

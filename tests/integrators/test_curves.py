@@ -181,7 +181,7 @@ def test_another_table_is_another_scene(tmp_path: Path) -> None:
     assert sim.loading and sim.loading.origin == "cache"
     speeds = [run["slug.vx"][-1] - 1.0 for run in ends]
     assert speeds[1] == pytest.approx(2.0 * speeds[0]) and speeds[2] == speeds[0]
-    with pytest.raises(BadValueError, match="another mechanism"):
+    with pytest.raises(BadValueError, match="another table thrust.csv"):
         sim.simulate(0.1, start=ends[1].final)
     assert sim.simulate(1.0, start=ends[0].final).t[-1] == 1.0
     table.write_text("0,1\n1,2\n")
