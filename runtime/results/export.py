@@ -17,6 +17,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import written
 from gudgeon.language.wanted import names as plain_names
 from gudgeon.language.wanted import path as named
+from gudgeon.language.wanted import refuse
 
 if TYPE_CHECKING:
     import pandas
@@ -38,6 +39,8 @@ KEYWORDS = frozenset({
 
 def wanted_series(run: Result, names: Iterable[str]) -> list[str]:
     """These, each once, or every series for none; UnknownNameError for one that there is not."""
+    if isinstance(names, str):
+        refuse("names", names, "a list of names of series")
     found = list(dict.fromkeys(plain_names(names, "names", "a list of names of series")))
     for name in found:
         run.unit(name)

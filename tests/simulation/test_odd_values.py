@@ -285,7 +285,6 @@ def test_what_is_told(pendulum: Simulation) -> None:
         (lambda: pendulum.simulate(0.01, step=True), "step: 'True' is not one real number"),
         (lambda: pendulum.simulate(output=[0.0, True]), "output[1] is True: expected a time (s)"),
         (lambda: pendulum.simulate_many([{}, {}], [0.1, True]), "run 1: t_end: 'True' is not one real number"),
-        (lambda: pendulum.simulate_many({"g": np.array([True])}), "run 0: parameters.g: 'True' is not one real"),
         (lambda: pendulum.simulate(0.01, parameters=np.zeros(0)), "parameters is a ndarray: expected a mapping"),  # type: ignore[arg-type]
         (lambda: pendulum.simulate(0.01, parameters={1: 2.0}), "parameters: its key 1 is no text"),  # type: ignore[dict-item]
         (lambda: pendulum.simulate_many(None), "parameters: expected a mapping for every run"),  # type: ignore[arg-type]
