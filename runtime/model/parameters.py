@@ -95,7 +95,8 @@ def number(value: float | str, slot: Slot) -> float:
         from gudgeon.language.quantities import number_of_text
 
         value = number_of_text(spaced(value), slot.address, slot.dimension)
-    return number_of(int(value) if isinstance(value, (bool, np.bool_)) else value, slot.address)  # a switch: 1 or 0
+    is_switch = isinstance(value, (bool, np.bool_)) and "." in slot.address  # 1 or 0 of the file's; no time is one
+    return number_of(int(value) if is_switch else value, slot.address)
 
 
 def plain_number(text: str) -> float | None:
