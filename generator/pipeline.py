@@ -6,10 +6,8 @@ compiled already.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from time import perf_counter
 from typing import Any
 
 from gudgeon.contract.kernel_source import KernelSource
@@ -17,27 +15,27 @@ from gudgeon.generator.equations.masses import refuse_massless
 from gudgeon.generator.equations.model import Model, make_model
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.mechanism.mechanism import Mechanism
-from gudgeon.generator.mechanism.scene import make_scene
-from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.generator.mechanism.scene import Scene, make_scene
+from gudgeon.generator.reading import Overrides, Seconds, read_scene, stage
 from gudgeon.generator.redundancy import find_redundancy
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import Begun, emit
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
 from gudgeon.generator.targets.numpy.module import NumPyModel
 
-Overrides = Mapping[str, str | float | bool]
-Seconds = dict[str, float]
-
 
 def derive(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, seconds: Seconds | None = None
 ) -> Model:
     """The equations of one scene of a mechanism file, without the rows that say nothing new."""
-    with _stage("reading", seconds):
-        mechanism = read_mechanism(data, file, overrides)
-    with _stage("equations", seconds):
-        model = replace(make_model(make_scene(mechanism, scene)), targets=TARGETS)
-    with _stage("rank of the rows", seconds):
+    return equations(read_scene(data, file, scene, overrides, seconds), seconds)
+
+
+def equations(scene: Scene, seconds: Seconds | None = None) -> Model:
+    """The same of a scene that was read."""
+    with stage("equations", seconds):
+        model = replace(make_model(scene), targets=TARGETS)
+    with stage("rank of the rows", seconds):
         model = model.without(find_redundancy(model, describe(model)))
     refuse_massless(model)
     return model
@@ -65,23 +63,14 @@ def in_c(
     model: Model, formulation: str = "reduced", seconds: Seconds | None = None, begun: Begun | None = None
 ) -> KernelSource:
     """The C of a model, with the names of everything in it."""
-    with _stage("functions", seconds):
+    with stage("functions", seconds):
         program = make_program(model, formulation)
-    with _stage("C", seconds):
+    with stage("C", seconds):
         return emit(program, begun)
 
 
 def generate(
-    data: bytes, file: str, scene: str, overrides: Overrides | None = None, formulation: str = "reduced",
-    seconds: Seconds | None = None, begun: Begun | None = None,
-) -> KernelSource:  # fmt: skip
+    data: bytes, file: str, scene: str, overrides: Overrides | None = None, formulation: str = "reduced"
+) -> KernelSource:
     """The C of one scene of a mechanism file."""
-    return in_c(derive(data, file, scene, overrides, seconds), formulation, seconds, begun)
-
-
-@contextmanager
-def _stage(name: str, seconds: Seconds | None) -> Iterator[None]:
-    begun = perf_counter()
-    yield
-    if seconds is not None:
-        seconds[name] = perf_counter() - begun
+    return in_c(derive(data, file, scene, overrides), formulation)

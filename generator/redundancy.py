@@ -13,7 +13,7 @@ import numpy as np
 
 from gudgeon.assembly.mobility import SAMPLES, check_freedoms, configurations, find_mobility
 from gudgeon.assembly.rank import RANK, rank, tied
-from gudgeon.assembly.start import search
+from gudgeon.assembly.search import search
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.constraints import Row

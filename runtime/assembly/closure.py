@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.large import LARGE, dependent_step, nearest_step, smallest_step
+from gudgeon.assembly.large import LARGE, nearest_step, smallest
 from gudgeon.assembly.linkage import Linkage, angles, mechanism_size, place_of
 from gudgeon.contract.kernel_source import PointInfo
 from gudgeon.model.compiled import Array
@@ -236,12 +236,3 @@ class Closure:
             solution = smallest(matrix, -self.residual(q)[rows])
             q[self.is_angle] += solution / self.weight[self.is_angle]
         return q
-
-def smallest(matrix: Array, target: Array) -> Array:
-    """The shortest x with matrix x = target, or the nearest to it that there is; 0 where they are not finite."""
-    if not (np.isfinite(matrix).all() and np.isfinite(target).all()):
-        return np.zeros(matrix.shape[1])
-    if matrix.shape[1] >= LARGE:
-        x = smallest_step(matrix, target)
-        return x if x is not None else dependent_step(matrix, target)
-    return np.asarray(np.linalg.lstsq(matrix, target, rcond=1e-12)[0], dtype=np.float64)

@@ -19,6 +19,16 @@ COLUMNS, SHARPER = 6, 6  # random columns that are filtered, how often
 VANISHES = 1e-6  # of the largest singular value: what is below is left alone where rows depend on each other
 
 
+def smallest(matrix: Array, target: Array) -> Array:
+    """The shortest x with matrix x = target, or the nearest to it that there is; 0 where they are not finite."""
+    if not (np.isfinite(matrix).all() and np.isfinite(target).all()):
+        return np.zeros(matrix.shape[1])
+    if matrix.shape[1] >= LARGE:
+        x = smallest_step(matrix, target)
+        return x if x is not None else dependent_step(matrix, target)
+    return np.asarray(np.linalg.lstsq(matrix, target, rcond=1e-12)[0], dtype=np.float64)
+
+
 def smallest_step(matrix: Array, target: Array) -> Array | None:
     """The shortest x (n,) with matrix x = target by a factorization of [I Aᵀ; A 0]; None where A is rank-deficient."""
     columns = matrix.shape[1]

@@ -84,6 +84,8 @@ def configurations(
     linkage: Linkage, p: Array, q: Array, rows: Sequence[int], count: int, t: float = 0.0
 ) -> list[Array]:
     """The start, and `count` configurations near it: a random step along the motion, closed again by Newton's."""
+    if not count:  # NumPy imports its random numbers when they are asked for
+        return [q]
     rng, found, kept = np.random.default_rng(0), [q], list(rows)
     for _ in range(count):
         x = q + REACH * rng.standard_normal(len(q)) * np.linalg.norm(q, np.inf)

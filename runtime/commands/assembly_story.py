@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.branches import Assembly, find_assemblies, off_text, unfollowed
+from gudgeon.assembly.branches import Assembly, find_assemblies
 from gudgeon.assembly.closure import Closure
 from gudgeon.assembly.failures import not_closed
+from gudgeon.assembly.followed import off_text, unfollowed
 from gudgeon.assembly.journals import check_places
 from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
-from gudgeon.assembly.start import velocities
+from gudgeon.assembly.search import velocities
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number
 

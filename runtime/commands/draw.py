@@ -150,7 +150,7 @@ def _start(request: Request, file: Path, wanted: Mapping[str, float | str]) -> t
 
 
 def _velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError | None]:
-    from gudgeon.assembly.start import velocities
+    from gudgeon.assembly.search import velocities
 
     try:
         return velocities(closure, q), None

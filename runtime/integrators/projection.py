@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gudgeon.assembly.start import smallest
+from gudgeon.assembly.large import smallest
 from gudgeon.model.compiled import Array, CompiledModel
 
 PASSES = 3  # Newton: the second one is at rounding already, from anywhere that an integrator leads to

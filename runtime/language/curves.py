@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.language.units import Dimension
+if TYPE_CHECKING:
+    from gudgeon.language.units import Dimension
 
 NATURAL, CLAMPED, PERIODIC, NOT_A_KNOT = ENDS = ("natural", "clamped", "periodic", "not_a_knot")
 STOP, HOLD, LINE = EXTRAPOLATE = ("none", "hold", "line")

@@ -14,7 +14,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.loading import compiler
 from gudgeon.loading.cache import Cache, default_cache
 from gudgeon.loading.compiling import unit_line
-from gudgeon.loading.engine import declarations, declared_for
+from gudgeon.loading.engine import declarations, declared_for, usually_declared
 from gudgeon.loading.shared import Shared, engine_object, wrapper_object
 from gudgeon.waiting.programs import Programs
 
@@ -62,14 +62,23 @@ class Ahead:
         except (GudgeonError, OSError):
             return
 
+    def foresee(self, integrates: bool, has_events: bool) -> None:
+        """A scene in tree coordinates is on its way, of which this can be told from its file: most have one wrapper."""
+        try:
+            self.begin_shared(wrapper_object(usually_declared(integrates, has_events), self._portable))
+        except (GudgeonError, OSError):
+            return
+
     def begin_shared(self, shared: Shared) -> None:
         """What the cache does not have yet. GudgeonError or OSError where it cannot be."""
+        if shared.name in self._begun and not self.is_under_way(shared.name, shared.line, shared.texts()):
+            self._programs.stop(self._begun.pop(shared.name)[2])  # foreseen, and it came otherwise
+            shutil.rmtree(self._place(shared.name))
         if shared.name not in self._begun and not shared.is_there(self._portable, self._cache or default_cache()):
             self._begin(shared.name, shared.line, shared.texts())
 
     def _begin(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> None:
-        self._folder = self._folder or Path(tempfile.mkdtemp(prefix="gudgeon-"))
-        folder = self._folder / name.partition("_")[0]  # a scene's parts read the same texts, the engine its own
+        folder = self._place(name)
         folder.mkdir(exist_ok=True)
         for file, text in texts.items():
             if not (folder / file).exists():
@@ -77,13 +86,18 @@ class Ahead:
         environment = {**compiler.plain(), "TMPDIR": str(folder)}
         self._begun[name] = line, dict(texts), self._programs.begin([*line], folder, environment)
 
+    def _place(self, name: str) -> Path:
+        """The folder of an object: a scene's parts read the same texts, the engine its own."""
+        self._folder = self._folder or Path(tempfile.mkdtemp(prefix="gudgeon-"))
+        return self._folder / name.partition("_")[0]
+
     def take(self, made: Path, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
         """Waits for the object of this line and these texts and moves it to its place, once; False: there is none."""
         if self._folder is None or not self.is_under_way(made.name, line, texts):
             return False
         _, _, process = self._begun.pop(made.name)
         self._programs.wait(process)
-        found = self._folder / made.name.partition("_")[0] / made.name
+        found = self._place(made.name) / made.name
         if process.returncode or not found.exists():
             return False
         shutil.move(found, made)

@@ -20,11 +20,11 @@ from gudgeon.files.writing import kind
 from gudgeon.language.wanted import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.shipped import PACKAGE, committed, shipped, shipped_file
-from gudgeon.waiting.imports import GENERATOR, whole
+from gudgeon.waiting.imports import GENERATOR, READER, whole
 from gudgeon.waiting.working import working
 
 if TYPE_CHECKING:
-    from gudgeon.generator.targets.c.emit import Begun
+    from gudgeon.loading.ahead import Ahead
 
 Overrides = Mapping[str, str | float | bool]
 DEFAULT_SCENE = "ideal"  # it exists in every file
@@ -99,11 +99,11 @@ def kernel_source(
     formulation: str = "reduced",
     regenerate: bool = False,
     cache: Cache | None = None,
-    begun: Begun | None = None,
+    ahead: Ahead | None = None,
 ) -> tuple[KernelSource, str]:
     """The C of a scene and where it came from: the cache, the committed files, or a derivation just made.
 
-    begun: told what of it can be compiled while a derivation goes on.
+    ahead: compiles what it is told of, while a derivation goes on.
     """
     if formulation not in FORMULATIONS:
         raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
@@ -118,7 +118,7 @@ def kernel_source(
             source = committed(file.stem, scene, sha256(data).hexdigest())
         origin = "generated" if source else "derived"
         if source is None:
-            source = derived(data, file, scene, overrides, formulation, begun=begun)
+            source = derived(data, file, scene, overrides, formulation, ahead=ahead)
         source = replace(source, overrides=tuple(sorted(overrides.items())))
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
@@ -152,17 +152,26 @@ def laws_now(source: KernelSource) -> tuple[tuple[str, str], ...]:
 
 def derived(
     data: bytes, file: Path, scene: str, overrides: Overrides | None = None, formulation: str = "reduced",
-    seconds: dict[str, float] | None = None, begun: Begun | None = None,
+    seconds: dict[str, float] | None = None, ahead: Ahead | None = None,
 ) -> KernelSource:  # fmt: skip
-    """The C of a scene, derived now; each stage notes its seconds where somebody wants them."""
+    """The C of a scene, derived now; each stage notes its seconds where somebody wants them.
+
+    A mistake in the file is told, and what can be foreseen is being compiled, before SymPy is imported.
+    """
     with working(f"deriving {file.stem}, scene {scene}"):
+        whole(*READER)
+        from gudgeon.generator.reading import counted_freedoms, read_scene
+
+        read = read_scene(data, str(file), scene, overrides, seconds)
+        if ahead and formulation == FORMULATIONS[0]:
+            ahead.foresee(counted_freedoms(read) > 0, bool(read.events))
         start = perf_counter()
         whole(*GENERATOR)
-        from gudgeon.generator.pipeline import generate
+        from gudgeon.generator.pipeline import equations, in_c
 
         if seconds is not None and (took := perf_counter() - start) > 0.01:
             seconds["loading SymPy"] = took
-        return generate(data, str(file), scene, overrides, formulation, seconds, begun)
+        return in_c(equations(read, seconds), formulation, seconds, ahead.begin if ahead else None)
 
 
 def model_key(data: bytes, scene: str, overrides: Overrides, formulation: str) -> str:

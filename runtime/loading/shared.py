@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -78,6 +79,7 @@ def wrapper_object(calls: str, portable: bool) -> Shared:
     return Shared("wrappers", "wrapper.o", line, (calls, ASKS), lambda: {"wrapper.c": _written(calls)})
 
 
+@lru_cache(maxsize=4)
 def _written(calls: str) -> str:
     whole(*CFFI)
     import tempfile

@@ -12,7 +12,6 @@ from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.integrators import adaptive, kinematic, rk4
 from gudgeon.integrators.peers import driver
-from gudgeon.language.quantities import holds_names, number_of_names
 from gudgeon.language.wanted import told
 from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import Array, CompiledModel
@@ -36,7 +35,11 @@ def seconds(name: str, value: float | str) -> float:
 
 def end_of(source: KernelSource, t_end: float | str | None, p: Array) -> float | str | None:
     """t_end (s) where it is an expression of numbers of the run, '2*pi/omega', by these; else as it is."""
-    if not isinstance(t_end, str) or not holds_names(spaced(t_end)):
+    if not isinstance(t_end, str):
+        return t_end
+    from gudgeon.language.quantities import holds_names, number_of_names
+
+    if not holds_names(spaced(t_end)):
         return t_end
     known = {
         slot.address.removeprefix("parameters."): (float(number), slot.dimension)

@@ -60,7 +60,7 @@ def load_bytes(
     start = read if start is None else start
     with Ahead(portable) as ahead:
         source, origin = kernel_source(
-            data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, begun=ahead.begin
+            data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, ahead=ahead
         )
         have_source = perf_counter()
         module = compile_kernels(source, portable=portable, rebuild=regenerate, ahead=ahead)

@@ -12,27 +12,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebval, chebvander
 from numpy.typing import NDArray
 
-from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import BadValueError
-from gudgeon.integrators.adaptive import RTOL
 from gudgeon.integrators.steps import Steps
-from gudgeon.language.wanted import names
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.results.diagnostics import Extremes
-from gudgeon.results.results import Result
-from gudgeon.results.unknown import check_series
 from gudgeon.simulation.beside import Beside
 from gudgeon.simulation.between import Path
-
-if TYPE_CHECKING:
-    from gudgeon.simulation.simulation import Simulation
+from gudgeon.simulation.wanted_peaks import Told
 
 NODES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # places (of Chebyshev) at which a part of a step is looked at
 COEFFICIENTS = np.linalg.inv(chebvander(2.0 * NODES - 1.0, len(NODES) - 1))  # times values there: of the polynomial
@@ -41,29 +31,6 @@ ROUNDS, AT_AN_END = 12, 3  # of looking closer, each several times as close; few
 MOST = 16  # parts of steps of a block that are looked at, the most promising ones first
 SAME = 1e-14  # of a value: so little more is rounding, and the earlier time is told
 CLOSE = 1e-11  # of the largest value of a block, that the last coefficients of a polynomial may be
-
-
-def wanted_peaks(source: KernelSource, peaks: Iterable[str] | None) -> tuple[str, ...]:
-    """Names of series whose peaks are wanted: those given, else the scene's. Raises UnknownNameError, BadValueError."""
-    if peaks is None:
-        return check_series(source, source.peaks)
-    wanted = names(peaks, "peaks", "a list of names of series")
-    if "t" in wanted:
-        raise BadValueError("peaks: t has no peaks", hint="leave it out: a peak comes with its time")
-    return check_series(source, wanted)
-
-
-@dataclass(frozen=True)
-class Told:
-    """Of one run: peaks and errors, and what its notes say of them."""
-
-    extremes: tuple[Extremes, ...] = ()
-    notes: tuple[str, ...] = ()
-
-    def to(self, run: Result) -> None:
-        """They become a part of what a run says of itself."""
-        notes = (*run.diagnostics.notes, *self.notes)
-        run.diagnostics = replace(run.diagnostics, extremes=self.extremes, notes=notes)
 
 
 class Search:
@@ -81,17 +48,6 @@ class Search:
         if beside:
             self.kinds += [(name, True) for name in self.names if name in beside.names]
         self.best: dict[tuple[str, bool, int], tuple[float, float]] = {}  # (name, error, sign) -> value, time
-
-    @staticmethod
-    def of(
-        compiled: CompiledModel, numbers: tuple[Array, Array, Array], rtol: float, names: tuple[str, ...],
-        against: Simulation | None,
-    ) -> Search | None:  # fmt: skip
-        """For a run with these numbers, p, given and is_given; None where nothing is wanted."""
-        if not names:
-            return None
-        beside = Beside(against, compiled.source, numbers[0], rtol or RTOL) if against else None
-        return Search(compiled, names, numbers, beside)
 
     def __call__(self, steps: Steps) -> None:
         """The next states of the run."""

@@ -31,12 +31,13 @@ from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude
 from gudgeon.simulation.each_run import EachRun
 from gudgeon.simulation.hidden_jumps import any_in_batch
-from gudgeon.simulation.peaks import Search, Told, wanted_peaks
 from gudgeon.simulation.restart import check_fits, numbers, own_each
 from gudgeon.simulation.single_runs import Asked, run_singly
+from gudgeon.simulation.wanted_peaks import Told, search_of, wanted_peaks
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
+    from gudgeon.simulation.peaks import Search
     from gudgeon.simulation.simulation import Simulation
 
 COUNTS = tuple(field.name for field in fields(Counts))
@@ -163,7 +164,7 @@ class _Starts:
         every = range(len(p) if asked.peaks else 0)
         numbers = [(p[i], self.given[i], self.is_given[i]) for i in every]
         wanted = (asked.rtol, asked.peaks, asked.against)
-        return [None if i in bad else Search.of(self.compiled, numbers[i], *wanted) for i in every]
+        return [None if i in bad else search_of(self.compiled, numbers[i], *wanted) for i in every]
 
 
 @dataclass

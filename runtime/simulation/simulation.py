@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.assembly.branches import off_text, unfollowed
+from gudgeon.assembly.followed import off_text, unfollowed
 from gudgeon.assembly.journals import parting
 from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
@@ -30,8 +30,8 @@ from gudgeon.simulation.arguments import MAX_STEPS, METHODS, end_of, method_of, 
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.hidden_jumps import up_to_a_jump
-from gudgeon.simulation.peaks import Search, wanted_peaks
 from gudgeon.simulation.restart import check_fits, numbers, own
+from gudgeon.simulation.wanted_peaks import search_of, wanted_peaks
 from gudgeon.waiting.ctrl_c import CtrlC
 from gudgeon.waiting.imports import GENERATOR, whole
 
@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from gudgeon.model.parameter_sets import ParameterSets
     from gudgeon.results.batch import Batch
     from gudgeon.results.results import Result, State
+    from gudgeon.simulation.peaks import Search
 
 
 class Simulation:
@@ -223,7 +224,7 @@ class Simulation:
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,
         )  # fmt: skip
         problem, jump = up_to_a_jump(problem)
-        search = Search.of(self.compiled, (p, given, is_given), tolerance, names, beside)
+        search = search_of(self.compiled, (p, given, is_given), tolerance, names, beside)
         result = self._ran(problem, jump, given, is_given, search)
         if horizon and not result.diagnostics.interrupted:
             from gudgeon.simulation.horizon import with_horizon

@@ -50,8 +50,9 @@ class Programs:
         ctrl_c.take()  # one that came as the program ended
         return told
 
-    def __exit__(self, *_: object) -> None:
-        left = [process for process in self._begun if process.returncode is None]
+    def stop(self, *given_up: subprocess.Popen[str]) -> None:
+        """What is still under way of these ends now."""
+        left = [process for process in given_up if process.returncode is None]
         for process in left:
             try:
                 os.killpg(process.pid, signal.SIGKILL)
@@ -59,3 +60,6 @@ class Programs:
                 continue
         for process in left:
             process.communicate()
+
+    def __exit__(self, *_: object) -> None:
+        self.stop(*self._begun)

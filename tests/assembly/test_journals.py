@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 import gudgeon
-from gudgeon.assembly.start import search
+from gudgeon.assembly.search import search
 from gudgeon.cli import app
 from gudgeon.errors import AssemblyError, UnknownNameError
 from gudgeon.model.parameters import prepare

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gudgeon.assembly import large, rank
-from gudgeon.assembly.start import smallest
+from gudgeon.assembly.large import smallest
 from gudgeon.model.compiled import Array
 
 N = 30  # squares: 183 coordinates

@@ -12,7 +12,8 @@ import pytest
 
 import gudgeon
 from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.assembly.start import assemble, search
+from gudgeon.assembly.search import search
+from gudgeon.assembly.start import assemble
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result

@@ -1,0 +1,36 @@
+"""Guesses that an assembly does not follow, which are told."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gudgeon.assembly.linkage import Linkage, mechanism_size, place_of
+from gudgeon.model.compiled import Array
+
+APART = 0.2  # rad, or share of the size: what tells two assemblies apart in a guess
+FOLLOWED = np.pi / 6  # rad; so far a guess may be off without a word
+
+
+def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
+    """Guessed coordinates that are far from their guess at q, points by their distance: rad, or m."""
+    source, off = linkage.source, dict[str, float]()
+    guess = dict(zip(source.start_guess, linkage.start_values(p)[0].tolist(), strict=True))
+    size = mechanism_size(linkage, p)
+    for name, wanted in guess.items():
+        if name in source.coordinates:
+            away = float(q[source.coordinates.index(name)]) - wanted
+            is_angle = name.endswith(".theta")
+            away = (away + np.pi) % (2.0 * np.pi) - np.pi if is_angle else away
+            if abs(away) > (FOLLOWED if is_angle else APART * max(size, abs(wanted))):
+                off[name] = away
+    for point in source.points:
+        if f"{point.name}.x" in guess:
+            wanted_at = (guess[f"{point.name}.x"], guess[f"{point.name}.y"])
+            if (away := float(np.linalg.norm(place_of(source, p, q, point) - wanted_at))) > APART * size:
+                off[point.name] = away
+    return off
+
+
+def off_text(name: str, off: float) -> str:
+    """How far a guess is off, for people."""
+    return f"{np.degrees(abs(off)):.3g}°" if name.endswith(".theta") else f"{1e3 * abs(off):.3g} mm"
