@@ -29,6 +29,13 @@ def counted_freedoms(scene: Scene) -> int:
     return 3 * len(mechanism.bodies) - held + 2 * len(scene.play)
 
 
+def has_loops(scene: Scene) -> bool:
+    """Whether rows are left when every body hangs on another by the joints that are closed."""
+    kinds = joint_types()
+    closed = [kinds[joint.kind] for name, joint in scene.mechanism.joints.items() if name not in scene.play]
+    return len(closed) > len(scene.mechanism.bodies) or not all(kind.carries for kind in closed)
+
+
 @contextmanager
 def stage(name: str, seconds: Seconds | None) -> Iterator[None]:
     """A stage of the compiler, which notes how long it took where somebody wants to know."""

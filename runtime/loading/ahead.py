@@ -62,10 +62,10 @@ class Ahead:
         except (GudgeonError, OSError):
             return
 
-    def foresee(self, integrates: bool, has_events: bool) -> None:
+    def foresee(self, integrates: bool, has_loops: bool, has_events: bool) -> None:
         """A scene in tree coordinates is on its way, of which this can be told from its file: most have one wrapper."""
         try:
-            self.begin_shared(wrapper_object(usually_declared(integrates, has_events), self._portable))
+            self.begin_shared(wrapper_object(usually_declared(integrates, has_loops, has_events), self._portable))
         except (GudgeonError, OSError):
             return
 

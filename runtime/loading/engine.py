@@ -51,10 +51,13 @@ def declared_for(header: str) -> str:
     return _with_sizes(CALLS.read_text(encoding="utf-8"), _sizes(header))
 
 
-def usually_declared(integrates: bool, has_events: bool) -> str:
-    """The same for most scenes in tree coordinates: whether a freedom is left, whether events are watched for."""
-    sizes = {"TREE": 1, "RESCUED": 1, "N_CHAIN": 0, "INTEGRATES": int(integrates), "HAS_LANES": int(integrates)}
-    return _with_sizes(CALLS.read_text(encoding="utf-8"), {**sizes, "N_USER_EVENTS": int(has_events)})
+def usually_declared(integrates: bool, has_loops: bool, has_events: bool) -> str:
+    """The same for most scenes in tree coordinates: whether a freedom is left, loops, events that are watched for."""
+    sizes = {
+        "TREE": 1, "RESCUED": has_loops, "N_CHAIN": 0, "INTEGRATES": integrates, "HAS_LANES": integrates,
+        "N_USER_EVENTS": has_events,
+    }  # fmt: skip
+    return _with_sizes(CALLS.read_text(encoding="utf-8"), sizes)
 
 
 def lane_declarations() -> str:

@@ -160,11 +160,11 @@ def derived(
     """
     with working(f"deriving {file.stem}, scene {scene}"):
         whole(*READER)
-        from gudgeon.generator.reading import counted_freedoms, read_scene
+        from gudgeon.generator.reading import counted_freedoms, has_loops, read_scene
 
         read = read_scene(data, str(file), scene, overrides, seconds)
         if ahead and formulation == FORMULATIONS[0]:
-            ahead.foresee(counted_freedoms(read) > 0, bool(read.events))
+            ahead.foresee(counted_freedoms(read) > 0, has_loops(read), bool(read.events))
         start = perf_counter()
         whole(*GENERATOR)
         from gudgeon.generator.pipeline import equations, in_c

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from gudgeon.assembly import linkage, start
+from gudgeon.assembly.search import search
 from gudgeon.errors import AssemblyError
 from tests.scenes import loader
 
@@ -40,7 +41,7 @@ def test_a_start_far_away_assembles(x: float, ask: str, hangs: bool, tmp_path: P
     for scene in (simulation, simulation.full):
         compiled, p = scene.compiled, scene.p
         assert compiled.close(0.0, p, linkage.mechanism_size(compiled, p)) is not None
-        found, sought = start.assemble(compiled, p), start.search(compiled, p)
+        found, sought = start.assemble(compiled, p), search(compiled, p)
         assert found.q[0] == pytest.approx(x, rel=near)
         assert sought.q == pytest.approx(found.q, rel=near, abs=1e-7)
         assert sought.v == pytest.approx(found.v, rel=1e-9, abs=1e-9)

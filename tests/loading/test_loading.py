@@ -34,16 +34,23 @@ def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Ma
     """Stands in for the generator: what it was asked for is kept, the answer is tiny()."""
     asked: list[tuple[bytes, str, str, Mapping[str, object]]] = []
 
-    def generate(
-        data: bytes, file: str, scene: str, overrides: Mapping[str, object], formulation: str, seconds: object,
-        begun: object,
-    ) -> KernelSource:  # fmt: skip
+    def read_scene(
+        data: bytes, file: str, scene: str, overrides: Mapping[str, object], seconds: object
+    ) -> tuple[str, str]:
         asked.append((data, file, scene, overrides))
-        return tiny(scene=scene, sha256=sha256(data).hexdigest())
+        return scene, sha256(data).hexdigest()
 
-    module = ModuleType("gudgeon.generator.pipeline")
-    module.generate = generate  # type: ignore[attr-defined]
-    monkeypatch.setitem(sys.modules, module.__name__, module)
+    def in_c(read: tuple[str, str], formulation: str, seconds: object, begun: object) -> KernelSource:
+        return tiny(scene=read[0], sha256=read[1])
+
+    stands_in: dict[str, dict[str, Any]] = {
+        "reading": {"read_scene": read_scene, "counted_freedoms": None, "has_loops": None},
+        "pipeline": {"equations": lambda read, seconds: read, "in_c": in_c},
+    }
+    for name, functions in stands_in.items():
+        module = ModuleType(f"gudgeon.generator.{name}")
+        vars(module).update(functions)
+        monkeypatch.setitem(sys.modules, module.__name__, module)
     return asked
 
 

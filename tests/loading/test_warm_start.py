@@ -15,7 +15,8 @@ run = press.simulate(t_end=1e-3, output=2)
 print(press.loading.origin, *sys.modules)
 """
 HEAVY = {"sympy", "jinja2", "pydantic", "ruamel", "ruamel.yaml", "pint", "cffi", "pycparser", "subprocess", "filelock",
-         "xarray", "matplotlib", "scipy", "typer", "rich"}  # fmt: skip
+         "xarray", "matplotlib", "scipy", "typer", "rich", "numpy.polynomial", "gudgeon.generator",
+         "gudgeon.language.units", "gudgeon.assembly.closure"}  # fmt: skip
 
 
 def start(cache: Path, overrides: str = "None") -> tuple[str, set[str]]:
@@ -50,3 +51,22 @@ def test_a_derivation_does_import_them(tmp_path: Path) -> None:
     assert origin == "derived"
     assert modules >= {"sympy", "jinja2", "ruamel.yaml", "cffi", "filelock"}
     assert not modules & {"pydantic", "pint"}
+
+
+MISTAKE = """
+import sys
+import gudgeon
+try:
+    gudgeon.load({file!r})
+except gudgeon.errors.InputError as error:
+    print(error.where.line, *sys.modules)
+"""
+
+
+def test_a_mistake_in_a_file_is_told_before_sympy_is_imported(tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    file.write_text("format: gudgeon/1\nname: mine\nbodies: {rod: {length: 1 kg}}\n")
+    line = [sys.executable, "-c", MISTAKE.format(file=str(file))]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=True)
+    where, *modules = done.stdout.split()
+    assert where == "3" and "ruamel.yaml" in modules and "sympy" not in modules
