@@ -160,7 +160,7 @@ def run(
 def check(
     file: File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
-    branches: Branches = False, json: Json = False, laws: Laws = None,
+    branches: Branches = False, set_: Set = None, json: Json = False, laws: Laws = None,
 ) -> int:  # fmt: skip
     """Is a mechanism file valid, does it assemble, and what can move? Mistakes are told with line and column.
 
@@ -168,7 +168,7 @@ def check(
     """
     from gudgeon.commands.check import check_file
 
-    return check_file(file, verbose, json, branches)
+    return check_file(file, verbose, json, branches, tuple(set_ or ()))
 
 
 @app.command()

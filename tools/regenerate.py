@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import argparse
 import shutil
-import sys
 from pathlib import Path
 
 from gudgeon.generator.pipeline import generate
@@ -28,4 +28,6 @@ def regenerate(mechanisms: Path, generated: Path) -> None:
 
 if __name__ == "__main__":
     root = Path(__file__).resolve().parent.parent
-    regenerate(root / "mechanisms", Path(sys.argv[1]) if len(sys.argv) > 1 else root / "generated")
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("generated", type=Path, nargs="?", default=root / "generated", help="another folder for it")
+    regenerate(root / "mechanisms", parser.parse_args().generated)

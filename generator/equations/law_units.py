@@ -1,6 +1,6 @@
 """Units of a law of the user's own: its results are what its role needs, and what it adds or compares is alike.
 
-A number that stands in a law is a pure one, or, alone in a sum, of any unit; what has a unit is a field of the law.
+A number that stands in a law is a pure one, but for 0, which has any unit; what has a unit is a field of the law.
 """
 
 from __future__ import annotations
@@ -106,6 +106,14 @@ class _Units:
             what = "adds" if e.is_Add else f"takes {type(e).__name__} of"
             raise LawError(
                 f"{self.whose}{name} {what} {describe(units[0])} and {describe(units[1])}: {sp.sstr(_shown(e))[:120]}",
+                hint="a number with a unit is one of the law's fields",
+            )
+        bare = next((part for part, x in zip(e.args, found, strict=True) if x is _BARE and not part.is_zero), None)
+        if units and bare is not None and units[0] != DIMENSIONLESS:
+            what = "adds" if e.is_Add else f"takes {type(e).__name__} of"
+            raise LawError(
+                f"{self.whose}{name} {what} {describe(units[0])} and {sp.sstr(_shown(bare))}, a pure number:"
+                f" {sp.sstr(_shown(e))[:120]}",
                 hint="a number with a unit is one of the law's fields",
             )
         return units[0] if units else _ANY if _ANY in found else _BARE

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from gudgeon.errors import MissingKeyError
+from gudgeon.errors import MissingKeyError, UnknownNameError
 from gudgeon.generator.format.sections import MATERIAL
 from gudgeon.generator.mechanism.mechanism import Choice, Material, Quantity, following
 from gudgeon.generator.reader.collector import Reader
@@ -18,6 +18,7 @@ from gudgeon.language.names import check_label
 from gudgeon.language.suggestions import unknown_name
 
 ELASTIC = ("E", "nu")  # what contact asks of a material
+EXAMPLE = "materials: {steel: {E: 210 GPa, nu: 0.3, density: 7850 kg/m^3}}"
 
 
 class Materials:
@@ -71,6 +72,8 @@ class Materials:
         return self._named(text, self._needs[address]).name
 
     def _named(self, text: Text, needs: tuple[str, ...]) -> Material:
+        if not self.known:
+            raise UnknownNameError(f"unknown material {str(text)[:200]!r}", text.where, f"write it: {EXAMPLE}")
         if text not in self.known:
             raise unknown_name("material", text, self.known, text.where)
         lacking = [what for what in needs if what not in self.known[text].numbers]

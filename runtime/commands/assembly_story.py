@@ -16,8 +16,10 @@ from gudgeon.assembly.followed import off_text, unfollowed
 from gudgeon.assembly.journals import check_places
 from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
 from gudgeon.assembly.search import velocities
+from gudgeon.commands.common import check_addresses, known_here
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number
+from gudgeon.model.parameters import check
 
 if TYPE_CHECKING:
     from gudgeon.generator.mechanism.mechanism import Mechanism
@@ -67,15 +69,22 @@ def turned(away: Array) -> Array:
     return np.asarray((away + np.pi) % (2.0 * np.pi) - np.pi)
 
 
-def assemble_scenes(mechanism: Mechanism, branches: bool) -> Findings:
-    """Assemble every scene; other assemblies are looked for where that is quick, or asked for."""
+def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, float | str]) -> Findings:
+    """Assemble every scene; other assemblies are looked for where that is quick, or asked for.
+
+    given: numbers in place of the file's, by address; those of a scene alone hold for it.
+    """
     from gudgeon.generator.pipeline import closed_linkage
 
     scenes: dict[str, Assembled] = {}
     failed: dict[str, GudgeonError] = {}
     assemblies: tuple[Assembly, ...] = ()
-    for name in mechanism.scenes:
-        linkage, rows = closed_linkage(mechanism, name)
+    linkages = {name: closed_linkage(mechanism, name) for name in mechanism.scenes}
+    check_addresses(given, mechanism.file, [linkage.source for linkage, _ in linkages.values()])
+    for name, (linkage, rows) in linkages.items():
+        if own := known_here(linkage.source, given):
+            linkage, rows = closed_linkage(mechanism, name, own)
+        check(linkage.source, linkage.p[: len(linkage.source.slots) + len(linkage.source.derived)])
         try:
             scenes[name] = _assembled(linkage, rows)
         except GudgeonError as error:

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.commands import assembly_story as story
+from gudgeon.commands.common import settings
 from gudgeon.commands.progress import status_line
 from gudgeon.commands.reduction_story import story_data, tell
 from gudgeon.contract.kernel_source import KernelSource
@@ -31,11 +32,13 @@ MARGIN, GAP = 2, 3  # of a table, and between its columns
 CHECKS = ("scipy:*", "sundials:*")  # integrators of others, which fit wherever something is integrated
 
 
-def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False) -> int:
-    """Read, tell, and return the exit code."""
+def check_file(
+    name: str, verbose: bool, as_json: bool, branches: bool = False, numbers: Sequence[str] = ()
+) -> int:
+    """Read, tell, and return the exit code; numbers: ADDRESS=VALUE, in place of the file's."""
     from gudgeon.generator.reader.read import read_mechanism
 
-    file = find_mechanism(name)
+    given, file = settings(numbers), find_mechanism(name)
     try:
         data = read_bytes(file)
         mechanism = read_mechanism(data, str(file))
@@ -46,7 +49,7 @@ def check_file(name: str, verbose: bool, as_json: bool, branches: bool = False) 
         return error.exit_code
     seconds: dict[str, dict[str, float]] = {scene: {} for scene in mechanism.scenes}
     with status_line(quiet=as_json):
-        found = story.assemble_scenes(mechanism, branches)
+        found = story.assemble_scenes(mechanism, branches, given)
         scenes = {
             scene: derived(data, file, scene, seconds=seconds[scene]) for scene in mechanism.scenes if verbose
         }  # fmt: skip

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -71,6 +71,12 @@ def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSou
                 place = next((Location(file, w.line, w.column) for w in source.written if w.address == name), None)
                 raise UnknownNameError(f"--set: {told}", place, hint)
         raise unknown(f"--set: no scene has a number {name!r}", name, known)
+
+
+def known_here(source: KernelSource, given: Mapping[str, float | str]) -> dict[str, float | str]:
+    """The numbers of --set that a scene knows: an ideal scene has no viscosity."""
+    known = set(addresses(source))
+    return {address: number for address, number in given.items() if address in known}
 
 
 def check_folder(option: str, out: Path) -> None:

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_addresses, check_folder, check_name, chosen_scenes, settings
+from gudgeon.commands.common import check_addresses, check_folder, check_name, chosen_scenes, known_here, settings
 from gudgeon.commands.origin import ORIGIN, check_origin, origin_of
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
 from gudgeon.language.shown import visible
 from gudgeon.language.suggestions import unknown
 from gudgeon.model.default_step import T_END, scene_end, scene_number
-from gudgeon.model.parameters import addresses, prepare, value
+from gudgeon.model.parameters import prepare, value
 from gudgeon.results.results import Result
 from gudgeon.simulation.from_file import load
 
@@ -129,7 +129,7 @@ def _check(request: Request, settings: Settings, simulations: Mapping[str, Simul
     """Names that no scene has and values that are not valid are told before anything is run or written."""
     check_addresses(settings, request.file, [simulation.source for simulation in simulations.values()])
     for simulation in simulations.values():
-        prepare(simulation.compiled, _own(settings, simulation))
+        prepare(simulation.compiled, known_here(simulation.source, settings))
     if request.watch or request.peaks:
         from gudgeon.results.series import catalogue
 
@@ -150,16 +150,10 @@ def _peaks(request: Request, source: KernelSource) -> tuple[str, ...] | None:
     return tuple(dict.fromkeys([*source.peaks, *(name for name in request.peaks if name in known)]))
 
 
-def _own(settings: Settings, simulation: Simulation) -> dict[str, float | str]:
-    """The settings that a scene knows: an ideal scene has no viscosity."""
-    known = set(addresses(simulation.source))
-    return {address: number for address, number in settings.items() if address in known}
-
-
 def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Simulation], session: Session) -> None:
     """All scenes, the ideal one last: it lasts as long as the longest, and is to be had cheaply."""
     t_end, step = (None if text is None else value(text) for text in (request.t_end, request.step))
-    own = {name: prepare(s.compiled, _own(settings, s))[0] for name, s in simulations.items()}
+    own = {name: prepare(s.compiled, known_here(s.source, settings))[0] for name, s in simulations.items()}
     longest = max((scene_end(s.source, own[n]) for n, s in simulations.items() if n != IDEAL), default=T_END)
     with progress_bar(quiet=request.json) as bar:
         for name in sorted(simulations, key=lambda name: name == IDEAL):
@@ -171,7 +165,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                 run = simulation.simulate(
                     until, output=request.output, method=method, step=step,
                     rtol=request.rtol, horizon=request.horizon,
-                    parameters=_own(settings, simulation), progress=bar(name),
+                    parameters=known_here(simulation.source, settings), progress=bar(name),
                     against=simulations[IDEAL] if simulation.source.clearances else None,
                     peaks=_peaks(request, simulation.source),
                 )  # fmt: skip

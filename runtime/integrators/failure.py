@@ -9,11 +9,13 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.dead_centre import nearly_dependent_rows
 from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
+from gudgeon.language.tree import functions
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.steep import steep_force
-from gudgeon.model.written import of_time, rate_reason, reason, trees, undefined_here
+from gudgeon.model.written import CORNERED, of_time, rate_reason, reason, trees, undefined_here
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
 INTERRUPTED = "interrupted before its end"
@@ -157,15 +159,23 @@ def too_far(pace: Pace) -> SolverError:
     )  # fmt: skip
 
 
-def stalled(pace: Pace, ended: NDArray[np.int_], film: str, fast: str) -> SolverError:
+def with_corners(source: KernelSource) -> str:
+    """The forces of the file that are written with what has corners, with their lines; "" for none."""
+    found = [info for info, tree in trees(source, ("forces",)) if not CORNERED.isdisjoint(functions(tree))]
+    return ", ".join(f"{info.address} (line {info.line}, column {info.column})" for info in found)
+
+
+def stalled(pace: Pace, ended: NDArray[np.int_], film: str, fast: str, cornered: str) -> SolverError:
     """A run that no longer advances: how many steps ended at contacts, corners of forces, frictions, events; `film`:
-    which one is all but closed, `fast`: drives for which steps are so short (drives_at), "": none."""
+    which one is all but closed, `fast`: drives for which steps are so short (drives_at), "": none; `cornered`: forces
+    whose form may change (with_corners)."""
     if not pace.crawls:
         return too_far(pace)
     whose = int(ended.argmax())
     if fast and not film and ended[whose] <= 0.01 * pace.steps:
         return outgrown(pace, fast)
-    kinds = ("a contact begins or ends", "a force changes its form (a corner of min, max, abs, sign or of its law)",
+    form = f" in {cornered}" if cornered else " of a law"
+    kinds = ("a contact begins or ends", f"a force changes its form (a corner{form})",
              "friction changes between stick and slip", "an event's expression is zero")  # fmt: skip
     count = "all" if ended[whose] == pace.steps else str(ended[whose])
     if film:
@@ -197,7 +207,7 @@ def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> Solv
         (float(e - p[joint.clearance]), joint.name) for joint, e in zip(compiled.source.clearances, e_max, strict=True)
     )
     error = SolverError(
-        f"the journal of {name} lies {deepest:.3g} m deep in its bearing, beyond a tenth of its radius, at"
+        f"the journal of {name} lies {1e3 * deepest:.3g} mm deep in its bearing, beyond a tenth of its radius, at"
         f" t = {t:.9g} s\n"
         "  laws of contact and film hold for far less: a stiffer material, a thicker oil or less speed, and in rk4 a"
         " shorter step", t

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gudgeon.errors import SolverError
 from gudgeon.integrators import trace
-from gudgeon.integrators.failure import FELT, STALLED, Pace, drives_at, failure, film, stalled
+from gudgeon.integrators.failure import FELT, STALLED, Pace, drives_at, failure, film, stalled, with_corners
 from gudgeon.integrators.steps import Tape
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, event_dtype, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
@@ -248,6 +248,7 @@ class Session:
             pace = Pace(t, float(self.problem.t[-1]) - t, float(gained[0]), int(steps[0]), bool(steps[1]))
             # a drive that still turns on in steps so short is what they are short for
             fast = drives_at(self.compiled, self.p, t, FELT * pace.steps / max(pace.gained, 1e-300))
-            raise stalled(pace, ended, film(self.compiled, peaks[:, 2], self.p), fast)
+            closing = film(self.compiled, peaks[:, 2], self.p)
+            raise stalled(pace, ended, closing, fast, with_corners(self.compiled.source))
         ahead = self.problem.step if self.problem.method == "rk4" else 0.0
         raise failure(self.compiled, self.problem.method, status, t, advice, y, peaks[:, 2], self.p, ahead)

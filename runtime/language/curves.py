@@ -42,9 +42,17 @@ class Curve:
         return self.ends == PERIODIC
 
     @property
+    def goes_on(self) -> bool:
+        """Whether it has values beyond its range, which begin at a corner."""
+        return self.extrapolate != STOP
+
+    @property
     def range_text(self) -> str:
-        """From where to where it is, SI."""
-        return f"from {self.x[0]:.6g} to {self.x[-1]:.6g}"
+        """From where to where it is, SI: an angle in rad."""
+        from gudgeon.language.units import si_unit
+
+        unit = si_unit(self.argument) if self.argument is not None else ""
+        return f"from {self.x[0]:.6g} to {self.x[-1]:.6g} {unit or '(SI, angles in rad)'}"
 
     def told(self) -> str:
         """What it is, in words."""

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from gudgeon.language.curves import STOP, Curve
+if TYPE_CHECKING:
+    from gudgeon.language.curves import Curve
 
 
 @dataclass(frozen=True)
@@ -167,7 +168,7 @@ def functions(expr: Expr) -> set[str]:
         case Binary(left=left, right=right):
             return functions(left) | functions(right)
         case CurveCall(arguments=arguments, curve=curve):
-            own = {"min", "max"} if curve.extrapolate != STOP else set()
+            own = {"min", "max"} if curve.goes_on else set()
             return own.union(*map(functions, arguments))
         case Call(function=function, arguments=arguments):
             return {function}.union(*map(functions, arguments))
@@ -201,6 +202,8 @@ def from_json(data: Any) -> Expr:
     if head == "-" and len(rest) == 1:
         return Unary("-", from_json(rest[0]))
     if head == _CURVE:
+        from gudgeon.language.curves import Curve
+
         curve = Curve.from_data(rest[0])
         return CurveCall(curve.name, (from_json(rest[1]),), curve=curve)
     if head in _OPERATORS:

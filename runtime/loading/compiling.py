@@ -51,4 +51,4 @@ def finish(programs: Programs, process: subprocess.Popen[str], made: Path) -> Ex
     first = "\n  ".join(said.splitlines()[:8]) or "it said nothing"
     hint = f"\n  {compiler.INSTALL_HEADERS}" if "Python.h" in said else ""
     line = " ".join(map(str, process.args))  # type: ignore[arg-type]
-    return BuildError(f"the C compiler failed (exit status {process.returncode}): {line}\n  {first}{hint}")
+    return BuildError(f"the C compiler failed (exit status {process.returncode}):\n  {first}{hint}\n  called as {line}")

@@ -10,6 +10,7 @@ from functools import cache
 
 from gudgeon.contract.kernel_source import HEADER, KernelSource
 from gudgeon.loading.cache import digest
+from gudgeon.loading.contents import contents
 from gudgeon.loading.shipped import PACKAGE
 
 ENGINE = PACKAGE / "engine"
@@ -20,8 +21,7 @@ _SIZE = re.compile(r"^#define (\w+) (\d+)\b", re.MULTILINE)
 
 def engine_files() -> dict[str, str]:
     """Its texts by their paths from the folder that holds `engine`, sorted."""
-    paths = sorted((*ENGINE.rglob("*.c"), *ENGINE.rglob("*.h")))
-    return {path.relative_to(PACKAGE).as_posix(): path.read_text(encoding="utf-8") for path in paths}
+    return {f"{ENGINE.name}/{name}": text.decode() for name, text in contents(ENGINE, ".c", ".h")}
 
 
 def engine_readme() -> tuple[str, str]:

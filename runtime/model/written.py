@@ -21,6 +21,7 @@ from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
+CORNERED = frozenset({"abs", "min", "max", "ramp", "sign", "where", "mod"})  # whose corners end steps
 _REACH = tuple(10.0**k for k in range(-13, -8))  # s, or share of the time: how far ahead of a state a reason may lie
 Values = Callable[[str], float]
 

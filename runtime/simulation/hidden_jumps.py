@@ -21,10 +21,9 @@ from gudgeon.errors import SolverError
 from gudgeon.integrators.trajectory import Problem
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, functions, names
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import of_time, trees
+from gudgeon.model.written import CORNERED, of_time, trees
 
-VISIBLE = frozenset({"abs", "min", "max", "ramp", "sign", "where", "mod"})
-BREAKING = frozenset({"where", "mod"})  # of VISIBLE: the value itself may jump
+BREAKING = frozenset({"where", "mod"})  # of CORNERED: the value itself may jump
 _HIDING = frozenset({"sqrt", "hypot", "asin", "acos", "atan", "atan2", "tan", "log"})
 GRID, MOST, MOST_CORNERS = 4096, 16, 512  # intervals, candidates; those that are looked at one after the other
 AT_THE_END = 1e-12  # share of a run's time that is looked at behind its end
@@ -96,7 +95,7 @@ def _that_may_hide(source: KernelSource) -> list[tuple[str, Expr]]:
     """Drives whose corners the generator may not have found."""
     return [
         (drive, tree) for drive, tree in _with_drives(source)
-        if _hides(tree) and drive not in source.rate_jumps and VISIBLE.isdisjoint(functions(tree))
+        if _hides(tree) and drive not in source.rate_jumps and CORNERED.isdisjoint(functions(tree))
     ]  # fmt: skip
 
 

@@ -64,7 +64,7 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
     phi[4] = arm_rod_head_x + rod_x - table_x;  /* pin.x, m */
     phi[5] = arm_rod_head_y + rod_y - table_y;  /* pin.y, m */
     phi[6] = -table_x;  /* guide.offset, m */
-    phi[7] = table_theta - PI/2.0;  /* guide.angle, rad */
+    phi[7] = table_theta;  /* guide.angle, rad */
     phi[8] = arm_arm_head_x + arm_table_top_x - arm_x + table_x;  /* pivot.x, m */
     phi[9] = arm_arm_head_y + arm_table_top_y - arm_y + table_y;  /* pivot.y, m */
     phi[10] = crank_theta - motor_value;  /* motor, rad */

@@ -98,7 +98,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double rhs_guide_offset = -p->beta_squared*phi_guide_offset - phi_dot_guide_offset*p->two_alpha;
     aside->phi[6] = phi_guide_offset;
     aside->phi_dot[6] = phi_dot_guide_offset;
-    const double phi_guide_angle = table_theta - PI/2.0;
+    const double phi_guide_angle = table_theta;
     const double phi_dot_guide_angle = table_omega;
     const double rhs_guide_angle = -p->beta_squared*phi_guide_angle - phi_dot_guide_angle*p->two_alpha;
     aside->phi[7] = phi_guide_angle;

@@ -1,7 +1,7 @@
 /*
  * Slider-crank shaker with an inverted pendulum
  * mechanism shaker, scene ideal, from the YAML with sha256
- * 2b7e1c839c8c45f55c7ad9ff044ccd75b44eb017aa635760af36f690ced24573
+ * 9aa282fee4943aab54e1260e56060a8241a5b0bc5e5d2c5320974f108ddb59c1
  *
  * What the engine must know of this scene, sizes and small tables, and every number of it.
  */
@@ -112,7 +112,6 @@ struct Parameters {
     double inverse_crank_inertia;  /* 1/M, 1/(kg*m^2) */
     double crank_head_span_x;  /* vector in its frame, m */
     double rod_head_span_x;  /* vector in its frame, m */
-    double table_top_in_frame_x;  /* vector in its frame, m */
     double inertia_crank_crank;  /* sum of m w.w, kg*m^2 */
     double inertia_crank_rod;  /* sum of m w.w, kg*m^2 */
     double inertia_rod_rod;  /* sum of m w.w, kg*m^2 */

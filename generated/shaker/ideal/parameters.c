@@ -45,7 +45,6 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->inverse_crank_inertia = 1.0/p->crank_inertia;  /* 1/M */
     p->crank_head_span_x = 2.0*p->crank_head_s_x;  /* vector in its frame */
     p->rod_head_span_x = 2.0*p->rod_head_s_x;  /* vector in its frame */
-    p->table_top_in_frame_x = -p->table_points_top_y;  /* vector in its frame */
     /* sum of m w.w */
     p->inertia_crank_crank = p->arm_mass*(p->crank_head_span_x * p->crank_head_span_x)
         + (p->crank_head_span_x * p->crank_head_span_x)*p->rod_mass

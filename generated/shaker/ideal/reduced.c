@@ -41,14 +41,14 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
     const double rod_head_y = span_crank_head_y + span_rod_head_y;
     const double rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
-    const double table_theta = PI/2.0;
+    const double table_theta = 0.0;
     const double table_omega = 0.0;
-    const double table_top_x = rod_head_x + p->table_top_in_frame_x;
+    const double table_top_y = rod_head_y + p->table_points_top_y;
     const double span_arm_com_x = p->arm_head_s_x*cos_theta_arm;
     const double span_arm_com_y = p->arm_head_s_x*sin_theta_arm;
-    const double arm_x = span_arm_com_x + table_top_x;
+    const double arm_x = rod_head_x + span_arm_com_x;
     const double arm_vx = -arm_omega*span_arm_com_y + rod_head_vx;
-    const double arm_y = rod_head_y + span_arm_com_y;
+    const double arm_y = span_arm_com_y + table_top_y;
     const double arm_vy = arm_omega*span_arm_com_x + rod_head_vy;
 
     /* bodies */

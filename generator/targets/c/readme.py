@@ -89,7 +89,8 @@ def _calls(program: Program, names: Collection[str]) -> list[str]:
     lanes = ["`lanes.c` is a library of its own, compiled in the same way without the engine."] * ("lanes.c" in names)
     return [
         "## How it is called", "", _ENGINE, "", _COMPILED, "", "```",
-        "cc -O1 -std=c11 -ffp-contract=off -fPIC -shared -I. -I$ROOT scene.c $ROOT/engine/engine.c -lm -o scene.so",
+        "cc -O1 -march=native -std=c11 -ffp-contract=off -fPIC -shared "
+        "-I. -I$ROOT scene.c $ROOT/engine/engine.c -lm -o scene.so",
         "```", "", *lanes,
         "What is called from outside is declared in `engine/scene/calls.h`: `gudgeon_prepare` fills the parameters, "
         f"`gudgeon_start` closes the linkage, `gudgeon_rhs` is the right-hand side; a run is {runs}. "
