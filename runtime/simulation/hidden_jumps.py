@@ -208,8 +208,10 @@ def _follow(source: KernelSource, p: Array, tree: Expr, drive: str, a: float, b:
     if len(logs) < 5:
         return None
     powers = -np.diff(logs)  # how the differences go with h; a function may be smooth but for its last digits
-    if powers[-4:].mean() > 1.4:
+    last = float(powers[-4:].mean())
+    if last > 1.4:
         return None
-    power = float(np.median(powers[: len(powers) // 2 + 1]))
+    # at the end of what is looked at a corner stands out by its distance from there, until that is wider
+    power = max(float(np.median(powers[: len(powers) // 2 + 1])), last)
     kind = "rate" if power > 0.8 else "infinite rate" if power > 0.2 else "value"
     return Jump(drive, 0.5 * (a + b), kind, sizes[min(3, len(sizes) - 1)] if kind == "rate" else value)

@@ -9,6 +9,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import InputError, SolverError
+from gudgeon.simulation.hidden_jumps import hidden_jumps
 from tests.scenes import loader
 
 SLUG = """
@@ -177,6 +178,31 @@ def test_what_is_refused(value: str, message: str, hint: str, tmp_path: Path) ->
     with pytest.raises(InputError) as caught:
         gudgeon.load(path)
     assert message in str(caught.value) and hint in str(caught.value) and "slug.yaml:8:" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("value", "jumps"),
+    [
+        ("where(mod(t, T) < 0.3*T, A*mod(t, T)/(0.3*T), A*(1 - mod(t, T)/T)/0.7)", False),
+        ("A*min(mod(t, T)/T, 3*(1 - mod(t, T)/T))", False),
+        ("where(t < 3.3*T, A*t/T, 1.0003*A*t/T)", True),
+    ],
+)
+def test_corners_anywhere_on_the_grid_are_no_jumps(value: str, jumps: bool, tmp_path: Path) -> None:
+    """Of periods at random 1 % had a corner just beside a place of the grid, which was taken for a jump by 1e-11."""
+    cart = """
+parameters: {T: 0.1 s, A: 50 mm}
+bodies: {cart: {mass: 1 kg, inertia: 1e-3 kg*m^2}, bob: {length: 0.3 m, mass: 0.5 kg, inertia: auto}}
+ground: {O: [0, 0]}
+joints: {rail: {translational: [ground.O, cart.com], axis: [1, 0]}, pin: {revolute: [cart.com, bob.tail]}}
+drives: {push: {coordinate: cart.x, value: "%s"}}
+"""
+    scene, rng = loader(tmp_path)(cart % value), np.random.default_rng(1)
+    period = [slot.address for slot in scene.source.slots].index("parameters.T")
+    for _ in range(300):
+        p = scene.p.copy()
+        p[period] = rng.uniform(0.05, 0.5)
+        assert bool(hidden_jumps(scene.source, p, 0.0, float(rng.uniform(2.0, 5.0)))) == jumps
 
 
 def test_a_jump_at_the_very_end_and_the_first_of_many(tmp_path: Path) -> None:
