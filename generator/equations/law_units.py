@@ -112,7 +112,7 @@ class _Units:
         if units and bare is not None and units[0] != DIMENSIONLESS:
             what = "adds" if e.is_Add else f"takes {type(e).__name__} of"
             raise LawError(
-                f"{self.whose}{name} {what} {describe(units[0])} and {sp.sstr(_shown(bare))}, a pure number:"
+                f"{self.whose}{name} {what} {describe(units[0])} and {float(bare):g}, a pure number:"
                 f" {sp.sstr(_shown(e))[:120]}",
                 hint="a number with a unit is one of the law's fields",
             )

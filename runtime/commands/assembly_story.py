@@ -69,7 +69,9 @@ def turned(away: Array) -> Array:
     return np.asarray((away + np.pi) % (2.0 * np.pi) - np.pi)
 
 
-def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, float | str]) -> Findings:
+def assemble_scenes(
+    mechanism: Mechanism, branches: bool, given: Mapping[str, float | str] | None = None
+) -> Findings:
     """Assemble every scene; other assemblies are looked for where that is quick, or asked for.
 
     given: numbers in place of the file's, by address; those of a scene alone hold for it.
@@ -80,9 +82,10 @@ def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, fl
     failed: dict[str, GudgeonError] = {}
     assemblies: tuple[Assembly, ...] = ()
     linkages = {name: closed_linkage(mechanism, name) for name in mechanism.scenes}
-    check_addresses(given, mechanism.file, [linkage.source for linkage, _ in linkages.values()])
+    numbers = given or {}
+    check_addresses(numbers, mechanism.file, [linkage.source for linkage, _ in linkages.values()])
     for name, (linkage, rows) in linkages.items():
-        if own := known_here(linkage.source, given):
+        if own := known_here(linkage.source, numbers):
             linkage, rows = closed_linkage(mechanism, name, own)
         check(linkage.source, linkage.p[: len(linkage.source.slots) + len(linkage.source.derived)])
         try:

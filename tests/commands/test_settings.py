@@ -100,3 +100,18 @@ def test_a_mechanism_in_millimetres_by_mistake_is_remarked(call: Gudgeon, tmp_pa
     (tmp_path / "crane.yaml").write_text(bare.replace("30,", "12,").replace("120,", "48,").replace("140}", "58}"))
     for name in ("crane.yaml", "nine_bar_press", "car_axis"):
         assert "size:" not in call("check", name).stdout
+
+
+def test_check_at_other_numbers(call: Gudgeon, pump: str) -> None:
+    """A rod shorter than the crank does not close; one that is not there, or negative, is told as run tells it."""
+    assert call("check", pump, "--set", "bodies.rod.length=90mm").exit_code == 0
+    short = call("check", pump, "--set", "bodies.rod.length=5mm", "--set", "ground.C.y=0")
+    assert short.exit_code == 2 and "ground.C.y is written as 0" in short.stderr
+    short = call("check", pump, "--set", "bodies.rod.length=5mm")
+    assert short.exit_code == gudgeon.errors.AssemblyError.exit_code, short.output
+    assert "rod" in short.stderr and "length" in short.stderr
+    wear = call("check", pump, "--set", "bearings.pin.clearance=-1mm")
+    assert wear.exit_code == 2 and "clearance" in wear.stderr
+    assert call("check", pump, "--set", "bodies.rood.length=1").exit_code == 2
+    other = call("check", pump, "--json", "--set", "bodies.rod.length=500")
+    assert other.exit_code == 0 and json.loads(other.stdout)["valid"], other.output

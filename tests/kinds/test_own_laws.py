@@ -131,6 +131,14 @@ WRONG = [
         BUILD, '    return {"F_n": K * s.variables["delta"] + D * s.variables["delta"]}\n',
         r"F_n adds a .* and .*: D\*delta \+ K\*delta|F_n adds .*: damping\*delta \+ delta\*stiffness",
     ),
+    (
+        BUILD, '    return {"F_n": K * (s.variables["delta"] + 1)}\n',
+        r"(?s)F_n adds a length \(m\) and 1, a pure number: delta \+ 1.*one of the law's fields",
+    ),
+    (
+        BUILD, SP + '    return {"F_n": sp.Max(K * s.variables["delta"], 1e-9)}\n',
+        r"F_n takes Max of a force \(N\) and 1e-09, a pure number",
+    ),
     (BUILD, SP + '    return {"F_n": K * s.pair.c * sp.exp(s.variables["delta"])}\n', "has an exponent of a length"),
     (BUILD, SP + '    return {"F_n": K * s.pair.c * sp.sin(s.variables["delta"])}\n', "F_n has sin of a length"),
     ("STIFFNESS, symbol", "'N/m', symbol", "(?s)the dimension of stiffness is 'N/m'.*expected one of"),
