@@ -20,6 +20,7 @@ from gudgeon.language.shown import in_figure
 
 LARGEST, SMALLEST = 8.0, 3.2  # inches, of the longer and the shorter side
 LEAST_UNIT, MOST = 0.042, 24.0  # inches: of half a bar's width at least, for which the longer side may grow so far
+APART = 0.3  # inches between pictures side by side
 PER_INCH = 12.0  # characters of a caption
 FEW = 28  # names that fit in the larger type
 STYLE = {"font.size": 9, "text.usetex": False, "svg.hashsalt": "gudgeon", "path.sketch": None}
@@ -75,17 +76,18 @@ def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -
     lines = len(textwrap.wrap(caption, int(PER_INCH * columns * width)))
     head, foot = 0.25 + 0.17 * lines, 0.17 * max(len(sketch.notes) for sketch in sketches) + 0.05
     with matplotlib.rc_context(STYLE):
-        picture = Figure(figsize=(columns * width, rows * (height + head * (rows * columns > 1) + foot) + head))
+        pitch = width + APART * (columns > 1)
+        picture = Figure(figsize=(columns * pitch, rows * (height + head * (rows * columns > 1) + foot) + head))
         across, down = picture.get_size_inches()
         for k, (sketch, title) in enumerate(zip(sketches, titles, strict=True)):
             row, column = divmod(k, columns)
             top = down - head - row * (height + foot + head) - head * (rows * columns > 1)
-            ax = picture.add_axes((column * width / across, (top - height) / down, width / across, height / down))
+            ax = picture.add_axes((column * pitch / across, (top - height) / down, width / across, height / down))
             draw_on(ax, sketch)
             if title:
                 ax.set_title(title, fontsize=9)
             note = "\n".join(sketch.notes)
-            place = ((column * width + 0.12) / across, (top - height - 0.02) / down)
+            place = ((column * pitch + 0.12) / across, (top - height - 0.02) / down)
             picture.text(*place, note, fontsize=7.5, va="top", color="#444444", parse_math=False)
         width = int(PER_INCH * across)
         picture.suptitle(

@@ -69,7 +69,8 @@ def _beside(
         middle = np.array([low[0] + 1.5 * u, high[1] - 2.5 * u])
         shapes = list(arrow("gravity", "gravity", middle - 2.0 * u * down, middle + 2.0 * u * down, HEAD * u))
         yield shapes, Label("gravity", "gravity", "g", middle, 0.6 * u, 0.0)
-    length = round_number(0.22 * float((high - low).max()))
+    across = high - low
+    length = round_number(min(0.22 * float(across.max()), 0.6 * float(across[0])))
     begin = np.array([low[0] + 0.5 * u, low[1] - 1.0 * u])
     end = begin + [length, 0.0]
     tick = np.array([0.0, 0.5 * u])
