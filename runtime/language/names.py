@@ -76,6 +76,8 @@ def check_label(name: str, what: str, where: Location | None) -> None:
         hint = "expected a letter, then letters, digits or '_'"
         if IDENTIFIER.fullmatch(plain := name.replace("-", "_").replace(" ", "_")):
             hint += f", such as {plain}"
+        if "=" in name and IDENTIFIER.fullmatch(plain := name.partition("=")[0].strip()):
+            hint = f"a value stands behind a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
         raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {what}: it is no identifier", where, hint)
     if len(name) > MAX_LENGTH:
         raise BadNameError(

@@ -70,9 +70,15 @@ class _Parser:
             self.fail(
                 f"unexpected {self.token}",
                 self.token.offset,
-                self.compared() or "expected an operator (a product is written with '*') or the end",
+                self.compared() or self.decimal() or "expected an operator (a product is written with '*') or the end",
             )
         return expr
+
+    def decimal(self) -> str:
+        """What to do where a comma stands in a number."""
+        text, at_comma = self.tokens.text, self.token.offset
+        is_decimal = self.token.text == "," and text[:at_comma][-1:].isdigit() and text[at_comma + 1 :][:1].isdigit()
+        return "a number is written with a point: 0.3" if is_decimal else ""
 
     def fail(self, message: str, offset: int, hint: str) -> NoReturn:
         raise ExpressionError(message, at(self.where, offset), hint)

@@ -16,6 +16,7 @@ from gudgeon.errors import (
 )
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.mechanism.mechanism import Mechanism
+from gudgeon.generator.reader.materials import EXAMPLE
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.units import INERTIA
 
@@ -208,3 +209,18 @@ def test_none_is_no_law() -> None:
 def test_words_and_signs_of_elsewhere(old: str, new: str, kind: type[InputError], told: str) -> None:
     error = refused(old, new)
     assert type(error) is kind and told in error.hint
+
+
+def test_a_decimal_comma_and_an_equals_sign() -> None:
+    error = refused("length: 120 mm", 'length: "0‸,12 m"')
+    assert isinstance(error, ExpressionError) and error.hint == "a number is written with a point: 0.3"
+    assert "expected an operator" in refused("length: 120 mm", 'length: "L‸, 2"').hint
+    error = refused("scenes: {", "parameters: {‸omega = 600 rpm}\nscenes: {")
+    assert isinstance(error, BadNameError) and error.hint == "a value stands behind a colon: omega: 600 rpm"
+
+
+def test_a_material_where_there_is_none() -> None:
+    with pytest.raises(InputErrors) as caught:
+        read("materials: {steel: {E: 207 GPa, nu: 0.3}}\n", "")
+    assert [str(e.hint) for e in caught.value.errors] == [f"write it: {EXAMPLE}"] * 2
+    read("materials: {steel: {E: 207 GPa, nu: 0.3}}", EXAMPLE)
