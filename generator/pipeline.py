@@ -21,7 +21,7 @@ from gudgeon.generator.redundancy import find_redundancy
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import Begun, emit
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
-from gudgeon.generator.targets.numpy.module import NumPyModel
+from gudgeon.generator.targets.numpy.module import ClosedLinkage, NumPyModel
 
 
 def derive(
@@ -50,7 +50,10 @@ def closed_linkage(
     """
     model = make_model(make_scene(mechanism, scene))
     kept = {row.name for row in model.rows}
-    return NumPyLinkage(model, describe(model), given), [r for r, row in enumerate(model.all_rows) if row.name in kept]
+    describe(model)  # what only results read has numbers too, and the closed linkage those of the start
+    closed = ClosedLinkage(model)
+    linkage = NumPyLinkage(model, describe(model), given, closed)
+    return linkage, [r for r, row in enumerate(model.all_rows) if row.name in kept]
 
 
 # What `Model.written` offers: a name each, and what is made of the absolute formulation's functions.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from gudgeon.errors import BadValueError, Location
 
+_LIKE_A_NUMBER = re.compile(r"[-+.]*[0-9]|[-+]?(nan|inf)", re.IGNORECASE)  # no cell of a header begins so
 _MARKS = ";", "\t", ","  # between the columns: the first that the text has
 
 
@@ -33,7 +34,7 @@ def read_table(data: bytes, file: str, is_number: Callable[[str], bool]) -> list
             continue
         row = _row(line, mark, file, number)
         wrong = [k for k in (0, 1) if not is_number(row.text[k])]
-        if wrong and not (first and len(wrong) == 2):
+        if wrong and not (first and len(wrong) == 2 and not any(map(_LIKE_A_NUMBER.match, row.text))):
             hint = "expected a decimal number with a point"
             raise BadValueError(f"{row.text[wrong[0]][:40]!r} is no number", row.where[wrong[0]], hint)
         rows += [] if wrong else [row]

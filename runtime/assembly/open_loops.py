@@ -21,7 +21,7 @@ from gudgeon.model.compiled import Array
 STEPS = 30
 NUDGE = 1e-6  # relative, of a body's length: for the derivative by it
 SHUT = 1e-7  # share of the size that is left where a length counts as found
-MOST = 4.0  # times its length: what would have to grow further is not what is wrong
+MOST, LEAST = 4.0, -0.95  # times its length: what would have to grow or shrink further is not what is wrong
 
 
 @dataclass(frozen=True)
@@ -78,6 +78,6 @@ def _share(closure: Closure, q: Array, places: list[int]) -> float | None:
         q, opens, share = at, share, share - size**2 / slope
         if shut is not None and not min(opens, shut) < share < max(opens, shut):
             share = 0.5 * (opens + shut)
-        if abs(share) > MOST or share <= -1.0:
+        if abs(share) > MOST or share <= LEAST:
             return shut
     return shut

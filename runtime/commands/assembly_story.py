@@ -16,10 +16,9 @@ from gudgeon.assembly.followed import off_text, unfollowed
 from gudgeon.assembly.journals import check_places
 from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
 from gudgeon.assembly.search import velocities
-from gudgeon.commands.common import check_addresses, known_here
+from gudgeon.commands.common import at_numbers, check_addresses
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number
-from gudgeon.model.parameters import check
 
 if TYPE_CHECKING:
     from gudgeon.generator.mechanism.mechanism import Mechanism
@@ -85,9 +84,7 @@ def assemble_scenes(
     numbers = given or {}
     check_addresses(numbers, mechanism.file, [linkage.source for linkage, _ in linkages.values()])
     for name, (linkage, rows) in linkages.items():
-        if own := known_here(linkage.source, numbers):
-            linkage, rows = closed_linkage(mechanism, name, own)
-        check(linkage.source, linkage.p[: len(linkage.source.slots) + len(linkage.source.derived)])
+        linkage = at_numbers(mechanism, linkage, numbers)
         try:
             scenes[name] = _assembled(linkage, rows)
         except GudgeonError as error:

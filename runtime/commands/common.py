@@ -6,13 +6,18 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, InputError, Location, OutputError, UnknownNameError, shortened
 from gudgeon.files.writing import check_target
 from gudgeon.language.suggestions import unknown
 from gudgeon.loading.find import find_mechanism, generator_hash, read_bytes
-from gudgeon.model.parameters import addresses, as_parameter, value
+from gudgeon.model.parameters import TOGETHER, addresses, as_parameter, check, given_slots, value
+
+if TYPE_CHECKING:
+    from gudgeon.generator.mechanism.mechanism import Mechanism
+    from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
 
 SCENES = "scenes.json"
 
@@ -77,6 +82,27 @@ def known_here(source: KernelSource, given: Mapping[str, float | str]) -> dict[s
     """The numbers of --set that a scene knows: an ideal scene has no viscosity."""
     known = set(addresses(source))
     return {address: number for address, number in given.items() if address in known}
+
+
+def at_numbers(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, float | str]) -> NumPyLinkage:
+    """The closed linkage of a scene at other numbers, as far as it has them. Raises BadValueError."""
+    from gudgeon.generator.pipeline import closed_linkage
+
+    source, count = linkage.source, len(linkage.source.slots) + len(linkage.source.derived)
+    own = {name: x for name, x in known_here(source, given).items() if name not in TOGETHER}  # gains move no start
+    p = linkage.p[:count].copy()
+    values, is_given = given_slots(source, own)
+    p[: len(values)][is_given] = values[is_given]
+    check(source, p)  # before anything follows from them
+    if not own:
+        return linkage
+    try:
+        found, _ = closed_linkage(mechanism, source.scene, own)
+    except ArithmeticError as error:
+        told = f"--set: what follows from these numbers is none ({error})"
+        raise BadValueError(told, hint="look for one that is 0, or far too large") from error
+    check(source, found.p[:count])
+    return found
 
 
 def check_folder(option: str, out: Path) -> None:

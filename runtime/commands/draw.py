@@ -15,13 +15,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.commands.common import check_addresses, check_file, chosen_scenes, need_suffix, settings
+from gudgeon.commands.common import at_numbers, check_addresses, check_file, chosen_scenes, need_suffix, settings
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.quantities import number_of_text
 from gudgeon.loading.find import find_mechanism, read_bytes
-from gudgeon.model.parameters import check, spaced
+from gudgeon.model.parameters import spaced
 from gudgeon.waiting.working import working
 
 if TYPE_CHECKING:
@@ -132,10 +132,8 @@ def _start(request: Request, file: Path, wanted: Mapping[str, float | str]) -> t
 
     mechanism = read_mechanism(read_bytes(file), str(file))
     linkage, _ = closed_linkage(mechanism, request.scene)
-    if wanted:
-        check_addresses(wanted, request.file, [linkage.source])
-        linkage, _ = closed_linkage(mechanism, request.scene, wanted)
-    check(linkage.source, linkage.p[: len(linkage.source.slots) + len(linkage.source.derived)])
+    check_addresses(wanted, request.file, [linkage.source])
+    linkage = at_numbers(mechanism, linkage, wanted)
     closure = Closure(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
         q, closed = closure.nearest()

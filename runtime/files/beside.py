@@ -61,4 +61,4 @@ def _read(folder: Path, parts: list[str], most: int) -> tuple[bytes, os.stat_res
 
 def _is_link(folder: Path, parts: list[str]) -> bool:
     """Whether a link is on the way: for what is told."""
-    return any(folder.joinpath(*parts[: k + 1]).is_symlink() for k in range(len(parts)))
+    return any(os.path.islink(folder.joinpath(*parts[: k + 1])) for k in range(len(parts)))

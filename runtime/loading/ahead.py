@@ -8,6 +8,7 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
+from weakref import finalize
 
 from gudgeon.contract.kernel_source import ENGINE_PART, HEADER, MAIN, KernelSource
 from gudgeon.errors import GudgeonError
@@ -16,6 +17,7 @@ from gudgeon.loading.cache import Cache, default_cache
 from gudgeon.loading.compiling import unit_line
 from gudgeon.loading.engine import declarations, declared_for, usually_declared
 from gudgeon.loading.shared import Shared, engine_object, wrapper_object
+from gudgeon.waiting.ctrl_c import CtrlC
 from gudgeon.waiting.programs import Programs
 
 if TYPE_CHECKING:
@@ -88,7 +90,11 @@ class Ahead:
 
     def _place(self, name: str) -> Path:
         """The folder of an object: a scene's parts read the same texts, the engine its own."""
-        self._folder = self._folder or Path(tempfile.mkdtemp(prefix="gudgeon-"))
+        if self._folder is None:
+            with CtrlC() as ctrl_c:  # none is made that nobody knows of
+                self._folder = Path(tempfile.mkdtemp(prefix="gudgeon-"))
+                finalize(self, shutil.rmtree, self._folder, ignore_errors=True)  # where __exit__ does not come to it
+            ctrl_c.take()
         return self._folder / name.partition("_")[0]
 
     def take(self, made: Path, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
@@ -111,6 +117,8 @@ class Ahead:
         return known == line and all(texts.get(file) == text for file, text in read.items())
 
     def __exit__(self, *wrong: object) -> None:
-        self._programs.__exit__(*wrong)
-        if self._folder is not None and os.path.isdir(self._folder):
-            shutil.rmtree(self._folder, ignore_errors=True)
+        with CtrlC() as ctrl_c:  # a second one leaves nothing either
+            self._programs.__exit__(*wrong)
+            if self._folder is not None and os.path.isdir(self._folder):
+                shutil.rmtree(self._folder, ignore_errors=True)
+        ctrl_c.take()

@@ -63,12 +63,12 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     """(message, hint) about an address that holds an expression of t or motion, and no number; "" for another one."""
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        journal = _unplaced_journal(source, address)
-        return journal if journal[0] else _literal_zero(source, address)
+        found = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address))
+        return next((one for one in found if one[0]), ("", ""))
     key = address.rpartition(".")[2]
     told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
     return told, (
-        f"a number in it can be, once it is a parameter: parameters: {{phase: -39.52 deg}}, {key}: phase + …,"
+        f"a number in it can be, once it is a parameter: parameters: {{phase: … deg}}, {key}: phase + …,"
         " then set phase; overrides= of gudgeon.load compiles anew with another expression"
     )
 
@@ -82,6 +82,15 @@ def _unplaced_journal(source: KernelSource, address: str) -> tuple[str, str]:
         return "", ""
     wanted = f"start: {{play: {{{joint}: {{e: [0 mm, 0 mm]}}}}}}"
     return f"{address}: the file's start does not say where {joint} begins", f"write {wanted}, then it can be set"
+
+
+def _only_material(source: KernelSource, address: str) -> tuple[str, str]:
+    """The same of a material, where the file has no other that would do."""
+    owner, _, key = address.rpartition(".")
+    if not key.endswith("material") or not any(slot.address.startswith(f"{owner}.") for slot in source.slots):
+        return "", ""
+    told = f"{address}: the file has only one material with the numbers that are wanted there, and no other to choose"
+    return told, "write a second one among its materials; their numbers can be set, materials.<name>.E"
 
 
 def number(value: float | str, slot: Slot) -> float:

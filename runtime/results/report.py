@@ -168,7 +168,7 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("Peaks, all steps", _extreme_rows(reports, False)),
         ("Motion", _motion_rows(reports)),
         ("Peak force", _force_rows(reports)),
-        ("Peak of drives", _drive_rows(reports)),
+        ("Peak of drives, of samples", _drive_rows(reports)),
         ("Joints with play", _play_rows(reports)),
         ("Events", _event_rows(reports)),
         ("Trust", _trust_rows(reports)),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -18,6 +20,7 @@ from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
 from gudgeon.loading.cache import LIST, _seal
 from gudgeon.loading.engine import declared_for, usually_declared
 from gudgeon.loading.shipped import GENERATED, shipped_file
+from gudgeon.waiting.programs import Programs
 
 ROD = """\
 format: gudgeon/1
@@ -186,4 +189,19 @@ def test_nothing_is_left_where_a_derivation_fails(own_folders: Path, monkeypatch
     with pytest.raises(InputError, match="behind it"):
         gudgeon.load(own_folders / "rod.yaml")
     assert begun[0]._begun[ENGINE][2].returncode is not None
+    assert list((own_folders / "tmp").iterdir()) == []
+
+
+def test_a_second_ctrl_c_leaves_nothing_either(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One while what the first one gave up is being stopped: it waits until that is done."""
+    source, stop = pendulum(), Programs.stop
+
+    def interrupted(self: Programs, *given_up: Any) -> None:
+        os.kill(os.getpid(), signal.SIGINT)
+        stop(self, *given_up)
+
+    monkeypatch.setattr(Programs, "stop", interrupted)
+    with pytest.raises(KeyboardInterrupt), Ahead(False) as early:
+        early.begin(1, {**source.files, "model.h": source.files["model.h"] + "\n"})
+    assert early._begun["scene_1.o"][2].returncode is not None
     assert list((own_folders / "tmp").iterdir()) == []

@@ -106,6 +106,8 @@ def test_points_cannot_be_overridden(tmp_path: Path) -> None:
     (b"0;1\n1;2,5\n", r"lift\.csv:2:3: '2,5' is no number"), (b"0,1\n\xff,2\n", r"lift\.csv:2:1: byte 0xff"),
     (b"0,1\n2,1\n1,1\n", r"lift\.csv:3:1: .* x is 1 behind 2"), (b"", r"has 0 points"), (b"\x00\x00", r"1 column in"),
     (b"0,1\n1," + b"9" * 5000 + b"\n", r"is no number"), (b"0,1\n1,1e999\n", r"lift\.csv:2:3: .*out of range"),
+    *((first + b"\n90,1\n200,2\n", r"lift\.csv:1:\d: '.*' is no number") for first in (
+        b"nan,nan", b"inf,-inf", b"0 mm,0 mm", b"--1,.")),
     (b"0," * 600_000, r"a table of 1200000 bytes"), (b"0,=1+1\n", r"is no number"),
 ])  # fmt: skip
 def test_what_is_wrong_in_a_table_is_told_at_its_place(tmp_path: Path, data: bytes, told: str) -> None:
@@ -115,7 +117,8 @@ def test_what_is_wrong_in_a_table_is_told_at_its_place(tmp_path: Path, data: byt
 
 
 @pytest.mark.parametrize("name", ["../a.csv", "/etc/passwd", "x/../../a.csv", "./a.csv", "x//a.csv", "''", "a\\b.csv",
-                                  "link.csv", "linked/a.csv", "pipe", "folder", "none.csv", "a.csv/b"])  # fmt: skip
+                                  "link.csv", "linked/a.csv", "pipe", "folder", "none.csv", "a.csv/b",
+                                  "a" * 300])  # fmt: skip
 def test_no_file_outside_the_folder_is_read(tmp_path: Path, name: str) -> None:
     home = tmp_path / "home"
     (home / "folder").mkdir(parents=True)

@@ -19,9 +19,10 @@ class NumPyLinkage:
     """
 
     def __init__(
-        self, model: Model, source: KernelSource, given: Mapping[str, float | str] | None = None
-    ) -> None:
-        self.source, self.n, self.closed = source, len(model.q), ClosedLinkage(model)
+        self, model: Model, source: KernelSource, given: Mapping[str, float | str] | None = None,
+        closed: ClosedLinkage | None = None,
+    ) -> None:  # fmt: skip
+        self.source, self.n, self.closed = source, len(model.q), closed or ClosedLinkage(model)
         self.defaults = self.closed.prepare(given)
         slots, count = model.slots, len(source.slots)
         entries = [entry.symbol for entry in slots.entries.values()]  # the source's, then those that came behind it
