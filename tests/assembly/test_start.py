@@ -67,10 +67,11 @@ start: {guess: {b.theta: guess_b, c.theta: guess_c}}
 """
 
 
-def test_start_near_a_fold_from_a_guess_anywhere(load: Load) -> None:
+@pytest.mark.parametrize("starts", [75, pytest.param(300, marks=pytest.mark.slow)])
+def test_start_near_a_fold_from_a_guess_anywhere(load: Load, starts: int) -> None:
     """b + D = c but for 10⁻²…10⁻⁹ of it, and guesses all round: closed every time, as the lengths say."""
     scene, rng = load(NEAR_A_FOLD), np.random.default_rng(11)
-    for _ in range(300):
+    for _ in range(starts):
         a, c, phi, x, y = rng.uniform([0.05, 0.2, -np.pi, 0.05, -0.3], [0.5, 1.0, np.pi, 1.0, 0.3])
         tip = a * np.array([np.cos(phi), np.sin(phi)])
         span = np.hypot(*([x, y] - tip))
@@ -84,12 +85,13 @@ def test_start_near_a_fold_from_a_guess_anywhere(load: Load) -> None:
         np.testing.assert_allclose(heads[0], heads[1], rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.parametrize("guesses", [50, pytest.param(200, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("unit", ["um", "mm", "m", "km"])
-def test_branch_nearest_the_guess_from_anywhere(load: Load, unit: str) -> None:
-    """Two hundred guesses all round: assembled every time, on the nearer branch, within half a turn of the guess."""
+def test_branch_nearest_the_guess_from_anywhere(load: Load, unit: str, guesses: int) -> None:
+    """Guesses all round: assembled every time, on the nearer branch, within half a turn of the guess."""
     scene, rng = load(FOUR_BAR.format(unit=unit, rocker=0.8)), np.random.default_rng(3)
     branches = both_branches()
-    for guess in rng.uniform(-np.pi, np.pi, (200, 2)):
+    for guess in rng.uniform(-np.pi, np.pi, (guesses, 2)):
         q = scene.start({"guess_b": guess[0], "guess_c": guess[1]}).q[[5, 8]]
         distance = [np.linalg.norm(away(branch - guess)) for branch in branches]
         reached = [np.linalg.norm(away(branch - q)) for branch in branches]

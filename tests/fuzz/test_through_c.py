@@ -12,11 +12,12 @@ from gudgeon.generator.symbols.corners import Magnitude, Switches
 from tests.fuzz.through_c import check_syntax, library, try_files
 
 
-def test_three_hundred_files() -> None:
+@pytest.mark.parametrize("files", [120, pytest.param(300, marks=pytest.mark.slow)])
+def test_hundreds_of_files(files: int) -> None:
     """In one formulation each, in turn; some in both, with numbers, and run by every method."""
-    tally = try_files(range(300), compared=60, ran=150)
-    assert tally.counts["files"] > 250
-    assert tally.counts["with numbers"] >= 3
+    tally = try_files(range(files), compared=files // 5, ran=files // 2)
+    assert tally.counts["files"] > 0.83 * files
+    assert tally.counts["with numbers"] >= files // 100
     assert tally.counts["runs"] > 0
 
 

@@ -55,7 +55,7 @@ def test_rates_are_those_of_thirty_digits(scene: Simulation, u: float) -> None:
         assert abs(gamma[row]) == pytest.approx(abs(float(second)), rel=1e-9, abs=1e-6), name
 
 
-@pytest.mark.parametrize("formulation", ["full", "reduced"])
+@pytest.mark.parametrize("formulation", [pytest.param("full", marks=pytest.mark.slow), "reduced"])
 def test_without_freedom_the_linkage_follows(scene: Simulation, formulation: str) -> None:
     run = (scene.full if formulation == "full" else scene).simulate(10.0, output=4)
     for name, (_, form) in FORMS.items():
