@@ -102,18 +102,14 @@ class _Units:
 
     def _one(self, name: str, e: sp.Expr, found: list[_Found]) -> _Found:
         units = sorted({x for x in found if isinstance(x, Dimension)}, key=str)
-        if len(units) > 1:
-            what = "adds" if e.is_Add else f"takes {type(e).__name__} of"
-            raise LawError(
-                f"{self.whose}{name} {what} {describe(units[0])} and {describe(units[1])}: {sp.sstr(_shown(e))[:120]}",
-                hint="a number with a unit is one of the law's fields",
-            )
         bare = next((part for part, x in zip(e.args, found, strict=True) if x is _BARE and not part.is_zero), None)
-        if units and bare is not None and units[0] != DIMENSIONLESS:
+        unlike = describe(units[1]) if len(units) > 1 else ""
+        if units and bare is not None and not unlike and units[0] != DIMENSIONLESS:
+            unlike = f"{float(bare):g}, a pure number"
+        if unlike:
             what = "adds" if e.is_Add else f"takes {type(e).__name__} of"
             raise LawError(
-                f"{self.whose}{name} {what} {describe(units[0])} and {float(bare):g}, a pure number:"
-                f" {sp.sstr(_shown(e))[:120]}",
+                f"{self.whose}{name} {what} {describe(units[0])} and {unlike}: {sp.sstr(_shown(e))[:120]}",
                 hint="a number with a unit is one of the law's fields",
             )
         return units[0] if units else _ANY if _ANY in found else _BARE
