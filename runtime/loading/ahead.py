@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import tempfile
 from collections.abc import Mapping
@@ -93,7 +92,7 @@ class Ahead:
         if self._folder is None:
             with CtrlC() as ctrl_c:  # none is made that nobody knows of
                 self._folder = Path(tempfile.mkdtemp(prefix="gudgeon-"))
-                finalize(self, shutil.rmtree, self._folder, ignore_errors=True)  # where __exit__ does not come to it
+                self._clear = finalize(self, shutil.rmtree, self._folder, ignore_errors=True)  # at the latest
             ctrl_c.take()
         return self._folder / name.partition("_")[0]
 
@@ -119,6 +118,6 @@ class Ahead:
     def __exit__(self, *wrong: object) -> None:
         with CtrlC() as ctrl_c:  # a second one leaves nothing either
             self._programs.__exit__(*wrong)
-            if self._folder is not None and os.path.isdir(self._folder):
-                shutil.rmtree(self._folder, ignore_errors=True)
+            if self._folder is not None:
+                self._clear()
         ctrl_c.take()
