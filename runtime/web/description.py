@@ -1,4 +1,4 @@
-"""What simulator.js must know of a scene beside its module: names, units, numbers, in JSON and no more than it reads."""
+"""What simulator.js must know of a scene beside its module: names, units, numbers, as JSON; no more than it reads."""
 
 from __future__ import annotations
 

@@ -243,6 +243,15 @@ class Way {
         return last;
     }
 
+    /* Where the motion (0) or the works (1) are (s). */
+    reached(which) {
+        return within(this.lib, (memory) => {
+            const t = memory.numbers(2);
+            this.lib.gudgeon_course_pace(this.course, t, memory.numbers(1), memory.bytes(8));
+            return memory.view(t, 2)[which];
+        });
+    }
+
     take(rows) {
         const {memory, n} = this, of = (place, width) => memory.copy(place, rows * width);
         Object.assign(this.run, {t: this.t.slice(0, rows), q: of(this.q, n), v: of(this.v, n), a: of(this.a, n),
@@ -271,7 +280,7 @@ function* follow(sim, asked, memory, run) {
         const [worked, unknown] = way.works(first, stops ? last : moved);
         if (unknown || (failed && !stops)) {
             way.take(worked + 1);
-            throw failure(run, unknown || failed, KINEMATIC_TOLD, sim.about.start_pivots, run.t[worked]);
+            throw failure(run, unknown || failed, KINEMATIC_TOLD, sim.about.start_pivots, way.reached(unknown ? 1 : 0));
         }
         first = worked;
         yield first / samples;

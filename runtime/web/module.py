@@ -26,7 +26,7 @@ MODULE = "simulator.wasm"
 CALLED = (
     "prepare", "mass", "phi", "phi_q", "nu", "start_values", "start", "evaluate", "run_size", "run_start", "run_stop",
     "run_events", "run_impacts", "run_report", "run_sample", "method", "adaptive_setup", "adaptive_run", "rk4_run",
-    "course_size", "course_begin", "course_again", "kinematic", "kinematic_works", "kinematic_events",
+    "course_size", "course_begin", "course_again", "course_pace", "kinematic", "kinematic_works", "kinematic_events",
 )  # fmt: skip
 # No contraction to fused multiply-adds and no fast math, as of a library (loading/compiler.py). The stack is as large
 # as programs have it; zig puts it first, so that what overflows it traps instead of writing over numbers.
