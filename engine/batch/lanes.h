@@ -115,8 +115,6 @@ LANE_AFTER_LANE(exp)
 LANE_AFTER_LANE(log)
 
 /* As scene/trigonometry.h; lanes whose angle is so large that there the library is asked are marked as rare. */
-static const double TURN_LIMIT = 1e5; /* rad */
-
 static inline void sines_and_cosines(Lanes angle, Lanes *sine, Lanes *cosine, LaneBits *rare)
 {
 #define SINES_OF Lanes

@@ -4,6 +4,8 @@
 #ifndef GUDGEON_NUMBERS_H
 #define GUDGEON_NUMBERS_H
 
+#include "functions.h"
+
 #define PI 3.141592653589793
 
 /* min, max, sign that keep a NaN in x. */

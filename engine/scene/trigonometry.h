@@ -8,8 +8,6 @@
 typedef double Four __attribute__((vector_size(32)));
 typedef long long FourBits __attribute__((vector_size(32)));
 
-static const double TURN_LIMIT = 1e5; /* rad; larger angles go to the library's functions, which take all care */
-
 static void turned_by_library(const Four *angle, Four *sine, Four *cosine)
 {
     for (int k = 0; k < 4; k++) {

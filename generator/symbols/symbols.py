@@ -32,6 +32,7 @@ close_step arrive step rates worst factor_block solve_block
 Lanes LaneBits LaneParameters LaneRun LaneAside LaneLatch LanePinForce LaneClearance all_of any_of pick rare
 chain_step chain_rates chain_third chain_corners chain_directions row most bend
 finite_slope just_ahead just_behind
+sine_of cosine_of asine_of exp_of log_of power_of
 """
 _TAKEN = (NOT_IN_CODE - {"time"}).union(_WORDS.split())  # each model has a symbol of that name first: t
 

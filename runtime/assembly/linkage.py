@@ -42,14 +42,18 @@ def mechanism_size(linkage: Linkage, p: Array) -> float:
 
 def mechanism_sizes(linkage: Linkage, p: Array) -> Array:
     """The same for parameters of any number of runs: (...,) from (..., n_slots + n_derived)."""
-    source = linkage.source
-    index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
-    lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
-    index += [k for k, is_length in enumerate(lengths) if is_length]
+    index = size_places(linkage.source)
     if not index:
         return np.ones(p.shape[:-1])
     size = np.abs(p[..., index]).max(axis=-1, initial=0.0)
     return np.where(size > 0.0, size, 1.0)
+
+
+def size_places(source: KernelSource) -> list[int]:
+    """Indices into p of these coordinates and lengths."""
+    index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
+    lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
+    return index + [k for k, is_length in enumerate(lengths) if is_length]
 
 
 def angles(source: KernelSource) -> NDArray[np.bool_]:

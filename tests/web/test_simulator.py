@@ -1,0 +1,195 @@
+"""The simulator of pages beside the native one: the same C, compiled by another compiler and run by V8."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.errors import BuildError, SolverError
+from gudgeon.results.results import Result
+from gudgeon.web.module import simulator
+from gudgeon.web.page import carried
+from tests.scenes import loader
+from tests.web.node import Answer, browser, in_browser, in_node, node
+
+pytest.importorskip("ziglang", reason="the extra web is not installed: no compiler for pages")
+needs_node = pytest.mark.skipif(node() is None, reason="Node is not installed")
+
+# Runs whose numbers the native run gives too
+RUNS: dict[tuple[str, str], list[dict[str, Any]]] = {
+    ("pendulum", "ideal"): [
+        {"t_end": 2, "output": 50, "method": "dop853"}, {"t_end": 2, "output": 50, "method": "rodas5p"},
+        {"t_end": 2, "output": 50, "method": "rk4", "step": 1e-3},
+    ],
+    ("four_bar", "ideal"): [{"t_end": 1, "output": 100}],
+    ("slider_crank", "dry"): [{"t_end": 0.2, "output": 100}, {"t_end": 0.02, "output": 20, "method": "rk4"}],
+    ("nine_bar_press", "lubricated"): [
+        {"t_end": 0.02, "output": 20, "method": "dop853"}, {"t_end": 0.01, "output": 9, "step": 5e-6},
+    ],
+    ("andrews_squeezer", "ideal"): [{"t_end": 0.03, "output": 60}],
+}  # fmt: skip
+
+SOON: dict[str, Any] = {"t_end": 0.02, "output": 20, "method": "dop853"}
+WHILE: dict[str, Any] = {"t_end": 2.0, "output": 37}
+
+
+def same_bits(found: Answer, run: Result) -> bool:
+    """Whether positions, velocities, works and memories are the native run's to the last bit."""
+    pairs = {name: np.ravel(getattr(run, name)) for name in ("t", "q", "v", "work")}
+    return all(np.array_equal(found.arrays[name].view("i8"), x.view("i8")) for name, x in pairs.items())
+
+
+def check_series(found: Answer, run: Result, share: float) -> None:
+    """Each series within a share of the largest value of those with its unit; names and units are the same."""
+    assert found.units == dict(run.names)
+    largest: dict[str, float] = {}
+    for name, unit in run.names.items():
+        largest[unit] = max(largest.get(unit, 0.0), float(np.nanmax(np.abs(run[name]), initial=0.0)))
+    for name, unit in run.names.items():
+        assert np.allclose(found.series[name], run[name], rtol=0.0, atol=share * largest[unit], equal_nan=True), name
+
+
+@needs_node
+@pytest.mark.parametrize("scene", RUNS, ids="/".join)
+def test_numbers_are_those_of_the_native_run(scene: tuple[str, str], tmp_path: Path) -> None:
+    simulation = gudgeon.load(*scene)
+    native = [simulation.simulate(**options) for options in RUNS[scene]]
+    names = [{"options": options, "names": [*run.names]} for options, run in zip(RUNS[scene], native, strict=True)]
+    for found, run in zip(in_node(simulation, tmp_path, names), native, strict=True):
+        assert found.error == ""
+        assert found.counts["steps"] == run.diagnostics.steps
+        assert same_bits(found, run)
+        check_series(found, run, 1e-13)
+        assert len(found.impacts) == len(run.impacts)
+
+
+@needs_node
+def test_slopes_of_contacts_are_the_native_ones(tmp_path: Path) -> None:
+    """What implicit steps are solved with; derived here and now, with another mass."""
+    engine = gudgeon.load("slider_crank", "dry", overrides={"bodies.rod.mass": "50 g"})
+    options: dict[str, Any] = {"t_end": 0.02, "output": 20, "method": "rodas5p"}
+    (found,) = in_node(engine, tmp_path, [{"options": options}])
+    native = engine.simulate(**options)
+    assert len(native.impacts) > 3
+    assert same_bits(found, native)
+
+
+@needs_node
+def test_numbers_of_a_page_and_what_it_refuses(tmp_path: Path) -> None:
+    """A choice brings numbers of its own; conditions of the file hold; options that are none are refused."""
+    press, options = gudgeon.load("nine_bar_press", "lubricated"), SOON
+    clearance, material = "bearings.pin.clearance", "bearings.pin.bearing_material"
+    parameters: dict[str, Any] = {material: "steel_45", clearance: 4e-4}
+    wrong = {
+        f"{clearance} is -0.0001": {clearance: -1e-4}, "bearings.pon": {"bearings.pon.clearance": 1.0},
+        f"{clearance} is 1 mm: expected a number": {clearance: "1 mm"}, f"{material} is lead": {material: "lead"},
+    }  # fmt: skip
+    odd: dict[str, dict[str, Any]] = {
+        "method is": {"method": "kinematic"}, "t_end is": {"t_end": 0}, "rtol is": {"rtol": 2},
+        "output is": {"output": 0},
+    }  # fmt: skip
+    runs: list[dict[str, Any]] = [{"parameters": parameters, "options": options}]
+    runs += [{"parameters": one, "options": options} for one in wrong.values()]
+    runs += [{"options": options | one} for one in odd.values()]
+    right, *refused = in_node(press, tmp_path, runs)
+    native = press.simulate(parameters=parameters, **options)
+    assert same_bits(right, native)
+    assert not np.array_equal(native.q, press.simulate(**options).q)
+    for found, text in zip(refused, (*wrong, *odd), strict=True):
+        assert text in found.error
+
+
+@needs_node
+def test_a_start_that_only_python_finds_holds_while_nothing_moves_it(tmp_path: Path) -> None:
+    """The pendulum's: gravity leaves it, another length does not."""
+    pendulum, options = gudgeon.load("pendulum"), WHILE
+    weaker, longer = in_node(pendulum, tmp_path, [
+        {"parameters": {"g": 1.62}, "options": options}, {"parameters": {"length": 2.0}, "options": options},
+    ])  # fmt: skip
+    assert same_bits(weaker, pendulum.simulate(parameters={"g": 1.62}, **options))
+    assert "Python only" in longer.error
+
+
+BODY = "mass: .1 kg, inertia: 1e-4 kg*m^2"
+SWING = f"""
+bodies: {{bob: {{length: 1 m, {BODY}}}}}
+ground: {{O: [0, 0]}}
+gravity: [0, -9.81 m/s^2]
+joints: {{O: {{revolute: [ground.O, bob.tail]}}}}
+start: {{set: {{bob.theta: -10 deg}}}}
+events:
+  below: {{zero: bob.theta + 45 deg, direction: falling}}
+  side: {{zero: bob.theta + 150 deg, direction: falling, action: stop}}
+"""
+CRANK = f"""
+bodies:
+  crank: {{length: 100 mm, {BODY}}}
+  rod: {{length: 80 mm, {BODY}}}
+  block: {{{BODY}}}
+ground: {{O: [0, 0], G: [0, 0]}}
+joints:
+  O: {{revolute: [ground.O, crank.tail]}}
+  A: {{revolute: [crank.head, rod.tail]}}
+  B: {{revolute: [rod.head, block.origin]}}
+  guide: {{translational: [ground.G, block.origin], axis: [1, 0]}}
+drives: {{turn: {{angle: crank, value: -40 deg + 2 rad/s * t}}}}
+start: {{guess: {{rod.theta: 30 deg}}}}
+events:
+  through: {{zero: crank.theta}}
+  half: {{zero: crank.theta - 30 deg}}
+scenes:
+  stopped: {{events: {{half: {{zero: crank.theta - 30 deg, action: stop}}}}}}
+"""
+
+
+@needs_node
+@pytest.mark.parametrize(("text", "scene"), [(SWING, "ideal"), (CRANK, "stopped")])
+def test_events_are_noted_and_end_a_run(text: str, scene: str, tmp_path: Path) -> None:
+    simulation = loader(tmp_path)(text, scene)
+    native = simulation.simulate(**WHILE)
+    (found,) = in_node(simulation, tmp_path, [{"options": WHILE, "slices": True}])
+    names = [event.name for event in simulation.source.events]
+    assert native.t[-1] < 2.0
+    assert same_bits(found, native)
+    assert [(one["name"], one["t"]) for one in found.events] == [(names[k], t) for k, t in native.events.tolist()]
+    assert len(native.events) == 2
+    assert list(found.shares) == sorted(found.shares)
+
+
+@needs_node
+def test_a_run_that_fails_gives_what_it_has(tmp_path: Path) -> None:
+    """The rod is too short to let the crank turn on."""
+    simulation = loader(tmp_path)(CRANK)
+    with pytest.raises(SolverError) as caught:
+        simulation.simulate(**WHILE)
+    (found,) = in_node(simulation, tmp_path, [{"options": WHILE}])
+    told, _, t = found.error.removesuffix(" s").partition(": t = ")
+    assert "singular" in told or "cannot follow" in told
+    assert float(t) == caught.value.time
+    assert same_bits(found, caught.value.partial)
+
+
+@pytest.mark.skipif(browser() is None, reason="no Chromium is installed")
+def test_a_page_opened_from_disk_computes_the_same(tmp_path: Path) -> None:
+    """One file, all in it; within the 400 kB that a page may have."""
+    press = gudgeon.load("nine_bar_press", "lubricated")
+    (found,) = in_browser(press, tmp_path, [{"options": SOON}])
+    assert same_bits(found, press.simulate(**SOON))
+    assert (tmp_path / "page.html").stat().st_size < 400_000
+
+
+def test_without_its_compiler_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "ziglang", None)
+    with pytest.raises(BuildError, match=r"pip install 'gudgeon\[web\]'"):
+        simulator(gudgeon.load("pendulum").source)
+
+
+def test_nothing_of_a_file_ends_the_element_that_carries_it(tmp_path: Path) -> None:
+    text = "title: </script><script>alert(1)</script>\n" + SWING
+    told = carried(loader(tmp_path)(text).compiled)
+    assert told.count("</script>") == 3 and "alert(1)<" not in told
