@@ -201,8 +201,10 @@ static int event_of_step(Run *run, double t_end, const Parameters *p, Step *step
     *share = first_event(run, step, p, event);
 #if PERIODS
     for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && 1.1 * *share < 1.0 && run->fixed <= 0.0; k++) {
-        const double next = run->h;
-        run->h = 1.1 * *share * step->h;
+        const double next = run->h, h = 1.1 * *share * step->h;
+        if (h <= run->tick)
+            break; /* it lies at the step's beginning, where no row is another one */
+        run->h = h;
         status = accepted_step(run, t_end, p, step);
         run->h = next;
         if (!status)

@@ -16,7 +16,8 @@ enum {
     N_START_ROWS = N_ALL_ROWS + (N_SET > N_RATES ? N_SET : N_RATES),
     N_NORMAL = N_START_ROWS > N_Q ? N_START_ROWS : N_Q, MAX_CLOSING = 60
 };
-#define FAR 0.5 /* rad: where a guessed angle turns further, a nearer configuration is sought (closure.py) */
+#define FAR 0.5   /* rad: where a guessed angle turns further, a nearer configuration is sought (closure.py) */
+#define APART 0.2 /* the same of a guessed place, as a share of the size (followed.py) */
 
 /* Rows of the linearized system with what each must still give, columns over their weights; a normal matrix. */
 typedef struct {
@@ -264,9 +265,11 @@ int close_start(double t, const double *parameters, double size, double *q, doub
     w->size = size;
     w->asked = asked;
     int status = first_guess(w, t, p, q) || close_rows(w, t, p, q);
-    for (int i = 0; i < N_GUESS; i++) /* far from the guess: another branch may be nearer */
-        if (guess_place[i] % 3 == 2 && !(fabs(q[guess_place[i]] - w->placed[guess_place[i]]) < FAR))
-            status = 1;
+    for (int i = 0; i < N_GUESS; i++) { /* far from the guess: another branch may be nearer */
+        const int k = guess_place[i];
+        const double may = k % 3 == 2 ? FAR : APART * max_of(size, fabs(w->placed[k]));
+        status |= !(fabs(q[k] - w->placed[k]) < may);
+    }
     for (int k = 0; k < N_Q; k++)
         if (k % 3 != 2 && !(fabs(q[k]) < 1e3 * w->reach))
             status = 1;

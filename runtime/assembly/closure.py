@@ -10,13 +10,14 @@ from collections.abc import Callable, Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.assembly.followed import APART
 from gudgeon.assembly.large import LARGE, nearest_step, smallest
 from gudgeon.assembly.linkage import Linkage, angles, mechanism_size, place_of
 from gudgeon.contract.kernel_source import PointInfo
 from gudgeon.model.compiled import Array
 
 MAX_STEPS = 60
-FAR = 0.5  # rad: where a guessed angle turns further, a nearer configuration is sought
+FAR = 0.5  # rad: where a guessed angle turns further, or a place lies APART, a nearer configuration is sought
 TRIES, MANY, MORE = 24, 60, 5  # from as many other angles; fewer with more coordinates than these; so many times again
 AWAY = 1e3  # of how far drives and the start ask for: a body so far from the origin is lost
 CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly,
@@ -106,14 +107,14 @@ class Closure:
         """
         guess = self.first_guess()
         first = self.newton(guess)
-        if self.is_closed(first) and self._turned(first, guess) < FAR and self.is_near(first) and not self.points:
+        if self.is_closed(first) and self._strayed(first, guess) < 1.0 and self.is_near(first) and not self.points:
             return first, True
         found = [first]
         for spread in (1.0, np.pi) if self.guess else (np.pi,):
             found += [self.newton(other) for other in self._others(guess, spread)]
             near = [q for q in found if self.is_near(q)]
             closed = [self.unwound(q, guess) for q in near if self.is_closed(q)]
-            if closed and self._turned(best := min(closed, key=lambda q: self.distance(q, guess)), guess) < FAR:
+            if closed and self._strayed(best := min(closed, key=lambda q: self.distance(q, guess)), guess) < 1.0:
                 return best, True
         if closed:  # none so near as one may be: looked for longer
             found = [self.newton(other) for seed in range(1, MORE) for other in self._others(guess, 1.0, seed)]
@@ -187,10 +188,10 @@ class Closure:
         """Not run off to where parallel lines meet, and every row seems to close."""
         return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.reach)
 
-    def _turned(self, q: Array, guess: Array) -> float:
-        """The largest turn (rad) of a guessed angle."""
-        held = self.is_angle & (self.weight == GUESSED)
-        return float(np.abs(q - guess)[held].max(initial=0.0))
+    def _strayed(self, q: Array, guess: Array) -> float:
+        """How far the worst guessed coordinate is off, as a share of how far it may be without a further look."""
+        may = np.where(self.is_angle, FAR, APART * np.maximum(self.size, np.abs(guess)))
+        return float((np.abs(q - guess) / may)[self.guessed].max(initial=0.0))
 
     def _others(self, guess: Array, of_guessed: float, seed: int = 0) -> Iterator[Array]:
         """Coordinates around the guess, the same in every run; driven and set ones fall back into place.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gudgeon.assembly.linkage import Linkage, mechanism_size, place_of
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
 
 APART = 0.2  # rad, or share of the size: what tells two assemblies apart in a guess
@@ -34,3 +35,9 @@ def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
 def off_text(name: str, off: float) -> str:
     """How far a guess is off, for people."""
     return f"{np.degrees(abs(off)):.3g}°" if name.endswith(".theta") else f"{1e3 * abs(off):.3g} mm"
+
+
+def nearer_text(source: KernelSource) -> str:
+    """That nothing nearer was found; several guesses may contradict each other."""
+    guessed = {name if name in source.coordinates else name.rpartition(".")[0] for name in source.start_guess}
+    return f"no assembly nearer{' to all guesses together' if len(guessed) > 1 else ''} was found"

@@ -12,7 +12,7 @@ import numpy as np
 from gudgeon.assembly.branches import Assembly, find_assemblies
 from gudgeon.assembly.closure import Closure
 from gudgeon.assembly.failures import not_closed
-from gudgeon.assembly.followed import off_text, unfollowed
+from gudgeon.assembly.followed import nearer_text, off_text, unfollowed
 from gudgeon.assembly.journals import check_places
 from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
 from gudgeon.assembly.search import velocities
@@ -152,9 +152,9 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         rows = f"{closed.redundant} row{'' if closed.redundant == 1 else 's'}"
         counted = f"by counting there are {closed.gruebler} degrees of freedom, by rank {closed.freedoms}"
         yield "redundant", f"{rows} of Φ say{'s' if closed.redundant == 1 else ''} nothing new: {counted}"
-    told = dict.fromkeys((name, off) for scene in found.scenes.values() for name, off in scene.off.items())
-    for name, off in told:
-        yield "guess", f"{name} is {off_text(name, off)} from your guess: no assembly nearer was found"
+    told = {name: off for scene in found.scenes.values() for name, off in scene.off.items()}
+    for name, off in told.items():
+        yield "guess", f"{name} is {off_text(name, off)} from your guess: {nearer_text(first.linkage.source)}"
     if not closed.freedoms or mechanism.freedoms is not None:
         yield from _ambiguous(found)
 

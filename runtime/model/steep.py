@@ -12,6 +12,7 @@ from gudgeon.model.written import Values, trees, values_at
 
 _SHORT = (1e-8, 1e-10, 1e-12)  # ways over which a rise is looked at, of a size of 1
 _STEEPER, _ROUNDING = 3.0, 1e-13  # how much each shorter way is steeper at least; what is no rise
+_JUMP = 0.9  # of the rise over the longest way, that one over the shortest has where it is a jump: of that methods know
 
 
 def steep_force(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:
@@ -41,6 +42,6 @@ def _is_steep(at: Callable[[float], float], here: float) -> bool:
             return math.isfinite(value)
         slopes = [rise / way for rise, way in zip(rises, _SHORT, strict=True)]
         grows = all(later > _STEEPER * earlier for earlier, later in zip(slopes, slopes[1:], strict=False))
-        if grows and rises[-1] > _ROUNDING * abs(value):
+        if grows and _ROUNDING * abs(value) < rises[-1] < _JUMP * rises[0]:
             return True
     return False

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.assembly.followed import off_text, unfollowed
+from gudgeon.assembly.followed import nearer_text, off_text, unfollowed
 from gudgeon.assembly.journals import parting
 from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
@@ -292,6 +292,6 @@ class Simulation:
         """The start that the file describes: q, q̇, and nothing in contact."""
         assembled = assemble(self.compiled, p)
         for name, off in unfollowed(self.compiled, p, assembled.q).items():
-            told = f"{name} begins {off_text(name, off)} from its guess: no assembly nearer was found; gudgeon check"
+            told = f"{name} begins {off_text(name, off)} from its guess: {nearer_text(self.source)}; gudgeon check"
             warnings.warn(f"{told} --branches lists those that there are", stacklevel=4)
         return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)

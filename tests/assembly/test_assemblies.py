@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -179,6 +180,34 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
         gudgeon.load(file).simulate(0.1, output=1)
     close = four_bar(start=f"start: {{guess: {{coupler.theta: {angle - 45} deg}}}}")
     assert found(close).scenes["ideal"].off == {}
+
+
+@pytest.mark.parametrize(("guess", "side", "off"), [(160, 1, 0), (-74, -1, 0), (-100, -1, 25.9), (-160, -1, 85.9)])
+def test_a_guessed_place_picks_the_branch(tmp_path: Path, guess: float, side: int, off: float) -> None:
+    """x = r cos α ± √(l² − r² sin² α) of a slider-crank: the nearer of the two, told where it is far."""
+    file = tmp_path / "engine.yaml"
+    file.write_text(f"""
+format: gudgeon/1
+name: engine
+bodies: {{crank: {{length: 50 mm}}, rod: {{length: 120 mm}}, piston: {{}}}}
+ground: {{O: [0, 0]}}
+joints:
+  shaft: {{revolute: [ground.O, crank.tail]}}
+  crankpin: {{revolute: [crank.head, rod.tail]}}
+  wristpin: {{revolute: [rod.head, piston.origin]}}
+  cylinder: {{translational: [ground.O, piston.origin], axis: [1, 0]}}
+drives: {{motor: {{angle: crank, value: 30 deg + 1 rad/s * t}}}}
+start: {{guess: {{piston.x: {guess} mm}}}}
+""")
+    x = CRANK * math.cos(ALPHA) + side * math.sqrt(0.12**2 - (CRANK * math.sin(ALPHA)) ** 2)
+    engine = gudgeon.load(file)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        run = engine.simulate(0.1, output=1)
+        many = engine.simulate_many({"start.guess.piston.x": [1e-3 * guess, 0.16]}, 0.1, output=1)
+    assert run["piston.x"][0] == pytest.approx(x, abs=1e-12)
+    assert many["piston.x"][0, 0] == pytest.approx(x, abs=1e-12) and many["piston.x"][1, 0] > 0.16
+    assert ([f"piston.x begins {off} mm" in str(word.message) for word in told[:1]]) == [True] * bool(off)
 
 
 JANSEN = Path(__file__).parents[1] / "mechanisms" / "described" / "jansen_leg.yaml"

@@ -269,3 +269,18 @@ def test_a_branch_that_is_no_number_at_its_own_corner_is_named(law: str, method:
     step = 1e-2 if method == "rk4" else None
     with pytest.raises(SolverError, match=r"drives\.motor\.value \(line .* at t = 0\.3 s.*nan: 0 divided by 0"):
         linkage.simulate(0.6, method=method, step=step)
+
+
+@pytest.mark.parametrize("method", ["dop853", "rodas5p"])
+def test_an_event_where_a_step_begins(method: str, tmp_path: Path) -> None:
+    """A jump of the force and an event of the file at one place, beside mod: v² is 2 W/m more, whatever the speed."""
+    push = "where(slug.x > 0.3 m, 5 N, 1 N * mod(slug.x, 0.07 m) / (0.07 m))"
+    slug = loader(tmp_path)(SLUG % push + "events: {edge: {zero: slug.x - 0.3 m}}\n")
+    first = np.linspace(1.0, 1.5, 41)
+    batch = slug.simulate_many({"start.rates.slug.vx": first}, 0.5, output=20, method=method, rtol=1e-9)
+    x, v = batch["slug.x"], batch["slug.vx"]
+    whole, rest = np.divmod(np.minimum(x, 0.3), 0.07)
+    work = whole * 0.035 + rest**2 / 0.14 + 5.0 * np.maximum(x - 0.3, 0.0)
+    assert not batch.failures
+    np.testing.assert_allclose(v**2, first[:, None] ** 2 + 4.0 * work, rtol=1e-9)
+    assert x.min() < 0.01 and x[:, -1].min() > 0.4

@@ -30,11 +30,13 @@ static inline void in_ground_axes(const PinSlopes *F, double n_x, double n_y, do
     }
     by[0][1] -= F->value[1] * per_e;
     by[1][1] += F->value[0] * per_e;
+    /* x and y apart: gcc 12 would fuse the pair's products and sums, which is not allowed */
     for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 4; k += 2) {
+        for (int k = 0; k < 4; k += 2)
             dF[i][k] = by[i][k] * n_x - by[i][k + 1] * n_y;
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 4; k += 2)
             dF[i][k + 1] = by[i][k] * n_y + by[i][k + 1] * n_x;
-        }
     for (int k = 0; k < 6; k++) {
         const double along_n = dF[0][k], along_t = dF[1][k];
         dF[0][k] = along_n * n_x - along_t * n_y;
