@@ -23,9 +23,9 @@ _FUNCTIONS = ("sin", "cos", "tan")
 WIDE = 44  # characters of a column with running text
 
 
-def render(document: Document, suffix: str) -> str:
-    """The document in the format of a file's suffix: "tex", "txt" or "html"."""
-    text = _environment().get_template(f"equations.{suffix}.jinja").render(document=document)
+def render(document: Document, suffix: str, **slots: str) -> str:
+    """The document in the format of a file's suffix: "tex", "txt" or "html"; its frame's slots hold HTML."""
+    text = _environment().get_template(f"equations.{suffix}.jinja").render(document=document, **slots)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n") + "\n"
 
 

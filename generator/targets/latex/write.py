@@ -39,6 +39,9 @@ def equations_text(model: Model) -> str:
     return render(make_document(model), "txt")
 
 
-def equations_html(model: Model) -> str:
-    """The equations of a scene as one HTML file with MathML. Raises GudgeonError without the extra `docs`."""
-    return render(make_document(model), "html")
+def equations_html(model: Model, *, head: str = "", app: str = "", scripts: str = "") -> str:
+    """The equations of a scene as one HTML file with MathML. Raises GudgeonError without the extra `docs`.
+
+    head, app, scripts: HTML that a page which runs has more, in its head, below its title, at its end.
+    """
+    return render(make_document(model), "html", head=head, app=app, scripts=scripts)
