@@ -40,10 +40,10 @@ from gudgeon.commands.options import (
     whole,
 )
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
+from gudgeon.entry import INTERRUPTED, last_word
 from gudgeon.errors import GudgeonError, MemoryShortage
 from gudgeon.language.shown import visible
 
-INTERRUPTED = 130
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 app = typer.Typer(
@@ -76,7 +76,7 @@ def _told(command: Command) -> Command:
             complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))
             code = known.exit_code
         except KeyboardInterrupt:
-            print("interrupted", file=sys.stderr)
+            last_word()
             code = INTERRUPTED
         if code:
             raise typer.Exit(code)

@@ -14,12 +14,14 @@ import sys
 
 INTERRUPTED = 130
 ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
+_whole: list[bool] = []  # not empty where the process is this command and nothing else
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
 def main() -> None:
     """The entry point of the command `gudgeon`."""
     _streams()
+    _whole.append(True)
     ended: list[int] = []
 
     def terminate(number: int, _: object) -> None:
@@ -44,7 +46,7 @@ def _run() -> None:
         finally:
             sys.stdout.flush()
     except KeyboardInterrupt:
-        print("interrupted", file=sys.stderr)
+        last_word()
         sys.exit(INTERRUPTED)
     except OSError as error:
         if error.filename is not None or error.errno not in (*FULL, errno.EPIPE):
@@ -53,6 +55,13 @@ def _run() -> None:
         if error.errno != errno.EPIPE:  # a reader that has enough needs no word
             print(f"error: cannot write standard output: {error.strerror}", file=sys.stderr)
         sys.exit(1)
+
+
+def last_word() -> None:
+    """That it was interrupted; a second Ctrl-C would find nothing but the end, and make another one of it."""
+    if _whole:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    print("interrupted", file=sys.stderr)
 
 
 def _streams() -> None:

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 from gudgeon.errors import InputErrors, MissingKeyError
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.mechanism.mechanism import Mechanism
+from gudgeon.generator.mechanism.mechanism import Body, Mechanism
 
 
 def refuse_massless(model: Model) -> None:
-    """Raise a MissingKeyError for each body without mass or inertia, where the motion depends on them."""
+    """Raise a MissingKeyError for bodies without mass or inertia, where the motion depends on them."""
     if asks := _asks(model):
         errors = list(lacking(model.scene.mechanism, f"scene {model.scene.name} {asks}"))
         if len(errors) == 1:
@@ -31,13 +31,17 @@ def _asks(model: Model) -> str:
 
 
 def lacking(mechanism: Mechanism, asks: str) -> Iterator[MissingKeyError]:
-    """An error for each body that lacks mass or inertia, at its place; `asks` says who needs them."""
+    """An error for the bodies that lack mass, inertia or both, at the first one; `asks` says who needs them."""
+    alike: dict[tuple[str, ...], list[Body]] = {}
     for body in mechanism.bodies.values():
         if body.lacks:
-            hint = (
-                f"expected {' and '.join(f'{key}:' for key in body.lacks)} of {body.name}, or a shape: with a density;"
-                " only where drives determine every motion, without play, none is needed"
-            )
-            yield MissingKeyError(
-                f"body {body.name} has no {' and no '.join(body.lacks)}, and {asks}", body.where, hint
-            )
+            alike.setdefault(tuple(body.lacks), []).append(body)
+    for lacks, bodies in alike.items():
+        whose = bodies[0].name if len(bodies) == 1 else "each"
+        hint = (
+            f"expected {' and '.join(f'{key}:' for key in lacks)} of {whose}, or a shape: with a density;"
+            " only where drives determine every motion, without play, none is needed"
+        )
+        names = ", ".join([bodies[0].name, *(f"{body.name} (line {body.where.line})" for body in bodies[1:])])
+        who = f"body {names} has" if len(bodies) == 1 else f"bodies {names} have"
+        yield MissingKeyError(f"{who} no {' and no '.join(lacks)}, and {asks}", bodies[0].where, hint)

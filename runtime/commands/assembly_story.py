@@ -215,10 +215,12 @@ def branches(found: Findings) -> Iterator[str]:
     if not found.assemblies:
         return
     count = len(found.assemblies)
-    yield f"{count} assembl{'y' if count == 1 else 'ies'} found at the start; what picks each, in start: {{guess: …}}"
+    yield f"{count} assembl{'y' if count == 1 else 'ies'} found at the start; what picks each, as start: {{guess: …}}"
     for number, one in enumerate(found.assemblies, 1):
         here = "  as the file has it" if one.is_start else ""
         yield f"  {number}  {guess_text(one)}{here}"
+    if any(one.guess for one in found.assemblies):
+        yield "     each in place of the guess that the file has: beside it, both would be followed"
 
 
 def guess_text(one: Assembly) -> str:

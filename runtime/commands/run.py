@@ -285,5 +285,5 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
             console.print(table)
         for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
             console.print(f"note: {visible(note)}")
-        print("".join(f"wrote {path}\n" for path in session.files.values()), end="")
+        print("".join(f"wrote {visible(path)}\n" for path in session.files.values()), end="")
     session.shown = True

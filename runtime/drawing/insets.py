@@ -12,6 +12,7 @@ from gudgeon.drawing.shapes import Disc, Label, Line, Shape
 from gudgeon.language.plot_units import scale
 from gudgeon.model.compiled import Array
 
+DASHED = " (dashed: as far as the journal's centre may go)"
 RADIUS, JOURNAL = 5.0, 0.4  # of an inset's hole in units, and of the journal as a share of that
 
 
@@ -56,4 +57,4 @@ def insets(
         factor, text = scale(c, "m")
         told = f"{joint} ×{times:g}, e/c = {float(np.hypot(*e)) / c:.2f}"
         label = Label(part, "inset", told, centre - [0.0, 1.2 * hole], 0.0, 270.0)
-        yield shapes, label, f"{joint}: clearance {c * factor:.4g} {text}, drawn ×{times:g}"
+        yield shapes, label, f"{joint}: clearance {c * factor:.4g} {text}, drawn ×{times:g}{DASHED if k == 0 else ''}"

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import io
+import re
 import textwrap
+import warnings
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import matplotlib
@@ -24,6 +27,7 @@ APART = 0.3  # inches between pictures side by side
 PER_INCH = 12.0  # characters of a caption
 FEW = 28  # names that fit in the larger type
 STYLE = {"font.size": 9, "text.usetex": False, "svg.hashsalt": "gudgeon", "path.sketch": None}
+_LACKS = re.compile(r"Glyph (\d+) .*missing from font")
 
 
 def draw_on(ax: Axes, sketch: Sketch, faint: bool = False) -> None:
@@ -96,12 +100,28 @@ def figure_of(sketches: Sequence[Sketch], titles: Sequence[str], caption: str) -
     return picture
 
 
+@contextmanager
+def one_word_on_signs() -> Iterator[None]:
+    """Signs that the font lacks are told once for a picture, and not one by one for each time it is laid out."""
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        yield
+    lacking = dict.fromkeys(found[1] for w in told if (found := _LACKS.match(str(w.message))))
+    for w in told:
+        if not _LACKS.match(str(w.message)):
+            warnings.warn_explicit(w.message, w.category, w.filename, w.lineno)
+    if lacking:
+        signs = "".join(chr(int(sign)) for sign in lacking)
+        hint = "matplotlib.rcParams['font.family'] names another"
+        warnings.warn(f"the font has no sign for {signs}: {hint}", stacklevel=4)
+
+
 def as_bytes(picture: Figure, suffix: str, dpi: int = 120) -> bytes:
     """An SVG, PNG or PDF without date or version: the same picture gives the same bytes."""
     out = io.BytesIO()
     kind = suffix.removeprefix(".")
     metadata = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None},
                 "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}[kind]  # fmt: skip
-    with matplotlib.rc_context(STYLE):
+    with matplotlib.rc_context(STYLE), one_word_on_signs():
         picture.savefig(out, format=kind, metadata=metadata, dpi=dpi)
     return out.getvalue()

@@ -95,7 +95,8 @@ def _converted(
     if given.dtype.kind == "O":
         given = _of_objects(given, name)
     if given.dtype.kind not in "biuf":
-        _refuse(name, f"holds {given.dtype.name if given.ndim else repr(values)[:60]}")
+        kind = {"U": "text", "S": "bytes"}.get(given.dtype.kind, given.dtype.name)
+        _refuse(name, f"holds {kind if given.ndim else repr(values)[:60]}")
     if shape is not None:
         _check_shape(given, name, shape)
     array: NDArray[Any] = np.array(given, dtype, order="C") if own else np.asarray(given, dtype, order="C")

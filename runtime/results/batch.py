@@ -178,15 +178,16 @@ class Batch:
         """The same of the series less that of another scene: see Result.peak_error."""
         return of_runs(self.source, self.extremes, name, True)
 
-    def to_xarray(self, names: Iterable[str] = (), part: str = "series") -> xarray.Dataset:
+    def to_xarray(self, names: Iterable[str] | str = (), part: str = "series") -> xarray.Dataset:
         """A Dataset over `run` and `time`, every series by its name in a Result, those of `names` too.
 
         Runs with times of their own have them as `t` over both; `time` then only counts. Over `run` alone: samples,
         ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks; those over all steps as "S9.ay.peak.max",
         "S9.ay.error.max".
         `.to_dataframe()` has a row for each run and time. part: "impacts", "events" and what else a Result has as a
-        table of its own: a row each, with its `run`.
+        table of its own: a row each, with its `run`; a text alone names such a part, as it does of a Result.
         """
+        names, part = ((), names) if isinstance(names, str) else (names, part)
         try:
             import xarray
         except ModuleNotFoundError as error:

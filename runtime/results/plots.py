@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon.drawing.picture import one_word_on_signs
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import drawn, label, scale
@@ -116,7 +117,8 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
     shown = played or dict(runs)
     colours = dict(zip(shown, cycle(len(shown)) if played else [IDEAL, *cycle(len(shown) - 1)], strict=True))
     joints = list(dict.fromkeys(joint.name for run in played.values() for joint in run.source.clearances))[:4]
-    watch = list(watch)[:2]
+    followed = {name for one in watch for name in rates(one)}  # shown below what they are rates of
+    watch = [name for name in dict.fromkeys(watch) if name not in followed][:2]
     with matplotlib.rc_context(STYLE):
         picture = Figure(figsize=(12, 9), dpi=100)
         picture.set_layout_engine("constrained", w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)
@@ -270,7 +272,8 @@ def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
     path, drawn = Path(path), io.BytesIO()
     suffix = path.suffix.lower().removeprefix(".") or None
     try:
-        picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
+        with one_word_on_signs():
+            picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
     except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest one
         raise GudgeonError(f"no picture {path}: its numbers cannot be drawn ({error})\n  watch others") from error
     write_bytes(path, drawn.getvalue())

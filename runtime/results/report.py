@@ -60,7 +60,8 @@ def default_watch(reference: Result) -> tuple[str, ...]:
 
 def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> SceneReport:
     """The figures of one run; `reference` is the ideal run at the same times, None for the ideal run itself."""
-    series = [name for watched in watch for name in (watched, *rates(watched)) if name and name in run]
+    wanted = dict.fromkeys(name for watched in watch for name in (watched, *rates(watched)) if name)
+    series = [name for name in wanted if name in run]
     motion = tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in series)
     errors: tuple[Extreme, ...] = ()
     if reference is not None:
@@ -89,6 +90,9 @@ def _scales(run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequ
     for unit, size in sizes:
         if math.isfinite(size):
             found[unit] = max(size, found.get(unit, 0.0))
+    for of_place, of_angle in zip(*MOTION_UNITS[::2], strict=True):  # where nothing turns: what turned as far would
+        if extent := found.get("m", 0.0):
+            found[of_angle] = max(found.get(of_angle, 0.0), found.get(of_place, 0.0) / extent)
     return found
 
 
@@ -227,7 +231,8 @@ def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
 
 def _drive_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     found = [{e.name: _at(e.peak, e.unit, e.t, report.scales) for e in report.drives} for report in reports]
-    names = dict.fromkeys(e.name for report in reports for e in report.drives)
+    known = {x.name for report in reports for x in report.diagnostics.extremes}  # over all steps, which is more
+    names = dict.fromkeys(e.name for report in reports for e in report.drives if e.name not in known)
     return [(name, [cells.get(name, "–") for cells in found]) for name in names]
 
 
