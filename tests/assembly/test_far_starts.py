@@ -53,3 +53,29 @@ def test_what_cannot_be_met_far_away_is_told(tmp_path: Path) -> None:
     ask = 'drives: {push: {coordinate: cart.x, value: "1000 m"}}\nstart: {set: {cart.x: 999 m}}'
     with pytest.raises(AssemblyError, match=r"cannot be assembled: rows set cart.x .500 mm., push .-500 mm, line 11."):
         loader(tmp_path)(CART.format(bob="", pin="", ask=ask)).start()
+
+
+ENGINE = """
+bodies:
+  crank: {{length: 0.05 m, mass: {mass} kg, inertia: 1e-4 kg*m^2}}
+  rod: {{length: 0.12 m, mass: 0.2 kg, inertia: 1e-4 kg*m^2}}
+  piston: {{mass: 0.1 kg, inertia: 1e-4 kg*m^2}}
+ground: {{O: [0, 0]}}
+joints:
+  shaft: {{revolute: [ground.O, crank.tail]}}
+  crankpin: {{revolute: [crank.head, rod.tail]}}
+  wristpin: {{revolute: [rod.head, piston.origin]}}
+  cylinder: {{translational: [ground.O, piston.origin], axis: [1, 0]}}
+drives: {{motor: {{angle: crank, value: 30 deg + 10 rad/s * t}}}}
+start: {{guess: {{piston.x: 0.16 m}}}}
+"""
+
+
+def test_masses_that_no_double_holds_together_are_told(tmp_path: Path) -> None:
+    """Velocities at the start are those of least energy: with 1e20 kg beside 0.1 a dead centre was told of a drive."""
+    angle, r, rod = np.pi / 6, 0.05, 0.12
+    speed = -10.0 * r * np.sin(angle) * (1.0 + r * np.cos(angle) / np.sqrt(rod**2 - (r * np.sin(angle)) ** 2))
+    heavy = loader(tmp_path)(ENGINE.format(mass=1e10))
+    assert heavy.start().v[6] == pytest.approx(speed, rel=1e-9)
+    with pytest.raises(AssemblyError, match=r"the masses of crank \(1e\+20 kg\) and piston \(0.1 kg\) are too far"):
+        loader(tmp_path)(ENGINE.format(mass=1e20)).start()

@@ -20,6 +20,7 @@ pytest.importorskip("matplotlib")
 from gudgeon.errors import GudgeonError  # noqa: E402
 from gudgeon.language.plot_units import PREFIXES, pretty, quantity, scale  # noqa: E402
 from gudgeon.results import plots  # noqa: E402
+from gudgeon.results.report import compare  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
 
@@ -215,3 +216,26 @@ def test_ten_scenes_are_told_apart(make: Callable[..., Result]) -> None:
     for part in picture.subfigs:
         for ax in part.axes:
             assert not legend.overlaps(ax.get_tightbbox())
+
+
+def test_a_rate_that_is_watched_too_is_shown_once(run: Result, ideal: Result) -> None:
+    found = labels(plots.figure({"ideal": ideal, "dry": run}, ideal, ["S9.y", "S9.vy", "S9.y"]))
+    shown = [name.removeprefix("error of S9.") for name in found if "S9." in name]
+    assert shown == ["y [mm]", "vy [mm/s]", "ay [m/s²]"]
+    names = [extreme.name for extreme in compare(run, ideal, ("S9.y", "S9.vy")).motion]
+    assert names == ["S9.y", "S9.vy", "S9.ay"]
+
+
+def test_what_turns_by_rounding_alone_is_noise_where_nothing_turns(ideal: Result) -> None:
+    """Beside speeds v over an extent r, what turned as far would have ω = v/r; 1e-9 of it is none."""
+    report = compare(ideal, None, ("S9.y",))
+    extent = report.scales["m"]
+    assert report.scales["rad/s"] >= report.scales["m/s"] / extent and report.scales["rad"] >= 1.0
+    assert extent == max(np.abs(ideal.q[:, k]).max() for k in range(ideal.q.shape[1]) if k % 3 < 2)
+
+
+def test_signs_without_a_font_are_told_once(ideal: Result, tmp_path: Path) -> None:
+    named = replace(ideal, source=replace(ideal.source, title="機構"), stored={})
+    with pytest.warns(UserWarning) as told:
+        plots.save_figure(plots.figure({"機": named}, named, ["S9.y"]), tmp_path / "x.png")
+    assert len(told) == 1 and "機" in str(told[0].message)
