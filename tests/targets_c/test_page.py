@@ -28,7 +28,6 @@ SHIPPED = Path(str(resources.files("gudgeon.mechanisms")))
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
 FILES = {path.stem: path for folder in (VALID, SHIPPED) for path in sorted(folder.glob("*.yaml"))}
 SCENES = [(name, scene) for name, path in FILES.items() for scene in read_mechanism(path.read_bytes(), name).scenes]
-every_scene = pytest.mark.parametrize(("name", "scene"), SCENES)
 
 KERNELS = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "newton.c", "lanes.c")
 # What a reader stumbles over; in every file, or in what is printed from equations.
@@ -62,14 +61,22 @@ def c_files(name: str, scene: str) -> dict[str, str]:
     return {file: text for file, text in emitted(name, scene).files.items() if file.endswith((".c", ".h"))}
 
 
-@every_scene
-def test_no_line_is_too_long(name: str, scene: str) -> None:
+@pytest.mark.parametrize(("name", "scene"), SCENES)
+def test_every_scene(name: str, scene: str) -> None:
+    """Each is printed once, and looked at for all."""
+    no_line_is_too_long(name, scene)
+    no_blemish(name, scene)
+    each_number_has_a_line_that_says_what_it_is(name, scene)
+    a_law_stands_once(name, scene)
+    readme_names_every_file(name, scene)
+
+
+def no_line_is_too_long(name: str, scene: str) -> None:
     for file, text in c_files(name, scene).items():
         assert [line for line in text.split("\n") if len(line) > WIDTH] == [], file
 
 
-@every_scene
-def test_no_blemish(name: str, scene: str) -> None:
+def no_blemish(name: str, scene: str) -> None:
     for file, text in c_files(name, scene).items():
         bare = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
         for blemish, pattern in (ANYWHERE | (IN_KERNELS if file in KERNELS else {})).items():
@@ -77,8 +84,7 @@ def test_no_blemish(name: str, scene: str) -> None:
             assert found is None, f"{file}: {blemish}: {found[0]}"
 
 
-@every_scene
-def test_each_number_has_a_line_that_says_what_it_is(name: str, scene: str) -> None:
+def each_number_has_a_line_that_says_what_it_is(name: str, scene: str) -> None:
     source = emitted(name, scene)
     struct = re.search(r"struct Parameters \{\n([^}]*)\};", source.files["model.h"])
     assert struct
@@ -155,8 +161,7 @@ def test_a_function_of_nothing_says_so(scene: str) -> None:
     assert not re.search(r"\(void\)\w+;\n *\(void\)", text)
 
 
-@every_scene
-def test_a_law_stands_once(name: str, scene: str) -> None:
+def a_law_stands_once(name: str, scene: str) -> None:
     """What joints differ in are its numbers: no function of a law has a joint's name."""
     source = emitted(name, scene)
     for file in ("clearance.c", "newton.c", "lanes.c"):
@@ -210,8 +215,7 @@ def test_laws_of_other_options_are_other_functions() -> None:
     assert "void pinkus_sternlicht_shear_relative(" in shear and "void pinkus_sternlicht_relative(" in plain
 
 
-@every_scene
-def test_readme_names_every_file(name: str, scene: str) -> None:
+def readme_names_every_file(name: str, scene: str) -> None:
     source = emitted(name, scene)
     text = source.files["README.md"]
     told = re.findall(r"^- `([\w.]+)`: \S.*$", text, flags=re.M)
