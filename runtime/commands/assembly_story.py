@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.branches import Assembly, find_assemblies
+from gudgeon.assembly.branches import Assembly, find_assemblies, guesses_apart
 from gudgeon.assembly.closure import Closure
 from gudgeon.assembly.failures import not_closed
 from gudgeon.assembly.followed import nearer_text, off_text, unfollowed
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 LARGEST = 50.0  # m: machines that are larger are rare, and bare numbers meant in mm are not
 QUICK = 45  # coordinates up to which assemblies are looked for unasked
-ALIKE = math.radians(5.0)  # rad: guesses that two assemblies follow as well as that do not tell them apart
+ALIKE = math.radians(5.0)  # rad, or share of the size: guesses that two assemblies follow so nearly alike pick neither
 
 
 @dataclass(frozen=True)
@@ -56,16 +56,8 @@ class Findings:
         if first is None or not self.assemblies:
             return []
         closure = Closure(first.linkage, first.linkage.p, 0.0)
-        guessed = [k for k in closure.guessed if closure.is_angle[k]]
-        if closure.points:
-            return []
         start = self.assemblies[0].q
-        return [a for a in self.assemblies[1:] if np.abs(turned(a.q - start)[guessed]).max(initial=0.0) < ALIKE]
-
-
-def turned(away: Array) -> Array:
-    """A difference of angles within half a turn."""
-    return np.asarray((away + np.pi) % (2.0 * np.pi) - np.pi)
+        return [a for a in self.assemblies[1:] if guesses_apart(closure, a.q, start) < ALIKE]
 
 
 def assemble_scenes(

@@ -210,6 +210,28 @@ start: {{guess: {{piston.x: {guess} mm}}}}
     assert ([f"piston.x begins {off} mm" in str(word.message) for word in told[:1]]) == [True] * bool(off)
 
 
+@pytest.mark.parametrize(
+    ("guess", "alike"), [("piston.x: 160 mm", False), ("piston.x: -74 mm", False), ("crank.head: [43 mm, 25 mm]", True)]
+)
+def test_guesses_that_tell_assemblies_apart(tmp_path: Path, guess: str, alike: bool) -> None:
+    """The piston stands at 160.7 or -74.1 mm: its place tells them apart, that of the driven crank does not."""
+    text = f"""
+format: gudgeon/1
+name: engine
+bodies: {{crank: {{length: 50 mm}}, rod: {{length: 120 mm}}, piston: {{}}}}
+ground: {{O: [0, 0]}}
+joints:
+  shaft: {{revolute: [ground.O, crank.tail]}}
+  crankpin: {{revolute: [crank.head, rod.tail]}}
+  wristpin: {{revolute: [rod.head, piston.origin]}}
+  cylinder: {{translational: [ground.O, piston.origin], axis: [1, 0]}}
+drives: {{motor: {{angle: crank, value: 30 deg + 1 rad/s * t}}}}
+start: {{guess: {{{guess}}}}}
+"""
+    told = found(text.encode(), branches=True)
+    assert len(told.assemblies) == 2 and len(told.alike) == alike
+
+
 JANSEN = Path(__file__).parents[1] / "mechanisms" / "described" / "jansen_leg.yaml"
 
 
