@@ -24,8 +24,6 @@ from tests.pump import TEXT, Gudgeon, needs_compiler, written
 
 CHECKED = """\
 valid: 3 bodies, 4 joints, 1 drive; scenes ideal, worn; degrees of freedom 0 (ideal), 2 (worn)
-  assemblies: 2 fit the start's guesses alike: guess rod.theta too, -4.905 deg as it is taken now or
-              -175.1 deg; --branches lists all
 """
 
 
