@@ -107,35 +107,44 @@ static int change_drives(Run *run, int corner, const Parameters *p)
     status = settle_beyond(run, ahead, corner, p); /* those of speeds, which are others now */
     if (!status)
         status = rates(run, t, run->y, p, run->dy, &run->aside);
-    return status ? status : note_leaps(run, t, p);
+    return status ? status : note_leaps(run, NULL, p);
 }
 
 #endif
-/* At an event: everything whose margin is used up changes, then the right-hand side is that of what follows. */
+/* The side of a corner, and what the other one moves at once. */
+static int change_side(Run *run, int corner, const Parameters *p)
+{
+    pace_corner(run, corner);
+#if N_CORNERS
+    return change_drives(run, corner, p);
+#else
+    pass_impulse(run, p);
+    return settle_sides(run, corner, p);
+#endif
+}
+
+/*
+ * At an event: everything whose margin is used up changes, then the right-hand side is that of what follows. Where
+ * that leads other user events across their zeros, these happen too: a step looks from where it begins.
+ */
 static int change(Run *run, int event, const Parameters *p)
 {
+    double before[AT_LEAST_ONE(N_USER_EVENTS)];
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        before[i] = run->aside.event[i];
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
         if (k == event || (k < N_CLEARANCES && margin(&run->memory, &run->aside, k) < shallow(p, k)))
             cross(run, k, p);
-    const int corner = event - N_CLEARANCES;
-    const int is_corner = corner >= 0 && corner < N_SWITCHES;
-    if (is_corner) {
-        pace_corner(run, corner);
-#if N_CORNERS
-        return change_drives(run, corner, p);
-#else
-        pass_impulse(run, p);
-#endif
-    }
-    int status = settle_sides(run, is_corner ? corner : -1, p);
-    const int friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
+    const int corner = event - N_CLEARANCES, friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
+    int status = corner >= 0 && friction < 0 ? change_side(run, corner, p) : settle_sides(run, -1, p);
     if (!status && friction >= 0 && user_event < 0)
         status = switch_friction(run, p);
     if (!status && user_event >= 0
         && event_crosses(user_event, &run->memory.event_side[user_event], run->aside.event[user_event])
         && !run->pole && note_event(run, user_event, run->t, run->y, p))
         status = ENDED;
-    return status;
+    const int ended = !status || status == ENDED ? note_leaps(run, before, p) : 0;
+    return ended ? ended : status;
 }
 
 #if N_CORNERS
@@ -158,7 +167,7 @@ static int pass_jumps_here(Run *run, const Parameters *p)
     status = settle_beyond(run, ahead_of(run->t), -1, p);
     if (!status)
         status = rates(run, run->t, run->y, p, run->dy, &run->aside);
-    return status ? status : note_leaps(run, run->t, p);
+    return status ? status : note_leaps(run, NULL, p);
 }
 
 #endif

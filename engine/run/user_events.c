@@ -32,6 +32,21 @@ static void note_no_number(Run *run, int i, double t)
     run->no_number[i] = 1;
 }
 
+/*
+ * User events that something sudden led across their zeros, from what they were `before` (NULL: wherever they were);
+ * whether one of them ends the run.
+ */
+static int note_leaps(Run *run, const double *before, const Parameters *p)
+{
+    int status = 0;
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        if ((!before || !(before[i] * run->aside.event[i] > 0.0))
+            && event_crosses(i, &run->memory.event_side[i], run->aside.event[i])
+            && note_event(run, i, run->t, run->y, p))
+            status = ENDED;
+    return status;
+}
+
 #if N_USER_EVENTS
 /*
  * Events whose zero is the end of the run: those that are zero there, or beyond it at once, as far as times are

@@ -93,17 +93,6 @@ static int next_jump(double a, double t_end, const Parameters *p, double *before
     return 0;
 }
 
-/* User events that an impulse led across their zeros; whether one of them ends the run. */
-static int note_leaps(Run *run, double t, const Parameters *p)
-{
-    int status = 0;
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        if (event_crosses(i, &run->memory.event_side[i], run->aside.event[i]) 
-            && note_event(run, i, t, run->y, p))
-            status = ENDED;
-    return status;
-}
-
 /* A run; one that starts at a jump, or right before it, beyond: on the rows that hold there, without work. */
 static int begin_run(Run *run, const Parameters *p)
 {

@@ -130,3 +130,49 @@ def test_period_of_a_pendulum(folder: Path, method: str, step: float | None, rto
     np.testing.assert_allclose(run.events_of("below"), [0.5, 1.5, 2.5], rtol=0, atol=1e-8)
     np.testing.assert_allclose(run.t, [0.0, 1.0, 2.0, 2.75], rtol=0, atol=1e-12)
     assert run.events_of("third") == [run.t[-1]]
+
+
+WHEEL = """
+format: gudgeon/1
+name: wheel
+parameters: {P: 1 rad, c: 0 rad, l: 0.5 rad, T: 0.3 s, s: 0.1 s}
+bodies: {wheel: {mass: 1 kg, inertia: 1 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {hub: {revolute: [ground.O, wheel.com]}}
+freedoms: 1
+start: {rates: {wheel.omega: 5 rad/s}}
+events:
+  both: {zero: "mod(wheel.theta - c, P) - l"}
+  rising: {zero: "mod(wheel.theta - c, P) - l", direction: rising}
+  falling: {zero: "mod(t + s, T) - T/2", direction: falling}
+  pulse: {zero: "where(mod(wheel.theta - c, P) < l, -1, 2)"}
+  signs: {zero: "sin(wheel.theta) * where(mod(t, T) < s, 1, -1)"}
+"""
+
+
+@pytest.mark.parametrize("method", ["dop853", "rodas5p"])
+def test_events_of_periods_that_steps_leap_over(method: str, folder: Path) -> None:
+    """A wheel turns freely, so that steps grow beyond every period: 40 drawn phases, each crossing by its closed form.
+
+    Where mod begins anew its own events leap across zero; from there they were on the wrong side, and lost.
+    """
+    path, rng, n, t_end = folder / "wheel.yaml", np.random.default_rng(1), 40, 6.0
+    path.write_text(WHEEL, encoding="utf-8")
+    P, c, T = rng.uniform(0.3, 7.0, n), rng.uniform(-3.0, 3.0, n), rng.uniform(0.05, 2.0, n)
+    l, s = P * rng.uniform(0.05, 0.95, n), T * rng.uniform(0.1, 0.9, n)
+    batch = gudgeon.load(path).simulate_many({"P": P, "c": c, "l": l, "T": T, "s": s}, t_end, method=method)
+    k = np.arange(-200, 300)
+    for i in range(n):
+        begins, passes = (c[i] + k * P[i]) / 5.0, (c[i] + l[i] + k * P[i]) / 5.0
+        expected = {
+            "both": [begins, passes],
+            "rising": [passes],
+            "falling": [k * T[i] - s[i]],
+            "pulse": [begins, passes],
+            "signs": [k * np.pi / 5.0, k * T[i], k * T[i] + s[i]],
+        }
+        for name, times in expected.items():
+            every = np.sort(np.concatenate(times))
+            np.testing.assert_allclose(
+                batch[i].events_of(name), every[(every > 0.0) & (every < t_end)], rtol=0, atol=1e-9, err_msg=name
+            )
