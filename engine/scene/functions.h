@@ -78,8 +78,8 @@ static inline double of_bits(uint64_t bits)
     return x;
 }
 
-/* x without its last 27 bits: products of two such numbers are exact. */
-static inline double upper_half(double x) { return of_bits(bits_of(x) & 0xfffffffff8000000u); }
+/* x rounded to 26 bits: products of two such numbers are exact, and what is left of 1 - e is as small as e. */
+static inline double upper_half(double x) { return of_bits((bits_of(x) + 0x4000000u) & 0xfffffffff8000000u); }
 
 /* log x, the rest beyond its rounding in `rest`; x is normal and positive. */
 static inline double log_in_parts(double x, double *rest)
@@ -147,12 +147,14 @@ static inline double asin_share(double z)
 static inline double asine_of(double x)
 {
     const double right = 1.57079632679489655800e+00, right_low = 6.12323399573676603587e-17, a = fabs(x);
+    const double shift = 50331648.0; /* what is added and taken away again is rounded to a multiple of 2^-27 */
     if (!(a < 1.0))
         return asin(x);
     if (a < 0.5)
         return x + x * asin_share(x * x);
-    const double z = 0.5 - 0.5 * a, s = sqrt(z), share = asin_share(z), f = upper_half(s), c = (z - f * f) / (s + f);
-    const double found = 0.5 * right - (2.0 * s * share - (right_low - 2.0 * c) - (0.5 * right - 2.0 * f));
+    /* pi/2 - 2 asin s with s = f + c: right - 2 f and f^2 are exact */
+    const double z = 0.5 - 0.5 * a, s = sqrt(z), f = s + shift - shift, c = (z - f * f) / (s + f);
+    const double found = right - 2.0 * f - (2.0 * s * asin_share(z) - (right_low - 2.0 * c));
     return x < 0.0 ? -found : found;
 }
 

@@ -1,5 +1,5 @@
 /*
- * Tables of exp, log and pow (functions.h); tests/kernels/test_functions.py computes them anew. A part of [1, 2) each:
+ * Tables of exp, log and pow (functions.h); tests/web/test_functions.py computes them anew. A part of [1, 2) each:
  * c, and -log c as a multiple of 2^-42 and the rest; 2^(j/128) and what is missing of it, as a share.
  */
 #ifndef GUDGEON_POWERS_H

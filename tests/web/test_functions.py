@@ -27,7 +27,7 @@ EXACT: dict[str, Callable[[Any, Any], Any]] = {
     "pow": mpmath.power, "exp": lambda x, y: mpmath.exp(x), "log": lambda x, y: mpmath.log(x),
     "sin": lambda x, y: mpmath.sin(x), "cos": lambda x, y: mpmath.cos(x), "asin": lambda x, y: mpmath.asin(x),
 }  # fmt: skip
-WITHIN = {"pow": 0.56, "exp": 0.52, "log": 0.52, "sin": 0.8, "cos": 0.8, "asin": 0.8}  # units in the last place
+WITHIN = {"pow": 0.56, "exp": 0.52, "log": 0.52, "sin": 0.8, "cos": 0.8, "asin": 0.75}  # units in the last place
 Array = NDArray[np.float64]
 Values = Callable[[str, Array, Array], Array]
 
@@ -57,14 +57,21 @@ def ranges(n: int) -> dict[str, list[tuple[Array, Array]]]:
     near, small = rng.uniform(-1.0, 1.0, n), 10.0 ** rng.uniform(-12.0, -1.0, n)
     wide, exponents = 2.0 ** rng.uniform(-60.0, 60.0, n), rng.uniform(-9.0, 9.0, n)
     turns = rng.uniform(-9e4, 9e4, n)
+    close = np.nextafter(1.0 - 2.0 ** -rng.uniform(30.0, 53.0, n), 0.0)
+    beside_one = [(x, np.clip(76.0 * exponents / np.abs(np.log(x)), -1e18, 1e18)) for x in (close, 2.0 - close)]
     beside = np.rint(turns) * (np.pi / 2)  # sines or cosines that are nearly zero
     return {
-        "pow": [(wide, exponents), (1.0 + 0.02 * near, 3e4 * exponents / 9.0), (wide, np.full(n, 1.5))],
+        "pow": [(wide, exponents), (1.0 + 0.02 * near, 3e4 * exponents / 9.0), (wide, np.full(n, 1.5)), *beside_one],
         "exp": [(690.0 * near, exponents), (small, exponents)],
         "log": [(wide, exponents), (1.0 + 0.4 * near, exponents), (1.0 + near * small, exponents)],
         "sin": [(turns, exponents), (beside, exponents), (5.0 * near, exponents)],
         "cos": [(turns, exponents), (beside, exponents), (5.0 * near, exponents)],
-        "asin": [(near, exponents), (near * small, exponents), (1.0 - small, exponents)],
+        "asin": [
+            (near, exponents),
+            (near * small, exponents),
+            (1.0 - small, exponents),
+            (0.5 + 0.03 * np.abs(near), exponents),
+        ],
     }
 
 
